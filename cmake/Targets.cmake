@@ -1,0 +1,14 @@
+# organ_collision_target(TARGET): what every target of the package is built with.
+function(organ_collision_target target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror)
+endfunction()
+
+# organ_collision_layer(NAME SOURCES...): one of the package's libraries, organ_collision_NAME.
+function(organ_collision_layer name)
+  add_library(organ_collision_${name} ${ARGN})
+  add_library(organ_collision::${name} ALIAS organ_collision_${name})
+  set_target_properties(organ_collision_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(organ_collision_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  organ_collision_target(organ_collision_${name})
+endfunction()

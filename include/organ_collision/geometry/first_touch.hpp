@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "organ_collision/geometry/closest_points.hpp"
+#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/triangle_mesh.hpp"
+
+namespace organ_collision {
+
+/// A face whose corners move linearly during one leg of the tool's way [m].
+struct FaceMotion {
+  Triangle start;
+  Triangle end;
+
+  /// The face at `time` in [0, 1] of the leg.
+  Triangle at(double time) const;
+};
+
+/// When an axis first comes within the radius of a face, and where.
+struct FirstTouch {
+  double time;  ///< in [0, 1] of the leg
+  ClosestPoints closest;
+};
+
+/// First time of the leg at which distance(face, axis) <= radius, to within tolerance::kTouch;
+/// none if the axis stays farther during the whole leg. One routine for fixed and moving trocars,
+/// resting and moving faces.
+///
+/// Conservative advancement with a turning plane: the plane between the nearest points at the
+/// start of an interval is turned linearly into the one at its end. While all corners stay beyond
+/// it by the radius, nothing touches; the first time one may not is where the search goes on.
+std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion& face,
+                                      double radius);
+
+}  // namespace organ_collision

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace organ_collision {
+
+/// Axis of a tool's shaft at one time, in the organ's frame [m]. The tool is the capsule around it:
+/// all points within the shaft radius of the axis. Trocar and tip may coincide: a ball.
+struct ShaftAxis {
+  Eigen::Vector3d trocar;
+  Eigen::Vector3d tip;
+
+  /// The point at `place` in [0, 1], from trocar to tip.
+  Eigen::Vector3d at(double place) const { return trocar + place * (tip - trocar); }
+};
+
+/// One leg of a tool's way: both ends of the axis move linearly from `start` to `end`.
+struct ShaftMotion {
+  ShaftAxis start;
+  ShaftAxis end;
+
+  /// The axis at `time` in [0, 1] of the leg.
+  ShaftAxis at(double time) const {
+    return {start.trocar + time * (end.trocar - start.trocar), start.tip + time * (end.tip - start.tip)};
+  }
+};
+
+/// Where the axis was at `fraction` in [0, 1] of the step.
+struct ShaftWaypoint {
+  double fraction;
+  ShaftAxis axis;
+};
+
+/// How the axis moved during one step: linearly from waypoint to waypoint, with fractions rising
+/// from 0 to 1. A single waypoint is a tool at rest.
+using ShaftPath = std::vector<ShaftWaypoint>;
+
+}  // namespace organ_collision

@@ -1,0 +1,21 @@
+#pragma once
+
+/// All tolerances of the geometry, each with its unit, its meaning and what follows from it.
+namespace organ_collision::tolerance {
+
+/// [m] First touch stops advancing when the distance is within this of the radius. A face that
+/// comes within radius + kTouch is a contact; one that stays farther never is.
+inline constexpr double kTouch = 1e-10;
+
+/// [m] At most this distance between axis and face counts as piercing: the direction between the
+/// nearest points is then noise, so the normal is taken from the face.
+inline constexpr double kPierced = 1e-9;
+
+/// [m] Nearest pairs whose distances differ by less are tied; the one nearest the tip is taken.
+inline constexpr double kTie = 1e-12;
+
+/// [1] Sine of the angle below which two directions count as parallel: an axis lies in the plane of
+/// a face, a face is degenerate (its height over its longest edge, as a share of that edge).
+inline constexpr double kParallel = 1e-12;
+
+}  // namespace organ_collision::tolerance

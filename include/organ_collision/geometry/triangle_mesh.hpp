@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace organ_collision {
+
+/// Corners of one face, in its order [m].
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+/// Three vertex indices; outward by the right-hand rule.
+using FaceIndices = std::array<std::uint32_t, 3>;
+
+/// Why vertices or triangles were refused. what() names the value and what is legal.
+class MeshError : public std::invalid_argument {
+ public:
+  enum class Reason { kSize, kIndex, kNotFinite, kNoTriangles, kTooManyFaces, kTooManyVertices };
+
+  MeshError(Reason reason, const std::string& message)
+      : std::invalid_argument(message), reason_(reason) {}
+  Reason reason() const { return reason_; }
+
+ private:
+  Reason reason_;
+};
+
+/// The most that a mesh may hold; vertices may be three for each face and no more.
+struct MeshLimits {
+  std::size_t max_faces = 2'000'000;
+};
+
+/// The surface of an organ: triangles, and where their vertices are now, in the organ's frame.
+/// Any triangle soup: no closed or manifold surface is needed; degenerate faces are allowed.
+/// Always valid: whatever could break it throws MeshError and changes nothing.
+/// Copies share the triangles, which never change.
+class TriangleMesh {
+ public:
+  /// `vertices`: x y z x y z ... [m], 32-bit floats, finite, at least one vertex.
+  /// `triangles`: three indices a face, at least one face.
+  /// `topology`: the sender's revision of `triangles`.
+  TriangleMesh(const std::vector<float>& vertices, const std::vector<std::uint32_t>& triangles,
+               std::uint32_t topology = 0, const MeshLimits& limits = {});
+
+  /// New positions for the same triangles, as many as there are; no allocation.
+  void move_vertices(const std::vector<float>& vertices);
+
+  /// Throws what move_vertices would throw.
+  void check_vertices(const std::vector<float>& vertices) const;
+
+  std::size_t face_count() const { return faces_->size(); }
+  std::size_t vertex_count() const { return vertices_.size() / 3; }
+  std::uint32_t topology() const { return topology_; }
+
+  /// All faces; the same address for as long as the triangles are the same.
+  const std::vector<FaceIndices>& faces() const { return *faces_; }
+  /// x y z x y z ... [m]
+  const std::vector<float>& vertices() const { return vertices_; }
+  /// Smallest axis-aligned box around all vertices [m].
+  const Eigen::AlignedBox3f& box() const { return box_; }
+
+  Eigen::Vector3d vertex(std::size_t index) const {
+    return Eigen::Map<const Eigen::Vector3f>(&vertices_[3 * index]).cast<double>();
+  }
+  Triangle triangle(std::size_t face) const {
+    const FaceIndices& f = (*faces_)[face];
+    return {vertex(f[0]), vertex(f[1]), vertex(f[2])};
+  }
+
+  /// Whether both have the same triangles, so that one can be the other's earlier shape.
+  bool same_faces(const TriangleMesh& other) const {
+    return faces_ == other.faces_ || *faces_ == *other.faces_;
+  }
+
+ private:
+  std::shared_ptr<const std::vector<FaceIndices>> faces_;
+  std::vector<float> vertices_;
+  Eigen::AlignedBox3f box_;
+  std::uint32_t topology_;
+};
+
+/// [m] The farthest that any vertex lies from where it was in `before`, which has the same faces.
+double largest_displacement(const TriangleMesh& before, const TriangleMesh& now);
+
+}  // namespace organ_collision

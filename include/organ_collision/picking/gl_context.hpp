@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace organ_collision {
+
+struct GlFunctions;
+
+/// GL did not do what it was asked. what() says what to install or change where it can.
+class GlError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// An OSMesa compatibility context without a window, its framebuffer, and the GL functions loaded
+/// from it (never linked: where libGL was loaded first, linked ones silently do nothing).
+/// Move-only. Belongs to one thread at a time: current only between make_current and release.
+class GlContext {
+ public:
+  /// Throws GlError when OSMesa gives no context, no function, or no version string.
+  GlContext();
+  ~GlContext();
+  GlContext(GlContext&&) noexcept;
+  GlContext& operator=(GlContext&&) noexcept;
+
+  /// Makes this context current in the calling thread; cheap when it already is.
+  void make_current();
+  /// Leaves the calling thread without a current context, if this one was.
+  void release();
+
+  /// GL_VERSION, as "4.5 (Compatibility Profile) Mesa 22.3.6".
+  const std::string& version() const;
+  /// The functions of this context; valid as long as it lives.
+  const GlFunctions& functions() const;
+
+  /// Throws GlError naming `where` and the error code if GL reports one.
+  void check(const char* where) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace organ_collision

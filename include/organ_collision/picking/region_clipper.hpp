@@ -1,0 +1,33 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/picking/gl_context.hpp"
+#include "organ_collision/picking/viewing_volume.hpp"
+
+namespace organ_collision {
+
+/// Corners of the polygon in which a face meets a volume, in the organ's frame [m]; empty where it
+/// does not. Exact on the face to float precision.
+using Region = std::vector<Eigen::Vector3d>;
+
+/// Clips single faces with GL_FEEDBACK, their barycentric coordinates as texture coordinates, so
+/// that the region does not inherit what window coordinates lose.
+class RegionClipper {
+ public:
+  /// Draws in `context`, which must outlive it.
+  explicit RegionClipper(GlContext& context) : context_(&context) {}
+
+  /// One region for each of `faces`, in their order. Throws GlError if GL did not work.
+  std::vector<Region> clip(const ViewingVolume& volume, const TriangleMesh& mesh,
+                           const std::vector<std::uint32_t>& faces);
+
+ private:
+  GlContext* context_;
+  std::vector<float> buffer_ = std::vector<float>(4096);
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstddef>
+#include <stdexcept>
+
+#include "organ_collision/geometry/shaft.hpp"
+
+namespace organ_collision {
+
+/// All x with normal · x <= offset; `normal` points outward and is unit [m].
+struct HalfSpace {
+  Eigen::Vector3d normal;
+  double offset;
+};
+
+/// What GL clips to: the frustum of a camera and up to eight user planes. Made by the builders
+/// below only, so that culling, GL and tests cannot disagree.
+///
+/// All coordinates are the organ frame's, shifted so that `origin` is zero: 32-bit clipping loses a
+/// share of the largest coordinate, which the shift keeps small.
+class ViewingVolume {
+ public:
+  static constexpr std::size_t kMaxUserPlanes = 8;
+
+  const Eigen::Vector3d& origin() const { return origin_; }
+  /// Shifted coordinates to GL clip coordinates: inside where -w <= x, y, z <= w.
+  const Eigen::Matrix4d& clip() const { return clip_; }
+  /// a b c d of a x + b y + c z + d >= 0, in shifted coordinates; as glClipPlane takes them.
+  const Eigen::Vector4d* user_planes() const { return user_planes_.data(); }
+  std::size_t user_plane_count() const { return user_plane_count_; }
+
+  /// The same volume as half-spaces in shifted coordinates: the six frustum planes (left, right,
+  /// bottom, top, near, far: the rows of `clip`), then the user planes.
+  std::size_t half_space_count() const { return 6 + user_plane_count_; }
+  HalfSpace half_space(std::size_t index) const;
+
+  /// [m] Distance behind the near plane, along the view, of a point at GL's window depth, in [0, 1].
+  double view_depth(double window_depth) const;
+
+  /// A camera at `eye` (shifted coordinates) with orthonormal axes x (right), y (up) and
+  /// z (along the view). Bounds in metres as glOrtho and glFrustum take them.
+  struct Camera {
+    Eigen::Vector3d origin;
+    Eigen::Vector3d eye;
+    Eigen::Matrix3d axes;  ///< columns x, y, z
+    double left, right, bottom, top, near, far;
+  };
+  static ViewingVolume orthographic(const Camera& camera);
+  static ViewingVolume perspective(const Camera& camera);
+
+  /// Adds { x : normal · x <= offset }, in shifted coordinates.
+  void add_user_plane(const HalfSpace& half_space);
+
+ private:
+  ViewingVolume() = default;
+  Eigen::Vector3d origin_;
+  Eigen::Matrix4d clip_;
+  std::array<Eigen::Vector4d, kMaxUserPlanes> user_planes_;
+  std::size_t user_plane_count_ = 0;
+  double near_, far_;
+  bool perspective_;
+};
+
+/// A motion for which the asked volume does not exist (paper volumes of a tool without length).
+class VolumeError : public std::invalid_argument {
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The 1999 paper's volumes, to the letter: they miss some faces near a swept tool's sides and end,
+/// and are not grown for 32-bit clipping. Radius in metres. Throw VolumeError when trocar and tip
+/// coincide.
+///
+/// Static (section 3): a box of half-width `radius` around the axis, flat at both ends.
+ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius);
+/// Swept (section 4, figures 7 and 8): a perspective camera and two user planes. The trocar rests
+/// at `motion.start.trocar`. Without motion the static one; with trocar and both tips on a line the
+/// static one to the farther tip.
+ViewingVolume paper_swept_volume(const ShaftMotion& motion, double radius);
+/// Swept, naive (figure 5): the orthographic box around the same hexahedron and two user planes
+/// along its sides.
+ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius);
+
+/// How far the conservative volumes grow.
+struct VolumeMargin {
+  double motion = 0.0;  ///< [m] the farthest that any vertex moved during the leg
+  double extent = 0.0;  ///< [m] largest coordinate of any drawn vertex relative to the trocar
+};
+
+/// Contains every point within `radius` (+ margin.motion) of the axis at some time of the leg, for
+/// every motion: trocar moving or not, tip at the trocar, no motion, motion along the axis. Grown so
+/// that 32-bit clipping of vertices up to `margin.extent` from the trocar loses nothing.
+/// Static: a leg without motion.
+ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
+                                  const VolumeMargin& margin);
+
+}  // namespace organ_collision

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/picking/gl_context.hpp"
+#include "organ_collision/picking/picker.hpp"
+#include "organ_collision/picking/region_clipper.hpp"
+#include "organ_collision/query/contact.hpp"
+
+namespace organ_collision {
+
+/// Values as in msg/ContactArray.msg.
+enum class QueryMode : std::uint8_t {
+  kStatic = 0,       ///< what the tool touches at the end of its path
+  kSwept = 1,        ///< what it touches anywhere on its path
+  kPaperStatic = 2,  ///< the faces in the 1999 paper's own volumes, unrefined
+  kPaperSwept = 3,
+  kPaperNaive = 4
+};
+
+/// What a tool did in one step, and which organ it may have touched.
+struct CollisionRequest {
+  const TriangleMesh* organ = nullptr;         ///< the organ's shape at the end of the step
+  const TriangleMesh* organ_before = nullptr;  ///< at its start, with the same faces; null: it rests
+  ShaftPath path;         ///< in the organ's frame; static modes look at the last waypoint only
+  double radius = 0.0;    ///< [m]
+  QueryMode mode = QueryMode::kStatic;
+  bool regions = false;   ///< also clip each contact's face to the tool's viewing volume
+};
+
+struct CollisionResult {
+  std::vector<Contact> contacts;  ///< by rising face, one for each
+  std::vector<Region> regions;    ///< empty unless asked for; else one for each contact
+};
+
+/// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
+/// Owns its GL context; use from one thread at a time. Keeps its buffers between queries.
+class CollisionQuery {
+ public:
+  /// Throws GlError where GL picking does not work here.
+  explicit CollisionQuery(PickerKind kind = PickerKind::kFeedback);
+
+  /// Throws std::invalid_argument naming the value for a request that has no answer (radius not
+  /// positive, coordinates not finite, path empty or with fractions that do not rise from 0 to 1,
+  /// earlier shape of other faces, paper volume of a tool without length), GlError when the picker
+  /// failed. `result` is empty then.
+  void evaluate(const CollisionRequest& request, CollisionResult& result);
+
+  const std::string& gl_version() const { return context_->version(); }
+
+ private:
+  std::unique_ptr<GlContext> context_;
+  std::unique_ptr<Picker> picker_;
+  RegionClipper region_clipper_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace organ_collision
