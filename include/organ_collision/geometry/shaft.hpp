@@ -22,7 +22,8 @@ struct ShaftMotion {
 
   /// The axis at `time` in [0, 1] of the leg.
   ShaftAxis at(double time) const {
-    return {start.trocar + time * (end.trocar - start.trocar), start.tip + time * (end.tip - start.tip)};
+    return {start.trocar + time * (end.trocar - start.trocar),
+            start.tip + time * (end.tip - start.tip)};
   }
 };
 

@@ -95,4 +95,8 @@ struct VolumeMargin {
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin);
 
+/// The conservative volume without its margins: the tool's own, as near as six frustum planes and
+/// user planes can be to the swept capsule. What regions are clipped to.
+ViewingVolume tool_volume(const ShaftMotion& motion, double radius);
+
 }  // namespace organ_collision

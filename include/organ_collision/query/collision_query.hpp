@@ -25,18 +25,21 @@ enum class QueryMode : std::uint8_t {
 
 /// What a tool did in one step, and which organ it may have touched.
 struct CollisionRequest {
-  const TriangleMesh* organ = nullptr;         ///< the organ's shape at the end of the step
-  const TriangleMesh* organ_before = nullptr;  ///< at its start, with the same faces; null: it rests
-  ShaftPath path;         ///< in the organ's frame; static modes look at the last waypoint only
-  double radius = 0.0;    ///< [m]
+  const TriangleMesh* organ = nullptr;  ///< the organ's shape at the end of the step
+  const TriangleMesh* organ_before =
+      nullptr;          ///< at its start, with the same faces; null: it rests
+  ShaftPath path;       ///< in the organ's frame; static modes look at the last waypoint only
+  double radius = 0.0;  ///< [m]
   QueryMode mode = QueryMode::kStatic;
-  bool regions = false;   ///< also clip each contact's face to the tool's viewing volume
+  bool regions = false;  ///< also clip each contact's face to the tool's viewing volume
 };
 
 struct CollisionResult {
   std::vector<Contact> contacts;  ///< by rising face, one for each
   std::vector<Region> regions;    ///< empty unless asked for; else one for each contact
 };
+
+class Step;
 
 /// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
 /// Owns its GL context; use from one thread at a time. Keeps its buffers between queries.
@@ -54,10 +57,14 @@ class CollisionQuery {
   const std::string& gl_version() const { return context_->version(); }
 
  private:
+  void pick_unrefined(const CollisionRequest& request, CollisionResult& result);
+  void clip_regions(const CollisionRequest& request, const Step& step, CollisionResult& result);
+
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Picker> picker_;
   RegionClipper region_clipper_;
   std::vector<Candidate> candidates_;
+  std::vector<std::uint32_t> faces_;
 };
 
 }  // namespace organ_collision

@@ -8,17 +8,26 @@ namespace organ_collision {
 /// One face that a tool touches, as msg/Contact.msg has it. Lengths in metres, vectors in the
 /// organ's frame.
 struct Contact {
-  std::uint32_t face;
-  std::uint32_t link;           ///< of the tool; 0 for a plain shaft
-  double fraction;              ///< first touch, as a share of the step, in [0, 1]; 0 when static
-  Eigen::Vector3d point;        ///< the face's point nearest the axis, at first touch
-  Eigen::Vector3d normal;       ///< unit, from the axis to `point`
-  Eigen::Vector3d barycentric;  ///< of `point` in the face, in the order of its vertices
-  double shaft;                 ///< place on the axis nearest `point`, in [0, 1] from trocar to tip
-  double depth;     ///< penetration along `normal` at the end of the step; negative: touched and left
-  bool behind;      ///< that place on the axis is on the face's inner side at the end of the step
-  double view_min;  ///< paper modes only: depth range along the view, behind the near plane
-  double view_max;
+  std::uint32_t face = 0;
+  std::uint32_t link = 0;  ///< of the tool; 0 for a plain shaft
+  /// First touch, as a share of the step, in [0, 1]; 0 when static.
+  double fraction = 0.0;
+  /// The face's point nearest the axis, at first touch.
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  /// Unit, from the axis to `point`; the face's own where the axis pierces it.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// Of `point` in the face, in the order of its vertices.
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  /// Place on the axis nearest `point`, in [0, 1] from trocar to tip.
+  double shaft = 0.0;
+  /// Penetration along `normal` at the end of the step; negative: touched and left.
+  double depth = 0.0;
+  /// That place on the axis is on the face's inner side at the end of the step.
+  bool behind = false;
+  /// Paper modes only, which set nothing else but the face: depth range along the view, from the
+  /// plane of the trocar.
+  double view_min = 0.0;
+  double view_max = 0.0;
 };
 
 }  // namespace organ_collision

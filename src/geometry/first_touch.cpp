@@ -1,0 +1,94 @@
+#include "organ_collision/geometry/first_touch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "organ_collision/geometry/tolerances.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// Axis and face at one time, and the unit direction between their nearest points.
+struct Instant {
+  double time;
+  ShaftAxis axis;
+  Triangle face;
+  ClosestPoints closest;
+  Vector3d normal;  ///< from the axis to the face; zero where they meet
+
+  Instant(double at, const ShaftMotion& shaft, const FaceMotion& motion)
+      : time(at), axis(shaft.at(at)), face(motion.at(at)), closest(closest_points(axis, face)) {
+    normal = closest.distance > 0.0
+                 ? Vector3d((closest.on_face - closest.on_axis) / closest.distance)
+                 : Vector3d::Zero();
+  }
+};
+
+/// First root in (0, 1] of the quadratic with Bernstein coefficients a > 0, b, c; 2 if there is
+/// none.
+double first_root(double a, double b, double c) {
+  if (b >= 0.0 && c > 0.0) return 2.0;  // the control polygon does not reach zero
+  const double linear = b - a;          // half of it
+  const double square = a - 2.0 * b + c;
+  const double discriminant = linear * linear - square * a;
+  if (discriminant < 0.0) return 2.0;
+  const double root = std::sqrt(discriminant);
+  const double place = linear < 0.0 ? a / (root - linear) : -(root + linear) / square;
+  return place >= 0.0 && place <= 1.0 ? place : 2.0;
+}
+
+/// The share of the time from `from` to `to` for which a plane that turns linearly from the one
+/// normal to the other surely keeps all corners of the face farther than `radius` from both ends of
+/// the axis; above 1 if it is all of it. A turning normal is never longer than one, so the distance
+/// is at least the corner's height over it.
+double clear_share(const Instant& from, const Instant& to, double radius) {
+  const bool turns = to.closest.distance > 0.0 && from.normal.dot(to.normal) > 0.0;
+  const Vector3d& turned = turns ? to.normal : from.normal;
+  double share = 2.0;
+  for (int corner = 0; corner < 3; ++corner) {
+    for (const bool tip : {true, false}) {
+      const Vector3d before = from.face[corner] - (tip ? from.axis.tip : from.axis.trocar);
+      const Vector3d after = to.face[corner] - (tip ? to.axis.tip : to.axis.trocar);
+      // No corner is nearer than the nearest points; only rounding can say so.
+      const double a = std::max(from.normal.dot(before), from.closest.distance) - radius;
+      const double b = 0.5 * (from.normal.dot(after) + turned.dot(before)) - radius;
+      const double c = turned.dot(after) - radius;
+      share = std::min(share, first_root(a, b, c));
+    }
+  }
+  return share;
+}
+
+}  // namespace
+
+Triangle FaceMotion::at(double time) const {
+  return {start[0] + time * (end[0] - start[0]), start[1] + time * (end[1] - start[1]),
+          start[2] + time * (end[2] - start[2])};
+}
+
+std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion& face,
+                                      double radius) {
+  constexpr int kMaxSteps = 1000;  // some ten suffice; beyond, motions are too fast for doubles
+  Instant now(0.0, shaft, face);
+  if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
+  Instant ahead(1.0, shaft, face);
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const double share = clear_share(now, ahead, radius);
+    if (share > 1.0) {
+      if (ahead.time == 1.0) return std::nullopt;
+      now = ahead;
+      ahead = Instant(1.0, shaft, face);
+      continue;
+    }
+    const double length = ahead.time - now.time;
+    now = Instant(now.time + share * length, shaft, face);
+    if (now.closest.distance <= radius + tolerance::kTouch)
+      return FirstTouch{now.time, now.closest};
+    if (share < 0.5) ahead = Instant(now.time + 0.5 * (ahead.time - now.time), shaft, face);
+  }
+  return FirstTouch{now.time, now.closest};  // rather one contact too many
+}
+
+}  // namespace organ_collision

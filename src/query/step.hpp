@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "organ_collision/picking/viewing_volume.hpp"
+#include "organ_collision/query/collision_query.hpp"
+#include "organ_collision/query/contact_refiner.hpp"
+
+namespace organ_collision {
+
+/// A request's step, leg by leg: the tool between two waypoints, the faces in that share of the
+/// step. A view of the request, which must outlive it.
+class Step {
+ public:
+  explicit Step(const CollisionRequest& request);
+
+  /// A tool at rest has one leg without motion.
+  std::size_t leg_count() const { return waypoint_count_ > 1 ? waypoint_count_ - 1 : 1; }
+  /// The leg that a fraction of the step falls in; the earlier one at a waypoint.
+  std::size_t leg_at(double fraction) const;
+
+  ShaftMotion shaft(std::size_t leg) const { return {from(leg).axis, to(leg).axis}; }
+  LegAndEnd leg(std::size_t leg, std::uint32_t face) const;
+  VolumeMargin margin(std::size_t leg) const;
+
+ private:
+  const ShaftWaypoint& from(std::size_t leg) const { return waypoints_[leg]; }
+  const ShaftWaypoint& to(std::size_t leg) const {
+    return waypoints_[waypoint_count_ > 1 ? leg + 1 : 0];
+  }
+  double begin(std::size_t leg) const { return waypoint_count_ > 1 ? from(leg).fraction : 0.0; }
+  double finish(std::size_t leg) const { return waypoint_count_ > 1 ? to(leg).fraction : 1.0; }
+
+  const TriangleMesh& organ_;
+  const TriangleMesh* organ_before_;
+  const ShaftWaypoint* waypoints_;
+  std::size_t waypoint_count_;
+  double displacement_;  ///< [m] the farthest that any vertex moves during the step
+};
+
+}  // namespace organ_collision
