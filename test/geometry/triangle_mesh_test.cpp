@@ -1,0 +1,148 @@
+#include "organ_collision/geometry/triangle_mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace organ_collision {
+namespace {
+
+using Reason = MeshError::Reason;
+
+const std::vector<float> kCorners = {0.1F, 0.2F, 0.3F, 1.4F, 0.1F, 0.2F,
+                                     0.2F, 1.7F, 0.1F, 0.3F, 0.2F, 1.1F};
+const std::vector<std::uint32_t> kTetrahedron = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+
+/// Calls `action`, which must throw MeshError for `reason` with `words` in its message.
+template <typename Action>
+void expect_refused(Reason reason, const std::vector<std::string>& words, Action action) {
+  try {
+    action();
+    FAIL() << "was accepted";
+  } catch (const MeshError& error) {
+    EXPECT_EQ(error.reason(), reason) << error.what();
+    for (const std::string& word : words) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(TriangleMesh, GivesBackWhatItWasMadeOf) {
+  const TriangleMesh mesh(kCorners, kTetrahedron, 7);
+  EXPECT_EQ(mesh.face_count(), 4U);
+  EXPECT_EQ(mesh.vertex_count(), 4U);
+  EXPECT_EQ(mesh.topology(), 7U);
+  EXPECT_EQ(mesh.faces()[2], (FaceIndices{1, 2, 3}));
+  EXPECT_EQ(mesh.triangle(2)[1], Eigen::Vector3d(0.2F, 1.7F, 0.1F));
+  EXPECT_EQ(mesh.box().min(), Eigen::Vector3f(0.1F, 0.1F, 0.1F));
+  EXPECT_EQ(mesh.box().max(), Eigen::Vector3f(1.4F, 1.7F, 1.1F));
+}
+
+TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
+  std::vector<float> vertices = kCorners;
+  vertices.pop_back();
+  expect_refused(Reason::kSize, {"11", "multiple of three"},
+                 [&] { TriangleMesh(vertices, kTetrahedron); });
+  std::vector<std::uint32_t> triangles = kTetrahedron;
+  triangles.pop_back();
+  expect_refused(Reason::kSize, {"11", "multiple of three"},
+                 [&] { TriangleMesh(kCorners, triangles); });
+  triangles = kTetrahedron;
+  triangles[7] = 4;
+  expect_refused(Reason::kIndex, {"face 2", "vertex 4"},
+                 [&] { TriangleMesh(kCorners, triangles); });
+  triangles[7] = std::numeric_limits<std::uint32_t>::max();
+  expect_refused(Reason::kIndex, {"4294967295"}, [&] { TriangleMesh(kCorners, triangles); });
+  expect_refused(Reason::kNoTriangles, {"4 vertices"}, [] { TriangleMesh(kCorners, {}); });
+  expect_refused(Reason::kIndex, {"face 0"}, [] { TriangleMesh({}, kTetrahedron); });
+  expect_refused(Reason::kTooManyFaces, {"4 faces", "at most 3"},
+                 [] { TriangleMesh(kCorners, kTetrahedron, 0, {3}); });
+  expect_refused(Reason::kTooManyVertices, {"4 vertices", "at most 3"}, [] {
+    TriangleMesh(kCorners, {0, 1, 2}, 0, {1});
+  });
+}
+
+TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
+  const TriangleMesh mesh(kCorners, kTetrahedron);
+  for (const float bad :
+       {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+        -std::numeric_limits<float>::infinity()}) {
+    for (std::size_t i = 0; i < kCorners.size(); ++i) {
+      std::vector<float> vertices = kCorners;
+      vertices[i] = bad;
+      const std::string place =
+          std::string(1, "xyz"[i % 3]) + " of vertex " + std::to_string(i / 3);
+      expect_refused(Reason::kNotFinite, {place}, [&] { TriangleMesh(vertices, kTetrahedron); });
+      expect_refused(Reason::kNotFinite, {place}, [&] { mesh.check_vertices(vertices); });
+    }
+  }
+}
+
+TEST(TriangleMesh, TakesDegenerateFacesAndTheLargestFloats) {
+  const float most = std::numeric_limits<float>::max();
+  const TriangleMesh mesh({0, 0, 0, most, -most, 1}, {0, 0, 1, 1, 1, 1});
+  EXPECT_EQ(mesh.face_count(), 2U);
+  EXPECT_EQ(mesh.triangle(1)[2], mesh.triangle(1)[0]);
+}
+
+TEST(TriangleMesh, MovesItsVerticesInPlace) {
+  TriangleMesh mesh(kCorners, kTetrahedron, 3);
+  const float* const address = mesh.vertices().data();
+  std::vector<float> moved = kCorners;
+  moved[4] = -2.5F;
+  mesh.move_vertices(moved);
+  EXPECT_EQ(mesh.vertices(), moved);
+  EXPECT_EQ(mesh.vertices().data(), address);
+  EXPECT_EQ(mesh.box().min().y(), -2.5F);
+  EXPECT_EQ(mesh.topology(), 3U);
+}
+
+TEST(TriangleMesh, KeepsItsShapeWhenNewVerticesAreRefused) {
+  TriangleMesh mesh(kCorners, kTetrahedron);
+  std::vector<float> bad = kCorners;
+  bad[0] = 0.7F;
+  bad[11] = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(mesh.move_vertices(bad), MeshError);
+  EXPECT_EQ(mesh.vertices(), kCorners);
+  bad.resize(9);
+  expect_refused(Reason::kSize, {"9", "12"}, [&] { mesh.move_vertices(bad); });
+  EXPECT_EQ(mesh.vertices(), kCorners);
+  EXPECT_EQ(mesh.box().max().x(), 1.4F);
+}
+
+TEST(TriangleMesh, CopiesShareTheirFacesOnly) {
+  const TriangleMesh mesh(kCorners, kTetrahedron);
+  TriangleMesh copy = mesh;
+  std::vector<float> moved = kCorners;
+  moved[0] = 0.9F;
+  copy.move_vertices(moved);
+  EXPECT_EQ(&copy.faces(), &mesh.faces());
+  EXPECT_EQ(mesh.vertices(), kCorners);
+  EXPECT_TRUE(copy.same_faces(mesh));
+  EXPECT_TRUE(mesh.same_faces(TriangleMesh(kCorners, kTetrahedron, 9)));
+  EXPECT_FALSE(mesh.same_faces(TriangleMesh(kCorners, {0, 1, 2})));
+}
+
+TEST(LargestDisplacement, IsThatOfTheVertexThatMovedFarthest) {
+  std::mt19937 random(20);
+  std::uniform_real_distribution<float> coordinate(-3.0F, 3.0F);
+  for (int trial = 0; trial < 100; ++trial) {
+    std::vector<float> before(12), now(12);
+    for (float& x : before) x = coordinate(random);
+    for (float& x : now) x = coordinate(random);
+    double farthest = 0.0;
+    for (std::size_t v = 0; v < 12; v += 3) {
+      farthest = std::max(farthest,
+                          std::hypot(double(now[v]) - before[v], double(now[v + 1]) - before[v + 1],
+                                     double(now[v + 2]) - before[v + 2]));
+    }
+    EXPECT_NEAR(
+        largest_displacement(TriangleMesh(before, kTetrahedron), TriangleMesh(now, kTetrahedron)),
+        farthest, 1e-14);
+  }
+}
+
+}  // namespace
+}  // namespace organ_collision
