@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/picking/viewing_volume.hpp"
+
+namespace organ_collision {
+
+/// A corner of a drawn face. What follows the position goes through GL as a texture coordinate.
+struct DrawVertex {
+  std::array<float, 3> position;     ///< in the volume's shifted coordinates [m]
+  std::array<float, 2> barycentric;  ///< the corner's second and third; the first makes up to 1
+  std::array<float, 2> number;       ///< the face's: lower and upper 16 bits, exact as floats
+};
+
+/// The number that was split over two floats.
+std::uint32_t face_number(float lower, float upper);
+
+/// Faces as GL is to draw them, in the order in which they were added. Keeps its memory.
+class DrawList {
+ public:
+  /// Replaces the list by the faces of `mesh`, by rising number, but for those whose three corners
+  /// are all outside of one half-space of `volume`.
+  void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
+
+  /// Replaces the list by `faces`; they are numbered by their place in it.
+  void assign(const ViewingVolume& volume, const TriangleMesh& mesh,
+              const std::vector<std::uint32_t>& faces);
+
+  const std::vector<DrawVertex>& vertices() const { return vertices_; }
+
+ private:
+  void add(const Triangle& face, std::uint32_t number);
+
+  std::vector<DrawVertex> vertices_;
+  std::vector<std::uint32_t> outcodes_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "draw_list.hpp"
+#include "organ_collision/picking/picker.hpp"
+
+namespace organ_collision {
+
+/// Picks in GL_FEEDBACK mode: one draw call for all faces that are not plainly outside.
+class FeedbackPicker : public Picker {
+ public:
+  explicit FeedbackPicker(GlContext& context) : context_(context) {}
+
+  void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+            std::vector<Candidate>& candidates) override;
+
+ private:
+  GlContext& context_;
+  DrawList draw_list_;
+  std::vector<float> buffer_ = std::vector<float>(4096);
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <GL/gl.h>
+
+// Every GL function that this package calls, without its gl prefix.
+#define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                          \
+  F(Begin)                                                                                       \
+  F(ClipPlane)                                                                                   \
+  F(Disable) F(DisableClientState) F(DrawArrays) F(Enable) F(EnableClientState) F(End)           \
+      F(FeedbackBuffer) F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd)     \
+          F(LoadName) F(MatrixMode) F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) \
+              F(Vertex3fv) F(VertexPointer)
+
+namespace organ_collision {
+
+/// The GL functions that OSMesa gives out. The prototypes of gl.h lend their types only: nothing of
+/// libGL is linked.
+struct GlFunctions {
+#define ORGAN_COLLISION_DECLARE(name) decltype(&gl##name) name = nullptr;
+  ORGAN_COLLISION_GL_FUNCTIONS(ORGAN_COLLISION_DECLARE)
+#undef ORGAN_COLLISION_DECLARE
+};
+
+/// Loads all of them; throws GlError naming the first that is missing.
+GlFunctions load_gl_functions();
+
+}  // namespace organ_collision

@@ -1,0 +1,29 @@
+#include "scoped_volume.hpp"
+
+#include <Eigen/LU>
+
+namespace organ_collision {
+
+// The whole matrix is loaded as modelview, so that GL's eye coordinates are clip coordinates, and
+// the user planes are given in those: GL would otherwise bring them there with a 32-bit inverse of
+// the projection, which costs the digits that the shift to the origin has won.
+ScopedVolume::ScopedVolume(const GlFunctions& gl, const ViewingVolume& volume)
+    : gl_(gl), user_plane_count_(static_cast<GLenum>(volume.user_plane_count())) {
+  gl_.MatrixMode(GL_PROJECTION);
+  gl_.LoadIdentity();
+  gl_.MatrixMode(GL_MODELVIEW);
+  gl_.LoadIdentity();
+  const Eigen::Matrix4d clip_inverse = volume.clip().inverse();
+  for (GLenum i = 0; i < user_plane_count_; ++i) {
+    const Eigen::RowVector4d plane = volume.user_planes()[i].transpose() * clip_inverse;
+    gl_.ClipPlane(GL_CLIP_PLANE0 + i, plane.data());
+    gl_.Enable(GL_CLIP_PLANE0 + i);
+  }
+  gl_.LoadMatrixd(volume.clip().data());
+}
+
+ScopedVolume::~ScopedVolume() {
+  for (GLenum i = 0; i < user_plane_count_; ++i) gl_.Disable(GL_CLIP_PLANE0 + i);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,57 @@
+#include "select_picker.hpp"
+
+#include <limits>
+
+#include "gl_functions.hpp"
+#include "scoped_volume.hpp"
+
+namespace organ_collision {
+namespace {
+
+// A hit record under a single name: how many names, depth range, name.
+constexpr std::size_t kRecord = 4;
+
+// What GL multiplies window depths in [0, 1] by.
+constexpr double kDepthScale = std::numeric_limits<std::uint32_t>::max();
+
+void draw_named(const GlFunctions& gl, const std::vector<FaceIndices>& faces,
+                const std::vector<Eigen::Vector3f>& vertices) {
+  gl.InitNames();
+  gl.PushName(0);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    gl.LoadName(static_cast<GLuint>(i));
+    gl.Begin(GL_TRIANGLES);
+    for (const std::uint32_t vertex : faces[i]) gl.Vertex3fv(vertices[vertex].data());
+    gl.End();
+  }
+}
+
+}  // namespace
+
+void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+                        std::vector<Candidate>& candidates) {
+  candidates.clear();
+  vertices_.resize(mesh.vertex_count());
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    vertices_[i] = (mesh.vertex(i) - volume.origin()).cast<float>();
+  }
+  context_.make_current();
+  const GlFunctions& gl = context_.functions();
+  const ScopedVolume scoped_volume(gl, volume);
+  GLint hits = -1;
+  while (hits < 0) {
+    gl.SelectBuffer(static_cast<GLsizei>(buffer_.size()), buffer_.data());
+    gl.RenderMode(GL_SELECT);
+    draw_named(gl, mesh.faces(), vertices_);
+    hits = gl.RenderMode(GL_RENDER);
+    context_.check("a select query");
+    if (hits < 0) buffer_.resize(4 * buffer_.size());
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(hits); ++i) {
+    const std::uint32_t* record = &buffer_[kRecord * i];
+    candidates.push_back({record[3], volume.view_depth(record[1] / kDepthScale),
+                          volume.view_depth(record[2] / kDepthScale)});
+  }
+}
+
+}  // namespace organ_collision
