@@ -1,0 +1,71 @@
+#!/usr/bin/python3
+"""Installs the build into an empty folder, and uses what is there as a stranger would.
+
+Usage: install_test.py BUILD_FOLDER INSTALL_PREFIX CXX_COMPILER
+"""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD, PREFIX, COMPILER = sys.argv[1:4]
+CONSUMER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'consumer')
+PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
+
+
+def run(*command, **environment):
+    done = subprocess.run(command, env={**PLAIN_ENVIRONMENT, **environment}, text=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    if done.returncode != 0:
+        raise AssertionError('%s: exit code %d\n%s' % (command, done.returncode, done.stdout[-2000:]))
+    return done.stdout
+
+
+class InstallTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp(prefix='organ_collision_install_')
+        run('cmake', '--install', BUILD, DESTDIR=cls.folder)
+        cls.prefix = cls.folder + PREFIX
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def test_program_without_ros_links_the_core(self):
+        build = os.path.join(self.folder, 'consumer')
+        run('cmake', '-S', CONSUMER, '-B', build, '-DCMAKE_PREFIX_PATH=' + self.prefix,
+            '-DCMAKE_CXX_COMPILER=' + COMPILER)
+        run('cmake', '--build', build)
+        program = os.path.join(build, 'consumer')
+
+        self.assertEqual(run(program).split(), ['0', '1'])
+
+        linked = run('ldd', program)
+        self.assertIn(self.prefix + '/lib/liborgan_collision_query', linked)
+        self.assertNotRegex(linked, r'lib(ros|tf2|nodelet|xmlrpc)')
+
+    def test_installed_programs_find_their_libraries(self):
+        folder = os.path.join(self.prefix, 'lib', 'organ_collision')
+        programs = os.listdir(folder)
+        self.assertIn('organ_collision_node', programs)
+        for program in programs:
+            self.assertNotIn('not found', run('ldd', os.path.join(folder, program)), program)
+
+    def test_everything_that_the_package_ships_is_there(self):
+        for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',
+                     'launch/demo.launch', 'config/tools.yaml', 'msg/ContactArray.msg',
+                     'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
+            self.assertTrue(os.path.exists(os.path.join(self.prefix, 'share/organ_collision', path)),
+                            path)
+        include = os.path.join(self.prefix, 'include', 'organ_collision')
+        for path in ('query/collision_query.hpp', 'ContactArray.h', 'QueryCollision.h'):
+            self.assertTrue(os.path.exists(os.path.join(include, path)), path)
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=2)
