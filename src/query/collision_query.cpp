@@ -24,8 +24,8 @@ ViewingVolume paper_volume(const CollisionRequest& request) {
 }
 
 /// Sorts by face; of a face touched in several legs, the first touch stays.
-void keep_first_touches(std::vector<Contact>& contacts) {
-  std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) {
+void keep_first_touches(std::vector<FaceContact>& contacts) {
+  std::sort(contacts.begin(), contacts.end(), [](const FaceContact& a, const FaceContact& b) {
     return std::tie(a.face, a.fraction) < std::tie(b.face, b.fraction);
   });
   const auto end = std::unique(contacts.begin(), contacts.end(),
@@ -53,7 +53,7 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
     picker_->pick(conservative_volume(step.shaft(leg), request.radius, step.margin(leg)),
                   *request.organ, candidates_);
     for (const Candidate& candidate : candidates_) {
-      std::optional<Contact> contact = refine(step.leg(leg, candidate.face), request.radius);
+      std::optional<FaceContact> contact = refine(step.leg(leg, candidate.face), request.radius);
       if (!contact) continue;
       contact->face = candidate.face;
       result.contacts.push_back(*contact);
@@ -66,7 +66,7 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
 void CollisionQuery::pick_unrefined(const CollisionRequest& request, CollisionResult& result) {
   picker_->pick(paper_volume(request), *request.organ, candidates_);
   for (const Candidate& candidate : candidates_) {
-    Contact contact;
+    FaceContact contact;
     contact.face = candidate.face;
     contact.view_min = candidate.view_min;
     contact.view_max = candidate.view_max;
@@ -80,7 +80,7 @@ void CollisionQuery::clip_regions(const CollisionRequest& request, const Step& s
   result.regions.resize(result.contacts.size());
   for (std::size_t leg = 0; leg < step.leg_count(); ++leg) {
     faces_.clear();
-    for (const Contact& contact : result.contacts) {
+    for (const FaceContact& contact : result.contacts) {
       if (step.leg_at(contact.fraction) == leg) faces_.push_back(contact.face);
     }
     if (faces_.empty()) continue;

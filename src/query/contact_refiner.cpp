@@ -62,14 +62,14 @@ Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
 
 }  // namespace
 
-std::optional<Contact> refine(const LegAndEnd& step, double radius) {
+std::optional<FaceContact> refine(const LegAndEnd& step, double radius) {
   const std::optional<FirstTouch> touch = first_touch(step.shaft, step.face, radius);
   if (!touch) return std::nullopt;
   const ClosestPoints& closest = touch->closest;
   const Vector3d point_end = at(closest.barycentric, step.face_end);
   const Vector3d axis_end = step.shaft_end.at(closest.shaft);
 
-  Contact contact;
+  FaceContact contact;
   contact.fraction = step.begin + touch->time * (step.finish - step.begin);
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;

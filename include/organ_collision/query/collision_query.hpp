@@ -35,7 +35,7 @@ struct CollisionRequest {
 };
 
 struct CollisionResult {
-  std::vector<Contact> contacts;  ///< by rising face, one for each
+  std::vector<FaceContact> contacts;  ///< by rising face, one for each
   std::vector<Region> regions;    ///< empty unless asked for; else one for each contact
 };
 

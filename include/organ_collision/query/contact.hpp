@@ -5,9 +5,10 @@
 
 namespace organ_collision {
 
-/// One face that a tool touches, as msg/Contact.msg has it. Lengths in metres, vectors in the
+/// One face that a tool touches, as msg/Contact.msg has it (whose C++ name is
+/// organ_collision::Contact, hence this one). Lengths in metres, vectors in the
 /// organ's frame.
-struct Contact {
+struct FaceContact {
   std::uint32_t face = 0;
   std::uint32_t link = 0;  ///< of the tool; 0 for a plain shaft
   /// First touch, as a share of the step, in [0, 1]; 0 when static.

@@ -18,6 +18,6 @@ struct LegAndEnd {
 
 /// The contact of a candidate face, by exact distances: none if it stays farther from the axis than
 /// `radius` during the leg. Face and view range are left for the caller to set.
-std::optional<Contact> refine(const LegAndEnd& step, double radius);
+std::optional<FaceContact> refine(const LegAndEnd& step, double radius);
 
 }  // namespace organ_collision
