@@ -1,10 +1,10 @@
-# What is installed. ROS packages find it as `organ_collision` (catkin's configuration); programs
-# without ROS find the first three layers as `organ_collision_core`.
+# What is installed, beside the programs and the nodelet (see their own CMakeLists.txt). ROS packages
+# find it as `organ_collision` (catkin's configuration); programs without ROS find the first three
+# layers as `organ_collision_core`.
 include(CMakePackageConfigHelpers)
 set(CORE_CMAKE_DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}/cmake/organ_collision_core)
 
 set(core organ_collision_geometry organ_collision_picking organ_collision_query)
-set_target_properties(${core} PROPERTIES INSTALL_RPATH "$ORIGIN")
 install(TARGETS ${core} EXPORT organ_collision_core
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
@@ -18,18 +18,7 @@ install(FILES cmake/organ_collision_coreConfig.cmake
 install(DIRECTORY include/organ_collision/
   DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION} FILES_MATCHING PATTERN "*.hpp")
 
-# The ROS layer, the nodelet and the programs.
-foreach(folder ros demo)
-  get_property(targets DIRECTORY src/${folder} PROPERTY BUILDSYSTEM_TARGETS)
-  foreach(target ${targets})
-    get_target_property(type ${target} TYPE)
-    if(type MATCHES "EXECUTABLE|_LIBRARY")
-      set_target_properties(${target} PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
-      install(TARGETS ${target}
-        ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-        LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
-        RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
-    endif()
-  endforeach()
-endforeach()
+install(TARGETS organ_collision_ros
+  ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+  LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

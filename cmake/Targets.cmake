@@ -1,3 +1,6 @@
+# Installed libraries and programs find our libraries beside or above themselves, from any prefix.
+set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
+
 # organ_collision_target(TARGET): what every target of the package is built with.
 function(organ_collision_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror)
