@@ -2,21 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace organ_collision {
 namespace {
 
 using Reason = MeshError::Reason;
 
-void check_finite(const std::vector<float>& vertices) {
-  // 0 * x is 0 for every finite x and NaN for the others; Eigen's sum is vectorised.
-  const Eigen::Map<const Eigen::ArrayXf> all(vertices.data(),
-                                             static_cast<Eigen::Index>(vertices.size()));
-  const float zero = (all * 0.0F).sum();
-  if (zero == 0.0F) return;
+bool all_finite(const std::vector<float>& values) {
+  return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
+}
+
+[[noreturn]] void refuse_not_finite(const std::vector<float>& vertices) {
   const auto bad =
       std::find_if_not(vertices.begin(), vertices.end(), [](float x) { return std::isfinite(x); });
-  const std::size_t index = static_cast<std::size_t>(bad - vertices.begin());
+  const auto index = static_cast<std::size_t>(bad - vertices.begin());
   throw MeshError(Reason::kNotFinite, std::string(1, "xyz"[index % 3]) + " of vertex " +
                                           std::to_string(index / 3) + " is " +
                                           std::to_string(*bad) + "; coordinates must be finite");
@@ -47,24 +47,18 @@ void check_sizes(std::size_t coordinates, std::size_t indices, const MeshLimits&
   }
 }
 
-std::shared_ptr<const std::vector<FaceIndices>> make_faces(
-    const std::vector<std::uint32_t>& triangles, std::size_t vertex_count) {
-  auto faces = std::make_shared<std::vector<FaceIndices>>(triangles.size() / 3);
+std::vector<FaceIndices> make_faces(const std::vector<std::uint32_t>& triangles,
+                                    std::size_t vertex_count) {
+  std::vector<FaceIndices> faces(triangles.size() / 3);
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     if (triangles[i] >= vertex_count) {
       throw MeshError(Reason::kIndex, "face " + std::to_string(i / 3) + " refers to vertex " +
-                                          std::to_string(triangles[i]) + "; legal are 0 to " +
-                                          std::to_string(vertex_count) + " - 1");
+                                          std::to_string(triangles[i]) + " of " +
+                                          std::to_string(vertex_count) + "; the first is 0");
     }
-    (*faces)[i / 3][i % 3] = triangles[i];
+    faces[i / 3][i % 3] = triangles[i];
   }
   return faces;
-}
-
-Eigen::AlignedBox3f bounding_box(const std::vector<float>& vertices) {
-  const Eigen::Map<const Eigen::Matrix3Xf> points(vertices.data(), 3,
-                                                  static_cast<Eigen::Index>(vertices.size() / 3));
-  return {points.rowwise().minCoeff(), points.rowwise().maxCoeff()};
 }
 
 }  // namespace
@@ -72,27 +66,24 @@ Eigen::AlignedBox3f bounding_box(const std::vector<float>& vertices) {
 TriangleMesh::TriangleMesh(const std::vector<float>& vertices,
                            const std::vector<std::uint32_t>& triangles, std::uint32_t topology,
                            const MeshLimits& limits)
-    : topology_(topology) {
+    : vertices_(vertices) {
   check_sizes(vertices.size(), triangles.size(), limits);
-  check_finite(vertices);
-  faces_ = make_faces(triangles, vertices.size() / 3);
-  vertices_ = vertices;
-  box_ = bounding_box(vertices_);
+  std::vector<FaceIndices> faces = make_faces(triangles, vertices.size() / 3);
+  if (!all_finite(vertices)) refuse_not_finite(vertices);
+  FaceClusters clusters(faces, vertices);
+  topology_ = std::make_shared<Topology>(Topology{topology, std::move(faces), std::move(clusters)});
+  boxes_.refit(topology_->clusters, vertices_);
 }
 
-void TriangleMesh::check_vertices(const std::vector<float>& vertices) const {
+void TriangleMesh::move_vertices(const std::vector<float>& vertices) {
   if (vertices.size() != vertices_.size()) {
     throw MeshError(Reason::kSize, std::to_string(vertices.size()) +
                                        " vertex coordinates; this topology has " +
                                        std::to_string(vertices_.size()));
   }
-  check_finite(vertices);
-}
-
-void TriangleMesh::move_vertices(const std::vector<float>& vertices) {
-  check_vertices(vertices);
+  if (!spare_boxes_.refit(topology_->clusters, vertices)) refuse_not_finite(vertices);
+  std::swap(boxes_, spare_boxes_);
   std::copy(vertices.begin(), vertices.end(), vertices_.begin());
-  box_ = bounding_box(vertices_);
 }
 
 double largest_displacement(const TriangleMesh& before, const TriangleMesh& now) {

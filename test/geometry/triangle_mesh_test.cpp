@@ -65,7 +65,7 @@ TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
 }
 
 TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
-  const TriangleMesh mesh(kCorners, kTetrahedron);
+  TriangleMesh mesh(kCorners, kTetrahedron);
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
         -std::numeric_limits<float>::infinity()}) {
@@ -75,7 +75,7 @@ TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
       const std::string place =
           std::string(1, "xyz"[i % 3]) + " of vertex " + std::to_string(i / 3);
       expect_refused(Reason::kNotFinite, {place}, [&] { TriangleMesh(vertices, kTetrahedron); });
-      expect_refused(Reason::kNotFinite, {place}, [&] { mesh.check_vertices(vertices); });
+      expect_refused(Reason::kNotFinite, {place}, [&] { mesh.move_vertices(vertices); });
     }
   }
 }

@@ -10,13 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "organ_collision/geometry/cluster_boxes.hpp"
+#include "organ_collision/geometry/face_clusters.hpp"
+
 namespace organ_collision {
 
 /// Corners of one face, in its order [m].
 using Triangle = std::array<Eigen::Vector3d, 3>;
-
-/// Three vertex indices; outward by the right-hand rule.
-using FaceIndices = std::array<std::uint32_t, 3>;
 
 /// Why vertices or triangles were refused. what() names the value and what is legal.
 class MeshError : public std::invalid_argument {
@@ -51,38 +51,44 @@ class TriangleMesh {
   /// New positions for the same triangles, as many as there are; no allocation.
   void move_vertices(const std::vector<float>& vertices);
 
-  /// Throws what move_vertices would throw.
-  void check_vertices(const std::vector<float>& vertices) const;
-
-  std::size_t face_count() const { return faces_->size(); }
+  std::size_t face_count() const { return faces().size(); }
   std::size_t vertex_count() const { return vertices_.size() / 3; }
-  std::uint32_t topology() const { return topology_; }
+  std::uint32_t topology() const { return topology_->revision; }
 
   /// All faces; the same address for as long as the triangles are the same.
-  const std::vector<FaceIndices>& faces() const { return *faces_; }
+  const std::vector<FaceIndices>& faces() const { return topology_->faces; }
+  /// The same faces in spatially coherent groups, and the boxes of these now.
+  const FaceClusters& clusters() const { return topology_->clusters; }
+  const ClusterBoxes& cluster_boxes() const { return boxes_; }
   /// x y z x y z ... [m]
   const std::vector<float>& vertices() const { return vertices_; }
   /// Smallest axis-aligned box around all vertices [m].
-  const Eigen::AlignedBox3f& box() const { return box_; }
+  const Eigen::AlignedBox3f& box() const { return boxes_.all(); }
 
   Eigen::Vector3d vertex(std::size_t index) const {
     return Eigen::Map<const Eigen::Vector3f>(&vertices_[3 * index]).cast<double>();
   }
   Triangle triangle(std::size_t face) const {
-    const FaceIndices& f = (*faces_)[face];
+    const FaceIndices& f = faces()[face];
     return {vertex(f[0]), vertex(f[1]), vertex(f[2])};
   }
 
   /// Whether both have the same triangles, so that one can be the other's earlier shape.
   bool same_faces(const TriangleMesh& other) const {
-    return faces_ == other.faces_ || *faces_ == *other.faces_;
+    return topology_ == other.topology_ || faces() == other.faces();
   }
 
  private:
-  std::shared_ptr<const std::vector<FaceIndices>> faces_;
+  /// What never changes, shared by all shapes.
+  struct Topology {
+    std::uint32_t revision;
+    std::vector<FaceIndices> faces;
+    FaceClusters clusters;
+  };
+  std::shared_ptr<const Topology> topology_;
   std::vector<float> vertices_;
-  Eigen::AlignedBox3f box_;
-  std::uint32_t topology_;
+  ClusterBoxes boxes_;
+  ClusterBoxes spare_boxes_;  ///< new vertices are looked at here before they are accepted
 };
 
 /// [m] The farthest that any vertex lies from where it was in `before`, which has the same faces.

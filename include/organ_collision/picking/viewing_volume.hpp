@@ -5,15 +5,10 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include "organ_collision/geometry/half_space.hpp"
 #include "organ_collision/geometry/shaft.hpp"
 
 namespace organ_collision {
-
-/// All x with normal · x <= offset; `normal` points outward and is unit [m].
-struct HalfSpace {
-  Eigen::Vector3d normal;
-  double offset;
-};
 
 /// What GL clips to: the frustum of a camera and up to eight user planes. Made by the builders
 /// below only, so that culling, GL and tests cannot disagree.
