@@ -20,5 +20,5 @@ int main() {
   organ_collision::CollisionQuery query;
   organ_collision::CollisionResult result;
   query.evaluate(request, result);
-  for (const organ_collision::Contact& contact : result.contacts) std::cout << contact.face << '\n';
+  for (const auto& contact : result.contacts) std::cout << contact.face << '\n';
 }

@@ -1,0 +1,33 @@
+// Asks which faces of `tissue` a shaft would go through, and prints their numbers.
+#include <organ_collision/QueryCollision.h>
+#include <ros/ros.h>
+
+#include <iostream>
+
+geometry_msgs::Point point(double x, double y, double z) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "ask", ros::init_options::AnonymousName);
+  ros::NodeHandle node;
+  ros::service::waitForService("/organ_collision/query");
+
+  organ_collision::QueryCollision call;
+  auto query = node.serviceClient<organ_collision::QueryCollision>("/organ_collision/query", true);
+  call.request.header.frame_id = "tissue";
+  call.request.organ = "tissue";
+  call.request.mode = organ_collision::ContactArray::SWEPT;
+  call.request.motion.previous_trocar = call.request.motion.trocar = point(0.0, 0.0, 0.1);
+  call.request.motion.previous_tip = point(0.08, 0.01, -0.05);
+  call.request.motion.tip = point(-0.08, 0.01, -0.05);
+  call.request.motion.radius = 0.005;
+  if (!query.call(call)) return 1;
+  std::cout << static_cast<int>(call.response.result.status);
+  for (const auto& contact : call.response.result.contacts) std::cout << ' ' << contact.face;
+  std::cout << '\n';
+}

@@ -1,0 +1,17 @@
+#!/usr/bin/python3
+"""Asks which faces of `tissue` a shaft would go through, and prints their numbers."""
+
+from geometry_msgs.msg import Point
+from organ_collision.msg import ContactArray, ToolMotion
+from organ_collision.srv import QueryCollision
+import rospy
+from std_msgs.msg import Header
+
+rospy.init_node('ask', anonymous=True)
+rospy.wait_for_service('/organ_collision/query')
+query = rospy.ServiceProxy('/organ_collision/query', QueryCollision, persistent=True)
+motion = ToolMotion(previous_trocar=Point(0, 0, 0.1), previous_tip=Point(0.08, 0.01, -0.05),
+                    trocar=Point(0, 0, 0.1), tip=Point(-0.08, 0.01, -0.05), radius=0.005)
+answer = query(header=Header(frame_id='tissue'), organ='tissue', motion=motion,
+               mode=ContactArray.SWEPT)
+print(answer.result.status, [contact.face for contact in answer.result.contacts])
