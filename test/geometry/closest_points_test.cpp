@@ -1,0 +1,144 @@
+#include "organ_collision/geometry/closest_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "organ_collision/geometry/tolerances.hpp"
+#include "proof/exact_distance.hpp"
+#include "proof/trials.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+using oracle::Random;
+using oracle::Trial;
+
+/// [m] What doubles lose: some roundings of the largest coordinate.
+double rounding(const Trial& trial) {
+  double largest = 0.0;
+  for (const ShaftAxis& axis : {trial.motion.start, trial.motion.end})
+    largest = std::max({largest, axis.trocar.norm(), axis.tip.norm()});
+  for (const Vector3d& corner : trial.face) largest = std::max(largest, corner.norm());
+  return 1e-15 * largest;
+}
+
+/// The fields describe one pair of points of axis and face.
+void expect_consistent(const ClosestPoints& found, const ShaftAxis& axis, const Triangle& face,
+                       double slack) {
+  EXPECT_GE(found.shaft, 0.0);
+  EXPECT_LE(found.shaft, 1.0);
+  EXPECT_GE(found.barycentric.minCoeff(), 0.0);
+  EXPECT_NEAR(found.barycentric.sum(), 1.0, 1e-15);
+  const Vector3d on_face = found.barycentric[0] * face[0] + found.barycentric[1] * face[1] +
+                           found.barycentric[2] * face[2];
+  EXPECT_LE((found.on_face - on_face).norm(), slack);
+  EXPECT_LE((found.on_axis - axis.at(found.shaft)).norm(), slack);
+  EXPECT_NEAR((found.on_face - found.on_axis).norm(), found.distance, slack);
+}
+
+class ClosestPointsTrials : public testing::TestWithParam<std::size_t> {
+ protected:
+  /// Calls `check(trial, axis)` with the axes of some trials.
+  template <typename Check>
+  void for_each_axis(Check check) {
+    Random random(100 + GetParam());
+    for (int i = 0; i < 300 && !HasFailure(); ++i) {
+      const Trial trial = oracle::make_trial(GetParam(), random);
+      for (const ShaftAxis& axis : {trial.motion.start, trial.motion.end}) check(trial, axis);
+      if (HasFailure()) ADD_FAILURE() << oracle::to_line(trial);
+    }
+  }
+};
+
+TEST_P(ClosestPointsTrials, AreAsNearAsExactArithmeticSays) {
+  for_each_axis([](const Trial& trial, const ShaftAxis& axis) {
+    const ClosestPoints found = closest_points(axis, trial.face);
+    expect_consistent(found, axis, trial.face, 4 * rounding(trial));
+    EXPECT_NEAR(found.distance, oracle::distance(oracle::core(axis), trial.face),
+                rounding(trial) + tolerance::kTie);
+  });
+}
+
+TEST_P(ClosestPointsTrials, NoNearestPairIsNearerTheTip) {
+  for_each_axis([](const Trial& trial, const ShaftAxis& axis) {
+    const ClosestPoints found = closest_points(axis, trial.face);
+    const double place = found.shaft + 1e-3;
+    if (place > 1.0 || axis.tip == axis.trocar) return;
+    const double rest =
+        oracle::distance(oracle::core(ShaftAxis{axis.at(place), axis.tip}), trial.face);
+    EXPECT_GT(rest, found.distance - rounding(trial) - tolerance::kTie);
+    const double nearest = oracle::distance(oracle::core(axis), trial.face);
+    EXPECT_GT(rest - nearest, 1e-17) << "at least as near beyond " << found.shaft;
+  });
+}
+
+TEST_P(ClosestPointsTrials, OrderOfCornersOnlyPermutesBarycentrics) {
+  constexpr std::array<std::array<int, 3>, 5> kOrders = {
+      {{0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
+  for_each_axis([&](const Trial& trial, const ShaftAxis& axis) {
+    const ClosestPoints found = closest_points(axis, trial.face);
+    for (const auto& order : kOrders) {
+      const Triangle face = {trial.face[order[0]], trial.face[order[1]], trial.face[order[2]]};
+      const ClosestPoints other = closest_points(axis, face);
+      EXPECT_NEAR(other.distance, found.distance, 1e-15 + rounding(trial));
+      EXPECT_NEAR(other.shaft, found.shaft, 1e-6);
+      EXPECT_LE((other.on_face - found.on_face).norm(), 1e-7);
+    }
+  });
+}
+
+TEST_P(ClosestPointsTrials, ReversedAxisIsAsNear) {
+  for_each_axis([](const Trial& trial, const ShaftAxis& axis) {
+    EXPECT_NEAR(closest_points({axis.tip, axis.trocar}, trial.face).distance,
+                closest_points(axis, trial.face).distance, rounding(trial) + tolerance::kTie);
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ClosestPointsTrials,
+                         testing::Range<std::size_t>(0, oracle::trial_kinds().size()));
+
+const Triangle kFace = {Vector3d(0.1, 0.1, 0.5), Vector3d(0.5, 0.1, 0.5), Vector3d(0.1, 0.3, 0.5)};
+
+TEST(ClosestPoints, AxisAlongTheFaceIsNearestWhereItLeavesItTowardsTheTip) {
+  const ClosestPoints found = closest_points({{0.0, 0.2, 0.53}, {1.0, 0.2, 0.53}}, kFace);
+  EXPECT_NEAR(found.distance, 0.03, 1e-15);
+  EXPECT_NEAR(found.shaft, 0.3, 1e-15);
+  EXPECT_TRUE(found.on_face.isApprox(Vector3d(0.3, 0.2, 0.5), 1e-15));
+  EXPECT_TRUE(found.barycentric.isApprox(Vector3d(0.0, 0.5, 0.5), 1e-14));
+}
+
+TEST(ClosestPoints, AxisAlongAnEdgeIsNearestAtTheEdgesLastCorner) {
+  const ClosestPoints found = closest_points({{0.9, 0.0, 0.5}, {-0.1, 0.0, 0.5}}, kFace);
+  EXPECT_NEAR(found.distance, 0.1, 1e-15);
+  EXPECT_NEAR(found.shaft, 0.8, 1e-15);
+  EXPECT_EQ(found.barycentric, Vector3d(1.0, 0.0, 0.0));
+}
+
+TEST(ClosestPoints, AxisInTheFacesPlanePiercesItWhereItLeaves) {
+  const ClosestPoints found = closest_points({{0.2, 0.0, 0.5}, {0.2, 1.0, 0.5}}, kFace);
+  EXPECT_NEAR(found.distance, 0.0, 1e-15);
+  EXPECT_NEAR(found.shaft, 0.25, 1e-15);
+}
+
+TEST(ClosestPoints, TipOverTheInside) {
+  const ClosestPoints found = closest_points({{0.9, 0.8, 1.0}, {0.2, 0.15, 0.51}}, kFace);
+  EXPECT_NEAR(found.distance, 0.01, 1e-15);
+  EXPECT_EQ(found.shaft, 1.0);
+  EXPECT_TRUE(found.barycentric.isApprox(Vector3d(0.5, 0.25, 0.25), 1e-14));
+}
+
+TEST(ClosestPoints, BallAndPointHaveOneNearestPair) {
+  const Vector3d center(0.3, 0.7, 0.2), corner(0.3, 0.4, 0.6);
+  const ClosestPoints found = closest_points({center, center}, {corner, corner, corner});
+  EXPECT_NEAR(found.distance, 0.5, 1e-15);
+  EXPECT_EQ(found.shaft, 1.0);
+  EXPECT_EQ(found.on_axis, center);
+  EXPECT_EQ(found.on_face, corner);
+}
+
+}  // namespace
+}  // namespace organ_collision
