@@ -1,0 +1,132 @@
+#include "demo/liver_surface.hpp"
+
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// About the distance to an ellipsoid's surface: value over gradient of |offset / radii|.
+double ellipsoid(const Vector3d& point, const Vector3d& centre, const Vector3d& radii) {
+  const Vector3d scaled = (point - centre).cwiseQuotient(radii);
+  const double slope = scaled.cwiseQuotient(radii).norm();
+  return scaled.norm() * (scaled.norm() - 1.0) / std::max(slope, 1e-9);
+}
+
+/// The smaller of two levels, rounded off where they come within `blend` of each other.
+double smooth_min(double a, double b, double blend) {
+  return -blend * std::log(std::exp(-a / blend) + std::exp(-b / blend));
+}
+
+double join(double a, double b, double blend) { return smooth_min(a, b, blend); }
+double carve(double a, double b, double blend) { return -smooth_min(-a, b, blend); }
+
+/// A level function on its way from a plain ellipsoid's (0) to the liver's (1).
+double morphed_level(const Vector3d& point, double morph) {
+  const double egg = ellipsoid(point, {0.0, 0.01, 0.002}, {0.11, 0.055, 0.025});
+  return (1.0 - morph) * egg + morph * liver_level(point);
+}
+
+Vector3d gradient(const Vector3d& point, double morph) {
+  constexpr double kStep = 1e-6;
+  Vector3d result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d step = kStep * Vector3d::Unit(axis);
+    result[axis] = morphed_level(point + step, morph) - morphed_level(point - step, morph);
+  }
+  return result / (2.0 * kStep);
+}
+
+/// The point of the morphed surface that a few of Newton's steps along the gradient reach.
+Vector3d onto_surface(Vector3d point, double morph) {
+  for (int i = 0; i < 2; ++i) {
+    const Vector3d slope = gradient(point, morph);
+    point -= morphed_level(point, morph) * slope / std::max(slope.squaredNorm(), 0.2);
+  }
+  return point;
+}
+
+/// The surface of a box of lattice cells around the origin, each cell of edge 1.
+Surface make_lattice_box(const std::array<int, 3>& cells) {
+  Surface box;
+  std::map<std::array<int, 3>, std::uint32_t> index_of;
+  const auto index = [&](const std::array<int, 3>& place) {
+    const auto [found, is_new] = index_of.try_emplace(place, box.vertices.size());
+    if (is_new) {
+      box.vertices.emplace_back(place[0] - 0.5 * cells[0], place[1] - 0.5 * cells[1],
+                                place[2] - 0.5 * cells[2]);
+    }
+    return found->second;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const int side : {0, cells[axis]}) {
+      for (int i = 0; i < cells[u]; ++i) {
+        for (int j = 0; j < cells[v]; ++j) {
+          std::array<std::uint32_t, 4> corner;
+          for (int k = 0; k < 4; ++k) {  // anticlockwise, seen against the axis
+            std::array<int, 3> place;
+            place[axis] = side;
+            place[u] = i + (k == 1 || k == 2);
+            place[v] = j + (k >= 2);
+            corner[k] = index(place);
+          }
+          if (side == 0) std::swap(corner[1], corner[3]);
+          box.faces.push_back({corner[0], corner[1], corner[2]});
+          box.faces.push_back({corner[0], corner[2], corner[3]});
+        }
+      }
+    }
+  }
+  return box;
+}
+
+/// Moves each vertex to the middle of the triangles around it, weighed by their areas, and back
+/// onto the surface, again and again: larger triangles pull harder, so that all become even.
+void even_out(Surface& surface, int rounds) {
+  for (int round = 0; round < rounds; ++round) {
+    const double morph = std::min(1.0, 2.0 * round / rounds);
+    std::vector<Vector3d> sum(surface.vertices.size(), Vector3d::Zero());
+    std::vector<double> weight(surface.vertices.size(), 0.0);
+    for (std::size_t i = 0; i < surface.faces.size(); ++i) {
+      const Triangle corners = surface.triangle(i);
+      const double area = (corners[1] - corners[0]).cross(corners[2] - corners[0]).norm();
+      for (const std::uint32_t vertex : surface.faces[i]) {
+        sum[vertex] += area * (corners[0] + corners[1] + corners[2]) / 3.0;
+        weight[vertex] += area;
+      }
+    }
+    for (std::size_t i = 0; i < sum.size(); ++i) {
+      const Vector3d normal = gradient(surface.vertices[i], morph).normalized();
+      const Vector3d shift = sum[i] / weight[i] - surface.vertices[i];
+      surface.vertices[i] += shift - normal.dot(shift) * normal;
+      surface.vertices[i] = onto_surface(surface.vertices[i], morph);
+    }
+  }
+}
+
+}  // namespace
+
+double liver_level(const Vector3d& point) {
+  const double right_lobe = ellipsoid(point, {-0.042, -0.006, 0.0}, {0.056, 0.062, 0.036});
+  const double middle = ellipsoid(point, {-0.006, 0.014, 0.003}, {0.060, 0.046, 0.027});
+  const double left_lobe = ellipsoid(point, {0.050, 0.017, 0.006}, {0.070, 0.032, 0.013});
+  const double hollow_underneath =
+      ellipsoid(point, {-0.004, -0.012, -0.052}, {0.034, 0.050, 0.042});
+  const double fissure = ellipsoid(point, {0.024, -0.052, 0.0}, {0.016, 0.040, 0.060});
+  double level = join(join(right_lobe, middle, 0.006), left_lobe, 0.007);
+  level = carve(level, hollow_underneath, 0.006);
+  return carve(level, fissure, 0.006);
+}
+
+Surface make_liver_surface() {
+  Surface surface = make_lattice_box({19, 10, 4});
+  for (Vector3d& vertex : surface.vertices) vertex *= 0.011;
+  even_out(surface, 80);
+  return surface;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "organ_collision/geometry/triangle_mesh.hpp"
+
+namespace organ_collision {
+
+/// A closed, outward oriented surface [m].
+struct Surface {
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<FaceIndices> faces;
+
+  Triangle triangle(std::size_t face) const {
+    const FaceIndices& f = faces[face];
+    return {vertices[f[0]], vertices[f[1]], vertices[f[2]]};
+  }
+};
+
+/// Below zero inside the liver, above it outside; about the distance to its surface [m].
+/// x points to the patient's left, y to the head, z to the front; the right lobe is the big one.
+double liver_level(const Eigen::Vector3d& point);
+
+/// The liver's surface at rest: 614 vertices, 1224 faces, 0.2 m from lobe to lobe. A lattice box of
+/// 13 x 12 x 6 cells, 2 triangles to each square, drawn onto liver_level = 0 and evened out there.
+Surface make_liver_surface();
+
+}  // namespace organ_collision
