@@ -1,0 +1,174 @@
+#!/usr/bin/python3
+"""Bad meshes and vertices: each is refused with its reason, counted, and leaves the last
+good state as it was."""
+
+import sys
+
+from organ_collision.msg import ContactArray
+import rosgraph_msgs.msg
+import rospy
+import rostest
+
+from contact_case import ContactCase
+from node_client import NodeClient, shaft, wait_until
+import oracle
+import scenes
+
+NAN, INFINITY = float('nan'), float('inf')
+SHEET = scenes.sheet(0.1, 4)
+AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+GOOD = rospy.Time(5)
+
+
+class BadMeshesTest(ContactCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.node = NodeClient()
+        cls.log = []
+        cls.log_subscriber = rospy.Subscriber('/rosout_agg', rosgraph_msgs.msg.Log, cls.log.append)
+        wait_until(lambda: cls.log_subscriber.get_num_connections() > 0, 'the log')
+        cls.node.send_mesh('good', SHEET, GOOD)
+        cls.node.wait_for_shape('good', GOOD)
+
+    def setUp(self):
+        self.organ = self.id().split('.')[-1]
+
+    def assert_good_state(self):
+        """The good organ answers exactly as ever."""
+        result = self.node.query('good', shaft(*AXIS, 0.005))
+        self.assertEqual((result.mesh_stamp, result.topology), (GOOD, 1))
+        expected = oracle.static_contacts(SHEET, AXIS, 0.005)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected)
+
+    def rejected(self):
+        """How many messages /diagnostics says were refused, for any reason."""
+        return sum(
+            int(value)
+            for key, value in self.node.diagnostics.items()
+            if key.lower().startswith('rejected') and value.isdigit()
+        )
+
+    def warnings(self):
+        return [
+            m.msg
+            for m in self.log
+            if m.name == '/organ_collision' and m.level >= rosgraph_msgs.msg.Log.WARN
+        ]
+
+    def refuse(self, messages, *words):
+        """Every message is refused and counted; the log names each of `words` (some value, what is
+        legal) in one line."""
+        wait_until(lambda: self.node.diagnostics, 'diagnostics')
+        before, warned = self.rejected(), len(self.warnings())
+        for publisher, message in messages:
+            publisher.publish(message)
+        wait_until(
+            lambda: self.rejected() >= before + len(messages),
+            'refusals in /diagnostics: %d of %d, %r'
+            % (self.rejected() - before, len(messages), self.node.diagnostics),
+        )
+        self.assertEqual(self.rejected(), before + len(messages))
+        if words:
+            wait_until(
+                lambda: any(
+                    all(word in line for word in words) for line in self.warnings()[warned:]
+                ),
+                'a warning with %r' % (words,),
+            )
+        self.assert_good_state()
+
+    def mesh(self, organ='good', topology=1, frame='liver_frame', **fields):
+        message = self.node.mesh_message(organ, SHEET, rospy.Time(9), topology)
+        message.header.frame_id = frame
+        for name, value in fields.items():
+            setattr(message, name, value)
+        return (self.node.meshes, message)
+
+    def vertices(self, organ='good', topology=1, frame='liver_frame', **fields):
+        message = self.node.vertices_message(organ, SHEET, rospy.Time(9), topology)
+        message.header.frame_id = frame
+        for name, value in fields.items():
+            setattr(message, name, value)
+        return (self.node.shapes, message)
+
+    def test_index_out_of_range(self):
+        triangles = SHEET.flat_faces()
+        triangles[7] = 25
+        self.refuse([self.mesh(triangles=triangles, topology=2)], '25', '24')
+        triangles[7] = 2**32 - 1
+        self.refuse([self.mesh(triangles=triangles, topology=3)])
+        self.refuse([self.mesh(vertices=[], topology=2)])
+
+    def test_sizes_that_are_no_multiple_of_three(self):
+        self.refuse([self.mesh(triangles=SHEET.flat_faces() + [1], topology=2)], '97')
+        self.refuse([self.mesh(vertices=SHEET.flat_vertices() + [0.5], topology=2)], '76')
+        self.refuse([self.vertices(vertices=SHEET.flat_vertices()[:-2])], '73')
+
+    def test_other_number_of_vertices(self):
+        self.refuse(
+            [
+                self.vertices(vertices=SHEET.flat_vertices()[:-3]),
+                self.vertices(vertices=SHEET.flat_vertices() + [0.1, 0.2, 0.3]),
+                self.vertices(vertices=[]),
+            ]
+        )
+
+    def test_positions_that_are_not_finite(self):
+        for value, word in ((NAN, 'nan'), (INFINITY, 'inf'), (-INFINITY, '-inf')):
+            vertices = SHEET.flat_vertices()
+            vertices[11] = value
+            self.refuse([self.vertices(vertices=vertices)], word)
+            self.refuse([self.mesh(vertices=vertices), self.mesh(vertices=vertices, topology=2)])
+
+    def test_an_unknown_organ(self):
+        self.refuse([self.vertices(organ='spleen')], 'spleen')
+        self.assertEqual(
+            self.node.query('spleen', shaft(*AXIS, 0.005)).status, ContactArray.UNKNOWN_ORGAN
+        )
+
+    def test_vertices_of_another_topology(self):
+        self.refuse([self.vertices(topology=77)], '77', '1')
+
+    def test_vertices_without_triangles_and_the_reverse(self):
+        self.refuse([self.mesh(triangles=[], topology=2)])
+        self.refuse([self.mesh(organ=self.organ, triangles=[])])
+
+    def test_empty_names(self):
+        self.refuse(
+            [
+                self.mesh(frame=''),
+                self.mesh(organ=''),
+                self.vertices(frame=''),
+                self.vertices(organ=''),
+                self.mesh(frame='', organ=''),
+            ]
+        )
+
+    def test_vertices_in_another_frame(self):
+        self.refuse([self.vertices(frame='table')], 'table', 'liver_frame')
+
+    def test_more_faces_than_the_limit(self):
+        big = scenes.sheet(0.1, 8)  # 128 faces; the limit is 100
+        self.refuse(
+            [self.mesh(vertices=big.flat_vertices(), triangles=big.flat_faces(), topology=2)],
+            '128',
+            '100',
+        )
+
+    def test_the_same_topology_with_other_triangles(self):
+        triangles = SHEET.flat_faces()
+        self.refuse([self.mesh(triangles=triangles[3:] + triangles[:3])])
+        self.refuse([self.mesh(triangles=triangles[3:])])
+
+    def test_diagnostics_say_how_the_node_is(self):
+        self.node.query('good', shaft(*AXIS, 0.005))
+        wait_until(lambda: 'good' in ' '.join(self.node.diagnostics), "the good organ's mesh")
+        text = ' '.join('%s: %s' % pair for pair in self.node.diagnostics.items()).lower()
+        for word in ('mesh', 'contact', 'median', '99', 'worst', 'age', 'reject', 'gl', 'mesa'):
+            self.assertIn(word, text)
+
+
+if __name__ == '__main__':
+    rospy.init_node('bad_meshes_test')
+    rostest.rosrun('organ_collision', 'bad_meshes', BadMeshesTest, sys.argv)

@@ -1,0 +1,60 @@
+"""What the tests of contacts share: comparison with the oracle, face by face, field by field."""
+
+import unittest
+
+from organ_collision.msg import ContactArray
+
+from vectors import cross, dot, length, sub
+
+
+def xyz(message):
+    return (message.x, message.y, message.z)
+
+
+def faces_of(result):
+    return [c.face for c in result.contacts]
+
+
+class ContactCase(unittest.TestCase):
+    def assert_near(self, found, expected, tolerance, what):
+        difference = length(sub(found, expected))
+        self.assertLessEqual(
+            difference, tolerance, '%s: %r instead of %r' % (what, found, expected)
+        )
+
+    def assert_ok(self, result):
+        self.assertEqual(result.status, ContactArray.OK, result.message)
+        self.assertEqual(result.message, '')
+
+    def assert_contacts(self, result, expected, tolerance=1e-7):
+        """The result is `expected`, contacts of the oracle: the same faces, in order, and lengths,
+        fractions and directions within `tolerance`."""
+        self.assert_ok(result)
+        self.assertEqual(faces_of(result), [c.face for c in expected])
+        for found, right in zip(result.contacts, expected):
+            what = 'face %d' % right.face
+            self.assertEqual(found.link, 0, what)
+            self.assertAlmostEqual(found.fraction, right.fraction, delta=tolerance, msg=what)
+            self.assert_near(xyz(found.point), right.point, tolerance, what + ' point')
+            self.assert_near(xyz(found.normal), right.normal, 100 * tolerance, what + ' normal')
+            self.assertAlmostEqual(length(xyz(found.normal)), 1.0, delta=1e-9, msg=what)
+            self.assert_near(
+                found.barycentric, right.barycentric, 100 * tolerance, what + ' barycentric'
+            )
+            self.assertAlmostEqual(found.shaft, right.shaft, delta=100 * tolerance, msg=what)
+            self.assertAlmostEqual(found.depth, right.depth, delta=tolerance, msg=what)
+            if right.behind is not None:
+                self.assertEqual(found.behind, right.behind, what)
+
+    def assert_regions_lie_on_faces(self, result, mesh, margin=1e-5):
+        """One region a contact, its corners on the contact's face, to float precision."""
+        self.assertEqual(len(result.regions), len(result.contacts))
+        for contact, region in zip(result.contacts, result.regions):
+            a, b, c = mesh.face(contact.face)
+            normal = cross(sub(b, a), sub(c, a))
+            for corner in region.points:
+                p = xyz(corner)
+                self.assertLess(abs(dot(sub(p, a), normal)) / length(normal), margin)
+                for start, end in ((a, b), (b, c), (c, a)):
+                    outward = cross(sub(end, start), normal)
+                    self.assertLess(dot(sub(p, start), outward) / length(outward), margin)

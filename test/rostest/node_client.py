@@ -1,0 +1,226 @@
+"""The node as its users see it: its topics, its services, TF and /diagnostics. Nothing here sleeps
+for a fixed time; whatever has to happen is waited for, at most LIMIT seconds."""
+
+import subprocess
+import threading
+import time
+
+import diagnostic_msgs.msg
+import geometry_msgs.msg
+from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ToolMotion
+from organ_collision.srv import (
+    QueryCollision,
+    QueryCollisionBatch,
+    QueryCollisionBatchRequest,
+    QueryCollisionRequest,
+)
+import roslib.packages
+import rospy
+from std_srvs.srv import Empty
+from tf2_msgs.msg import TFMessage
+
+import scenes
+
+LIMIT = 20.0  # [s]
+
+
+def wait_until(condition, what, limit=LIMIT):
+    """The first true value of condition(); AssertionError naming `what` after `limit` seconds."""
+    end = time.monotonic() + limit
+    while True:
+        value = condition()
+        if value:
+            return value
+        assert time.monotonic() < end, 'waited %g s in vain: %s' % (limit, what)
+        time.sleep(0.005)
+
+
+class TfSender:
+    """Sends transforms as a robot would: on /tf and, once and for all, on /tf_static."""
+
+    def __init__(self):
+        self.moving = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        self.resting = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
+        self.resting_transforms = []
+
+    def connected(self):
+        return self.moving.get_num_connections() > 0 and self.resting.get_num_connections() > 0
+
+    def send(self, *transforms):
+        """Each a (parent, child, pose, stamp); all in one message, as queues are short."""
+        self.moving.publish([self._message(*transform) for transform in transforms])
+
+    def send_resting(self, *transforms):
+        """Each a (parent, child, pose), for all times."""
+        now = rospy.Time.now()
+        self.resting_transforms += [self._message(*transform, now) for transform in transforms]
+        self.resting.publish(self.resting_transforms)
+
+    @staticmethod
+    def _message(parent, child, pose, stamp):
+        message = geometry_msgs.msg.TransformStamped()
+        message.header.frame_id, message.child_frame_id = parent, child
+        message.header.stamp = stamp
+        message.transform.translation = geometry_msgs.msg.Vector3(*pose.translation)
+        message.transform.rotation = geometry_msgs.msg.Quaternion(*pose.rotation)
+        return message
+
+
+class ContactLog:
+    """All ContactArrays that came, in order."""
+
+    def __init__(self, topic):
+        self.messages = []
+        self.lock = threading.Lock()
+        self.subscriber = rospy.Subscriber(topic, ContactArray, self._add, queue_size=1000)
+
+    def _add(self, message):
+        with self.lock:
+            self.messages.append(message)
+
+    def of(self, organ, tool=None, **fields):
+        """Those of one organ (and tool) whose fields have these values."""
+        with self.lock:
+            return [
+                m
+                for m in self.messages
+                if m.organ == organ
+                and (tool is None or m.tool == tool)
+                and all(getattr(m, name) == value for name, value in fields.items())
+            ]
+
+    def wait_for(self, organ, tool, **fields):
+        """The first such message."""
+        return wait_until(
+            lambda: self.of(organ, tool, **fields),
+            'contacts of %s and %s with %s' % (organ, tool, fields),
+        )[0]
+
+
+def shaft(trocar, tip, radius, previous=None):
+    """A ToolMotion; `previous` is the axis (trocar, tip) at the start of the step."""
+    motion = ToolMotion(radius=radius)
+    motion.trocar, motion.tip = geometry_msgs.msg.Point(*trocar), geometry_msgs.msg.Point(*tip)
+    if previous:
+        motion.previous_trocar = geometry_msgs.msg.Point(*previous[0])
+        motion.previous_tip = geometry_msgs.msg.Point(*previous[1])
+    return motion
+
+
+FAR_AWAY = shaft((9.0, 9.0, 9.0), (9.0, 9.0, 9.1), 0.001)
+
+
+class NodeClient:
+    """Publishers, subscribers and services of one running node."""
+
+    def __init__(self, node='/organ_collision', frame='liver_frame'):
+        self.node, self.frame = node, frame
+        self.meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, queue_size=100)
+        self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
+        self.contacts = ContactLog(node + '/contacts')
+        self.diagnostics = {}
+        self.diagnostics_subscriber = rospy.Subscriber(
+            '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep_diagnostics
+        )
+        for service in ('query', 'query_batch', 'reset'):
+            rospy.wait_for_service(node + '/' + service, LIMIT)
+        self.query_service = rospy.ServiceProxy(node + '/query', QueryCollision, persistent=True)
+        self.batch_service = rospy.ServiceProxy(node + '/query_batch', QueryCollisionBatch)
+        self.reset = rospy.ServiceProxy(node + '/reset', Empty)
+        wait_until(
+            lambda: self.meshes.get_num_connections() > 0
+            and self.shapes.get_num_connections() > 0
+            and self.contacts.subscriber.get_num_connections() > 0,
+            'connections to ' + node,
+        )
+
+    def _keep_diagnostics(self, message):
+        for status in message.status:
+            if status.name.startswith(self.node.strip('/')):
+                for pair in status.values:
+                    self.diagnostics[pair.key] = pair.value
+
+    def mesh_message(self, organ, mesh, stamp=rospy.Time(), topology=1):
+        message = OrganMesh(
+            organ=organ,
+            topology=topology,
+            vertices=mesh.flat_vertices(),
+            triangles=mesh.flat_faces(),
+        )
+        message.header.frame_id, message.header.stamp = self.frame, stamp
+        return message
+
+    def vertices_message(self, organ, mesh, stamp=rospy.Time(), topology=1):
+        message = OrganVertices(organ=organ, topology=topology, vertices=mesh.flat_vertices())
+        message.header.frame_id, message.header.stamp = self.frame, stamp
+        return message
+
+    def send_mesh(self, *args, **named):
+        self.meshes.publish(self.mesh_message(*args, **named))
+
+    def send_vertices(self, *args, **named):
+        self.shapes.publish(self.vertices_message(*args, **named))
+
+    def remove(self, organ):
+        self.send_mesh(organ, scenes.Mesh([], []))
+        wait_until(
+            lambda: self.query(organ, FAR_AWAY).status
+            in (ContactArray.UNKNOWN_ORGAN, ContactArray.NO_MESH),
+            'removal of ' + organ,
+        )
+
+    def wait_for_shape(self, organ, stamp, topology=1):
+        """Until queries are answered with the organ's shape of `stamp`."""
+
+        def has_it():
+            result = self.query(organ, FAR_AWAY)
+            return (
+                result.status == ContactArray.OK
+                and result.mesh_stamp == stamp
+                and result.topology == topology
+            )
+
+        wait_until(has_it, 'shape of %s of %s' % (organ, stamp))
+
+    def query(
+        self,
+        organ,
+        motion=None,
+        mode=ContactArray.STATIC,
+        tool='',
+        frame=None,
+        stamp=rospy.Time(),
+        organ_motion=False,
+        regions=False,
+    ):
+        request = QueryCollisionRequest(
+            organ=organ,
+            tool=tool,
+            motion=motion or ToolMotion(),
+            mode=mode,
+            organ_motion=organ_motion,
+            regions=regions,
+        )
+        request.header.frame_id = self.frame if frame is None else frame
+        request.header.stamp = stamp
+        return self.query_service(request).result
+
+    def query_batch(self, organ, motions, mode=ContactArray.STATIC, frame=None, organ_motion=False):
+        request = QueryCollisionBatchRequest(
+            organ=organ, motions=motions, mode=mode, organ_motion=organ_motion
+        )
+        request.header.frame_id = self.frame if frame is None else frame
+        return self.batch_service(request).results
+
+
+def start_node(name, parameters):
+    """Starts a node of its own with these private parameters; the caller ends it."""
+    if parameters:
+        rospy.set_param(name, parameters)
+    program = roslib.packages.find_node('organ_collision', 'organ_collision_node')
+    return subprocess.Popen(
+        [program[0], '__name:=' + name.strip('/')],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        universal_newlines=True,
+    )

@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""The tool is evaluated at `rate`, also while no mesh comes."""
+
+import sys
+
+from organ_collision.msg import ContactArray
+import rospy
+import rostest
+
+from contact_case import faces_of
+from node_client import NodeClient, wait_until
+import oracle
+import scenes
+from tool_case import ToolCase
+
+STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
+SHEET = scenes.sheet(0.1, 4)
+RADIUS = 0.005
+
+
+def at_height(height):
+    return ((0.013, 0.007, 0.4), (0.013, 0.007, height))
+
+
+class RateTest(ToolCase):
+    def messages_after(self, number, node=None):
+        return (node or self.node).contacts.of(self.organ, 'grasper')[number:]
+
+    def wait_for_tip(self, height):
+        """Until the node knows that the tip is at this height, as one more tick has been sent."""
+        place = self.next_stamp()
+        self.place('grasper', (at_height(height), place))
+        wait_until(
+            lambda: any(m.header.stamp >= place for m in self.messages_after(0)),
+            'a tick at the new pose',
+        )
+
+    def test_a_tool_moves_while_the_organ_rests(self):
+        """The tick that sees the tip jump across the sheet finds the faces; those after it not."""
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        wait_until(lambda: len(self.messages_after(0)) > 5, 'ticks')
+        self.assertEqual([faces_of(m) for m in self.messages_after(0) if m.contacts], [])
+        mesh_stamp = self.stamp
+        sideways = ((0.4, 0.007, -0.05), (0.013, 0.007, -0.05))
+        level = ((0.4, 0.007, 0.05), (0.013, 0.007, 0.05))
+        self.place('grasper', (level, self.next_stamp()))
+        wait_until(
+            lambda: self.node.contacts.of(self.organ, 'grasper')[-1].header.stamp >= self.stamp,
+            'a tick at the level pose',
+        )
+        before = len(self.messages_after(0))
+        self.place('grasper', (sideways, self.next_stamp()))
+        wait_until(lambda: len(self.messages_after(before)) > 10, 'ticks after the jump')
+        hits = [m for m in self.messages_after(before) if m.contacts]
+        expected = oracle.swept_contacts(SHEET, level, sideways, RADIUS)
+        self.assertEqual([faces_of(m) for m in hits], [[c.face for c in expected]])
+        self.assertGreater(len(expected), 0)
+        self.assertEqual((hits[0].mode, hits[0].mesh_stamp), (SWEPT, mesh_stamp))
+        for message in self.messages_after(0):
+            self.assert_ok(message)
+
+    def test_ticks_are_as_many_as_the_rate_says(self):
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        begin, count = rospy.get_time(), len(self.messages_after(0))
+        wait_until(lambda: len(self.messages_after(count)) >= 100, '100 ticks')
+        self.assertAlmostEqual(rospy.get_time() - begin, 1.0, delta=0.5)
+
+    def test_a_change_of_shape_counts_once(self):
+        """The tissue swings through the tool in one step; ticks after it hold the tissue still."""
+        axis = at_height(0.02)
+        high = SHEET.moved(lambda v: (v[0], v[1], v[2] - 0.05))
+        self.step(high, {'grasper': axis})
+        aside = ((0.4, 0.007, 0.02), (0.013, 0.007, 0.02))
+        self.wait_for_tip(0.02)
+        self.place('grasper', (aside, self.next_stamp()))
+        low = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.05))
+        stamp = self.next_stamp()
+        self.place('grasper', (aside, stamp))
+        self.node.send_vertices(self.organ, low, stamp)
+        wait_until(
+            lambda: len(self.node.contacts.of(self.organ, mesh_stamp=stamp)) > 10,
+            'ticks after the change of shape',
+        )
+        after = self.node.contacts.of(self.organ, mesh_stamp=stamp)
+        self.assertEqual([bool(m.contacts) for m in after], [True] + [False] * (len(after) - 1))
+
+    def test_organ_motion_off_lets_organs_jump(self):
+        """Shapes count as they are at the end of the step: the swing itself touches nothing."""
+        node = NodeClient('/impatient')
+        aside = ((0.4, 0.007, 0.02), (0.013, 0.007, 0.02))
+        for height in (-0.05, 0.05, 0.022):
+            stamp = self.next_stamp()
+            self.place('grasper', (aside, stamp))
+            node.send_mesh(self.organ, SHEET.moved(lambda v: (v[0], v[1], v[2] + height)), stamp)
+            result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp, status=0)
+            self.assertEqual(bool(result.contacts), height == 0.022)
+
+    def test_a_mesh_that_stopped_coming_is_stale(self):
+        """No answer rather than one about tissue that has moved on; a new shape mends it."""
+        node = NodeClient('/impatient')
+        stamp = self.next_stamp(max(rospy.Time.now() - self.stamp, rospy.Duration(0, 10**7)))
+        self.place('grasper', (at_height(0.003), stamp))
+        node.send_mesh(self.organ, SHEET, stamp)
+        stale = node.contacts.wait_for(self.organ, 'grasper', status=ContactArray.STALE_MESH)
+        self.assertEqual(stale.contacts, [])
+        self.assertIn('0.3', stale.message)
+        answer = node.query(self.organ, tool='grasper')
+        self.assertEqual(answer.status, ContactArray.STALE_MESH)
+        fresh = self.next_stamp(max(rospy.Time.now() - self.stamp, rospy.Duration(0, 10**7)))
+        self.place('grasper', (at_height(0.003), fresh))
+        node.send_vertices(self.organ, SHEET, fresh)
+        result = node.contacts.wait_for(
+            self.organ, 'grasper', mesh_stamp=fresh, status=ContactArray.OK
+        )
+        self.assertGreater(len(result.contacts), 0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('rate_test')
+    rostest.rosrun('organ_collision', 'rate', RateTest, sys.argv)

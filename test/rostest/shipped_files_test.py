@@ -1,0 +1,174 @@
+#!/usr/bin/python3
+"""Every launch file starts all its nodes and stops without a remainder, every configuration file
+loads, and the rviz files show topics and frames that exist."""
+
+import os
+import signal
+import subprocess
+import sys
+
+from organ_collision.msg import ContactArray
+import rosgraph
+import roslib.packages
+import rospy
+import rostest
+from tf2_msgs.msg import TFMessage
+import yaml
+
+from contact_case import ContactCase
+from node_client import NodeClient, shaft, start_node, wait_until
+import oracle
+import scenes
+
+PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
+SHEET = scenes.sheet(0.1, 4)
+AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+
+
+def files(folder, ending):
+    return sorted(
+        os.path.join(PACKAGE, folder, name)
+        for name in os.listdir(os.path.join(PACKAGE, folder))
+        if name.endswith(ending)
+    )
+
+
+def nodes_online():
+    publishers, subscribers, services = rosgraph.Master(rospy.get_name()).getSystemState()
+    return {
+        node
+        for group in (publishers, subscribers, services)
+        for _, nodes in group
+        for node in nodes
+    }
+
+
+class Launched:
+    """roslaunch with one file, and its nodes, until the end of a `with` block."""
+
+    def __init__(self, path, *arguments):
+        self.command = ['roslaunch', path] + list(arguments)
+
+    def __enter__(self):
+        listed = subprocess.run(
+            ['roslaunch', '--nodes'] + self.command[1:],
+            check=True,
+            stdout=subprocess.PIPE,
+            universal_newlines=True,
+        ).stdout
+        self.nodes = listed.split()
+        self.process = subprocess.Popen(
+            self.command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True
+        )
+        wait_until(
+            lambda: self.process.poll() is not None or set(self.nodes) <= nodes_online(),
+            'the nodes %s' % self.nodes,
+            40.0,
+        )
+        assert self.process.poll() is None, self.process.communicate()[0]
+        return self
+
+    def __exit__(self, *error):
+        self.process.send_signal(signal.SIGINT)
+        self.printed, _ = self.process.communicate(timeout=40)
+
+
+class ShippedFilesTest(ContactCase):
+    def check_collision_node(self, name):
+        """It answers about an organ of its own."""
+        node = NodeClient(name)
+        node.send_mesh('sheet', SHEET, rospy.Time(1))
+        node.wait_for_shape('sheet', rospy.Time(1))
+        self.assert_contacts(
+            node.query('sheet', shaft(*AXIS, 0.005)), oracle.static_contacts(SHEET, AXIS, 0.005)
+        )
+
+    def test_every_launch_file(self):
+        launch_files = files('launch', '.launch')
+        self.assertTrue(
+            {'organ_collision.launch', 'nodelet.launch', 'demo.launch'}
+            <= {os.path.basename(path) for path in launch_files},
+            launch_files,
+        )
+        for path in launch_files:
+            with Launched(path) as launched:
+                self.assertGreater(len(launched.nodes), 0, path)
+                self.check_collision_node('/organ_collision')
+                if os.path.basename(path) == 'demo.launch':
+                    self.check_demo()
+            wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
+            self.assertNotIn('has died', launched.printed, path)
+            self.assertNotIn('escalating', launched.printed, path)
+
+    def check_demo(self):
+        """Liver and tools move and meet; rviz files show only what is there."""
+        node = NodeClient()
+        touched = wait_until(
+            lambda: [m for m in list(node.contacts.messages) if m.contacts],
+            'contacts in the demo',
+            30.0,
+        )
+        self.assertTrue(all(m.status == ContactArray.OK for m in touched))
+        frames, kept = set(), []
+        for topic in ('/tf', '/tf_static'):
+            kept.append(
+                rospy.Subscriber(
+                    topic,
+                    TFMessage,
+                    lambda message: frames.update(
+                        name
+                        for t in message.transforms
+                        for name in (t.header.frame_id, t.child_frame_id)
+                    ),
+                )
+            )
+        wait_until(lambda: frames, 'frames of the demo')
+        topics = {topic for topic, _ in rospy.get_published_topics()}
+        rviz_files = files('config', '.rviz')
+        self.assertGreater(len(rviz_files), 0)
+        for path in rviz_files:
+            with open(path) as text:
+                manager = yaml.safe_load(text)['Visualization Manager']
+            shown = self.shown_topics(manager['Displays'])
+            self.assertGreater(len(shown), 0, path)
+            self.assertEqual(shown - topics, set(), path)
+            fixed = manager['Global Options']['Fixed Frame']
+            wait_until(lambda: fixed in frames, 'the fixed frame %s of %s' % (fixed, path))
+
+    def shown_topics(self, displays):
+        """The topics of all displays, those in groups too."""
+        found = set()
+        for display in displays:
+            found |= self.shown_topics(display.get('Displays', []))
+            found |= {
+                value
+                for key, value in display.items()
+                if key.endswith('Topic') and isinstance(value, str) and value
+            }
+        return found
+
+    def test_every_configuration_file(self):
+        """Each yaml file parses; those with tools start a node that answers and reports no name."""
+        yaml_files, with_tools = files('config', '.yaml'), 0
+        self.assertIn('tools.yaml', [os.path.basename(path) for path in yaml_files])
+        for path in yaml_files:
+            with open(path) as text:
+                parameters = yaml.safe_load(text)
+            self.assertIsInstance(parameters, dict, path)
+            if 'tools' not in parameters:
+                continue
+            with_tools += 1
+            name = '/from_' + os.path.basename(path).replace('.', '_')
+            process = start_node(name, parameters)
+            try:
+                self.check_collision_node(name)
+            finally:
+                process.send_signal(signal.SIGINT)
+                printed, _ = process.communicate(timeout=15)
+            self.assertNotIn('is no parameter', printed, path)
+        self.assertGreater(with_tools, 0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('shipped_files_test')
+    rostest.rosrun('organ_collision', 'shipped_files', ShippedFilesTest, sys.argv)

@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+"""Simulated time: steps by the simulator's clock, and a jump back that forgets all history."""
+
+import sys
+import threading
+import time
+
+from organ_collision.msg import ContactArray
+import rospy
+from rosgraph_msgs.msg import Clock
+import rostest
+
+from node_client import wait_until
+import oracle
+import scenes
+from tool_case import ToolCase
+
+STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
+SHEET = scenes.sheet(0.1, 4)
+ABOVE = ((0.3, 0.007, 0.05), (0.013, 0.007, 0.05))
+BELOW = ((0.3, 0.007, -0.05), (0.013, 0.007, -0.05))
+RADIUS = 0.005
+
+
+class SimulatedClock:
+    """Sends /clock a hundred times a second, until it is stopped."""
+
+    def __init__(self, seconds):
+        self.publisher = rospy.Publisher('/clock', Clock, queue_size=100)
+        self.lock = threading.Lock()
+        self.stopped = threading.Event()
+        self.now, self.sent = rospy.Time(seconds), 0
+        self.thread = threading.Thread(target=self._run, daemon=True)
+        self.thread.start()
+
+    def _run(self):
+        while not self.stopped.wait(0.01):
+            with self.lock:
+                self.now += rospy.Duration(0, 10**7)
+                self.publisher.publish(self.now)
+                self.sent += 1
+
+    def jump(self, seconds):
+        """From now on it is `seconds`; returns when that has been said thirty times."""
+        with self.lock:
+            self.now, begin = rospy.Time(seconds), self.sent
+        wait_until(lambda: self.sent > begin + 30, 'thirty ticks of the clock')
+
+    def stop(self):
+        self.stopped.set()
+        self.thread.join()
+
+
+class SimulatedTimeTest(ToolCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.clock = SimulatedClock(100)
+        wait_until(lambda: rospy.get_time() > 100, 'simulated time')
+        super().setUpClass()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.clock.stop()
+
+    def jump(self, seconds):
+        self.clock.jump(seconds)
+        type(self).stamp = rospy.Time(seconds)
+
+    def stab(self):
+        """From above the sheet to below it; returns both results."""
+        return (
+            self.step(SHEET, {'grasper': ABOVE})['grasper'],
+            self.step(SHEET, {'grasper': BELOW}, vertices=True)['grasper'],
+        )
+
+    def check_stab(self, first, second):
+        self.assertEqual(first.mode, STATIC)
+        self.assert_contacts(first, [])
+        self.assertEqual((second.mode, second.step_start), (SWEPT, first.header.stamp))
+        expected = oracle.swept_contacts(SHEET, ABOVE, BELOW, RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(second, expected, 1e-6)
+
+    def test_a_stab_in_simulated_time(self):
+        self.check_stab(*self.stab())
+
+    def test_a_jump_back_forgets_the_history(self):
+        self.jump(500)
+        self.check_stab(*self.stab())
+        self.jump(200)
+        result = self.step(SHEET, {'grasper': ABOVE}, vertices=True)['grasper']
+        self.assertEqual((result.mode, result.header.stamp), (STATIC, self.stamp))
+        self.assert_contacts(result, [])
+        result = self.step(SHEET, {'grasper': BELOW}, vertices=True)['grasper']
+        self.assertEqual(result.mode, SWEPT)
+        self.assert_contacts(result, oracle.swept_contacts(SHEET, ABOVE, BELOW, RADIUS), 1e-6)
+
+    def test_a_jump_back_while_a_transform_is_awaited(self):
+        """What waited for the old time's transforms is not mixed up with the new time's."""
+        self.jump(800)
+        self.step(SHEET, {'grasper': ABOVE})
+        self.node.send_vertices(self.organ, SHEET, self.next_stamp())
+        self.jump(700)
+        result = self.step(SHEET, {'grasper': BELOW}, vertices=True)['grasper']
+        self.assertEqual(result.mode, STATIC)
+        self.assert_contacts(result, oracle.static_contacts(SHEET, BELOW, RADIUS))
+
+    def test_a_jump_forward_is_a_long_step(self):
+        self.jump(300)
+        first = self.step(SHEET, {'grasper': ABOVE})['grasper']
+        self.jump(304)
+        second = self.step(SHEET, {'grasper': BELOW}, vertices=True)['grasper']
+        self.check_stab(first, second)
+
+    def test_diagnostics_come_after_a_jump_back(self):
+        self.jump(1000)
+        wait_until(lambda: self.node.diagnostics, 'diagnostics')
+        self.jump(50)
+        self.node.diagnostics.clear()
+        wait_until(lambda: self.node.diagnostics, 'diagnostics after the jump')
+
+    def test_a_transform_is_awaited_no_longer_than_its_limit_when_the_clock_stands_still(self):
+        """tf_timeout_sec passes on the wall clock: a paused simulator does not hang the node."""
+        self.jump(600)
+        self.step(SHEET, {'grasper': ABOVE})
+        with self.clock.lock:
+            stamp = self.next_stamp()
+            self.node.send_vertices(self.organ, SHEET, stamp)
+            begin = time.monotonic()
+            result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+            self.assertEqual(result.status, ContactArray.NO_TRANSFORM)
+            self.assertLess(time.monotonic() - begin, 10.0)
+
+
+if __name__ == '__main__':
+    rospy.init_node('simulated_time_test')
+    rostest.rosrun('organ_collision', 'simulated_time', SimulatedTimeTest, sys.argv)

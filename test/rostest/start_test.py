@@ -1,0 +1,179 @@
+#!/usr/bin/python3
+"""How the node starts: illegal parameters stop it and say why, misspelt ones are reported, and a
+latched mesh that is older than the node is taken in."""
+
+import copy
+import signal
+import sys
+
+from organ_collision.msg import ContactArray, OrganMesh
+import rospy
+import rostest
+
+from contact_case import ContactCase
+from node_client import NodeClient, shaft, start_node
+import oracle
+import scenes
+
+TOOL = {
+    'name': 'grasper',
+    'trocar_frame': 'grasper_trocar',
+    'tip_frame': 'grasper_tip',
+    'radius': 0.005,
+}
+SHEET = scenes.sheet(0.1, 4)
+
+# What is set on top of one good tool; words that the message must hold: the parameter, the value,
+# what is legal.
+ILLEGAL = [
+    ({'tools': 'grasper'}, ['tools', 'grasper', 'list']),
+    ({'tools': 3}, ['tools', '3', 'list']),
+    ({'tools': ['grasper']}, ['tools', 'grasper']),
+    ({'picker': 'raytrace'}, ['picker', 'raytrace', 'feedback', 'select']),
+    ({'picker': 7}, ['picker', '7', 'feedback', 'select']),
+    ({'rate': -1.5}, ['rate', '-1.5', '0']),
+    ({'rate': 'fast'}, ['rate', 'fast', 'number']),
+    ({'rate': float('nan')}, ['rate', 'nan', '0']),
+    ({'organ_motion': 'maybe'}, ['organ_motion', 'maybe', 'true', 'false']),
+    ({'motion_sample_sec': 0.0}, ['motion_sample_sec', '0']),
+    ({'motion_sample_sec': -0.125}, ['motion_sample_sec', '-0.125', '0']),
+    ({'motion_samples_max': 0}, ['motion_samples_max', '0', '1']),
+    ({'motion_samples_max': 2.5}, ['motion_samples_max', '2.5', '1']),
+    ({'tf_timeout_sec': -0.5}, ['tf_timeout_sec', '-0.5', '0']),
+    ({'tf_timeout_sec': float('inf')}, ['tf_timeout_sec', 'inf', '0']),
+    ({'mesh_timeout_sec': -2}, ['mesh_timeout_sec', '-2', '0']),
+    ({'max_faces': 0}, ['max_faces', '0', '1']),
+    ({'max_faces': -7}, ['max_faces', '-7', '1']),
+    ({'max_faces': 2147483647}, ['max_faces', '2147483647', '16777216']),
+    ({'publish_regions': 'often'}, ['publish_regions', 'often', 'true', 'false']),
+]
+ILLEGAL_IN_TOOL = [
+    ({'radius': 0.0}, ['radius', '0']),
+    ({'radius': -0.25}, ['radius', '-0.25', '0']),
+    ({'radius': float('nan')}, ['radius', 'nan', '0']),
+    ({'radius': float('inf')}, ['radius', 'inf', '0']),
+    ({'radius': 'thin'}, ['radius', 'thin', 'number']),
+    ({'radius': None}, ['radius', 'missing']),
+    ({'name': None}, ['name', 'missing']),
+    ({'name': ''}, ['name']),
+    ({'trocar_frame': None}, ['trocar_frame', 'missing']),
+    ({'tip_frame': ''}, ['tip_frame']),
+    ({'tip_frame': 'grasper_trocar'}, ['tip_frame', 'grasper_trocar']),
+    ({'tip_frame': '/grasper_trocar'}, ['tip_frame', 'grasper_trocar']),
+]
+
+
+class StartTest(ContactCase):
+    def setUp(self):
+        self.name, self.running = '/' + self.id().split('.')[-1], []
+
+    def tearDown(self):
+        for process in self.running:
+            process.kill()
+            process.communicate()
+
+    def start(self, name, parameters):
+        process = start_node(name, parameters)
+        self.running.append(process)
+        return process
+
+    def stop(self, process):
+        """As roslaunch stops a node; returns all that it printed."""
+        process.send_signal(signal.SIGINT)
+        printed, _ = process.communicate(timeout=15)
+        self.assertEqual(process.returncode, 0, printed)
+        return printed
+
+    def refused(self, cases):
+        """[(parameters, words)]: all started at once, each must stop with its words printed."""
+        started = [
+            (self.start('%s_%d' % (self.name, i), parameters), parameters, words)
+            for i, (parameters, words) in enumerate(cases)
+        ]
+        for process, parameters, words in started:
+            printed, _ = process.communicate(timeout=30)
+            what = '%r: %s' % (parameters, printed)
+            self.assertGreater(process.returncode, 0, what)  # negative: killed by a signal
+            for word in words:
+                self.assertIn(word, printed, what)
+
+    def test_illegal_parameters(self):
+        self.refused([(dict({'tools': [TOOL]}, **change), words) for change, words in ILLEGAL])
+
+    def test_illegal_tools(self):
+        cases = []
+        for change, words in ILLEGAL_IN_TOOL:
+            tool = {k: v for k, v in dict(TOOL, **change).items() if v is not None}
+            cases.append(({'tools': [dict(TOOL, name='other'), tool]}, ['tools'] + words))
+        cases.append(({'tools': [TOOL, copy.copy(TOOL)]}, ['tools', 'grasper', 'unique']))
+        self.refused(cases)
+
+    def test_tools_are_required(self):
+        self.refused(
+            [({}, ['tools', 'missing']), ({'tool': [TOOL]}, ['tools', "'tools'", 'tool '])]
+        )
+
+    def test_misspelt_names_are_reported(self):
+        process = self.start(
+            self.name,
+            {'tools': [dict(TOOL, colour='red')], 'tf_timeout': 0.5, 'publish_region': True},
+        )
+        NodeClient(self.name)
+        printed = self.stop(process)
+        for word in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour'):
+            self.assertIn(word, printed)
+
+    def test_legal_parameters_at_their_limits(self):
+        process = self.start(
+            self.name,
+            {
+                'tools': [dict(TOOL, radius=1)],
+                'picker': 'select',
+                'rate': 0,
+                'organ_motion': False,
+                'motion_sample_sec': 1,
+                'motion_samples_max': 1,
+                'tf_timeout_sec': 0,
+                'mesh_timeout_sec': 0,
+                'max_faces': 32,
+                'publish_regions': True,
+            },
+        )
+        node = NodeClient(self.name)
+        node.send_mesh('sheet', SHEET, rospy.Time(1))  # 32 faces
+        node.wait_for_shape('sheet', rospy.Time(1))
+        self.stop(process)
+
+    def test_a_latched_mesh_waits_for_the_node(self):
+        """The organ is sent once, before the node is there; it comes, dies, and comes again."""
+        latched = rospy.Publisher(self.name + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
+        message = OrganMesh(
+            organ='sheet', topology=3, vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces()
+        )
+        message.header.frame_id = 'liver_frame'
+        message.header.stamp = rospy.Time(1)
+        latched.publish(message)
+        axis = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+        for _ in range(2):
+            process = self.start(self.name, {'tools': [TOOL]})
+            node = NodeClient(self.name)
+            node.wait_for_shape('sheet', rospy.Time(1), topology=3)
+            self.assert_contacts(
+                node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(SHEET, axis, 0.005)
+            )
+            self.stop(process)
+
+    def test_a_node_without_any_mesh_says_so(self):
+        process = self.start(self.name, {'tools': [TOOL]})
+        node = NodeClient(self.name)
+        motion = shaft((0.0, 0.0, 0.1), (0.0, 0.0, 0.0), 0.005)
+        for result in [node.query('liver', motion), node.query('liver', tool='grasper')]:
+            self.assertIn(result.status, (ContactArray.NO_MESH, ContactArray.UNKNOWN_ORGAN))
+            self.assertEqual(result.contacts, [])
+            self.assertIn('liver', result.message)
+        self.stop(process)
+
+
+if __name__ == '__main__':
+    rospy.init_node('start_test')
+    rostest.rosrun('organ_collision', 'start', StartTest, sys.argv)

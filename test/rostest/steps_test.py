@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""What is published from step to step: `contacts` of organs and tools that move."""
+
+import sys
+
+from organ_collision.msg import ContactArray
+import rospy
+import rostest
+from visualization_msgs.msg import MarkerArray
+
+from node_client import wait_until
+import oracle
+import scenes
+from tool_case import ToolCase
+
+STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
+SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
+ABOVE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.05))
+BELOW = ((0.02, -0.03, 0.3), (0.004, -0.003, -0.04))
+ASIDE = ((0.3, 0.3, 0.3), (0.25, 0.3, 0.2))
+GRASPER, HOOK = 0.005, 0.003
+
+
+class StepsTest(ToolCase):
+    def test_a_stab_through_a_sheet(self):
+        """Static first; then one swept step through; then past it and clear of it."""
+        first = self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})['grasper']
+        self.assert_contacts(first, [])
+        self.assertEqual(
+            (first.mode, first.step_start, first.header.stamp), (STATIC, self.stamp, self.stamp)
+        )
+        begin = self.stamp
+        second = self.step(SHEET, {'grasper': BELOW, 'hook': ASIDE}, vertices=True)['grasper']
+        expected = oracle.swept_contacts(SHEET, ABOVE, BELOW, GRASPER)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(second, expected, 1e-6)
+        self.assertEqual(
+            (second.mode, second.step_start, second.header.stamp, second.mesh_stamp),
+            (SWEPT, begin, self.stamp, self.stamp),
+        )
+        self.assertEqual(
+            (second.header.frame_id, second.organ, second.topology, second.tool),
+            ('liver_frame', self.organ, 1, 'grasper'),
+        )
+        self.assertEqual(second.links, [''])
+        self.assert_regions_lie_on_faces(second, SHEET)
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE}, vertices=True)
+        clear = self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE}, vertices=True)['grasper']
+        self.assert_contacts(clear, [])
+
+    def test_the_first_step_is_static_though_the_tool_moved_before(self):
+        self.place('grasper', (ABOVE, self.next_stamp()))
+        first = self.step(SHEET, {'grasper': BELOW, 'hook': ASIDE})['grasper']
+        self.assertEqual(first.mode, STATIC)
+        self.assert_contacts(first, oracle.static_contacts(SHEET, BELOW, GRASPER))
+
+    def test_two_organs_and_two_tools(self):
+        """Each pair has its own step; only the organ that changed is evaluated."""
+        plate, name = scenes.one_face(-0.02), self.organ
+        axes = {
+            'grasper': [ABOVE, BELOW],
+            'hook': [
+                ((0.1, 0.01, 0.2), (0.01, 0.01, 0.03)),
+                ((0.1, 0.01, 0.2), (0.0, 0.03, -0.06)),
+            ],
+        }
+        radius = {'grasper': GRASPER, 'hook': HOOK}
+        for self.organ, mesh in ((name + '_sheet', SHEET), (name + '_plate', plate)):
+            for tool, result in self.step(mesh, {t: a[0] for t, a in axes.items()}).items():
+                self.assertEqual(result.mode, STATIC)
+                self.assert_contacts(
+                    result, oracle.static_contacts(mesh, axes[tool][0], radius[tool])
+                )
+        touched = 0
+        for self.organ, mesh in ((name + '_sheet', SHEET), (name + '_plate', plate)):
+            for tool, result in self.step(mesh, {t: a[1] for t, a in axes.items()}).items():
+                expected = oracle.swept_contacts(mesh, *axes[tool], radius[tool])
+                self.assert_contacts(result, expected, 1e-6)
+                touched += len(expected) > 0
+        self.assertEqual(touched, 4)
+        for tool in axes:
+            for organ in ('_sheet', '_plate'):
+                self.assertEqual(len(self.node.contacts.of(name + organ, tool)), 2)
+
+    def test_tissue_swings_through_a_resting_tool(self):
+        """Shape after shape, each by the oracle; also one by OrganMesh with the same triangles."""
+        axis = ((-0.3, 0.02, 0.021), (0.013, 0.011, 0.014))
+        heights = [0.05, -0.03, 0.012, 0.06]
+        shapes = [SHEET.moved(lambda v: (v[0], v[1], v[2] + h + h * v[1])) for h in heights]
+        tools = {'grasper': axis, 'hook': ASIDE}
+        result = self.step(shapes[0], tools)['grasper']
+        self.assert_contacts(result, oracle.static_contacts(shapes[0], axis, GRASPER))
+        touched = []
+        for i in range(1, 4):
+            result = self.step(shapes[i], tools, vertices=i != 2)['grasper']
+            expected = oracle.contacts(shapes[i], shapes[i - 1], (axis, axis), GRASPER)
+            self.assert_contacts(result, expected, 1e-6)
+            touched.append(len(expected))
+        self.assertGreater(min(touched), 0)
+
+    def test_organ_and_tool_move_in_one_step(self):
+        low = SHEET.moved(lambda v: (v[0] + 0.01, v[1], v[2] - 0.03 + 0.3 * v[1]))
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
+        result = self.step(low, {'grasper': BELOW, 'hook': ASIDE}, vertices=True)['grasper']
+        expected = oracle.contacts(low, SHEET, (ABOVE, BELOW), GRASPER)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected, 1e-6)
+
+    def test_cut_tissue_rests_while_the_tool_is_swept(self):
+        """A new topology has no earlier shape; the tool keeps its earlier pose."""
+        cut = scenes.Mesh(scenes.sheet(0.1, 3, -0.005).vertices, scenes.sheet(0.1, 3).faces[2:])
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
+        result = self.step(cut, {'grasper': BELOW, 'hook': ASIDE}, topology=2)['grasper']
+        self.assertEqual((result.mode, result.topology), (SWEPT, 2))
+        expected = oracle.swept_contacts(cut, ABOVE, BELOW, GRASPER)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected, 1e-6)
+        lifted = cut.moved(lambda v: (v[0], v[1], v[2] + 0.2))
+        result = self.step(lifted, {'grasper': BELOW, 'hook': ASIDE}, topology=2, vertices=True)[
+            'grasper'
+        ]
+        expected = oracle.contacts(lifted, cut, (BELOW, BELOW), GRASPER)
+        self.assert_contacts(result, expected, 1e-6)
+
+    def test_reset_makes_the_next_step_static(self):
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
+        self.node.reset()
+        result = self.step(SHEET, {'grasper': BELOW, 'hook': ASIDE}, vertices=True)['grasper']
+        self.assertEqual((result.mode, result.step_start), (STATIC, result.header.stamp))
+        self.assert_contacts(result, oracle.static_contacts(SHEET, BELOW, GRASPER))
+        result = self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE}, vertices=True)['grasper']
+        self.assertEqual(result.mode, SWEPT)
+
+    def test_an_organ_is_removed_and_comes_back_without_history(self):
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
+        self.node.remove(self.organ)
+        shape = scenes.tetrahedron()
+        result = self.step(shape, {'grasper': BELOW, 'hook': ASIDE})['grasper']
+        self.assertEqual(result.mode, STATIC)
+        self.assert_contacts(result, oracle.static_contacts(shape, BELOW, GRASPER))
+
+    def test_a_mesh_without_stamp_takes_the_latest_transforms(self):
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
+        inside = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.002))
+        self.place('grasper', (inside, self.next_stamp()))
+        wait_until(
+            lambda: self.node.query(self.organ, tool='grasper').contacts, 'the tip in the sheet'
+        )
+        self.node.send_mesh(self.organ + '_2', SHEET)
+        result = self.node.contacts.wait_for(self.organ + '_2', 'grasper')
+        self.assertEqual(result.mode, STATIC)
+        self.assert_contacts(result, oracle.static_contacts(SHEET, inside, GRASPER))
+
+    def test_markers_are_shown_in_a_frame_of_tf(self):
+        markers = []
+        topic = rospy.Subscriber('/organ_collision/markers', MarkerArray, markers.append)
+        wait_until(lambda: topic.get_num_connections() > 0, 'the markers topic')
+        inside = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.002))
+        self.step(SHEET, {'grasper': inside, 'hook': ASIDE})
+        wait_until(
+            lambda: any(m.points for array in markers for m in array.markers),
+            'markers of touched faces',
+        )
+        for array in markers:
+            for marker in array.markers:
+                self.assertIn(marker.header.frame_id, ('liver_frame', 'world'))
+
+
+if __name__ == '__main__':
+    rospy.init_node('steps_test')
+    rostest.rosrun('organ_collision', 'steps', StepsTest, sys.argv)

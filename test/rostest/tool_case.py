@@ -1,0 +1,53 @@
+"""A test with tools that move by TF. Its points are in the organ's frame, which is turned and far
+off in the world; trocars and tips are sent in the world's."""
+
+import rospy
+
+from contact_case import ContactCase
+from node_client import NodeClient, TfSender, wait_until
+import scenes
+
+WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
+STEP = rospy.Duration(0, 10**7)
+
+
+class ToolCase(ContactCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.node = NodeClient()
+        cls.tf = TfSender()
+        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.send_resting(('world', 'liver_frame', WORLD_LIVER))
+        cls.stamp = rospy.Time.now()
+
+    def setUp(self):
+        self.organ = self.id().split('.')[-1]
+
+    @classmethod
+    def next_stamp(cls, step=STEP):
+        """Stamps only rise, from test to test, by one step of 10 ms."""
+        cls.stamp += step
+        return cls.stamp
+
+    def place(self, tool, *way):
+        """The tool's trocar and tip, in the organ's frame: a way of (axis, stamp)."""
+        turn = (0.1, 0.2, 0.3, 0.9)
+        self.tf.send(
+            *[
+                ('world', tool + end, scenes.Pose(turn, WORLD_LIVER.apply(point)), stamp)
+                for axis, stamp in way
+                for end, point in zip(('_trocar', '_tip'), axis)
+            ]
+        )
+
+    def step(self, shape, tools, topology=1, vertices=False, step=STEP):
+        """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns
+        {name: what the node published of it}."""
+        stamp = self.next_stamp(step)
+        for tool, axis in tools.items():
+            self.place(tool, (axis, stamp))
+        send = self.node.send_vertices if vertices else self.node.send_mesh
+        send(self.organ, shape, stamp, topology)
+        return {
+            tool: self.node.contacts.wait_for(self.organ, tool, mesh_stamp=stamp) for tool in tools
+        }

@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""Transforms that come late, never or in between, and meshes that come late."""
+
+import sys
+import time
+
+from organ_collision.msg import ContactArray
+import rospy
+import rostest
+
+from contact_case import faces_of
+import oracle
+import scenes
+from tool_case import STEP, ToolCase
+
+STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
+SHEET = scenes.sheet(0.1, 4)
+TROCAR = (0.013, 0.007, 0.4)
+RADIUS = 0.005
+
+
+def at_height(height):
+    """The tool straight above (0.013, 0.007), its tip at this height."""
+    return (TROCAR, (TROCAR[0], TROCAR[1], height))
+
+
+class TransformsTest(ToolCase):
+    def test_late_mesh_finds_the_tool_at_its_last_pose(self):
+        """A mesh stamped before the last evaluation: the tool is held, the tissue moves."""
+        early = self.next_stamp()
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        last = self.stamp
+        self.place('grasper', (at_height(-0.1), self.next_stamp()))
+        raised = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.052))
+        self.node.send_vertices(self.organ, raised, early)
+        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=early)
+        axis = at_height(0.05)
+        expected = oracle.contacts(raised, SHEET, (axis, axis), RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected, 1e-6)
+        # The next mesh in time sweeps on from there.
+        self.assertLess(last, self.stamp)
+        result = self.step(raised, {'grasper': at_height(0.02)}, vertices=True)['grasper']
+        self.assertEqual(result.mode, SWEPT)
+        self.assertIn(faces_of(result)[0], [c.face for c in expected])
+
+    def test_a_gap_in_tf_is_published_and_then_swept_across(self):
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        begin = self.stamp
+        gap = self.next_stamp()
+        self.node.send_vertices(self.organ, SHEET, gap)
+        missing = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=gap)
+        self.assertEqual(missing.status, ContactArray.NO_TRANSFORM)
+        self.assertEqual(missing.contacts, [])
+        self.assertIn('grasper_t', missing.message)
+        result = self.step(SHEET, {'grasper': at_height(-0.05)}, vertices=True)['grasper']
+        self.assertEqual((result.mode, result.step_start), (SWEPT, begin))
+        self.assert_contacts(
+            result, oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS), 1e-6
+        )
+        self.assertGreater(len(result.contacts), 0)
+
+    def test_tissue_that_moved_during_the_gap_is_swept_as_well(self):
+        """The shape of the last evaluation that succeeded is where the step begins."""
+        low = SHEET.moved(lambda v: (v[0], v[1], v[2] - 0.08))
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        gap = self.next_stamp()
+        self.node.send_vertices(self.organ, low, gap)
+        missing = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=gap)
+        self.assertEqual(missing.status, ContactArray.NO_TRANSFORM)
+        high = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.08))
+        result = self.step(high, {'grasper': at_height(0.05)}, vertices=True)['grasper']
+        axis = at_height(0.05)
+        expected = oracle.contacts(high, SHEET, (axis, axis), RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected, 1e-6)
+
+    def test_a_transform_that_lags_is_awaited(self):
+        """The mesh comes 0.2 s before the transform of its stamp, and is evaluated when that is
+        there: neither without it, nor only after the time limit of a second."""
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        stamp = self.next_stamp()
+        self.node.send_vertices(self.organ, SHEET, stamp)
+        time.sleep(0.2)
+        self.assertEqual(self.node.contacts.of(self.organ, mesh_stamp=stamp), [])
+        sent = time.monotonic()
+        self.place('grasper', (at_height(0.003), stamp))
+        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+        self.assertLess(time.monotonic() - sent, 0.6)
+        self.assert_contacts(
+            result, oracle.swept_contacts(SHEET, at_height(0.05), at_height(0.003), RADIUS), 1e-6
+        )
+
+    def test_services_answer_while_a_transform_is_awaited(self):
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        self.node.send_vertices(self.organ, SHEET, self.next_stamp())
+        begin = time.monotonic()
+        for _ in range(20):
+            self.assertEqual(self.node.query(self.organ, tool='grasper').status, ContactArray.OK)
+        self.assertLess(time.monotonic() - begin, 0.6)
+        self.place('grasper', (at_height(0.05), self.stamp))
+
+    def test_through_the_sheet_and_back_between_two_meshes(self):
+        """Only the poses in between touch: above at both ends of the step."""
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        middle, end = self.stamp + STEP, self.stamp + STEP + STEP
+        self.place('grasper', (at_height(-0.05), middle))
+        result = self.step(
+            SHEET, {'grasper': at_height(0.05)}, vertices=True, step=end - self.stamp
+        )
+        self.check_there_and_back(result['grasper'])
+
+    def check_there_and_back(self, result):
+        way_down = oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS)
+        self.assert_ok(result)
+        self.assertEqual(result.mode, SWEPT)
+        self.assertEqual(faces_of(result), [c.face for c in way_down])
+        self.assertGreater(len(way_down), 0)
+        for found, right in zip(result.contacts, way_down):
+            # The way down is the first half of the step; the tip ends 0.05 m above the sheet.
+            self.assertAlmostEqual(found.fraction, right.fraction / 2, delta=2e-3)
+            self.assertLess(found.depth, 0)
+            self.assertFalse(found.behind)
+
+    def test_a_long_step_is_not_cut_short(self):
+        """A second between two meshes holds more samples than motion_samples_max: the stab in its
+        midst is found all the same."""
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        begin = self.stamp
+        heights = [0.05 - 0.1 * max(0.0, 1 - abs(i - 50) / 10) for i in range(100)]
+        self.place(
+            'grasper',
+            *[
+                (at_height(height), begin + rospy.Duration(0, i * 10**7))
+                for i, height in enumerate(heights)
+            ]
+        )
+        result = self.step(
+            SHEET, {'grasper': at_height(0.05)}, vertices=True, step=rospy.Duration(1)
+        )['grasper']
+        expected = oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS)
+        self.assertEqual(faces_of(result), [c.face for c in expected])
+        for found, right in zip(result.contacts, expected):
+            self.assertAlmostEqual(found.fraction, 0.4 + 0.1 * right.fraction, delta=0.02)
+
+    def test_around_the_sheet_without_a_touch(self):
+        """The straight way from start to end would pierce; the way taken goes around the edge."""
+        way = [(0.013, 0.007, 0.05), (0.2, 0.007, 0.05), (0.2, 0.007, -0.05), (0.013, 0.007, -0.05)]
+        axes = [((0.25, 0.007, p[2]), p) for p in way]
+        self.step(SHEET, {'grasper': axes[0]})
+        begin = self.stamp
+        self.place('grasper', *[(axes[i], begin + rospy.Duration(0, i * 10**7)) for i in (1, 2)])
+        result = self.step(
+            SHEET, {'grasper': axes[3]}, vertices=True, step=rospy.Duration(0, 3 * 10**7)
+        )['grasper']
+        self.assert_contacts(result, [])
+        self.assertGreater(len(oracle.swept_contacts(SHEET, axes[0], axes[3], RADIUS)), 0)
+
+    def test_frames_that_are_not_connected(self):
+        """The organ's frame hangs on no tree: no answer, which is not an empty one."""
+        message = self.node.mesh_message(self.organ, SHEET, self.next_stamp())
+        message.header.frame_id = 'adrift'
+        self.node.meshes.publish(message)
+        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp)
+        self.assertEqual((result.status, result.contacts), (ContactArray.NO_TRANSFORM, []))
+        self.assertIn('adrift', result.message)
+
+
+if __name__ == '__main__':
+    rospy.init_node('transforms_test')
+    rostest.rosrun('organ_collision', 'transforms', TransformsTest, sys.argv)
