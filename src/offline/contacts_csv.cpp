@@ -1,0 +1,36 @@
+#include "contacts_csv.hpp"
+
+#include <cstdio>
+
+namespace organ_collision {
+namespace {
+
+void append_number(double number, std::string& csv) {
+  char text[32];
+  csv.append(text, std::snprintf(text, sizeof text, ",%.17g", number));
+}
+
+bool is_exact(QueryMode mode) { return mode == QueryMode::kStatic || mode == QueryMode::kSwept; }
+
+}  // namespace
+
+std::string contacts_header() {
+  return "query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z\n";
+}
+
+void append_contacts(const Motion& motion, const CollisionResult& result, std::string& csv) {
+  for (const FaceContact& contact : result.contacts) {
+    csv += motion.query + ',' + std::to_string(contact.face);
+    if (is_exact(motion.mode)) {
+      append_number(contact.fraction, csv);
+      append_number(contact.depth, csv);
+      for (const double x : contact.point) append_number(x, csv);
+      for (const double x : contact.normal) append_number(x, csv);
+    } else {
+      csv += ",,,,,,,,";
+    }
+    csv += '\n';
+  }
+}
+
+}  // namespace organ_collision

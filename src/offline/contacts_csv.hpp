@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "motions_reader.hpp"
+#include "organ_collision/query/collision_query.hpp"
+
+namespace organ_collision {
+
+/// The header line of the contacts, with its line end.
+std::string contacts_header();
+
+/// Appends a line for each contact of a motion: the query, the face, and for the exact modes what
+/// the contact is, with 17 significant digits; the paper's modes leave those columns empty.
+void append_contacts(const Motion& motion, const CollisionResult& result, std::string& csv);
+
+}  // namespace organ_collision

@@ -1,0 +1,138 @@
+#include "obj_reader.hpp"
+
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "text_reader.hpp"
+
+namespace organ_collision {
+namespace {
+
+class ObjReader {
+ public:
+  explicit ObjReader(const std::string& file) : file_(file), text_(file) {}
+
+  ObjMesh read() {
+    while (text_.next()) {
+      const std::vector<std::string_view> words = split_words(without_comment(text_.line()));
+      if (words.empty()) continue;
+      if (words[0] == "v") read_vertex(words);
+      if (words[0] == "f") read_polygon(words);
+    }
+    if (lines_.empty()) {
+      throw text_.error("the file ends without an f line; a mesh in OBJ format has at least one");
+    }
+    check_indices();
+    try {
+      return {TriangleMesh(vertices_, triangles_), file_, std::move(lines_), text_.number()};
+    } catch (const MeshError& error) {
+      throw InputError(file_ + ": " + error.what());
+    }
+  }
+
+ private:
+  static std::string_view without_comment(std::string_view line) {
+    return line.substr(0, line.find('#'));
+  }
+
+  /// More than three coordinates are a weight or a colour.
+  void read_vertex(const std::vector<std::string_view>& words) {
+    if (words.size() < 4) {
+      throw text_.error("a vertex with " + std::to_string(words.size() - 1) +
+                        " coordinates; must have x, y and z");
+    }
+    for (std::size_t i = 1; i <= 3; ++i) {
+      const std::string axis(1, "xyz"[i - 1]);
+      const std::optional<double> number = parse_number(words[i]);
+      if (!number) throw text_.error(axis + " is " + in_quotes(words[i]) + "; must be a number");
+      const auto rounded = static_cast<float>(*number);
+      if (!std::isfinite(rounded)) {
+        throw text_.error(axis + " is " + in_quotes(words[i]) +
+                          "; must be finite as a 32-bit float (below 3.4e38)");
+      }
+      vertices_.push_back(rounded);
+    }
+  }
+
+  void read_polygon(const std::vector<std::string_view>& words) {
+    if (words.size() < 4) {
+      throw text_.error("a face with " + std::to_string(words.size() - 1) +
+                        " corners; must have at least 3");
+    }
+    polygon_.clear();
+    for (std::size_t i = 1; i < words.size(); ++i) polygon_.push_back(corner(words[i]));
+    for (std::size_t i = 2; i < polygon_.size(); ++i) {
+      triangles_.insert(triangles_.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
+      lines_.push_back(text_.number());
+    }
+  }
+
+  /// The vertex, from 0, of "v", "v/vt", "v//vn" or "v/vt/vn". It may still be to come.
+  std::uint32_t corner(std::string_view word) const {
+    const std::optional<long long> number = parse_integer(word.substr(0, word.find('/')));
+    if (!number) {
+      throw text_.error("corner " + in_quotes(word) +
+                        " does not begin with the number of a vertex");
+    }
+    const auto so_far = static_cast<long long>(vertices_.size() / 3);
+    const long long index = *number < 0 ? so_far + *number : *number - 1;
+    if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
+      throw text_.error("a face refers to vertex " + std::to_string(*number) +
+                        "; legal are numbers from 1, or from -1 to -" + std::to_string(so_far) +
+                        " counted back");
+    }
+    return static_cast<std::uint32_t>(index);
+  }
+
+  void check_indices() const {
+    const std::size_t count = vertices_.size() / 3;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+      if (triangles_[i] < count) continue;
+      throw InputError(file_, lines_[i / 3],
+                       "a face refers to vertex " + std::to_string(triangles_[i] + 1ULL) +
+                           "; the file has " + std::to_string(count) + ", counted from 1");
+    }
+  }
+
+  std::string file_;
+  TextReader text_;
+  std::vector<float> vertices_;
+  std::vector<std::uint32_t> triangles_;
+  std::vector<std::size_t> lines_;
+  std::vector<std::uint32_t> polygon_;
+};
+
+/// Vertices as the file counts them.
+std::string describe(const FaceIndices& face) {
+  std::ostringstream text;
+  text << face[0] + 1 << ' ' << face[1] + 1 << ' ' << face[2] + 1;
+  return text.str();
+}
+
+}  // namespace
+
+ObjMesh read_obj(const std::string& file) { return ObjReader(file).read(); }
+
+void check_same_faces(const ObjMesh& before, const ObjMesh& mesh) {
+  const auto counts = [](const ObjMesh& obj) {
+    return std::to_string(obj.mesh.vertex_count()) + " vertices and " +
+           std::to_string(obj.mesh.face_count()) + " faces";
+  };
+  if (counts(before) != counts(mesh)) {
+    throw InputError(
+        before.file, before.line_count,
+        "the file ends with " + counts(before) + "; " + mesh.file + " has " + counts(mesh));
+  }
+  for (std::size_t face = 0; face < mesh.mesh.face_count(); ++face) {
+    if (before.mesh.faces()[face] == mesh.mesh.faces()[face]) continue;
+    throw InputError(before.file, before.face_lines[face],
+                     "face " + std::to_string(face) + " has the vertices " +
+                         describe(before.mesh.faces()[face]) + "; in " + mesh.file + " they are " +
+                         describe(mesh.mesh.faces()[face]));
+  }
+}
+
+}  // namespace organ_collision

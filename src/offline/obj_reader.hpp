@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "organ_collision/geometry/triangle_mesh.hpp"
+
+namespace organ_collision {
+
+/// The mesh of a Wavefront OBJ file, and where in the file its faces stand.
+struct ObjMesh {
+  TriangleMesh mesh;
+  std::string file;
+  std::vector<std::size_t> face_lines;  ///< line of each face, from 1
+  std::size_t line_count;
+};
+
+/// Reads the `v` and `f` lines of an OBJ file and ignores all others. Faces are numbered as the
+/// file's `f` lines; a polygon of n corners is cut into a fan around its first one and counts as
+/// n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be negative (counted back
+/// from the last vertex so far) and may carry texture and normal indices, which are ignored. Throws
+/// InputError for a file that is missing or no legal mesh.
+ObjMesh read_obj(const std::string& file);
+
+/// Throws InputError naming the first difference unless `before` has the faces of `mesh`, and as
+/// many vertices: only then can one be the other's earlier shape.
+void check_same_faces(const ObjMesh& before, const ObjMesh& mesh);
+
+}  // namespace organ_collision

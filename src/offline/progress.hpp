@@ -1,0 +1,22 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+
+namespace organ_collision {
+
+/// Says on stderr, once a second, how many motions are done: nothing in a run of less than that.
+class Progress {
+ public:
+  explicit Progress(std::size_t total) : total_(total) {}
+
+  void report(std::size_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::size_t total_;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace organ_collision

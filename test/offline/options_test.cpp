@@ -1,0 +1,67 @@
+#include "options.hpp"
+
+#include <gtest/gtest.h>
+
+#include "temporary_file.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+TEST(Options, takes_the_mesh_and_the_motions) {
+  const Options options = parse_options({"--motions", "m.csv", "--mesh", "a=b.obj"});
+  EXPECT_EQ(options.mesh, "a=b.obj");
+  EXPECT_EQ(options.motions, "m.csv");
+  EXPECT_EQ(options.mesh_before, "");
+  EXPECT_EQ(options.picker, PickerKind::kFeedback);
+  EXPECT_FALSE(options.help);
+}
+
+TEST(Options, takes_the_earlier_mesh_and_the_picker) {
+  const Options options = parse_options(
+      {"--mesh=a.obj", "--picker=select", "--mesh-before=old=er.obj", "--motions=m.csv"});
+  EXPECT_EQ(options.mesh, "a.obj");
+  EXPECT_EQ(options.mesh_before, "old=er.obj");
+  EXPECT_EQ(options.picker, PickerKind::kSelect);
+}
+
+TEST(Options, needs_nothing_else_for_help) {
+  EXPECT_TRUE(parse_options({"--help"}).help);
+  EXPECT_TRUE(parse_options({"--mesh", "a.obj", "-h"}).help);
+  for (const char* name : {"--mesh ", "--motions ", "--mesh-before ", "--picker ", "--help "}) {
+    EXPECT_NE(usage().find(name), std::string::npos) << name;
+  }
+}
+
+TEST(Options, refuses_what_it_cannot_use) {
+  const Arguments good{"--mesh", "a.obj", "--motions", "m.csv"};
+  const auto refusal = [&](const Arguments& more, bool after_good = true) {
+    Arguments arguments = after_good ? good : Arguments();
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return input_error([&] { parse_options(arguments); });
+  };
+  const std::string legal =
+      "; legal are --mesh, --motions, --mesh-before, --picker and --help (--help explains)";
+  EXPECT_EQ(refusal({"--mseh", "b.obj"}), "query_offline: unknown option \"--mseh\"" + legal);
+  EXPECT_EQ(refusal({"b.obj"}), "query_offline: unknown option \"b.obj\"" + legal);
+  EXPECT_EQ(refusal({""}), "query_offline: unknown option \"\"" + legal);
+  EXPECT_EQ(refusal({"--mesh", "b.obj"}),
+            "query_offline: option --mesh is given twice (--help explains)");
+  EXPECT_EQ(refusal({"--picker"}), "query_offline: option --picker has no value (--help explains)");
+  EXPECT_EQ(refusal({"--picker="}),
+            "query_offline: option --picker has no value (--help explains)");
+  EXPECT_EQ(refusal({"--mesh", "--motions", "m.csv"}, false),
+            "query_offline: option --mesh has no value (--help explains)");
+  EXPECT_EQ(refusal({"--mesh", "a.obj"}, false),
+            "query_offline: option --motions is missing (--help explains)");
+  EXPECT_EQ(refusal({}, false), "query_offline: option --mesh is missing (--help explains)");
+
+  const std::string picker = refusal({"--picker", "best"});
+  for (const char* word : {"best", "feedback", "select"}) {
+    EXPECT_NE(picker.find(word), std::string::npos) << picker;
+  }
+}
+
+}  // namespace
+}  // namespace organ_collision
