@@ -135,7 +135,7 @@ ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin) {
   const Ends ends(motion);
   const double thick = radius + margin.motion;
-  const double extent = std::max(margin.extent, ends.extent());
+  const double extent = std::max(margin.extent, ends.extent() + thick);
   if (const auto volume = wedge(ends, thick, extent)) return *volume;
   return cut_box(ends, thick, extent);
 }

@@ -1,33 +1,10 @@
 #include "draw_list.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace organ_collision {
 namespace {
-
-// The half-spaces of a volume, ready to test many points.
-class Outcode {
- public:
-  explicit Outcode(const ViewingVolume& volume)
-      : origin_(volume.origin()), count_(volume.half_space_count()) {
-    for (std::size_t i = 0; i < count_; ++i) half_spaces_[i] = volume.half_space(i);
-  }
-
-  // One bit for each half-space that `point`, in the organ's frame, is outside of.
-  std::uint32_t operator()(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3d shifted = point - origin_;
-    std::uint32_t code = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      code |= std::uint32_t{half_spaces_[i].normal.dot(shifted) > half_spaces_[i].offset} << i;
-    }
-    return code;
-  }
-
- private:
-  Eigen::Vector3d origin_;
-  std::size_t count_;
-  std::array<HalfSpace, 6 + ViewingVolume::kMaxUserPlanes> half_spaces_;
-};
 
 Triangle shifted(const Triangle& face, const Eigen::Vector3d& origin) {
   return {face[0] - origin, face[1] - origin, face[2] - origin};
@@ -40,16 +17,39 @@ std::uint32_t face_number(float lower, float upper) {
 }
 
 void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
-  const Outcode outcode(volume);
-  outcodes_.resize(mesh.vertex_count());
-  for (std::size_t i = 0; i < outcodes_.size(); ++i) outcodes_[i] = outcode(mesh.vertex(i));
-
-  vertices_.clear();
-  for (std::uint32_t i = 0; i < mesh.face_count(); ++i) {
-    const FaceIndices& face = mesh.faces()[i];
-    if ((outcodes_[face[0]] & outcodes_[face[1]] & outcodes_[face[2]]) != 0) continue;
-    add(shifted(mesh.triangle(i), volume.origin()), i);
+  half_spaces_.clear();
+  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+    half_spaces_.push_back(volume.half_space(i));
   }
+  vertices_.clear();
+  mesh.cluster_boxes().find_meeting(half_spaces_, volume.origin(), clusters_);
+  for (const std::uint32_t cluster : clusters_) {
+    keep_crossing(mesh.cluster_boxes().box(cluster).cast<double>(), volume.origin());
+    for (const std::uint32_t number : mesh.clusters().faces(cluster)) {
+      const Triangle face = shifted(mesh.triangle(number), volume.origin());
+      if (!is_outside(face)) add(face, number);
+    }
+  }
+}
+
+// The half-spaces that do not hold the whole box; the others cannot reject a face in it.
+void DrawList::keep_crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin) {
+  crossing_.clear();
+  const Eigen::Vector3d low = box.min() - origin, high = box.max() - origin;
+  for (const HalfSpace& half_space : half_spaces_) {
+    const Eigen::Vector3d& normal = half_space.normal;
+    const double farthest = normal.cwiseProduct(low).cwiseMax(normal.cwiseProduct(high)).sum();
+    if (!(farthest < half_space.offset)) crossing_.push_back(half_space);
+  }
+}
+
+// Whether all three corners are outside of one half-space.
+bool DrawList::is_outside(const Triangle& face) const {
+  return std::any_of(crossing_.begin(), crossing_.end(), [&](const HalfSpace& half_space) {
+    return half_space.normal.dot(face[0]) > half_space.offset &&
+           half_space.normal.dot(face[1]) > half_space.offset &&
+           half_space.normal.dot(face[2]) > half_space.offset;
+  });
 }
 
 void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh,

@@ -22,8 +22,8 @@ std::uint32_t face_number(float lower, float upper);
 /// Faces as GL is to draw them, in the order in which they were added. Keeps its memory.
 class DrawList {
  public:
-  /// Replaces the list by the faces of `mesh`, by rising number, but for those whose three corners
-  /// are all outside of one half-space of `volume`.
+  /// Replaces the list by the faces of `mesh`, cluster by cluster, but for clusters whose boxes do
+  /// not meet `volume`, and faces whose three corners are all outside of one of its half-spaces.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
 
   /// Replaces the list by `faces`; they are numbered by their place in it.
@@ -33,10 +33,14 @@ class DrawList {
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
 
  private:
+  void keep_crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin);
+  bool is_outside(const Triangle& face) const;
   void add(const Triangle& face, std::uint32_t number);
 
   std::vector<DrawVertex> vertices_;
-  std::vector<std::uint32_t> outcodes_;
+  std::vector<HalfSpace> half_spaces_;
+  std::vector<HalfSpace> crossing_;
+  std::vector<std::uint32_t> clusters_;
 };
 
 }  // namespace organ_collision

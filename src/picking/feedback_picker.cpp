@@ -21,6 +21,8 @@ void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
     candidate.view_min = std::min(candidate.view_min, depth);
     candidate.view_max = std::max(candidate.view_max, depth);
   });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
 }
 
 }  // namespace organ_collision

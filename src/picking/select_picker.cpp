@@ -11,8 +11,30 @@ namespace {
 // A hit record under a single name: how many names, depth range, name.
 constexpr std::size_t kRecord = 4;
 
-// What GL multiplies window depths in [0, 1] by.
-constexpr double kDepthScale = std::numeric_limits<std::uint32_t>::max();
+// Window depths of the near and the far plane. Mesa's conversion of depths to 32-bit integers wraps
+// around where rounding leaves them outside of [0, 1], or at 1.
+constexpr double kNearDepth = 0.25;
+constexpr double kFarDepth = 0.75;
+
+// Keeps window depths off 0 and 1 as long as it lives.
+class ScopedDepthRange {
+ public:
+  explicit ScopedDepthRange(const GlFunctions& gl) : gl_(gl) {
+    gl_.DepthRange(kNearDepth, kFarDepth);
+  }
+  ~ScopedDepthRange() { gl_.DepthRange(0, 1); }
+  ScopedDepthRange(const ScopedDepthRange&) = delete;
+  ScopedDepthRange& operator=(const ScopedDepthRange&) = delete;
+
+ private:
+  const GlFunctions& gl_;
+};
+
+// The window depth that a hit record stands for, in [0, 1] from near to far.
+double window_depth(std::uint32_t recorded) {
+  const double depth = recorded / static_cast<double>(std::numeric_limits<std::uint32_t>::max());
+  return (depth - kNearDepth) / (kFarDepth - kNearDepth);
+}
 
 void draw_named(const GlFunctions& gl, const std::vector<FaceIndices>& faces,
                 const std::vector<Eigen::Vector3f>& vertices) {
@@ -38,6 +60,7 @@ void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
   context_.make_current();
   const GlFunctions& gl = context_.functions();
   const ScopedVolume scoped_volume(gl, volume);
+  const ScopedDepthRange scoped_depth_range(gl);
   GLint hits = -1;
   while (hits < 0) {
     gl.SelectBuffer(static_cast<GLsizei>(buffer_.size()), buffer_.data());
@@ -49,8 +72,8 @@ void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(hits); ++i) {
     const std::uint32_t* record = &buffer_[kRecord * i];
-    candidates.push_back({record[3], volume.view_depth(record[1] / kDepthScale),
-                          volume.view_depth(record[2] / kDepthScale)});
+    candidates.push_back({record[3], volume.view_depth(window_depth(record[1])),
+                          volume.view_depth(window_depth(record[2]))});
   }
 }
 
