@@ -48,7 +48,7 @@ class ProgramCase(unittest.TestCase):
     def contacts(self, *arguments):
         """The rows that the program prints, each a list of its cells; it must succeed."""
         done = self.run_program(*arguments)
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(done.returncode, 0, done.stderr)
         header, *rows = done.stdout.split('\n')[:-1]
         self.assertEqual(header, CONTACTS_HEADER)
         return [row.split(',') for row in rows]
