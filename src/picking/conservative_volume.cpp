@@ -14,13 +14,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// [1] 32-bit clipping misplaces a plane by up to a share of the largest coordinate; measured with
-// faces aimed at the boundary, a quarter of this is too little.
-constexpr double kRounding = 1e-6;
+// How far a volume grows for what 32-bit clipping loses, as shares of the largest coordinate [1].
+struct Rounding {
+  double plane;     ///< every plane is misplaced by up to this
+  double division;  ///< the far plane by this times far / near too, user planes times radius / near
+};
 
-// [1] What the perspective division adds: a share of the largest coordinate times far / near for
-// the far plane, times radius / near for the user planes.
-constexpr double kDivisionRounding = 16.0 / (1 << 24);
+// Measured with faces aimed at the boundary: a quarter of the first is too little.
+constexpr Rounding kCovered{1e-6, 16.0 / (1 << 24)};
+constexpr Rounding kIgnored{0.0, 0.0};
 
 // The perspective camera serves triangles of trocar and tips that are neither too thin nor too skew
 // for it; the box serves all others.
@@ -50,7 +52,8 @@ struct Ends {
 // The wedge of the paper's section 4, its sides moved outward by the radius at right angles, its
 // ends by the radius along the view. None where the triangle does not suit it, or the trocar moves.
 // `extent` [m]: the largest coordinate among motion and drawn faces.
-std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double extent) {
+std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double extent,
+                                   const Rounding& rounding) {
   const double longest = std::max(ends.tip_start.norm(), ends.tip_end.norm());
   const Vector3d step = ends.tip_end - ends.tip_start;
   if (!ends.trocar_end.isZero(0) || step.norm() < kMinStep * longest) return std::nullopt;
@@ -71,16 +74,16 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   // Slanting sides mix more of the depth into what is rounded.
   const double slant = 1 + std::max(std::abs(left), std::abs(right));
   const double reach = std::max(extent, back * radius);
-  const double grown = radius + kRounding * slant * reach;
+  const double grown = radius + rounding.plane * slant * reach;
   const Vector3d eye = -bisector * back * grown;
   const double near = -view.dot(eye) - grown;
   const double end_of_capsule = view.dot(ends.tip_start - eye) + grown;
   if (near < kMinNearShare * end_of_capsule) return std::nullopt;
 
-  const double far = end_of_capsule + kDivisionRounding * reach * end_of_capsule / near;
+  const double far = end_of_capsule + rounding.division * reach * end_of_capsule / near;
   ViewingVolume volume = ViewingVolume::perspective(
       {ends.origin, eye, axes, left * near, right * near, -grown, grown, near, far});
-  const double thickness = grown + kDivisionRounding * reach * grown / near;
+  const double thickness = grown + rounding.division * reach * grown / near;
   volume.add_user_plane({axes.col(1), thickness});
   volume.add_user_plane({-axes.col(1), thickness});
   return volume;
@@ -102,8 +105,8 @@ Eigen::Matrix3d box_axes(const Ends& ends) {
 
 // A box around all positions of the axis, grown by the radius, and cut along the edges that their
 // hull shows from the side, each moved out by the radius.
-ViewingVolume cut_box(const Ends& ends, double radius, double extent) {
-  const double grown = radius + kRounding * extent;
+ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Rounding& rounding) {
+  const double grown = radius + rounding.plane * extent;
   const Eigen::Matrix3d axes = box_axes(ends);
   Eigen::Matrix<double, 3, 4> points;
   points << Vector3d::Zero(), ends.trocar_end, ends.tip_start, ends.tip_end;
@@ -129,15 +132,23 @@ ViewingVolume cut_box(const Ends& ends, double radius, double extent) {
   return volume;
 }
 
+ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double extent,
+                           const Rounding& rounding) {
+  const Ends ends(motion);
+  const double reach = std::max(extent, ends.extent() + radius);
+  if (const auto volume = wedge(ends, radius, reach, rounding)) return *volume;
+  return cut_box(ends, radius, reach, rounding);
+}
+
 }  // namespace
 
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin) {
-  const Ends ends(motion);
-  const double thick = radius + margin.motion;
-  const double extent = std::max(margin.extent, ends.extent() + thick);
-  if (const auto volume = wedge(ends, thick, extent)) return *volume;
-  return cut_box(ends, thick, extent);
+  return swept_volume(motion, radius + margin.motion, margin.extent, kCovered);
+}
+
+ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
+  return swept_volume(motion, radius, 0.0, kIgnored);
 }
 
 }  // namespace organ_collision
