@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "organ_collision/geometry/tolerances.hpp"
@@ -12,114 +13,117 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Place in [0, 1] on the segment from `start` along `direction` nearest to `point`; `if_point`
-/// where the segment has no length.
-double nearest_place(const Vector3d& point, const Vector3d& start, const Vector3d& direction,
-                     double if_point) {
-  const double length2 = direction.squaredNorm();
+Vector3d on(const Triangle& face, const Vector3d& barycentric) {
+  return barycentric[0] * face[0] + barycentric[1] * face[1] + barycentric[2] * face[2];
+}
+
+/// Place in [0, 1] on a segment from the origin nearest to `point`; `if_point` where it has no
+/// length.
+double nearest_place(const Vector3d& point, const Vector3d& segment, double if_point) {
+  const double length2 = segment.squaredNorm();
   if (!(length2 > 0.0)) return if_point;
-  return std::clamp((point - start).dot(direction) / length2, 0.0, 1.0);
+  return std::clamp(point.dot(segment) / length2, 0.0, 1.0);
 }
 
 /// The pairs among which a nearest pair of an axis and a face is: the axis piercing the face, an
 /// end of the axis over the face's inside, an edge crossing the axis, an end of the axis and an
 /// edge, a corner and the axis. Every pair is one of real points, so rounding never makes it too
-/// near.
+/// near. All points are relative to the trocar.
 class NearestPair {
  public:
-  NearestPair(const ShaftAxis& axis, const Triangle& face)
-      : axis_(axis), face_(face), direction_(axis.tip - axis.trocar) {}
+  struct Pair {
+    double shaft;
+    Vector3d barycentric;
+    Vector3d apart;  ///< from the axis to the face
+    double distance2;
+  };
 
-  ClosestPoints find() {
+  NearestPair(const ShaftAxis& axis, const Triangle& face)
+      : axis_(axis.tip - axis.trocar),
+        face_{face[0] - axis.trocar, face[1] - axis.trocar, face[2] - axis.trocar} {
     consider_inside();
-    for (int i = 0; i < 3; ++i) consider_edge(i, (i + 1) % 3);
     for (int i = 0; i < 3; ++i) {
-      const double shaft = nearest_place(face_[i], axis_.trocar, direction_, 1.0);
-      consider(shaft, Vector3d::Unit(i), face_[i]);
+      consider_edge(i, (i + 1) % 3);
+      consider(nearest_place(face_[i], axis_, 1.0), Vector3d::Unit(i), face_[i]);
     }
-    return nearest();
+  }
+
+  /// Of all nearest pairs the one nearest the tip. Nearest pairs of convex shapes are apart by the
+  /// same vector: pairs of only nearly the same distance are no ties, their direction differs.
+  const Pair& nearest() const {
+    const auto begin = pairs_.begin(), end = pairs_.begin() + count_;
+    const auto least = std::min_element(
+        begin, end, [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
+    const Pair* best = least;
+    for (auto pair = begin; pair != end; ++pair) {
+      if (pair->shaft > best->shaft &&
+          (pair->apart - least->apart).squaredNorm() < tolerance::kTie * tolerance::kTie) {
+        best = pair;
+      }
+    }
+    return *best;
   }
 
  private:
   void consider(double shaft, const Vector3d& barycentric, const Vector3d& on_face) {
-    const Vector3d on_axis = shaft == 1.0 ? axis_.tip : axis_.at(shaft);
-    pairs_[count_++] = {(on_face - on_axis).norm(), shaft, barycentric, on_axis, on_face};
+    const Vector3d apart = on_face - shaft * axis_;
+    pairs_[count_++] = {shaft, barycentric, apart, apart.squaredNorm()};
   }
 
   /// Over or through the face's inside; what falls outside is left to the edges.
   void consider_inside() {
     const Vector3d normal = (face_[1] - face_[0]).cross(face_[2] - face_[0]);
     if (!(normal.squaredNorm() > 0.0)) return;
-    const double tip = normal.dot(axis_.tip - face_[0]);
-    const double trocar = normal.dot(axis_.trocar - face_[0]);
-    consider_projection(1.0, axis_.tip, normal);
-    consider_projection(0.0, axis_.trocar, normal);
-    if ((tip < 0.0) != (trocar < 0.0)) {
-      const double shaft = trocar / (trocar - tip);
-      consider_projection(shaft, axis_.at(shaft), normal);
-    }
+    const double tip = normal.dot(axis_ - face_[0]);
+    const double trocar = normal.dot(-face_[0]);
+    consider_projection(1.0, normal);
+    consider_projection(0.0, normal);
+    if ((tip < 0.0) != (trocar < 0.0)) consider_projection(trocar / (trocar - tip), normal);
   }
 
   /// Barycentric coordinates of a point's projection; Ericson, Real-Time Collision Detection, 3.4.
-  void consider_projection(double shaft, const Vector3d& point, const Vector3d& normal) {
+  void consider_projection(double shaft, const Vector3d& normal) {
+    const Vector3d point = shaft * axis_;
     const Vector3d a = face_[0] - point, b = face_[1] - point, c = face_[2] - point;
     const Vector3d areas(normal.dot(b.cross(c)), normal.dot(c.cross(a)), normal.dot(a.cross(b)));
     if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return;
     const Vector3d barycentric = areas / areas.sum();
-    consider(shaft, barycentric, at(barycentric));
+    consider(shaft, barycentric, on(face_, barycentric));
   }
 
   void consider_edge(int from, int to) {
-    const Vector3d& start = face_[from];
-    const Vector3d edge = face_[to] - start;
+    const Vector3d edge = face_[to] - face_[from];
     consider_on_edge(from, to, 1.0, edge);
     consider_on_edge(from, to, 0.0, edge);
     // Where the lines are nearest. Cross products, since the usual determinant of dot products
     // loses half the digits where the lines are nearly parallel.
-    const Vector3d across = direction_.cross(edge);
+    const Vector3d across = axis_.cross(edge);
     const double across2 = across.squaredNorm();
     if (!(across2 > 0.0)) return;
-    const double shaft = (start - axis_.trocar).cross(edge).dot(across) / across2;
+    const double shaft = face_[from].cross(edge).dot(across) / across2;
     if (shaft > 0.0 && shaft < 1.0) consider_on_edge(from, to, shaft, edge);
   }
 
   void consider_on_edge(int from, int to, double shaft, const Vector3d& edge) {
-    const Vector3d on_axis = shaft == 1.0 ? axis_.tip : axis_.at(shaft);
-    const double place = nearest_place(on_axis, face_[from], edge, 0.0);
+    const double place = nearest_place(shaft * axis_ - face_[from], edge, 0.0);
     Vector3d barycentric = Vector3d::Zero();
     barycentric[from] = 1.0 - place;
     barycentric[to] = place;
     consider(shaft, barycentric, face_[from] + place * edge);
   }
 
-  ClosestPoints nearest() const {
-    const auto begin = pairs_.begin(), end = pairs_.begin() + count_;
-    const double least = std::min_element(begin, end, [](const auto& a, const auto& b) {
-                           return a.distance < b.distance;
-                         })->distance;
-    const ClosestPoints* best = nullptr;
-    for (auto pair = begin; pair != end; ++pair) {
-      if (pair->distance > least + tolerance::kTie) continue;
-      if (!best || pair->shaft > best->shaft) best = &*pair;
-    }
-    return *best;
-  }
-
-  Vector3d at(const Vector3d& barycentric) const {
-    return barycentric[0] * face_[0] + barycentric[1] * face_[1] + barycentric[2] * face_[2];
-  }
-
-  const ShaftAxis& axis_;
-  const Triangle& face_;
-  const Vector3d direction_;
-  std::array<ClosestPoints, 15> pairs_;
+  const Vector3d axis_;
+  const Triangle face_;
+  std::array<Pair, 15> pairs_;
   std::size_t count_ = 0;
 };
 
 }  // namespace
 
 ClosestPoints closest_points(const ShaftAxis& axis, const Triangle& face) {
-  return NearestPair(axis, face).find();
+  const NearestPair pairs(axis, face);
+  const auto& [shaft, barycentric, apart, distance2] = pairs.nearest();
+  return {std::sqrt(distance2), shaft, barycentric, axis.at(shaft), on(face, barycentric)};
 }
 
 }  // namespace organ_collision

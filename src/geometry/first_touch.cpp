@@ -19,11 +19,11 @@ struct Instant {
   Vector3d normal;  ///< from the axis to the face; zero where they meet
 
   Instant(double at, const ShaftMotion& shaft, const FaceMotion& motion)
-      : time(at), axis(shaft.at(at)), face(motion.at(at)), closest(closest_points(axis, face)) {
-    normal = closest.distance > 0.0
-                 ? Vector3d((closest.on_face - closest.on_axis) / closest.distance)
-                 : Vector3d::Zero();
-  }
+      : time(at),
+        axis(shaft.at(at)),
+        face(motion.at(at)),
+        closest(closest_points(axis, face)),
+        normal((closest.on_face - closest.on_axis).normalized()) {}
 };
 
 /// First root in (0, 1] of the quadratic with Bernstein coefficients a > 0, b, c; 2 if there is
@@ -41,11 +41,13 @@ double first_root(double a, double b, double c) {
 
 /// The share of the time from `from` to `to` for which a plane that turns linearly from the one
 /// normal to the other surely keeps all corners of the face farther than `radius` from both ends of
-/// the axis; above 1 if it is all of it. A turning normal is never longer than one, so the distance
-/// is at least the corner's height over it.
+/// the axis; above 1 if it is all of it. The distance is at least a corner's height over the plane
+/// divided by the length of the turning normal n, and that length is at most (1 + n²) / 2: a
+/// quadratic in time, as the heights are.
 double clear_share(const Instant& from, const Instant& to, double radius) {
-  const bool turns = to.closest.distance > 0.0 && from.normal.dot(to.normal) > 0.0;
+  const bool turns = from.normal.dot(to.normal) > 0.0;
   const Vector3d& turned = turns ? to.normal : from.normal;
+  const double radius_amid = 0.5 * (1.0 + from.normal.dot(turned)) * radius;
   double share = 2.0;
   for (int corner = 0; corner < 3; ++corner) {
     for (const bool tip : {true, false}) {
@@ -53,12 +55,20 @@ double clear_share(const Instant& from, const Instant& to, double radius) {
       const Vector3d after = to.face[corner] - (tip ? to.axis.tip : to.axis.trocar);
       // No corner is nearer than the nearest points; only rounding can say so.
       const double a = std::max(from.normal.dot(before), from.closest.distance) - radius;
-      const double b = 0.5 * (from.normal.dot(after) + turned.dot(before)) - radius;
+      const double b = 0.5 * (from.normal.dot(after) + turned.dot(before)) - radius_amid;
       const double c = turned.dot(after) - radius;
       share = std::min(share, first_root(a, b, c));
     }
   }
   return share;
+}
+
+/// [m] No point of the axis comes nearer to a point of the face by more than this.
+double farthest_move(const ShaftMotion& shaft, const FaceMotion& face) {
+  double corner = 0.0;
+  for (int i = 0; i < 3; ++i) corner = std::max(corner, (face.end[i] - face.start[i]).norm());
+  return corner + std::max((shaft.end.trocar - shaft.start.trocar).norm(),
+                           (shaft.end.tip - shaft.start.tip).norm());
 }
 
 }  // namespace
@@ -73,20 +83,17 @@ std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion
   constexpr int kMaxSteps = 1000;  // some ten suffice; beyond, motions are too fast for doubles
   Instant now(0.0, shaft, face);
   if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
+  if (now.closest.distance > radius + farthest_move(shaft, face)) return std::nullopt;
   Instant ahead(1.0, shaft, face);
   for (int step = 0; step < kMaxSteps; ++step) {
     const double share = clear_share(now, ahead, radius);
-    if (share > 1.0) {
-      if (ahead.time == 1.0) return std::nullopt;
-      now = ahead;
-      ahead = Instant(1.0, shaft, face);
-      continue;
-    }
     const double length = ahead.time - now.time;
-    now = Instant(now.time + share * length, shaft, face);
+    now = share > 1.0 ? ahead : Instant(now.time + share * length, shaft, face);
     if (now.closest.distance <= radius + tolerance::kTouch)
       return FirstTouch{now.time, now.closest};
-    if (share < 0.5) ahead = Instant(now.time + 0.5 * (ahead.time - now.time), shaft, face);
+    if (now.time == 1.0) return std::nullopt;
+    const double next = now.time + (share > 1.0 ? 2.0 : 0.25) * length;
+    ahead = Instant(std::min(next, 1.0), shaft, face);
   }
   return FirstTouch{now.time, now.closest};  // rather one contact too many
 }
