@@ -1,0 +1,31 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <ros/time.h>
+
+#include <cstdint>
+#include <string>
+
+#include "organ_collision/ros/organ.hpp"
+
+namespace organ_collision {
+
+/// An answer about one organ and one tool, still without contacts; header.stamp and step_start are
+/// `stamp`.
+ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
+                          ros::Time stamp);
+
+/// Frame, topology and mesh stamp of the shape that the answer is about.
+void set_organ(ContactArray& answer, const Organ& organ, const OrganShape& shape);
+
+void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
+
+/// The short name of a status, as failures are counted by.
+std::string reason_of(std::uint8_t status);
+
+/// Whether the shape is older than `timeout_sec`; 0: never.
+bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
+/// Says so, with the age and the limit.
+std::string stale_message(const Organ& organ, ros::Time now, double timeout_sec);
+
+}  // namespace organ_collision

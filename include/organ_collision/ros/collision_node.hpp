@@ -1,0 +1,79 @@
+#pragma once
+
+#include <organ_collision/OrganMesh.h>
+#include <organ_collision/OrganVertices.h>
+#include <organ_collision/QueryCollision.h>
+#include <organ_collision/QueryCollisionBatch.h>
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Empty.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <functional>
+
+#include "organ_collision/ros/diagnostics.hpp"
+#include "organ_collision/ros/evaluator.hpp"
+#include "organ_collision/ros/organ_store.hpp"
+#include "organ_collision/ros/parameters.hpp"
+#include "organ_collision/ros/query_services.hpp"
+#include "organ_collision/ros/step_evaluator.hpp"
+#include "organ_collision/ros/tool_poses.hpp"
+
+namespace organ_collision {
+
+/// The node: wires topics, services, TF and timers to the evaluation. One thread does everything,
+/// through one callback queue: it owns the GL context, there are no locks, and a transform that
+/// arrives wakes what waits for it.
+class CollisionNode {
+ public:
+  /// Throws ParameterError, GlError. The calling thread must be the one that runs it.
+  CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+
+  /// Works until ROS shuts down or `stop` says so.
+  void run(const std::function<bool()>& stop = [] { return false; });
+
+ private:
+  void call_callbacks();
+  void watch_clock();
+  void reset();
+
+  template <typename Message>
+  void on_organ_message(const Message& message);
+  bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
+  bool on_query_batch(QueryCollisionBatch::Request& request,
+                      QueryCollisionBatch::Response& response);
+  bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+
+  void publish(const EvaluatedStep& step);
+  void publish_failure(const std::string& organ, const std_msgs::Header& header,
+                       std::uint8_t status, const std::string& message);
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  LoadedParameters loaded_;
+  NodeCounters counters_;
+
+  tf2_ros::Buffer transforms_;
+  OrganStore organs_;
+  ToolPoses poses_;
+  Evaluator evaluator_;
+  StepEvaluator steps_;
+  QueryServices services_;
+  Diagnostics diagnostics_;
+  diagnostic_updater::Updater updater_;
+
+  ros::Time last_now_;
+  bool tick_is_due_ = false;
+
+  ros::Publisher contacts_;
+  ros::Publisher markers_;
+  tf2_ros::TransformListener transform_listener_;
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> servers_;
+  ros::Timer tick_;
+  ros::WallTimer diagnostic_timer_;
+};
+
+}  // namespace organ_collision

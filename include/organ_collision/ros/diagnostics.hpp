@@ -1,0 +1,49 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <string>
+#include <vector>
+
+#include "organ_collision/ros/evaluator.hpp"
+#include "organ_collision/ros/failure_log.hpp"
+#include "organ_collision/ros/organ_store.hpp"
+#include "organ_collision/ros/parameters.hpp"
+#include "organ_collision/ros/statistics.hpp"
+#include "organ_collision/ros/step_evaluator.hpp"
+
+namespace organ_collision {
+
+/// What the node counts for /diagnostics.
+struct NodeCounters {
+  EventRate meshes{std::chrono::steady_clock::now()};
+  EventRate contacts{std::chrono::steady_clock::now()};
+  FailureLog rejected;  ///< messages that were refused
+  FailureLog failed;    ///< evaluations without answer
+};
+
+/// Says how the node is, for /diagnostics.
+class Diagnostics {
+ public:
+  /// All must outlive it.
+  struct Sources {
+    const NodeParameters& parameters;
+    const std::vector<std::string>& misspelt;
+    const OrganStore& organs;
+    const Evaluator& evaluator;
+    const StepEvaluator& steps;
+    NodeCounters& counters;
+  };
+
+  explicit Diagnostics(const Sources& sources) : sources_(sources) {}
+  void add_to(diagnostic_updater::Updater& updater);
+
+  void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void organs(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void messages(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  Sources sources_;
+};
+
+}  // namespace organ_collision

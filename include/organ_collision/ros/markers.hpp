@@ -1,0 +1,14 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include "organ_collision/ros/step_evaluator.hpp"
+
+namespace organ_collision {
+
+/// What RViz shows of a step, in the organ's frame: the tool's shaft, the surface that its axis
+/// swept, the faces that it touched, and their regions where the answer has them. Each is replaced
+/// by the next step's.
+visualization_msgs::MarkerArray step_markers(const EvaluatedStep& step);
+
+}  // namespace organ_collision

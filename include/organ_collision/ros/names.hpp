@@ -1,0 +1,36 @@
+#pragma once
+
+/// All names that the node has in the ROS graph, relative to its private namespace.
+namespace organ_collision::names {
+
+inline constexpr char kNode[] = "organ_collision";
+
+inline constexpr char kOrganMesh[] = "organ_mesh";
+inline constexpr char kOrganVertices[] = "organ_vertices";
+inline constexpr char kContacts[] = "contacts";
+inline constexpr char kMarkers[] = "markers";
+
+inline constexpr char kQuery[] = "query";
+inline constexpr char kQueryBatch[] = "query_batch";
+inline constexpr char kReset[] = "reset";
+
+inline constexpr char kTools[] = "tools";
+inline constexpr char kPicker[] = "picker";
+inline constexpr char kRate[] = "rate";
+inline constexpr char kOrganMotion[] = "organ_motion";
+inline constexpr char kMotionSampleSec[] = "motion_sample_sec";
+inline constexpr char kMotionSamplesMax[] = "motion_samples_max";
+inline constexpr char kTfTimeoutSec[] = "tf_timeout_sec";
+inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
+inline constexpr char kMaxFaces[] = "max_faces";
+inline constexpr char kPublishRegions[] = "publish_regions";
+inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
+
+/// Of each entry of `tools`.
+inline constexpr char kToolName[] = "name";
+inline constexpr char kTrocarFrame[] = "trocar_frame";
+inline constexpr char kTipFrame[] = "tip_frame";
+inline constexpr char kRadius[] = "radius";
+inline constexpr char kLinks[] = "links";
+
+}  // namespace organ_collision::names

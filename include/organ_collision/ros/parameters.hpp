@@ -1,0 +1,48 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <string>
+#include <vector>
+
+#include "organ_collision/picking/picker.hpp"
+#include "organ_collision/ros/parameter_group.hpp"
+
+namespace organ_collision {
+
+/// A shaft whose axis runs from the origin of one frame to the origin of another.
+struct ToolParameters {
+  std::string name;
+  std::string trocar_frame;
+  std::string tip_frame;
+  double radius;  ///< [m]
+};
+
+/// The node's parameters, as validated; the defaults are the documented ones.
+struct NodeParameters {
+  std::vector<ToolParameters> tools;
+  PickerKind picker = PickerKind::kFeedback;
+  double rate_hz = 0.0;      ///< 0: evaluated on each mesh only
+  bool organ_motion = true;  ///< organs move linearly from shape to shape; else they jump
+  double motion_sample_sec = 0.001;
+  int motion_samples_max = 100;
+  double tf_timeout_sec = 0.02;
+  double mesh_timeout_sec = 0.0;  ///< 0: never stale
+  int max_faces = 2'000'000;
+  bool publish_regions = false;
+};
+
+/// Parameters, and one sentence for each name that the node does not know.
+struct LoadedParameters {
+  NodeParameters parameters;
+  std::vector<std::string> misspelt;
+};
+
+/// Reads the members of the node's private namespace. Throws ParameterError.
+LoadedParameters parse_parameters(const XmlRpc::XmlRpcValue& private_namespace);
+
+/// The same from the parameter server.
+LoadedParameters load_parameters(const ros::NodeHandle& private_node);
+
+}  // namespace organ_collision

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <ros/time.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "organ_collision/ros/evaluator.hpp"
+#include "organ_collision/ros/organ_store.hpp"
+#include "organ_collision/ros/parameters.hpp"
+#include "organ_collision/ros/step_history.hpp"
+#include "organ_collision/ros/tool_poses.hpp"
+
+namespace organ_collision {
+
+/// What one tool touched of one organ in one step, and how it moved.
+struct EvaluatedStep {
+  ContactArrayPtr answer;
+  const ToolParameters& tool;
+  const TriangleMesh& mesh;
+  const ShaftPath& path;  ///< empty when the evaluation failed before it was known
+};
+
+/// Evaluates every tool against every organ: at each new shape, at each tick. Each step begins
+/// where the last one that succeeded ended.
+class StepEvaluator {
+ public:
+  using Publish = std::function<void(const EvaluatedStep&)>;
+
+  /// The references must outlive it.
+  StepEvaluator(const NodeParameters& parameters, const ToolPoses& poses, Evaluator& evaluator,
+                Publish publish)
+      : parameters_(parameters),
+        poses_(poses),
+        evaluator_(evaluator),
+        publish_(std::move(publish)) {}
+
+  /// The organ's latest shape is to be evaluated with every tool.
+  void add_shape(const Organ& organ, SteadyTime now);
+  /// All shapes whose transforms are there, or have been waited for long enough.
+  void evaluate_waiting(const OrganStore& organs, SteadyTime now);
+  /// All organs with the latest poses.
+  void evaluate_tick(const OrganStore& organs);
+
+  void forget(const std::string& organ) { history_.forget(organ); }
+  /// Forgets all history; every organ is as its latest shape shows it.
+  void reset(const OrganStore& organs);
+
+  /// When evaluate_waiting has something to do even if no transform comes; none: never.
+  std::optional<SteadyTime> next_deadline() const;
+  const StepHistory& history() const { return history_; }
+  /// Samples of motion that motion_samples_max cut, since the start.
+  std::size_t samples_cut() const { return samples_cut_; }
+
+ private:
+  bool evaluate_front(const Organ& organ, std::size_t tool, OrganToolPair& pair, SteadyTime now);
+  void evaluate_step(const Organ& organ, std::size_t tool, OrganToolPair& pair,
+                     const Timed<ShaftAxis>& end);
+  void evaluate_held(const Organ& organ, std::size_t tool, OrganToolPair& pair);
+  void run(const Organ& organ, std::size_t tool, OrganToolPair& pair, Timed<ShaftAxis> end,
+           const ShaftPath& path);
+  void fail(const Organ& organ, std::size_t tool, const OrganToolPair& pair, ros::Time stamp,
+            std::uint8_t status, const std::string& message);
+  SteadyTime deadline(const ShapeQueue::Entry& entry) const;
+
+  const NodeParameters& parameters_;
+  const ToolPoses& poses_;
+  Evaluator& evaluator_;
+  Publish publish_;
+  StepHistory history_;
+  std::size_t samples_cut_ = 0;
+};
+
+}  // namespace organ_collision

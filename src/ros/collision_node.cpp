@@ -1,0 +1,176 @@
+#include "organ_collision/ros/collision_node.hpp"
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include "organ_collision/ros/answers.hpp"
+#include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/markers.hpp"
+#include "organ_collision/ros/names.hpp"
+
+namespace organ_collision {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// Waits at most this long, so that stopping and a jump of the clock are noticed.
+constexpr std::chrono::milliseconds kLongestWait(10);
+/// Callbacks are called for at most this long before what they brought is evaluated.
+constexpr std::chrono::milliseconds kLongestDrain(2);
+
+ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
+  node.setCallbackQueue(&queue);
+  return node;
+}
+
+MeshLimits limits(const NodeParameters& parameters) {
+  return {static_cast<std::size_t>(parameters.max_faces)};
+}
+
+PathSampling sampling(const NodeParameters& parameters) {
+  return {parameters.motion_sample_sec, parameters.motion_samples_max};
+}
+
+}  // namespace
+
+CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : node_(on_queue(node, queue_)),
+      private_node_(on_queue(private_node, queue_)),
+      loaded_(load_parameters(private_node_)),
+      organs_(limits(loaded_.parameters)),
+      poses_(transforms_, sampling(loaded_.parameters)),
+      evaluator_(loaded_.parameters.picker),
+      steps_(loaded_.parameters, poses_, evaluator_,
+             [this](const EvaluatedStep& step) { publish(step); }),
+      services_({loaded_.parameters, organs_, transforms_, poses_, steps_.history(), evaluator_}),
+      diagnostics_({loaded_.parameters, loaded_.misspelt, organs_, evaluator_, steps_, counters_}),
+      updater_(node_, private_node_, private_node_.getNamespace()),
+      contacts_(private_node_.advertise<ContactArray>(names::kContacts, 100)),
+      markers_(private_node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 100)),
+      transform_listener_(transforms_, node_, false) {
+  for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
+
+  const auto no_delay = ros::TransportHints().tcpNoDelay();
+  subscribers_ = {
+      private_node_.subscribe<OrganMesh>(
+          names::kOrganMesh, 100,
+          [this](const OrganMeshConstPtr& message) { on_organ_message(*message); }, {}, no_delay),
+      private_node_.subscribe<OrganVertices>(
+          names::kOrganVertices, 100,
+          [this](const OrganVerticesConstPtr& message) { on_organ_message(*message); }, {},
+          no_delay)};
+  servers_ = {
+      private_node_.advertiseService(names::kQuery, &CollisionNode::on_query, this),
+      private_node_.advertiseService(names::kQueryBatch, &CollisionNode::on_query_batch, this),
+      private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this)};
+  if (loaded_.parameters.rate_hz > 0.0) {
+    tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
+                                      [this](const ros::TimerEvent&) { tick_is_due_ = true; });
+  }
+  diagnostics_.add_to(updater_);
+  // Of wall time: the updater's own period stands still with simulated time, or waits for it.
+  diagnostic_timer_ = private_node_.createWallTimer(
+      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  ROS_INFO("ready: %zu tools, GL %s", loaded_.parameters.tools.size(),
+           evaluator_.gl_version().c_str());
+}
+
+void CollisionNode::run(const std::function<bool()>& stop) {
+  while (private_node_.ok() && !stop()) {
+    call_callbacks();
+    steps_.evaluate_waiting(organs_, SteadyClock::now());
+    if (tick_is_due_) steps_.evaluate_tick(organs_);
+    tick_is_due_ = false;
+  }
+}
+
+void CollisionNode::call_callbacks() {
+  SteadyClock::time_point until = SteadyClock::now() + kLongestWait;
+  if (const auto deadline = steps_.next_deadline()) until = std::min(until, *deadline);
+  const std::chrono::duration<double> wait = until - SteadyClock::now();
+
+  watch_clock();
+  auto called = queue_.callOne(ros::WallDuration(std::max(0.0, wait.count())));
+  const SteadyClock::time_point end = SteadyClock::now() + kLongestDrain;
+  while (called == ros::CallbackQueue::Called && SteadyClock::now() < end) {
+    watch_clock();
+    called = queue_.callOne();
+  }
+  watch_clock();
+}
+
+/// Before each callback: what comes from after a jump must not meet what is from before.
+void CollisionNode::watch_clock() {
+  const ros::Time now = ros::Time::now();
+  if (now < last_now_) {
+    ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
+             now.toSec());
+    transforms_.clear();
+    reset();
+  }
+  last_now_ = now;
+}
+
+void CollisionNode::reset() {
+  organs_.forget_previous_shapes();
+  steps_.reset(organs_);
+}
+
+template <typename Message>
+void CollisionNode::on_organ_message(const Message& message) {
+  const SteadyTime now = SteadyClock::now();
+  try {
+    const OrganChange change = organs_.apply(message, ros::Time::now());
+    if (change != OrganChange::kShape) steps_.forget(message.organ);
+    if (change == OrganChange::kRemoved) {
+      return publish_failure(message.organ, message.header, ContactArray::NO_MESH,
+                             "organ '" + message.organ + "' was removed");
+    }
+    steps_.add_shape(organs_.at(message.organ), now);
+    counters_.meshes.count();
+  } catch (const Rejection& rejection) {
+    counters_.rejected.add(rejection.reason(), rejection.what(), now);
+    publish_failure(message.organ, message.header, rejection.status(), rejection.what());
+  }
+}
+
+bool CollisionNode::on_query(QueryCollision::Request& request, QueryCollision::Response& response) {
+  response.result = services_.query(request);
+  return true;
+}
+
+bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
+                                   QueryCollisionBatch::Response& response) {
+  response.results = services_.query_batch(request);
+  return true;
+}
+
+bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  reset();
+  return true;
+}
+
+void CollisionNode::publish(const EvaluatedStep& step) {
+  if (step.answer->status != ContactArray::OK) {
+    counters_.failed.add(reason_of(step.answer->status), step.answer->message, SteadyClock::now());
+  }
+  contacts_.publish(step.answer);
+  counters_.contacts.count();
+  if (markers_.getNumSubscribers() > 0) markers_.publish(step_markers(step));
+}
+
+void CollisionNode::publish_failure(const std::string& organ, const std_msgs::Header& header,
+                                    std::uint8_t status, const std::string& message) {
+  const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
+  for (const ToolParameters& tool : loaded_.parameters.tools) {
+    const auto answer = boost::make_shared<ContactArray>(
+        answer_about(organ, tool.name, ContactArray::STATIC, stamp));
+    answer->header.frame_id = tf_frame(header.frame_id);
+    set_failure(*answer, status, message);
+    contacts_.publish(answer);
+  }
+}
+
+}  // namespace organ_collision

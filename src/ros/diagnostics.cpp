@@ -1,0 +1,69 @@
+#include "organ_collision/ros/diagnostics.hpp"
+
+#include "organ_collision/ros/answers.hpp"
+
+namespace organ_collision {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+constexpr double kMicroseconds = 1e6;
+
+/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new.
+void show(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
+  for (const auto& [reason, entry] : log.by_reason()) {
+    status.add(what + ", " + reason, entry.count);
+    if (entry.not_yet_reported == 0) continue;
+    status.mergeSummary(DiagnosticStatus::WARN, reason + ": " + entry.latest);
+  }
+  log.reported();
+}
+
+}  // namespace
+
+void Diagnostics::add_to(diagnostic_updater::Updater& updater) {
+  updater.setHardwareID("none");
+  updater.add("queries", this, &Diagnostics::queries);
+  updater.add("organs", this, &Diagnostics::organs);
+  updater.add("messages", this, &Diagnostics::messages);
+}
+
+void Diagnostics::queries(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "answering");
+  const auto times = sources_.evaluator.query_times().summary();
+  status.add("GL version", sources_.evaluator.gl_version());
+  status.add("contacts rate [1/s]",
+             sources_.counters.contacts.take(std::chrono::steady_clock::now()));
+  status.add("queries", times.count);
+  status.add("query time, median [us]", times.median * kMicroseconds);
+  status.add("query time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
+  status.add("query time, worst [us]", times.worst * kMicroseconds);
+  status.add("motion samples cut", sources_.steps.samples_cut());
+  for (const std::string& sentence : sources_.misspelt) {
+    status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  show("unanswered", sources_.counters.failed, status);
+}
+
+void Diagnostics::organs(DiagnosticStatusWrapper& status) {
+  const ros::Time now = ros::Time::now();
+  const double timeout = sources_.parameters.mesh_timeout_sec;
+  status.summary(DiagnosticStatus::OK, std::to_string(sources_.organs.organs().size()) + " organs");
+  for (const auto& [name, organ] : sources_.organs.organs()) {
+    const OrganShape& shape = organ.latest();
+    status.add(name + ", age of mesh [s]", (now - shape.time()).toSec());
+    status.add(name + ", faces", shape.mesh->face_count());
+    if (is_stale(shape, now, timeout)) {
+      status.mergeSummary(DiagnosticStatus::WARN, stale_message(organ, now, timeout));
+    }
+  }
+}
+
+void Diagnostics::messages(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "none rejected");
+  status.add("mesh rate [1/s]", sources_.counters.meshes.take(std::chrono::steady_clock::now()));
+  show("rejected", sources_.counters.rejected, status);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,14 @@
+#include <ros/ros.h>
+
+#include "organ_collision/ros/collision_node.hpp"
+#include "organ_collision/ros/names.hpp"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, organ_collision::names::kNode);
+  try {
+    organ_collision::CollisionNode(ros::NodeHandle(), ros::NodeHandle("~")).run();
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,144 @@
+#include "organ_collision/ros/organ_store.hpp"
+
+#include <organ_collision/ContactArray.h>
+
+#include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/spelling.hpp"
+
+namespace organ_collision {
+namespace {
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+[[noreturn]] void refuse(const std::string& reason, const std::string& message) {
+  throw Rejection(ContactArray::INVALID_REQUEST, reason, message);
+}
+
+std::string reason_of(const MeshError& error) {
+  switch (error.reason()) {
+    case MeshError::Reason::kSize:
+      return "wrong size";
+    case MeshError::Reason::kIndex:
+      return "index out of range";
+    case MeshError::Reason::kNotFinite:
+      return "not finite";
+    case MeshError::Reason::kNoTriangles:
+      return "no triangles";
+    case MeshError::Reason::kTooManyFaces:
+      return "too many faces";
+    case MeshError::Reason::kTooManyVertices:
+      return "too many vertices";
+  }
+  return "invalid mesh";
+}
+
+bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (triangles.size() != 3 * mesh.face_count()) return false;
+  const std::uint32_t* next = triangles.data();
+  for (const FaceIndices& face : mesh.faces()) {
+    if (face[0] != next[0] || face[1] != next[1] || face[2] != next[2]) return false;
+    next += 3;
+  }
+  return true;
+}
+
+}  // namespace
+
+OrganChange OrganStore::apply(const OrganMesh& message, ros::Time now) {
+  if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
+  if (message.vertices.empty() && message.triangles.empty()) {
+    organs_.erase(message.organ);
+    without_mesh_.insert(message.organ);
+    return OrganChange::kRemoved;
+  }
+  try {
+    const std::string frame = tf_frame(message.header.frame_id);
+    if (frame.empty()) {
+      refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
+    }
+    const OrganChange change = apply_checked(message, frame, now);
+    without_mesh_.erase(message.organ);
+    return change;
+  } catch (const std::runtime_error&) {
+    if (organs_.count(message.organ) == 0) without_mesh_.insert(message.organ);
+    throw;
+  }
+}
+
+OrganChange OrganStore::apply_checked(const OrganMesh& message, const std::string& frame,
+                                      ros::Time now) {
+  const ros::Time stamp = message.header.stamp;
+  const auto known = organs_.find(message.organ);
+  try {
+    if (known == organs_.end()) {
+      TriangleMesh mesh(message.vertices, message.triangles, message.topology, limits_);
+      organs_.emplace(message.organ, Organ(message.organ, frame, std::move(mesh), stamp, now));
+      return OrganChange::kShape;
+    }
+    Organ& organ = known->second;
+    const TriangleMesh& latest = *organ.latest().mesh;
+    if (message.topology != latest.topology()) {
+      organ.replace({message.vertices, message.triangles, message.topology, limits_}, stamp, now);
+    } else if (has_triangles(latest, message.triangles)) {
+      organ.move(message.vertices, stamp, now);
+    } else {
+      refuse("same topology, other triangles",
+             "organ " + quoted(message.organ) + " already has other triangles of topology " +
+                 std::to_string(message.topology) + "; new triangles need another number");
+    }
+    if (frame == organ.frame()) return OrganChange::kShape;
+    organ.set_frame(frame);
+    organ.forget_previous();
+    return OrganChange::kFrame;
+  } catch (const MeshError& error) {
+    refuse(reason_of(error), "mesh of organ " + quoted(message.organ) + ": " + error.what());
+  }
+}
+
+OrganChange OrganStore::apply(const OrganVertices& message, ros::Time now) {
+  if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
+  at(message.organ);
+  Organ& organ = organs_.at(message.organ);
+  const std::string named = "vertices of organ " + quoted(message.organ);
+  const std::string frame = tf_frame(message.header.frame_id);
+  if (frame != organ.frame()) {
+    refuse(frame.empty() ? "empty frame" : "other frame",
+           named + ": header.frame_id is " + quoted(frame) + "; must be that of its mesh, " +
+               quoted(organ.frame()));
+  }
+  const std::uint32_t topology = organ.latest().mesh->topology();
+  if (message.topology != topology) {
+    refuse("other topology", named + ": topology is " + std::to_string(message.topology) +
+                                 "; the mesh has " + std::to_string(topology));
+  }
+  try {
+    organ.move(message.vertices, message.header.stamp, now);
+  } catch (const MeshError& error) {
+    refuse(reason_of(error), named + ": " + error.what());
+  }
+  return OrganChange::kShape;
+}
+
+const Organ& OrganStore::at(const std::string& name) const {
+  const auto organ = organs_.find(name);
+  if (organ != organs_.end()) return organ->second;
+  if (without_mesh_.count(name) > 0) {
+    throw Rejection(ContactArray::NO_MESH, "organ without mesh",
+                    "organ " + quoted(name) + " has no valid mesh; send one on organ_mesh");
+  }
+  throw Rejection(ContactArray::UNKNOWN_ORGAN, "unknown organ",
+                  "organ " + quoted(name) + " is unknown; " + known_organs());
+}
+
+void OrganStore::forget_previous_shapes() {
+  for (auto& [name, organ] : organs_) organ.forget_previous();
+}
+
+std::string OrganStore::known_organs() const {
+  if (organs_.empty()) return "no organ is known yet";
+  std::vector<std::string> names;
+  for (const auto& [name, organ] : organs_) names.push_back(quoted(name));
+  return "known are " + listed(names);
+}
+
+}  // namespace organ_collision

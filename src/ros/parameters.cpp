@@ -1,0 +1,89 @@
+#include "organ_collision/ros/parameters.hpp"
+
+#include <limits>
+
+#include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/names.hpp"
+
+namespace organ_collision {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+/// Face numbers travel through GL as 32-bit floats, exact up to here.
+constexpr double kMostFaces = 1 << 24;
+
+const NumberRange kNotNegative{0.0, kUnlimited};
+const NumberRange kPositive{0.0, kUnlimited, false};
+
+std::string frame(const ParameterGroup& tool, const char* name) {
+  const std::string frame = tf_frame(tool.text(name));
+  if (frame.empty()) tool.refuse(name, "must be the name of a TF frame");
+  return frame;
+}
+
+ToolParameters parse_tool(const ParameterGroup& tool) {
+  if (tool.has(names::kLinks)) {
+    tool.refuse(names::kLinks,
+                "only shafts are supported: give trocar_frame, tip_frame and radius instead");
+  }
+  const ToolParameters parsed{tool.text(names::kToolName), frame(tool, names::kTrocarFrame),
+                              frame(tool, names::kTipFrame),
+                              tool.number(names::kRadius, {}, kPositive)};
+  if (parsed.tip_frame == parsed.trocar_frame) {
+    tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
+  }
+  return parsed;
+}
+
+void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
+  const XmlRpcValue& list =
+      all.list(names::kTools, "groups of name, trocar_frame, tip_frame and radius [m]");
+  for (int i = 0; i < list.size(); ++i) {
+    const ParameterGroup group(
+        all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
+        {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kRadius, names::kLinks});
+    const ToolParameters tool = parse_tool(group);
+    for (const ToolParameters& other : loaded.parameters.tools) {
+      if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
+    }
+    loaded.parameters.tools.push_back(tool);
+    for (std::string& sentence : group.misspelt()) loaded.misspelt.push_back(std::move(sentence));
+  }
+}
+
+}  // namespace
+
+LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
+  const ParameterGroup all(
+      "~", private_namespace,
+      {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
+       names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
+       names::kPublishRegions, names::kDiagnosticPeriod});
+  LoadedParameters loaded;
+  loaded.misspelt = all.misspelt();
+  parse_tools(all, loaded);
+  NodeParameters& p = loaded.parameters;
+  p.picker = picker_kind(all.choice(names::kPicker, "feedback", {"feedback", "select"}));
+  p.rate_hz = all.number(names::kRate, p.rate_hz, {0.0, 10'000.0});
+  p.organ_motion = all.flag(names::kOrganMotion, p.organ_motion);
+  p.motion_sample_sec = all.number(names::kMotionSampleSec, p.motion_sample_sec, kPositive);
+  p.motion_samples_max =
+      all.whole_number(names::kMotionSamplesMax, p.motion_samples_max, {1, 100'000});
+  p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, {0.0, 60.0});
+  p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative);
+  p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, {1, kMostFaces});
+  p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
+  return loaded;
+}
+
+LoadedParameters load_parameters(const ros::NodeHandle& private_node) {
+  XmlRpcValue all;
+  if (!private_node.getParam(private_node.getNamespace(), all)) {
+    all.begin();  // An empty group: nothing is set.
+  }
+  return parse_parameters(all);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,158 @@
+#include "organ_collision/ros/query_services.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include "organ_collision/ros/answers.hpp"
+#include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/spelling.hpp"
+#include "organ_collision/ros/transforms.hpp"
+
+namespace organ_collision {
+namespace {
+
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", message.str());
+}
+
+bool looks_at_end_only(std::uint8_t mode) {
+  return mode == ContactArray::STATIC || mode == ContactArray::PAPER_STATIC;
+}
+
+bool moves_organ(const QueryCollision::Request& request) {
+  return request.organ_motion && request.mode == ContactArray::SWEPT;
+}
+
+void check_point(const char* name, const geometry_msgs::Point& point) {
+  if (to_eigen(point).allFinite()) return;
+  refuse("motion.", name, " is (", point.x, ", ", point.y, ", ", point.z, "); must be finite");
+}
+
+void check_motion(const QueryCollision::Request& request) {
+  const ToolMotion& motion = request.motion;
+  if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
+    refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
+  }
+  check_point("trocar", motion.trocar);
+  check_point("tip", motion.tip);
+  if (looks_at_end_only(request.mode)) return;
+  check_point("previous_trocar", motion.previous_trocar);
+  check_point("previous_tip", motion.previous_tip);
+}
+
+}  // namespace
+
+ContactArray QueryServices::query(const QueryCollision::Request& request) const {
+  ContactArray result =
+      answer_about(request.organ, request.tool, request.mode,
+                   request.header.stamp.isZero() ? ros::Time::now() : request.header.stamp);
+  result.header.frame_id = request.header.frame_id;
+  try {
+    answer(request, result);
+  } catch (const Rejection& rejection) {
+    set_failure(result, rejection.status(), rejection.what());
+  }
+  return result;
+}
+
+std::vector<ContactArray> QueryServices::query_batch(
+    const QueryCollisionBatch::Request& request) const {
+  QueryCollision::Request single;
+  single.header = request.header;
+  single.organ = request.organ;
+  single.mode = request.mode;
+  single.organ_motion = request.organ_motion;
+  single.regions = false;
+  std::vector<ContactArray> results;
+  results.reserve(request.motions.size());
+  for (const ToolMotion& motion : request.motions) {
+    single.motion = motion;
+    results.push_back(query(single));
+  }
+  return results;
+}
+
+void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) const {
+  if (request.mode > ContactArray::PAPER_NAIVE) {
+    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
+  }
+  if (request.organ.empty()) refuse("organ is empty; must be an organ's name");
+  const Organ& organ = sources_.organs.at(request.organ);
+  set_organ(answer, organ, organ.latest());
+  const ros::Time now = ros::Time::now();
+  if (is_stale(organ.latest(), now, sources_.parameters.mesh_timeout_sec)) {
+    throw Rejection(ContactArray::STALE_MESH, "stale mesh",
+                    stale_message(organ, now, sources_.parameters.mesh_timeout_sec));
+  }
+
+  CollisionRequest collision;
+  collision.organ = organ.latest().mesh.get();
+  if (moves_organ(request)) collision.organ_before = organ.previous().mesh.get();
+  collision.mode = static_cast<QueryMode>(request.mode);
+  collision.regions = request.regions;
+  if (request.tool.empty()) {
+    set_motion(request, organ, collision, answer);
+  } else {
+    set_tool_motion(request, organ, collision, answer);
+  }
+  sources_.evaluator.evaluate(collision, answer);
+}
+
+void QueryServices::set_motion(const QueryCollision::Request& request, const Organ& organ,
+                               CollisionRequest& collision, ContactArray& answer) const {
+  check_motion(request);
+  const std::string frame = tf_frame(request.header.frame_id);
+  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of `motion`");
+  const auto T_organ_motion =
+      look_up(sources_.transforms, organ.frame(), frame, request.header.stamp);
+  if (!T_organ_motion.found) {
+    throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
+  }
+  collision.path =
+      to_path(request.motion, looks_at_end_only(request.mode), T_organ_motion.found->value);
+  collision.radius = request.motion.radius;
+  if (!T_organ_motion.found->stamp.isZero()) answer.header.stamp = T_organ_motion.found->stamp;
+  answer.step_start = answer.header.stamp;
+}
+
+void QueryServices::set_tool_motion(const QueryCollision::Request& request, const Organ& organ,
+                                    CollisionRequest& collision, ContactArray& answer) const {
+  const ToolParameters& parameters = tool(request.tool);
+  const auto end = sources_.poses.axis(parameters, organ.frame(), request.header.stamp);
+  if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
+  collision.radius = parameters.radius;
+  if (!end.found->stamp.isZero()) answer.header.stamp = end.found->stamp;
+  answer.step_start = answer.header.stamp;
+
+  const std::size_t index =
+      static_cast<std::size_t>(&parameters - sources_.parameters.tools.data());
+  const LastStep* last = sources_.history.last(organ.name(), index);
+  if (!last || looks_at_end_only(request.mode)) {
+    collision.path = {{0.0, end.found->value}};
+    return;
+  }
+  const Timed<ShaftAxis> from{last->axis, last->stamp};
+  collision.path =
+      request.mode == ContactArray::SWEPT
+          ? sources_.poses
+                .path(parameters, organ.frame(), from, {end.found->value, answer.header.stamp})
+                .path
+          : ShaftPath{{0.0, from.value}, {1.0, end.found->value}};
+  answer.step_start = last->stamp;
+}
+
+const ToolParameters& QueryServices::tool(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const ToolParameters& tool : sources_.parameters.tools) {
+    if (tool.name == name) return tool;
+    names.push_back("'" + tool.name + "'");
+  }
+  throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
+                  "tool '" + name + "' is unknown; " +
+                      (names.empty() ? "the node has none" : "known are " + listed(names)));
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,24 @@
+#include "organ_collision/ros/transforms.hpp"
+
+#include <tf2/exceptions.h>
+
+#include "organ_collision/ros/conversions.hpp"
+
+namespace organ_collision {
+
+Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
+                                  const std::string& source, ros::Time time) {
+  if (target == source) return {{{Eigen::Isometry3d::Identity(), time}}, ""};
+  try {
+    const geometry_msgs::TransformStamped found = buffer.lookupTransform(target, source, time);
+    const Eigen::Isometry3d T_target_source = to_eigen(found.transform);
+    if (!T_target_source.matrix().allFinite()) {
+      return {std::nullopt, "transform from " + source + " to " + target + " is not finite"};
+    }
+    return {{{T_target_source, time.isZero() ? found.header.stamp : time}}, ""};
+  } catch (const tf2::TransformException& error) {
+    return {std::nullopt, "no transform from " + source + " to " + target + ": " + error.what()};
+  }
+}
+
+}  // namespace organ_collision
