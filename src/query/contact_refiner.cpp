@@ -44,7 +44,7 @@ Vector3d perpendicular(const Vector3d& a, const Vector3d& b) {
 
 bool first_nonzero_is_positive(const Vector3d& v) {
   for (const double component : v) {
-    if (component != 0.0) return component > 0.0;
+    if (std::abs(component) > tolerance::kParallel) return component > 0.0;
   }
   return true;
 }

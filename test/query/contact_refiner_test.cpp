@@ -1,0 +1,284 @@
+#include "organ_collision/query/contact_refiner.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+
+#include "organ_collision/geometry/tolerances.hpp"
+#include "proof/exact_distance.hpp"
+#include "proof/trials.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+using oracle::Random;
+using oracle::Trial;
+
+LegAndEnd at_rest(const ShaftAxis& axis, const Triangle& face) {
+  return {{axis, axis}, {face, face}, 0.0, 1.0, axis, face};
+}
+
+LegAndEnd whole_step(const ShaftMotion& motion, const FaceMotion& face) {
+  return {motion, face, 0.0, 1.0, motion.end, face.end};
+}
+
+LegAndEnd whole_step(const ShaftMotion& motion, const Triangle& face) {
+  return whole_step(motion, FaceMotion{face, face});
+}
+
+Vector3d on(const Triangle& face, const Vector3d& barycentric) {
+  return barycentric[0] * face[0] + barycentric[1] * face[1] + barycentric[2] * face[2];
+}
+
+Vector3d outward(const Triangle& face) {
+  return (face[1] - face[0]).cross(face[2] - face[0]).normalized();
+}
+
+ShaftAxis moved(const ShaftAxis& axis, const Vector3d& by) {
+  return {axis.trocar + by, axis.tip + by};
+}
+
+/// [m] What doubles lose of the coordinates.
+double rounding(const Trial& trial) {
+  double largest = trial.motion.end.tip.norm() + trial.motion.end.trocar.norm();
+  for (const Vector3d& corner : trial.face) largest += corner.norm();
+  return 1e-15 * largest;
+}
+
+class ContactTrials : public testing::TestWithParam<std::size_t> {
+ protected:
+  template <typename Check>
+  void for_each_trial(int count, Check check) {
+    Random random(500 + GetParam());
+    for (int i = 0; i < count && !HasFailure(); ++i) {
+      const Trial trial = oracle::make_trial(GetParam(), random);
+      check(trial);
+      if (HasFailure()) ADD_FAILURE() << oracle::to_line(trial);
+    }
+  }
+};
+
+TEST_P(ContactTrials, AtRestMovingTheToolByDepthParts) {
+  int contacts = 0;
+  for_each_trial(300, [&](const Trial& trial) {
+    const ShaftAxis& axis = trial.motion.end;
+    const auto contact = refine(at_rest(axis, trial.face), trial.radius);
+    const double distance = oracle::distance(oracle::core(axis), trial.face);
+    if (distance < trial.radius - 1e-12) {
+      EXPECT_TRUE(contact);
+    }
+    if (distance > trial.radius + 1e-12) {
+      EXPECT_FALSE(contact);
+    }
+    if (!contact) return;
+    ++contacts;
+    EXPECT_EQ(contact->fraction, 0.0);
+    EXPECT_NEAR(contact->normal.norm(), 1.0, 1e-14);
+    const double slack = rounding(trial);
+    const ShaftAxis parted = moved(axis, -contact->depth * contact->normal);
+    const double after = oracle::distance(oracle::core(parted), trial.face);
+    EXPECT_GE(after, trial.radius - 1e-12 - slack);
+    if (distance > 2 * tolerance::kPierced) {
+      EXPECT_NEAR(after, trial.radius, 1e-12 + slack);
+      EXPECT_NEAR(contact->depth, trial.radius - distance, 1e-15 + slack);
+      EXPECT_NEAR(contact->normal.dot(contact->point - axis.at(contact->shaft)), distance,
+                  1e-15 + slack);
+    }
+  });
+  EXPECT_GT(contacts, 0);
+}
+
+TEST_P(ContactTrials, PiercedAtRestTakesTheFaceNormalTheToolsWay) {
+  for_each_trial(300, [](const Trial& trial) {
+    const ShaftAxis& axis = trial.motion.end;
+    const auto contact = refine(at_rest(axis, trial.face), trial.radius);
+    if (oracle::distance(oracle::core(axis), trial.face) > 0.0) return;
+    ASSERT_TRUE(contact);
+    const Vector3d along = axis.tip - axis.trocar;
+    EXPECT_GE(contact->normal.dot(along), -1e-12 * along.norm());
+    EXPECT_FALSE(contact->behind);
+    const double slack = 1e-15 + rounding(trial);
+    EXPECT_NEAR(contact->depth, trial.radius + contact->normal.dot(axis.tip - contact->point),
+                slack);
+    const Vector3d area = (trial.face[1] - trial.face[0]).cross(trial.face[2] - trial.face[0]);
+    if (area.norm() > 1e-9 * (trial.face[1] - trial.face[0]).squaredNorm()) {
+      EXPECT_NEAR(std::abs(contact->normal.dot(area.normalized())), 1.0, 1e-12);
+    } else {
+      EXPECT_NEAR(contact->normal.dot(along), 0.0, 1e-9 * along.norm());
+    }
+  });
+}
+
+TEST_P(ContactTrials, SweptIsAtTheRadiusAndDepthIsOfTheEnd) {
+  for_each_trial(300, [](const Trial& trial) {
+    const auto contact = refine(whole_step(trial.motion, trial.face), trial.radius);
+    if (!contact) return;
+    const ShaftAxis at_touch = trial.motion.at(contact->fraction);
+    const double distance = (contact->point - at_touch.at(contact->shaft)).norm();
+    const double slack = 1e-14 + rounding(trial);
+    if (oracle::distance(oracle::core(trial.motion.start), trial.face) > trial.radius) {
+      EXPECT_NEAR(distance, trial.radius, 1e-9);
+    } else {
+      EXPECT_EQ(contact->fraction, 0.0);
+    }
+    EXPECT_NEAR(contact->barycentric.sum(), 1.0, 1e-15);
+    EXPECT_LE((on(trial.face, contact->barycentric) - contact->point).norm(), slack);
+    const ShaftAxis& end = trial.motion.end;
+    const double depth =
+        distance <= tolerance::kPierced
+            ? trial.radius + contact->normal.dot(end.tip - contact->point)
+            : trial.radius - contact->normal.dot(contact->point - end.at(contact->shaft));
+    EXPECT_NEAR(contact->depth, depth, slack);
+  });
+}
+
+TEST_P(ContactTrials, OrderOfCornersChangesNothing) {
+  constexpr std::array<std::array<int, 3>, 2> kTurns = {{{1, 2, 0}, {2, 0, 1}}};
+  for_each_trial(300, [&](const Trial& trial) {
+    const auto contact = refine(whole_step(trial.motion, trial.face), trial.radius);
+    for (const auto& turn : kTurns) {
+      const Triangle face = {trial.face[turn[0]], trial.face[turn[1]], trial.face[turn[2]]};
+      const auto other = refine(whole_step(trial.motion, face), trial.radius);
+      const double gap = oracle::distance(oracle::core(trial.motion), trial.face) - trial.radius;
+      if (std::abs(gap) > 1e-9) {
+        ASSERT_EQ(other.has_value(), contact.has_value());
+      }
+      if (!contact || !other || std::abs(gap) < 1e-6) continue;
+      EXPECT_NEAR(other->fraction, contact->fraction, 1e-5);
+      EXPECT_LE((other->normal - contact->normal).norm(), 1e-4);
+      EXPECT_NEAR(other->depth, contact->depth, 1e-4);
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ContactTrials,
+                         testing::Range<std::size_t>(0, oracle::trial_kinds().size()));
+
+// A face in the plane z = 0.1, outward up.
+const Triangle kFace = {Vector3d(-0.02, -0.03, 0.1), Vector3d(0.05, -0.03, 0.1),
+                        Vector3d(-0.02, 0.06, 0.1)};
+const Vector3d kTrocar(0.01, -0.01, 0.4);
+constexpr double kRadius = 5e-3;
+
+TEST(Contact, OfATipAboveTheFace) {
+  const ShaftAxis axis{kTrocar, {0.0, 0.0, 0.103}};
+  const auto contact = refine(at_rest(axis, kFace), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-12));
+  EXPECT_TRUE(contact->point.isApprox(Vector3d(0.0, 0.0, 0.1), 1e-12));
+  EXPECT_EQ(contact->shaft, 1.0);
+  EXPECT_NEAR(contact->depth, 0.002, 1e-15);
+  EXPECT_FALSE(contact->behind);
+}
+
+TEST(Contact, OfATipBelowTheFaceIsBehind) {
+  const Vector3d below(0.0, 0.0, 0.0);
+  const auto contact = refine(at_rest({below, {0.0, 0.0, 0.097}}, kFace), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-12));
+  EXPECT_TRUE(contact->behind);
+}
+
+TEST(Contact, PassedThroughIsDeeperThanTheRadiusAndBehind) {
+  const ShaftMotion motion{{kTrocar, {0.0, 0.0, 0.15}}, {kTrocar, {0.0, 0.0, 0.04}}};
+  const auto contact = refine(whole_step(motion, kFace), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->fraction, 45.0 / 110.0, 1e-7);
+  EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-7));
+  EXPECT_NEAR(contact->depth, kRadius + 0.06, 1e-9);
+  EXPECT_TRUE(contact->behind);
+}
+
+TEST(Contact, TouchedAndLeftHasANegativeDepth) {
+  // The tip comes down onto the face in the first leg; by the end of the step it is withdrawn.
+  const ShaftMotion down{{kTrocar, {0.0, 0.0, 0.15}}, {kTrocar, {0.0, 0.0, 0.1}}};
+  const ShaftAxis withdrawn{kTrocar, {0.0, 0.0, 0.2}};
+  const auto touched = refine({down, {kFace, kFace}, 0.0, 0.5, withdrawn, kFace}, kRadius);
+  ASSERT_TRUE(touched);
+  EXPECT_NEAR(touched->fraction, 0.45, 1e-7);
+  EXPECT_NEAR(touched->depth, kRadius - 0.1, 1e-8);
+  EXPECT_FALSE(touched->behind);
+
+  // The tissue leaves a resting tool.
+  const Vector3d away(0.0, 0.0, -0.1);
+  const FaceMotion flees{kFace, {kFace[0] + away, kFace[1] + away, kFace[2] + away}};
+  const ShaftAxis axis{kTrocar, {0.0, 0.0, 0.103}};
+  const auto left = refine(whole_step({axis, axis}, flees), kRadius);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->fraction, 0.0);
+  EXPECT_NEAR(left->depth, 0.002 - 0.1, 1e-15);
+}
+
+TEST(Contact, PiercedAtTheStartKeepsTheFaceNormal) {
+  const ShaftMotion motion{{kTrocar, {0.0, 0.0, 0.08}}, {kTrocar, {0.0, 0.0, 0.05}}};
+  const auto contact = refine(whole_step(motion, kFace), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_EQ(contact->fraction, 0.0);
+  EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-14));
+  EXPECT_NEAR(contact->depth, kRadius + 0.05, 1e-15);
+  EXPECT_NEAR(contact->point.z(), 0.1, 1e-15);
+}
+
+TEST(Contact, PiercedFromInsideTurnsTheNormalTheToolsWay) {
+  const auto contact = refine(at_rest({{0.0, 0.0, -0.2}, {0.0, 0.0, 0.13}}, kFace), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_TRUE(contact->normal.isApprox(outward(kFace), 1e-14));
+  EXPECT_NEAR(contact->depth, kRadius + 0.03, 1e-15);
+}
+
+TEST(Contact, AxisInTheFacesPlaneTakesTheNormalWithAPositiveFirstComponent) {
+  const ShaftAxis axis{{-0.1, 0.0, 0.1}, {0.1, 0.0, 0.1}};
+  for (const Triangle& face : {kFace, Triangle{kFace[0], kFace[2], kFace[1]}}) {
+    const auto contact = refine(at_rest(axis, face), kRadius);
+    ASSERT_TRUE(contact);
+    EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-14));
+    EXPECT_NEAR(contact->depth, kRadius, 1e-14);
+  }
+}
+
+TEST(Contact, OfDegenerateFacesIsAtRightAnglesToAxisAndLongestEdge) {
+  const ShaftAxis axis{{0.1, 0.2, 0.5}, {0.1, 0.2, 0.0}};
+  const Vector3d a(0.0, 0.2, 0.1), b(0.3, 0.2, 0.1), c(0.15, 0.2, 0.1), p(0.1, 0.2, 0.3);
+  for (const Triangle& face : {Triangle{a, b, b}, Triangle{b, c, a}, Triangle{c, b, a}}) {
+    const auto contact = refine(at_rest(axis, face), kRadius);
+    ASSERT_TRUE(contact);
+    EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 1.0, 0.0), 1e-12));
+    EXPECT_NEAR(contact->depth, kRadius, 1e-14);
+    EXPECT_FALSE(contact->behind);
+  }
+  const auto contact = refine(at_rest(axis, {p, p, p}), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->normal.norm(), 1.0, 1e-14);
+  EXPECT_NEAR(contact->normal.z(), 0.0, 1e-14);
+  EXPECT_NEAR(contact->depth, kRadius, 1e-14);
+}
+
+TEST(Contact, OfABall) {
+  const Vector3d center(0.0, 0.0, 0.102);
+  const auto contact = refine(at_rest({center, center}, kFace), kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->depth, 0.003, 1e-15);
+  EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-12));
+  const Vector3d in_face(0.0, 0.0, 0.1);
+  const auto pierced = refine(at_rest({in_face, in_face}, kFace), kRadius);
+  ASSERT_TRUE(pierced);
+  EXPECT_TRUE(pierced->normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-12));
+  EXPECT_NEAR(pierced->depth, kRadius, 1e-15);
+}
+
+TEST(Contact, FractionIsOfTheWholeStepAndDepthOfItsEnd) {
+  const ShaftMotion leg{{kTrocar, {0.0, 0.0, 0.15}}, {kTrocar, {0.0, 0.0, 0.05}}};
+  const ShaftAxis end{kTrocar, {0.0, 0.0, 0.102}};
+  const LegAndEnd step{leg, {kFace, kFace}, 0.25, 0.5, end, kFace};
+  const auto contact = refine(step, kRadius);
+  ASSERT_TRUE(contact);
+  EXPECT_NEAR(contact->fraction, 0.25 + 0.25 * 0.45, 1e-7);
+  EXPECT_NEAR(contact->depth, 0.003, 1e-8);
+  EXPECT_FALSE(contact->behind);
+}
+
+}  // namespace
+}  // namespace organ_collision
