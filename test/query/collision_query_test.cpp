@@ -1,0 +1,232 @@
+#include "organ_collision/query/collision_query.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "organ_collision/query/contact_refiner.hpp"
+#include "proof/exact_distance.hpp"
+#include "proof/trials.hpp"
+#include "query/scenes.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+using oracle::Random;
+
+constexpr double kBand = 1e-9;
+
+Triangle between(const Triangle& from, const Triangle& to, double time) {
+  return FaceMotion{from, to}.at(time);
+}
+
+/// Every face refined in every leg: no picking.
+std::vector<FaceContact> by_brute_force(const CollisionRequest& request) {
+  std::vector<FaceContact> contacts;
+  for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
+    const Triangle after = request.organ->triangle(face);
+    const Triangle before = request.organ_before ? request.organ_before->triangle(face) : after;
+    for (std::size_t leg = 1; leg < request.path.size(); ++leg) {
+      const ShaftWaypoint &from = request.path[leg - 1], &to = request.path[leg];
+      const auto contact =
+          refine({{from.axis, to.axis},
+                  {between(before, after, from.fraction), between(before, after, to.fraction)},
+                  from.fraction,
+                  to.fraction,
+                  request.path.back().axis,
+                  after},
+                 request.radius);
+      if (!contact) continue;
+      contacts.push_back(*contact);
+      contacts.back().face = face;
+      break;
+    }
+  }
+  return contacts;
+}
+
+TEST_P(CollisionQueryWith, FindsWhatBruteForceFinds) {
+  Random random(1);
+  std::size_t found = 0;
+  for (int i = 0; i < 200 && !HasFailure(); ++i) {
+    const Soup soup = scattered_faces(100, random);
+    const TriangleMesh organ = mesh(soup);
+    const TriangleMesh before = mesh(shaken(soup, random.scale(1e-5, 0.05), random));
+    CollisionRequest request =
+        swept(organ, random_path(random.chance(0.5), random), random.scale(0.5e-3, 0.01));
+    if (random.chance(0.5)) request.organ_before = &before;
+    const std::vector<FaceContact> all = by_brute_force(request);
+    expect_same(contacts(request), all, 1e-12);
+    found += all.size();
+  }
+  EXPECT_GT(found, 300U);
+}
+
+TEST_P(CollisionQueryWith, FacesAreThoseOfExactArithmetic) {
+  Random random(2);
+  for (int i = 0; i < 40; ++i) {
+    const TriangleMesh organ = mesh(scattered_faces(100, random));
+    const ShaftAxis start = random_axis(random);
+    const ShaftMotion motion{start, {start.trocar, start.tip + 0.05 * random.direction()}};
+    const double radius = random.scale(0.5e-3, 0.01);
+    CollisionRequest request = swept(organ, {{0.0, motion.start}, {1.0, motion.end}}, radius);
+    for (const QueryMode mode : {QueryMode::kStatic, QueryMode::kSwept}) {
+      request.mode = mode;
+      const Triangle core =
+          mode == QueryMode::kStatic ? oracle::core(motion.end) : oracle::core(motion);
+      std::vector<bool> touched(organ.face_count());
+      for (const FaceContact& contact : contacts(request)) touched[contact.face] = true;
+      for (std::size_t face = 0; face < organ.face_count(); ++face) {
+        const Triangle triangle = organ.triangle(face);
+        if (oracle::within(core, triangle, radius - kBand)) {
+          EXPECT_TRUE(touched[face]);
+        }
+        if (!oracle::within(core, triangle, radius + kBand)) {
+          EXPECT_FALSE(touched[face]);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(CollisionQueryWith, TissueThatSwingsThroughARestingToolIsFound) {
+  const std::vector<std::uint32_t> face = {0, 1, 2};
+  const TriangleMesh before({-0.4F, 0.05F, 0.1F, -0.42F, 0.3F, 0.11F, -0.41F, 0.1F, 0.35F}, face);
+  const TriangleMesh organ({0.5F, 0.05F, 0.1F, 0.48F, 0.3F, 0.11F, 0.49F, 0.1F, 0.35F}, face);
+  const ShaftAxis axis{{0.3, 0.1, 0.5}, {0.1, 0.1, 0.02}};
+  CollisionRequest request = swept(organ, {{0.0, axis}, {1.0, axis}}, 2e-3);
+  EXPECT_TRUE(contacts(request).empty());
+  request.organ_before = &before;
+  ASSERT_EQ(contacts(request).size(), 1U);
+  EXPECT_GT(contacts(request)[0].depth, 2e-3);
+  request.path.resize(1);
+  EXPECT_EQ(contacts(request).size(), 1U);
+}
+
+TEST_P(CollisionQueryWith, AThinSheetIsNotMissedBetweenTwoPoses) {
+  const TriangleMesh sheet(
+      {-0.1F, -0.1F, 0.1F, 0.1F, -0.1F, 0.1F, 0.1F, 0.1F, 0.1F, -0.1F, 0.1F, 0.1F},
+      {0, 1, 2, 0, 2, 3});
+  const Vector3d trocar(0.013, 0.021, 0.4);
+  CollisionRequest request = swept(
+      sheet, {{0.0, {trocar, {0.031, 0.044, 0.13}}}, {1.0, {trocar, {0.31, 0.044, 0.13}}}}, 5e-3);
+  EXPECT_TRUE(contacts(request).empty());
+  request.path[1].axis.tip = {0.034, 0.041, 0.02};
+  ASSERT_FALSE(contacts(request).empty());
+  EXPECT_NEAR(contacts(request)[0].depth, 0.085, 1e-3);
+}
+
+TEST_P(CollisionQueryWith, RegionsLieInFaceAndToolVolume) {
+  const TriangleMesh organ = mesh(liver());
+  Random random(7);
+  std::size_t filled = 0, all = 0;
+  for (int i = 0; i < 20; ++i) {
+    CollisionRequest request = swept(organ, random_path(false, random), 5e-3);
+    request.path.resize(2);
+    request.path[1].fraction = 1.0;
+    request.regions = true;
+    query_.evaluate(request, result_);
+    ASSERT_EQ(result_.regions.size(), result_.contacts.size());
+    const ViewingVolume volume = tool_volume({request.path[0].axis, request.path[1].axis}, 5e-3);
+    for (std::size_t j = 0; j < result_.regions.size(); ++j) {
+      ++all;
+      filled += result_.regions[j].size() >= 3;
+      const Triangle face = organ.triangle(result_.contacts[j].face);
+      for (const Vector3d& corner : result_.regions[j]) {
+        EXPECT_LE(oracle::distance({corner, corner, corner}, face), 1e-7);
+        for (std::size_t k = 0; k < volume.half_space_count(); ++k) {
+          const HalfSpace half_space = volume.half_space(k);
+          EXPECT_LE(half_space.normal.dot(corner - volume.origin()), half_space.offset + 2e-6);
+        }
+      }
+    }
+    request.regions = false;
+    query_.evaluate(request, result_);
+    EXPECT_TRUE(result_.regions.empty());
+  }
+  EXPECT_GT(filled, all * 9 / 10);
+}
+
+TEST_P(CollisionQueryWith, PaperSceneOfALiver) {
+  const TriangleMesh organ = mesh(liver());
+  ASSERT_EQ(organ.face_count(), 1224U);
+  const Vector3d trocar(0.02, -0.03, 0.25);
+  for (const Vector3d& tip : {Vector3d(0.01, 0.01, 0.035), Vector3d(-0.03, 0.01, 0.03)}) {
+    CollisionRequest request = swept(organ, {{0.0, {trocar, tip}}}, 5e-3);
+    request.mode = QueryMode::kPaperStatic;
+    const std::size_t count = contacts(request).size();
+    EXPECT_GE(count, 5U);
+    EXPECT_LE(count, 25U);
+    for (const FaceContact& contact : contacts(request)) {
+      EXPECT_LE(contact.view_min, contact.view_max);
+      EXPECT_GE(contact.view_min, 0.0);
+      EXPECT_LE(contact.view_max, (tip - trocar).norm() + 1e-6);
+    }
+  }
+}
+
+TEST_P(CollisionQueryWith, PaperSceneOfATetrahedron) {
+  const TriangleMesh organ({0.0F, 0.0F, 0.0F, 0.1F, 0.0F, 0.0F, 0.0F, 0.1F, 0.0F, 0.0F, 0.0F, 0.1F},
+                           {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2});
+  const Vector3d trocar(0.2, 0.21, 0.23), inside(0.02, 0.025, 0.02);
+  const std::vector<std::size_t> counts = {0, 1, 2};
+  const std::vector<double> shares = {0.9, 0.95, 1.095};  // outside, through one face, through two
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const Vector3d tip = trocar + shares[i] * (inside - trocar);
+    CollisionRequest request = swept(organ, {{0.0, {trocar, tip}}}, 2e-3);
+    request.mode = QueryMode::kStatic;
+    EXPECT_EQ(contacts(request).size(), counts[i]) << shares[i];
+  }
+}
+
+TEST_P(CollisionQueryWith, RequestsWithoutAnswerAreRefusedByName) {
+  Random random(8);
+  const Soup soup = scattered_faces(3, random);
+  const TriangleMesh organ = mesh(soup);
+  const ShaftAxis axis = random_axis(random);
+  const CollisionRequest good = swept(organ, {{0.0, axis}, {1.0, axis}}, 5e-3);
+  const auto expect_refused = [&](const char* word, const auto& spoil) {
+    contacts(good);
+    CollisionRequest request = good;
+    spoil(request);
+    try {
+      query_.evaluate(request, result_);
+      ADD_FAILURE() << "accepted: " << word;
+    } catch (const std::invalid_argument& error) {
+      EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(result_.contacts.empty());
+  };
+  using Request = CollisionRequest;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  expect_refused("organ", [](Request& r) { r.organ = nullptr; });
+  expect_refused("radius is 0", [](Request& r) { r.radius = 0.0; });
+  expect_refused("radius is -0.001", [](Request& r) { r.radius = -1e-3; });
+  expect_refused("radius is nan", [&](Request& r) { r.radius = nan; });
+  expect_refused("radius is inf", [](Request& r) { r.radius = INFINITY; });
+  expect_refused("path", [](Request& r) { r.path.clear(); });
+  expect_refused("tip of waypoint 1", [&](Request& r) { r.path[1].axis.tip.y() = nan; });
+  expect_refused("trocar of waypoint 0", [](Request& r) { r.path[0].axis.trocar.x() = INFINITY; });
+  expect_refused("fraction 0", [](Request& r) { r.path[1].fraction = 0.0; });
+  expect_refused("to 0.5", [](Request& r) { r.path[1].fraction = 0.5; });
+  expect_refused("mode is 7", [](Request& r) { r.mode = static_cast<QueryMode>(7); });
+  const TriangleMesh other = mesh(scattered_faces(4, random));
+  expect_refused("earlier shape", [&](Request& r) { r.organ_before = &other; });
+  expect_refused("", [](Request& r) {
+    r.mode = QueryMode::kPaperStatic;
+    r.path[1].axis.tip = r.path[1].axis.trocar;
+  });
+  expect_refused("trocar moves by", [](Request& r) {
+    r.mode = QueryMode::kPaperSwept;
+    r.path[0].axis.trocar.x() += 0.01;
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith,
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+
+}  // namespace
+}  // namespace organ_collision
