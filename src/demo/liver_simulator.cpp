@@ -7,12 +7,13 @@
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <visualization_msgs/Marker.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
+#include "demo/liver_scene.hpp"
 #include "demo/liver_soft_body.hpp"
 #include "demo/scripted_tools.hpp"
 
@@ -22,7 +23,8 @@ namespace {
 constexpr char kOrgan[] = "liver";  // its name, and its frame
 constexpr double kYield = 0.5;      // [1] share of the depth by which tissue gives way in one step
 constexpr double kMostYield = 0.008;  // [m] in one step
-constexpr double kMarkerRate = 30.0;  // [Hz]
+constexpr double kTfLeadSec = 0.5;    // TF alone, so that who listens has it before the first shape
+constexpr double kSceneRate = 30.0;   // [Hz]
 
 geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
                                           const std::string& child,
@@ -59,34 +61,44 @@ class LiverSimulator {
       : rate_(rate),
         surface_(make_liver_surface()),
         liver_(surface_),
+        scene_(kOrgan, surface_.faces),
         mesh_publisher_(collision_node.advertise<OrganMesh>("organ_mesh", 1, true)),
         vertices_publisher_(collision_node.advertise<OrganVertices>("organ_vertices", 1)),
-        marker_publisher_(private_node.advertise<visualization_msgs::Marker>("liver", 1)),
+        scene_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("scene", 10)),
         contacts_subscriber_(
             collision_node.subscribe("contacts", 10, &LiverSimulator::on_contacts, this)) {
     publish_trocars();
-    publish_mesh();
   }
 
-  /// Moves on by one period. The tools' poses go out before the shape, with the same stamp.
+  /// The tools are there before the liver is.
   void step() {
+    if (lead_steps_ < kTfLeadSec * rate_) {
+      ++lead_steps_;
+      publish_tips(ros::Time::now());
+    } else {
+      step_liver();
+    }
+  }
+
+ private:
+  /// Moves on by one period. The tools' poses go out before the shape, with the same stamp.
+  void step_liver() {
     std::vector<Push> pushes;
     for (const auto& [tool, tool_pushes] : pushes_) {
       pushes.insert(pushes.end(), tool_pushes.begin(), tool_pushes.end());
     }
     pushes_.clear();
-    liver_.step(1.0 / rate_, pushes);
-    ++steps_;
+    if (++steps_ > 1) liver_.step(1.0 / rate_, pushes);
     const ros::Time stamp = ros::Time::now();
     publish_tips(stamp);
-    publish_vertices(stamp);
-    if (steps_ % std::max(1, static_cast<int>(rate_ / kMarkerRate)) == 0) publish_marker(stamp);
+    steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
+    show(stamp);
   }
 
- private:
   void on_contacts(const ContactArray& array) {
     if (array.status == ContactArray::OK && array.organ == kOrgan) {
       pushes_[array.tool] = pushes_of(array.contacts);
+      for (const Contact& contact : array.contacts) scene_.touch(contact.face);
     }
   }
 
@@ -99,9 +111,9 @@ class LiverSimulator {
     trocar_broadcaster_.sendTransform(trocars);
   }
 
-  void publish_mesh() {
+  void publish_mesh(const ros::Time& stamp) {
     OrganMesh mesh;
-    mesh.header.stamp = ros::Time::now();
+    mesh.header.stamp = stamp;
     mesh.header.frame_id = kOrgan;
     mesh.organ = kOrgan;
     mesh.vertices = liver_.vertices();
@@ -132,40 +144,28 @@ class LiverSimulator {
     vertices_publisher_.publish(vertices);
   }
 
-  void publish_marker(const ros::Time& stamp) {
-    if (marker_publisher_.getNumSubscribers() == 0) return;
-    visualization_msgs::Marker marker;
-    marker.header.stamp = stamp;
-    marker.header.frame_id = kOrgan;
-    marker.ns = kOrgan;
-    marker.type = visualization_msgs::Marker::TRIANGLE_LIST;
-    marker.pose.orientation.w = 1.0;
-    marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
-    marker.color.r = 0.62F;
-    marker.color.g = 0.20F;
-    marker.color.b = 0.16F;
-    marker.color.a = 1.0F;
-    const std::vector<float> vertices = liver_.vertices();
-    for (const FaceIndices& face : surface_.faces) {
-      for (const std::uint32_t vertex : face) {
-        geometry_msgs::Point point;
-        point.x = vertices[3 * vertex];
-        point.y = vertices[3 * vertex + 1];
-        point.z = vertices[3 * vertex + 2];
-        marker.points.push_back(point);
-      }
+  void show(const ros::Time& stamp) {
+    if (scene_publisher_.getNumSubscribers() == 0) return;
+    for (const ScriptedTool& tool : scripted_tools()) {
+      scene_.move_tool(tool.at((steps_ - 1) / rate_), tool.at(steps_ / rate_));
     }
-    marker_publisher_.publish(marker);
+    if (steps_ % steps_shown() != 0) return;
+    scene_publisher_.publish(scene_.markers(stamp, liver_.vertices(), steps_shown() / rate_));
   }
+
+  /// One step of so many is shown.
+  int steps_shown() const { return std::max(1, static_cast<int>(rate_ / kSceneRate)); }
 
   double rate_;
   Surface surface_;
   LiverSoftBody liver_;
+  LiverScene scene_;
   std::map<std::string, std::vector<Push>> pushes_;  ///< by tool, since the last step
+  long lead_steps_ = 0;
   long steps_ = 0;
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
-  ros::Publisher marker_publisher_;
+  ros::Publisher scene_publisher_;
   ros::Subscriber contacts_subscriber_;
   tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
   tf2_ros::TransformBroadcaster tip_broadcaster_;
@@ -186,6 +186,7 @@ int main(int argc, char** argv) {
   }
   const std::string collision_node =
       private_node.param<std::string>("collision_node", "/organ_collision");
+  if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
   organ_collision::LiverSimulator simulator(ros::NodeHandle(collision_node), private_node, rate);
   for (ros::Rate loop(rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();

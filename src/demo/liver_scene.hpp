@@ -1,0 +1,37 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <string>
+#include <vector>
+
+#include "demo/liver_surface.hpp"
+#include "organ_collision/geometry/shaft.hpp"
+
+namespace organ_collision {
+
+/// What a viewer sees of the demo, beside the collision node's own markers: the liver, softly lit,
+/// where touched faces glow for a while; and the surfaces that fast tools swept, as long.
+class LiverScene {
+ public:
+  /// `frame`: of the liver.
+  LiverScene(std::string frame, std::vector<FaceIndices> faces);
+
+  void touch(std::uint32_t face) { glow_.at(face) = 1.0; }
+  void move_tool(const ShaftAxis& from, const ShaftAxis& to);
+
+  /// `vertices`: x y z x y z ... [m]; `seconds` since the last call.
+  visualization_msgs::MarkerArray markers(const ros::Time& stamp,
+                                          const std::vector<float>& vertices, double seconds);
+
+ private:
+  visualization_msgs::Marker marker(const ros::Time& stamp, const std::string& what) const;
+
+  std::string frame_;
+  std::vector<FaceIndices> faces_;
+  std::vector<double> glow_;         ///< of each face, from 1 when touched down to 0
+  std::vector<ShaftMotion> sweeps_;  ///< of fast tools, since the last call
+  int sweeps_shown_ = 0;
+};
+
+}  // namespace organ_collision
