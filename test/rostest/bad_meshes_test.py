@@ -5,8 +5,8 @@ good state as it was."""
 import sys
 
 from organ_collision.msg import ContactArray
-import rosgraph_msgs.msg
 import rospy
+from rosgraph_msgs.msg import Log
 import rostest
 
 from contact_case import ContactCase
@@ -24,14 +24,17 @@ class BadMeshesTest(ContactCase):
     @classmethod
     def setUpClass(cls):
         cls.node = NodeClient()
+        cls.seconds = 100
         cls.log = []
-        cls.log_subscriber = rospy.Subscriber('/rosout_agg', rosgraph_msgs.msg.Log, cls.log.append)
+        cls.log_subscriber = rospy.Subscriber('/rosout', Log, cls.log.append)
         wait_until(lambda: cls.log_subscriber.get_num_connections() > 0, 'the log')
         cls.node.send_mesh('good', SHEET, GOOD)
         cls.node.wait_for_shape('good', GOOD)
 
-    def setUp(self):
-        self.organ = self.id().split('.')[-1]
+    @classmethod
+    def next_stamp(cls):
+        cls.seconds += 1
+        return rospy.Time(cls.seconds)
 
     def assert_good_state(self):
         """The good organ answers exactly as ever."""
@@ -49,44 +52,44 @@ class BadMeshesTest(ContactCase):
             if key.lower().startswith('rejected') and value.isdigit()
         )
 
-    def warnings(self):
-        return [
-            m.msg
-            for m in self.log
-            if m.name == '/organ_collision' and m.level >= rosgraph_msgs.msg.Log.WARN
-        ]
-
-    def refuse(self, messages, *words):
-        """Every message is refused and counted; the log names each of `words` (some value, what is
-        legal) in one line."""
+    def refuse(self, messages, *words, status=ContactArray.INVALID_REQUEST):
+        """Each message is refused by `contacts` with this status and a text that holds `words` (the
+        value, what is legal), all are counted, and the good organ is as before."""
         wait_until(lambda: self.node.diagnostics, 'diagnostics')
-        before, warned = self.rejected(), len(self.warnings())
+        before = self.rejected()
         for publisher, message in messages:
+            message.header.stamp = self.next_stamp()
             publisher.publish(message)
-        wait_until(
-            lambda: self.rejected() >= before + len(messages),
-            'refusals in /diagnostics: %d of %d, %r'
-            % (self.rejected() - before, len(messages), self.node.diagnostics),
-        )
-        self.assertEqual(self.rejected(), before + len(messages))
-        if words:
-            wait_until(
-                lambda: any(
-                    all(word in line for word in words) for line in self.warnings()[warned:]
-                ),
-                'a warning with %r' % (words,),
+            answer = self.node.contacts.wait_for(
+                message.organ, 'grasper', stamp=message.header.stamp
             )
+            self.assertEqual((answer.status, answer.contacts), (status, []), answer.message)
+            for word in words or ' ':
+                self.assertIn(word, answer.message)
+        wait_until(lambda: self.rejected() >= before + len(messages), 'counts of refusals')
+        self.assertEqual(self.rejected(), before + len(messages))
         self.assert_good_state()
 
+    def test_the_log_says_what_was_refused(self):
+        self.refuse([self.vertices(topology=4444)], '4444')
+        wait_until(
+            lambda: [
+                m
+                for m in self.log
+                if m.name == '/organ_collision' and m.level >= Log.WARN and '4444' in m.msg
+            ],
+            'a warning in the log',
+        )
+
     def mesh(self, organ='good', topology=1, frame='liver_frame', **fields):
-        message = self.node.mesh_message(organ, SHEET, rospy.Time(9), topology)
+        message = self.node.mesh_message(organ, SHEET, topology=topology)
         message.header.frame_id = frame
         for name, value in fields.items():
             setattr(message, name, value)
         return (self.node.meshes, message)
 
     def vertices(self, organ='good', topology=1, frame='liver_frame', **fields):
-        message = self.node.vertices_message(organ, SHEET, rospy.Time(9), topology)
+        message = self.node.vertices_message(organ, SHEET, topology=topology)
         message.header.frame_id = frame
         for name, value in fields.items():
             setattr(message, name, value)
@@ -95,7 +98,7 @@ class BadMeshesTest(ContactCase):
     def test_index_out_of_range(self):
         triangles = SHEET.flat_faces()
         triangles[7] = 25
-        self.refuse([self.mesh(triangles=triangles, topology=2)], '25', '24')
+        self.refuse([self.mesh(triangles=triangles, topology=2)], 'face 2 ', 'vertex 25')
         triangles[7] = 2**32 - 1
         self.refuse([self.mesh(triangles=triangles, topology=3)])
         self.refuse([self.mesh(vertices=[], topology=2)])
@@ -122,7 +125,7 @@ class BadMeshesTest(ContactCase):
             self.refuse([self.mesh(vertices=vertices), self.mesh(vertices=vertices, topology=2)])
 
     def test_an_unknown_organ(self):
-        self.refuse([self.vertices(organ='spleen')], 'spleen')
+        self.refuse([self.vertices(organ='spleen')], 'spleen', status=ContactArray.UNKNOWN_ORGAN)
         self.assertEqual(
             self.node.query('spleen', shaft(*AXIS, 0.005)).status, ContactArray.UNKNOWN_ORGAN
         )
@@ -132,7 +135,7 @@ class BadMeshesTest(ContactCase):
 
     def test_vertices_without_triangles_and_the_reverse(self):
         self.refuse([self.mesh(triangles=[], topology=2)])
-        self.refuse([self.mesh(organ=self.organ, triangles=[])])
+        self.refuse([self.mesh(organ='bare', triangles=[])])
 
     def test_empty_names(self):
         self.refuse(

@@ -11,7 +11,7 @@ import rospy
 import rostest
 
 from contact_case import ContactCase
-from node_client import NodeClient, shaft
+from node_client import NodeClient, TfSender, shaft, wait_until
 import oracle
 import scenes
 
@@ -38,6 +38,14 @@ class FuzzTest(ContactCase):
     def setUpClass(cls):
         cls.node = NodeClient()
         cls.rng = random.Random(4711)
+        cls.tf = TfSender()
+        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.send_resting(
+            *[
+                ('liver_frame', 'grasper' + end, scenes.Pose((0, 0, 0, 1), point))
+                for end, point in zip(('_trocar', '_tip'), AXIS)
+            ]
+        )
         cls.node.send_mesh('good', SHEET, rospy.Time(5))
         cls.node.wait_for_shape('good', rospy.Time(5))
 
@@ -85,7 +93,7 @@ class FuzzTest(ContactCase):
         points = [Point(*(self.number() for _ in range(3))) for _ in range(4)]
         if self.rng.random() < 0.2:
             points[2] = points[3]
-        return ToolMotion(*points, radius=self.rng.choice([0.005, 0.05, self.number()]))
+        return ToolMotion(*points, self.rng.choice([0.005, 0.05, self.number()]))
 
     def query(self):
         organ = self.rng.choice(['good', 'good', 'a', 'b', ''])

@@ -78,16 +78,19 @@ class ContactLog:
         with self.lock:
             self.messages.append(message)
 
-    def of(self, organ, tool=None, **fields):
-        """Those of one organ (and tool) whose fields have these values."""
+    def of(self, organ, tool=None, stamp=None, **fields):
+        """Those of one organ (and tool, and stamp) whose fields have these values."""
+
+        def wanted(message):
+            return (
+                message.organ == organ
+                and tool in (None, message.tool)
+                and stamp in (None, message.header.stamp)
+                and all(getattr(message, name) == value for name, value in fields.items())
+            )
+
         with self.lock:
-            return [
-                m
-                for m in self.messages
-                if m.organ == organ
-                and (tool is None or m.tool == tool)
-                and all(getattr(m, name) == value for name, value in fields.items())
-            ]
+            return [message for message in self.messages if wanted(message)]
 
     def wait_for(self, organ, tool, **fields):
         """The first such message."""
@@ -136,7 +139,7 @@ class NodeClient:
 
     def _keep_diagnostics(self, message):
         for status in message.status:
-            if status.name.startswith(self.node.strip('/')):
+            if status.name.lstrip('/').startswith(self.node.lstrip('/') + ':'):
                 for pair in status.values:
                     self.diagnostics[pair.key] = pair.value
 

@@ -56,31 +56,28 @@ class StepsTest(ToolCase):
 
     def test_two_organs_and_two_tools(self):
         """Each pair has its own step; only the organ that changed is evaluated."""
-        plate, name = scenes.one_face(-0.02), self.organ
-        axes = {
-            'grasper': [ABOVE, BELOW],
-            'hook': [
-                ((0.1, 0.01, 0.2), (0.01, 0.01, 0.03)),
-                ((0.1, 0.01, 0.2), (0.0, 0.03, -0.06)),
-            ],
-        }
+        shapes = {self.organ + '_sheet': SHEET, self.organ + '_plate': scenes.one_face(-0.02)}
+        before = {'grasper': ABOVE, 'hook': ((0.1, 0.01, 0.2), (0.01, 0.01, 0.03))}
+        after = {'grasper': BELOW, 'hook': ((0.1, 0.01, 0.2), (0.0, 0.03, -0.06))}
         radius = {'grasper': GRASPER, 'hook': HOOK}
-        for self.organ, mesh in ((name + '_sheet', SHEET), (name + '_plate', plate)):
-            for tool, result in self.step(mesh, {t: a[0] for t, a in axes.items()}).items():
+        for organ, results in self.step_of_organs(shapes, before).items():
+            for tool, result in results.items():
                 self.assertEqual(result.mode, STATIC)
-                self.assert_contacts(
-                    result, oracle.static_contacts(mesh, axes[tool][0], radius[tool])
-                )
+                expected = oracle.static_contacts(shapes[organ], before[tool], radius[tool])
+                self.assert_contacts(result, expected)
         touched = 0
-        for self.organ, mesh in ((name + '_sheet', SHEET), (name + '_plate', plate)):
-            for tool, result in self.step(mesh, {t: a[1] for t, a in axes.items()}).items():
-                expected = oracle.swept_contacts(mesh, *axes[tool], radius[tool])
+        for organ, results in self.step_of_organs(shapes, after, vertices=True).items():
+            for tool, result in results.items():
+                motion = (before[tool], after[tool])
+                expected = oracle.swept_contacts(shapes[organ], *motion, radius[tool])
                 self.assert_contacts(result, expected, 1e-6)
                 touched += len(expected) > 0
         self.assertEqual(touched, 4)
-        for tool in axes:
-            for organ in ('_sheet', '_plate'):
-                self.assertEqual(len(self.node.contacts.of(name + organ, tool)), 2)
+        self.organ += '_sheet'
+        self.step(SHEET, after, vertices=True)
+        for tool in after:
+            counts = [len(self.node.contacts.of(organ, tool)) for organ in shapes]
+            self.assertEqual(counts, [3, 2])
 
     def test_tissue_swings_through_a_resting_tool(self):
         """Shape after shape, each by the oracle; also one by OrganMesh with the same triangles."""

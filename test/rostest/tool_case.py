@@ -43,11 +43,19 @@ class ToolCase(ContactCase):
     def step(self, shape, tools, topology=1, vertices=False, step=STEP):
         """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns
         {name: what the node published of it}."""
+        return self.step_of_organs({self.organ: shape}, tools, topology, vertices, step)[self.organ]
+
+    def step_of_organs(self, shapes, tools, topology=1, vertices=False, step=STEP):
+        """The same for many organs at one time, {organ: shape}. Returns {organ: {tool: result}}."""
         stamp = self.next_stamp(step)
         for tool, axis in tools.items():
             self.place(tool, (axis, stamp))
         send = self.node.send_vertices if vertices else self.node.send_mesh
-        send(self.organ, shape, stamp, topology)
+        for organ, shape in shapes.items():
+            send(organ, shape, stamp, topology)
         return {
-            tool: self.node.contacts.wait_for(self.organ, tool, mesh_stamp=stamp) for tool in tools
+            organ: {
+                tool: self.node.contacts.wait_for(organ, tool, mesh_stamp=stamp) for tool in tools
+            }
+            for organ in shapes
         }
