@@ -17,10 +17,11 @@ using Eigen::Vector3d;
 // How far a volume grows for what 32-bit clipping loses, as shares of the largest coordinate [1].
 struct Rounding {
   double plane;     ///< every plane is misplaced by up to this
-  double division;  ///< the far plane by this times far / near too, user planes times radius / near
+  double division;  ///< the far plane by this times far / near as well
 };
 
-// Measured with faces aimed at the boundary: a quarter of the first is too little.
+// Measured with faces aimed at the boundary: a tenth of the first is too little, and a sixteenth of
+// the second. The rest is margin.
 constexpr Rounding kCovered{1e-6, 16.0 / (1 << 24)};
 constexpr Rounding kIgnored{0.0, 0.0};
 
@@ -83,9 +84,8 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   const double far = end_of_capsule + rounding.division * reach * end_of_capsule / near;
   ViewingVolume volume = ViewingVolume::perspective(
       {ends.origin, eye, axes, left * near, right * near, -grown, grown, near, far});
-  const double thickness = grown + rounding.division * reach * grown / near;
-  volume.add_user_plane({axes.col(1), thickness});
-  volume.add_user_plane({-axes.col(1), thickness});
+  volume.add_user_plane({axes.col(1), grown});
+  volume.add_user_plane({-axes.col(1), grown});
   return volume;
 }
 

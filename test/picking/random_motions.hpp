@@ -36,6 +36,7 @@ class Random {
 enum class MotionKind {
   kNone,
   kSideways,
+  kWideSwing,
   kRandom,
   kAlong,
   kNearlyAlong,
@@ -47,10 +48,10 @@ enum class MotionKind {
   kParallelShift
 };
 inline constexpr std::array kMotionKinds = {
-    MotionKind::kNone,         MotionKind::kSideways,     MotionKind::kRandom,
-    MotionKind::kAlong,        MotionKind::kNearlyAlong,  MotionKind::kOblique,
-    MotionKind::kTiny,         MotionKind::kTipAtTrocar,  MotionKind::kPastTrocar,
-    MotionKind::kMovingTrocar, MotionKind::kParallelShift};
+    MotionKind::kNone,       MotionKind::kSideways,     MotionKind::kWideSwing,
+    MotionKind::kRandom,     MotionKind::kAlong,        MotionKind::kNearlyAlong,
+    MotionKind::kOblique,    MotionKind::kTiny,         MotionKind::kTipAtTrocar,
+    MotionKind::kPastTrocar, MotionKind::kMovingTrocar, MotionKind::kParallelShift};
 
 /// A motion of the given kind, its trocar `offset` [m] away from the frame's origin.
 inline ShaftMotion random_motion(MotionKind kind, double offset, Random& random) {
@@ -68,6 +69,10 @@ inline ShaftMotion random_motion(MotionKind kind, double offset, Random& random)
       return {start, start};
     case MotionKind::kSideways:
       return tip_moves(step * across);
+    case MotionKind::kWideSwing: {
+      const double angle = random.uniform(0.2, 2.5);
+      return tip_moves(std::cos(angle) * axis + length * std::sin(angle) * across - axis);
+    }
     case MotionKind::kRandom:
       return tip_moves(step * random.direction());
     case MotionKind::kAlong:
