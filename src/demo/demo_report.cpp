@@ -230,6 +230,7 @@ int main(int argc, char** argv) {
   const double seconds = private_node.param("seconds", 0.0);
   const std::string collision_node =
       private_node.param<std::string>("collision_node", "/organ_collision");
+  if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
   organ_collision::DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node)};
 
   const ros::WallTime start = ros::WallTime::now();

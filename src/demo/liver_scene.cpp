@@ -15,8 +15,8 @@ constexpr double kFastSweep = 0.02;  // [m] that a tip moves within one step
 const Vector3d kTissue{0.60, 0.17, 0.14};
 const Vector3d kTouched{1.0, 0.85, 0.15};
 const Vector3d kSwept{0.25, 0.60, 1.0};
-const Vector3d kToLight = Vector3d(-0.35, -0.35, 0.87).normalized();
-const Vector3d kHalfway = Vector3d(-0.10, -0.40, 0.90).normalized();  // of light and viewer
+const Vector3d kToLight = Vector3d(0.45, -0.30, 0.85).normalized();
+const Vector3d kHalfway = Vector3d(0.30, -0.55, 0.78).normalized();  // of light and viewer
 
 /// Lambert's and Blinn's light on tissue.
 Vector3d lit(const Vector3d& normal) {
@@ -92,8 +92,8 @@ visualization_msgs::MarkerArray LiverScene::markers(const ros::Time& stamp,
     Marker swept = marker(stamp, "swept");
     swept.id = sweeps_shown_++;
     swept.lifetime = ros::Duration(kGlowSec);
-    swept.color = colour(kSwept, 0.4);
     swept.points = {point(sweep.start.trocar), point(sweep.start.tip), point(sweep.end.tip)};
+    swept.colors.assign(3, colour(kSwept, 0.35));
     array.markers.push_back(swept);
   }
   sweeps_.clear();
