@@ -86,7 +86,7 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
                       come first
   --mesh-before FILE  the same faces at the start of the step: swept motions then meet the organ
                       moving linearly from there to --mesh; without it the organ rests
-  --picker NAME       feedback (default) or select; the answer is the same
+  --picker NAME       feedback (default), or select: the same contacts, much slower on large meshes
   --help              this text
 
 Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
