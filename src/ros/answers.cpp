@@ -51,12 +51,12 @@ std::string reason_of(std::uint8_t status) {
 }
 
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
-  return timeout_sec > 0.0 && (now - shape.time()).toSec() > timeout_sec;
+  return timeout_sec > 0.0 && shape.age(now) > timeout_sec;
 }
 
 std::string stale_message(const Organ& organ, ros::Time now, double timeout_sec) {
   std::ostringstream message;
-  message << "mesh of organ '" << organ.name() << "' is " << (now - organ.latest().time()).toSec()
+  message << "mesh of organ '" << organ.name() << "' is " << organ.latest().age(now)
           << " s old; at most " << timeout_sec << " s are allowed (mesh_timeout_sec)";
   return message.str();
 }

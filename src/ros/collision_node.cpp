@@ -33,6 +33,11 @@ PathSampling sampling(const NodeParameters& parameters) {
   return {parameters.motion_sample_sec, parameters.motion_samples_max};
 }
 
+void count_failure(FailureLog& log, const ContactArray& answer) {
+  if (answer.status == ContactArray::OK) return;
+  log.add(reason_of(answer.status), answer.message, SteadyClock::now());
+}
+
 }  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -91,14 +96,21 @@ void CollisionNode::call_callbacks() {
   if (const auto deadline = steps_.next_deadline()) until = std::min(until, *deadline);
   const std::chrono::duration<double> wait = until - SteadyClock::now();
 
-  watch_clock();
-  auto called = queue_.callOne(ros::WallDuration(std::max(0.0, wait.count())));
+  bool called = call_one(ros::WallDuration(std::max(0.0, wait.count())));
   const SteadyClock::time_point end = SteadyClock::now() + kLongestDrain;
-  while (called == ros::CallbackQueue::Called && SteadyClock::now() < end) {
-    watch_clock();
-    called = queue_.callOne();
-  }
+  while (called && SteadyClock::now() < end) called = call_one(ros::WallDuration(0.0));
   watch_clock();
+}
+
+/// False: there was none.
+bool CollisionNode::call_one(ros::WallDuration wait) {
+  watch_clock();
+  try {
+    return queue_.callOne(wait) == ros::CallbackQueue::Called;
+  } catch (const std::exception& error) {  // As tf2's listener throws at absurd stamps.
+    counters_.rejected.add("exception", error.what(), SteadyClock::now());
+    return true;
+  }
 }
 
 /// Before each callback: what comes from after a jump must not meet what is from before.
@@ -138,12 +150,14 @@ void CollisionNode::on_organ_message(const Message& message) {
 
 bool CollisionNode::on_query(QueryCollision::Request& request, QueryCollision::Response& response) {
   response.result = services_.query(request);
+  count_failure(counters_.refused, response.result);
   return true;
 }
 
 bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
                                    QueryCollisionBatch::Response& response) {
   response.results = services_.query_batch(request);
+  for (const ContactArray& result : response.results) count_failure(counters_.refused, result);
   return true;
 }
 
@@ -153,9 +167,7 @@ bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Respons
 }
 
 void CollisionNode::publish(const EvaluatedStep& step) {
-  if (step.answer->status != ContactArray::OK) {
-    counters_.failed.add(reason_of(step.answer->status), step.answer->message, SteadyClock::now());
-  }
+  count_failure(counters_.failed, *step.answer);
   contacts_.publish(step.answer);
   counters_.contacts.count();
   if (markers_.getNumSubscribers() > 0) markers_.publish(step_markers(step));

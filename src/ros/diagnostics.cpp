@@ -10,12 +10,15 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr double kMicroseconds = 1e6;
 
-/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new.
+/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new,
+/// an error where picking failed.
 void show(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
   for (const auto& [reason, entry] : log.by_reason()) {
     status.add(what + ", " + reason, entry.count);
     if (entry.not_yet_reported == 0) continue;
-    status.mergeSummary(DiagnosticStatus::WARN, reason + ": " + entry.latest);
+    const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
+    status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                        reason + ": " + entry.latest);
   }
   log.reported();
 }
@@ -44,6 +47,7 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
   show("unanswered", sources_.counters.failed, status);
+  show("refused", sources_.counters.refused, status);
 }
 
 void Diagnostics::organs(DiagnosticStatusWrapper& status) {
@@ -52,7 +56,7 @@ void Diagnostics::organs(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, std::to_string(sources_.organs.organs().size()) + " organs");
   for (const auto& [name, organ] : sources_.organs.organs()) {
     const OrganShape& shape = organ.latest();
-    status.add(name + ", age of mesh [s]", (now - shape.time()).toSec());
+    status.add(name + ", age of mesh [s]", shape.age(now));
     status.add(name + ", faces", shape.mesh->face_count());
     if (is_stale(shape, now, timeout)) {
       status.mergeSummary(DiagnosticStatus::WARN, stale_message(organ, now, timeout));

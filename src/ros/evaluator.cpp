@@ -8,6 +8,23 @@
 
 namespace organ_collision {
 
+/// GL compiles at the first draw of each kind; better now than within the first steps.
+Evaluator::Evaluator(PickerKind picker) : query_(picker) {
+  const TriangleMesh face({-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f}, {0, 1, 2});
+  const ShaftAxis above{{0.0, 0.0, 1.0}, {0.1, 0.0, 0.5}},
+      through{{0.0, 0.0, 1.0}, {0.2, 0.0, -0.5}};
+  CollisionRequest request;
+  request.organ = &face;
+  request.path = {{0.0, above}, {1.0, through}};
+  request.radius = 0.01;
+  request.regions = true;
+  for (const QueryMode mode : {QueryMode::kStatic, QueryMode::kSwept, QueryMode::kPaperStatic,
+                               QueryMode::kPaperSwept, QueryMode::kPaperNaive}) {
+    request.mode = mode;
+    query_.evaluate(request, result_);
+  }
+}
+
 void Evaluator::evaluate(const CollisionRequest& request, ContactArray& answer) {
   const auto start = std::chrono::steady_clock::now();
   try {

@@ -1,6 +1,7 @@
 #include "organ_collision/ros/markers.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "organ_collision/ros/conversions.hpp"
 

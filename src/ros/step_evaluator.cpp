@@ -1,5 +1,6 @@
 #include "organ_collision/ros/step_evaluator.hpp"
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <chrono>
 

@@ -2,14 +2,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace organ_collision {
 namespace {
+
+/// [m] A bend of a path by less is none.
+constexpr double kStraight = 1e-9;
 
 /// The earlier of two times; zero is of any time.
 ros::Time common_time(ros::Time a, ros::Time b) {
   if (a.isZero()) return b;
   return b.isZero() ? a : std::min(a, b);
+}
+
+/// Whether the way from `a` to `c` leads through `b`, at its time.
+bool is_straight(const ShaftWaypoint& a, const ShaftWaypoint& b, const ShaftWaypoint& c) {
+  const ShaftMotion motion{a.axis, c.axis};
+  const ShaftAxis middle = motion.at((b.fraction - a.fraction) / (c.fraction - a.fraction));
+  return (middle.trocar - b.axis.trocar).norm() <= kStraight &&
+         (middle.tip - b.axis.tip).norm() <= kStraight;
+}
+
+/// Adds to a path that is not empty, in place of its last waypoint where that adds nothing. Every
+/// leg costs a query of its own; between two transforms TF interpolates, mostly in a straight line.
+void add_waypoint(ShaftPath& path, const ShaftWaypoint& next) {
+  const std::size_t size = path.size();
+  if (size > 1 && is_straight(path[size - 2], path[size - 1], next)) path.pop_back();
+  path.push_back(next);
 }
 
 }  // namespace
@@ -30,21 +50,26 @@ Lookup<ShaftAxis> ToolPoses::axis(const ToolParameters& tool, const std::string&
 
 SampledPath ToolPoses::path(const ToolParameters& tool, const std::string& organ_frame,
                             const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const {
-  const double duration = (to.stamp - from.stamp).toSec();
-  const double wanted = std::max(1.0, std::ceil(duration / sampling_.sample_sec - 1e-6));
+  // Whole nanoseconds: ros::Duration would overflow at absurd stamps.
+  const auto begin = static_cast<std::int64_t>(from.stamp.toNSec());
+  const auto duration = static_cast<std::int64_t>(to.stamp.toNSec()) - begin;
+  const double wanted =
+      std::max(1.0, std::ceil(1e-9 * static_cast<double>(duration) / sampling_.sample_sec - 1e-6));
   const int legs = static_cast<int>(std::min<double>(wanted, sampling_.samples_max));
 
   SampledPath sampled;
   sampled.samples_cut = static_cast<std::size_t>(wanted - legs);
   sampled.path.push_back({0.0, from.value});
   for (int i = 1; i < legs; ++i) {
-    const double fraction = static_cast<double>(i) / legs;
-    const ros::Time time = from.stamp + ros::Duration(fraction * duration);
+    const std::int64_t elapsed = duration / legs * i;
+    ros::Time time;
+    time.fromNSec(static_cast<std::uint64_t>(begin + elapsed));
     if (const auto between = axis(tool, organ_frame, time); between.found) {
-      sampled.path.push_back({fraction, between.found->value});
+      add_waypoint(sampled.path, {static_cast<double>(elapsed) / static_cast<double>(duration),
+                                  between.found->value});
     }
   }
-  sampled.path.push_back({1.0, to.value});
+  add_waypoint(sampled.path, {1.0, to.value});
   return sampled;
 }
 

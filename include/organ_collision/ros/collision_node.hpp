@@ -35,6 +35,7 @@ class CollisionNode {
 
  private:
   void call_callbacks();
+  bool call_one(ros::WallDuration wait);
   void watch_clock();
   void reset();
 

@@ -19,7 +19,8 @@ struct NodeCounters {
   EventRate meshes{std::chrono::steady_clock::now()};
   EventRate contacts{std::chrono::steady_clock::now()};
   FailureLog rejected;  ///< messages that were refused
-  FailureLog failed;    ///< evaluations without answer
+  FailureLog failed;    ///< steps without answer
+  FailureLog refused;   ///< service calls without answer
 };
 
 /// Says how the node is, for /diagnostics.

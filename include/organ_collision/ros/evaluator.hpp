@@ -13,7 +13,7 @@ namespace organ_collision {
 class Evaluator {
  public:
   /// Throws GlError where GL picking does not work here.
-  explicit Evaluator(PickerKind picker) : query_(picker) {}
+  explicit Evaluator(PickerKind picker);
 
   /// Sets contacts, regions, status and message of `answer`.
   void evaluate(const CollisionRequest& request, ContactArray& answer);

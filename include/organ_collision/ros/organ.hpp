@@ -16,8 +16,10 @@ struct OrganShape {
   ros::Time stamp;                           ///< as sent; zero: unstamped
   ros::Time received;
 
-  /// When the organ had this shape, as well as is known.
-  ros::Time time() const { return stamp.isZero() ? received : stamp; }
+  /// [s] Since its stamp, or since it came if it has none; negative: from the future.
+  double age(ros::Time now) const {
+    return now.toSec() - (stamp.isZero() ? received : stamp).toSec();
+  }
 };
 
 /// A named organ: its frame, its latest shape and the one before.

@@ -35,7 +35,8 @@ class ToolPoses {
                          ros::Time time) const;
 
   /// The way from one known axis to another, through samples of TF evenly spaced in between; a
-  /// sample that TF does not have is left out. A path always begins and ends as given.
+  /// sample that TF does not have, or that lies on the straight way between its neighbours, is left
+  /// out. A path always begins and ends as given.
   SampledPath path(const ToolParameters& tool, const std::string& organ_frame,
                    const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const;
 
