@@ -4,8 +4,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <vector>
 
+#include "organ_collision/geometry/closest_points.hpp"
 #include "random_motions.hpp"
 
 namespace organ_collision {
@@ -252,6 +254,49 @@ TEST(ConservativeVolume, ContainsTheSweptCapsule) {
   }
   EXPECT_GT(cameras[0], 50'000);
   EXPECT_GT(cameras[1], 50'000);
+}
+
+// What a volume takes in beyond the capsule: the corners of a box, and of a wedge where a side
+// meets the far end at a small angle.
+TEST(ConservativeVolume, TakesInLittleMoreThanTheSweptCapsule) {
+  Random random(16);
+  int inside = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
+    const ShaftMotion motion = random_motion(kind, 0.3, random);
+    if (motion.start.trocar != motion.end.trocar) continue;
+    const double radius = random.magnitude(0.0005, 0.01);
+    const ViewingVolume volume = conservative_volume(motion, radius, {});
+    const bool perspective = volume.clip().row(3).head<3>().norm() > 0;
+    const Triangle swept = {motion.start.trocar, motion.start.tip, motion.end.tip};
+    for (int k = 0; k < 50; ++k) {
+      const Vector3d point = motion.at(random.uniform(0, 1)).at(random.uniform(0, 1)) +
+                             radius * random.magnitude(0.5, 20) * random.direction();
+      if (excess(volume, point) > 0) continue;
+      ++inside;
+      const double distance = closest_points({point, point}, swept).distance;
+      EXPECT_LT(distance, radius * (perspective ? 6 : 1.75)) << motion << "radius " << radius;
+    }
+  }
+  EXPECT_GT(inside, 50'000);
+}
+
+TEST(ToolVolume, IsTheConservativeOneWithoutGrowth) {
+  Random random(17);
+  for (int i = 0; i < 50'000; ++i) {
+    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
+    const ShaftMotion motion = random_motion(kind, 0.3, random);
+    const double radius = random.magnitude(0.0005, 0.01);
+    const ViewingVolume volume = tool_volume(motion, radius);
+    double tightest = -1;
+    for (const Vector3d& end :
+         {motion.start.trocar, motion.start.tip, motion.end.trocar, motion.end.tip}) {
+      const double out = excess(volume, end) + radius;
+      ASSERT_LE(out, 1e-12) << motion << "radius " << radius;
+      tightest = std::max(tightest, out);
+    }
+    EXPECT_GE(tightest, -1e-12) << "some plane touches the capsule" << motion;
+  }
 }
 
 }  // namespace

@@ -1,0 +1,47 @@
+#include "convex_hull.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector2d;
+
+double turn(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+TEST(ConvexHull, HoldsAllPointsAndTurnsLeft) {
+  std::mt19937 engine(51);
+  for (int i = 0; i < 20'000; ++i) {
+    // On a coarse grid, so that points coincide and lie on lines.
+    std::uniform_int_distribution<int> coordinate(0, 1 + i % 9);
+    std::vector<Vector2d> points(static_cast<std::size_t>(1 + i % 6));
+    for (Vector2d& point : points) point = {coordinate(engine), coordinate(engine)};
+    const std::vector<Vector2d> corners = convex_hull(points);
+    ASSERT_FALSE(corners.empty());
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      EXPECT_NE(std::find(points.begin(), points.end(), corners[k]), points.end());
+      const Vector2d& next = corners[(k + 1) % corners.size()];
+      for (const Vector2d& point : points) EXPECT_GE(turn(corners[k], next, point), 0);
+      if (corners.size() > 2) {
+        EXPECT_GT(turn(corners[k], next, corners[(k + 2) % corners.size()]), 0);
+      }
+    }
+    std::reverse(points.begin(), points.end());
+    EXPECT_EQ(convex_hull(points), corners);
+  }
+}
+
+TEST(ConvexHull, OfASegmentAndAPoint) {
+  const Vector2d a(0.25, 0.75), b(0.5, -0.25);
+  EXPECT_EQ(convex_hull({b, a, a}), (std::vector<Vector2d>{a, b}));
+  EXPECT_EQ(convex_hull({a, (a + b) / 2, b}).size(), 2u);
+  EXPECT_EQ(convex_hull({b, b, b, b}), (std::vector<Vector2d>{b}));
+}
+
+}  // namespace
+}  // namespace organ_collision
