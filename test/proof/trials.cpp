@@ -133,8 +133,12 @@ void segment_or_point(Trial& trial, Random& random) {
   if (random.chance(0.3)) trial.face[0] = trial.face[1] = trial.face[2];
 }
 
+/// The tool is beside its inside, not its corners.
 void huge_face(Trial& trial, Random& random) {
-  trial.face = face_beside(trial, random.scale(0.2, 1e3), random);
+  const double size = random.scale(0.2, 10.0);
+  const Triangle small = face_beside(trial, trial.radius, random);
+  const Vector3d amid = (small[0] + small[1] + small[2]) / 3.0;
+  for (int i = 0; i < 3; ++i) trial.face[i] = amid + size * (small[i] - amid).normalized();
 }
 
 void tiny_face(Trial& trial, Random& random) {
@@ -226,7 +230,9 @@ Trial make_trial(std::size_t kind, Random& random) {
   kKinds[kind].place(trial, random);
   trial.face = rounded(trial.face);
   if (random.chance(0.5)) {
-    const double touching = distance(core(trial.motion), trial.face);
+    const bool at_rest = random.chance(0.3);
+    const Triangle core_of = at_rest ? core(trial.motion.end) : core(trial.motion);
+    const double touching = distance(core_of, trial.face);
     const double share = random.sign() * std::pow(10.0, -random.integer(3, 12));
     if (touching > 1e-5 && touching < 0.1) trial.radius = touching * (1.0 + share);
   }

@@ -1,0 +1,87 @@
+#include "proof/exact_volume.hpp"
+
+#include <CGAL/Gmpq.h>
+#include <CGAL/Interval_nt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace organ_collision::oracle {
+namespace {
+
+template <class Number>
+struct Point {
+  Number x, y, z;
+};
+
+/// Sutherland and Hodgman's clip of the face by one half-space after the other.
+template <class N>
+bool meets_as(const Triangle& face, const Eigen::Vector3d& origin,
+              const std::vector<HalfSpace>& half_spaces) {
+  std::vector<Point<N>> polygon;
+  for (const Eigen::Vector3d& corner : face) {
+    polygon.push_back({N(corner.x()) - N(origin.x()), N(corner.y()) - N(origin.y()),
+                       N(corner.z()) - N(origin.z())});
+  }
+  for (const HalfSpace& half_space : half_spaces) {
+    const N a(half_space.normal.x()), b(half_space.normal.y()), c(half_space.normal.z());
+    const N offset(half_space.offset);
+    std::vector<N> heights;
+    for (const Point<N>& p : polygon) heights.push_back(a * p.x + b * p.y + c * p.z - offset);
+    std::vector<Point<N>> inside;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const std::size_t next = (i + 1) % polygon.size();
+      const bool here = heights[i] <= N(0), there = heights[next] <= N(0);
+      const Point<N>&p = polygon[i], &q = polygon[next];
+      if (here) inside.push_back(p);
+      if (here == there) continue;
+      const N t = heights[i] / (heights[i] - heights[next]);
+      inside.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
+    }
+    polygon = std::move(inside);
+    if (polygon.empty()) return false;
+  }
+  return true;
+}
+
+/// The same with intervals: no answer where rounding could change it.
+std::optional<bool> meets_by_intervals(const Triangle& face, const Eigen::Vector3d& origin,
+                                       const std::vector<HalfSpace>& half_spaces) {
+  const CGAL::Protect_FPU_rounding<true> protect;
+  try {
+    return meets_as<CGAL::Interval_nt<false>>(face, origin, half_spaces);
+  } catch (const CGAL::Uncertain_conversion_exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+bool meets(const Triangle& face, const Eigen::Vector3d& origin,
+           const std::vector<HalfSpace>& half_spaces) {
+  const std::optional<bool> certain = meets_by_intervals(face, origin, half_spaces);
+  return certain ? *certain : meets_as<CGAL::Gmpq>(face, origin, half_spaces);
+}
+
+std::vector<HalfSpace> half_spaces(const ViewingVolume& volume, double extent, double share) {
+  constexpr std::size_t kNear = 4, kFar = 5;
+  std::vector<HalfSpace> planes;
+  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+    planes.push_back(volume.half_space(i));
+  }
+  // w is the depth before the eye in perspective, 1 otherwise.
+  const auto w = [&](const HalfSpace& plane) {
+    return volume.clip().row(3).dot((plane.offset * plane.normal).homogeneous());
+  };
+  const double near = w(planes[kNear]), far = w(planes[kFar]);
+  const double largest = near == far ? extent : std::max(extent, far);
+  const double rounding = 16.0 * std::ldexp(largest, -24);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    planes[i].offset += share * rounding * (i == kFar ? far / near : 1.0);
+  }
+  return planes;
+}
+
+}  // namespace organ_collision::oracle

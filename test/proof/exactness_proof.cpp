@@ -1,0 +1,108 @@
+// Measures the library against exact arithmetic: capsules at rest and swept, the pickers, the
+// half-spaces of the viewing volumes; and moving organs against search. Ends with 1 if anything
+// differs by more than the stated band, or if a picker misses a face.
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "proof/comparison.hpp"
+
+namespace organ_collision::oracle {
+namespace {
+
+/// A line on stderr about once a second.
+class Progress {
+ public:
+  void show(const std::string& what, long done, long all) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::seconds(1)) return;
+    last_ = now;
+    std::cerr << what << ": " << done << " of " << all << "\n";
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+using Tallies = std::map<std::string, Tally>;
+
+/// Our volume, and the paper's, where they exist for the motion.
+void compare_volumes(const Trial& trial, Comparison& comparison, Tallies& tallies) {
+  const ShaftMotion& motion = trial.motion;
+  const auto compare = [&](const char* name, const ViewingVolume& volume) {
+    tallies[name].add(comparison.volume(volume, trial));
+  };
+  compare("the tool's", tool_volume(motion, trial.radius));
+  if (motion.end.tip == motion.end.trocar) return;
+  compare("paper's static", paper_static_volume(motion.end, trial.radius));
+  if (motion.start.tip == motion.start.trocar) return;
+  compare("paper's swept", paper_swept_volume(motion, trial.radius));
+  compare("paper's naive", paper_naive_volume(motion, trial.radius));
+}
+
+/// Prints the tables; whether there was nothing but agreement.
+bool prove(long pairs, unsigned long seed) {
+  const std::vector<std::string>& kinds = trial_kinds();
+  const long each = (pairs + static_cast<long>(kinds.size()) - 1) / static_cast<long>(kinds.size());
+  Comparison comparison;
+  Progress progress;
+  std::vector<Tally> at_rest(kinds.size()), swept(kinds.size()), moving(kinds.size());
+  Tallies volumes;
+  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+    Random random(1000 * seed + kind);
+    for (long i = 0; i < each; ++i) {
+      progress.show(kinds[kind], i, each);
+      const Trial trial = make_trial(kind, random);
+      at_rest[kind].add(comparison.at_rest(trial));
+      swept[kind].add(comparison.swept(trial));
+      if (i % 20 == 0) compare_volumes(trial, comparison, volumes);
+      if (i % 200 == 0) moving[kind].add(comparison.moving(trial, random));
+    }
+  }
+
+  Tally all;
+  const auto print_all = [&](const std::string& what, const std::string& band,
+                             const std::vector<Tally>& tallies) {
+    print_head(what, band);
+    Tally sum;
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      print(kinds[kind], tallies[kind]);
+      sum.add(tallies[kind]);
+    }
+    print("all", sum);
+    all.add(sum);
+  };
+  print_all("capsule at rest", "1e-9 m", at_rest);
+  print_all("capsule swept", "1e-9 m", swept);
+  print_all("everything moves", "1e-6 m", moving);
+  print_head("volume", "32 bits");
+  for (const auto& [name, tally] : volumes) {
+    print(name, tally);
+    all.add(tally);
+  }
+  return all.outside_band == 0 && all.missed == 0;
+}
+
+}  // namespace
+}  // namespace organ_collision::oracle
+
+int main(int argc, char** argv) {
+  long pairs = 1000000;
+  unsigned long seed = 1;
+  for (int i = 1; i < argc; i += 2) {
+    const std::string option = argv[i];
+    char* end = nullptr;
+    const long value = i + 1 < argc ? std::strtol(argv[i + 1], &end, 10) : 0;
+    if (value <= 0 || *end != '\0' || (option != "--pairs" && option != "--seed")) {
+      std::cerr << "usage: exactness_proof [--pairs N] [--seed N]; N is a positive number\n";
+      return 2;
+    }
+    if (option == "--pairs") pairs = value;
+    if (option == "--seed") seed = static_cast<unsigned long>(value);
+  }
+  return organ_collision::oracle::prove(pairs, seed) ? 0 : 1;
+}
