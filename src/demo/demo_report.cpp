@@ -9,20 +9,17 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <deque>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include "organ_collision/geometry/closest_points.hpp"
-#include "organ_collision/geometry/tolerances.hpp"
+#include "demo/static_comparison.hpp"
 #include "organ_collision/ros/parameters.hpp"
-#include "organ_collision/ros/tool_poses.hpp"
 
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kShapesKept = 500;
+constexpr double kPatienceSec = 60.0;  // until the collision node answers for the first time
 constexpr std::size_t kFacesListed = 4;
 constexpr double kMicroseconds = 1e6;
 
@@ -44,18 +41,6 @@ std::string first_of(const std::set<std::uint32_t>& faces) {
   return text.str();
 }
 
-struct Shape {
-  ros::Time stamp;
-  std::vector<float> vertices;
-};
-
-/// What one tool touched.
-struct Tally {
-  std::set<std::uint32_t> faces_this_second;
-  std::size_t contacts = 0;
-  std::size_t missed_by_static = 0;
-};
-
 /// What /diagnostics says of the node's query time [us].
 struct QueryTime {
   double median = 0.0, percentile_99 = 0.0, worst = 0.0;
@@ -64,26 +49,28 @@ struct QueryTime {
 class DemoReport {
  public:
   DemoReport(ros::NodeHandle node, ros::NodeHandle collision_node)
-      : tools_(load_parameters(collision_node).parameters.tools),
-        poses_(transforms_, PathSampling{}),
-        transform_listener_(transforms_),
+      : transform_listener_(transforms_),
+        comparison_(load_parameters(collision_node).parameters.tools, transforms_),
         subscribers_{
             collision_node.subscribe("organ_mesh", 10, &DemoReport::on_mesh, this),
             collision_node.subscribe("organ_vertices", 1000, &DemoReport::on_vertices, this),
             collision_node.subscribe("contacts", 1000, &DemoReport::on_contacts, this),
             node.subscribe("/diagnostics", 10, &DemoReport::on_diagnostics, this)} {
-    for (const ToolParameters& tool : tools_) tallies_[tool.name];
+    for (const auto& [tool, tally] : comparison_.tallies()) touched_[tool];
   }
+
+  /// Whether the collision node has said anything yet, be it what is wrong.
+  bool has_heard_of_node() const { return answers_ > 0 || !failure_.empty(); }
 
   /// One line about the `seconds` since the last one.
   void print_line(double time, double seconds) {
     std::printf("%4.0f s  %3.0f shapes/s  %3.0f answers/s", time, shapes_ / seconds,
                 answers_ / seconds);
-    for (auto& [tool, tally] : tallies_) {
-      const std::size_t count = tally.faces_this_second.size();
+    for (auto& [tool, faces] : touched_) {
+      const std::size_t count = faces.size();
       std::printf("  %s %zu faces%s%s%s", tool.c_str(), count, count > 0 ? " (" : "",
-                  first_of(tally.faces_this_second).c_str(), count > 0 ? ")" : "");
-      tally.faces_this_second.clear();
+                  first_of(faces).c_str(), count > 0 ? ")" : "");
+      faces.clear();
     }
     if (query_time_.median > 0.0) std::printf("  query %.0f us", query_time_.median);
     std::printf("\n");
@@ -95,9 +82,8 @@ class DemoReport {
 
   /// The closing words. False if nothing was found.
   bool print_summary(double time) {
-    judge_waiting();
     std::size_t contacts = 0, missed = 0;
-    for (const auto& [tool, tally] : tallies_) {
+    for (const auto& [tool, tally] : comparison_.tallies()) {
       contacts += tally.contacts;
       missed += tally.missed_by_static;
     }
@@ -106,11 +92,13 @@ class DemoReport {
       std::printf(" A static test at the same instants would have missed %zu of them (%.0f%%):\n",
                   missed, 100.0 * missed / contacts);
     }
-    for (const auto& [tool, tally] : tallies_) {
+    for (const auto& [tool, tally] : comparison_.tallies()) {
       std::printf("  %-10s %6zu contacts, %6zu missed\n", tool.c_str(), tally.contacts,
                   tally.missed_by_static);
     }
-    if (!waiting_.empty()) std::printf("  %zu answers were not compared\n", waiting_.size());
+    if (comparison_.waiting() > 0) {
+      std::printf("  %zu answers could not be compared\n", comparison_.waiting());
+    }
     std::printf("Query time: median %.0f us, 99%% within %.0f us, worst %.0f us.\n",
                 query_time_.median, query_time_.percentile_99, query_time_.worst);
     std::printf("From shape to answer, through ROS: median %.0f us, 99%% within %.0f us.\n",
@@ -122,19 +110,14 @@ class DemoReport {
 
  private:
   void on_mesh(const OrganMesh& mesh) {
-    triangles_ = mesh.triangles;
-    keep({mesh.header.stamp, mesh.vertices});
+    ++shapes_;
+    comparison_.set_triangles(mesh.triangles);
+    comparison_.add_shape(mesh.header.stamp, mesh.vertices);
   }
 
   void on_vertices(const OrganVertices& vertices) {
-    keep({vertices.header.stamp, vertices.vertices});
-    judge_waiting();
-  }
-
-  void keep(Shape shape) {
     ++shapes_;
-    latest_shapes_.push_back(std::move(shape));
-    if (latest_shapes_.size() > kShapesKept) latest_shapes_.pop_front();
+    comparison_.add_shape(vertices.header.stamp, vertices.vertices);
   }
 
   void on_contacts(const ContactArrayConstPtr& answer) {
@@ -144,12 +127,8 @@ class DemoReport {
     }
     ++answers_;
     delays_.push_back((ros::Time::now() - answer->mesh_stamp).toSec());
-    for (const auto& contact : answer->contacts) {
-      tallies_[answer->tool].faces_this_second.insert(contact.face);
-    }
-    if (answer->contacts.empty()) return;
-    waiting_.push_back(answer);
-    judge_waiting();
+    for (const auto& contact : answer->contacts) touched_[answer->tool].insert(contact.face);
+    comparison_.add_answer(answer);
   }
 
   void on_diagnostics(const diagnostic_msgs::DiagnosticArray& array) {
@@ -165,56 +144,13 @@ class DemoReport {
     }
   }
 
-  /// Answers whose shape and pose have arrived by now are compared with the static test.
-  void judge_waiting() {
-    const auto judged = std::remove_if(waiting_.begin(), waiting_.end(),
-                                       [this](const auto& answer) { return judge(*answer); });
-    waiting_.erase(judged, waiting_.end());
-  }
-
-  /// The static test: is the face within the radius of the axis when the step ends? By exact
-  /// distances, without the collision node. False if shape or pose is not there yet.
-  bool judge(const ContactArray& answer) {
-    const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const ToolParameters& tool) {
-      return tool.name == answer.tool;
-    });
-    const auto shape =
-        std::find_if(latest_shapes_.rbegin(), latest_shapes_.rend(),
-                     [&](const Shape& shape) { return shape.stamp == answer.mesh_stamp; });
-    if (tool == tools_.end() || shape == latest_shapes_.rend() || triangles_.empty()) return false;
-    const auto axis = poses_.axis(*tool, answer.header.frame_id, answer.header.stamp);
-    if (!axis.found) return false;
-    Tally& tally = tallies_[answer.tool];
-    for (const auto& contact : answer.contacts) {
-      const double distance =
-          closest_points(axis.found->value, face(*shape, contact.face)).distance;
-      ++tally.contacts;
-      if (distance > tool->radius + tolerance::kTouch) ++tally.missed_by_static;
-    }
-    return true;
-  }
-
-  Triangle face(const Shape& shape, std::uint32_t number) const {
-    Triangle corners;
-    for (int k = 0; k < 3; ++k) {
-      const float* vertex = &shape.vertices.at(3 * triangles_.at(3 * number + k));
-      corners[k] = Eigen::Vector3d(vertex[0], vertex[1], vertex[2]);
-    }
-    return corners;
-  }
-
-  std::vector<ToolParameters> tools_;
   tf2_ros::Buffer transforms_;
-  ToolPoses poses_;
   tf2_ros::TransformListener transform_listener_;
+  StaticComparison comparison_;
 
-  std::vector<std::uint32_t> triangles_;
-  std::deque<Shape> latest_shapes_;
-  std::deque<ContactArrayConstPtr> waiting_;  ///< for their shape and pose
-
-  std::map<std::string, Tally> tallies_;  ///< by tool
-  std::size_t shapes_ = 0, answers_ = 0;  ///< since the last line
-  std::vector<double> delays_;            ///< [s]
+  std::map<std::string, std::set<std::uint32_t>> touched_;  ///< by tool, since the last line
+  std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
+  std::vector<double> delays_;                              ///< [s]
   QueryTime query_time_;
   std::string failure_;  ///< the last since the last line
 
@@ -224,23 +160,34 @@ class DemoReport {
 }  // namespace
 }  // namespace organ_collision
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   ros::init(argc, argv, "demo_report");
   ros::NodeHandle private_node("~");
   const double seconds = private_node.param("seconds", 0.0);
   const std::string collision_node =
       private_node.param<std::string>("collision_node", "/organ_collision");
-  if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
   organ_collision::DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node)};
 
-  const ros::WallTime start = ros::WallTime::now();
+  ros::WallTime start = ros::WallTime::now();
   const auto elapsed = [&] { return (ros::WallTime::now() - start).toSec(); };
-  double last_line = 0.0;
+  const auto listen = [] { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02)); };
+
+  while (ros::ok() && !report.has_heard_of_node()) {
+    listen();
+    if (elapsed() < organ_collision::kPatienceSec) continue;
+    throw std::runtime_error(collision_node + " does not answer");
+  }
+  start = ros::WallTime::now();
+  double last_line = 0.0, next_line = 1.0;
   while (ros::ok() && !(seconds > 0.0 && elapsed() >= seconds)) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
-    if (elapsed() - last_line < 1.0) continue;
+    listen();
+    if (elapsed() < next_line) continue;
     report.print_line(elapsed(), elapsed() - last_line);
     last_line = elapsed();
+    next_line += 1.0;
   }
   return report.print_summary(elapsed()) ? 0 : 1;
+} catch (const std::exception& error) {
+  ROS_FATAL("%s", error.what());
+  return 1;
 }

@@ -1,0 +1,68 @@
+#include "demo/static_comparison.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "organ_collision/geometry/closest_points.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr std::size_t kShapesKept = 500;
+
+}  // namespace
+
+StaticComparison::StaticComparison(std::vector<ToolParameters> tools,
+                                   const tf2::BufferCore& transforms)
+    : tools_(std::move(tools)), poses_(transforms, PathSampling{}) {
+  for (const ToolParameters& tool : tools_) tallies_[tool.name];
+}
+
+void StaticComparison::add_shape(const ros::Time& stamp, std::vector<float> vertices) {
+  shapes_.push_back({stamp, std::move(vertices)});
+  if (shapes_.size() > kShapesKept) shapes_.pop_front();
+  compare_waiting();
+}
+
+void StaticComparison::add_answer(const ContactArrayConstPtr& answer) {
+  waiting_.push_back(answer);
+  compare_waiting();
+}
+
+void StaticComparison::compare_waiting() {
+  const auto compared = std::remove_if(waiting_.begin(), waiting_.end(),
+                                       [this](const auto& answer) { return compare(*answer); });
+  waiting_.erase(compared, waiting_.end());
+}
+
+/// False if shape or pose is not there yet.
+bool StaticComparison::compare(const ContactArray& answer) {
+  const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const ToolParameters& tool) {
+    return tool.name == answer.tool;
+  });
+  const auto shape = std::find_if(shapes_.rbegin(), shapes_.rend(), [&](const Shape& shape) {
+    return shape.stamp == answer.mesh_stamp;
+  });
+  if (tool == tools_.end() || shape == shapes_.rend() || triangles_.empty()) return false;
+  const auto axis = poses_.axis(*tool, answer.header.frame_id, answer.header.stamp);
+  if (!axis.found) return false;
+  Tally& tally = tallies_[answer.tool];
+  for (const auto& contact : answer.contacts) {
+    const auto nearest = closest_points(axis.found->value, face(*shape, contact.face));
+    ++tally.contacts;
+    if (nearest.distance > tool->radius + tolerance::kTouch) ++tally.missed_by_static;
+  }
+  return true;
+}
+
+Triangle StaticComparison::face(const Shape& shape, std::uint32_t number) const {
+  Triangle corners;
+  for (int k = 0; k < 3; ++k) {
+    const float* vertex = &shape.vertices.at(3 * triangles_.at(3 * number + k));
+    corners[k] = Eigen::Vector3d(vertex[0], vertex[1], vertex[2]);
+  }
+  return corners;
+}
+
+}  // namespace organ_collision
