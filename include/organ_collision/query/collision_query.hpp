@@ -36,7 +36,7 @@ struct CollisionRequest {
 
 struct CollisionResult {
   std::vector<FaceContact> contacts;  ///< by rising face, one for each
-  std::vector<Region> regions;    ///< empty unless asked for; else one for each contact
+  std::vector<Region> regions;        ///< empty unless asked for; else one for each contact
 };
 
 class Step;
