@@ -134,13 +134,10 @@ void QueryServices::set_tool_motion(const QueryCollision::Request& request, cons
     collision.path = {{0.0, end.found->value}};
     return;
   }
-  const Timed<ShaftAxis> from{last->axis, last->stamp};
-  collision.path =
-      request.mode == ContactArray::SWEPT
-          ? sources_.poses
-                .path(parameters, organ.frame(), from, {end.found->value, answer.header.stamp})
-                .path
-          : ShaftPath{{0.0, from.value}, {1.0, end.found->value}};
+  collision.path = sources_.poses
+                       .path(parameters, organ.frame(), {last->axis, last->stamp},
+                             {end.found->value, answer.header.stamp})
+                       .path;
   answer.step_start = last->stamp;
 }
 

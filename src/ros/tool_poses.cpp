@@ -7,7 +7,7 @@
 namespace organ_collision {
 namespace {
 
-/// [m] A bend of a path by less is none.
+/// [m] A bend of a path, or a way of a trocar, by less is none.
 constexpr double kStraight = 1e-9;
 
 /// The earlier of two times; zero is of any time.
@@ -30,6 +30,16 @@ void add_waypoint(ShaftPath& path, const ShaftWaypoint& next) {
   const std::size_t size = path.size();
   if (size > 1 && is_straight(path[size - 2], path[size - 1], next)) path.pop_back();
   path.push_back(next);
+}
+
+/// A trocar that moves by rounding alone is at rest, for which viewing volumes are tighter.
+void rest_trocar(ShaftPath& path) {
+  const Eigen::Vector3d trocar = path.back().axis.trocar;
+  const auto is_there = [&](const ShaftWaypoint& waypoint) {
+    return (waypoint.axis.trocar - trocar).norm() <= kStraight;
+  };
+  if (!std::all_of(path.begin(), path.end(), is_there)) return;
+  for (ShaftWaypoint& waypoint : path) waypoint.axis.trocar = trocar;
 }
 
 }  // namespace
@@ -70,6 +80,7 @@ SampledPath ToolPoses::path(const ToolParameters& tool, const std::string& organ
     }
   }
   add_waypoint(sampled.path, {1.0, to.value});
+  rest_trocar(sampled.path);
   return sampled;
 }
 

@@ -36,7 +36,7 @@ class ToolPoses {
 
   /// The way from one known axis to another, through samples of TF evenly spaced in between; a
   /// sample that TF does not have, or that lies on the straight way between its neighbours, is left
-  /// out. A path always begins and ends as given.
+  /// out. A path always begins and ends as given, but for 1e-9 m of a trocar at rest.
   SampledPath path(const ToolParameters& tool, const std::string& organ_frame,
                    const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const;
 
