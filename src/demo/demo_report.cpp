@@ -188,6 +188,6 @@ int main(int argc, char** argv) try {
   }
   return report.print_summary(elapsed()) ? 0 : 1;
 } catch (const std::exception& error) {
-  ROS_FATAL("%s", error.what());
+  std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS is shut down by now
   return 1;
 }
