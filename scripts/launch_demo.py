@@ -1,9 +1,12 @@
 #!/usr/bin/python3
-"""roslaunch with an exit code: 1 if a required node failed, else 0.
+"""roslaunch for the demo: shows what the nodes print and what goes wrong, and nothing else; its exit
+code is 1 if a required node failed, else 0.
 
 Usage: launch_demo.py LAUNCH_FILE [ARGUMENT:=VALUE]...
 """
 
+import contextlib
+import os
 import sys
 
 import roslaunch
@@ -21,22 +24,43 @@ class ExitCodes(roslaunch.pmon.ProcessListener):
         self.by_name[name] = exit_code
 
 
-def main(launch_file, *arguments):
+class ErrorsOnly:
+    """A stream that leaves out roslaunch's alarm about a required node that ended well."""
+
+    def __init__(self, stream):
+        self.stream = stream
+
+    def write(self, text):
+        if 'process has finished cleanly' not in text:
+            self.stream.write(text)
+
+    def flush(self):
+        self.stream.flush()
+
+
+def run(launch_file, arguments):
+    """The names of the required nodes that failed."""
     run_id = roslaunch.rlutil.get_or_generate_uuid(None, False)
     roslaunch.configure_logging(run_id)
     ended = ExitCodes()
-    launch = roslaunch.parent.ROSLaunchParent(run_id, [(launch_file, list(arguments))],
+    launch = roslaunch.parent.ROSLaunchParent(run_id, [(launch_file, arguments)],
                                               process_listeners=[ended], show_summary=False)
     launch.start()
     launch.spin()
-    failed = [node.name for node in launch.config.nodes
-              if node.required and ended.by_name.get(node.name, 0) != 0]
+    return [node.name for node in launch.config.nodes
+            if node.required and ended.by_name.get(node.name, 0) != 0]
+
+
+def main():
+    try:
+        with open(os.devnull, 'w') as nowhere, contextlib.redirect_stdout(nowhere), \
+                contextlib.redirect_stderr(ErrorsOnly(sys.stderr)):
+            failed = run(sys.argv[1], sys.argv[2:])
+    except (roslaunch.RLException, rospkg.ResourceNotFound) as error:
+        sys.exit(str(error))
     if failed:
         sys.exit('failed: ' + ', '.join(failed))
 
 
 if __name__ == '__main__':
-    try:
-        main(*sys.argv[1:])
-    except (roslaunch.RLException, rospkg.ResourceNotFound) as error:
-        sys.exit(str(error))
+    main()

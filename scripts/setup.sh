@@ -97,12 +97,19 @@ use_ros() {
   fi
 }
 
+# ROS asks by name even for this host. (The package netbase writes /etc/hosts where there is none.)
+check_localhost() {
+  getent hosts localhost >/dev/null ||
+    fail "the name 'localhost' does not resolve; add the line '127.0.0.1 localhost' to /etc/hosts"
+}
+
 # The ROS programs and packages as built.
 use_built_package() {
   set +u
   # shellcheck disable=SC1091
   . "$build/devel/setup.bash"
   set -u
+  check_localhost
   # ROS nodes find each other by the host's name, which not every host can resolve.
   if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/null; then
     export ROS_HOSTNAME=localhost
