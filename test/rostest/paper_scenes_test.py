@@ -135,6 +135,16 @@ class PaperScenesTest(ContactCase):
                 faces += self.check_paper(organ, motion, PAPER_NAIVE, volume)
         self.assertGreater(faces, 500)
 
+    def test_every_face_at_once(self):
+        """No buffer is too small for all 1224 faces, in any mode."""
+        trocar, previous, tip = (0.05, 0.02, 0.3), (0.02, 0.0, -0.1), (0.08, 0.01, -0.12)
+        for node in self.nodes:
+            for mode in range(5):
+                motion = shaft(trocar, tip, 2.0, previous=(trocar, previous))
+                result = node.query('liver', motion, mode, regions=mode == SWEPT)
+                self.assert_ok(result)
+                self.assertEqual([c.face for c in result.contacts], list(range(1224)))
+
     def test_a_ball_has_no_paper_volume(self):
         point = (0.01, 0.02, 0.03)
         for node in self.nodes:

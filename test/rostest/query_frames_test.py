@@ -80,6 +80,7 @@ class QueryFramesTest(ContactCase):
             stamp = begin + rospy.Duration(0, nanoseconds)
             axis = ((0.01, 0.002, 0.3 + height), (0.01, 0.002, height))
             result = self.node.query('framed', motion, frame='carrier', stamp=stamp)
+            self.assertEqual(result.header.stamp, stamp)
             self.assert_contacts(result, oracle.static_contacts(SHEET, axis, 0.004))
         latest = self.node.query('framed', motion, frame='carrier')
         self.assert_contacts(

@@ -119,6 +119,20 @@ class StepsTest(ToolCase):
         expected = oracle.contacts(lifted, cut, (BELOW, BELOW), GRASPER)
         self.assert_contacts(result, expected, 1e-6)
 
+    def test_only_the_newest_of_many_shapes_counts(self):
+        """Hundreds of shapes at once, and one of another organ: the last of each is evaluated."""
+        self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
+        for _ in range(300):
+            self.node.send_vertices(self.organ, SHEET, self.next_stamp(rospy.Duration(0, 10**5)))
+        last = self.stamp
+        self.node.send_mesh(self.organ + '_other', SHEET, last)
+        for tool, axis in (('grasper', BELOW), ('hook', ASIDE)):
+            self.place(tool, (axis, last))
+        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=last)
+        self.assertEqual(result.status, ContactArray.OK)
+        other = self.node.contacts.wait_for(self.organ + '_other', 'grasper', mesh_stamp=last)
+        self.assert_contacts(other, oracle.static_contacts(SHEET, BELOW, GRASPER))
+
     def test_reset_makes_the_next_step_static(self):
         self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
         self.node.reset()

@@ -9,6 +9,7 @@ import rospy
 import rostest
 
 from contact_case import faces_of
+from node_client import wait_until
 import oracle
 import scenes
 from tool_case import STEP, ToolCase
@@ -138,6 +139,10 @@ class TransformsTest(ToolCase):
         result = self.step(
             SHEET, {'grasper': at_height(0.05)}, vertices=True, step=rospy.Duration(1)
         )['grasper']
+        wait_until(
+            lambda: any('cut' in k and int(v) > 0 for k, v in self.node.diagnostics.items()),
+            'a count of what was cut in /diagnostics',
+        )
         expected = oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS)
         self.assertEqual(faces_of(result), [c.face for c in expected])
         for found, right in zip(result.contacts, expected):
@@ -155,6 +160,62 @@ class TransformsTest(ToolCase):
         )['grasper']
         self.assert_contacts(result, [])
         self.assertGreater(len(oracle.swept_contacts(SHEET, axes[0], axes[3], RADIUS)), 0)
+
+    def test_an_organ_whose_frame_moves(self):
+        """Everything is seen from the organ: a resting tool is touched by an organ that breathes."""
+        stamps = [self.next_stamp(), self.next_stamp()]
+        poses = [scenes.Pose((0.1, 0.0, 0.0, 1.0), (0.01, 0.02, z)) for z in (-0.05, 0.06)]
+        axis = at_height(0.0)
+        for stamp, pose in zip(stamps, poses):
+            self.tf.send(('liver_frame', 'breathing', pose, stamp))
+            self.place('grasper', (axis, stamp))
+            message = self.node.mesh_message(self.organ, SHEET, stamp)
+            message.header.frame_id = 'breathing'
+            self.node.meshes.publish(message)
+            result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+        self.assertEqual(result.header.frame_id, 'breathing')
+        seen = [tuple(map(pose.inverse().apply, axis)) for pose in poses]
+        self.assertEqual(oracle.static_contacts(SHEET, seen[0], RADIUS), [])
+        expected = oracle.swept_contacts(SHEET, *seen, RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected, 1e-6)
+
+    def test_a_pose_that_is_not_finite_is_like_a_gap(self):
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        for bad in (float('inf'), float('nan')):
+            stamp = self.next_stamp()
+            self.place('grasper', (((bad, 0.0, 0.4), (0.013, bad, 0.05)), stamp))
+            self.node.send_vertices(self.organ, SHEET, stamp)
+            result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+            self.assertNotEqual(result.status, ContactArray.OK)
+            self.assertNotEqual(result.message, '')
+        result = self.step(SHEET, {'grasper': at_height(-0.05)}, vertices=True)['grasper']
+        expected = oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS)
+        self.assert_ok(result)
+        self.assertEqual(faces_of(result), [c.face for c in expected])
+
+    def test_reset_keeps_a_mesh_that_awaits_its_transform(self):
+        """It is no history: it is still evaluated, as the first of its tool."""
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        stamp = self.next_stamp()
+        self.node.send_vertices(self.organ, SHEET, stamp)
+        self.node.wait_for_shape(self.organ, stamp)
+        self.node.reset()
+        self.place('grasper', (at_height(0.003), stamp))
+        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+        self.assertEqual(result.mode, STATIC)
+        expected = oracle.static_contacts(SHEET, at_height(0.003), RADIUS)
+        self.assert_contacts(result, expected)
+
+    def test_an_organ_is_removed_while_it_awaits_a_transform(self):
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        gone = self.next_stamp()
+        self.node.send_vertices(self.organ, SHEET, gone)
+        self.node.wait_for_shape(self.organ, gone)
+        self.node.remove(self.organ)
+        result = self.step(SHEET, {'grasper': at_height(0.003)})['grasper']
+        self.assertEqual(result.mode, STATIC)
+        self.assertEqual(self.node.contacts.of(self.organ, 'grasper', mesh_stamp=gone), [])
 
     def test_frames_that_are_not_connected(self):
         """The organ's frame hangs on no tree: no answer, which is not an empty one."""
