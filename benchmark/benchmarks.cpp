@@ -1,0 +1,149 @@
+#include "benchmarks.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "stopwatch.hpp"
+#include "vertex_pass.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+struct EngineEntry {
+  const char* name;
+  std::unique_ptr<Engine> (*make)();
+  std::size_t max_faces;  ///< beyond them a step takes seconds
+};
+
+constexpr std::size_t kAll = 1'000'000;
+constexpr EngineEntry kEngines[] = {
+    {"ours", make_ours, kAll},
+    {"ours_no_clusters", make_ours_no_clusters, kAll},
+    {"select_paper", make_select_paper, 100'000},
+    {"fcl", make_fcl, kAll},
+    {"bullet", make_bullet_gimpact, kAll},
+    {"bullet_quantized", make_bullet_quantized, kAll},
+    {"embree", make_embree, kAll},
+    {"cgal", make_cgal, kAll},
+    {"scan", make_scan, kAll},
+};
+
+struct PartEntry {
+  const char* name;
+  bool rigid;
+  double (*share)(const StepTimes&);
+};
+
+constexpr PartEntry kParts[] = {
+    {"update", false, [](const StepTimes& t) { return t.update; }},
+    {"static", false, [](const StepTimes& t) { return t.fixed; }},
+    {"swept", false, [](const StepTimes& t) { return t.swept; }},
+    {"step", false, [](const StepTimes& t) { return t.update + t.fixed + t.swept; }},
+    {"static_rigid", true, [](const StepTimes& t) { return t.fixed; }},
+    {"swept_rigid", true, [](const StepTimes& t) { return t.swept; }},
+};
+
+struct ContactPartEntry {
+  const char* name;
+  bool organ_moves;
+  ContactRig::Timed (ContactRig::*run)(bool);
+};
+
+constexpr ContactPartEntry kContactParts[] = {
+    {"contacts", false, &ContactRig::contacts},
+    {"contacts_moving", true, &ContactRig::contacts},
+    {"step_contacts", false, &ContactRig::step},
+    {"step_moving", true, &ContactRig::step},
+};
+
+std::string name_of(const std::string& part, const std::string& engine, const SceneKey& key) {
+  return part + "/" + engine + "/" + std::to_string(key.faces) + (key.shuffled ? "/shuffled" : "");
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Unit(benchmark::kMicrosecond);
+}
+
+void report(const Findings& findings, benchmark::State& state) {
+  state.counters["hits"] = findings.hits;
+  state.counters["missed"] = static_cast<double>(findings.errors.missed);
+  state.counters["wrong"] = static_cast<double>(findings.errors.wrong);
+}
+
+void add_engine(Lab& lab, const EngineEntry& engine, const SceneKey& key) {
+  for (const PartEntry& part : kParts) {
+    add(name_of(part.name, engine.name, key), [&lab, engine, part, key](benchmark::State& state) {
+      Rig& rig = lab.rig(engine.name, engine.make, key);
+      for ([[maybe_unused]] const auto _ : state) {
+        state.SetIterationTime(part.share(part.rigid ? rig.rigid_step() : rig.step()));
+      }
+      report(rig.findings(), state);
+    });
+  }
+}
+
+void add_contacts(Lab& lab, const SceneKey& key) {
+  for (const ContactPartEntry& part : kContactParts) {
+    add(name_of(part.name, "ours", key), [&lab, part, key](benchmark::State& state) {
+      ContactRig& rig = lab.contact_rig(key);
+      std::size_t contacts = 0;
+      for ([[maybe_unused]] const auto _ : state) {
+        const ContactRig::Timed timed = (rig.*part.run)(part.organ_moves);
+        state.SetIterationTime(timed.seconds);
+        contacts += timed.contacts;
+      }
+      report(rig.findings(), state);
+      state.counters["contacts"] =
+          benchmark::Counter(static_cast<double>(contacts), benchmark::Counter::kAvgIterations);
+    });
+  }
+}
+
+// One pass over each new shape; it is all that a step of these takes.
+template <typename Pass>
+void add_pass(Lab& lab, const char* name, const SceneKey& key, Pass pass) {
+  for (const char* part : {"update", "step"}) {
+    add(name_of(part, name, key), [&lab, key, pass](benchmark::State& state) mutable {
+      const std::vector<std::vector<float>>& shapes = lab.scene(key).shapes;
+      std::size_t next = 0;
+      for ([[maybe_unused]] const auto _ : state) {
+        const std::vector<float>& shape = shapes[next++ % shapes.size()];
+        Stopwatch watch;
+        pass(shape);
+        state.SetIterationTime(watch.lap());
+      }
+    });
+  }
+}
+
+void add_passes(Lab& lab, const SceneKey& key) {
+  add_pass(lab, "vertex_pass", key,
+           [boxes = VertexPass()](const std::vector<float>& vertices) mutable {
+             boxes.fit(vertices);
+             benchmark::DoNotOptimize(boxes.low().data());
+             benchmark::ClobberMemory();
+           });
+  add_pass(lab, "memcpy", key,
+           [copy = std::vector<float>()](const std::vector<float>& vertices) mutable {
+             copy.resize(vertices.size());
+             std::memcpy(copy.data(), vertices.data(), vertices.size() * sizeof(float));
+             benchmark::DoNotOptimize(copy.data());
+             benchmark::ClobberMemory();
+           });
+}
+
+}  // namespace
+
+void add_benchmarks(Lab& lab, const SceneKey& key) {
+  for (const EngineEntry& engine : kEngines) {
+    if (key.faces <= engine.max_faces) add_engine(lab, engine, key);
+  }
+  add_contacts(lab, key);
+  add_passes(lab, key);
+}
+
+}  // namespace organ_collision::bench

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "lab.hpp"
+
+namespace organ_collision::bench {
+
+/// Registers `<part>/<engine>/<faces>`, with "/shuffled" behind it for a mesh in random order: all
+/// parts of all engines on one scene. `lab` outlives their run.
+void add_benchmarks(Lab& lab, const SceneKey& key);
+
+}  // namespace organ_collision::bench

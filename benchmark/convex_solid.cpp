@@ -1,0 +1,87 @@
+#include "convex_solid.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace organ_collision::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kSame = 1e-9;  // [m] points and planes nearer than this coincide
+
+void add_box_sides(const Eigen::AlignedBox3d& box, std::vector<HalfSpace>& half_spaces) {
+  for (int axis = 0; axis < 3; ++axis) {
+    half_spaces.push_back({Vector3d::Unit(axis), box.max()[axis]});
+    half_spaces.push_back({-Vector3d::Unit(axis), -box.min()[axis]});
+  }
+}
+
+bool is_inside(const Vector3d& point, const std::vector<HalfSpace>& half_spaces) {
+  return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& half_space) {
+    return half_space.normal.dot(point) <= half_space.offset + kSame;
+  });
+}
+
+// The corner is where three planes meet, if all others leave it.
+void add_corner(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c,
+                const std::vector<HalfSpace>& half_spaces, std::vector<Vector3d>& corners) {
+  Eigen::Matrix3d normals;
+  normals << a.normal.transpose(), b.normal.transpose(), c.normal.transpose();
+  if (std::abs(normals.determinant()) < kSame) return;
+  const Vector3d point = normals.inverse() * Vector3d(a.offset, b.offset, c.offset);
+  if (!is_inside(point, half_spaces)) return;
+  const auto is_same = [&](const Vector3d& corner) { return (corner - point).norm() < kSame; };
+  if (std::none_of(corners.begin(), corners.end(), is_same)) corners.push_back(point);
+}
+
+std::vector<int> side_of(const HalfSpace& half_space, const std::vector<Vector3d>& corners) {
+  std::vector<int> side;
+  Vector3d centre = Vector3d::Zero();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (std::abs(half_space.normal.dot(corners[i]) - half_space.offset) > 2 * kSame) continue;
+    side.push_back(static_cast<int>(i));
+    centre += corners[i];
+  }
+  if (side.size() < 3) return {};
+  centre /= static_cast<double>(side.size());
+  const Vector3d x = (corners[side[0]] - centre).normalized();
+  const Vector3d y = half_space.normal.cross(x);
+  const auto angle = [&](int i) {
+    return std::atan2(y.dot(corners[i] - centre), x.dot(corners[i] - centre));
+  };
+  std::sort(side.begin(), side.end(), [&](int a, int b) { return angle(a) < angle(b); });
+  return side;
+}
+
+}  // namespace
+
+Eigen::AlignedBox3d ConvexSolid::box() const {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& corner : corners) box.extend(corner);
+  return box;
+}
+
+ConvexSolid intersection(const std::vector<HalfSpace>& half_spaces,
+                         const Eigen::AlignedBox3d& box) {
+  std::vector<HalfSpace> all = half_spaces;
+  add_box_sides(box, all);
+  ConvexSolid solid;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      for (std::size_t k = j + 1; k < all.size(); ++k) {
+        add_corner(all[i], all[j], all[k], all, solid.corners);
+      }
+    }
+  }
+  for (const HalfSpace& half_space : all) {
+    std::vector<int> side = side_of(half_space, solid.corners);
+    const bool is_known =
+        std::find(solid.sides.begin(), solid.sides.end(), side) != solid.sides.end();
+    if (!side.empty() && !is_known) solid.sides.push_back(std::move(side));
+  }
+  return solid;
+}
+
+}  // namespace organ_collision::bench

@@ -1,0 +1,51 @@
+#include <BulletCollision/Gimpact/btGImpactShape.h>
+
+#include <optional>
+
+#include "box_candidates.hpp"
+#include "bullet_mesh.hpp"
+#include "engine.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+class BulletGimpact : public Engine {
+ public:
+  void set_topology(const OrganSurface& organ) override {
+    organ_ = &organ;
+    mesh_.emplace(organ, organ.vertices);
+    shape_.emplace(&mesh_->view(), 0);
+    shape_->updateBound();
+  }
+
+  void update(const std::vector<float>& vertices) override {
+    vertices_ = &vertices;
+    mesh_->show(vertices);
+    shape_->postUpdate();
+    shape_->updateBound();
+  }
+
+  void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    btAABB box;
+    box.m_min = bullet_vector(query.box.min());
+    box.m_max = bullet_vector(query.box.max());
+    found_.resize(0);
+    shape_->getBoxSet()->boxQuery(box, found_);
+    faces.clear();
+    for (int i = 0; i < found_.size(); ++i) faces.push_back(static_cast<std::uint32_t>(found_[i]));
+    clip_exactly(query, *organ_, *vertices_, faces);
+  }
+
+ private:
+  const OrganSurface* organ_ = nullptr;
+  const std::vector<float>* vertices_ = nullptr;
+  std::optional<BulletMesh> mesh_;
+  std::optional<btGImpactMeshShapePart> shape_;
+  btAlignedObjectArray<int> found_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_bullet_gimpact() { return std::make_unique<BulletGimpact>(); }
+
+}  // namespace organ_collision::bench

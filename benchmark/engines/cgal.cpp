@@ -1,0 +1,76 @@
+#include <CGAL/AABB_traits.h>
+#include <CGAL/AABB_tree.h>
+#include <CGAL/Simple_cartesian.h>
+
+#include <iterator>
+
+#include "box_candidates.hpp"
+#include "engine.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+using Kernel = CGAL::Simple_cartesian<double>;
+
+/// A face by its number; its corners are looked up where they are now.
+class Face {
+ public:
+  using Id = std::uint32_t;
+  using Point = Kernel::Point_3;
+  using Datum = Kernel::Triangle_3;
+  using Point_reference = Point;
+  using Datum_reference = Datum;
+
+  Face(const OrganSurface& organ, const std::vector<float>& vertices, Id id)
+      : organ_(&organ), vertices_(&vertices), id_(id) {}
+  explicit Face(std::vector<Face>::const_iterator face) : Face(*face) {}
+
+  Id id() const { return id_; }
+  Point reference_point() const { return corner(0); }
+  Datum datum() const { return {corner(0), corner(1), corner(2)}; }
+
+ private:
+  Point corner(std::size_t i) const {
+    const float* xyz = &(*vertices_)[3 * organ_->triangles[3 * id_ + i]];
+    return {xyz[0], xyz[1], xyz[2]};
+  }
+
+  const OrganSurface* organ_;
+  const std::vector<float>* vertices_;
+  Id id_;
+};
+
+class Cgal : public Engine {
+ public:
+  void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
+
+  void update(const std::vector<float>& vertices) override {
+    vertices_ = &vertices;
+    faces_.clear();
+    for (std::uint32_t i = 0; i < organ_->face_count(); ++i) {
+      faces_.emplace_back(*organ_, vertices, i);
+    }
+    tree_.rebuild(faces_.cbegin(), faces_.cend());
+    tree_.build();
+  }
+
+  void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    const Eigen::Vector3d &low = query.box.min(), &high = query.box.max();
+    const Kernel::Iso_cuboid_3 box({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()});
+    faces.clear();
+    tree_.all_intersected_primitives(box, std::back_inserter(faces));
+    clip_exactly(query, *organ_, *vertices_, faces);
+  }
+
+ private:
+  const OrganSurface* organ_ = nullptr;
+  const std::vector<float>* vertices_ = nullptr;
+  std::vector<Face> faces_;
+  CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Face>> tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_cgal() { return std::make_unique<Cgal>(); }
+
+}  // namespace organ_collision::bench

@@ -1,0 +1,124 @@
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "box_candidates.hpp"
+#include "engine.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+class Device {
+ public:
+  Device() : device_(rtcNewDevice("threads=1,set_affinity=0")) {
+    if (!device_) throw std::runtime_error("Embree gives no device");
+  }
+  ~Device() { rtcReleaseDevice(device_); }
+  Device(const Device&) = delete;
+  Device& operator=(const Device&) = delete;
+  RTCDevice get() const { return device_; }
+
+ private:
+  RTCDevice device_;
+};
+
+/// A scene of one geometry whose primitives have boxes. rtcCollide takes no other kind.
+class BoxScene {
+ public:
+  BoxScene(RTCDevice device, RTCBuildQuality quality)
+      : geometry_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)), scene_(rtcNewScene(device)) {
+    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+    rtcSetGeometryBuildQuality(geometry_, quality);
+    rtcAttachGeometry(scene_, geometry_);
+  }
+  ~BoxScene() {
+    rtcReleaseScene(scene_);
+    rtcReleaseGeometry(geometry_);
+  }
+  BoxScene(const BoxScene&) = delete;
+  BoxScene& operator=(const BoxScene&) = delete;
+
+  void set_primitives(std::size_t count, RTCBoundsFunction bounds, void* user) {
+    rtcSetGeometryUserPrimitiveCount(geometry_, static_cast<unsigned>(count));
+    rtcSetGeometryUserData(geometry_, user);
+    rtcSetGeometryBoundsFunction(geometry_, bounds, nullptr);
+  }
+  void commit() {
+    rtcCommitGeometry(geometry_);
+    rtcCommitScene(scene_);
+  }
+  RTCScene scene() const { return scene_; }
+
+ private:
+  RTCGeometry geometry_;
+  RTCScene scene_;
+};
+
+class Embree : public Engine {
+ public:
+  Embree()
+      : organ_scene_(device_.get(), RTC_BUILD_QUALITY_REFIT),
+        tool_scene_(device_.get(), RTC_BUILD_QUALITY_LOW) {
+    tool_scene_.set_primitives(1, &Embree::tool_bounds, this);
+  }
+
+  void set_topology(const OrganSurface& organ) override {
+    organ_ = &organ;
+    vertices_ = &organ.vertices;
+    organ_scene_.set_primitives(organ.face_count(), &Embree::face_bounds, this);
+    organ_scene_.commit();
+  }
+
+  void update(const std::vector<float>& vertices) override {
+    vertices_ = &vertices;
+    organ_scene_.commit();
+  }
+
+  void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    tool_box_ = query.box.cast<float>();
+    tool_scene_.commit();
+    faces.clear();
+    rtcCollide(organ_scene_.scene(), tool_scene_.scene(), &Embree::on_collisions, &faces);
+    clip_exactly(query, *organ_, *vertices_, faces);
+  }
+
+ private:
+  static void set(const Eigen::Array3f& low, const Eigen::Array3f& high, RTCBounds& bounds) {
+    Eigen::Map<Eigen::Array3f>(&bounds.lower_x) = low;
+    Eigen::Map<Eigen::Array3f>(&bounds.upper_x) = high;
+  }
+
+  static void face_bounds(const RTCBoundsFunctionArguments* arguments) {
+    const Embree& engine = *static_cast<Embree*>(arguments->geometryUserPtr);
+    const std::uint32_t* corner = &engine.organ_->triangles[3 * arguments->primID];
+    const auto vertex = [&](int i) {
+      return Eigen::Map<const Eigen::Array3f>(&(*engine.vertices_)[3 * corner[i]]);
+    };
+    set(vertex(0).min(vertex(1)).min(vertex(2)), vertex(0).max(vertex(1)).max(vertex(2)),
+        *arguments->bounds_o);
+  }
+
+  static void tool_bounds(const RTCBoundsFunctionArguments* arguments) {
+    const Embree& engine = *static_cast<Embree*>(arguments->geometryUserPtr);
+    set(engine.tool_box_.min(), engine.tool_box_.max(), *arguments->bounds_o);
+  }
+
+  static void on_collisions(void* user, RTCCollision* collisions, unsigned count) {
+    auto& faces = *static_cast<std::vector<std::uint32_t>*>(user);
+    for (unsigned i = 0; i < count; ++i) faces.push_back(collisions[i].primID0);
+  }
+
+  Device device_;
+  BoxScene organ_scene_;
+  BoxScene tool_scene_;
+  const OrganSurface* organ_ = nullptr;
+  const std::vector<float>* vertices_ = nullptr;
+  Eigen::AlignedBox3f tool_box_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_embree() { return std::make_unique<Embree>(); }
+
+}  // namespace organ_collision::bench

@@ -1,0 +1,83 @@
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/convex.h>
+#include <fcl/narrowphase/detail/gjk_solver_libccd.h>
+#include <fcl/narrowphase/detail/traversal/collision/mesh_shape_collision_traversal_node.h>
+#include <fcl/narrowphase/detail/traversal/collision_node.h>
+
+#include <algorithm>
+
+#include "engine.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+using Model = fcl::BVHModel<fcl::AABB<double>>;
+using Solver = fcl::detail::GJKSolver_libccd<double>;
+using Node =
+    fcl::detail::MeshShapeCollisionTraversalNode<fcl::AABB<double>, fcl::Convex<double>, Solver>;
+
+std::vector<fcl::Vector3<double>> points(const std::vector<float>& vertices) {
+  std::vector<fcl::Vector3<double>> points;
+  points.reserve(vertices.size() / 3);
+  for (std::size_t i = 0; i < vertices.size(); i += 3) {
+    points.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
+  }
+  return points;
+}
+
+fcl::Convex<double> convex(const ConvexSolid& solid) {
+  auto sides = std::make_shared<std::vector<int>>();
+  for (const std::vector<int>& side : solid.sides) {
+    sides->push_back(static_cast<int>(side.size()));
+    sides->insert(sides->end(), side.begin(), side.end());
+  }
+  return {std::make_shared<std::vector<fcl::Vector3<double>>>(solid.corners),
+          static_cast<int>(solid.sides.size()), sides};
+}
+
+/// fcl::collide copies a whole model of axis-aligned boxes before it begins: its parts are called
+/// instead, which do not.
+class Fcl : public Engine {
+ public:
+  void set_topology(const OrganSurface& organ) override {
+    std::vector<fcl::Triangle> triangles;
+    for (std::size_t i = 0; i < organ.triangles.size(); i += 3) {
+      triangles.emplace_back(organ.triangles[i], organ.triangles[i + 1], organ.triangles[i + 2]);
+    }
+    model_.beginModel(static_cast<int>(triangles.size()),
+                      static_cast<int>(organ.vertices.size() / 3));
+    model_.addSubModel(points(organ.vertices), triangles);
+    model_.endModel();
+  }
+
+  void update(const std::vector<float>& vertices) override {
+    model_.beginReplaceModel();
+    model_.replaceSubModel(points(vertices));
+    model_.endReplaceModel(true, true);
+  }
+
+  void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    const fcl::Convex<double> tool = convex(query.solid);
+    const fcl::CollisionRequest<double> request(static_cast<std::size_t>(model_.num_tris), false);
+    fcl::CollisionResult<double> result;
+    fcl::Transform3<double> rest = fcl::Transform3<double>::Identity();
+    Node node;
+    fcl::detail::initialize(node, model_, rest, tool, rest, &solver_, request, result);
+    fcl::detail::collide(&node);
+    faces.clear();
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      faces.push_back(static_cast<std::uint32_t>(result.getContact(i).b1));
+    }
+    std::sort(faces.begin(), faces.end());
+  }
+
+ private:
+  Model model_;
+  Solver solver_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_fcl() { return std::make_unique<Fcl>(); }
+
+}  // namespace organ_collision::bench

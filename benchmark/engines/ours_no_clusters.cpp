@@ -1,0 +1,52 @@
+#include <array>
+
+#include "engine.hpp"
+#include "feedback.hpp"
+#include "outcodes.hpp"
+#include "shared_context.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+/// The feedback picker where nothing is known of where faces are: all vertices' outcodes tell which
+/// faces GL has to clip.
+class OursNoClusters : public Engine {
+ public:
+  void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
+  void update(const std::vector<float>& vertices) override { vertices_ = &vertices; }
+
+  void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    find_outcodes(*vertices_, query.half_spaces, outcodes_);
+    find_survivors(organ_->triangles, outcodes_, survivors_);
+    drawn_.clear();
+    for (const std::uint32_t face : survivors_) draw(face, query.volume.origin());
+    const std::size_t size = draw_feedback(shared_context(), query.volume, drawn_, buffer_);
+    faces.clear();
+    for_each_vertex(buffer_, size, [&](const FeedbackVertex& vertex) {
+      if (faces.empty() || faces.back() != vertex.face()) faces.push_back(vertex.face());
+    });
+  }
+
+ private:
+  void draw(std::uint32_t face, const Eigen::Vector3d& origin) {
+    const std::array<float, 2> number = {static_cast<float>(face & 0xffff),
+                                         static_cast<float>(face >> 16)};
+    for (const Eigen::Vector3d& corner : corners(*organ_, *vertices_, face)) {
+      const Eigen::Vector3f p = (corner - origin).cast<float>();
+      drawn_.push_back({{p.x(), p.y(), p.z()}, {0.0F, 0.0F}, number});
+    }
+  }
+
+  const OrganSurface* organ_ = nullptr;
+  const std::vector<float>* vertices_ = nullptr;
+  std::vector<std::uint8_t> outcodes_;
+  std::vector<std::uint32_t> survivors_;
+  std::vector<DrawVertex> drawn_;
+  std::vector<float> buffer_ = std::vector<float>(4096);
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_ours_no_clusters() { return std::make_unique<OursNoClusters>(); }
+
+}  // namespace organ_collision::bench

@@ -1,0 +1,42 @@
+#include <optional>
+
+#include "engine.hpp"
+#include "organ_collision/picking/picker.hpp"
+#include "shared_context.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+/// One of the package's own pickers.
+class PickerEngine : public Engine {
+ public:
+  explicit PickerEngine(PickerKind kind) : picker_(make_picker(kind, shared_context())) {}
+
+  void set_topology(const OrganSurface& organ) override {
+    mesh_.emplace(organ.vertices, organ.triangles);
+  }
+  void update(const std::vector<float>& vertices) override { mesh_->move_vertices(vertices); }
+
+  void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    picker_->pick(query.volume, *mesh_, candidates_);
+    faces.clear();
+    for (const Candidate& candidate : candidates_) faces.push_back(candidate.face);
+  }
+
+ private:
+  std::unique_ptr<Picker> picker_;
+  std::optional<TriangleMesh> mesh_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::unique_ptr<Engine> make_ours() {
+  return std::make_unique<PickerEngine>(PickerKind::kFeedback);
+}
+
+std::unique_ptr<Engine> make_select_paper() {
+  return std::make_unique<PickerEngine>(PickerKind::kSelect);
+}
+
+}  // namespace organ_collision::bench

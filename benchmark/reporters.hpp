@@ -1,0 +1,30 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <vector>
+
+namespace organ_collision::bench {
+
+/// Google Benchmark's JSON with plain names: without "/manual_time", which all would end with. All
+/// times are those of the timed part; what an iteration does besides would count in its CPU time.
+class PlainJsonReporter : public benchmark::JSONReporter {
+ public:
+  void ReportRuns(const std::vector<Run>& runs) override {
+    std::vector<Run> plain = runs;
+    for (Run& run : plain) {
+      run.run_name.time_type.clear();
+      run.cpu_accumulated_time = run.real_accumulated_time;
+    }
+    JSONReporter::ReportRuns(plain);
+  }
+};
+
+/// Says nothing: the table is made from the file.
+class SilentReporter : public benchmark::BenchmarkReporter {
+ public:
+  bool ReportContext(const Context& /*context*/) override { return true; }
+  void ReportRuns(const std::vector<Run>& /*runs*/) override {}
+};
+
+}  // namespace organ_collision::bench

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "engine.hpp"
+#include "scene.hpp"
+
+namespace organ_collision::bench {
+
+/// What one step took [s].
+struct StepTimes {
+  double update = 0.0;
+  double fixed = 0.0;  ///< the static query
+  double swept = 0.0;
+};
+
+/// What all steps of a scene, checked against the oracle, came to.
+struct Findings {
+  Errors errors;
+  double hits = 0.0;  ///< faces that meet the volume, on average
+};
+
+/// An engine on a scene, step after step, round and round.
+class Rig {
+ public:
+  /// Checks all answers before anything is timed. `scene` outlives the rig.
+  Rig(std::unique_ptr<Engine> engine, const Scene& scene);
+
+  const Findings& findings() const { return findings_; }
+  /// A new shape, then both queries.
+  StepTimes step();
+  /// Both queries, the organ as it was after the first shape.
+  StepTimes rigid_step();
+
+ private:
+  void check(const std::vector<SceneStep>& steps, bool rigid);
+  void hold_first_shape();
+
+  std::unique_ptr<Engine> engine_;
+  const Scene& scene_;
+  Findings findings_;
+  std::vector<std::uint32_t> faces_;
+  std::size_t next_ = 0;
+  bool holds_first_shape_ = false;
+};
+
+}  // namespace organ_collision::bench
