@@ -6,6 +6,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 
 from organ_collision.msg import ContactArray
 import rosgraph
@@ -44,33 +45,31 @@ def nodes_online():
 
 
 class Launched:
-    """roslaunch with one file, and its nodes, until the end of a `with` block."""
+    """roslaunch with one file, and its nodes, until the end of a `with` block; `printed` is then all
+    that came on its terminal."""
 
-    def __init__(self, path, *arguments):
-        self.command = ['roslaunch', path] + list(arguments)
+    def __init__(self, path):
+        self.path, self.output = path, tempfile.TemporaryFile(mode='w+')
+        listed = subprocess.check_output(['roslaunch', '--nodes', path], universal_newlines=True)
+        self.nodes = listed.split()
 
     def __enter__(self):
-        listed = subprocess.run(
-            ['roslaunch', '--nodes'] + self.command[1:],
-            check=True,
-            stdout=subprocess.PIPE,
-            universal_newlines=True,
-        ).stdout
-        self.nodes = listed.split()
         self.process = subprocess.Popen(
-            self.command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True
+            ['roslaunch', self.path], stdout=self.output, stderr=subprocess.STDOUT
         )
+        return self
+
+    def wait_for_nodes(self):
         wait_until(
             lambda: self.process.poll() is not None or set(self.nodes) <= nodes_online(),
             'the nodes %s' % self.nodes,
-            40.0,
         )
-        assert self.process.poll() is None, self.process.communicate()[0]
-        return self
 
     def __exit__(self, *error):
         self.process.send_signal(signal.SIGINT)
-        self.printed, _ = self.process.communicate(timeout=40)
+        self.process.wait(timeout=40)
+        self.output.seek(0)
+        self.printed = self.output.read()
 
 
 class ShippedFilesTest(ContactCase):
@@ -92,6 +91,7 @@ class ShippedFilesTest(ContactCase):
         )
         for path in launch_files:
             with Launched(path) as launched:
+                launched.wait_for_nodes()
                 self.assertGreater(len(launched.nodes), 0, path)
                 self.check_collision_node('/organ_collision')
                 if os.path.basename(path) == 'demo.launch':
