@@ -5,6 +5,10 @@
 namespace organ_collision {
 namespace {
 
+// [1] Sine of the angle below which what is left of a vector across the view is rounding only, and
+// may point along the view.
+constexpr double kParallel = 1e-12;
+
 // Unit, or zero where the vector is.
 Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
 
@@ -22,11 +26,12 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view) {
 
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right) {
   const Eigen::Vector3d z = direction(view);
-  // Taken twice: what the first subtraction leaves of a nearly parallel vector is rounding.
   Eigen::Vector3d x = direction(right);
+  x -= z * z.dot(x);
+  if (x.norm() < kParallel) return camera_axes(view);
+  // Once more: what the subtraction leaves of a nearly parallel vector is half rounding.
+  x = direction(x);
   x = direction(x - z * z.dot(x));
-  x = direction(x - z * z.dot(x));
-  if (x.isZero()) return camera_axes(view);
   Eigen::Matrix3d axes;
   axes << x, z.cross(x), z;
   return axes;

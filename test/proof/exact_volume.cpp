@@ -71,12 +71,13 @@ std::vector<HalfSpace> half_spaces(const ViewingVolume& volume, double extent, d
   for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
     planes.push_back(volume.half_space(i));
   }
-  // w is the depth before the eye in perspective, 1 otherwise.
+  // w is proportional to the depth before the eye in perspective, 1 otherwise.
   const auto w = [&](const HalfSpace& plane) {
     return volume.clip().row(3).dot((plane.offset * plane.normal).homogeneous());
   };
   const double near = w(planes[kNear]), far = w(planes[kFar]);
-  const double largest = near == far ? extent : std::max(extent, far);
+  const double per_metre = volume.clip().row(3).head<3>().norm();
+  const double largest = per_metre > 0.0 ? std::max(extent, far / per_metre) : extent;
   const double rounding = 16.0 * std::ldexp(largest, -24);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     planes[i].offset += share * rounding * (i == kFar ? far / near : 1.0);

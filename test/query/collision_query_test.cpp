@@ -92,6 +92,20 @@ TEST_P(CollisionQueryWith, FacesAreThoseOfExactArithmetic) {
   }
 }
 
+TEST_P(CollisionQueryWith, TrialsThatAPickerOnceMissed) {
+  for (const oracle::Trial& trial :
+       oracle::read_trials(ORGAN_COLLISION_TEST_DATA "/picker_trials.txt")) {
+    std::vector<float> vertices;
+    for (const Vector3d& corner : trial.face) {
+      for (const double x : corner) vertices.push_back(static_cast<float>(x));
+    }
+    const TriangleMesh organ(vertices, {0, 1, 2});
+    const auto& [start, end] = trial.motion;
+    EXPECT_EQ(contacts(swept(organ, {{0.0, start}, {1.0, end}}, trial.radius)).size(), 1U)
+        << oracle::to_line(trial);
+  }
+}
+
 TEST_P(CollisionQueryWith, TissueThatSwingsThroughARestingToolIsFound) {
   const std::vector<std::uint32_t> face = {0, 1, 2};
   const TriangleMesh before({-0.4F, 0.05F, 0.1F, -0.42F, 0.3F, 0.11F, -0.41F, 0.1F, 0.35F}, face);
