@@ -1,0 +1,62 @@
+#include "organ_collision/ros/evaluator.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace organ_collision;
+
+namespace {
+
+const TriangleMesh kMesh({-1, -1, 0, 1, -1, 0, 0, 1, 0, -1, -1, 5, 1, -1, 5, 0, 1, 5},
+                         {3, 4, 5, 0, 1, 2});
+
+CollisionRequest request() {
+  CollisionRequest request;
+  request.organ = &kMesh;
+  request.path = {{0.0, {{0.0, 0.0, 1.0}, {0.1, 0.0, -0.5}}}};
+  request.radius = 0.01;
+  return request;
+}
+
+class EvaluatorTest : public testing::TestWithParam<PickerKind> {
+ protected:
+  Evaluator evaluator_{GetParam()};
+  ContactArray answer_;
+};
+
+}  // namespace
+
+TEST_P(EvaluatorTest, FillsContactsAndRegions) {
+  CollisionRequest good = request();
+  good.regions = true;
+  evaluator_.evaluate(good, answer_);
+  EXPECT_EQ(answer_.status, ContactArray::OK);
+  ASSERT_EQ(answer_.contacts.size(), 1u);
+  EXPECT_EQ(answer_.contacts[0].face, 1u);
+  EXPECT_EQ(answer_.regions.size(), 1u);
+}
+
+TEST_P(EvaluatorTest, RequestWithoutAnswerBecomesAStatus) {
+  CollisionRequest bad = request();
+  bad.radius = -0.25;
+  answer_.contacts.resize(2);
+  evaluator_.evaluate(bad, answer_);
+  EXPECT_EQ(answer_.status, ContactArray::INVALID_REQUEST);
+  EXPECT_NE(answer_.message.find("-0.25"), std::string::npos) << answer_.message;
+  EXPECT_TRUE(answer_.contacts.empty());
+}
+
+TEST_P(EvaluatorTest, TimesWhatItAnswered) {
+  EXPECT_EQ(evaluator_.query_times().summary().count, 0u);
+  for (int i = 0; i < 5; ++i) {
+    ContactArray answer;
+    evaluator_.evaluate(request(), answer);
+  }
+  const DurationStatistics::Summary times = evaluator_.query_times().summary();
+  EXPECT_EQ(times.count, 5u);
+  EXPECT_GT(times.median, 0.0);
+  EXPECT_LE(times.median, times.worst);
+  EXPECT_FALSE(evaluator_.gl_version().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(BothPickers, EvaluatorTest,
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));

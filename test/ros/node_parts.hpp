@@ -1,0 +1,82 @@
+#pragma once
+
+#include <organ_collision/OrganMesh.h>
+#include <organ_collision/OrganVertices.h>
+
+#include <string>
+#include <vector>
+
+#include "hand_filled_transforms.hpp"
+#include "organ_collision/ros/organ_store.hpp"
+#include "organ_collision/ros/query_services.hpp"
+#include "organ_collision/ros/step_evaluator.hpp"
+
+namespace organ_collision {
+
+/// All of the node but ROS: fed by hand, with a clock that stands still. The organ is a sheet of
+/// two faces, 2 m wide, at a height; the tool hangs from (0, 0, 1).
+struct NodeParts {
+  NodeParts() {
+    ros::Time::init();
+    ros::Time::setNow(ros::Time(50));
+    parameters.tools = {{"hook", "hook_trocar", "hook_tip", 0.01}};
+    set_point(transforms, "liver_frame", "hook_trocar", 0.0, {0.0, 0.0, 1.0}, true);
+  }
+
+  void send_tip(double time, const Eigen::Vector3d& tip) {
+    set_point(transforms, "liver_frame", "hook_tip", time, tip);
+  }
+
+  static std::vector<float> heights(float z) { return {-1, -1, z, 1, -1, z, 1, 1, z, -1, 1, z}; }
+
+  void send_mesh(double stamp, float z, std::uint32_t topology = 1,
+                 const std::string& frame = "liver_frame") {
+    OrganMesh message;
+    message.header.frame_id = frame;
+    message.header.stamp = ros::Time(stamp);
+    message.organ = "liver";
+    message.topology = topology;
+    message.vertices = heights(z);
+    message.triangles = {0, 1, 2, 0, 2, 3};
+    organs.apply(message, ros::Time::now());
+    steps.add_shape(organs.at("liver"), now);
+  }
+
+  void send_vertices(double stamp, float z) {
+    OrganVertices message;
+    message.header.frame_id = "liver_frame";
+    message.header.stamp = ros::Time(stamp);
+    message.organ = "liver";
+    message.topology = 1;
+    message.vertices = heights(z);
+    organs.apply(message, ros::Time::now());
+    steps.add_shape(organs.at("liver"), now);
+  }
+
+  /// What is published when everything that can be is evaluated, `later` after the last call.
+  std::vector<ContactArray> evaluate(std::chrono::milliseconds later = {}) {
+    now += later;
+    published.clear();
+    steps.evaluate_waiting(organs, now);
+    return published;
+  }
+
+  std::vector<ContactArray> tick() {
+    published.clear();
+    steps.evaluate_tick(organs);
+    return published;
+  }
+
+  NodeParameters parameters;
+  tf2::BufferCore transforms;
+  OrganStore organs{MeshLimits{}};
+  ToolPoses poses{transforms, {0.001, 100}};
+  Evaluator evaluator{PickerKind::kFeedback};
+  std::vector<ContactArray> published;
+  SteadyTime now{std::chrono::hours(1)};
+  StepEvaluator steps{parameters, poses, evaluator,
+                      [this](const EvaluatedStep& step) { published.push_back(*step.answer); }};
+  QueryServices services{{parameters, organs, transforms, poses, steps.history(), evaluator}};
+};
+
+}  // namespace organ_collision

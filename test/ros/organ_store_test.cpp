@@ -1,0 +1,207 @@
+#include "organ_collision/ros/organ_store.hpp"
+
+#include <gtest/gtest.h>
+#include <organ_collision/ContactArray.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace organ_collision;
+
+namespace {
+
+OrganMesh mesh(const std::string& organ = "liver", std::uint32_t topology = 1) {
+  OrganMesh message;
+  message.header.frame_id = "liver_frame";
+  message.header.stamp = ros::Time(5);
+  message.organ = organ;
+  message.topology = topology;
+  message.vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  message.triangles = {0, 1, 2, 1, 3, 2};
+  return message;
+}
+
+OrganVertices vertices(float z, std::uint32_t topology = 1) {
+  OrganVertices message;
+  message.header.frame_id = "liver_frame";
+  message.header.stamp = ros::Time(6);
+  message.organ = "liver";
+  message.topology = topology;
+  message.vertices = {0, 0, z, 1, 0, z, 0, 1, z, 1, 1, z};
+  return message;
+}
+
+class OrganStoreTest : public testing::Test {
+ protected:
+  /// Refused with these, and the liver stays as it was.
+  template <typename Message>
+  void expect_refused(const Message& message, std::uint8_t status, const std::string& reason,
+                      const std::vector<std::string>& words = {}) {
+    const bool known = store_.organs().count("liver") > 0;
+    const OrganShape before = known ? store_.at("liver").latest() : OrganShape{};
+    try {
+      store_.apply(message, ros::Time(9));
+      ADD_FAILURE() << "accepted: " << reason;
+    } catch (const Rejection& rejection) {
+      EXPECT_EQ(rejection.status(), status) << rejection.what();
+      EXPECT_EQ(rejection.reason(), reason) << rejection.what();
+      for (const std::string& word : words) {
+        EXPECT_NE(std::string(rejection.what()).find(word), std::string::npos)
+            << "'" << word << "' in: " << rejection.what();
+      }
+    }
+    ASSERT_EQ(store_.organs().count("liver") > 0, known);
+    if (!known) return;
+    EXPECT_EQ(store_.at("liver").latest().mesh, before.mesh);
+  }
+
+  std::uint8_t status_of(const std::string& organ) {
+    try {
+      store_.at(organ);
+    } catch (const Rejection& rejection) {
+      return rejection.status();
+    }
+    return ContactArray::OK;
+  }
+
+  OrganStore store_{MeshLimits{2}};
+};
+
+}  // namespace
+
+TEST_F(OrganStoreTest, OrgansByName) {
+  EXPECT_EQ(store_.apply(mesh("liver"), ros::Time(7)), OrganChange::kShape);
+  EXPECT_EQ(store_.apply(mesh("kidney"), ros::Time(7)), OrganChange::kShape);
+  EXPECT_EQ(store_.organs().size(), 2u);
+  EXPECT_EQ(store_.at("kidney").latest().stamp, ros::Time(5));
+  EXPECT_EQ(store_.at("kidney").latest().received, ros::Time(7));
+  EXPECT_EQ(status_of("spleen"), ContactArray::UNKNOWN_ORGAN);
+}
+
+TEST_F(OrganStoreTest, VerticesMoveTheOrgan) {
+  store_.apply(mesh(), ros::Time(7));
+  EXPECT_EQ(store_.apply(vertices(3), ros::Time(8)), OrganChange::kShape);
+  EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 3.0);
+  EXPECT_EQ(store_.at("liver").previous().mesh->vertex(0).z(), 0.0);
+}
+
+TEST_F(OrganStoreTest, MeshWithTheTrianglesItHasCountsAsVertices) {
+  store_.apply(mesh(), ros::Time(7));
+  const auto* faces = &store_.at("liver").latest().mesh->faces();
+  OrganMesh again = mesh();
+  again.vertices[2] = 4;
+  EXPECT_EQ(store_.apply(again, ros::Time(8)), OrganChange::kShape);
+  EXPECT_EQ(&store_.at("liver").latest().mesh->faces(), faces);
+  EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 4.0);
+  EXPECT_TRUE(store_.at("liver").previous().mesh);
+}
+
+TEST_F(OrganStoreTest, NewTopologyHasNoPreviousShape) {
+  store_.apply(mesh(), ros::Time(7));
+  OrganMesh cut = mesh("liver", 2);
+  cut.triangles = {0, 1, 2};
+  EXPECT_EQ(store_.apply(cut, ros::Time(8)), OrganChange::kShape);
+  EXPECT_EQ(store_.at("liver").latest().mesh->face_count(), 1u);
+  EXPECT_FALSE(store_.at("liver").previous().mesh);
+}
+
+TEST_F(OrganStoreTest, OtherFrame) {
+  store_.apply(mesh(), ros::Time(7));
+  OrganMesh elsewhere = mesh();
+  elsewhere.header.frame_id = "/table";
+  EXPECT_EQ(store_.apply(elsewhere, ros::Time(8)), OrganChange::kFrame);
+  EXPECT_EQ(store_.at("liver").frame(), "table");
+  EXPECT_FALSE(store_.at("liver").previous().mesh);
+}
+
+TEST_F(OrganStoreTest, RemovedOrganHasNoMesh) {
+  store_.apply(mesh(), ros::Time(7));
+  OrganMesh nothing;
+  nothing.organ = "liver";
+  EXPECT_EQ(store_.apply(nothing, ros::Time(8)), OrganChange::kRemoved);
+  EXPECT_EQ(status_of("liver"), ContactArray::NO_MESH);
+  expect_refused(vertices(1), ContactArray::NO_MESH, "organ without mesh", {"'liver'"});
+  store_.apply(mesh("liver", 1), ros::Time(9));
+  EXPECT_EQ(status_of("liver"), ContactArray::OK);
+}
+
+TEST_F(OrganStoreTest, OrganWhoseMeshesWereAllRefusedHasNoMesh) {
+  OrganMesh bad = mesh();
+  bad.triangles[2] = 4;
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "index out of range", {"'liver'", "4"});
+  EXPECT_EQ(status_of("liver"), ContactArray::NO_MESH);
+  bad.header.frame_id = "";
+  bad.organ = "spleen";
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "empty frame");
+  EXPECT_EQ(status_of("spleen"), ContactArray::NO_MESH);
+}
+
+TEST_F(OrganStoreTest, BadMeshesLeaveTheGoodOne) {
+  store_.apply(mesh(), ros::Time(7));
+  for (const std::uint32_t topology : {1, 2}) {
+    const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
+    OrganMesh bad = mesh("liver", topology);
+    bad.vertices[5] = std::numeric_limits<float>::infinity();
+    expect_refused(bad, invalid, "not finite", {"'liver'"});
+    bad = mesh("liver", topology);
+    bad.vertices.pop_back();
+    expect_refused(bad, invalid, "wrong size", {"11"});
+    bad = mesh("liver", topology);
+    bad.header.frame_id = "/";
+    expect_refused(bad, invalid, "empty frame");
+    bad = mesh("", topology);
+    expect_refused(bad, invalid, "empty name");
+  }
+  OrganMesh bad = mesh("liver", 2);
+  bad.triangles.pop_back();
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "wrong size", {"5"});
+  bad = mesh("liver", 2);
+  bad.triangles.clear();
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "no triangles");
+  bad = mesh("liver", 2);
+  bad.triangles.insert(bad.triangles.end(), {0, 1, 3});
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "too many faces", {"3", "2"});
+  bad = mesh("liver", 1);
+  bad.triangles = {0, 1, 2, 1, 2, 3};
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "same topology, other triangles",
+                 {"'liver'", "1"});
+}
+
+TEST_F(OrganStoreTest, BadVerticesLeaveTheGoodOnes) {
+  expect_refused(vertices(1), ContactArray::UNKNOWN_ORGAN, "unknown organ", {"'liver'"});
+  store_.apply(mesh(), ros::Time(7));
+  const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
+  expect_refused(vertices(1, 2), invalid, "other topology", {"2", "1"});
+  OrganVertices bad = vertices(1);
+  bad.header.frame_id = "table";
+  expect_refused(bad, invalid, "other frame", {"'table'", "'liver_frame'"});
+  bad.header.frame_id = "";
+  expect_refused(bad, invalid, "empty frame", {"'liver_frame'"});
+  bad = vertices(1);
+  bad.organ = "";
+  expect_refused(bad, invalid, "empty name");
+  bad = vertices(1);
+  bad.vertices.resize(9);
+  expect_refused(bad, invalid, "wrong size", {"9", "12"});
+  bad = vertices(std::nanf(""));
+  expect_refused(bad, invalid, "not finite");
+}
+
+TEST_F(OrganStoreTest, UnknownOrganIsToldWhichAreKnown) {
+  store_.apply(mesh("liver"), ros::Time(7));
+  store_.apply(mesh("kidney"), ros::Time(7));
+  try {
+    store_.at("spleen");
+    ADD_FAILURE();
+  } catch (const Rejection& rejection) {
+    EXPECT_STREQ(rejection.what(), "organ 'spleen' is unknown; known are 'kidney', 'liver'");
+  }
+}
+
+TEST_F(OrganStoreTest, ForgetsPreviousShapes) {
+  store_.apply(mesh(), ros::Time(7));
+  store_.apply(vertices(3), ros::Time(8));
+  store_.forget_previous_shapes();
+  EXPECT_FALSE(store_.at("liver").previous().mesh);
+  EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 3.0);
+}

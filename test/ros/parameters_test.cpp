@@ -1,0 +1,153 @@
+#include "organ_collision/ros/parameters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace organ_collision;
+using XmlRpc::XmlRpcValue;
+
+namespace {
+
+XmlRpcValue tool(const std::string& name) {
+  XmlRpcValue tool;
+  tool["name"] = name;
+  tool["trocar_frame"] = name + "_trocar";
+  tool["tip_frame"] = name + "_tip";
+  tool["radius"] = 0.005;
+  return tool;
+}
+
+XmlRpcValue one_tool() {
+  XmlRpcValue all;
+  all["tools"][0] = tool("hook");
+  return all;
+}
+
+/// Of the node with one good tool, where `name` is set to `value`.
+std::string refusal(const char* name, const XmlRpcValue& value) {
+  XmlRpcValue all = one_tool();
+  all[name] = value;
+  try {
+    parse_parameters(all);
+  } catch (const ParameterError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+std::string refusal_of_tool(const char* name, const XmlRpcValue& value) {
+  XmlRpcValue tools;
+  tools[0] = tool("hook");
+  tools[0][name] = value;
+  return refusal("tools", tools);
+}
+
+void expect_words(const std::string& message, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
+  }
+}
+
+}  // namespace
+
+TEST(Parameters, DefaultsAreTheDocumentedOnes) {
+  const LoadedParameters loaded = parse_parameters(one_tool());
+  const NodeParameters& p = loaded.parameters;
+  EXPECT_EQ(p.picker, PickerKind::kFeedback);
+  EXPECT_EQ(p.rate_hz, 0.0);
+  EXPECT_TRUE(p.organ_motion);
+  EXPECT_EQ(p.motion_sample_sec, 0.001);
+  EXPECT_EQ(p.motion_samples_max, 100);
+  EXPECT_EQ(p.tf_timeout_sec, 0.02);
+  EXPECT_EQ(p.mesh_timeout_sec, 0.0);
+  EXPECT_EQ(p.max_faces, 2'000'000);
+  EXPECT_FALSE(p.publish_regions);
+  EXPECT_TRUE(loaded.misspelt.empty());
+}
+
+TEST(Parameters, EveryValueIsTaken) {
+  XmlRpcValue all = one_tool();
+  all["tools"][1] = tool("grasper");
+  all["tools"][1]["radius"] = 1;
+  all["picker"] = "select";
+  all["rate"] = 500;
+  all["organ_motion"] = false;
+  all["motion_sample_sec"] = 0.5;
+  all["motion_samples_max"] = 7;
+  all["tf_timeout_sec"] = 0;
+  all["mesh_timeout_sec"] = 1.5;
+  all["max_faces"] = 1224;
+  all["publish_regions"] = true;
+  const NodeParameters p = parse_parameters(all).parameters;
+  ASSERT_EQ(p.tools.size(), 2u);
+  EXPECT_EQ(p.tools[0].name, "hook");
+  EXPECT_EQ(p.tools[1].trocar_frame, "grasper_trocar");
+  EXPECT_EQ(p.tools[1].tip_frame, "grasper_tip");
+  EXPECT_EQ(p.tools[1].radius, 1.0);
+  EXPECT_EQ(p.picker, PickerKind::kSelect);
+  EXPECT_EQ(p.rate_hz, 500.0);
+  EXPECT_FALSE(p.organ_motion);
+  EXPECT_EQ(p.motion_sample_sec, 0.5);
+  EXPECT_EQ(p.motion_samples_max, 7);
+  EXPECT_EQ(p.tf_timeout_sec, 0.0);
+  EXPECT_EQ(p.mesh_timeout_sec, 1.5);
+  EXPECT_EQ(p.max_faces, 1224);
+  EXPECT_TRUE(p.publish_regions);
+}
+
+TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
+  const double nan = std::nan("");
+  expect_words(refusal("picker", "raytrace"), {"~picker", "raytrace", "feedback", "select"});
+  expect_words(refusal("rate", -1.5), {"~rate", "-1.5", "at least 0"});
+  expect_words(refusal("rate", nan), {"~rate", "nan", "at least 0"});
+  expect_words(refusal("rate", "fast"), {"~rate", "fast", "number"});
+  expect_words(refusal("organ_motion", 1), {"~organ_motion", "'1'", "true or false"});
+  expect_words(refusal("motion_sample_sec", 0.0), {"~motion_sample_sec", "more than 0"});
+  expect_words(refusal("motion_samples_max", 0), {"~motion_samples_max", "at least 1"});
+  expect_words(refusal("tf_timeout_sec", -0.1), {"~tf_timeout_sec", "-0.1", "at least 0"});
+  expect_words(refusal("mesh_timeout_sec", -2), {"~mesh_timeout_sec", "-2", "at least 0"});
+  expect_words(refusal("max_faces", 0), {"~max_faces", "at least 1", "16777216"});
+  expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
+  expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
+}
+
+TEST(Parameters, IllegalToolsAreNamed) {
+  const double infinity = std::numeric_limits<double>::infinity();
+  expect_words(refusal_of_tool("radius", 0.0), {"~tools[0]/radius", "'0'", "more than 0"});
+  expect_words(refusal_of_tool("radius", infinity), {"~tools[0]/radius", "inf", "more than 0"});
+  expect_words(refusal_of_tool("name", ""), {"~tools[0]/name", "not empty"});
+  expect_words(refusal_of_tool("tip_frame", ""), {"~tools[0]/tip_frame", "not empty"});
+  expect_words(refusal_of_tool("tip_frame", "/"), {"~tools[0]/tip_frame", "'/'"});
+  expect_words(refusal_of_tool("tip_frame", "hook_trocar"),
+               {"~tools[0]/tip_frame", "hook_trocar", "other"});
+  expect_words(refusal_of_tool("tip_frame", "/hook_trocar"),
+               {"~tools[0]/tip_frame", "hook_trocar", "other"});
+  expect_words(refusal_of_tool("links", "links"), {"~tools[0]/links", "only shafts"});
+}
+
+TEST(Parameters, ToolNamesAreUnique) {
+  XmlRpcValue tools;
+  tools[0] = tool("hook");
+  tools[1] = tool("hook");
+  expect_words(refusal("tools", tools), {"~tools[1]/name", "hook", "unique"});
+}
+
+TEST(Parameters, ToolsMustBeGiven) {
+  XmlRpcValue none;
+  none["rate"] = 1;
+  EXPECT_THROW(parse_parameters(none), ParameterError);
+  none["tools"].setSize(0);
+  EXPECT_TRUE(parse_parameters(none).parameters.tools.empty());
+}
+
+TEST(Parameters, MisspeltNamesAreReported) {
+  XmlRpcValue all = one_tool();
+  all["mesh_timout_sec"] = 1.0;
+  all["tools"][0]["colour"] = "red";
+  const std::vector<std::string> misspelt = parse_parameters(all).misspelt;
+  ASSERT_EQ(misspelt.size(), 2u);
+  expect_words(misspelt[0], {"~mesh_timout_sec", "'mesh_timeout_sec'"});
+  expect_words(misspelt[1], {"~tools[0]/colour", "radius"});
+}

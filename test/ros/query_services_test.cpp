@@ -1,0 +1,224 @@
+#include "organ_collision/ros/query_services.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "node_parts.hpp"
+#include "organ_collision/ros/conversions.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+const Eigen::Vector3d kAbove{0.1, 0.2, 0.3};
+const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
+
+/// Across the sheet at height 0, in the organ's frame.
+ToolMotion through() {
+  ToolMotion motion;
+  motion.previous_trocar = motion.trocar = to_point({0.0, 0.0, 1.0});
+  motion.previous_tip = to_point(kAbove);
+  motion.tip = to_point(kBelow);
+  motion.radius = 0.01;
+  return motion;
+}
+
+class QueryServicesTest : public testing::Test, protected NodeParts {
+ protected:
+  QueryServicesTest() {
+    request.header.frame_id = "liver_frame";
+    request.organ = "liver";
+    request.motion = through();
+    request.mode = ContactArray::SWEPT;
+    send_mesh(1.0, 0.0);
+  }
+
+  void expect_refused(std::uint8_t status, const std::vector<std::string>& words) {
+    const ContactArray answer = services.query(request);
+    EXPECT_EQ(answer.status, status) << answer.message;
+    EXPECT_TRUE(answer.contacts.empty());
+    for (const std::string& word : words) {
+      EXPECT_NE(answer.message.find(word), std::string::npos)
+          << "'" << word << "' in: " << answer.message;
+    }
+  }
+
+  QueryCollision::Request request;
+};
+
+}  // namespace
+
+TEST_F(QueryServicesTest, SweptAndStatic) {
+  ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
+  ASSERT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].face, 1u);
+  EXPECT_EQ(answer.header.frame_id, "liver_frame");
+  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
+  request.mode = ContactArray::STATIC;
+  request.motion.tip = to_point(kAbove);
+  request.motion.previous_tip = to_point(kBelow);
+  answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK);
+  EXPECT_TRUE(answer.contacts.empty());
+}
+
+TEST_F(QueryServicesTest, MotionInAnotherFrame) {
+  const Eigen::Isometry3d T_liver_table =
+      Eigen::Translation3d(0.5, -0.3, 0.2) *
+      Eigen::AngleAxisd(0.9, Eigen::Vector3d(0.2, 1.0, -0.6).normalized());
+  set_transform(transforms, "liver_frame", "table", 4.0, T_liver_table);
+  const ContactArray here = services.query(request);
+  for (geometry_msgs::Point* point : {&request.motion.previous_trocar, &request.motion.previous_tip,
+                                      &request.motion.trocar, &request.motion.tip}) {
+    *point = to_point(T_liver_table.inverse() * to_eigen(*point));
+  }
+  request.header.frame_id = "/table";
+  const ContactArray there = services.query(request);
+  ASSERT_EQ(there.status, ContactArray::OK) << there.message;
+  EXPECT_EQ(there.header.stamp, ros::Time(4.0));
+  ASSERT_EQ(there.contacts.size(), 1u);
+  EXPECT_EQ(there.contacts[0].face, here.contacts[0].face);
+  EXPECT_NEAR(there.contacts[0].depth, here.contacts[0].depth, 1e-9);
+  EXPECT_NEAR(there.contacts[0].point.x, here.contacts[0].point.x, 1e-9);
+  request.header.stamp = ros::Time(5.0);
+  expect_refused(ContactArray::NO_TRANSFORM, {"table", "liver_frame"});
+}
+
+TEST_F(QueryServicesTest, OrganMovesOnRequest) {
+  send_vertices(1.1, 2.0f);
+  request.motion.previous_tip = request.motion.tip = to_point(kAbove);
+  EXPECT_TRUE(services.query(request).contacts.empty());
+  request.organ_motion = true;
+  EXPECT_EQ(services.query(request).contacts.size(), 2u);
+  request.mode = ContactArray::STATIC;
+  EXPECT_TRUE(services.query(request).contacts.empty());
+}
+
+TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
+  request.tool = "hook";
+  request.motion = {};
+  send_tip(1.0, kAbove);
+  evaluate();
+  send_tip(1.1, kBelow);
+  send_tip(1.2, {0.1, 0.2, -0.4});
+  const ContactArray answer = services.query(request);
+  ASSERT_EQ(answer.status, ContactArray::OK) << answer.message;
+  EXPECT_EQ(answer.tool, "hook");
+  EXPECT_EQ(answer.step_start, ros::Time(1.0));
+  EXPECT_EQ(answer.header.stamp, ros::Time(1.2));
+  EXPECT_EQ(answer.contacts.size(), 1u);
+  request.header.stamp = ros::Time(1.05);
+  EXPECT_EQ(services.query(request).header.stamp, ros::Time(1.05));
+  request.mode = ContactArray::STATIC;
+  EXPECT_EQ(services.query(request).step_start, ros::Time(1.05));
+}
+
+TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
+  request.tool = "hook";
+  send_tip(1.0, kBelow);
+  const ContactArray answer = services.query(request);
+  ASSERT_EQ(answer.status, ContactArray::OK) << answer.message;
+  EXPECT_EQ(answer.contacts.size(), 1u);
+  EXPECT_EQ(answer.contacts[0].fraction, 0.0);
+  EXPECT_EQ(answer.step_start, answer.header.stamp);
+}
+
+TEST_F(QueryServicesTest, HistoryIsLeftAlone) {
+  request.tool = "hook";
+  send_tip(1.0, kAbove);
+  evaluate();
+  send_tip(1.1, kBelow);
+  services.query(request);
+  ASSERT_TRUE(steps.history().last("liver", 0));
+  EXPECT_EQ(steps.history().last("liver", 0)->stamp, ros::Time(1.0));
+}
+
+TEST_F(QueryServicesTest, PaperModesGiveFacesAndDepthRanges) {
+  for (const std::uint8_t mode :
+       {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
+    request.mode = mode;
+    const ContactArray answer = services.query(request);
+    ASSERT_EQ(answer.status, ContactArray::OK) << answer.message;
+    ASSERT_EQ(answer.contacts.size(), 1u) << int(mode);
+    EXPECT_EQ(answer.contacts[0].face, 1u);
+    EXPECT_LE(answer.contacts[0].view_min, answer.contacts[0].view_max);
+    EXPECT_GT(answer.contacts[0].view_max, 0.0);
+    EXPECT_EQ(answer.contacts[0].normal.z, 0.0);
+  }
+}
+
+TEST_F(QueryServicesTest, RegionsOnRequest) {
+  EXPECT_TRUE(services.query(request).regions.empty());
+  request.regions = true;
+  EXPECT_EQ(services.query(request).regions.size(), 1u);
+}
+
+TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
+  const QueryCollision::Request good = request;
+  request.organ = "spleen";
+  expect_refused(ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"});
+  request = good;
+  request.organ = "";
+  expect_refused(ContactArray::INVALID_REQUEST, {"organ", "empty"});
+  request = good;
+  request.tool = "saw";
+  expect_refused(ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"});
+  request = good;
+  request.mode = 5;
+  expect_refused(ContactArray::INVALID_REQUEST, {"mode", "5", "0", "4"});
+  request = good;
+  request.header.frame_id = "";
+  expect_refused(ContactArray::INVALID_REQUEST, {"frame_id", "empty"});
+  request = good;
+  request.header.frame_id = "nowhere";
+  expect_refused(ContactArray::NO_TRANSFORM, {"nowhere", "liver_frame"});
+  request = good;
+  request.motion.radius = -0.25;
+  expect_refused(ContactArray::INVALID_REQUEST, {"radius", "-0.25", "positive"});
+  request.motion.radius = std::nan("");
+  expect_refused(ContactArray::INVALID_REQUEST, {"radius", "nan", "finite"});
+  request = good;
+  request.motion.previous_tip.y = std::numeric_limits<double>::infinity();
+  expect_refused(ContactArray::INVALID_REQUEST, {"previous_tip", "inf", "finite"});
+  request.mode = ContactArray::STATIC;
+  EXPECT_EQ(services.query(request).status, ContactArray::OK);  // Unused when static.
+  request = good;
+  request.mode = ContactArray::PAPER_STATIC;
+  request.motion.tip = request.motion.trocar;
+  expect_refused(ContactArray::INVALID_REQUEST, {});
+  request = good;
+  request.tool = "hook";
+  expect_refused(ContactArray::NO_TRANSFORM, {"hook_tip"});
+}
+
+TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
+  parameters.mesh_timeout_sec = 2.0;
+  expect_refused(ContactArray::STALE_MESH, {"'liver'", "49", "2"});
+  OrganMesh nothing;
+  nothing.organ = "liver";
+  organs.apply(nothing, ros::Time(51));
+  expect_refused(ContactArray::NO_MESH, {"'liver'"});
+}
+
+TEST_F(QueryServicesTest, BatchAnswersEachMotionInOrder) {
+  QueryCollisionBatch::Request batch;
+  batch.header = request.header;
+  batch.organ = "liver";
+  batch.mode = ContactArray::SWEPT;
+  EXPECT_TRUE(services.query_batch(batch).empty());
+  ToolMotion aside = through();
+  aside.tip = aside.previous_tip;
+  ToolMotion bad = through();
+  bad.radius = 0.0;
+  batch.motions = {through(), aside, bad, through()};
+  const std::vector<ContactArray> results = services.query_batch(batch);
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_EQ(results[0].contacts.size(), 1u);
+  EXPECT_TRUE(results[1].contacts.empty());
+  EXPECT_EQ(results[1].status, ContactArray::OK);
+  EXPECT_EQ(results[2].status, ContactArray::INVALID_REQUEST);
+  EXPECT_EQ(results[3].contacts.size(), 1u);
+}

@@ -1,0 +1,71 @@
+#include "organ_collision/ros/transforms.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hand_filled_transforms.hpp"
+
+using namespace organ_collision;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Isometry3d pose(double x, double angle) {
+  return Eigen::Translation3d(x, -0.2, 0.7) *
+         Eigen::AngleAxisd(angle, Vector3d(0.3, -1.0, 0.4).normalized());
+}
+
+}  // namespace
+
+TEST(LookUp, FollowsTheChain) {
+  tf2::BufferCore buffer;
+  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "world", "tip", 3.0, pose(0.4, -1.1));
+  const auto found = look_up(buffer, "liver", "tip", ros::Time(3.0)).found;
+  ASSERT_TRUE(found);
+  const Isometry3d expected = pose(0.1, 0.5).inverse() * pose(0.4, -1.1);
+  EXPECT_TRUE(found->value.isApprox(expected, 1e-9));
+  EXPECT_EQ(found->stamp, ros::Time(3.0));
+}
+
+TEST(LookUp, LatestSaysItsTime) {
+  tf2::BufferCore buffer;
+  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
+  const auto found = look_up(buffer, "a", "b", ros::Time(0)).found;
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->stamp, ros::Time(3.5));
+  EXPECT_NEAR(found->value.translation().x(), 3.5, 1e-12);
+}
+
+TEST(LookUp, RestingTransformsAreOfAnyTime) {
+  tf2::BufferCore buffer;
+  set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.2), true);
+  EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(0)).found->stamp.isZero());
+  EXPECT_EQ(look_up(buffer, "a", "b", ros::Time(99)).found->stamp, ros::Time(99));
+}
+
+TEST(LookUp, AFrameInItselfNeedsNoTransform) {
+  const auto found = look_up(tf2::BufferCore(), "liver", "liver", ros::Time(4)).found;
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->value.isApprox(Isometry3d::Identity()));
+}
+
+TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
+  tf2::BufferCore buffer;
+  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "elsewhere", "tip", 3.0, pose(0.1, 0.5));
+  for (const char* frame : {"tip", "never_heard_of", "", "/world"}) {
+    const auto lookup = look_up(buffer, "liver", frame, ros::Time(3));
+    EXPECT_FALSE(lookup.found) << frame;
+    EXPECT_NE(lookup.why_not.find(std::string("from ") + frame + " to liver"), std::string::npos)
+        << lookup.why_not;
+  }
+}
+
+TEST(LookUp, NothingOutsideTheKnownTimes) {
+  tf2::BufferCore buffer;
+  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
+  EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(2.9)).found);
+  EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(3.6)).found);
+  EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(3.2)).found);
+}
