@@ -54,8 +54,8 @@ void add_triangle(Marker& list, const Eigen::Vector3d& a, const Eigen::Vector3d&
 Marker shaft_cylinder(const EvaluatedStep& step) {
   const ShaftAxis& axis = step.path.back().axis;
   const Eigen::Vector3d along = axis.tip - axis.trocar;
-  const Eigen::Quaterniond turn =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), along);
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  if (!along.isZero(0.0)) turn.setFromTwoVectors(Eigen::Vector3d::UnitZ(), along);
   Marker shaft = marker(step, "shaft", Marker::CYLINDER, kShaft);
   shaft.pose.position = to_point(axis.at(0.5));
   shaft.pose.orientation.w = turn.w();

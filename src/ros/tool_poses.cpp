@@ -16,21 +16,36 @@ ros::Time common_time(ros::Time a, ros::Time b) {
   return b.isZero() ? a : std::min(a, b);
 }
 
-/// Whether the way from `a` to `c` leads through `b`, at its time.
-bool is_straight(const ShaftWaypoint& a, const ShaftWaypoint& b, const ShaftWaypoint& c) {
+/// How far `b` is from the straight way from `a` to `c`, at its time.
+double bend(const ShaftWaypoint& a, const ShaftWaypoint& b, const ShaftWaypoint& c) {
   const ShaftMotion motion{a.axis, c.axis};
-  const ShaftAxis middle = motion.at((b.fraction - a.fraction) / (c.fraction - a.fraction));
-  return (middle.trocar - b.axis.trocar).norm() <= kStraight &&
-         (middle.tip - b.axis.tip).norm() <= kStraight;
+  const ShaftAxis straight = motion.at((b.fraction - a.fraction) / (c.fraction - a.fraction));
+  return std::max((straight.trocar - b.axis.trocar).norm(), (straight.tip - b.axis.tip).norm());
 }
 
-/// Adds to a path that is not empty, in place of its last waypoint where that adds nothing. Every
-/// leg costs a query of its own; between two transforms TF interpolates, mostly in a straight line.
-void add_waypoint(ShaftPath& path, const ShaftWaypoint& next) {
-  const std::size_t size = path.size();
-  if (size > 1 && is_straight(path[size - 2], path[size - 1], next)) path.pop_back();
-  path.push_back(next);
-}
+/// A path without the waypoints that add nothing: every leg costs a query of its own, and between
+/// two transforms TF interpolates, mostly in a straight line.
+class PathBuilder {
+ public:
+  PathBuilder(ShaftPath& path, const ShaftAxis& begin) : path_(path) { path_ = {{0.0, begin}}; }
+
+  void add(const ShaftWaypoint& next) {
+    const std::size_t size = path_.size();
+    const double added = size > 1 ? bend(path_[size - 2], path_[size - 1], next) : 0.0;
+    // Each waypoint left out turns the leg by no more than its own bend: the sum bounds them all.
+    if (size > 1 && bends_left_out_ + added <= kStraight) {
+      bends_left_out_ += added;
+      path_.back() = next;
+    } else {
+      bends_left_out_ = 0.0;
+      path_.push_back(next);
+    }
+  }
+
+ private:
+  ShaftPath& path_;
+  double bends_left_out_ = 0.0;  ///< [m] of the last leg
+};
 
 /// A trocar that moves by rounding alone is at rest, for which viewing volumes are tighter.
 void rest_trocar(ShaftPath& path) {
@@ -69,17 +84,17 @@ SampledPath ToolPoses::path(const ToolParameters& tool, const std::string& organ
 
   SampledPath sampled;
   sampled.samples_cut = static_cast<std::size_t>(wanted - legs);
-  sampled.path.push_back({0.0, from.value});
+  PathBuilder path(sampled.path, from.value);
   for (int i = 1; i < legs; ++i) {
     const std::int64_t elapsed = duration / legs * i;
     ros::Time time;
     time.fromNSec(static_cast<std::uint64_t>(begin + elapsed));
     if (const auto between = axis(tool, organ_frame, time); between.found) {
-      add_waypoint(sampled.path, {static_cast<double>(elapsed) / static_cast<double>(duration),
-                                  between.found->value});
+      path.add(
+          {static_cast<double>(elapsed) / static_cast<double>(duration), between.found->value});
     }
   }
-  add_waypoint(sampled.path, {1.0, to.value});
+  path.add({1.0, to.value});
   rest_trocar(sampled.path);
   return sampled;
 }
