@@ -45,13 +45,15 @@ enum class MotionKind {
   kTipAtTrocar,
   kPastTrocar,
   kMovingTrocar,
-  kParallelShift
+  kParallelShift,
+  kGrid
 };
 inline constexpr std::array kMotionKinds = {
     MotionKind::kNone,       MotionKind::kSideways,     MotionKind::kWideSwing,
     MotionKind::kRandom,     MotionKind::kAlong,        MotionKind::kNearlyAlong,
     MotionKind::kOblique,    MotionKind::kTiny,         MotionKind::kTipAtTrocar,
-    MotionKind::kPastTrocar, MotionKind::kMovingTrocar, MotionKind::kParallelShift};
+    MotionKind::kPastTrocar, MotionKind::kMovingTrocar, MotionKind::kParallelShift,
+    MotionKind::kGrid};
 
 /// A motion of the given kind, its trocar `offset` [m] away from the frame's origin.
 inline ShaftMotion random_motion(MotionKind kind, double offset, Random& random) {
@@ -98,6 +100,14 @@ inline ShaftMotion random_motion(MotionKind kind, double offset, Random& random)
     case MotionKind::kParallelShift: {
       const Eigen::Vector3d shift = random.magnitude(1e-12, 0.2) * random.direction();
       return {start, {start.trocar + shift, start.tip + shift}};
+    }
+    case MotionKind::kGrid: {
+      // Exactly along, exactly square, exactly at the trocar: what rounding hides elsewhere.
+      const auto snap = [&](const Eigen::Vector3d& near) -> Eigen::Vector3d {
+        return (32 * (near + 0.1 * random.direction())).array().round() / 32;
+      };
+      const Eigen::Vector3d fixed = snap(trocar);
+      return {{fixed, snap(trocar)}, {fixed, snap(trocar)}};
     }
   }
   return {start, start};

@@ -242,6 +242,10 @@ TEST(ConservativeVolume, ContainsTheSweptCapsule) {
     if (i % 3 == 0) margin.motion = random.magnitude(1e-9, 0.01);
     if (i % 5 == 0) margin.extent = random.magnitude(0.1, 1000);
     const ViewingVolume volume = conservative_volume(motion, radius, margin);
+    ASSERT_TRUE(volume.clip().allFinite()) << motion;
+    for (std::size_t k = 0; k < volume.half_space_count(); ++k) {
+      ASSERT_NEAR(volume.half_space(k).normal.norm(), 1, 1e-9) << motion;
+    }
     const double thick = radius + margin.motion;
     for (const Vector3d& end :
          {motion.start.trocar, motion.start.tip, motion.end.trocar, motion.end.tip}) {
