@@ -31,7 +31,8 @@ class ViewingVolume {
   std::size_t half_space_count() const { return 6 + user_plane_count_; }
   HalfSpace half_space(std::size_t index) const;
 
-  /// [m] Distance behind the near plane, along the view, of a point at GL's window depth, in [0, 1].
+  /// [m] Distance behind the near plane, along the view, of a point at GL's window depth, in [0,
+  /// 1].
   double view_depth(double window_depth) const;
 
   /// A camera at `eye` (shifted coordinates) with orthonormal axes x (right), y (up) and
@@ -84,9 +85,9 @@ struct VolumeMargin {
 };
 
 /// Contains every point within `radius` (+ margin.motion) of the axis at some time of the leg, for
-/// every motion: trocar moving or not, tip at the trocar, no motion, motion along the axis. Grown so
-/// that 32-bit clipping of vertices up to `margin.extent` from the trocar loses nothing.
-/// Static: a leg without motion.
+/// every motion: trocar moving or not, tip at the trocar, no motion, motion along the axis. Grown
+/// so that 32-bit clipping of vertices up to `margin.extent` from the trocar loses nothing. Static:
+/// a leg without motion.
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin);
 
