@@ -120,14 +120,10 @@ void CollisionNode::watch_clock() {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
     transforms_.clear();
-    reset();
+    organs_.forget_previous_shapes();
+    steps_.start_anew(organs_);
   }
   last_now_ = now;
-}
-
-void CollisionNode::reset() {
-  organs_.forget_previous_shapes();
-  steps_.reset(organs_);
 }
 
 template <typename Message>
@@ -162,7 +158,8 @@ bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
 }
 
 bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  reset();
+  organs_.forget_previous_shapes();
+  steps_.reset();
   return true;
 }
 

@@ -80,7 +80,11 @@ void StepEvaluator::evaluate_tick(const OrganStore& organs) {
   }
 }
 
-void StepEvaluator::reset(const OrganStore& organs) {
+void StepEvaluator::reset() {
+  for (auto& [key, pair] : history_.pairs()) pair.last.reset();
+}
+
+void StepEvaluator::start_anew(const OrganStore& organs) {
   history_.clear();
   for (const auto& [name, organ] : organs.organs()) {
     for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {

@@ -197,12 +197,25 @@ TEST_F(StepEvaluatorTest, TicksSayWhenTheMeshIsStale) {
   EXPECT_EQ(tick().at(0).step_start, ros::Time(49.0));
 }
 
-TEST_F(StepEvaluatorTest, ResetForgetsStepsAndWaitingShapes) {
+TEST_F(StepEvaluatorTest, ResetMakesTheNextStepStatic) {
   send_tip(1.0, kAbove);
   send_mesh(1.0, 0.0);
   evaluate();
   send_vertices(1.1, 0.0);
-  steps.reset(organs);
+  steps.reset();
+  EXPECT_EQ(steps.history().last("liver", 0), nullptr);
+  send_tip(1.1, kBelow);
+  const auto published = evaluate();  // The shape that waited is no history.
+  expect_step(published, kStatic, 1.1, 1.1, 1);
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
+}
+
+TEST_F(StepEvaluatorTest, StartingAnewDropsWaitingShapes) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  send_vertices(1.1, 0.0);
+  steps.start_anew(organs);
   EXPECT_TRUE(evaluate(milliseconds(50)).empty());
   EXPECT_FALSE(steps.next_deadline());
   send_tip(1.1, kBelow);

@@ -167,11 +167,13 @@ class StepsTest(ToolCase):
         topic = rospy.Subscriber('/organ_collision/markers', MarkerArray, markers.append)
         wait_until(lambda: topic.get_num_connections() > 0, 'the markers topic')
         inside = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.002))
-        self.step(SHEET, {'grasper': inside, 'hook': ASIDE})
-        wait_until(
-            lambda: any(m.points for array in markers for m in array.markers),
-            'markers of touched faces',
-        )
+
+        def touched_faces_are_shown():
+            """Step by step: markers are made only once the node knows of the subscriber."""
+            self.step(SHEET, {'grasper': inside, 'hook': ASIDE})
+            return any(m.points for array in markers for m in array.markers)
+
+        wait_until(touched_faces_are_shown, 'markers of touched faces')
         for array in markers:
             for marker in array.markers:
                 self.assertIn(marker.header.frame_id, ('liver_frame', 'world'))

@@ -37,7 +37,6 @@ class CollisionNode {
   void call_callbacks();
   bool call_one(ros::WallDuration wait);
   void watch_clock();
-  void reset();
 
   template <typename Message>
   void on_organ_message(const Message& message);

@@ -46,8 +46,11 @@ class StepEvaluator {
   void evaluate_tick(const OrganStore& organs);
 
   void forget(const std::string& organ) { history_.forget(organ); }
-  /// Forgets all history; every organ is as its latest shape shows it.
-  void reset(const OrganStore& organs);
+  /// Forgets all history: the next step of every tool is static. Shapes that wait still wait.
+  void reset();
+  /// The same, and what waits for transforms of a time that is over is dropped: every organ is as
+  /// its latest shape shows it.
+  void start_anew(const OrganStore& organs);
 
   /// When evaluate_waiting has something to do even if no transform comes; none: never.
   std::optional<SteadyTime> next_deadline() const;
