@@ -25,13 +25,17 @@ LIMIT = 20.0  # [s]
 
 
 def wait_until(condition, what, limit=LIMIT):
-    """The first true value of condition(); AssertionError naming `what` after `limit` seconds."""
+    """The first true value of condition(); AssertionError after `limit` seconds, naming `what`: a
+    text, or a function that makes one then."""
     end = time.monotonic() + limit
     while True:
         value = condition()
         if value:
             return value
-        assert time.monotonic() < end, 'waited %g s in vain: %s' % (limit, what)
+        if time.monotonic() > end:
+            raise AssertionError(
+                'waited %g s in vain: %s' % (limit, what() if callable(what) else what)
+            )
         time.sleep(0.005)
 
 
@@ -114,10 +118,11 @@ FAR_AWAY = shaft((9.0, 9.0, 9.0), (9.0, 9.0, 9.1), 0.001)
 
 
 class NodeClient:
-    """Publishers, subscribers and services of one running node."""
+    """Publishers, subscribers and services of one running node. `process` is its name where that is
+    another: a nodelet's manager."""
 
-    def __init__(self, node='/organ_collision', frame='liver_frame'):
-        self.node, self.frame = node, frame
+    def __init__(self, node='/organ_collision', frame='liver_frame', process=None):
+        self.node, self.frame, self.process = node, frame, process or node
         self.meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, queue_size=100)
         self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
         self.contacts = ContactLog(node + '/contacts')
@@ -130,12 +135,25 @@ class NodeClient:
         self.query_service = rospy.ServiceProxy(node + '/query', QueryCollision, persistent=True)
         self.batch_service = rospy.ServiceProxy(node + '/query_batch', QueryCollisionBatch)
         self.reset = rospy.ServiceProxy(node + '/reset', Empty)
-        wait_until(
-            lambda: self.meshes.get_num_connections() > 0
-            and self.shapes.get_num_connections() > 0
-            and self.contacts.subscriber.get_num_connections() > 0,
-            'connections to ' + node,
+        wait_until(self.connected, 'connections to ' + node)
+
+    def connected(self):
+        """Other nodes may listen on the same topics: this one is looked for by its name."""
+        return self.contacts.subscriber.get_num_connections() > 0 and all(
+            self.process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
+            for topic in (self.meshes, self.shapes)
         )
+
+    def close(self):
+        """Before another node of the same name is met: no connection of this one is left."""
+        for end in (
+            self.meshes,
+            self.shapes,
+            self.contacts.subscriber,
+            self.diagnostics_subscriber,
+        ):
+            end.unregister()
+        self.query_service.close()
 
     def _keep_diagnostics(self, message):
         for status in message.status:
@@ -177,13 +195,11 @@ class NodeClient:
 
         def has_it():
             result = self.query(organ, FAR_AWAY)
-            return (
-                result.status == ContactArray.OK
-                and result.mesh_stamp == stamp
-                and result.topology == topology
-            )
+            seen[:] = [result.status, result.message, result.mesh_stamp, result.topology]
+            return seen == [ContactArray.OK, '', stamp, topology]
 
-        wait_until(has_it, 'shape of %s of %s' % (organ, stamp))
+        seen = []
+        wait_until(has_it, lambda: 'shape of %s of %s; there is %s' % (organ, stamp, seen))
 
     def query(
         self,

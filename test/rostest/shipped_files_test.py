@@ -73,14 +73,15 @@ class Launched:
 
 
 class ShippedFilesTest(ContactCase):
-    def check_collision_node(self, name):
+    def check_collision_node(self, name, process=None):
         """It answers about an organ of its own."""
-        node = NodeClient(name)
+        node = NodeClient(name, process=process)
         node.send_mesh('sheet', SHEET, rospy.Time(1))
         node.wait_for_shape('sheet', rospy.Time(1))
         self.assert_contacts(
             node.query('sheet', shaft(*AXIS, 0.005)), oracle.static_contacts(SHEET, AXIS, 0.005)
         )
+        node.close()
 
     def test_every_launch_file(self):
         launch_files = files('launch', '.launch')
@@ -93,7 +94,8 @@ class ShippedFilesTest(ContactCase):
             with Launched(path) as launched:
                 launched.wait_for_nodes()
                 self.assertGreater(len(launched.nodes), 0, path)
-                self.check_collision_node('/organ_collision')
+                manager = [name for name in launched.nodes if name.endswith('_manager')]
+                self.check_collision_node('/organ_collision', *manager)
                 if os.path.basename(path) == 'demo.launch':
                     self.check_demo()
             wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
@@ -134,6 +136,9 @@ class ShippedFilesTest(ContactCase):
             self.assertEqual(shown - topics, set(), path)
             fixed = manager['Global Options']['Fixed Frame']
             wait_until(lambda: fixed in frames, 'the fixed frame %s of %s' % (fixed, path))
+        for subscriber in kept:
+            subscriber.unregister()
+        node.close()
 
     def shown_topics(self, displays):
         """The topics of all displays, those in groups too."""
