@@ -25,8 +25,8 @@ constexpr EngineEntry kEngines[] = {
     {"ours_no_clusters", make_ours_no_clusters, kAll},
     {"select_paper", make_select_paper, 100'000},
     {"fcl", make_fcl, kAll},
-    {"bullet", make_bullet_gimpact, kAll},
-    {"bullet_quantized", make_bullet_quantized, kAll},
+    {"bullet", make_bullet_quantized, kAll},
+    {"bullet_gimpact", make_bullet_gimpact, kAll},
     {"embree", make_embree, kAll},
     {"cgal", make_cgal, kAll},
     {"scan", make_scan, kAll},
@@ -78,6 +78,7 @@ void add_engine(Lab& lab, const EngineEntry& engine, const SceneKey& key) {
   for (const PartEntry& part : kParts) {
     add(name_of(part.name, engine.name, key), [&lab, engine, part, key](benchmark::State& state) {
       Rig& rig = lab.rig(engine.name, engine.make, key);
+      if (part.rigid) rig.hold_first_shape();
       for ([[maybe_unused]] const auto _ : state) {
         state.SetIterationTime(part.share(part.rigid ? rig.rigid_step() : rig.step()));
       }

@@ -1,8 +1,10 @@
 #include "convex_solid.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace organ_collision::bench {
 namespace {
@@ -10,13 +12,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kSame = 1e-9;  // [m] points and planes nearer than this coincide
-
-void add_box_sides(const Eigen::AlignedBox3d& box, std::vector<HalfSpace>& half_spaces) {
-  for (int axis = 0; axis < 3; ++axis) {
-    half_spaces.push_back({Vector3d::Unit(axis), box.max()[axis]});
-    half_spaces.push_back({-Vector3d::Unit(axis), -box.min()[axis]});
-  }
-}
 
 bool is_inside(const Vector3d& point, const std::vector<HalfSpace>& half_spaces) {
   return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& half_space) {
@@ -57,29 +52,20 @@ std::vector<int> side_of(const HalfSpace& half_space, const std::vector<Vector3d
 
 }  // namespace
 
-Eigen::AlignedBox3d ConvexSolid::box() const {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& corner : corners) box.extend(corner);
-  return box;
-}
-
-ConvexSolid intersection(const std::vector<HalfSpace>& half_spaces,
-                         const Eigen::AlignedBox3d& box) {
-  std::vector<HalfSpace> all = half_spaces;
-  add_box_sides(box, all);
+ConvexSolid solid_of(const std::vector<HalfSpace>& half_spaces) {
   ConvexSolid solid;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = i + 1; j < all.size(); ++j) {
-      for (std::size_t k = j + 1; k < all.size(); ++k) {
-        add_corner(all[i], all[j], all[k], all, solid.corners);
+  for (std::size_t i = 0; i < half_spaces.size(); ++i) {
+    for (std::size_t j = i + 1; j < half_spaces.size(); ++j) {
+      for (std::size_t k = j + 1; k < half_spaces.size(); ++k) {
+        add_corner(half_spaces[i], half_spaces[j], half_spaces[k], half_spaces, solid.corners);
       }
     }
   }
-  for (const HalfSpace& half_space : all) {
+  for (const HalfSpace& half_space : half_spaces) {
     std::vector<int> side = side_of(half_space, solid.corners);
-    const bool is_known =
-        std::find(solid.sides.begin(), solid.sides.end(), side) != solid.sides.end();
-    if (!side.empty() && !is_known) solid.sides.push_back(std::move(side));
+    const auto& known = solid.sides;
+    if (side.empty() || std::find(known.begin(), known.end(), side) != known.end()) continue;
+    solid.sides.push_back(std::move(side));
   }
   return solid;
 }

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <vector>
 
 #include "organ_collision/geometry/half_space.hpp"
@@ -12,11 +11,9 @@ namespace organ_collision::bench {
 struct ConvexSolid {
   std::vector<Eigen::Vector3d> corners;  ///< [m]
   std::vector<std::vector<int>> sides;   ///< corners of each, anticlockwise seen from outside
-
-  Eigen::AlignedBox3d box() const;
 };
 
-/// What `half_spaces` and `box` have in common [m].
-ConvexSolid intersection(const std::vector<HalfSpace>& half_spaces, const Eigen::AlignedBox3d& box);
+/// The solid that `half_spaces` bound [m].
+ConvexSolid solid_of(const std::vector<HalfSpace>& half_spaces);
 
 }  // namespace organ_collision::bench

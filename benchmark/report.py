@@ -10,7 +10,7 @@ import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot  # noqa: E402
 
-ENGINES = ['ours', 'ours_no_clusters', 'select_paper', 'scan', 'bullet', 'bullet_quantized', 'embree', 'fcl', 'cgal',
+ENGINES = ['ours', 'ours_no_clusters', 'select_paper', 'scan', 'bullet', 'bullet_gimpact', 'embree', 'fcl', 'cgal',
            'vertex_pass', 'memcpy']
 PARTS = ['step', 'update', 'static', 'swept', 'static_rigid', 'swept_rigid']
 CONTACT_PARTS = ['contacts', 'step_contacts', 'contacts_moving', 'step_moving']

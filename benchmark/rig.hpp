@@ -30,19 +30,19 @@ class Rig {
   const Findings& findings() const { return findings_; }
   /// A new shape, then both queries.
   StepTimes step();
-  /// Both queries, the organ as it was after the first shape.
+  /// The organ takes its first shape, for rigid steps; not timed.
+  void hold_first_shape() { engine_->update(scene_.shapes.front()); }
+  /// Both queries, the organ as it is.
   StepTimes rigid_step();
 
  private:
-  void check(const std::vector<SceneStep>& steps, bool rigid);
-  void hold_first_shape();
+  void check(const SceneStep& step);
 
   std::unique_ptr<Engine> engine_;
   const Scene& scene_;
   Findings findings_;
   std::vector<std::uint32_t> faces_;
   std::size_t next_ = 0;
-  bool holds_first_shape_ = false;
 };
 
 }  // namespace organ_collision::bench

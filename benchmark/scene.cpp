@@ -44,7 +44,7 @@ class Surgeon {
 
   ShaftMotion motion(const std::vector<float>& vertices) {
     while (true) {
-      const Vector3d trocar(choose(0.06), choose(0.04), 0.2);
+      const Vector3d trocar(choose(0.1), choose(0.06), 0.15);
       const Triangle face = corners(organ_, vertices, random_() % organ_.face_count());
       const Vector3d entry = (face[0] + face[1] + face[2]) / 3.0;
       const Vector3d outward = (face[1] - face[0]).cross(face[2] - face[0]).normalized();

@@ -29,7 +29,7 @@ VolumeQuery::VolumeQuery(const ShaftMotion& motion, double radius, const Eigen::
       extent(extent_from_trocar(motion, organ)),
       volume(conservative_volume(motion, radius, {0.0, extent})),
       half_spaces(half_spaces_of(volume)),
-      solid(intersection(half_spaces, organ)),
-      box(solid.box()) {}
+      solid(solid_of(half_spaces)),
+      organ(organ) {}
 
 }  // namespace organ_collision::bench

@@ -20,8 +20,8 @@ struct VolumeQuery {
   double extent;                       ///< [m] largest coordinate of the organ from the trocar
   ViewingVolume volume;                ///< the conservative one
   std::vector<HalfSpace> half_spaces;  ///< the same, in the organ's frame
-  ConvexSolid solid;                   ///< its part within the organ's box
-  Eigen::AlignedBox3d box;             ///< around that part
+  ConvexSolid solid;                   ///< the same again
+  Eigen::AlignedBox3d organ;
 };
 
 }  // namespace organ_collision::bench

@@ -26,9 +26,10 @@ class BulletGimpact : public Engine {
   }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    const Eigen::AlignedBox3d tool = box_within_organ(query);
     btAABB box;
-    box.m_min = bullet_vector(query.box.min());
-    box.m_max = bullet_vector(query.box.max());
+    box.m_min = bullet_vector(tool.min());
+    box.m_max = bullet_vector(tool.max());
     found_.resize(0);
     shape_->getBoxSet()->boxQuery(box, found_);
     faces.clear();

@@ -40,10 +40,11 @@ class BulletQuantized : public Engine {
   }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
+    const Eigen::AlignedBox3d tool = box_within_organ(query);
     faces.clear();
     Collector collector(faces);
-    tree_.reportAabbOverlappingNodex(&collector, bullet_vector(query.box.min()),
-                                     bullet_vector(query.box.max()));
+    tree_.reportAabbOverlappingNodex(&collector, bullet_vector(tool.min()),
+                                     bullet_vector(tool.max()));
     clip_exactly(query, *organ_, *vertices_, faces);
   }
 

@@ -55,7 +55,8 @@ class Cgal : public Engine {
   }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
-    const Eigen::Vector3d &low = query.box.min(), &high = query.box.max();
+    const Eigen::AlignedBox3d tool = box_within_organ(query);
+    const Eigen::Vector3d &low = tool.min(), &high = tool.max();
     const Kernel::Iso_cuboid_3 box({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()});
     faces.clear();
     tree_.all_intersected_primitives(box, std::back_inserter(faces));

@@ -29,6 +29,8 @@ class BoxScene {
   BoxScene(RTCDevice device, RTCBuildQuality quality)
       : geometry_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)), scene_(rtcNewScene(device)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
+    // Only scenes of low quality keep a tree for each geometry, which can then be refitted.
+    rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry_, quality);
     rtcAttachGeometry(scene_, geometry_);
   }
@@ -76,7 +78,7 @@ class Embree : public Engine {
   }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
-    tool_box_ = query.box.cast<float>();
+    tool_box_ = box_within_organ(query).cast<float>();
     tool_scene_.commit();
     faces.clear();
     rtcCollide(organ_scene_.scene(), tool_scene_.scene(), &Embree::on_collisions, &faces);

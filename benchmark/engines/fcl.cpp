@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "engine.hpp"
+#include "exact_clip.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -63,6 +64,8 @@ class Fcl : public Engine {
     fcl::Transform3<double> rest = fcl::Transform3<double>::Identity();
     Node node;
     fcl::detail::initialize(node, model_, rest, tool, rest, &solver_, request, result);
+    const Eigen::AlignedBox3d box = box_within_organ(query);
+    node.model2_bv = fcl::AABB<double>(box.min(), box.max());
     fcl::detail::collide(&node);
     faces.clear();
     for (std::size_t i = 0; i < result.numContacts(); ++i) {
