@@ -31,8 +31,8 @@ class ViewingVolume {
   std::size_t half_space_count() const { return 6 + user_plane_count_; }
   HalfSpace half_space(std::size_t index) const;
 
-  /// [m] Distance behind the near plane, along the view, of a point at GL's window depth, in [0,
-  /// 1].
+  /// [m] Distance behind the near plane, along the view, of a point at GL's window depth.
+  /// `window_depth` in [0, 1].
   double view_depth(double window_depth) const;
 
   /// A camera at `eye` (shifted coordinates) with orthonormal axes x (right), y (up) and
