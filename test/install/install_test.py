@@ -49,12 +49,14 @@ class InstallTest(unittest.TestCase):
         self.assertIn(self.prefix + '/lib/liborgan_collision_query', linked)
         self.assertNotRegex(linked, r'lib(ros|tf2|nodelet|xmlrpc)')
 
-    def test_installed_programs_find_their_libraries(self):
+    def test_installed_programs_and_nodelet_find_their_libraries(self):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')
         programs = os.listdir(folder)
-        self.assertIn('organ_collision_node', programs)
-        for program in programs:
-            self.assertNotIn('not found', run('ldd', os.path.join(folder, program)), program)
+        self.assertTrue({'organ_collision_node', 'query_offline', 'liver_simulator', 'demo_report'}
+                        <= set(programs), programs)
+        nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
+        for path in [os.path.join(folder, program) for program in programs] + [nodelet]:
+            self.assertNotIn('not found', run('ldd', path), path)
 
     def test_everything_that_the_package_ships_is_there(self):
         for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',
