@@ -2,24 +2,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
+
+#include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Reason = MeshError::Reason;
 
-bool all_finite(const std::vector<float>& values) {
-  return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
-}
+bool is_legal(float coordinate) { return std::abs(coordinate) <= tolerance::kFarthest; }
 
-[[noreturn]] void refuse_not_finite(const std::vector<float>& vertices) {
-  const auto bad =
-      std::find_if_not(vertices.begin(), vertices.end(), [](float x) { return std::isfinite(x); });
+/// Throws for the first coordinate that is not finite or too large, if there is one.
+void check_coordinates(const std::vector<float>& vertices) {
+  const auto bad = std::find_if_not(vertices.begin(), vertices.end(), is_legal);
+  if (bad == vertices.end()) return;
   const auto index = static_cast<std::size_t>(bad - vertices.begin());
-  throw MeshError(Reason::kNotFinite, std::string(1, "xyz"[index % 3]) + " of vertex " +
-                                          std::to_string(index / 3) + " is " +
-                                          std::to_string(*bad) + "; coordinates must be finite");
+  std::ostringstream message;
+  message << "xyz"[index % 3] << " of vertex " << index / 3 << " is " << *bad
+          << "; coordinates must be finite and within " << tolerance::kFarthest << " m";
+  throw MeshError(std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite, message.str());
 }
 
 void check_sizes(std::size_t coordinates, std::size_t indices, const MeshLimits& limits) {
@@ -63,27 +66,32 @@ std::vector<FaceIndices> make_faces(const std::vector<std::uint32_t>& triangles,
 
 }  // namespace
 
-TriangleMesh::TriangleMesh(const std::vector<float>& vertices,
-                           const std::vector<std::uint32_t>& triangles, std::uint32_t topology,
-                           const MeshLimits& limits)
-    : vertices_(vertices) {
-  check_sizes(vertices.size(), triangles.size(), limits);
-  std::vector<FaceIndices> faces = make_faces(triangles, vertices.size() / 3);
-  if (!all_finite(vertices)) refuse_not_finite(vertices);
-  FaceClusters clusters(faces, vertices);
+TriangleMesh::TriangleMesh(SharedVertices vertices, const std::vector<std::uint32_t>& triangles,
+                           std::uint32_t topology, const MeshLimits& limits)
+    : vertices_(std::move(vertices)) {
+  check_sizes(vertices_->size(), triangles.size(), limits);
+  std::vector<FaceIndices> faces = make_faces(triangles, vertex_count());
+  check_coordinates(*vertices_);
+  FaceClusters clusters(faces, *vertices_);
   topology_ = std::make_shared<Topology>(Topology{topology, std::move(faces), std::move(clusters)});
-  boxes_.refit(topology_->clusters, vertices_);
+  boxes_.refit(topology_->clusters, *vertices_);
 }
 
-void TriangleMesh::move_vertices(const std::vector<float>& vertices) {
-  if (vertices.size() != vertices_.size()) {
-    throw MeshError(Reason::kSize, std::to_string(vertices.size()) +
+void TriangleMesh::move_vertices(SharedVertices vertices) {
+  if (vertices->size() != vertices_->size()) {
+    throw MeshError(Reason::kSize, std::to_string(vertices->size()) +
                                        " vertex coordinates; this topology has " +
-                                       std::to_string(vertices_.size()));
+                                       std::to_string(vertices_->size()));
   }
-  if (!spare_boxes_.refit(topology_->clusters, vertices)) refuse_not_finite(vertices);
+  // The boxes tell in the same pass whether all is legal; which one is not needs a second look.
+  const bool finite = spare_boxes_.refit(topology_->clusters, *vertices);
+  const Eigen::AlignedBox3f& box = spare_boxes_.all();
+  if (!finite || !is_legal(box.min().cwiseAbs().maxCoeff()) ||
+      !is_legal(box.max().cwiseAbs().maxCoeff())) {
+    check_coordinates(*vertices);
+  }
   std::swap(boxes_, spare_boxes_);
-  std::copy(vertices.begin(), vertices.end(), vertices_.begin());
+  vertices_ = std::move(vertices);
 }
 
 double largest_displacement(const TriangleMesh& before, const TriangleMesh& now) {

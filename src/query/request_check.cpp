@@ -1,8 +1,9 @@
 #include "request_check.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
 namespace {
@@ -15,9 +16,10 @@ template <typename... Parts>
 }
 
 void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& point) {
-  if (point.allFinite()) return;
+  // NaN is within nothing.
+  if ((point.array().abs() <= tolerance::kFarthest).all()) return;
   refuse(name, " of waypoint ", waypoint, " is (", point.x(), ", ", point.y(), ", ", point.z(),
-         "); must be finite");
+         "); must be finite and within ", tolerance::kFarthest, " m");
 }
 
 void check_path(const ShaftPath& path) {
@@ -44,8 +46,9 @@ bool needs_resting_trocar(QueryMode mode) {
 
 void check(const CollisionRequest& request) {
   if (!request.organ) refuse("the request names no organ");
-  if (!std::isfinite(request.radius) || !(request.radius > 0.0)) {
-    refuse("radius is ", request.radius, " m; must be positive and finite");
+  if (!(request.radius > 0.0 && request.radius <= tolerance::kFarthest)) {
+    refuse("radius is ", request.radius, " m; must be positive, finite and within ",
+           tolerance::kFarthest, " m");
   }
   if (request.mode > QueryMode::kPaperNaive) {
     refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 to 4");

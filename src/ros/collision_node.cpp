@@ -61,10 +61,10 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   subscribers_ = {
       private_node_.subscribe<OrganMesh>(
           names::kOrganMesh, 100,
-          [this](const OrganMeshConstPtr& message) { on_organ_message(*message); }, {}, no_delay),
+          [this](const OrganMeshConstPtr& message) { on_organ_message(message); }, {}, no_delay),
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
-          [this](const OrganVerticesConstPtr& message) { on_organ_message(*message); }, {},
+          [this](const OrganVerticesConstPtr& message) { on_organ_message(message); }, {},
           no_delay)};
   servers_ = {
       private_node_.advertiseService(names::kQuery, &CollisionNode::on_query, this),
@@ -127,10 +127,11 @@ void CollisionNode::watch_clock() {
 }
 
 template <typename Message>
-void CollisionNode::on_organ_message(const Message& message) {
+void CollisionNode::on_organ_message(const boost::shared_ptr<const Message>& pointer) {
+  const Message& message = *pointer;
   const SteadyTime now = SteadyClock::now();
   try {
-    const OrganChange change = organs_.apply(message, ros::Time::now());
+    const OrganChange change = organs_.apply(pointer, ros::Time::now());
     if (change != OrganChange::kShape) steps_.forget(message.organ);
     if (change == OrganChange::kRemoved) {
       return publish_failure(message.organ, message.header, ContactArray::NO_MESH,

@@ -10,9 +10,9 @@ Organ::Organ(std::string name, std::string frame, TriangleMesh mesh, ros::Time s
   replace(std::move(mesh), stamp, received);
 }
 
-void Organ::move(const std::vector<float>& vertices, ros::Time stamp, ros::Time received) {
+void Organ::move(SharedVertices vertices, ros::Time stamp, ros::Time received) {
   const std::shared_ptr<TriangleMesh> shape = unused_shape();
-  shape->move_vertices(vertices);
+  shape->move_vertices(std::move(vertices));
   previous_ = std::move(latest_);
   latest_ = {shape, stamp, received};
 }

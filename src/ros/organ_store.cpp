@@ -22,6 +22,8 @@ std::string reason_of(const MeshError& error) {
       return "index out of range";
     case MeshError::Reason::kNotFinite:
       return "not finite";
+    case MeshError::Reason::kTooFar:
+      return "too far";
     case MeshError::Reason::kNoTriangles:
       return "no triangles";
     case MeshError::Reason::kTooManyFaces:
@@ -30,6 +32,11 @@ std::string reason_of(const MeshError& error) {
       return "too many vertices";
   }
   return "invalid mesh";
+}
+
+template <typename Message>
+SharedVertices vertices_of(const boost::shared_ptr<const Message>& message) {
+  return {&message->vertices, [message](const void*) {}};
 }
 
 bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
@@ -44,7 +51,8 @@ bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& t
 
 }  // namespace
 
-OrganChange OrganStore::apply(const OrganMesh& message, ros::Time now) {
+OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now) {
+  const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
   if (message.vertices.empty() && message.triangles.empty()) {
     organs_.erase(message.organ);
@@ -56,7 +64,7 @@ OrganChange OrganStore::apply(const OrganMesh& message, ros::Time now) {
     if (frame.empty()) {
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
-    const OrganChange change = apply_checked(message, frame, now);
+    const OrganChange change = apply_checked(pointer, frame, now);
     without_mesh_.erase(message.organ);
     return change;
   } catch (const std::runtime_error&) {
@@ -65,22 +73,24 @@ OrganChange OrganStore::apply(const OrganMesh& message, ros::Time now) {
   }
 }
 
-OrganChange OrganStore::apply_checked(const OrganMesh& message, const std::string& frame,
+OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer, const std::string& frame,
                                       ros::Time now) {
+  const OrganMesh& message = *pointer;
   const ros::Time stamp = message.header.stamp;
   const auto known = organs_.find(message.organ);
   try {
     if (known == organs_.end()) {
-      TriangleMesh mesh(message.vertices, message.triangles, message.topology, limits_);
+      TriangleMesh mesh(vertices_of(pointer), message.triangles, message.topology, limits_);
       organs_.emplace(message.organ, Organ(message.organ, frame, std::move(mesh), stamp, now));
       return OrganChange::kShape;
     }
     Organ& organ = known->second;
     const TriangleMesh& latest = *organ.latest().mesh;
     if (message.topology != latest.topology()) {
-      organ.replace({message.vertices, message.triangles, message.topology, limits_}, stamp, now);
+      organ.replace({vertices_of(pointer), message.triangles, message.topology, limits_}, stamp,
+                    now);
     } else if (has_triangles(latest, message.triangles)) {
-      organ.move(message.vertices, stamp, now);
+      organ.move(vertices_of(pointer), stamp, now);
     } else {
       refuse("same topology, other triangles",
              "organ " + quoted(message.organ) + " already has other triangles of topology " +
@@ -95,7 +105,8 @@ OrganChange OrganStore::apply_checked(const OrganMesh& message, const std::strin
   }
 }
 
-OrganChange OrganStore::apply(const OrganVertices& message, ros::Time now) {
+OrganChange OrganStore::apply(const OrganVerticesConstPtr& pointer, ros::Time now) {
+  const OrganVertices& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
   at(message.organ);
   Organ& organ = organs_.at(message.organ);
@@ -112,7 +123,7 @@ OrganChange OrganStore::apply(const OrganVertices& message, ros::Time now) {
                                  "; the mesh has " + std::to_string(topology));
   }
   try {
-    organ.move(message.vertices, message.header.stamp, now);
+    organ.move(vertices_of(pointer), message.header.stamp, now);
   } catch (const MeshError& error) {
     refuse(reason_of(error), named + ": " + error.what());
   }

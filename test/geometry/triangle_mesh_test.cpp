@@ -56,7 +56,8 @@ TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
   triangles[7] = std::numeric_limits<std::uint32_t>::max();
   expect_refused(Reason::kIndex, {"4294967295"}, [&] { TriangleMesh(kCorners, triangles); });
   expect_refused(Reason::kNoTriangles, {"4 vertices"}, [] { TriangleMesh(kCorners, {}); });
-  expect_refused(Reason::kIndex, {"face 0"}, [] { TriangleMesh({}, kTetrahedron); });
+  expect_refused(Reason::kIndex, {"face 0"},
+                 [] { TriangleMesh(std::vector<float>(), kTetrahedron); });
   expect_refused(Reason::kTooManyFaces, {"4 faces", "at most 3"},
                  [] { TriangleMesh(kCorners, kTetrahedron, 0, {3}); });
   expect_refused(Reason::kTooManyVertices, {"4 vertices", "at most 3"}, [] {
@@ -80,21 +81,28 @@ TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
   }
 }
 
-TEST(TriangleMesh, TakesDegenerateFacesAndTheLargestFloats) {
-  const float most = std::numeric_limits<float>::max();
-  const TriangleMesh mesh({0, 0, 0, most, -most, 1}, {0, 0, 1, 1, 1, 1});
+TEST(TriangleMesh, TakesDegenerateFacesAndTheFarthestVertices) {
+  const TriangleMesh mesh({0, 0, 0, 1e6F, -1e6F, 1}, {0, 0, 1, 1, 1, 1});
   EXPECT_EQ(mesh.face_count(), 2U);
   EXPECT_EQ(mesh.triangle(1)[2], mesh.triangle(1)[0]);
 }
 
-TEST(TriangleMesh, MovesItsVerticesInPlace) {
+TEST(TriangleMesh, RefusesVerticesThatAreTooFar) {
+  for (const float far : {1.001e6F, -1.001e6F, std::numeric_limits<float>::max()}) {
+    std::vector<float> vertices = kCorners;
+    vertices[7] = far;
+    expect_refused(Reason::kTooFar, {"y of vertex 2", "1e+06 m"},
+                   [&] { TriangleMesh(vertices, kTetrahedron); });
+  }
+}
+
+TEST(TriangleMesh, TakesSharedVerticesAsTheyAre) {
   TriangleMesh mesh(kCorners, kTetrahedron, 3);
-  const float* const address = mesh.vertices().data();
   std::vector<float> moved = kCorners;
   moved[4] = -2.5F;
-  mesh.move_vertices(moved);
-  EXPECT_EQ(mesh.vertices(), moved);
-  EXPECT_EQ(mesh.vertices().data(), address);
+  const auto shared = std::make_shared<const std::vector<float>>(moved);
+  mesh.move_vertices(shared);
+  EXPECT_EQ(&mesh.vertices(), shared.get());
   EXPECT_EQ(mesh.box().min().y(), -2.5F);
   EXPECT_EQ(mesh.topology(), 3U);
 }
@@ -112,7 +120,7 @@ TEST(TriangleMesh, KeepsItsShapeWhenNewVerticesAreRefused) {
   EXPECT_EQ(mesh.box().max().x(), 1.4F);
 }
 
-TEST(TriangleMesh, CopiesShareTheirFacesOnly) {
+TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
   const TriangleMesh mesh(kCorners, kTetrahedron);
   TriangleMesh copy = mesh;
   std::vector<float> moved = kCorners;

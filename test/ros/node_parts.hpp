@@ -3,6 +3,7 @@
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 
+#include <boost/make_shared.hpp>
 #include <string>
 #include <vector>
 
@@ -38,7 +39,7 @@ struct NodeParts {
     message.topology = topology;
     message.vertices = heights(z);
     message.triangles = {0, 1, 2, 0, 2, 3};
-    organs.apply(message, ros::Time::now());
+    organs.apply(boost::make_shared<OrganMesh>(message), ros::Time::now());
     steps.add_shape(organs.at("liver"), now);
   }
 
@@ -49,7 +50,7 @@ struct NodeParts {
     message.organ = "liver";
     message.topology = 1;
     message.vertices = heights(z);
-    organs.apply(message, ros::Time::now());
+    organs.apply(boost::make_shared<OrganVertices>(message), ros::Time::now());
     steps.add_shape(organs.at("liver"), now);
   }
 

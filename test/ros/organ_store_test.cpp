@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <organ_collision/ContactArray.h>
 
+#include <boost/make_shared.hpp>
 #include <cmath>
 #include <limits>
 
@@ -33,6 +34,11 @@ OrganVertices vertices(float z, std::uint32_t topology = 1) {
 
 class OrganStoreTest : public testing::Test {
  protected:
+  template <typename Message>
+  OrganChange apply(const Message& message, ros::Time now) {
+    return store_.apply(boost::make_shared<const Message>(message), now);
+  }
+
   /// Refused with these, and the liver stays as it was.
   template <typename Message>
   void expect_refused(const Message& message, std::uint8_t status, const std::string& reason,
@@ -40,7 +46,7 @@ class OrganStoreTest : public testing::Test {
     const bool known = store_.organs().count("liver") > 0;
     const OrganShape before = known ? store_.at("liver").latest() : OrganShape{};
     try {
-      store_.apply(message, ros::Time(9));
+      apply(message, ros::Time(9));
       ADD_FAILURE() << "accepted: " << reason;
     } catch (const Rejection& rejection) {
       EXPECT_EQ(rejection.status(), status) << rejection.what();
@@ -69,9 +75,19 @@ class OrganStoreTest : public testing::Test {
 
 }  // namespace
 
+TEST_F(OrganStoreTest, AMessageIsTheShapeWithoutACopy) {
+  const auto first = boost::make_shared<const OrganMesh>(mesh());
+  store_.apply(first, ros::Time(7));
+  EXPECT_EQ(&store_.at("liver").latest().mesh->vertices(), &first->vertices);
+  const auto second = boost::make_shared<const OrganVertices>(vertices(3));
+  store_.apply(second, ros::Time(8));
+  EXPECT_EQ(&store_.at("liver").latest().mesh->vertices(), &second->vertices);
+  EXPECT_EQ(&store_.at("liver").previous().mesh->vertices(), &first->vertices);
+}
+
 TEST_F(OrganStoreTest, OrgansByName) {
-  EXPECT_EQ(store_.apply(mesh("liver"), ros::Time(7)), OrganChange::kShape);
-  EXPECT_EQ(store_.apply(mesh("kidney"), ros::Time(7)), OrganChange::kShape);
+  EXPECT_EQ(apply(mesh("liver"), ros::Time(7)), OrganChange::kShape);
+  EXPECT_EQ(apply(mesh("kidney"), ros::Time(7)), OrganChange::kShape);
   EXPECT_EQ(store_.organs().size(), 2u);
   EXPECT_EQ(store_.at("kidney").latest().stamp, ros::Time(5));
   EXPECT_EQ(store_.at("kidney").latest().received, ros::Time(7));
@@ -79,49 +95,49 @@ TEST_F(OrganStoreTest, OrgansByName) {
 }
 
 TEST_F(OrganStoreTest, VerticesMoveTheOrgan) {
-  store_.apply(mesh(), ros::Time(7));
-  EXPECT_EQ(store_.apply(vertices(3), ros::Time(8)), OrganChange::kShape);
+  apply(mesh(), ros::Time(7));
+  EXPECT_EQ(apply(vertices(3), ros::Time(8)), OrganChange::kShape);
   EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 3.0);
   EXPECT_EQ(store_.at("liver").previous().mesh->vertex(0).z(), 0.0);
 }
 
 TEST_F(OrganStoreTest, MeshWithTheTrianglesItHasCountsAsVertices) {
-  store_.apply(mesh(), ros::Time(7));
+  apply(mesh(), ros::Time(7));
   const auto* faces = &store_.at("liver").latest().mesh->faces();
   OrganMesh again = mesh();
   again.vertices[2] = 4;
-  EXPECT_EQ(store_.apply(again, ros::Time(8)), OrganChange::kShape);
+  EXPECT_EQ(apply(again, ros::Time(8)), OrganChange::kShape);
   EXPECT_EQ(&store_.at("liver").latest().mesh->faces(), faces);
   EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 4.0);
   EXPECT_TRUE(store_.at("liver").previous().mesh);
 }
 
 TEST_F(OrganStoreTest, NewTopologyHasNoPreviousShape) {
-  store_.apply(mesh(), ros::Time(7));
+  apply(mesh(), ros::Time(7));
   OrganMesh cut = mesh("liver", 2);
   cut.triangles = {0, 1, 2};
-  EXPECT_EQ(store_.apply(cut, ros::Time(8)), OrganChange::kShape);
+  EXPECT_EQ(apply(cut, ros::Time(8)), OrganChange::kShape);
   EXPECT_EQ(store_.at("liver").latest().mesh->face_count(), 1u);
   EXPECT_FALSE(store_.at("liver").previous().mesh);
 }
 
 TEST_F(OrganStoreTest, OtherFrame) {
-  store_.apply(mesh(), ros::Time(7));
+  apply(mesh(), ros::Time(7));
   OrganMesh elsewhere = mesh();
   elsewhere.header.frame_id = "/table";
-  EXPECT_EQ(store_.apply(elsewhere, ros::Time(8)), OrganChange::kFrame);
+  EXPECT_EQ(apply(elsewhere, ros::Time(8)), OrganChange::kFrame);
   EXPECT_EQ(store_.at("liver").frame(), "table");
   EXPECT_FALSE(store_.at("liver").previous().mesh);
 }
 
 TEST_F(OrganStoreTest, RemovedOrganHasNoMesh) {
-  store_.apply(mesh(), ros::Time(7));
+  apply(mesh(), ros::Time(7));
   OrganMesh nothing;
   nothing.organ = "liver";
-  EXPECT_EQ(store_.apply(nothing, ros::Time(8)), OrganChange::kRemoved);
+  EXPECT_EQ(apply(nothing, ros::Time(8)), OrganChange::kRemoved);
   EXPECT_EQ(status_of("liver"), ContactArray::NO_MESH);
   expect_refused(vertices(1), ContactArray::NO_MESH, "organ without mesh", {"'liver'"});
-  store_.apply(mesh("liver", 1), ros::Time(9));
+  apply(mesh("liver", 1), ros::Time(9));
   EXPECT_EQ(status_of("liver"), ContactArray::OK);
 }
 
@@ -137,7 +153,7 @@ TEST_F(OrganStoreTest, OrganWhoseMeshesWereAllRefusedHasNoMesh) {
 }
 
 TEST_F(OrganStoreTest, BadMeshesLeaveTheGoodOne) {
-  store_.apply(mesh(), ros::Time(7));
+  apply(mesh(), ros::Time(7));
   for (const std::uint32_t topology : {1, 2}) {
     const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
     OrganMesh bad = mesh("liver", topology);
@@ -169,7 +185,7 @@ TEST_F(OrganStoreTest, BadMeshesLeaveTheGoodOne) {
 
 TEST_F(OrganStoreTest, BadVerticesLeaveTheGoodOnes) {
   expect_refused(vertices(1), ContactArray::UNKNOWN_ORGAN, "unknown organ", {"'liver'"});
-  store_.apply(mesh(), ros::Time(7));
+  apply(mesh(), ros::Time(7));
   const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
   expect_refused(vertices(1, 2), invalid, "other topology", {"2", "1"});
   OrganVertices bad = vertices(1);
@@ -188,8 +204,8 @@ TEST_F(OrganStoreTest, BadVerticesLeaveTheGoodOnes) {
 }
 
 TEST_F(OrganStoreTest, UnknownOrganIsToldWhichAreKnown) {
-  store_.apply(mesh("liver"), ros::Time(7));
-  store_.apply(mesh("kidney"), ros::Time(7));
+  apply(mesh("liver"), ros::Time(7));
+  apply(mesh("kidney"), ros::Time(7));
   try {
     store_.at("spleen");
     ADD_FAILURE();
@@ -199,8 +215,8 @@ TEST_F(OrganStoreTest, UnknownOrganIsToldWhichAreKnown) {
 }
 
 TEST_F(OrganStoreTest, ForgetsPreviousShapes) {
-  store_.apply(mesh(), ros::Time(7));
-  store_.apply(vertices(3), ros::Time(8));
+  apply(mesh(), ros::Time(7));
+  apply(vertices(3), ros::Time(8));
   store_.forget_previous_shapes();
   EXPECT_FALSE(store_.at("liver").previous().mesh);
   EXPECT_EQ(store_.at("liver").latest().mesh->vertex(0).z(), 3.0);

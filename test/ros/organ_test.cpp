@@ -12,6 +12,10 @@ const std::vector<std::uint32_t> kTriangle{0, 1, 2};
 
 std::vector<float> triangle_at(float z) { return {0, 0, z, 1, 0, z, 0, 1, z}; }
 
+SharedVertices shared(const std::vector<float>& vertices) {
+  return std::make_shared<const std::vector<float>>(vertices);
+}
+
 Organ organ() {
   return {"liver", "liver_frame", TriangleMesh(triangle_at(0), kTriangle, 3), ros::Time(1),
           ros::Time(2)};
@@ -30,7 +34,7 @@ TEST(Organ, BeginsWithoutPreviousShape) {
 
 TEST(Organ, MoveKeepsThePreviousShape) {
   Organ liver = organ();
-  liver.move(triangle_at(5), ros::Time(3), ros::Time(4));
+  liver.move(shared(triangle_at(5)), ros::Time(3), ros::Time(4));
   EXPECT_EQ(liver.latest().mesh->vertices(), triangle_at(5));
   EXPECT_EQ(liver.latest().received, ros::Time(4));
   EXPECT_EQ(liver.previous().mesh->vertices(), triangle_at(0));
@@ -43,7 +47,7 @@ TEST(Organ, ShapesInUseNeverChange) {
   std::vector<OrganShape> held;
   for (int i = 1; i < 9; ++i) {
     held.push_back(liver.latest());
-    liver.move(triangle_at(static_cast<float>(i)), ros::Time(i), ros::Time(i));
+    liver.move(shared(triangle_at(static_cast<float>(i))), ros::Time(i), ros::Time(i));
   }
   for (std::size_t i = 0; i < held.size(); ++i) {
     EXPECT_EQ(held[i].mesh->vertices(), triangle_at(static_cast<float>(i)));
@@ -54,7 +58,7 @@ TEST(Organ, ShapesThatNobodyNeedsAreUsedAgain) {
   Organ liver = organ();
   std::set<const TriangleMesh*> seen;
   for (int i = 1; i < 50; ++i) {
-    liver.move(triangle_at(static_cast<float>(i)), ros::Time(i), ros::Time(i));
+    liver.move(shared(triangle_at(static_cast<float>(i))), ros::Time(i), ros::Time(i));
     seen.insert(liver.latest().mesh.get());
   }
   EXPECT_EQ(seen.size(), 3u);
@@ -62,11 +66,11 @@ TEST(Organ, ShapesThatNobodyNeedsAreUsedAgain) {
 
 TEST(Organ, RefusedVerticesChangeNothing) {
   Organ liver = organ();
-  liver.move(triangle_at(5), ros::Time(3), ros::Time(3));
-  EXPECT_THROW(liver.move({1, 2, 3}, ros::Time(9), ros::Time(9)), MeshError);
+  liver.move(shared(triangle_at(5)), ros::Time(3), ros::Time(3));
+  EXPECT_THROW(liver.move(shared({1, 2, 3}), ros::Time(9), ros::Time(9)), MeshError);
   std::vector<float> bad = triangle_at(6);
   bad[4] = std::nanf("");
-  EXPECT_THROW(liver.move(bad, ros::Time(9), ros::Time(9)), MeshError);
+  EXPECT_THROW(liver.move(shared(bad), ros::Time(9), ros::Time(9)), MeshError);
   EXPECT_EQ(liver.latest().mesh->vertices(), triangle_at(5));
   EXPECT_EQ(liver.latest().stamp, ros::Time(3));
   EXPECT_EQ(liver.previous().mesh->vertices(), triangle_at(0));
@@ -74,11 +78,11 @@ TEST(Organ, RefusedVerticesChangeNothing) {
 
 TEST(Organ, NewTrianglesHaveNoPreviousShape) {
   Organ liver = organ();
-  liver.move(triangle_at(5), ros::Time(3), ros::Time(3));
+  liver.move(shared(triangle_at(5)), ros::Time(3), ros::Time(3));
   liver.replace(TriangleMesh(triangle_at(7), {0, 2, 1}, 4), ros::Time(5), ros::Time(5));
   EXPECT_FALSE(liver.previous().mesh);
   EXPECT_EQ(liver.latest().mesh->topology(), 4u);
-  liver.move(triangle_at(8), ros::Time(6), ros::Time(6));
+  liver.move(shared(triangle_at(8)), ros::Time(6), ros::Time(6));
   EXPECT_EQ(liver.latest().mesh->faces()[0], (FaceIndices{0, 2, 1}));
 }
 

@@ -199,7 +199,7 @@ TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   expect_refused(ContactArray::STALE_MESH, {"'liver'", "49", "2"});
   OrganMesh nothing;
   nothing.organ = "liver";
-  organs.apply(nothing, ros::Time(51));
+  organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
   expect_refused(ContactArray::NO_MESH, {"'liver'"});
 }
 

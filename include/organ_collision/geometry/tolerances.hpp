@@ -18,4 +18,8 @@ inline constexpr double kTie = 1e-12;
 /// a face, a face is degenerate (its height over its longest edge, as a share of that edge).
 inline constexpr double kParallel = 1e-12;
 
+/// [m] No coordinate may be larger: an organ there is a mistake of units, and clipping with 32-bit
+/// floats would over-report within a metre of the tool.
+inline constexpr double kFarthest = 1e6;
+
 }  // namespace organ_collision::tolerance

@@ -39,7 +39,7 @@ class CollisionNode {
   void watch_clock();
 
   template <typename Message>
-  void on_organ_message(const Message& message);
+  void on_organ_message(const boost::shared_ptr<const Message>& pointer);
   bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
   bool on_query_batch(QueryCollisionBatch::Request& request,
                       QueryCollisionBatch::Response& response);

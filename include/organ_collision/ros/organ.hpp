@@ -36,7 +36,7 @@ class Organ {
 
   /// New positions for the same triangles. Throws MeshError and changes nothing if they don't fit.
   /// Without allocation once the shapes that nobody needs any more are enough.
-  void move(const std::vector<float>& vertices, ros::Time stamp, ros::Time received);
+  void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
   /// Other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
 

@@ -25,9 +25,10 @@ class OrganStore {
  public:
   explicit OrganStore(const MeshLimits& limits) : limits_(limits) {}
 
-  /// Throw Rejection.
-  OrganChange apply(const OrganMesh& message, ros::Time now);
-  OrganChange apply(const OrganVertices& message, ros::Time now);
+  /// Throw Rejection. The message's vertices become the organ's shape as they are, without a copy;
+  /// the message lives as long as that shape is needed.
+  OrganChange apply(const OrganMeshConstPtr& message, ros::Time now);
+  OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now);
 
   /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for one that was removed or never sent validly.
   const Organ& at(const std::string& name) const;
@@ -37,7 +38,8 @@ class OrganStore {
   void forget_previous_shapes();
 
  private:
-  OrganChange apply_checked(const OrganMesh& message, const std::string& frame, ros::Time now);
+  OrganChange apply_checked(const OrganMeshConstPtr& message, const std::string& frame,
+                            ros::Time now);
   std::string known_organs() const;
 
   MeshLimits limits_;
