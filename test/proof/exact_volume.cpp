@@ -3,6 +3,7 @@
 #include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -57,6 +58,13 @@ std::optional<bool> meets_by_intervals(const Triangle& face, const Eigen::Vector
   }
 }
 
+/// Where a perspective camera stands: x, y and w are zero there.
+Eigen::Vector3d eye(const Eigen::Matrix4d& clip) {
+  Eigen::Matrix<double, 3, 4> rows;
+  rows << clip.row(0), clip.row(1), clip.row(3);
+  return -rows.leftCols<3>().inverse() * rows.col(3);
+}
+
 }  // namespace
 
 bool meets(const Triangle& face, const Eigen::Vector3d& origin,
@@ -76,8 +84,7 @@ std::vector<HalfSpace> half_spaces(const ViewingVolume& volume, double extent, d
     return volume.clip().row(3).dot((plane.offset * plane.normal).homogeneous());
   };
   const double near = w(planes[kNear]), far = w(planes[kFar]);
-  const double per_metre = volume.clip().row(3).head<3>().norm();
-  const double largest = per_metre > 0.0 ? std::max(extent, far / per_metre) : extent;
+  const double largest = far == near ? extent : extent + eye(volume.clip()).norm();
   const double rounding = 16.0 * std::ldexp(largest, -24);
   for (std::size_t i = 0; i < planes.size(); ++i) {
     planes[i].offset += share * rounding * (i == kFar ? far / near : 1.0);
