@@ -109,10 +109,10 @@ template <typename Pass>
 void add_pass(Lab& lab, const char* name, const SceneKey& key, Pass pass) {
   for (const char* part : {"update", "step"}) {
     add(name_of(part, name, key), [&lab, key, pass](benchmark::State& state) mutable {
-      const std::vector<std::vector<float>>& shapes = lab.scene(key).shapes;
+      const std::vector<SharedVertices>& shapes = lab.scene(key).shapes;
       std::size_t next = 0;
       for ([[maybe_unused]] const auto _ : state) {
-        const std::vector<float>& shape = shapes[next++ % shapes.size()];
+        const std::vector<float>& shape = *shapes[next++ % shapes.size()];
         Stopwatch watch;
         pass(shape);
         state.SetIterationTime(watch.lap());

@@ -17,8 +17,8 @@ class Engine {
   /// The triangles, and the surface at rest; what may be prepared before the first shape comes.
   /// `organ` outlives the engine.
   virtual void set_topology(const OrganSurface& organ) = 0;
-  /// A new shape; `vertices` stay as they are until the next.
-  virtual void update(const std::vector<float>& vertices) = 0;
+  /// A new shape, as a message brings it; `vertices` live on until the next.
+  virtual void update(const SharedVertices& vertices) = 0;
   /// Replaces `faces` by those that meet the volume, by rising number.
   virtual void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) = 0;
 };

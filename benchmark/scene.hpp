@@ -30,8 +30,8 @@ struct Scene {
   /// The same with the vertices and the faces in random order.
   Scene shuffled() const;
 
-  OrganSurface organ;                      ///< at rest
-  std::vector<std::vector<float>> shapes;  ///< vertices, one after the other in a circle
+  OrganSurface organ;                  ///< at rest
+  std::vector<SharedVertices> shapes;  ///< vertices, one after the other in a circle
   std::vector<SceneStep> steps;
   std::vector<SceneStep> rigid_steps;  ///< the same motions, all against the first shape
 };

@@ -18,9 +18,9 @@ class BulletGimpact : public Engine {
     shape_->updateBound();
   }
 
-  void update(const std::vector<float>& vertices) override {
-    vertices_ = &vertices;
-    mesh_->show(vertices);
+  void update(const SharedVertices& vertices) override {
+    vertices_ = vertices.get();
+    mesh_->show(*vertices);
     shape_->postUpdate();
     shape_->updateBound();
   }

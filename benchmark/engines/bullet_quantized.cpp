@@ -33,9 +33,9 @@ class BulletQuantized : public Engine {
     tree_.build(&mesh_->view(), true, low_, high_);
   }
 
-  void update(const std::vector<float>& vertices) override {
-    vertices_ = &vertices;
-    mesh_->show(vertices);
+  void update(const SharedVertices& vertices) override {
+    vertices_ = vertices.get();
+    mesh_->show(*vertices);
     tree_.refit(&mesh_->view(), low_, high_);
   }
 

@@ -44,11 +44,11 @@ class Cgal : public Engine {
  public:
   void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
 
-  void update(const std::vector<float>& vertices) override {
-    vertices_ = &vertices;
+  void update(const SharedVertices& vertices) override {
+    vertices_ = vertices.get();
     faces_.clear();
     for (std::uint32_t i = 0; i < organ_->face_count(); ++i) {
-      faces_.emplace_back(*organ_, vertices, i);
+      faces_.emplace_back(*organ_, *vertices, i);
     }
     tree_.rebuild(faces_.cbegin(), faces_.cend());
     tree_.build();

@@ -72,8 +72,8 @@ class Embree : public Engine {
     organ_scene_.commit();
   }
 
-  void update(const std::vector<float>& vertices) override {
-    vertices_ = &vertices;
+  void update(const SharedVertices& vertices) override {
+    vertices_ = vertices.get();
     organ_scene_.commit();
   }
 

@@ -51,9 +51,9 @@ class Fcl : public Engine {
     model_.endModel();
   }
 
-  void update(const std::vector<float>& vertices) override {
+  void update(const SharedVertices& vertices) override {
     model_.beginReplaceModel();
-    model_.replaceSubModel(points(vertices));
+    model_.replaceSubModel(points(*vertices));
     model_.endReplaceModel(true, true);
   }
 

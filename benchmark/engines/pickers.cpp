@@ -15,7 +15,7 @@ class PickerEngine : public Engine {
   void set_topology(const OrganSurface& organ) override {
     mesh_.emplace(organ.vertices, organ.triangles);
   }
-  void update(const std::vector<float>& vertices) override { mesh_->move_vertices(vertices); }
+  void update(const SharedVertices& vertices) override { mesh_->move_vertices(vertices); }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
     picker_->pick(query.volume, *mesh_, candidates_);

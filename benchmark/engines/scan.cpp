@@ -8,7 +8,7 @@ namespace {
 class Scan : public Engine {
  public:
   void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
-  void update(const std::vector<float>& vertices) override { vertices_ = &vertices; }
+  void update(const SharedVertices& vertices) override { vertices_ = vertices.get(); }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {
     find_outcodes(*vertices_, query.half_spaces, outcodes_);

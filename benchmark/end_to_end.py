@@ -1,0 +1,119 @@
+#!/usr/bin/python3
+"""Latencies of the running node and nodelet: end_to_end.py PROGRAM FOLDER SECONDS [SIZES].
+
+PROGRAM is end_to_end as built, whose package's setup.bash is sourced. Starts a ROS master of its own. Writes
+end_to_end.json and end_to_end.md into FOLDER; each of the measurements takes SECONDS."""
+
+import json
+import os
+import pathlib
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import xmlrpc.client
+
+TOOLS = (1, 4)
+RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # as surgeon.cpp has them
+
+
+def free_port():
+    with socket.socket() as any_socket:
+        any_socket.bind(('', 0))
+        return any_socket.getsockname()[1]
+
+
+class Master:
+    """A roscore; ends with the block that it was made in."""
+
+    def __enter__(self):
+        os.environ['ROS_MASTER_URI'] = f'http://localhost:{free_port()}'
+        self.process = subprocess.Popen(['roscore', '-p', os.environ['ROS_MASTER_URI'].rsplit(':', 1)[1]],
+                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.proxy = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI'])
+        self.wait_for(lambda: self.proxy.lookupNode('/end_to_end', '/rosout')[0] == 1)
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+    def set_tools(self, count, radius):
+        tools = [{'name': f'tool{i}', 'trocar_frame': f'tool{i}_trocar', 'tip_frame': f'tool{i}_tip',
+                  'radius': radius} for i in range(count)]
+        self.proxy.setParam('/end_to_end', '/organ_collision', {'tools': tools})
+
+    def wait_for_node(self):
+        self.wait_for(lambda: self.proxy.lookupService('/end_to_end', '/organ_collision/query')[0] == 1)
+
+    @staticmethod
+    def wait_for(condition, seconds=30):
+        give_up = time.monotonic() + seconds
+        while True:
+            try:
+                if condition():
+                    return
+            except OSError:
+                pass  # not listening yet
+            if time.monotonic() > give_up:
+                sys.exit('end_to_end.py: no answer from roscore or /organ_collision')
+            time.sleep(0.05)
+
+
+def resident_bytes(process):
+    status = pathlib.Path(f'/proc/{process.pid}/status').read_text()
+    return 1024 * int(status.split('VmRSS:')[1].split()[0])
+
+
+def measure(program, kind, faces, tools, seconds):
+    lines = subprocess.run([program, kind, str(faces), str(tools), str(seconds)], check=True,
+                           stdout=subprocess.PIPE, universal_newlines=True).stdout.splitlines()
+    reports = [json.loads(line) for line in lines if line.startswith('{')]
+    return [dict(report, kind=kind, faces=faces, tools=tools) for report in reports]
+
+
+def measure_node(master, program, faces, tools, seconds):
+    node = subprocess.Popen(['rosrun', 'organ_collision', 'organ_collision_node'], stdout=subprocess.DEVNULL)
+    try:
+        master.wait_for_node()
+        idle = resident_bytes(node)
+        reports = measure(program, 'node', faces, tools, seconds)
+        per_face = (resident_bytes(node) - idle) / faces
+        return [dict(report, bytes_per_face=per_face) for report in reports]
+    finally:
+        node.terminate()
+        node.wait()
+
+
+def table(reports):
+    lines = ['| | faces | tools | rate, Hz | sent | skipped | median, µs | 99th percentile | worst | bytes a face |',
+             '|---|---|---|---|---|---|---|---|---|---|']
+    for r in reports:
+        what = f"{r['kind']}, {'shape to contacts' if r['what'] == 'shapes' else 'service call'}"
+        memory = f"{r['bytes_per_face']:.0f}" if 'bytes_per_face' in r and r['what'] == 'shapes' else ''
+        rate = f"{r['rate']:.0f}" if r['rate'] else ''
+        lines.append(f"| {what} | {r['faces']} | {r['tools']} | {rate} | {r['sent']} | {r['skipped'] + r['failed']} "
+                     f"| {r['median']:.0f} | {r['p99']:.0f} | {r['worst']:.0f} | {memory} |")
+    return '\n'.join(lines) + '\n'
+
+
+def main():
+    program, folder, seconds = sys.argv[1], pathlib.Path(sys.argv[2]), float(sys.argv[3])
+    sizes = [int(size) for size in sys.argv[4:]] or list(RADIUS)
+    reports = []
+    with tempfile.TemporaryDirectory() as home:
+        os.environ['ROS_HOME'] = home
+        with Master() as master:
+            for faces in sizes:
+                for tools in TOOLS:
+                    master.set_tools(tools, RADIUS[faces])
+                    print(f'{faces} faces, {tools} tools', flush=True)
+                    reports += measure_node(master, program, faces, tools, seconds)
+                    reports += measure(program, 'nodelet', faces, tools, seconds)
+    (folder / 'end_to_end.json').write_text(json.dumps(reports, indent=1) + '\n')
+    (folder / 'end_to_end.md').write_text('# End to end\n\n' + table(reports))
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,182 @@
+#include "simulator.hpp"
+
+#include <organ_collision/OrganMesh.h>
+#include <ros/names.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <cmath>
+#include <stdexcept>
+
+namespace organ_collision::bench {
+namespace {
+
+constexpr std::size_t kShapes = 8;
+constexpr double kTwoPi = 6.283185307179586;
+constexpr char kOrgan[] = "organ";
+
+geometry_msgs::TransformStamped pose(const std::string& frame, const Eigen::Vector3d& point,
+                                     ros::Time stamp) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = kOrgan;
+  transform.header.stamp = stamp;
+  transform.child_frame_id = frame;
+  transform.transform.translation.x = point.x();
+  transform.transform.translation.y = point.y();
+  transform.transform.translation.z = point.z();
+  transform.transform.rotation.w = 1.0;
+  return transform;
+}
+
+std::string tool_frame(std::size_t tool, const char* end) {
+  return "tool" + std::to_string(tool) + "_" + end;
+}
+
+geometry_msgs::Point point_message(const Eigen::Vector3d& point) {
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = point.z();
+  return message;
+}
+
+}  // namespace
+
+Simulator::Simulator(std::size_t faces, std::size_t tools) : organ_(make_organ(faces)) {
+  const Sizes sizes(faces);
+  radius_ = sizes.radius;
+  for (std::size_t i = 0; i < kShapes; ++i) {
+    shapes_.push_back(deformed(organ_.vertices, kTwoPi * i / kShapes, sizes.organ_step));
+  }
+  Surgeon surgeon(organ_, sizes);
+  for (std::size_t i = 0; i < tools; ++i) tools_.push_back(surgeon.motion(shapes_.front()));
+
+  node_.setCallbackQueue(&queue_);
+  const auto name = [](const char* topic) { return std::string("/organ_collision/") + topic; };
+  mesh_ = node_.advertise<OrganMesh>(name("organ_mesh"), 1, true);
+  vertices_ = node_.advertise<OrganVertices>(name("organ_vertices"), 10);
+  contacts_ = node_.subscribe(name("contacts"), 1000, &Simulator::on_contacts, this,
+                              ros::TransportHints().tcpNoDelay());
+}
+
+void Simulator::start() {
+  std::vector<geometry_msgs::TransformStamped> trocars;
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    trocars.push_back(pose(tool_frame(tool, "trocar"), tools_[tool].end.trocar, ros::Time::now()));
+  }
+  static_transforms_.sendTransform(trocars);
+
+  OrganMesh mesh;
+  mesh.header.frame_id = kOrgan;
+  mesh.organ = kOrgan;
+  mesh.vertices = organ_.vertices;
+  mesh.triangles = organ_.triangles;
+  mesh_.publish(mesh);
+
+  LatencyReport report{};
+  report_ = &report;
+  const ros::SteadyTime give_up = ros::SteadyTime::now() + ros::WallDuration(30.0);
+  while (report.latencies.count() == 0) {
+    if (!ros::ok() || ros::SteadyTime::now() > give_up) {
+      throw std::runtime_error("/organ_collision gives no contacts of organ '" +
+                               std::string(kOrgan) + "' with " + std::to_string(tools_.size()) +
+                               " tools");
+    }
+    const ros::Time stamp = ros::Time::now();
+    send_poses(stamp);
+    const auto message = next_shape(stamp);
+    waiting_[stamp.toNSec()] = {ros::SteadyTime::now(), 0};
+    vertices_.publish(message);
+    answer_until(ros::Time::now() + ros::Duration(0.1));
+  }
+  waiting_.clear();
+}
+
+LatencyReport Simulator::run(double rate, double seconds) {
+  LatencyReport report{};
+  report.rate = rate;
+  report_ = &report;
+  const ros::Duration period(1.0 / rate);
+  const auto count = static_cast<std::size_t>(seconds * rate);
+  ros::Time tick = ros::Time::now() + period;
+  for (; report.sent < count && ros::ok(); ++report.sent, tick += period) {
+    // A tool's pose is known before the shape that it makes.
+    send_poses(tick);
+    const auto message = next_shape(tick);
+    answer_until(tick);
+    waiting_[tick.toNSec()] = {ros::SteadyTime::now(), 0};
+    vertices_.publish(message);
+  }
+  answer_until(ros::Time::now() + ros::Duration(0.5));
+  report.skipped = waiting_.size();
+  waiting_.clear();
+  return report;
+}
+
+LatencyReport Simulator::ask(double seconds) {
+  ros::ServiceClient client =
+      node_.serviceClient<QueryCollision>("/organ_collision/query", /*persistent=*/true);
+  QueryCollision query;
+  query.request.header.frame_id = kOrgan;
+  query.request.organ = kOrgan;
+  query.request.mode = ContactArray::STATIC;
+  query.request.motion.radius = radius_;
+  LatencyReport report{};
+  const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
+  while (ros::ok() && ros::SteadyTime::now() < end) {
+    const ShaftAxis& axis = tools_[report.sent++ % tools_.size()].end;
+    query.request.motion.trocar = point_message(axis.trocar);
+    query.request.motion.tip = point_message(axis.tip);
+    const ros::SteadyTime start = ros::SteadyTime::now();
+    const bool answered = client.call(query);
+    report.latencies.add((ros::SteadyTime::now() - start).toSec());
+    if (!answered || query.response.result.status != ContactArray::OK) ++report.failed;
+  }
+  return report;
+}
+
+/// Tips go to and fro, one step each time.
+void Simulator::send_poses(ros::Time stamp) {
+  ++step_;
+  std::vector<geometry_msgs::TransformStamped> tips;
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    const ShaftMotion& motion = tools_[tool];
+    tips.push_back(
+        pose(tool_frame(tool, "tip"), (step_ % 2 == 0 ? motion.start : motion.end).tip, stamp));
+  }
+  transforms_.sendTransform(tips);
+}
+
+/// In a message that nobody holds any more.
+boost::shared_ptr<OrganVertices> Simulator::next_shape(ros::Time stamp) {
+  auto free = std::find_if(messages_.begin(), messages_.end(),
+                           [](const auto& message) { return message.use_count() == 1; });
+  if (free == messages_.end()) {
+    messages_.push_back(boost::make_shared<OrganVertices>());
+    free = messages_.end() - 1;
+  }
+  OrganVertices& message = **free;
+  message.header.frame_id = kOrgan;
+  message.header.stamp = stamp;
+  message.organ = kOrgan;
+  message.vertices = shapes_[step_ % kShapes];
+  return *free;
+}
+
+void Simulator::on_contacts(const ContactArrayConstPtr& contacts) {
+  const auto sent = waiting_.find(contacts->mesh_stamp.toNSec());
+  if (sent == waiting_.end()) return;
+  if (contacts->status != ContactArray::OK) ++report_->failed;
+  if (++sent->second.answers < tools_.size()) return;
+  report_->latencies.add((ros::SteadyTime::now() - sent->second.time).toSec());
+  waiting_.erase(sent);
+}
+
+/// Takes contacts as they come.
+void Simulator::answer_until(ros::Time time) {
+  for (ros::Time now = ros::Time::now(); now < time && ros::ok(); now = ros::Time::now()) {
+    queue_.callOne(ros::WallDuration((time - now).toSec()));
+  }
+}
+
+}  // namespace organ_collision::bench
