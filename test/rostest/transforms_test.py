@@ -140,7 +140,9 @@ class TransformsTest(ToolCase):
             SHEET, {'grasper': at_height(0.05)}, vertices=True, step=rospy.Duration(1)
         )['grasper']
         wait_until(
-            lambda: any('cut' in k and int(v) > 0 for k, v in self.node.diagnostics.items()),
+            lambda: any(
+                k.endswith(' cut') and int(v) > 0 for k, v in self.node.diagnostics.items()
+            ),
             'a count of what was cut in /diagnostics',
         )
         expected = oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS)
