@@ -1,6 +1,5 @@
 #include "draw_list.hpp"
 
-#include <algorithm>
 #include <cstddef>
 
 namespace organ_collision {
@@ -23,33 +22,14 @@ void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
   }
   vertices_.clear();
   mesh.cluster_boxes().find_meeting(half_spaces_, volume.origin(), clusters_);
+  outcodes_.assign(half_spaces_, volume.origin(), mesh);
   for (const std::uint32_t cluster : clusters_) {
-    keep_crossing(mesh.cluster_boxes().box(cluster).cast<double>(), volume.origin());
+    outcodes_.add_cluster(cluster);
     for (const std::uint32_t number : mesh.clusters().faces(cluster)) {
-      const Triangle face = shifted(mesh.triangle(number), volume.origin());
-      if (!is_outside(face)) add(face, number);
+      if (outcodes_.is_outside(mesh.faces()[number])) continue;
+      add(shifted(mesh.triangle(number), volume.origin()), number);
     }
   }
-}
-
-// The half-spaces that do not hold the whole box; the others cannot reject a face in it.
-void DrawList::keep_crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin) {
-  crossing_.clear();
-  const Eigen::Vector3d low = box.min() - origin, high = box.max() - origin;
-  for (const HalfSpace& half_space : half_spaces_) {
-    const Eigen::Vector3d& normal = half_space.normal;
-    const double farthest = normal.cwiseProduct(low).cwiseMax(normal.cwiseProduct(high)).sum();
-    if (!(farthest < half_space.offset)) crossing_.push_back(half_space);
-  }
-}
-
-// Whether all three corners are outside of one half-space.
-bool DrawList::is_outside(const Triangle& face) const {
-  return std::any_of(crossing_.begin(), crossing_.end(), [&](const HalfSpace& half_space) {
-    return half_space.normal.dot(face[0]) > half_space.offset &&
-           half_space.normal.dot(face[1]) > half_space.offset &&
-           half_space.normal.dot(face[2]) > half_space.offset;
-  });
 }
 
 void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh,

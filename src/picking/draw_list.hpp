@@ -6,6 +6,7 @@
 
 #include "organ_collision/geometry/triangle_mesh.hpp"
 #include "organ_collision/picking/viewing_volume.hpp"
+#include "outcodes.hpp"
 
 namespace organ_collision {
 
@@ -33,14 +34,12 @@ class DrawList {
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
 
  private:
-  void keep_crossing(const Eigen::AlignedBox3d& box, const Eigen::Vector3d& origin);
-  bool is_outside(const Triangle& face) const;
   void add(const Triangle& face, std::uint32_t number);
 
   std::vector<DrawVertex> vertices_;
   std::vector<HalfSpace> half_spaces_;
-  std::vector<HalfSpace> crossing_;
   std::vector<std::uint32_t> clusters_;
+  Outcodes outcodes_;
 };
 
 }  // namespace organ_collision
