@@ -3,15 +3,17 @@
 /// All tolerances of the geometry, each with its unit, its meaning and what follows from it.
 namespace organ_collision::tolerance {
 
-/// [m] First touch stops advancing when the distance is within this of the radius. A face that
-/// comes within radius + kTouch is a contact; one that stays farther never is.
+/// [m] First touch stops advancing when the distance is within this of the radius. On the tool's
+/// way, a face that comes within the radius is touched, and one that stays beyond radius + kTouch is
+/// not. Where the step begins, and in static queries, the distance as rounded decides.
 inline constexpr double kTouch = 1e-10;
 
 /// [m] At most this distance between axis and face counts as piercing: the direction between the
 /// nearest points is then noise, so the normal is taken from the face.
 inline constexpr double kPierced = 1e-9;
 
-/// [m] Nearest pairs whose distances differ by less are tied; the one nearest the tip is taken.
+/// [m] Nearest pairs that are apart by the same vector, within this, are tied; the one nearest the
+/// tip is taken.
 inline constexpr double kTie = 1e-12;
 
 /// [1] Sine of the angle below which two directions count as parallel: an axis lies in the plane of
