@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "organ_collision/geometry/tolerances.hpp"
 #include "text_reader.hpp"
 
 namespace organ_collision {
@@ -49,9 +50,9 @@ class ObjReader {
       const std::optional<double> number = parse_number(words[i]);
       if (!number) throw text_.error(axis + " is " + in_quotes(words[i]) + "; must be a number");
       const auto rounded = static_cast<float>(*number);
-      if (!std::isfinite(rounded)) {
+      if (!(std::abs(rounded) <= tolerance::kFarthest)) {
         throw text_.error(axis + " is " + in_quotes(words[i]) +
-                          "; must be finite as a 32-bit float (below 3.4e38)");
+                          "; must be finite and within 1e6 m");
       }
       vertices_.push_back(rounded);
     }

@@ -65,8 +65,9 @@ TEST(ObjReader, ignores_other_lines) {
 }
 
 TEST(ObjReader, rounds_vertices_to_32_bits) {
-  const ObjMesh obj = read("v 0.1 -0.2 1e-50\nv 1.00000001 0 0\nv 0 1 16777217\nf 1 2 3\n");
-  EXPECT_EQ(obj.mesh.vertices(), (std::vector<float>{0.1F, -0.2F, 0, 1, 0, 0, 0, 1, 16777216}));
+  const ObjMesh obj = read("v 0.1 -0.2 1e-50\nv 1.00000001 0 0\nv 0 1 524288.03\nf 1 2 3\n");
+  EXPECT_EQ(obj.mesh.vertices(),
+            (std::vector<float>{0.1F, -0.2F, 0, 1, 0, 0, 0, 1, 524288.03125F}));
 }
 
 TEST(ObjReader, allows_degenerate_faces) {
@@ -85,10 +86,11 @@ std::string refusal(const std::string& content) {
 TEST(ObjReader, refuses_vertices_that_are_no_finite_numbers) {
   EXPECT_EQ(refusal("v 0 1\n"), ":1: a vertex with 2 coordinates; must have x, y and z");
   EXPECT_EQ(refusal("\nv 0 a 1\n"), ":2: y is \"a\"; must be a number");
-  const std::string legal = "; must be finite as a 32-bit float (below 3.4e38)";
+  const std::string legal = "; must be finite and within 1e6 m";
   EXPECT_EQ(refusal("v 0 1 nan\n"), ":1: z is \"nan\"" + legal);
   EXPECT_EQ(refusal("v inf 1 0\n"), ":1: x is \"inf\"" + legal);
   EXPECT_EQ(refusal("v 0 -1e39 0\n"), ":1: y is \"-1e39\"" + legal);
+  EXPECT_EQ(refusal("v 0 0 1000001\n"), ":1: z is \"1000001\"" + legal);
 }
 
 TEST(ObjReader, refuses_faces_without_vertices) {

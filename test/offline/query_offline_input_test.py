@@ -45,6 +45,7 @@ class InputTest(ProgramCase):
                 ('v 0 0 0\nv 0 nan 0\n' + ORGAN, 2, 'y', '"nan"', 'finite'),
                 ('v 0 0 0\nv 0 0 -inf\n' + ORGAN, 2, 'z', '"-inf"', 'finite'),
                 ('v 1e39 0 0\n' + ORGAN, 1, 'x', '"1e39"', 'finite'),
+                ('v 1e7 0 0\n' + ORGAN, 1, 'x', '"1e7"', '1e6 m'),
                 ('v 0 zero 0\n' + ORGAN, 1, 'y', '"zero"', 'number'),
                 ('\r\nv 0 0\r\n' + ORGAN, 2, '2 coordinates')]:
             with self.subTest(text=text):
@@ -86,6 +87,7 @@ class InputTest(ProgramCase):
                     (cells(query='2', previous_y=''), 'previous_y', '""', 'number'),
                     (cells(query='2', tip_z='nan'), 'tip_z', '"nan"', 'finite'),
                     (cells(query='2', tip_z='1e999'), 'tip_z', '"1e999"', 'finite'),
+                    (cells(query='2', tip_z='1e7'), '1e+07', '1e+06 m'),
                     (cells(query='2', radius='inf'), 'radius', '"inf"', 'finite'),
                     (cells(query='2', radius='0'), 'radius', '"0"', 'above 0'),
                     (cells(query='2', radius='-0.005'), 'radius', '"-0.005"', 'above 0')]]:

@@ -4,8 +4,8 @@
 namespace organ_collision::tolerance {
 
 /// [m] First touch stops advancing when the distance is within this of the radius. On the tool's
-/// way, a face that comes within the radius is touched, and one that stays beyond radius + kTouch is
-/// not. Where the step begins, and in static queries, the distance as rounded decides.
+/// way, a face that comes within the radius is touched, and one that stays beyond radius + kTouch
+/// is not. Where the step begins, and in static queries, the distance as rounded decides.
 inline constexpr double kTouch = 1e-10;
 
 /// [m] At most this distance between axis and face counts as piercing: the direction between the
