@@ -76,14 +76,15 @@ void report(const Findings& findings, benchmark::State& state) {
 
 void add_engine(Lab& lab, const EngineEntry& engine, const SceneKey& key) {
   for (const PartEntry& part : kParts) {
-    add(name_of(part.name, engine.name, key), [&lab, engine, part, key](benchmark::State& state) {
-      Rig& rig = lab.rig(engine.name, engine.make, key);
-      if (part.rigid) rig.hold_first_shape();
+    const auto run = [&lab, engine, part, key,
+                      next = std::size_t{0}](benchmark::State& state) mutable {
+      Rig& rig = lab.rig(engine.name, engine.make, key, part.rigid);
       for ([[maybe_unused]] const auto _ : state) {
-        state.SetIterationTime(part.share(part.rigid ? rig.rigid_step() : rig.step()));
+        state.SetIterationTime(part.share(rig.times(next++)));
       }
       report(rig.findings(), state);
-    });
+    };
+    add(name_of(part.name, engine.name, key), run);
   }
 }
 

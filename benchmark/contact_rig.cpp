@@ -24,7 +24,7 @@ ContactRig::ContactRig(const Scene& scene)
       organ_(scene.shapes.back(), scene.organ.triangles),
       before_(organ_),
       picker_(make_picker(PickerKind::kFeedback, shared_context())) {
-  const std::size_t affordable = std::max<std::size_t>(2'000'000 / scene.organ.face_count(), 1);
+  const std::size_t affordable = std::max<std::size_t>(200'000 / scene.organ.face_count(), 1);
   const std::size_t steps = std::min(scene.steps.size(), affordable);
   check(steps, false);
   check(steps, true);

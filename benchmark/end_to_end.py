@@ -74,7 +74,8 @@ def measure(program, kind, faces, tools, seconds):
 
 
 def measure_node(master, program, faces, tools, seconds):
-    node = subprocess.Popen(['rosrun', 'organ_collision', 'organ_collision_node'], stdout=subprocess.DEVNULL)
+    node = subprocess.Popen([program.with_name('organ_collision_node'), '__name:=organ_collision'],
+                            stdout=subprocess.DEVNULL)
     try:
         master.wait_for_node()
         idle = resident_bytes(node)
@@ -99,7 +100,7 @@ def table(reports):
 
 
 def main():
-    program, folder, seconds = sys.argv[1], pathlib.Path(sys.argv[2]), float(sys.argv[3])
+    program, folder, seconds = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2]), float(sys.argv[3])
     sizes = [int(size) for size in sys.argv[4:]] or list(RADIUS)
     reports = []
     with tempfile.TemporaryDirectory() as home:

@@ -14,9 +14,9 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// The triangles, and the surface at rest; what may be prepared before the first shape comes.
-  /// `organ` outlives the engine.
-  virtual void set_topology(const OrganSurface& organ) = 0;
+  /// The triangles, and the surface at rest as x y z x y z ... [m]: what may be prepared before the
+  /// first shape comes. `organ` outlives the engine.
+  virtual void set_topology(const OrganSurface& organ, const std::vector<float>& rest) = 0;
   /// A new shape, as a message brings it; `vertices` live on until the next.
   virtual void update(const SharedVertices& vertices) = 0;
   /// Replaces `faces` by those that meet the volume, by rising number.

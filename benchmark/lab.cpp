@@ -13,11 +13,12 @@ const Scene& Lab::scene(const SceneKey& key) {
   return *scene;
 }
 
-Rig& Lab::rig(const std::string& name, std::unique_ptr<Engine> (*make)(), const SceneKey& key) {
-  std::unique_ptr<Rig>& rig = rigs_[{name, key}];
+Rig& Lab::rig(const std::string& name, std::unique_ptr<Engine> (*make)(), const SceneKey& key,
+              bool rigid) {
+  std::unique_ptr<Rig>& rig = rigs_[{name, key, rigid}];
   if (!rig) {
-    rig = std::make_unique<Rig>(make(), scene(key));
-    tell(name, key, rig->findings());
+    rig = std::make_unique<Rig>(make(), scene(key), rigid);
+    tell(name + (rigid ? ", rigid" : ""), key, rig->findings());
   }
   return *rig;
 }

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "contact_rig.hpp"
@@ -27,7 +28,8 @@ class Lab {
  public:
   const Scene& scene(const SceneKey& key);
   /// `make`: of the engine called `name`.
-  Rig& rig(const std::string& name, std::unique_ptr<Engine> (*make)(), const SceneKey& key);
+  Rig& rig(const std::string& name, std::unique_ptr<Engine> (*make)(), const SceneKey& key,
+           bool rigid);
   ContactRig& contact_rig(const SceneKey& key);
 
   /// Faces that the package's own pickers missed or found wrongly, in all scenes so far.
@@ -37,7 +39,7 @@ class Lab {
   void tell(const std::string& name, const SceneKey& key, const Findings& findings);
 
   std::map<SceneKey, std::unique_ptr<Scene>> scenes_;
-  std::map<std::pair<std::string, SceneKey>, std::unique_ptr<Rig>> rigs_;
+  std::map<std::tuple<std::string, SceneKey, bool>, std::unique_ptr<Rig>> rigs_;
   std::map<SceneKey, std::unique_ptr<ContactRig>> contact_rigs_;
   std::size_t own_errors_ = 0;
 };

@@ -6,19 +6,20 @@
 
 namespace organ_collision::bench {
 
-Rig::Rig(std::unique_ptr<Engine> engine, const Scene& scene)
-    : engine_(std::move(engine)), scene_(scene) {
-  engine_->set_topology(scene.organ);
-  for (const SceneStep& step : scene.steps) {
-    engine_->update(scene.shapes[step.shape]);
-    check(step);
-  }
-  hold_first_shape();
-  for (const SceneStep& step : scene.rigid_steps) check(step);
-  findings_.hits /= 2.0 * static_cast<double>(scene.steps.size() + scene.rigid_steps.size());
+Rig::Rig(std::unique_ptr<Engine> engine, const Scene& scene, bool rigid)
+    : engine_(std::move(engine)),
+      scene_(scene),
+      steps_(rigid ? scene.rigid_steps : scene.steps),
+      rigid_(rigid) {
+  const SharedVertices& first = scene.shapes.front();
+  engine_->set_topology(scene.organ, rigid ? *first : scene.organ.vertices);
+  engine_->update(first);
+  for (const SceneStep& step : steps_) check(step);
+  findings_.hits /= 2.0 * static_cast<double>(steps_.size());
 }
 
 void Rig::check(const SceneStep& step) {
+  if (!rigid_) engine_->update(scene_.shapes[step.shape]);
   for (const CheckedQuery* checked : {&step.fixed, &step.swept}) {
     engine_->query(checked->query, faces_);
     const Errors errors = compare(faces_, checked->answer);
@@ -28,23 +29,18 @@ void Rig::check(const SceneStep& step) {
   }
 }
 
-StepTimes Rig::step() {
-  const SceneStep& step = scene_.steps[next_++ % scene_.steps.size()];
-  StepTimes times;
-  Stopwatch watch;
-  engine_->update(scene_.shapes[step.shape]);
-  times.update = watch.lap();
-  engine_->query(step.fixed.query, faces_);
-  times.fixed = watch.lap();
-  engine_->query(step.swept.query, faces_);
-  times.swept = watch.lap();
-  return times;
+const StepTimes& Rig::times(std::size_t i) {
+  while (times_.size() <= i) times_.push_back(run(steps_[times_.size() % steps_.size()]));
+  return times_[i];
 }
 
-StepTimes Rig::rigid_step() {
-  const SceneStep& step = scene_.rigid_steps[next_++ % scene_.rigid_steps.size()];
+StepTimes Rig::run(const SceneStep& step) {
   StepTimes times;
   Stopwatch watch;
+  if (!rigid_) {
+    engine_->update(scene_.shapes[step.shape]);
+    times.update = watch.lap();
+  }
   engine_->query(step.fixed.query, faces_);
   times.fixed = watch.lap();
   engine_->query(step.swept.query, faces_);

@@ -24,25 +24,25 @@ struct Findings {
 /// An engine on a scene, step after step, round and round.
 class Rig {
  public:
-  /// Checks all answers before anything is timed. `scene` outlives the rig.
-  Rig(std::unique_ptr<Engine> engine, const Scene& scene);
+  /// Checks all answers before anything is timed. A rigid organ stays in its first shape.
+  /// `scene` outlives the rig.
+  Rig(std::unique_ptr<Engine> engine, const Scene& scene, bool rigid);
 
   const Findings& findings() const { return findings_; }
-  /// A new shape, then both queries.
-  StepTimes step();
-  /// The organ takes its first shape, for rigid steps; not timed.
-  void hold_first_shape() { engine_->update(scene_.shapes.front()); }
-  /// Both queries, the organ as it is.
-  StepTimes rigid_step();
+  /// What the i-th step took. Each step is run once: its parts are reported one by one.
+  const StepTimes& times(std::size_t i);
 
  private:
   void check(const SceneStep& step);
+  StepTimes run(const SceneStep& step);
 
   std::unique_ptr<Engine> engine_;
   const Scene& scene_;
+  const std::vector<SceneStep>& steps_;
+  bool rigid_;
   Findings findings_;
   std::vector<std::uint32_t> faces_;
-  std::size_t next_ = 0;
+  std::vector<StepTimes> times_;
 };
 
 }  // namespace organ_collision::bench

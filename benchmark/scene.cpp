@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kShapes = 8;
 constexpr double kPi = 3.14159265358979323846;
 
-std::size_t step_count(std::size_t faces) { return faces < 100'000 ? 64 : 16; }
+std::size_t step_count(std::size_t faces) { return faces < 100'000 ? 64 : 8; }
 
 Eigen::AlignedBox3d box_of(const std::vector<SharedVertices>& shapes) {
   Eigen::AlignedBox3f box;

@@ -11,9 +11,9 @@ namespace {
 
 class BulletGimpact : public Engine {
  public:
-  void set_topology(const OrganSurface& organ) override {
+  void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
     organ_ = &organ;
-    mesh_.emplace(organ, organ.vertices);
+    mesh_.emplace(organ, rest);
     shape_.emplace(&mesh_->view(), 0);
     shape_->updateBound();
   }

@@ -22,9 +22,9 @@ class Collector : public btNodeOverlapCallback {
 
 class BulletQuantized : public Engine {
  public:
-  void set_topology(const OrganSurface& organ) override {
+  void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
     organ_ = &organ;
-    mesh_.emplace(organ, organ.vertices);
+    mesh_.emplace(organ, rest);
     mesh_->view().calculateAabbBruteForce(low_, high_);
     // Boxes are stored as shares of this one: it must hold the organ in all its shapes.
     const btVector3 air(kAir, kAir, kAir);

@@ -42,7 +42,9 @@ class Face {
 
 class Cgal : public Engine {
  public:
-  void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
+  void set_topology(const OrganSurface& organ, const std::vector<float>&) override {
+    organ_ = &organ;
+  }
 
   void update(const SharedVertices& vertices) override {
     vertices_ = vertices.get();

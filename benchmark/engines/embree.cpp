@@ -65,9 +65,9 @@ class Embree : public Engine {
     tool_scene_.set_primitives(1, &Embree::tool_bounds, this);
   }
 
-  void set_topology(const OrganSurface& organ) override {
+  void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
     organ_ = &organ;
-    vertices_ = &organ.vertices;
+    vertices_ = &rest;
     organ_scene_.set_primitives(organ.face_count(), &Embree::face_bounds, this);
     organ_scene_.commit();
   }

@@ -40,14 +40,13 @@ fcl::Convex<double> convex(const ConvexSolid& solid) {
 /// instead, which do not.
 class Fcl : public Engine {
  public:
-  void set_topology(const OrganSurface& organ) override {
+  void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
     std::vector<fcl::Triangle> triangles;
     for (std::size_t i = 0; i < organ.triangles.size(); i += 3) {
       triangles.emplace_back(organ.triangles[i], organ.triangles[i + 1], organ.triangles[i + 2]);
     }
-    model_.beginModel(static_cast<int>(triangles.size()),
-                      static_cast<int>(organ.vertices.size() / 3));
-    model_.addSubModel(points(organ.vertices), triangles);
+    model_.beginModel(static_cast<int>(triangles.size()), static_cast<int>(rest.size() / 3));
+    model_.addSubModel(points(rest), triangles);
     model_.endModel();
   }
 

@@ -2,7 +2,7 @@
 
 #include "engine.hpp"
 #include "feedback.hpp"
-#include "outcodes.hpp"
+#include "scan_outcodes.hpp"
 #include "shared_context.hpp"
 
 namespace organ_collision::bench {
@@ -12,7 +12,9 @@ namespace {
 /// faces GL has to clip.
 class OursNoClusters : public Engine {
  public:
-  void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
+  void set_topology(const OrganSurface& organ, const std::vector<float>&) override {
+    organ_ = &organ;
+  }
   void update(const SharedVertices& vertices) override { vertices_ = vertices.get(); }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {

@@ -12,8 +12,8 @@ class PickerEngine : public Engine {
  public:
   explicit PickerEngine(PickerKind kind) : picker_(make_picker(kind, shared_context())) {}
 
-  void set_topology(const OrganSurface& organ) override {
-    mesh_.emplace(organ.vertices, organ.triangles);
+  void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
+    mesh_.emplace(rest, organ.triangles);
   }
   void update(const SharedVertices& vertices) override { mesh_->move_vertices(vertices); }
 

@@ -1,13 +1,15 @@
 #include "engine.hpp"
 #include "exact_clip.hpp"
-#include "outcodes.hpp"
+#include "scan_outcodes.hpp"
 
 namespace organ_collision::bench {
 namespace {
 
 class Scan : public Engine {
  public:
-  void set_topology(const OrganSurface& organ) override { organ_ = &organ; }
+  void set_topology(const OrganSurface& organ, const std::vector<float>&) override {
+    organ_ = &organ;
+  }
   void update(const SharedVertices& vertices) override { vertices_ = vertices.get(); }
 
   void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) override {

@@ -1,4 +1,4 @@
-#include "outcodes.hpp"
+#include "scan_outcodes.hpp"
 
 #include <algorithm>
 #include <array>
