@@ -6,13 +6,15 @@
 
 namespace organ_collision::bench {
 
-/// Google Benchmark's JSON with plain names: without "/manual_time", which all would end with. All
-/// times are those of the timed part; what an iteration does besides would count in its CPU time.
+/// Google Benchmark's JSON with plain names: without "/iterations:64/manual_time" at their ends.
+/// All times are those of the timed part; what an iteration does besides would count in its CPU
+/// time.
 class PlainJsonReporter : public benchmark::JSONReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
     std::vector<Run> plain = runs;
     for (Run& run : plain) {
+      run.run_name.iterations.clear();
       run.run_name.time_type.clear();
       run.cpu_accumulated_time = run.real_accumulated_time;
     }

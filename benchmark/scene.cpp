@@ -16,8 +16,6 @@ using Eigen::Vector3d;
 constexpr std::size_t kShapes = 8;
 constexpr double kPi = 3.14159265358979323846;
 
-std::size_t step_count(std::size_t faces) { return faces < 100'000 ? 64 : 8; }
-
 Eigen::AlignedBox3d box_of(const std::vector<SharedVertices>& shapes) {
   Eigen::AlignedBox3f box;
   for (const SharedVertices& shape : shapes) {
@@ -54,6 +52,8 @@ Answer renumbered(Answer answer, const Shuffle& shuffle) {
 }
 
 }  // namespace
+
+std::size_t step_count(std::size_t faces) { return faces < 100'000 ? 64 : 8; }
 
 Scene::Scene(std::size_t faces) : organ(make_organ(faces)) {
   const Sizes sizes(faces);

@@ -22,6 +22,9 @@ struct SceneStep {
   CheckedQuery swept;  ///< from its start to its end
 };
 
+/// How many steps a scene of so many faces has.
+std::size_t step_count(std::size_t faces);
+
 /// An organ that deforms and a tool that moves, the same at each run. All that moves within a step
 /// is in proportion to the length of the faces' edges, and so is the tool's radius: at every size
 /// of the mesh 5 to 25 faces are hit (of a tetrahedron 0 to 3).
