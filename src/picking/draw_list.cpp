@@ -1,5 +1,6 @@
 #include "draw_list.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace organ_collision {
@@ -16,19 +17,26 @@ std::uint32_t face_number(float lower, float upper) {
 }
 
 void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
-  half_spaces_.clear();
-  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
-    half_spaces_.push_back(volume.half_space(i));
-  }
+  constexpr std::size_t kRun = FaceClusters::kRun;
+  const FaceClusters& clusters = mesh.clusters();
   vertices_.clear();
-  mesh.cluster_boxes().find_meeting(half_spaces_, volume.origin(), clusters_);
-  outcodes_.assign(half_spaces_, volume.origin(), mesh);
-  for (const std::uint32_t cluster : clusters_) {
-    outcodes_.add_cluster(cluster);
-    for (const std::uint32_t number : mesh.clusters().faces(cluster)) {
-      if (outcodes_.is_outside(mesh.faces()[number])) continue;
-      add(shifted(mesh.triangle(number), volume.origin()), number);
+  outcodes_.assign(volume, mesh);
+  for (std::size_t section = 0; section < clusters.section_count(); ++section) {
+    if (outcodes_.section_is_outside(section)) continue;
+    outcodes_.add_blocks(section);
+    const std::size_t end = std::min((section + 1) * kRun, clusters.block_count());
+    for (std::size_t block = section * kRun; block < end; ++block) {
+      if (!outcodes_.cluster_is_outside(block)) add_cluster(block, volume.origin(), mesh);
     }
+  }
+}
+
+void DrawList::add_cluster(std::size_t block, const Eigen::Vector3d& origin,
+                           const TriangleMesh& mesh) {
+  outcodes_.add_vertices(block);
+  for (const FaceClusters::Face& face : mesh.clusters().faces(block)) {
+    if (outcodes_.face_is_outside(face.corners)) continue;
+    add(shifted(mesh.triangle(face.corners), origin), face.number);
   }
 }
 

@@ -23,8 +23,8 @@ std::uint32_t face_number(float lower, float upper);
 /// Faces as GL is to draw them, in the order in which they were added. Keeps its memory.
 class DrawList {
  public:
-  /// Replaces the list by the faces of `mesh`, cluster by cluster, but for clusters whose boxes do
-  /// not meet `volume`, and faces whose three corners are all outside of one of its half-spaces.
+  /// Replaces the list by the faces of `mesh`, cluster by cluster, but for those that outcodes
+  /// reject: whose three corners, or the boxes that hold these, are outside of one half-space.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
 
   /// Replaces the list by `faces`; they are numbered by their place in it.
@@ -34,11 +34,10 @@ class DrawList {
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
 
  private:
+  void add_cluster(std::size_t block, const Eigen::Vector3d& origin, const TriangleMesh& mesh);
   void add(const Triangle& face, std::uint32_t number);
 
   std::vector<DrawVertex> vertices_;
-  std::vector<HalfSpace> half_spaces_;
-  std::vector<std::uint32_t> clusters_;
   Outcodes outcodes_;
 };
 

@@ -2,65 +2,112 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cmath>
+#include <utility>
 
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kBlock = FaceClusters::kBlockSize;
+constexpr std::size_t kRun = FaceClusters::kRun;
+
+// The compiler's own vectors, as wide as every 64-bit processor has them.
+constexpr std::size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
+using LaneCodes = std::int32_t __attribute__((vector_size(sizeof(float) * kLanes)));
 
 }  // namespace
 
-void Outcodes::assign(const std::vector<HalfSpace>& half_spaces, const Eigen::Vector3d& origin,
-                      const TriangleMesh& mesh) {
-  mesh_ = &mesh;
-  origin_ = origin;
-  planes_.clear();
-  for (const HalfSpace& half_space : half_spaces) {
-    const Eigen::Vector3f normal = half_space.normal.cast<float>();
-    planes_.push_back({normal.x(), normal.y(), normal.z(), static_cast<float>(half_space.offset)});
-  }
-  codes_.resize(mesh.vertex_count());
-  block_is_done_.assign(mesh.clusters().block_count(), false);
-}
+/// Coordinates of a run of points [m].
+struct Outcodes::Points {
+  using Run = std::array<Lanes, kRun / kLanes>;
+  Run x, y, z;
 
-void Outcodes::add_cluster(std::size_t cluster) {
-  for (const std::uint32_t block : mesh_->clusters().blocks(cluster)) {
-    if (block_is_done_[block]) continue;
-    block_is_done_[block] = true;
-    add_block(block);
+  void set(std::size_t i, const float* xyz) {
+    x[i / kLanes][i % kLanes] = xyz[0];
+    y[i / kLanes][i % kLanes] = xyz[1];
+    z[i / kLanes][i % kLanes] = xyz[2];
   }
-}
+};
 
-// Plain loops over the block's vertices, which the compiler makes vector instructions of. In 32
-// bits, as GL clips: what that may misplace, the volume's growth covers.
-void Outcodes::add_block(std::uint32_t block) {
-  const std::vector<std::uint32_t>& order = mesh_->clusters().order();
-  const float* const xyz = mesh_->vertices().data();
-  const std::size_t begin = block * kBlock;
-  const std::size_t count = std::min(kBlock, codes_.size() - begin);
-  const auto vertex = [&](std::size_t i) { return order.empty() ? begin + i : order[begin + i]; };
-
-  std::array<float, kBlock> x{}, y{}, z{};
-  for (std::size_t i = 0; i < count; ++i) {
-    const float* const point = xyz + 3 * vertex(i);
-    x[i] = static_cast<float>(point[0] - origin_.x());
-    y[i] = static_cast<float>(point[1] - origin_.y());
-    z[i] = static_cast<float>(point[2] - origin_.z());
-  }
-  std::array<std::uint32_t, kBlock> codes{}, room_bits;
-  std::array<float, kBlock> room;
-  for (std::size_t plane = 0; plane < planes_.size(); ++plane) {
-    const Plane p = planes_[plane];
-    for (std::size_t i = 0; i < kBlock; ++i) {
-      room[i] = p.offset - (p.x * x[i] + p.y * y[i] + p.z * z[i]);
+/// Of boxes between `low` and `high`; points are boxes without extent.
+void Outcodes::find_run(const Points& low, const Points& high, Code* codes) const {
+  std::array<LaneCodes, kRun / kLanes> all{};
+  std::int32_t bit = 1;
+  for (const Plane& plane : planes_) {
+    const Points::Run& x = plane.x > 0.0F ? low.x : high.x;
+    const Points::Run& y = plane.y > 0.0F ? low.y : high.y;
+    const Points::Run& z = plane.z > 0.0F ? low.z : high.z;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i] |= (plane.x * x[i] + plane.y * y[i] + plane.z * z[i] > plane.offset) & bit;
     }
-    // Outside where the sign bit is set; compilers make no vector instructions of a comparison
-    // here.
-    std::memcpy(room_bits.data(), room.data(), sizeof(room));
-    for (std::size_t i = 0; i < kBlock; ++i) codes[i] |= room_bits[i] >> 31 << plane;
+    bit *= 2;
   }
-  for (std::size_t i = 0; i < count; ++i) codes_[vertex(i)] = static_cast<std::uint16_t>(codes[i]);
+  for (std::size_t i = 0; i < kRun; ++i) {
+    codes[i] = static_cast<Code>(all[i / kLanes][i % kLanes]);
+  }
+}
+
+void Outcodes::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
+  mesh_ = &mesh;
+  set_planes(volume);
+  const std::size_t sections = mesh.block_boxes().sections().size();
+  const std::size_t blocks = mesh.block_boxes().blocks().size();
+  section_codes_.resize(sections);
+  block_codes_.resize(blocks);
+  vertex_codes_.resize(mesh.vertex_count());
+  section_is_done_.assign(sections, false);
+  block_is_done_.assign(blocks, false);
+  for (std::size_t begin = 0; begin < sections; begin += kRun) {
+    find_codes(mesh.block_boxes().sections(), begin, &section_codes_[begin]);
+  }
+}
+
+void Outcodes::set_planes(const ViewingVolume& volume) {
+  const Eigen::AlignedBox3f& box = mesh_->box();
+  const double largest = std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
+  planes_.clear();
+  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+    const HalfSpace half_space = volume.half_space(i);
+    const Eigen::Vector3f normal = half_space.normal.cast<float>();
+    const double offset = half_space.offset + half_space.normal.dot(volume.origin());
+    // Six roundings of terms up to the largest coordinate, and the offset's own.
+    const double slack = 1e-6 * (largest + std::abs(offset));
+    planes_.push_back({normal.x(), normal.y(), normal.z(), static_cast<float>(offset + slack)});
+  }
+}
+
+void Outcodes::add_blocks(std::size_t section) {
+  for (const std::uint32_t part : mesh_->clusters().sections(section)) {
+    if (std::exchange(section_is_done_[part], true)) continue;
+    find_codes(mesh_->block_boxes().blocks(), part * kRun, &block_codes_[part * kRun]);
+  }
+}
+
+void Outcodes::add_vertices(std::size_t block) {
+  for (const std::uint32_t part : mesh_->clusters().blocks(block)) {
+    if (!std::exchange(block_is_done_[part], true)) find_vertex_codes(part);
+  }
+}
+
+/// Of a run of boxes.
+void Outcodes::find_codes(const std::vector<BlockBoxes::Box>& boxes, std::size_t begin,
+                          Code* codes) const {
+  Points low, high;
+  for (std::size_t i = 0; i < kRun; ++i) {
+    low.set(i, boxes[begin + i].min.data());
+    high.set(i, boxes[begin + i].max.data());
+  }
+  find_run(low, high, codes);
+}
+
+void Outcodes::find_vertex_codes(std::size_t block) {
+  const float* const xyz = mesh_->vertices().data();
+  const std::uint32_t* const vertices = mesh_->clusters().vertices(block);
+  Points points;
+  for (std::size_t i = 0; i < kRun; ++i) points.set(i, xyz + std::size_t{3} * vertices[i]);
+  std::array<Code, kRun> codes;
+  find_run(points, points, codes.data());
+  for (std::size_t i = 0; i < kRun; ++i) vertex_codes_[vertices[i]] = codes[i];
 }
 
 }  // namespace organ_collision

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "organ_collision/geometry/cluster_boxes.hpp"
+#include "organ_collision/geometry/block_boxes.hpp"
 #include "organ_collision/geometry/face_clusters.hpp"
 
 namespace organ_collision {
@@ -78,9 +78,9 @@ class TriangleMesh {
 
   /// All faces; the same address for as long as the triangles are the same.
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
-  /// The same faces in spatially coherent groups, and the boxes of these now.
+  /// The same faces in spatially coherent groups, and the boxes of their vertices now.
   const FaceClusters& clusters() const { return topology_->clusters; }
-  const ClusterBoxes& cluster_boxes() const { return boxes_; }
+  const BlockBoxes& block_boxes() const { return boxes_; }
   /// x y z x y z ... [m]
   const std::vector<float>& vertices() const { return *vertices_; }
   /// Smallest axis-aligned box around all vertices [m].
@@ -89,9 +89,9 @@ class TriangleMesh {
   Eigen::Vector3d vertex(std::size_t index) const {
     return Eigen::Map<const Eigen::Vector3f>(&(*vertices_)[3 * index]).cast<double>();
   }
-  Triangle triangle(std::size_t face) const {
-    const FaceIndices& f = faces()[face];
-    return {vertex(f[0]), vertex(f[1]), vertex(f[2])};
+  Triangle triangle(std::size_t face) const { return triangle(faces()[face]); }
+  Triangle triangle(const FaceIndices& corners) const {
+    return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
   }
 
   /// Whether both have the same triangles, so that one can be the other's earlier shape.
@@ -108,8 +108,8 @@ class TriangleMesh {
   };
   std::shared_ptr<const Topology> topology_;
   SharedVertices vertices_;
-  ClusterBoxes boxes_;
-  ClusterBoxes spare_boxes_;  ///< new vertices are looked at here before they are accepted
+  BlockBoxes boxes_;
+  BlockBoxes spare_boxes_;  ///< new vertices are looked at here before they are accepted
 };
 
 /// [m] The farthest that any vertex lies from where it was in `before`, which has the same faces.
