@@ -88,12 +88,19 @@ std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion
   for (int step = 0; step < kMaxSteps; ++step) {
     const double share = clear_share(now, ahead, radius);
     const double length = ahead.time - now.time;
+    const double before = now.closest.distance;
     now = share > 1.0 ? ahead : Instant(now.time + share * length, shaft, face);
     if (now.closest.distance <= radius + tolerance::kTouch)
       return FirstTouch{now.time, now.closest};
     if (now.time == 1.0) return std::nullopt;
-    const double next = now.time + (share > 1.0 ? 2.0 : 0.25) * length;
-    ahead = Instant(std::min(next, 1.0), shaft, face);
+    double next = 2.0;
+    if (share <= 1.0) {
+      // Twice the time until they touch, if they come nearer as fast as they did.
+      const double approach = (before - now.closest.distance) / share;
+      next = 2.0 * (now.closest.distance - radius) / approach;
+      if (!(next > 0.0 && next < 0.25)) next = 0.25;
+    }
+    ahead = Instant(std::min(now.time + next * length, 1.0), shaft, face);
   }
   return FirstTouch{now.time, now.closest};  // rather one contact too many
 }
