@@ -117,11 +117,11 @@ ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Roun
       ViewingVolume::orthographic({ends.origin, Vector3d::Zero(), axes, low.x(), high.x(), low.y(),
                                    high.y(), low.z(), high.z()});
 
-  std::vector<Vector2d> outline;
-  for (int i = 0; i < 4; ++i) outline.emplace_back(points(0, i), points(2, i));
-  const std::vector<Vector2d> corners = convex_hull(outline);
-  for (std::size_t i = 0; i < corners.size() && corners.size() > 1; ++i) {
-    const Vector2d edge = corners[(i + 1) % corners.size()] - corners[i];
+  std::array<Vector2d, 4> outline;
+  for (int i = 0; i < 4; ++i) outline[i] = {points(0, i), points(2, i)};
+  const ConvexHull hull = convex_hull(outline);
+  for (std::size_t i = 0; i < hull.count && hull.count > 1; ++i) {
+    const Vector2d edge = hull.corners[(i + 1) % hull.count] - hull.corners[i];
     const Vector3d normal = Vector3d(edge.y(), 0, -edge.x()).stableNormalized();
     const double offset = (normal.transpose() * points).maxCoeff() + grown;
     const double box_offset = normal.cwiseProduct(low).cwiseMax(normal.cwiseProduct(high)).sum();

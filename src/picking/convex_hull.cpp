@@ -1,6 +1,7 @@
 #include "convex_hull.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace organ_collision {
 namespace {
@@ -15,31 +16,29 @@ bool turns_left(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 
 // Adds the corners from the first point to the last, without the last.
 template <typename Iterator>
-void add_chain(Iterator first, Iterator last, std::vector<Vector2d>& corners) {
-  const std::size_t begin = corners.size();
+void add_chain(Iterator first, Iterator last, ConvexHull& hull) {
+  std::array<Vector2d, 4> chain;
+  std::size_t count = 0;
   for (; first != last; ++first) {
-    while (corners.size() >= begin + 2 &&
-           !turns_left(corners[corners.size() - 2], corners.back(), *first)) {
-      corners.pop_back();
-    }
-    corners.push_back(*first);
+    while (count >= 2 && !turns_left(chain[count - 2], chain[count - 1], *first)) --count;
+    chain[count++] = *first;
   }
-  corners.pop_back();
+  for (std::size_t i = 0; i + 1 < count; ++i) hull.corners[hull.count++] = chain[i];
 }
 
 }  // namespace
 
 // Follows Andrew, "Another efficient algorithm for convex hulls in two dimensions" (1979).
-std::vector<Vector2d> convex_hull(std::vector<Vector2d> points) {
+ConvexHull convex_hull(std::array<Vector2d, 4> points) {
   std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
   });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  if (points.size() < 2) return points;
-  std::vector<Vector2d> corners;
-  add_chain(points.begin(), points.end(), corners);
-  add_chain(points.rbegin(), points.rend(), corners);
-  return corners;
+  const auto end = std::unique(points.begin(), points.end());
+  if (end - points.begin() == 1) return {points, 1};
+  ConvexHull hull;
+  add_chain(points.begin(), end, hull);
+  add_chain(std::make_reverse_iterator(end), points.rend(), hull);
+  return hull;
 }
 
 }  // namespace organ_collision

@@ -1,12 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <array>
+#include <cstddef>
 
 namespace organ_collision {
 
-/// Corners of the convex hull of points in the plane, counterclockwise, without those inside an
-/// edge. One corner if all points coincide, two if they lie on a line.
-std::vector<Eigen::Vector2d> convex_hull(std::vector<Eigen::Vector2d> points);
+/// Up to four corners in the plane, counterclockwise, none inside an edge.
+struct ConvexHull {
+  std::array<Eigen::Vector2d, 4> corners;
+  std::size_t count = 0;
+
+  const Eigen::Vector2d* begin() const { return corners.data(); }
+  const Eigen::Vector2d* end() const { return corners.data() + count; }
+};
+
+/// Of four points. One corner if all coincide, two if they lie on a line. Allocates nothing.
+ConvexHull convex_hull(std::array<Eigen::Vector2d, 4> points);
 
 }  // namespace organ_collision

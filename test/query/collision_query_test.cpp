@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "grid_surface.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
 #include "proof/exact_distance.hpp"
 #include "proof/trials.hpp"
@@ -46,6 +47,39 @@ std::vector<FaceContact> by_brute_force(const CollisionRequest& request) {
     }
   }
   return contacts;
+}
+
+TriangleMesh wavy_sheet(int side, bool shuffle, double phase) {
+  const GridSurface grid =
+      shuffle ? shuffled(grid_surface(side, phase), 4) : grid_surface(side, phase);
+  return {grid.vertices, grid.triangles()};
+}
+
+// Many clusters, some met and most not, against no clusters and no picking at all.
+TEST_P(CollisionQueryWith, ClustersCostNoContact) {
+  Random random(6);
+  std::size_t found = 0;
+  for (int i = 0; i < 90 && !HasFailure(); ++i) {
+    const int side = random.integer(2, 90);
+    const bool shuffle = random.chance(0.5);
+    // Clusters are made for the first shape and serve the others.
+    TriangleMesh organ = wavy_sheet(side, shuffle, 0.0);
+    const double phase = random.uniform(0.0, 3.0);
+    const TriangleMesh before = wavy_sheet(side, shuffle, phase);
+    organ.move_vertices(wavy_sheet(side, shuffle, phase + 0.1).vertices());
+    CollisionRequest request =
+        swept(organ, random_path(random.chance(0.5), random), random.scale(0.2e-3, 0.01));
+    if (random.chance(0.5)) request.organ_before = &before;
+    CollisionResult result;
+    query_.evaluate(request, result);
+    const std::vector<FaceContact> expected = by_brute_force(request);
+    found += expected.size();
+    ASSERT_EQ(result.contacts.size(), expected.size());
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+      EXPECT_EQ(result.contacts[k].face, expected[k].face);
+    }
+  }
+  EXPECT_GT(found, 1000U);
 }
 
 TEST_P(CollisionQueryWith, FindsWhatBruteForceFinds) {
