@@ -33,6 +33,19 @@ PathSampling sampling(const NodeParameters& parameters) {
   return {parameters.motion_sample_sec, parameters.motion_samples_max};
 }
 
+/// What another thread asks this one to do.
+class QueuedCall : public ros::CallbackInterface {
+ public:
+  explicit QueuedCall(std::function<void()> function) : function_(std::move(function)) {}
+  CallResult call() override {
+    function_();
+    return Success;
+  }
+
+ private:
+  std::function<void()> function_;
+};
+
 void count_failure(FailureLog& log, const ContactArray& answer) {
   if (answer.status == ContactArray::OK) return;
   log.add(reason_of(answer.status), answer.message, SteadyClock::now());
@@ -54,18 +67,18 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       updater_(node_, private_node_, private_node_.getNamespace()),
       contacts_(private_node_.advertise<ContactArray>(names::kContacts, 100)),
       markers_(private_node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 100)),
-      transform_listener_(transforms_, node_, false) {
+      transform_listener_(transforms_, node_, false),
+      inbox_(inbox_callbacks()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
 
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
       private_node_.subscribe<OrganMesh>(
-          names::kOrganMesh, 100,
-          [this](const OrganMeshConstPtr& message) { on_organ_message(message); }, {}, no_delay),
+          names::kOrganMesh, 100, [this](const OrganMeshConstPtr& message) { inbox_.add(message); },
+          {}, no_delay),
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
-          [this](const OrganVerticesConstPtr& message) { on_organ_message(message); }, {},
-          no_delay)};
+          [this](const OrganVerticesConstPtr& message) { inbox_.add(message); }, {}, no_delay)};
   servers_ = {
       private_node_.advertiseService(names::kQuery, &CollisionNode::on_query, this),
       private_node_.advertiseService(names::kQueryBatch, &CollisionNode::on_query_batch, this),
@@ -126,12 +139,30 @@ void CollisionNode::watch_clock() {
   last_now_ = now;
 }
 
+OrganInbox::Callbacks CollisionNode::inbox_callbacks() {
+  OrganInbox::Callbacks callbacks;
+  callbacks.make = [this](const OrganMeshConstPtr& message) { return organs_.make(message); };
+  callbacks.is_known = [this](const OrganMesh& message) {
+    return organs_.has_topology(message.organ, message.topology);
+  };
+  callbacks.take = [this](const OrganMeshConstPtr& message, const auto& made) {
+    change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now, made); });
+  };
+  callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
+    change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now); });
+  };
+  callbacks.wake = [this] {
+    queue_.addCallback(boost::make_shared<QueuedCall>([this] { inbox_.hand_on(); }));
+  };
+  return callbacks;
+}
+
 template <typename Message>
-void CollisionNode::on_organ_message(const boost::shared_ptr<const Message>& pointer) {
-  const Message& message = *pointer;
+void CollisionNode::change_organ(const Message& message,
+                                 const std::function<OrganChange(ros::Time)>& apply) {
   const SteadyTime now = SteadyClock::now();
   try {
-    const OrganChange change = organs_.apply(pointer, ros::Time::now());
+    const OrganChange change = apply(ros::Time::now());
     if (change != OrganChange::kShape) steps_.forget(message.organ);
     if (change == OrganChange::kRemoved) {
       return publish_failure(message.organ, message.header, ContactArray::NO_MESH,

@@ -51,7 +51,17 @@ bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& t
 
 }  // namespace
 
-OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now) {
+TriangleMesh OrganStore::make(const OrganMeshConstPtr& message) const {
+  return {vertices_of(message), message->triangles, message->topology, limits_};
+}
+
+bool OrganStore::has_topology(const std::string& organ, std::uint32_t topology) const {
+  const auto known = organs_.find(organ);
+  return known != organs_.end() && known->second.latest().mesh->topology() == topology;
+}
+
+OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now,
+                              const std::function<TriangleMesh()>& made) {
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
   if (message.vertices.empty() && message.triangles.empty()) {
@@ -64,7 +74,7 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now) {
     if (frame.empty()) {
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
-    const OrganChange change = apply_checked(pointer, frame, now);
+    const OrganChange change = apply_checked(pointer, frame, now, made);
     without_mesh_.erase(message.organ);
     return change;
   } catch (const std::runtime_error&) {
@@ -74,21 +84,19 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now) {
 }
 
 OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer, const std::string& frame,
-                                      ros::Time now) {
+                                      ros::Time now, const std::function<TriangleMesh()>& made) {
   const OrganMesh& message = *pointer;
   const ros::Time stamp = message.header.stamp;
   const auto known = organs_.find(message.organ);
   try {
     if (known == organs_.end()) {
-      TriangleMesh mesh(vertices_of(pointer), message.triangles, message.topology, limits_);
-      organs_.emplace(message.organ, Organ(message.organ, frame, std::move(mesh), stamp, now));
+      organs_.emplace(message.organ, Organ(message.organ, frame, made(), stamp, now));
       return OrganChange::kShape;
     }
     Organ& organ = known->second;
     const TriangleMesh& latest = *organ.latest().mesh;
     if (message.topology != latest.topology()) {
-      organ.replace({vertices_of(pointer), message.triangles, message.topology, limits_}, stamp,
-                    now);
+      organ.replace(made(), stamp, now);
     } else if (has_triangles(latest, message.triangles)) {
       organ.move(vertices_of(pointer), stamp, now);
     } else {

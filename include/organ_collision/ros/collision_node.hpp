@@ -14,6 +14,7 @@
 
 #include "organ_collision/ros/diagnostics.hpp"
 #include "organ_collision/ros/evaluator.hpp"
+#include "organ_collision/ros/organ_inbox.hpp"
 #include "organ_collision/ros/organ_store.hpp"
 #include "organ_collision/ros/parameters.hpp"
 #include "organ_collision/ros/query_services.hpp"
@@ -24,7 +25,7 @@ namespace organ_collision {
 
 /// The node: wires topics, services, TF and timers to the evaluation. One thread does everything,
 /// through one callback queue: it owns the GL context, there are no locks, and a transform that
-/// arrives wakes what waits for it.
+/// arrives wakes what waits for it. Only large new meshes are made in another (organ_inbox.hpp).
 class CollisionNode {
  public:
   /// Throws ParameterError, GlError. The calling thread must be the one that runs it.
@@ -38,8 +39,9 @@ class CollisionNode {
   bool call_one(ros::WallDuration wait);
   void watch_clock();
 
+  OrganInbox::Callbacks inbox_callbacks();
   template <typename Message>
-  void on_organ_message(const boost::shared_ptr<const Message>& pointer);
+  void change_organ(const Message& message, const std::function<OrganChange(ros::Time)>& apply);
   bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
   bool on_query_batch(QueryCollisionBatch::Request& request,
                       QueryCollisionBatch::Response& response);
@@ -70,6 +72,7 @@ class CollisionNode {
   ros::Publisher contacts_;
   ros::Publisher markers_;
   tf2_ros::TransformListener transform_listener_;
+  OrganInbox inbox_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;
   ros::Timer tick_;
