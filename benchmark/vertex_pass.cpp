@@ -9,6 +9,8 @@ using Eigen::Array3f;
 using Eigen::Array4f;
 using Vector = Eigen::Map<const Array4f>;
 
+constexpr std::size_t kAhead = 128;  // vertices: processors fetch ahead, but not beyond a page
+
 // Three vectors of four floats hold x y z x, y z x y and z x y z.
 template <typename Pick>
 Array3f fold(const Array4f& a, const Array4f& b, const Array4f& c, const Pick& pick) {
@@ -28,6 +30,7 @@ void VertexPass::fit(const std::vector<float>& vertices) {
   const std::size_t full = count / kBlock;
   for (std::size_t block = 0; block < full; ++block) {
     const float* xyz = &vertices[3 * kBlock * block];
+    __builtin_prefetch(&vertices[std::min(3 * (kBlock * block + kAhead), vertices.size() - 1)]);
     Array4f a = Vector(xyz), b = Vector(xyz + 4), c = Vector(xyz + 8);
     Array4f a_high = a, b_high = b, c_high = c;
     for (std::size_t i = 12; i < 3 * kBlock; i += 12) {

@@ -8,6 +8,7 @@ import rospy
 import rostest
 from visualization_msgs.msg import MarkerArray
 
+from contact_case import faces_of
 from node_client import wait_until
 import oracle
 import scenes
@@ -53,6 +54,33 @@ class StepsTest(ToolCase):
         first = self.step(SHEET, {'grasper': BELOW, 'hook': ASIDE})['grasper']
         self.assertEqual(first.mode, STATIC)
         self.assert_contacts(first, oracle.static_contacts(SHEET, BELOW, GRASPER))
+
+    def test_a_large_mesh_and_what_follows_at_once_come_in_order(self):
+        """Its clusters are made aside; vertices that overtake them wait, other organs don't."""
+        large = scenes.sheet(0.1, 80)
+        lower = large.moved(lambda v: (v[0], v[1], v[2] - 0.01))
+        other = self.organ + '_other'
+        self.step_of_organs({other: SHEET}, {'grasper': ABOVE, 'hook': ASIDE})
+        stamps = [self.next_stamp() for _ in range(3)]
+        for stamp in stamps:
+            self.place('grasper', (BELOW, stamp))
+            self.place('hook', (ASIDE, stamp))
+        self.node.send_mesh(self.organ, large, stamps[0])
+        self.node.send_vertices(self.organ, lower, stamps[1])
+        self.node.send_mesh(self.organ, SHEET, stamps[2], 2)
+        self.node.send_vertices(other, SHEET, stamps[0])
+        for organ, shape, stamp in (
+            (self.organ, large, stamps[0]),
+            (self.organ, lower, stamps[1]),
+            (self.organ, SHEET, stamps[2]),
+            (other, SHEET, stamps[0]),
+        ):
+            result = self.node.contacts.wait_for(organ, 'grasper', mesh_stamp=stamp)
+            self.assert_ok(result)
+            expected = oracle.static_contacts(shape, BELOW, GRASPER)
+            touched = {c.face for c in expected}
+            self.assertGreater(len(touched), 0)
+            self.assertLessEqual(touched, set(faces_of(result)))
 
     def test_two_organs_and_two_tools(self):
         """Each pair has its own step; only the organ that changed is evaluated."""
