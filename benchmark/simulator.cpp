@@ -100,7 +100,9 @@ LatencyReport Simulator::run(double rate, double seconds) {
   const auto count = static_cast<std::size_t>(seconds * rate);
   ros::Time tick = ros::Time::now() + period;
   for (; report.sent < count && ros::ok(); ++report.sent, tick += period) {
-    // A tool's pose is known before the shape that it makes.
+    // Half a period for the answer to the last shape; then, as a tool's pose is known before the
+    // shape that it makes, poses and the next shape are made.
+    answer_until(tick - period * 0.5);
     send_poses(tick);
     const auto message = next_shape(tick);
     answer_until(tick);
