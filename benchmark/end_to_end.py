@@ -66,11 +66,22 @@ def resident_bytes(process):
     return 1024 * int(status.split('VmRSS:')[1].split()[0])
 
 
-def measure(program, kind, faces, tools, seconds):
-    lines = subprocess.run([program, kind, str(faces), str(tools), str(seconds)], check=True,
-                           stdout=subprocess.PIPE, universal_newlines=True).stdout.splitlines()
-    reports = [json.loads(line) for line in lines if line.startswith('{')]
-    return [dict(report, kind=kind, faces=faces, tools=tools) for report in reports]
+def measure(program, kind, faces, tools, seconds, settled=lambda: None):
+    """Calls settled() when the node has got some shapes, at a rate that it surely holds."""
+    reports = []
+    arguments = [program, kind, str(faces), str(tools), str(seconds)]
+    with subprocess.Popen(arguments, stdout=subprocess.PIPE, universal_newlines=True) as process:
+        for line in process.stdout:
+            if not line.startswith('{'):
+                continue
+            report = json.loads(line)
+            if report['what'] == 'settling':
+                settled()
+            else:
+                reports.append(dict(report, kind=kind, faces=faces, tools=tools))
+    if process.returncode != 0:
+        sys.exit(f'end_to_end.py: {" ".join(map(str, arguments))} failed')
+    return reports
 
 
 def measure_node(master, program, faces, tools, seconds):
@@ -78,10 +89,9 @@ def measure_node(master, program, faces, tools, seconds):
                             stdout=subprocess.DEVNULL)
     try:
         master.wait_for_node()
-        idle = resident_bytes(node)
-        reports = measure(program, 'node', faces, tools, seconds)
-        per_face = (resident_bytes(node) - idle) / faces
-        return [dict(report, bytes_per_face=per_face) for report in reports]
+        idle, memory = resident_bytes(node), []
+        reports = measure(program, 'node', faces, tools, seconds, lambda: memory.append(resident_bytes(node)))
+        return [dict(report, bytes_per_face=(memory[0] - idle) / faces) for report in reports]
     finally:
         node.terminate()
         node.wait()
