@@ -14,7 +14,9 @@ constexpr double kMicroseconds = 1e6;
 /// an error where picking failed.
 void show(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
   for (const auto& [reason, entry] : log.by_reason()) {
-    status.add(what + ", " + reason, entry.count);
+    std::string key = what;
+    key.append(", ").append(reason);
+    status.add(key, entry.count);
     if (entry.not_yet_reported == 0) continue;
     const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
     status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,

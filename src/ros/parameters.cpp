@@ -18,7 +18,7 @@ const NumberRange kNotNegative{0.0, kUnlimited};
 const NumberRange kPositive{0.0, kUnlimited, false};
 
 std::string frame(const ParameterGroup& tool, const char* name) {
-  const std::string frame = tf_frame(tool.text(name));
+  std::string frame = tf_frame(tool.text(name));
   if (frame.empty()) tool.refuse(name, "must be the name of a TF frame");
   return frame;
 }
@@ -28,9 +28,8 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
     tool.refuse(names::kLinks,
                 "only shafts are supported: give trocar_frame, tip_frame and radius instead");
   }
-  const ToolParameters parsed{tool.text(names::kToolName), frame(tool, names::kTrocarFrame),
-                              frame(tool, names::kTipFrame),
-                              tool.number(names::kRadius, {}, kPositive)};
+  ToolParameters parsed{tool.text(names::kToolName), frame(tool, names::kTrocarFrame),
+                        frame(tool, names::kTipFrame), tool.number(names::kRadius, {}, kPositive)};
   if (parsed.tip_frame == parsed.trocar_frame) {
     tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
   }
