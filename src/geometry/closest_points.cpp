@@ -44,7 +44,7 @@ class NearestPair {
     consider_inside();
     for (int i = 0; i < 3; ++i) {
       consider_edge(i, (i + 1) % 3);
-      consider(nearest_place(face_[i], axis_, 1.0), Vector3d::Unit(i), face_[i]);
+      consider(nearest_place(face_[i], axis_, 1.0), face_[i]).barycentric = Vector3d::Unit(i);
     }
   }
 
@@ -65,9 +65,15 @@ class NearestPair {
   }
 
  private:
-  void consider(double shaft, const Vector3d& barycentric, const Vector3d& on_face) {
+  /// What it returns lacks the barycentric coordinates: written into place, since a copy of what
+  /// has just been stored in parts makes the processor wait.
+  Pair& consider(double shaft, const Vector3d& on_face) {
+    Pair& pair = pairs_[count_++];
     const Vector3d apart = on_face - shaft * axis_;
-    pairs_[count_++] = {shaft, barycentric, apart, apart.squaredNorm()};
+    pair.shaft = shaft;
+    pair.apart = apart;
+    pair.distance2 = apart.squaredNorm();
+    return pair;
   }
 
   /// Over or through the face's inside; what falls outside is left to the edges.
@@ -88,7 +94,7 @@ class NearestPair {
     const Vector3d areas(normal.dot(b.cross(c)), normal.dot(c.cross(a)), normal.dot(a.cross(b)));
     if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return;
     const Vector3d barycentric = areas / areas.sum();
-    consider(shaft, barycentric, on(face_, barycentric));
+    consider(shaft, on(face_, barycentric)).barycentric = barycentric;
   }
 
   void consider_edge(int from, int to) {
@@ -106,10 +112,10 @@ class NearestPair {
 
   void consider_on_edge(int from, int to, double shaft, const Vector3d& edge) {
     const double place = nearest_place(shaft * axis_ - face_[from], edge, 0.0);
-    Vector3d barycentric = Vector3d::Zero();
+    Vector3d& barycentric = consider(shaft, face_[from] + place * edge).barycentric;
     barycentric[from] = 1.0 - place;
     barycentric[to] = place;
-    consider(shaft, barycentric, face_[from] + place * edge);
+    barycentric[3 - from - to] = 0.0;
   }
 
   const Vector3d axis_;

@@ -7,40 +7,17 @@
 #include "scoped_volume.hpp"
 
 namespace organ_collision {
-namespace {
-
-// Undone when it ends: the arrays that glDrawArrays reads.
-class ScopedVertexArrays {
- public:
-  ScopedVertexArrays(const GlFunctions& gl, const std::vector<DrawVertex>& vertices) : gl_(gl) {
-    constexpr GLsizei kStride = sizeof(DrawVertex);
-    static_assert(offsetof(DrawVertex, number) == offsetof(DrawVertex, barycentric) + 8,
-                  "barycentric and number make one texture coordinate");
-    gl_.EnableClientState(GL_VERTEX_ARRAY);
-    gl_.EnableClientState(GL_TEXTURE_COORD_ARRAY);
-    gl_.VertexPointer(3, GL_FLOAT, kStride, vertices.data()->position.data());
-    gl_.TexCoordPointer(4, GL_FLOAT, kStride, vertices.data()->barycentric.data());
-  }
-  ~ScopedVertexArrays() {
-    gl_.DisableClientState(GL_TEXTURE_COORD_ARRAY);
-    gl_.DisableClientState(GL_VERTEX_ARRAY);
-  }
-  ScopedVertexArrays(const ScopedVertexArrays&) = delete;
-  ScopedVertexArrays& operator=(const ScopedVertexArrays&) = delete;
-
- private:
-  const GlFunctions& gl_;
-};
-
-}  // namespace
-
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                           const std::vector<DrawVertex>& vertices, std::vector<float>& buffer) {
   if (vertices.empty()) return 0;
   context.make_current();
   const GlFunctions& gl = context.functions();
   const ScopedVolume scoped_volume(gl, volume);
-  const ScopedVertexArrays scoped_arrays(gl, vertices);
+  constexpr GLsizei kStride = sizeof(DrawVertex);
+  static_assert(offsetof(DrawVertex, number) == offsetof(DrawVertex, barycentric) + 8,
+                "barycentric and number make one texture coordinate");
+  gl.VertexPointer(3, GL_FLOAT, kStride, vertices.data()->position.data());
+  gl.TexCoordPointer(4, GL_FLOAT, kStride, vertices.data()->barycentric.data());
   while (true) {
     gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
     gl.RenderMode(GL_FEEDBACK);

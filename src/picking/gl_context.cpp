@@ -51,6 +51,9 @@ GlContext::GlContext() : state_(std::make_unique<State>()) {
         "OSMesa's place; install libosmesa6 and start this process without preloading libGL");
   }
   state_->version = reinterpret_cast<const char*>(version);
+  // On for good: switching them costs as much as drawing a face.
+  state_->functions.EnableClientState(GL_VERTEX_ARRAY);
+  state_->functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
 }
 
 GlContext::~GlContext() = default;

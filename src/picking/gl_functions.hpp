@@ -5,10 +5,10 @@
 // Every GL function that this package calls, without its gl prefix.
 // clang-format off
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                         \
-  F(Begin) F(ClipPlane) F(DepthRange) F(Disable) F(DisableClientState) F(DrawArrays) F(Enable)  \
-  F(EnableClientState) F(End) F(FeedbackBuffer) F(GetError) F(GetString) F(InitNames)           \
-  F(LoadIdentity) F(LoadMatrixd) F(LoadName) F(MatrixMode) F(PushName) F(RenderMode)            \
-  F(SelectBuffer) F(TexCoordPointer) F(Vertex3fv) F(VertexPointer)
+  F(Begin) F(ClipPlane) F(DepthRange) F(Disable) F(DrawArrays) F(Enable) F(EnableClientState)   \
+  F(End) F(FeedbackBuffer) F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd) \
+  F(LoadName) F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(Vertex3fv)         \
+  F(VertexPointer)
 // clang-format on
 
 namespace organ_collision {

@@ -22,10 +22,18 @@ struct Outcodes::Points {
   using Run = std::array<Lanes, kRun / kLanes>;
   Run x, y, z;
 
-  void set(std::size_t i, const float* xyz) {
-    x[i / kLanes][i % kLanes] = xyz[0];
-    y[i / kLanes][i % kLanes] = xyz[1];
-    z[i / kLanes][i % kLanes] = xyz[2];
+  /// `xyz(i)` points to the coordinates of point i.
+  template <typename Coordinates>
+  explicit Points(Coordinates xyz) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const float* const a = xyz(kLanes * i);
+      const float* const b = xyz(kLanes * i + 1);
+      const float* const c = xyz(kLanes * i + 2);
+      const float* const d = xyz(kLanes * i + 3);
+      x[i] = Lanes{a[0], b[0], c[0], d[0]};
+      y[i] = Lanes{a[1], b[1], c[1], d[1]};
+      z[i] = Lanes{a[2], b[2], c[2], d[2]};
+    }
   }
 };
 
@@ -92,19 +100,15 @@ void Outcodes::add_vertices(std::size_t block) {
 /// Of a run of boxes.
 void Outcodes::find_codes(const std::vector<BlockBoxes::Box>& boxes, std::size_t begin,
                           Code* codes) const {
-  Points low, high;
-  for (std::size_t i = 0; i < kRun; ++i) {
-    low.set(i, boxes[begin + i].min.data());
-    high.set(i, boxes[begin + i].max.data());
-  }
+  const Points low([&](std::size_t i) { return boxes[begin + i].min.data(); });
+  const Points high([&](std::size_t i) { return boxes[begin + i].max.data(); });
   find_run(low, high, codes);
 }
 
 void Outcodes::find_vertex_codes(std::size_t block) {
   const float* const xyz = mesh_->vertices().data();
   const std::uint32_t* const vertices = mesh_->clusters().vertices(block);
-  Points points;
-  for (std::size_t i = 0; i < kRun; ++i) points.set(i, xyz + std::size_t{3} * vertices[i]);
+  const Points points([&](std::size_t i) { return xyz + std::size_t{3} * vertices[i]; });
   std::array<Code, kRun> codes;
   find_run(points, points, codes.data());
   for (std::size_t i = 0; i < kRun; ++i) vertex_codes_[vertices[i]] = codes[i];

@@ -4,14 +4,12 @@
 
 namespace organ_collision {
 
-// The whole matrix is loaded as modelview, so that GL's eye coordinates are clip coordinates, and
-// the user planes are given in those: GL would otherwise bring them there with a 32-bit inverse of
-// the projection, which costs the digits that the shift to the origin has won.
+// The whole matrix is loaded as modelview, the projection stays the identity: GL's eye coordinates
+// are clip coordinates, and the user planes are given in those: GL would otherwise bring them there
+// with a 32-bit inverse of the projection, which costs the digits that the shift to the origin has
+// won.
 ScopedVolume::ScopedVolume(const GlFunctions& gl, const ViewingVolume& volume)
     : gl_(gl), user_plane_count_(static_cast<GLenum>(volume.user_plane_count())) {
-  gl_.MatrixMode(GL_PROJECTION);
-  gl_.LoadIdentity();
-  gl_.MatrixMode(GL_MODELVIEW);
   gl_.LoadIdentity();
   const Eigen::Matrix4d clip_inverse = volume.clip().inverse();
   for (GLenum i = 0; i < user_plane_count_; ++i) {
