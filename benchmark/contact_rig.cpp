@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engines/shared_context.hpp"
+#include "organ_collision/geometry/displacement.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
 #include "stopwatch.hpp"
 

@@ -48,7 +48,7 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
 
   // The method: a camera's viewing volume is given the shape of the space that the tool swept, the
   // organ is drawn in a picking mode, and exact distances decide on what survives clipping.
-  const Step step(request);
+  const Step step(request, displacement_);
   for (std::size_t leg = 0; leg < step.leg_count(); ++leg) {
     picker_->pick(conservative_volume(step.shaft(leg), request.radius, step.margin(leg)),
                   *request.organ, candidates_);

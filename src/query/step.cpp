@@ -4,12 +4,12 @@
 
 namespace organ_collision {
 
-Step::Step(const CollisionRequest& request)
+Step::Step(const CollisionRequest& request, LastDisplacement& displacement)
     : organ_(*request.organ),
       organ_before_(request.mode == QueryMode::kStatic ? nullptr : request.organ_before),
       waypoints_(request.mode == QueryMode::kStatic ? &request.path.back() : request.path.data()),
       waypoint_count_(request.mode == QueryMode::kStatic ? 1 : request.path.size()),
-      displacement_(organ_before_ ? largest_displacement(*organ_before_, organ_) : 0.0) {}
+      displacement_(organ_before_ ? displacement.between(*organ_before_, organ_) : 0.0) {}
 
 std::size_t Step::leg_at(double fraction) const {
   std::size_t leg = 0;

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "organ_collision/geometry/displacement.hpp"
 #include "organ_collision/picking/viewing_volume.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
@@ -13,7 +14,7 @@ namespace organ_collision {
 /// step. A view of the request, which must outlive it.
 class Step {
  public:
-  explicit Step(const CollisionRequest& request);
+  Step(const CollisionRequest& request, LastDisplacement& displacement);
 
   /// A tool at rest has one leg without motion.
   std::size_t leg_count() const { return waypoint_count_ > 1 ? waypoint_count_ - 1 : 1; }

@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
-#include <random>
 
 namespace organ_collision {
 namespace {
@@ -131,28 +129,6 @@ TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
   EXPECT_TRUE(copy.same_faces(mesh));
   EXPECT_TRUE(mesh.same_faces(TriangleMesh(kCorners, kTetrahedron, 9)));
   EXPECT_FALSE(mesh.same_faces(TriangleMesh(kCorners, {0, 1, 2})));
-}
-
-TEST(LargestDisplacement, IsThatOfTheVertexThatMovedFarthest) {
-  std::mt19937 random(20);
-  std::uniform_real_distribution<float> coordinate(-3.0F, 3.0F);
-  for (std::size_t trial = 0; trial < 400; ++trial) {
-    const std::size_t size = 3 * (4 + trial % 40);
-    const float step = std::pow(10.0F, -static_cast<float>(trial % 12));
-    std::vector<float> before(size), now(size);
-    for (float& x : before) x = coordinate(random);
-    for (std::size_t i = 0; i < size; ++i) now[i] = before[i] + step * coordinate(random);
-    double farthest = 0.0;
-    for (std::size_t v = 0; v < size; v += 3) {
-      farthest = std::max(farthest,
-                          std::hypot(double(now[v]) - before[v], double(now[v + 1]) - before[v + 1],
-                                     double(now[v + 2]) - before[v + 2]));
-    }
-    const double found =
-        largest_displacement(TriangleMesh(before, kTetrahedron), TriangleMesh(now, kTetrahedron));
-    EXPECT_GE(found, farthest);
-    EXPECT_LE(found, farthest * (1.0 + 2e-6));
-  }
 }
 
 }  // namespace

@@ -83,6 +83,7 @@ class TriangleMesh {
   const BlockBoxes& block_boxes() const { return boxes_; }
   /// x y z x y z ... [m]
   const std::vector<float>& vertices() const { return *vertices_; }
+  const SharedVertices& shared_vertices() const { return vertices_; }
   /// Smallest axis-aligned box around all vertices [m].
   const Eigen::AlignedBox3f& box() const { return boxes_.all(); }
 
@@ -111,9 +112,5 @@ class TriangleMesh {
   BlockBoxes boxes_;
   BlockBoxes spare_boxes_;  ///< new vertices are looked at here before they are accepted
 };
-
-/// [m] The farthest that any vertex lies from where it was in `before`, which has the same faces;
-/// up to two millionths more, and less by nothing that counts (1e-18 m).
-double largest_displacement(const TriangleMesh& before, const TriangleMesh& now);
 
 }  // namespace organ_collision

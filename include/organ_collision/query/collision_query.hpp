@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "organ_collision/geometry/displacement.hpp"
 #include "organ_collision/geometry/shaft.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 #include "organ_collision/picking/gl_context.hpp"
@@ -63,6 +64,7 @@ class CollisionQuery {
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Picker> picker_;
   RegionClipper region_clipper_;
+  LastDisplacement displacement_;
   std::vector<Candidate> candidates_;
   std::vector<std::uint32_t> faces_;
 };
