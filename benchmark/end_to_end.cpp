@@ -4,11 +4,14 @@
 #include <cstdlib>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "echo.hpp"
 #include "simulator.hpp"
 
 namespace {
 
+using organ_collision::bench::Echo;
 using organ_collision::bench::LatencyReport;
 using organ_collision::bench::Simulator;
 
@@ -33,29 +36,37 @@ double sustained_rate(Simulator& simulator) {
 
 }  // namespace
 
-// end_to_end node|nodelet FACES TOOLS SECONDS: the node runs as /organ_collision, or is loaded into
-// this process. A line of JSON when it has settled, one for shapes to contacts, one for service
-// calls.
+// end_to_end external|nodelet|echo FACES TOOLS SECONDS: what answers runs as /organ_collision, or
+// is the nodelet or an echo in this process. A line of JSON when it has settled, one for shapes to
+// contacts, and one for service calls if there is such a service.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "end_to_end");
-  if (argc != 5) return std::cerr << "end_to_end node|nodelet FACES TOOLS SECONDS" << std::endl, 2;
-  const bool in_process = std::string(argv[1]) == "nodelet";
+  if (argc != 5) {
+    return std::cerr << "end_to_end external|nodelet|echo FACES TOOLS SECONDS" << std::endl, 2;
+  }
+  const std::string what = argv[1];
+  const std::size_t faces = std::strtoul(argv[2], nullptr, 10);
+  const std::size_t tools = std::strtoul(argv[3], nullptr, 10);
   const double seconds = std::atof(argv[4]);
   const ros::NodeHandle node;
   try {
     std::unique_ptr<nodelet::Loader> loader;
-    if (in_process) {
+    std::optional<Echo> echo;
+    if (what == "echo") echo.emplace(tools);
+    if (what == "nodelet") {
       loader = std::make_unique<nodelet::Loader>(false);
       if (!loader->load("/organ_collision", "organ_collision/CollisionNodelet", {}, {})) return 1;
     }
-    Simulator simulator(std::strtoul(argv[2], nullptr, 10), std::strtoul(argv[3], nullptr, 10));
+    Simulator simulator(faces, tools);
     simulator.start();
     // The caller looks at the node's memory when this line comes: later rates may be too high, and
     // what waits then takes memory as well.
     print("settling", simulator.run(20.0, 1.0));
     const double rate = sustained_rate(simulator);
     print("shapes", simulator.run(rate, seconds));
-    print("service", simulator.ask(seconds));
+    if (ros::service::exists("/organ_collision/query", false)) {
+      print("service", simulator.ask(seconds));
+    }
   } catch (const std::exception& error) {
     std::cerr << "end_to_end: " << error.what() << std::endl;
     return 1;

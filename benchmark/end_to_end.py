@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Latencies of the running node and nodelet: end_to_end.py PROGRAM FOLDER SECONDS [SIZES].
+"""Latencies of the running node and nodelet, and of roscpp alone: end_to_end.py PROGRAM FOLDER SECONDS [SIZES].
 
 PROGRAM is end_to_end as built, whose package's setup.bash is sourced. Starts a ROS master of its own. Writes
 end_to_end.json and end_to_end.md into FOLDER; each of the measurements takes SECONDS."""
 
+import contextlib
 import json
 import os
 import pathlib
@@ -66,10 +67,10 @@ def resident_bytes(process):
     return 1024 * int(status.split('VmRSS:')[1].split()[0])
 
 
-def measure(program, kind, faces, tools, seconds, settled=lambda: None):
+def measure(kind, program, answerer, faces, tools, seconds, settled=lambda: None):
     """Calls settled() when the node has got some shapes, at a rate that it surely holds."""
     reports = []
-    arguments = [program, kind, str(faces), str(tools), str(seconds)]
+    arguments = [program, answerer, str(faces), str(tools), str(seconds)]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, universal_newlines=True) as process:
         for line in process.stdout:
             if not line.startswith('{'):
@@ -84,17 +85,29 @@ def measure(program, kind, faces, tools, seconds, settled=lambda: None):
     return reports
 
 
-def measure_node(master, program, faces, tools, seconds):
-    node = subprocess.Popen([program.with_name('organ_collision_node'), '__name:=organ_collision'],
-                            stdout=subprocess.DEVNULL)
+@contextlib.contextmanager
+def running(*arguments):
+    process = subprocess.Popen(arguments, stdout=subprocess.DEVNULL)
     try:
+        yield process
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def measure_echo(program, faces, tools, seconds):
+    with running(program.with_name('echo_node'), str(tools)):
+        reports = measure('messages between processes', program, 'external', faces, tools, seconds)
+    return reports + measure('messages in one process', program, 'echo', faces, tools, seconds)
+
+
+def measure_node(master, program, faces, tools, seconds):
+    with running(program.with_name('organ_collision_node'), '__name:=organ_collision') as node:
         master.wait_for_node()
         idle, memory = resident_bytes(node), []
-        reports = measure(program, 'node', faces, tools, seconds, lambda: memory.append(resident_bytes(node)))
+        reports = measure('node', program, 'external', faces, tools, seconds,
+                          lambda: memory.append(resident_bytes(node)))
         return [dict(report, bytes_per_face=(memory[0] - idle) / faces) for report in reports]
-    finally:
-        node.terminate()
-        node.wait()
 
 
 def table(reports):
@@ -121,7 +134,8 @@ def main():
                     master.set_tools(tools, RADIUS[faces])
                     print(f'{faces} faces, {tools} tools', flush=True)
                     reports += measure_node(master, program, faces, tools, seconds)
-                    reports += measure(program, 'nodelet', faces, tools, seconds)
+                    reports += measure('nodelet', program, 'nodelet', faces, tools, seconds)
+                    reports += measure_echo(program, faces, tools, seconds)
     (folder / 'end_to_end.json').write_text(json.dumps(reports, indent=1) + '\n')
     (folder / 'end_to_end.md').write_text('# End to end\n\n' + table(reports))
 
