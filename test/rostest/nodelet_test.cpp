@@ -1,0 +1,120 @@
+// The nodelet, in one process with what publishes the organ.
+#include <gtest/gtest.h>
+#include <nodelet/loader.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/OrganMesh.h>
+#include <organ_collision/OrganVertices.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <boost/make_shared.hpp>
+#include <functional>
+
+namespace organ_collision {
+namespace {
+
+constexpr char kPlugin[] = "organ_collision/CollisionNodelet";
+
+geometry_msgs::TransformStamped frame(const std::string& name, double z) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "sheet";
+  transform.child_frame_id = name;
+  transform.transform.translation.z = z;
+  transform.transform.rotation.w = 1.0;
+  return transform;
+}
+
+/// Two faces around the origin, at a height; the probe's tip is at the origin.
+std::vector<float> sheet(float z) { return {-1, -1, z, 1, -1, z, 1, 1, z, -1, 1, z}; }
+
+template <typename Message>
+boost::shared_ptr<Message> sheet_message(float z) {
+  const auto message = boost::make_shared<Message>();
+  message->header.frame_id = "sheet";
+  message->header.stamp = ros::Time::now();
+  message->organ = "sheet";
+  message->vertices = sheet(z);
+  return message;
+}
+
+class NodeletTest : public testing::Test {
+ protected:
+  NodeletTest() {
+    frames_.sendTransform({frame("probe_trocar", 0.2), frame("probe_tip", 0.0)});
+    contacts_ = node_.subscribe<ContactArray>(
+        "/organ_collision/contacts", 100,
+        [this](const ContactArrayConstPtr& message) { received_ = message; });
+    mesh_ = node_.advertise<OrganMesh>("/organ_collision/organ_mesh", 1, true);
+    vertices_ = node_.advertise<OrganVertices>("/organ_collision/organ_vertices", 10);
+  }
+
+  static bool wait_for(const std::function<bool()>& condition) {
+    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(10.0);
+    while (!condition() && ros::WallTime::now() < give_up) {
+      ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    }
+    return condition();
+  }
+
+  /// Publishes the shape until it is answered.
+  void send(const boost::shared_ptr<OrganVertices>& shape) {
+    vertices_.publish(shape);
+    ASSERT_TRUE(
+        wait_for([&] { return received_ && received_->mesh_stamp == shape->header.stamp; }));
+  }
+
+  ros::NodeHandle node_;
+  tf2_ros::StaticTransformBroadcaster frames_;
+  ros::Subscriber contacts_;
+  ros::Publisher mesh_, vertices_;
+  ContactArrayConstPtr received_;
+};
+
+TEST_F(NodeletTest, KeepsShapesOfTheSameProcessWithoutACopy) {
+  nodelet::Loader loader(false);
+  ASSERT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
+  const auto mesh = sheet_message<OrganMesh>(0.005F);
+  mesh->triangles = {0, 1, 2, 0, 2, 3};
+  mesh_.publish(mesh);
+  ASSERT_TRUE(wait_for([&] { return received_ != nullptr; }));
+  EXPECT_EQ(received_->status, ContactArray::OK) << received_->message;
+  EXPECT_EQ(received_->contacts.size(), 2U);
+
+  const auto shape = sheet_message<OrganVertices>(-0.005F);
+  send(shape);
+  EXPECT_EQ(received_->mode, ContactArray::SWEPT);
+  EXPECT_EQ(received_->contacts.size(), 2U);
+  EXPECT_GT(shape.use_count(), 1) << "the organ's shape is not this message itself";
+
+  // Two shapes on, nobody needs it any more.
+  send(sheet_message<OrganVertices>(-0.1F));
+  send(sheet_message<OrganVertices>(-0.2F));
+  EXPECT_TRUE(received_->contacts.empty());
+  send(sheet_message<OrganVertices>(-0.3F));
+  EXPECT_TRUE(wait_for([&] { return shape.use_count() == 1; }));
+}
+
+TEST_F(NodeletTest, IsLoadedAgainAfterUnloading) {
+  for (int i = 0; i < 3; ++i) {
+    nodelet::Loader loader(false);
+    EXPECT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
+    EXPECT_TRUE(loader.unload("/organ_collision"));
+  }
+}
+
+TEST_F(NodeletTest, IsNotLoadedWithIllegalParameters) {
+  nodelet::Loader loader(false);
+  ros::param::set("/broken/tools", "none");
+  EXPECT_FALSE(loader.load("/broken", kPlugin, {}, {}));
+}
+
+}  // namespace
+}  // namespace organ_collision
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "nodelet_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}
