@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <utility>
 
 #include "organ_collision/ros/answers.hpp"
 #include "organ_collision/ros/conversions.hpp"
@@ -65,9 +66,12 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       services_({loaded_.parameters, organs_, transforms_, poses_, steps_.history(), evaluator_}),
       diagnostics_({loaded_.parameters, loaded_.misspelt, organs_, evaluator_, steps_, counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
+      tool_is_due_(loaded_.parameters.tools.size(), false),
       contacts_(private_node_.advertise<ContactArray>(names::kContacts, 100)),
       markers_(private_node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 100)),
       transform_listener_(transforms_, node_, false),
+      pose_topics_(loaded_.parameters.tools, {transforms_, poses_, counters_.rejected,
+                                              [this](std::size_t tool) { tip_moved(tool); }}),
       inbox_(inbox_callbacks()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
 
@@ -79,6 +83,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
           [this](const OrganVerticesConstPtr& message) { inbox_.add(message); }, {}, no_delay)};
+  pose_topics_.subscribe(node_);
   servers_ = {
       private_node_.advertiseService(names::kQuery, &CollisionNode::on_query, this),
       private_node_.advertiseService(names::kQueryBatch, &CollisionNode::on_query_batch, this),
@@ -98,10 +103,21 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
 void CollisionNode::run(const std::function<bool()>& stop) {
   while (private_node_.ok() && !stop()) {
     call_callbacks();
-    steps_.evaluate_waiting(organs_, SteadyClock::now());
-    if (tick_is_due_) steps_.evaluate_tick(organs_);
-    tick_is_due_ = false;
+    evaluate();
   }
+}
+
+void CollisionNode::evaluate() {
+  steps_.evaluate_waiting(organs_, SteadyClock::now());
+  for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
+    if (std::exchange(tool_is_due_[tool], false)) steps_.evaluate_latest(organs_, tool);
+  }
+  if (std::exchange(tick_is_due_, false)) steps_.evaluate_tick(organs_);
+}
+
+/// A tip that moves faster than steps are evaluated moves on within one.
+void CollisionNode::tip_moved(std::size_t tool) {
+  if (std::exchange(tool_is_due_[tool], true)) ++counters_.poses_merged;
 }
 
 void CollisionNode::call_callbacks() {
@@ -133,6 +149,7 @@ void CollisionNode::watch_clock() {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
     transforms_.clear();
+    poses_.forget_samples();
     organs_.forget_previous_shapes();
     steps_.start_anew(organs_);
   }

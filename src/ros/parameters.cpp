@@ -1,5 +1,7 @@
 #include "organ_collision/ros/parameters.hpp"
 
+#include <ros/names.h>
+
 #include <limits>
 
 #include "organ_collision/ros/conversions.hpp"
@@ -23,13 +25,30 @@ std::string frame(const ParameterGroup& tool, const char* name) {
   return frame;
 }
 
+/// The name of a topic; empty where there is none.
+std::string topic(const ParameterGroup& tool, const char* name) {
+  if (!tool.has(name)) return {};
+  std::string topic = tool.text(name), error;
+  if (!ros::names::validate(topic, error)) tool.refuse(name, "must be the name of a topic");
+  return topic;
+}
+
 ToolParameters parse_tool(const ParameterGroup& tool) {
   if (tool.has(names::kLinks)) {
     tool.refuse(names::kLinks,
                 "only shafts are supported: give trocar_frame, tip_frame and radius instead");
   }
-  ToolParameters parsed{tool.text(names::kToolName), frame(tool, names::kTrocarFrame),
-                        frame(tool, names::kTipFrame), tool.number(names::kRadius, {}, kPositive)};
+  ToolParameters parsed;
+  parsed.name = tool.text(names::kToolName);
+  parsed.trocar_frame = frame(tool, names::kTrocarFrame);
+  parsed.radius = tool.number(names::kRadius, {}, kPositive);
+  parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
+  parsed.base_pose_topic = topic(tool, names::kBasePoseTopic);
+  const bool unnamed = !parsed.tip_pose_topic.empty() && !tool.has(names::kTipFrame);
+  parsed.tip_frame = unnamed ? parsed.name + "_tip" : frame(tool, names::kTipFrame);
+  if (!parsed.base_pose_topic.empty() && parsed.tip_pose_topic.empty()) {
+    tool.refuse(names::kBasePoseTopic, "goes with tip_pose_topic, in whose frame its poses are");
+  }
   if (parsed.tip_frame == parsed.trocar_frame) {
     tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
   }
@@ -42,7 +61,8 @@ void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
   for (int i = 0; i < list.size(); ++i) {
     const ParameterGroup group(
         all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
-        {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kRadius, names::kLinks});
+        {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kTipPoseTopic,
+         names::kBasePoseTopic, names::kRadius, names::kLinks});
     const ToolParameters tool = parse_tool(group);
     for (const ToolParameters& other : loaded.parameters.tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");

@@ -60,23 +60,26 @@ bool StepEvaluator::evaluate_front(const Organ& organ, std::size_t tool, OrganTo
 }
 
 void StepEvaluator::evaluate_tick(const OrganStore& organs) {
+  for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) evaluate_latest(organs, tool);
+}
+
+void StepEvaluator::evaluate_latest(const OrganStore& organs, std::size_t tool) {
   const ros::Time now = ros::Time::now();
-  for (const auto& [name, organ] : organs.organs()) {
-    for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {
-      OrganToolPair& pair = history_.of(name, tool);
-      if (!pair.current.mesh) continue;  // Its first shape still waits for a transform.
-      if (is_stale(organ.latest(), now, parameters_.mesh_timeout_sec)) {
-        fail(organ, tool, pair, now, ContactArray::STALE_MESH,
-             stale_message(organ, now, parameters_.mesh_timeout_sec));
-        continue;
-      }
-      const auto end = poses_.axis(parameters_.tools[tool], organ.frame(), ros::Time(0));
-      if (end.found) {
-        evaluate_step(organ, tool, pair, *end.found);
-      } else {
-        fail(organ, tool, pair, now, ContactArray::NO_TRANSFORM, end.why_not);
-      }
-    }
+  for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now);
+}
+
+void StepEvaluator::evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now) {
+  OrganToolPair& pair = history_.of(organ.name(), tool);
+  if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  if (is_stale(organ.latest(), now, parameters_.mesh_timeout_sec)) {
+    return fail(organ, tool, pair, now, ContactArray::STALE_MESH,
+                stale_message(organ, now, parameters_.mesh_timeout_sec));
+  }
+  const auto end = poses_.axis(parameters_.tools[tool], organ.frame(), ros::Time(0));
+  if (end.found) {
+    evaluate_step(organ, tool, pair, *end.found);
+  } else {
+    fail(organ, tool, pair, now, ContactArray::NO_TRANSFORM, end.why_not);
   }
 }
 

@@ -57,14 +57,76 @@ void rest_trocar(ShaftPath& path) {
   for (ShaftWaypoint& waypoint : path) waypoint.axis.trocar = trocar;
 }
 
+/// Whole nanoseconds: ros::Duration would overflow at absurd stamps.
+std::int64_t elapsed(ros::Time from, ros::Time to) {
+  return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
+}
+double nanoseconds(ros::Time from, ros::Time to) { return static_cast<double>(elapsed(from, to)); }
+
+/// So many times, evenly spaced between two.
+std::vector<ros::Time> even_times(ros::Time from, ros::Time to, std::size_t count) {
+  const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
+  std::vector<ros::Time> times(count);
+  std::uint64_t time = from.toNSec();
+  for (ros::Time& between : times) between.fromNSec(time += static_cast<std::uint64_t>(step));
+  return times;
+}
+
+/// Leaves `count` of them, spread evenly.
+void thin_out(std::vector<ros::Time>& times, std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) times[i] = times[i * times.size() / count];
+  times.resize(count);
+}
+
 }  // namespace
+
+void PoseStamps::add(ros::Time stamp) {
+  // As many as TF keeps for ten seconds at 1 kHz.
+  constexpr std::size_t kMost = 10'000;
+  rising_.insert(std::upper_bound(rising_.begin(), rising_.end(), stamp), stamp);
+  if (rising_.size() > kMost) rising_.pop_front();
+}
+
+std::vector<ros::Time> PoseStamps::between(ros::Time from, ros::Time to) const {
+  const auto begin = std::upper_bound(rising_.begin(), rising_.end(), from);
+  return {begin, std::lower_bound(begin, rising_.end(), to)};
+}
+
+void ToolPoses::add_sample(const ToolParameters& tool, ros::Time stamp) {
+  stamps_[tool.name].add(stamp);
+}
+
+/// `cut`: how many more there would be without samples_max.
+std::vector<ros::Time> ToolPoses::sample_times(const ToolParameters& tool, ros::Time from,
+                                               ros::Time to, std::size_t& cut) const {
+  const auto most = static_cast<std::size_t>(sampling_.samples_max - 1);
+  const double wanted =
+      std::max(0.0, std::ceil(1e-9 * nanoseconds(from, to) / sampling_.sample_sec - 1e-6) - 1.0);
+  const double count = std::min(wanted, static_cast<double>(most));
+  std::vector<ros::Time> times = even_times(from, to, static_cast<std::size_t>(count));
+  cut = static_cast<std::size_t>(wanted - count);
+  if (const auto streamed = stamps_.find(tool.name); streamed != stamps_.end()) {
+    const std::vector<ros::Time> stamps = streamed->second.between(from, to);
+    times.insert(times.end(), stamps.begin(), stamps.end());
+    std::sort(times.begin(), times.end());
+    times.erase(std::unique(times.begin(), times.end()), times.end());
+  }
+  if (times.size() > most) {
+    cut += times.size() - most;
+    thin_out(times, most);
+  }
+  return times;
+}
 
 Lookup<ShaftAxis> ToolPoses::axis(const ToolParameters& tool, const std::string& organ_frame,
                                   ros::Time time) const {
   const auto trocar = look_up(buffer_, organ_frame, tool.trocar_frame, time);
   if (!trocar.found) return {std::nullopt, trocar.why_not};
   const auto tip = look_up(buffer_, organ_frame, tool.tip_frame, time);
-  if (!tip.found) return {std::nullopt, tip.why_not};
+  if (!tip.found) {
+    const bool silent = !tool.tip_pose_topic.empty() && stamps_.count(tool.name) == 0;
+    return {std::nullopt, silent ? "no pose came on " + tool.tip_pose_topic : tip.why_not};
+  }
   const ros::Time both = common_time(trocar.found->stamp, tip.found->stamp);
   // Each was the latest of its own; the axis is made of two points of the same time.
   if (time.isZero() && !both.isZero() && trocar.found->stamp != tip.found->stamp) {
@@ -75,23 +137,12 @@ Lookup<ShaftAxis> ToolPoses::axis(const ToolParameters& tool, const std::string&
 
 SampledPath ToolPoses::path(const ToolParameters& tool, const std::string& organ_frame,
                             const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const {
-  // Whole nanoseconds: ros::Duration would overflow at absurd stamps.
-  const auto begin = static_cast<std::int64_t>(from.stamp.toNSec());
-  const auto duration = static_cast<std::int64_t>(to.stamp.toNSec()) - begin;
-  const double wanted =
-      std::max(1.0, std::ceil(1e-9 * static_cast<double>(duration) / sampling_.sample_sec - 1e-6));
-  const int legs = static_cast<int>(std::min<double>(wanted, sampling_.samples_max));
-
+  const double duration = nanoseconds(from.stamp, to.stamp);
   SampledPath sampled;
-  sampled.samples_cut = static_cast<std::size_t>(wanted - legs);
   PathBuilder path(sampled.path, from.value);
-  for (int i = 1; i < legs; ++i) {
-    const std::int64_t elapsed = duration / legs * i;
-    ros::Time time;
-    time.fromNSec(static_cast<std::uint64_t>(begin + elapsed));
+  for (const ros::Time time : sample_times(tool, from.stamp, to.stamp, sampled.samples_cut)) {
     if (const auto between = axis(tool, organ_frame, time); between.found) {
-      path.add(
-          {static_cast<double>(elapsed) / static_cast<double>(duration), between.found->value});
+      path.add({nanoseconds(from.stamp, time) / duration, between.found->value});
     }
   }
   path.add({1.0, to.value});

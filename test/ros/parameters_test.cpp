@@ -127,6 +127,29 @@ TEST(Parameters, IllegalToolsAreNamed) {
   expect_words(refusal_of_tool("links", "links"), {"~tools[0]/links", "only shafts"});
 }
 
+TEST(Parameters, TipsMayComeAsPoses) {
+  XmlRpcValue all = one_tool();
+  all["tools"][0]["tip_pose_topic"] = "/PSM1/measured_cp";
+  all["tools"][0]["base_pose_topic"] = "/PSM1/base";
+  const ToolParameters named = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(named.tip_pose_topic, "/PSM1/measured_cp");
+  EXPECT_EQ(named.base_pose_topic, "/PSM1/base");
+  EXPECT_EQ(named.tip_frame, "hook_tip");
+
+  XmlRpcValue unnamed;
+  unnamed["name"] = "PSM1";
+  unnamed["trocar_frame"] = "PSM1_base";
+  unnamed["radius"] = 0.004;
+  unnamed["tip_pose_topic"] = "PSM1/measured_cp";
+  all["tools"][0] = unnamed;
+  EXPECT_EQ(parse_parameters(all).parameters.tools[0].tip_frame, "PSM1_tip");
+
+  expect_words(refusal_of_tool("tip_pose_topic", "a b"), {"~tools[0]/tip_pose_topic", "'a b'"});
+  expect_words(refusal_of_tool("tip_pose_topic", ""), {"~tools[0]/tip_pose_topic", "not empty"});
+  expect_words(refusal_of_tool("base_pose_topic", "/base"),
+               {"~tools[0]/base_pose_topic", "'/base'", "tip_pose_topic"});
+}
+
 TEST(Parameters, ToolNamesAreUnique) {
   XmlRpcValue tools;
   tools[0] = tool("hook");

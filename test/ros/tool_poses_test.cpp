@@ -117,6 +117,64 @@ TEST_F(ToolPosesTest, PathFollowsTheArc) {
   EXPECT_EQ(sampled.path.back().fraction, 1.0);
 }
 
+TEST_F(ToolPosesTest, PosesThatCameAsMessagesAreWaypoints) {
+  const double times[] = {1.0, 1.013, 1.0134, 1.02, 1.071, 1.1};
+  ToolPoses poses(buffer_, {0.01, 100});
+  for (const double time : times) {
+    send(time);
+    poses.add_sample(kTool, ros::Time(time));
+  }
+  poses.add_sample({"other", "trocar", "tip", 0.005}, ros::Time(1.05));
+  const SampledPath sampled = poses.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1.0)},
+                                         {axis_in_liver(1.1), ros::Time(1.1)});
+  // Even samples in between lie on straight ways, and are left out.
+  ASSERT_EQ(sampled.path.size(), 6u);
+  for (int i = 0; i < 6; ++i) {
+    EXPECT_NEAR(sampled.path[i].fraction, (times[i] - 1.0) / 0.1, 1e-7);
+    expect_axis(sampled.path[i].axis, axis_in_liver(times[i]), 1e-7);
+  }
+}
+
+TEST_F(ToolPosesTest, PosesBeyondTheMostSamplesAreCounted) {
+  ToolPoses poses(buffer_, {1.0, 5});
+  for (int i = 0; i <= 100; ++i) {
+    send(1.0 + 0.001 * i);
+    poses.add_sample(kTool, ros::Time(1.0 + 0.001 * i));
+  }
+  const SampledPath sampled = poses.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1.0)},
+                                         {axis_in_liver(1.1), ros::Time(1.1)});
+  EXPECT_EQ(sampled.path.size(), 6u);
+  EXPECT_EQ(sampled.samples_cut, 95u);
+  for (std::size_t i = 1; i < sampled.path.size(); ++i) {
+    EXPECT_GT(sampled.path[i].fraction, sampled.path[i - 1].fraction);
+  }
+}
+
+TEST_F(ToolPosesTest, AToolWhosePosesNeverCameNamesTheTopic) {
+  send_trocar(1.0);
+  ToolParameters tool = kTool;
+  tool.tip_pose_topic = "/arm/measured_cp";
+  EXPECT_NE(poses_.axis(tool, "liver", ros::Time(1.0)).why_not.find("/arm/measured_cp"),
+            std::string::npos);
+}
+
+TEST(PoseStamps, RiseInWhateverOrderTheyCome) {
+  PoseStamps stamps;
+  for (const double time : {3.0, 1.0, 2.0, 5.0, 4.0}) stamps.add(ros::Time(time));
+  const std::vector<ros::Time> between = {ros::Time(2.0), ros::Time(3.0), ros::Time(4.0)};
+  EXPECT_EQ(stamps.between(ros::Time(1.0), ros::Time(5.0)), between);
+  EXPECT_TRUE(stamps.between(ros::Time(5.0), ros::Time(9.0)).empty());
+  EXPECT_TRUE(stamps.between(ros::Time(4.0), ros::Time(2.0)).empty());
+}
+
+TEST(PoseStamps, OnlyTheLatestAreKept) {
+  PoseStamps stamps;
+  for (int i = 0; i < 20'000; ++i) stamps.add(ros::Time(1.0 + 0.001 * i));
+  const std::vector<ros::Time> kept = stamps.between(ros::Time(0.5), ros::Time(100.0));
+  EXPECT_EQ(kept.size(), 10'000u);
+  EXPECT_EQ(kept.back(), ros::Time(1.0 + 0.001 * 19'999));
+}
+
 TEST_F(ToolPosesTest, CutSamplesAreCountedAndTheWayStaysWhole) {
   for (int i = 0; i <= 100; ++i) send(1.0 + 0.01 * i);
   const SampledPath sampled = path(1.0, 2.0, {0.01, 4});

@@ -17,6 +17,7 @@
 #include "organ_collision/ros/organ_inbox.hpp"
 #include "organ_collision/ros/organ_store.hpp"
 #include "organ_collision/ros/parameters.hpp"
+#include "organ_collision/ros/pose_topics.hpp"
 #include "organ_collision/ros/query_services.hpp"
 #include "organ_collision/ros/step_evaluator.hpp"
 #include "organ_collision/ros/tool_poses.hpp"
@@ -38,6 +39,8 @@ class CollisionNode {
   void call_callbacks();
   bool call_one(ros::WallDuration wait);
   void watch_clock();
+  void evaluate();
+  void tip_moved(std::size_t tool);
 
   OrganInbox::Callbacks inbox_callbacks();
   template <typename Message>
@@ -68,10 +71,12 @@ class CollisionNode {
 
   ros::Time last_now_;
   bool tick_is_due_ = false;
+  std::vector<char> tool_is_due_;  ///< its tip moved
 
   ros::Publisher contacts_;
   ros::Publisher markers_;
   tf2_ros::TransformListener transform_listener_;
+  PoseTopics pose_topics_;
   OrganInbox inbox_;
   std::vector<ros::Subscriber> subscribers_;
   std::vector<ros::ServiceServer> servers_;

@@ -18,9 +18,10 @@ namespace organ_collision {
 struct NodeCounters {
   EventRate meshes{std::chrono::steady_clock::now()};
   EventRate contacts{std::chrono::steady_clock::now()};
-  FailureLog rejected;  ///< messages that were refused
-  FailureLog failed;    ///< steps without answer
-  FailureLog refused;   ///< service calls without answer
+  std::size_t poses_merged = 0;  ///< evaluated together with later ones, in one step
+  FailureLog rejected;           ///< messages that were refused
+  FailureLog failed;             ///< steps without answer
+  FailureLog refused;            ///< service calls without answer
 };
 
 /// Says how the node is, for /diagnostics.

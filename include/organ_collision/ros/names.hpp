@@ -30,6 +30,8 @@ inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
 inline constexpr char kToolName[] = "name";
 inline constexpr char kTrocarFrame[] = "trocar_frame";
 inline constexpr char kTipFrame[] = "tip_frame";
+inline constexpr char kTipPoseTopic[] = "tip_pose_topic";
+inline constexpr char kBasePoseTopic[] = "base_pose_topic";
 inline constexpr char kRadius[] = "radius";
 inline constexpr char kLinks[] = "links";
 

@@ -16,7 +16,9 @@ struct ToolParameters {
   std::string name;
   std::string trocar_frame;
   std::string tip_frame;
-  double radius;  ///< [m]
+  double radius = 0.0;               ///< [m]
+  std::string tip_pose_topic = {};   ///< PoseStamped that places tip_frame; empty: TF does
+  std::string base_pose_topic = {};  ///< the same for the frame of those poses
 };
 
 /// The node's parameters, as validated; the defaults are the documented ones.

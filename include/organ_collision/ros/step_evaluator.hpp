@@ -42,7 +42,8 @@ class StepEvaluator {
   void add_shape(const Organ& organ, SteadyTime now);
   /// All shapes whose transforms are there, or have been waited for long enough.
   void evaluate_waiting(const OrganStore& organs, SteadyTime now);
-  /// All organs with the latest poses.
+  /// All organs with the latest poses, of one tool or of all.
+  void evaluate_latest(const OrganStore& organs, std::size_t tool);
   void evaluate_tick(const OrganStore& organs);
 
   void forget(const std::string& organ) { history_.forget(organ); }
@@ -60,6 +61,7 @@ class StepEvaluator {
 
  private:
   bool evaluate_front(const Organ& organ, std::size_t tool, OrganToolPair& pair, SteadyTime now);
+  void evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now);
   void evaluate_step(const Organ& organ, std::size_t tool, OrganToolPair& pair,
                      const Timed<ShaftAxis>& end);
   void evaluate_held(const Organ& organ, std::size_t tool, OrganToolPair& pair);

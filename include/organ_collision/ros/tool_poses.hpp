@@ -3,7 +3,10 @@
 #include <tf2/buffer_core.h>
 
 #include <cstddef>
+#include <deque>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "organ_collision/geometry/shaft.hpp"
 #include "organ_collision/ros/parameters.hpp"
@@ -23,6 +26,17 @@ struct SampledPath {
   std::size_t samples_cut = 0;
 };
 
+/// When the poses of a tip were that came as messages lately.
+class PoseStamps {
+ public:
+  void add(ros::Time stamp);
+  /// Those after `from` and before `to`, rising.
+  std::vector<ros::Time> between(ros::Time from, ros::Time to) const;
+
+ private:
+  std::deque<ros::Time> rising_;
+};
+
 /// Where tools are, in the frame of an organ, from TF.
 class ToolPoses {
  public:
@@ -34,15 +48,24 @@ class ToolPoses {
   Lookup<ShaftAxis> axis(const ToolParameters& tool, const std::string& organ_frame,
                          ros::Time time) const;
 
-  /// The way from one known axis to another, through samples of TF evenly spaced in between; a
-  /// sample that TF does not have, or that lies on the straight way between its neighbours, is left
-  /// out. A path always begins and ends as given, but for 1e-9 m of a trocar at rest.
+  /// The way from one known axis to another, through samples of TF in between: evenly spaced, and
+  /// at the stamps of poses of the tip that came as messages. A sample that TF does not have, or
+  /// that lies on the straight way between its neighbours, is left out. A path always begins and
+  /// ends as given, but for 1e-9 m of a trocar at rest.
   SampledPath path(const ToolParameters& tool, const std::string& organ_frame,
                    const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const;
 
+  /// A pose of the tool's tip came as a message, and is in the buffer.
+  void add_sample(const ToolParameters& tool, ros::Time stamp);
+  void forget_samples() { stamps_.clear(); }
+
  private:
+  std::vector<ros::Time> sample_times(const ToolParameters& tool, ros::Time from, ros::Time to,
+                                      std::size_t& cut) const;
+
   const tf2::BufferCore& buffer_;
   PathSampling sampling_;
+  std::map<std::string, PoseStamps> stamps_;  ///< by tool
 };
 
 }  // namespace organ_collision

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""Tools whose tips come as PoseStamped: evaluated when a pose comes, at the organ's last shape."""
+
+import sys
+
+from geometry_msgs.msg import PoseStamped
+from organ_collision.msg import ContactArray
+import rospy
+import rostest
+
+from contact_case import ContactCase, faces_of
+from node_client import NodeClient, TfSender, wait_until
+import oracle
+import scenes
+
+STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
+SHEET = scenes.sheet(0.1, 4)
+RADIUS = 0.005
+BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), (0.013, 0.007, 0.4))  # of the arm, in the organ's frame
+TROCAR = BASE.translation
+SOON = 1e-6  # [m] of contact geometry that went through quaternions
+
+
+def pose(frame, point, stamp=rospy.Time(), rotation=(0, 0, 0, 1)):
+    message = PoseStamped()
+    message.header.frame_id, message.header.stamp = frame, stamp
+    p, q = message.pose.position, message.pose.orientation
+    p.x, p.y, p.z = point
+    q.x, q.y, q.z, q.w = rotation
+    return message
+
+
+def tip_at(x, z):
+    return (x, 0.007, z)
+
+
+class PosesTest(ContactCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.node = NodeClient()
+        cls.tf = TfSender()
+        cls.arm = rospy.Publisher('/arm/measured_cp', PoseStamped, queue_size=1000)
+        cls.base = rospy.Publisher('/arm/base', PoseStamped, queue_size=10, latch=True)
+        cls.stylus = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1000)
+        for topic in (cls.arm, cls.base, cls.stylus):
+            wait_until(lambda topic=topic: topic.get_num_connections() > 0, topic.name)
+        wait_until(cls.tf.connected, 'connections to TF')
+        cls.base.publish(pose('liver_frame', BASE.translation, rotation=BASE.rotation))
+        cls.tf.send_resting(
+            ('liver_frame', 'stylus_trocar', scenes.Pose((0, 0, 0, 1), (0.0, 0.0, 0.3)))
+        )
+        cls.stamp = rospy.Time.now()
+
+    def setUp(self):
+        self.organ = self.id().split('.')[-1]
+
+    def tearDown(self):
+        self.node.remove(self.organ)
+
+    @classmethod
+    def next_stamp(cls, millis=10):
+        cls.stamp += rospy.Duration(0, millis * 10**6)
+        return cls.stamp
+
+    def move_arm(self, tip, stamp):
+        """The tip, in the organ's frame; the arm says it in that of its base."""
+        self.arm.publish(pose('arm_base', BASE.inverse().apply(tip), stamp))
+
+    def start(self, tip):
+        """The organ and the arm, whose first step is done. Returns the stamp."""
+        stamp = self.next_stamp()
+        self.move_arm(tip, stamp)
+        self.node.send_mesh(self.organ, SHEET, stamp)
+        first = self.node.contacts.wait_for(self.organ, 'arm', mesh_stamp=stamp, status=ContactArray.OK)
+        self.assertEqual(first.mode, STATIC)
+        return stamp
+
+    def swept(self, *tips):
+        """What the arm touches on the way through these tips."""
+        faces = set()
+        for before, after in zip(tips, tips[1:]):
+            contacts = oracle.swept_contacts(SHEET, (TROCAR, before), (TROCAR, after), RADIUS)
+            faces.update(contact.face for contact in contacts)
+        return sorted(faces)
+
+    def test_a_pose_is_answered_when_it_comes(self):
+        """Without a new shape of the organ, for the way since the last pose."""
+        begin = self.start(tip_at(-0.05, 0.1))
+        end = self.next_stamp()
+        self.move_arm(tip_at(0.05, -0.1), end)
+        answer = self.node.contacts.wait_for(self.organ, 'arm', stamp=end)
+        self.assertEqual((answer.mode, answer.status), (SWEPT, ContactArray.OK), answer.message)
+        self.assertEqual((answer.step_start, answer.mesh_stamp), (begin, begin))
+        expected = oracle.swept_contacts(
+            SHEET, (TROCAR, tip_at(-0.05, 0.1)), (TROCAR, tip_at(0.05, -0.1)), RADIUS
+        )
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(answer, expected, SOON)
+
+    def test_poses_faster_than_the_node_are_all_swept(self):
+        """Tips jump from side to side, thousands a second, and each way crosses the sheet."""
+        start = self.start(tip_at(-0.09, 0.05))
+        tips, last = [tip_at(-0.09, 0.05)], None
+        for i in range(100):
+            tips.append(tip_at(-0.09 + 0.18 * i / 99, 0.05 if i % 2 else -0.05))
+            last = self.next_stamp(1)
+            self.move_arm(tips[-1], last)
+        self.node.contacts.wait_for(self.organ, 'arm', stamp=last)
+        answers = [a for a in self.node.contacts.of(self.organ, 'arm') if a.mode == SWEPT and a.step_start >= start]
+        self.assertEqual({answer.status for answer in answers}, {ContactArray.OK})
+        # One step begins where the last one ended.
+        ends = [start] + [answer.header.stamp for answer in answers]
+        self.assertEqual([answer.step_start for answer in answers], ends[:-1])
+        found = sorted({face for answer in answers for face in faces_of(answer)})
+        self.assertEqual(found, self.swept(*tips))
+
+    def test_new_shapes_are_swept_with_the_tip_of_their_time(self):
+        self.start(tip_at(0.0, 0.2))
+        self.move_arm(tip_at(0.02, 0.02), self.next_stamp())
+        self.node.contacts.wait_for(self.organ, 'arm', stamp=self.stamp)
+        raised = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.03))
+        self.node.send_vertices(self.organ, raised, self.stamp)
+        answer = self.node.contacts.wait_for(self.organ, 'arm', mesh_stamp=self.stamp)
+        axis = (TROCAR, tip_at(0.02, 0.02))
+        expected = oracle.contacts(raised, SHEET, (axis, axis), RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(answer, expected, SOON)
+
+    def test_no_pose_is_no_answer(self):
+        stamp = self.next_stamp()
+        self.node.send_mesh(self.organ, SHEET, stamp)
+        answer = self.node.contacts.wait_for(self.organ, 'stylus', mesh_stamp=stamp)
+        self.assertEqual(answer.status, ContactArray.NO_TRANSFORM)
+        self.assertIn('stylus/pose', answer.message)
+
+    def test_without_a_stamp_a_pose_is_of_the_time_when_it_comes(self):
+        self.node.send_mesh(self.organ, SHEET)
+        self.node.wait_for_shape(self.organ, rospy.Time())
+        self.stylus.publish(pose('liver_frame', (0.01, 0.02, 0.003)))
+        answer = self.node.contacts.wait_for(self.organ, 'stylus', status=ContactArray.OK)
+        trocar = (0.0, 0.0, 0.3)
+        expected = oracle.static_contacts(SHEET, (trocar, (0.01, 0.02, 0.003)), RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(answer, expected, SOON)
+
+    def test_bad_poses_are_counted_and_change_nothing(self):
+        self.start(tip_at(0.0, 0.2))
+        for bad in (
+            pose('arm_base', (float('nan'), 0, 0), self.next_stamp()),
+            pose('', (0, 0, -1), self.next_stamp()),
+            pose('arm_base', (0, 0, -1), self.next_stamp(), rotation=(0, 0, 0, 0)),
+        ):
+            self.arm.publish(bad)
+        wait_until(
+            lambda: int(self.node.diagnostics.get('rejected, pose', 0)) >= 3,
+            lambda: 'rejected poses on /diagnostics; there are %s' % self.node.diagnostics,
+        )
+        end = self.next_stamp()
+        self.move_arm(tip_at(0.0, 0.1), end)
+        answer = self.node.contacts.wait_for(self.organ, 'arm', stamp=end)
+        self.assertEqual((answer.status, answer.contacts), (ContactArray.OK, []))
+
+
+if __name__ == '__main__':
+    rospy.init_node('poses_test')
+    rostest.rosrun('organ_collision', 'poses', PosesTest, sys.argv)
