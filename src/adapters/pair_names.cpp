@@ -22,7 +22,7 @@ std::string graph_name(std::string name, const std::string& prefix) {
 }  // namespace
 
 std::string PairNames::of(const std::string& organ, const std::string& tool) {
-  const std::string name = graph_name(organ, "organ_") + "/" + graph_name(tool, "tool_");
+  std::string name = graph_name(organ, "organ_") + "/" + graph_name(tool, "tool_");
   const auto& owner = owners_.insert({name, {organ, tool}}).first->second;
   if (owner != std::make_pair(organ, tool)) {
     throw Rejection(ContactArray::INVALID_REQUEST, "name taken",

@@ -85,6 +85,7 @@ class ContactAdapterTest(ToolCase):
             return outputs.wrenches and outputs.faces
 
         wait_until(both_come, 'outputs of ' + self.organ)
+        outputs.wait_for(self.stamp)  # No wrench is on its way any more.
         return outputs
 
     def assert_wrench(self, found, force, torque):
@@ -152,17 +153,22 @@ class ContactAdapterTest(ToolCase):
                 self.assert_near(force, expected, TOLERANCE, 'force')
 
     def test_nothing_comes_while_a_transform_is_missing(self):
+        """Before the gap and after it, faces show that all that came until then is there."""
         outputs, diagnostics = self.connect(), Diagnostics()
+        self.step(SHEET, PRESSED, vertices=True)
+        outputs.wait_for(self.stamp)
+        wait_until(lambda: outputs.faces[-1].data, 'the faces before the gap')
         counts = len(outputs.wrenches), len(outputs.faces)
         missing = self.next_stamp()
         self.node.send_vertices(self.organ, SHEET, missing)
         failed = self.node.contacts.wait_for(self.organ, 'probe', mesh_stamp=missing)
         self.assertEqual(failed.status, ContactArray.NO_TRANSFORM)
-        self.step(SHEET, PRESSED, vertices=True)
+        for _ in range(2):  # out, and clear
+            self.step(SHEET, CLEAR, vertices=True)
         outputs.wait_for(self.stamp)
-        wait_until(lambda: outputs.faces[-1].data, 'the faces after the gap')
+        wait_until(lambda: not outputs.faces[-1].data, 'an empty list of faces')
         self.assertEqual(outputs.of(missing), [])
-        self.assertEqual((len(outputs.wrenches), len(outputs.faces)), tuple(n + 1 for n in counts))
+        self.assertEqual((len(outputs.wrenches), len(outputs.faces)), tuple(n + 2 for n in counts))
         diagnostics.wait_for_count('unpublished, no transform', 1)
 
     def test_malformed_contacts_publish_nothing(self):
