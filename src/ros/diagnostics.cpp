@@ -10,9 +10,9 @@ using diagnostic_updater::DiagnosticStatusWrapper;
 
 constexpr double kMicroseconds = 1e6;
 
-/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new,
-/// an error where picking failed.
-void show(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
+}  // namespace
+
+void show_failures(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
   for (const auto& [reason, entry] : log.by_reason()) {
     std::string key = what;
     key.append(", ").append(reason);
@@ -24,8 +24,6 @@ void show(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& sta
   }
   log.reported();
 }
-
-}  // namespace
 
 void Diagnostics::add_to(diagnostic_updater::Updater& updater) {
   updater.setHardwareID("none");
@@ -49,8 +47,8 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
   for (const std::string& sentence : sources_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
-  show("unanswered", sources_.counters.failed, status);
-  show("refused", sources_.counters.refused, status);
+  show_failures("unanswered", sources_.counters.failed, status);
+  show_failures("refused", sources_.counters.refused, status);
 }
 
 void Diagnostics::organs(DiagnosticStatusWrapper& status) {
@@ -70,7 +68,7 @@ void Diagnostics::organs(DiagnosticStatusWrapper& status) {
 void Diagnostics::messages(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "none rejected");
   status.add("mesh rate [1/s]", sources_.counters.meshes.take(std::chrono::steady_clock::now()));
-  show("rejected", sources_.counters.rejected, status);
+  show_failures("rejected", sources_.counters.rejected, status);
 }
 
 }  // namespace organ_collision

@@ -8,7 +8,8 @@ import subprocess
 import sys
 import tempfile
 
-from organ_collision.msg import ContactArray
+from geometry_msgs.msg import WrenchStamped
+from organ_collision.msg import Contact, ContactArray
 import rosgraph
 import roslib.packages
 import rospy
@@ -86,7 +87,7 @@ class ShippedFilesTest(ContactCase):
     def test_every_launch_file(self):
         launch_files = files('launch', '.launch')
         self.assertTrue(
-            {'organ_collision.launch', 'nodelet.launch', 'demo.launch'}
+            {'organ_collision.launch', 'nodelet.launch', 'demo.launch', 'contact_adapter.launch'}
             <= {os.path.basename(path) for path in launch_files},
             launch_files,
         )
@@ -94,13 +95,36 @@ class ShippedFilesTest(ContactCase):
             with Launched(path) as launched:
                 launched.wait_for_nodes()
                 self.assertGreater(len(launched.nodes), 0, path)
-                manager = [name for name in launched.nodes if name.endswith('_manager')]
-                self.check_collision_node('/organ_collision', *manager)
+                if '/organ_collision' in launched.nodes:
+                    manager = [name for name in launched.nodes if name.endswith('_manager')]
+                    self.check_collision_node('/organ_collision', *manager)
+                if os.path.basename(path) == 'contact_adapter.launch':
+                    self.check_contact_adapter()
                 if os.path.basename(path) == 'demo.launch':
                     self.check_demo()
             wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
             self.assertNotIn('has died', launched.printed, path)
             self.assertNotIn('escalating', launched.printed, path)
+
+    def check_contact_adapter(self):
+        """It turns a contact of 1 mm depth into its default stiffness's 0.3 N."""
+        contacts = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wrenches = []
+        subscriber = rospy.Subscriber(
+            '/contact_adapter/sheet/probe/wrench', WrenchStamped, wrenches.append
+        )
+        message = ContactArray(organ='sheet', tool='probe', contacts=[Contact(depth=0.001)])
+        message.header.frame_id, message.contacts[0].normal.z = 'world', -1.0
+
+        def wrench_comes():
+            """Its topic is there only after the first contacts."""
+            contacts.publish(message)
+            return wrenches
+
+        force = wait_until(wrench_comes, 'a wrench')[0].wrench.force
+        self.assert_near((force.x, force.y, force.z), (0.0, 0.0, 0.3), 1e-9, 'force')
+        subscriber.unregister()
+        contacts.unregister()
 
     def check_demo(self):
         """Liver and tools move and meet; rviz files show only what is there."""

@@ -1,0 +1,11 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <std_msgs/UInt32MultiArray.h>
+
+namespace organ_collision {
+
+/// The numbers of the touched faces, rising, each once; one dimension, "faces".
+std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
+
+}  // namespace organ_collision

@@ -1,0 +1,264 @@
+#!/usr/bin/python3
+"""Forces and lists of faces behind the real collision node: what they are worth, that failures
+publish nothing, and how the adapter starts."""
+
+import math
+import signal
+import sys
+
+import diagnostic_msgs.msg
+from geometry_msgs.msg import WrenchStamped
+from organ_collision.msg import Contact, ContactArray
+import rospy
+import rostest
+from std_msgs.msg import UInt32MultiArray
+
+from contact_case import faces_of, xyz
+from node_client import start_node, wait_until
+import scenes
+from tool_case import ToolCase
+from vectors import cross
+
+STIFFNESS = 500.0  # [N/m], of examples/forces.launch
+RADIUS = 0.005  # [m], of examples/tools.yaml
+TOLERANCE = 1e-6  # [N], [N m]: vertices are 32-bit floats, depths exact to 1e-9 m
+SHEET = scenes.sheet(0.1, 4)
+TROCAR = (0.013, 0.007, 0.4)
+
+
+def at_height(height):
+    """The tool straight above (0.013, 0.007), its tip at this height."""
+    return {'probe': (TROCAR, (TROCAR[0], TROCAR[1], height))}
+
+
+CLEAR = at_height(0.05)
+PRESSED = at_height(0.002)  # 3 mm deep
+
+
+class Outputs:
+    """All that the adapter published of one organ and tool, in order."""
+
+    def __init__(self, pair, node='/contact_adapter'):
+        self.wrenches, self.faces = [], []
+        self.subscribers = [
+            rospy.Subscriber('%s/%s/wrench' % (node, pair), WrenchStamped, self.wrenches.append),
+            rospy.Subscriber('%s/%s/faces' % (node, pair), UInt32MultiArray, self.faces.append),
+        ]
+
+    def of(self, stamp):
+        return [wrench for wrench in self.wrenches if wrench.header.stamp == stamp]
+
+    def wait_for(self, stamp):
+        """The wrench of this time."""
+        return wait_until(lambda: self.of(stamp), 'the wrench of %s' % stamp)[0]
+
+
+class Diagnostics:
+    """The latest of the adapter's own: its summary's words, and its values."""
+
+    def __init__(self, node='contact_adapter'):
+        self.node, self.message, self.values = node, '', {}
+        self.subscriber = rospy.Subscriber(
+            '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep
+        )
+
+    def _keep(self, array):
+        for status in array.status:
+            if status.name.lstrip('/') == self.node + ': contacts':
+                self.message = status.message
+                self.values = {pair.key: pair.value for pair in status.values}
+
+    def wait_for_count(self, key, count):
+        wait_until(
+            lambda: int(self.values.get(key, 0)) >= count, lambda: '%s: %s' % (key, self.values)
+        )
+
+
+class ContactAdapterTest(ToolCase):
+    def connect(self, shape=SHEET, pair=None):
+        """The outputs of this test's organ, from the first that is sure to come: topics appear with
+        an organ's first step."""
+        outputs = Outputs(pair or self.organ + '/probe')
+
+        def both_come():
+            self.step(shape, CLEAR)
+            return outputs.wrenches and outputs.faces
+
+        wait_until(both_come, 'outputs of ' + self.organ)
+        outputs.wait_for(self.stamp)  # No wrench is on its way any more.
+        return outputs
+
+    def assert_wrench(self, found, force, torque):
+        self.assert_near(xyz(found.wrench.force), force, TOLERANCE, 'force')
+        self.assert_near(xyz(found.wrench.torque), torque, TOLERANCE, 'torque')
+
+    def test_pressed_in_and_out_again(self):
+        """Along the outward normal, stiffness * depth; faces as in `contacts`; zero when it left."""
+        outputs = self.connect()
+        contacts = self.step(SHEET, PRESSED, vertices=True)['probe']
+        self.assertGreater(len(contacts.contacts), 0)
+        found = outputs.wait_for(self.stamp)
+        self.assertEqual(found.header.frame_id, 'liver_frame')
+        force = (0.0, 0.0, STIFFNESS * (RADIUS - 0.002))
+        self.assert_near(xyz(found.wrench.force), force, TOLERANCE, 'force')
+        faces = faces_of(contacts)
+        wait_until(
+            lambda: list(outputs.faces[-1].data) == faces,
+            lambda: 'faces %s; there are %s' % (faces, outputs.faces[-1].data),
+        )
+
+        swept_out = self.step(SHEET, CLEAR, vertices=True)['probe']
+        self.assertGreater(len(swept_out.contacts), 0)  # touched and left
+        self.assert_wrench(outputs.wait_for(self.stamp), (0, 0, 0), (0, 0, 0))
+        self.assertEqual(self.step(SHEET, CLEAR, vertices=True)['probe'].contacts, [])
+        self.assert_wrench(outputs.wait_for(self.stamp), (0, 0, 0), (0, 0, 0))
+        wait_until(lambda: not outputs.faces[-1].data, 'an empty list of faces')
+
+    def test_torque_is_about_the_organ_frames_origin(self):
+        outputs = self.connect(scenes.one_face())
+        self.step(scenes.one_face(), PRESSED, vertices=True)
+        force = (0.0, 0.0, STIFFNESS * (RADIUS - 0.002))
+        place = (TROCAR[0], TROCAR[1], 0.0)
+        self.assert_wrench(outputs.wait_for(self.stamp), force, cross(place, force))
+
+    def test_a_finer_mesh_gives_the_same_force(self):
+        """Swept, resting in the tissue, and resting with a lean; from 2 faces to 7200."""
+        leaning = {'probe': ((0.1, 0.05, 0.3), (0.013, 0.007, 0.0015))}
+        forces = []
+        for cells in (1, 4, 17, 60):
+            self.organ = 'sheet_of_%d' % cells
+            shape = scenes.sheet(0.1, cells)
+            outputs = self.connect(shape)
+            found = []
+            for tools in (PRESSED, PRESSED, leaning, leaning):
+                self.step(shape, tools, vertices=True)
+                found.append(xyz(outputs.wait_for(self.stamp).wrench.force))
+            # The step into the lean begins inside the tissue: its normals are those of its start.
+            forces.append([found[0], found[1], found[3]])
+        for found in forces:
+            for force, height in zip(found, (0.002, 0.002, 0.0015)):
+                expected = (0.0, 0.0, STIFFNESS * (RADIUS - height))
+                self.assert_near(force, expected, TOLERANCE, 'force')
+
+    def test_a_pierced_sheet_pushes_the_tip_back(self):
+        """By its depth below the sheet and the radius, however fine the sheet around the hole."""
+        for cells in (4, 60):
+            self.organ = 'pierced_%d' % cells
+            shape = scenes.sheet(0.1, cells)
+            outputs = self.connect(shape)
+            for _ in range(2):
+                self.step(shape, at_height(-0.006), vertices=True)
+                force = xyz(outputs.wait_for(self.stamp).wrench.force)
+                expected = (0.0, 0.0, STIFFNESS * (RADIUS + 0.006))
+                self.assert_near(force, expected, TOLERANCE, 'force')
+
+    def test_nothing_comes_while_a_transform_is_missing(self):
+        """Before the gap and after it, faces show that all that came until then is there."""
+        outputs, diagnostics = self.connect(), Diagnostics()
+        self.step(SHEET, PRESSED, vertices=True)
+        outputs.wait_for(self.stamp)
+        wait_until(lambda: outputs.faces[-1].data, 'the faces before the gap')
+        counts = len(outputs.wrenches), len(outputs.faces)
+        missing = self.next_stamp()
+        self.node.send_vertices(self.organ, SHEET, missing)
+        failed = self.node.contacts.wait_for(self.organ, 'probe', mesh_stamp=missing)
+        self.assertEqual(failed.status, ContactArray.NO_TRANSFORM)
+        for _ in range(2):  # out, and clear
+            self.step(SHEET, CLEAR, vertices=True)
+        outputs.wait_for(self.stamp)
+        wait_until(lambda: not outputs.faces[-1].data, 'an empty list of faces')
+        self.assertEqual(outputs.of(missing), [])
+        self.assertEqual((len(outputs.wrenches), len(outputs.faces)), tuple(n + 2 for n in counts))
+        diagnostics.wait_for_count('unpublished, no transform', 1)
+
+    def test_malformed_contacts_publish_nothing(self):
+        """From another sender on the same topic; the adapter goes on."""
+        outputs, diagnostics = self.connect(), Diagnostics()
+        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wait_until(
+            lambda: '/contact_adapter' in [info[1] for info in sender.impl.get_stats_info()],
+            'the adapter to listen',
+        )
+        good = self.node.contacts.of(self.organ, 'probe')[-1]
+        stamp = rospy.Time(7)
+        for depth, normal_z, mode in (
+            (float('nan'), 1.0, ContactArray.STATIC),
+            (0.001, float('nan'), ContactArray.SWEPT),
+            (float('inf'), 1.0, ContactArray.STATIC),
+            (0.001, 0.0, ContactArray.STATIC),
+            (0.001, 1.0, 9),
+        ):
+            bad = ContactArray(organ=self.organ, tool='probe', mode=mode, links=[''])
+            bad.header.frame_id, bad.header.stamp = good.header.frame_id, stamp
+            bad.contacts = [Contact(depth=depth)]
+            bad.contacts[0].normal.z = normal_z
+            sender.publish(bad)
+        diagnostics.wait_for_count('unpublished, malformed contacts', 5)
+        self.step(SHEET, PRESSED, vertices=True)
+        found = outputs.wait_for(self.stamp)
+        self.assertGreater(found.wrench.force.z, 0.0)
+        self.assertEqual(outputs.of(stamp), [])
+        self.assertTrue(all(math.isfinite(w.wrench.force.z) for w in outputs.wrenches))
+        sender.unregister()
+
+    def test_the_papers_modes_have_faces_alone(self):
+        outputs = self.connect()
+        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wait_until(
+            lambda: '/contact_adapter' in [info[1] for info in sender.impl.get_stats_info()],
+            'the adapter to listen',
+        )
+        count = len(outputs.wrenches)
+        unrefined = ContactArray(organ=self.organ, tool='probe', mode=ContactArray.PAPER_SWEPT)
+        unrefined.header.frame_id = 'liver_frame'
+        unrefined.contacts = [Contact(face=3), Contact(face=17)]
+        sender.publish(unrefined)
+        wait_until(lambda: list(outputs.faces[-1].data) == [3, 17], 'the faces')
+        self.step(SHEET, CLEAR, vertices=True)
+        outputs.wait_for(self.stamp)
+        self.assertEqual(len(outputs.wrenches), count + 1)
+        sender.unregister()
+
+    def test_names_that_ros_does_not_allow(self):
+        """Other characters become `_`; a second organ of the same topics is refused."""
+        self.organ, diagnostics = 'left lobe', Diagnostics()
+        outputs = self.connect(pair='left_lobe/probe')
+        self.organ = 'left_lobe'
+        self.step(SHEET, CLEAR)
+        diagnostics.wait_for_count('unpublished, name taken', 1)
+        self.assertEqual(outputs.of(self.stamp), [])
+
+    def refusal(self, stiffness):
+        """What a node with this stiffness says before it stops."""
+        process = start_node('/' + self.organ, {'stiffness': stiffness}, 'contact_adapter')
+        printed, _ = process.communicate(timeout=30)
+        self.assertGreater(process.returncode, 0, printed)  # negative: killed by a signal
+        return printed
+
+    def test_illegal_stiffness_stops_the_node(self):
+        for stiffness, shown in (
+            (0, "'0'"),
+            (-12.5, "'-12.5'"),
+            ('soft', "'soft'"),
+            (float('nan'), "'nan'"),
+            (float('inf'), "'inf'"),
+        ):
+            self.assertIn(
+                '~stiffness is %s; must be a number, more than 0' % shown, self.refusal(stiffness)
+            )
+
+    def test_misspelt_names_are_reported(self):
+        diagnostics = Diagnostics(self.organ)
+        process = start_node('/' + self.organ, {'stifness': 500}, 'contact_adapter')
+        try:
+            wait_until(lambda: 'stifness' in diagnostics.message, lambda: diagnostics.message)
+        finally:
+            process.send_signal(signal.SIGINT)
+            printed, _ = process.communicate(timeout=15)
+        self.assertEqual(process.returncode, 0, printed)
+        self.assertIn("stifness is no parameter; nearest is 'stiffness'", printed)
+
+
+if __name__ == '__main__':
+    rospy.init_node('contact_adapter_test')
+    rostest.rosrun('organ_collision', 'forces', ContactAdapterTest, sys.argv)
