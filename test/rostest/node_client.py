@@ -232,13 +232,13 @@ class NodeClient:
         return self.batch_service(request).results
 
 
-def start_node(name, parameters):
+def start_node(name, parameters, program='organ_collision_node'):
     """Starts a node of its own with these private parameters; the caller ends it."""
     if parameters:
         rospy.set_param(name, parameters)
-    program = roslib.packages.find_node('organ_collision', 'organ_collision_node')
+    path = roslib.packages.find_node('organ_collision', program)[0]
     return subprocess.Popen(
-        [program[0], '__name:=' + name.strip('/')],
+        [path, '__name:=' + name.strip('/')],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         universal_newlines=True,
