@@ -30,7 +30,7 @@ std::string type_name(int type) {
 
 /// Of zero or negative scale, an organ would be flat or inside out.
 Eigen::Vector3d scale_of(const Marker& marker) {
-  const Eigen::Vector3d scale(marker.scale.x, marker.scale.y, marker.scale.z);
+  Eigen::Vector3d scale(marker.scale.x, marker.scale.y, marker.scale.z);
   if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
     std::ostringstream message;
     message << "scale is " << scale.transpose() << "; must be finite and more than 0";

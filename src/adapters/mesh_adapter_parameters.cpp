@@ -14,7 +14,7 @@ using XmlRpc::XmlRpcValue;
 
 /// A name as ROS allows it for topics and nodes; only private ones make no sense here.
 std::string graph_name(const ParameterGroup& group, const char* name) {
-  const std::string text = group.text(name);
+  std::string text = group.text(name);
   std::string error;
   if (text.front() == '~' || !ros::names::validate(text, error)) {
     group.refuse(name, "must be a name of the ROS graph that is not private" +

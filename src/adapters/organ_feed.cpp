@@ -15,7 +15,7 @@ constexpr MeshLimits kNoLimits = {std::numeric_limits<std::uint32_t>::max() / 3}
 template <typename Message>
 boost::shared_ptr<Message> message_of(const std::string& organ, std::uint32_t topology,
                                       const std::string& frame, ros::Time stamp) {
-  const auto message = boost::make_shared<Message>();
+  auto message = boost::make_shared<Message>();
   message->header.frame_id = frame;
   message->header.stamp = stamp;
   message->organ = organ;
@@ -98,7 +98,7 @@ bool OrganFeed::has_triangles(const Surface& surface) const {
 
 OrganMeshPtr OrganFeed::mesh() const {
   if (!mesh_) return nullptr;
-  const auto message = message_of<OrganMesh>(organ_, mesh_->topology(), frame_, stamp_);
+  auto message = message_of<OrganMesh>(organ_, mesh_->topology(), frame_, stamp_);
   message->vertices = mesh_->vertices();
   message->triangles.reserve(3 * mesh_->face_count());
   for (const FaceIndices& face : mesh_->faces()) {

@@ -26,14 +26,15 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
     : node_(node), parameters_(load_mesh_adapter_parameters(private_node)) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
-  // Not latched: that keeps the last message of the topic alone, whichever organ it is of, and with
-  // the shape that it had then.
+  // Not latched: that keeps the last message alone, whichever organ it is of, and with the shape
+  // that it had then.
   ros::NodeHandle collision_node(node_, parameters_.collision_node);
   meshes_ = collision_node.advertise<OrganMesh>(
       names::kOrganMesh, outgoing_queue(parameters_),
       [this](const ros::SingleSubscriberPublisher& newcomer) { welcome(newcomer); });
   vertices_ =
       collision_node.advertise<OrganVertices>(names::kOrganVertices, outgoing_queue(parameters_));
+  // Anywhere: the collision node may have meshes of an adapter that ran before.
   const std::uint32_t last_topology = std::random_device()();
   for (const OrganParameters& organ : parameters_.organs) add_source(organ, last_topology);
   ROS_INFO("ready: %zu organs, for %s", sources_.size(), collision_node.getNamespace().c_str());

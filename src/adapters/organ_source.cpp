@@ -24,10 +24,9 @@ boost::shared_ptr<Message> instance(const ShapeShifter& message) {
   try {
     return message.instantiate<Message>();
   } catch (const std::exception& error) {
-    throw MessageError("unreadable message",
-                       "a " + message.getDataType() + " of " + std::to_string(message.size()) +
-                           " bytes: " + error.what() + "; must be as its sender's type " +
-                           "says, and the type as this node knows it");
+    throw MessageError("unreadable message", std::to_string(message.size()) + " bytes are no " +
+                                                 message.getDataType() + ": " + error.what() +
+                                                 "; must be one as this node was built with");
   }
 }
 
