@@ -52,8 +52,8 @@ class InstallTest(unittest.TestCase):
     def test_installed_programs_and_nodelet_find_their_libraries(self):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')
         programs = os.listdir(folder)
-        self.assertTrue({'organ_collision_node', 'query_offline', 'liver_simulator', 'demo_report',
-                         'contact_adapter'}
+        self.assertTrue({'organ_collision_node', 'contact_adapter', 'organ_mesh_adapter', 'query_offline',
+                         'liver_simulator', 'demo_report'}
                         <= set(programs), programs)
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
         for path in [os.path.join(folder, program) for program in programs] + [nodelet]:
@@ -61,7 +61,9 @@ class InstallTest(unittest.TestCase):
 
     def test_everything_that_the_package_ships_is_there(self):
         for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',
-                     'launch/demo.launch', 'launch/contact_adapter.launch', 'config/tools.yaml', 'msg/ContactArray.msg',
+                     'launch/demo.launch', 'launch/contact_adapter.launch',
+                     'launch/organ_mesh_adapter.launch', 'config/tools.yaml', 'config/organs.yaml',
+                     'msg/ContactArray.msg',
                      'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
             self.assertTrue(os.path.exists(os.path.join(self.prefix, 'share/organ_collision', path)),
                             path)

@@ -236,9 +236,9 @@ def start_node(name, parameters, program='organ_collision_node'):
     """Starts a node of its own with these private parameters; the caller ends it."""
     if parameters:
         rospy.set_param(name, parameters)
-    found = roslib.packages.find_node('organ_collision', program)
+    path = roslib.packages.find_node('organ_collision', program)[0]
     return subprocess.Popen(
-        [found[0], '__name:=' + name.strip('/')],
+        [path, '__name:=' + name.strip('/')],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         universal_newlines=True,

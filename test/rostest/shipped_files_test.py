@@ -9,15 +9,18 @@ import sys
 import tempfile
 
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray
+from organ_collision.msg import Contact, ContactArray, OrganMesh
 import rosgraph
 import roslib.packages
 import rospy
 import rostest
+from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
 import yaml
 
+from adapter_case import MessageLog
 from contact_case import ContactCase
+from foreign_meshes import shape_mesh
 from node_client import NodeClient, shaft, start_node, wait_until
 import oracle
 import scenes
@@ -84,10 +87,27 @@ class ShippedFilesTest(ContactCase):
         )
         node.close()
 
+    def check_mesh_adapter(self, organs, collision_node='/organ_collision'):
+        """A mesh on each organ's topic becomes that organ's."""
+        meshes = MessageLog(collision_node + '/organ_mesh', OrganMesh)
+        for organ in organs:
+            publisher = rospy.Publisher(organ['topic'], Mesh, queue_size=1)
+            wait_until(lambda: publisher.get_num_connections() > 0, organ['topic'])
+            publisher.publish(shape_mesh(SHEET))
+            wait_until(lambda: meshes.of(organ['name']), 'a mesh of ' + organ['name'])
+            publisher.unregister()
+        meshes.subscriber.unregister()
+
     def test_every_launch_file(self):
-        launch_files = files('launch', '.launch')
+        launch_files = files('launch', '.launch') + files('examples', '.launch')
         self.assertTrue(
-            {'organ_collision.launch', 'nodelet.launch', 'demo.launch', 'contact_adapter.launch'}
+            {
+                'organ_collision.launch',
+                'nodelet.launch',
+                'demo.launch',
+                'contact_adapter.launch',
+                'organ_mesh_adapter.launch',
+            }
             <= {os.path.basename(path) for path in launch_files},
             launch_files,
         )
@@ -100,6 +120,8 @@ class ShippedFilesTest(ContactCase):
                     self.check_collision_node('/organ_collision', *manager)
                 if os.path.basename(path) == 'contact_adapter.launch':
                     self.check_contact_adapter()
+                if '/organ_mesh_adapter' in launched.nodes:
+                    self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))
                 if os.path.basename(path) == 'demo.launch':
                     self.check_demo()
             wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
@@ -177,25 +199,33 @@ class ShippedFilesTest(ContactCase):
         return found
 
     def test_every_configuration_file(self):
-        """Each yaml file parses; those with tools start a node that answers and reports no name."""
-        yaml_files, with_tools = files('config', '.yaml'), 0
-        self.assertIn('tools.yaml', [os.path.basename(path) for path in yaml_files])
+        """Each yaml file parses; those with tools start a node that answers, those with organs an
+        adapter that takes their meshes, and neither reports a name."""
+        yaml_files = files('config', '.yaml') + files('examples', '.yaml')
+        started = set()
         for path in yaml_files:
             with open(path) as text:
                 parameters = yaml.safe_load(text)
             self.assertIsInstance(parameters, dict, path)
-            if 'tools' not in parameters:
+            name = '/from_%d_%s' % (len(started), os.path.basename(path).replace('.', '_'))
+            if 'tools' in parameters:
+                process = start_node(name, parameters)
+            elif 'organs' in parameters:
+                parameters['collision_node'] = name + '_collision'
+                process = start_node(name, parameters, 'organ_mesh_adapter')
+            else:
                 continue
-            with_tools += 1
-            name = '/from_' + os.path.basename(path).replace('.', '_')
-            process = start_node(name, parameters)
             try:
-                self.check_collision_node(name)
+                if 'tools' in parameters:
+                    self.check_collision_node(name)
+                else:
+                    self.check_mesh_adapter(parameters['organs'], parameters['collision_node'])
             finally:
                 process.send_signal(signal.SIGINT)
                 printed, _ = process.communicate(timeout=15)
             self.assertNotIn('is no parameter', printed, path)
-        self.assertGreater(with_tools, 0)
+            started.add(os.path.relpath(path, PACKAGE))
+        self.assertTrue({'config/tools.yaml', 'config/organs.yaml'} <= started, started)
 
 
 if __name__ == '__main__':

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <organ_collision/ContactArray.h>
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "contact_adapter_parameters.hpp"
+#include "organ_collision/ros/failure_log.hpp"
+#include "pair_names.hpp"
+
+namespace organ_collision {
+
+/// The node: turns the collision node's contacts into a wrench and a list of faces for each organ
+/// and tool. Of a failure it publishes nothing, as nothing is known of the contacts then: it logs
+/// and counts it. Works in the callbacks of the node's queue, from one thread.
+class ContactAdapter {
+ public:
+  /// Throws ParameterError.
+  ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& private_node);
+
+ private:
+  struct Topics {
+    ros::Publisher faces;
+    ros::Publisher wrench;
+  };
+
+  void on_contacts(const ContactArray& message);
+  void publish(const ContactArray& contacts, const Topics& topics);
+  const Topics& topics_of(const std::string& organ, const std::string& tool);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ros::NodeHandle private_node_;
+  ContactAdapterParameters parameters_;
+  PairNames names_;
+  std::map<std::pair<std::string, std::string>, Topics> topics_;  ///< by organ and tool
+  std::uint64_t received_ = 0;                                    ///< messages, failed ones too
+  FailureLog failures_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer diagnostic_timer_;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace organ_collision

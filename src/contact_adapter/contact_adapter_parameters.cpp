@@ -1,0 +1,36 @@
+#include "contact_adapter_parameters.hpp"
+
+#include <limits>
+
+#include "organ_collision/ros/names.hpp"
+#include "organ_collision/ros/parameter_group.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr char kStiffness[] = "stiffness";
+const NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), false};
+/// Longer ones, which timers do not take, are as good as never.
+const NumberRange kPeriod{0.0, 1e6, false};
+
+}  // namespace
+
+ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all) {
+  const ParameterGroup group("~", all, {kStiffness, names::kDiagnosticPeriod});
+  ContactAdapterParameters p;
+  p.misspelt = group.misspelt();
+  p.stiffness = group.number(kStiffness, p.stiffness, kPositive);
+  p.diagnostic_period_sec =
+      group.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kPeriod);
+  return p;
+}
+
+ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node) {
+  XmlRpc::XmlRpcValue all;
+  if (!private_node.getParam(private_node.getNamespace(), all)) {
+    all.begin();  // An empty group: nothing is set.
+  }
+  return parse_contact_adapter_parameters(all);
+}
+
+}  // namespace organ_collision

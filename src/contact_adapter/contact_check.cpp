@@ -1,0 +1,55 @@
+#include "contact_check.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+#include <sstream>
+
+#include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/rejection.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr double kUnitTolerance = 1e-6;  // [1]
+
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw Rejection(ContactArray::INVALID_REQUEST, "malformed contacts", message.str());
+}
+
+void check_geometry(const Contact& contact) {
+  const Eigen::Vector3d point = to_eigen(contact.point);
+  const Eigen::Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
+  if (!point.allFinite()) {
+    refuse("point of face ", contact.face, " is ", point.transpose(), "; must be finite");
+  }
+  if (!std::isfinite(contact.depth)) {
+    refuse("depth of face ", contact.face, " is ", contact.depth, "; must be finite");
+  }
+  if (!(std::abs(normal.norm() - 1.0) <= kUnitTolerance)) {
+    refuse("normal of face ", contact.face, " is ", normal.transpose(), "; must be unit");
+  }
+}
+
+}  // namespace
+
+bool has_geometry(const ContactArray& contacts) {
+  return contacts.mode == ContactArray::STATIC || contacts.mode == ContactArray::SWEPT;
+}
+
+void check_contacts(const ContactArray& contacts) {
+  if (contacts.mode > ContactArray::PAPER_NAIVE) {
+    refuse("mode is ", int{contacts.mode}, "; legal are 0 to ", int{ContactArray::PAPER_NAIVE});
+  }
+  if (contacts.header.frame_id.empty()) refuse("frame_id is empty; must be the organ's frame");
+  const std::size_t regions = contacts.regions.size();
+  if (regions != 0 && regions != contacts.contacts.size()) {
+    refuse(regions, " regions of ", contacts.contacts.size(), " contacts; must be none or as many");
+  }
+  if (!has_geometry(contacts)) return;
+  for (const Contact& contact : contacts.contacts) check_geometry(contact);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <visualization_msgs/Marker.h>
+
+#include <string>
+
+#include "surface.hpp"
+
+namespace organ_collision {
+
+/// Reads the one marker of a topic that is an organ: a TRIANGLE_LIST, three vertices a face, placed
+/// by its scale and pose. The first one that comes is it, by namespace and id, until it is deleted.
+class MarkerReader {
+ public:
+  /// Replaces what `surface` held; empty after DELETE or DELETEALL. An orientation of four zeros is
+  /// none, as in RViz. Throws MessageError, also for each other marker.
+  void read(const visualization_msgs::Marker& marker, Surface& surface);
+
+ private:
+  void check_name(const std::string& name) const;
+
+  std::string name_;  ///< "namespace/id" of the organ's marker; empty: none so far
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,86 @@
+#include "mesh_adapter_parameters.hpp"
+
+#include <ros/names.h>
+
+#include <set>
+
+#include "mesh_adapter_names.hpp"
+#include "organ_collision/ros/conversions.hpp"
+
+namespace organ_collision {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+/// A name as ROS allows it for topics and nodes; only private ones make no sense here.
+std::string graph_name(const ParameterGroup& group, const char* name) {
+  std::string text = group.text(name);
+  std::string error;
+  if (text.front() == '~' || !ros::names::validate(text, error)) {
+    group.refuse(name, "must be a name of the ROS graph that is not private" +
+                           (error.empty() ? error : ": " + error));
+  }
+  return text;
+}
+
+OrganParameters parse_organ(const ParameterGroup& group) {
+  OrganParameters organ;
+  organ.name = group.text(names::kOrganName);
+  organ.topic = graph_name(group, names::kTopic);
+  if (group.has(names::kFrame)) {
+    organ.frame = tf_frame(group.text(names::kFrame));
+    if (organ.frame.empty()) group.refuse(names::kFrame, "must be the name of a TF frame");
+  }
+  if (group.has(names::kVerticesTopic)) {
+    organ.vertices_topic = graph_name(group, names::kVerticesTopic);
+  }
+  return organ;
+}
+
+void parse_organs(const ParameterGroup& all, MeshAdapterParameters& parameters) {
+  const XmlRpcValue& list =
+      all.list(names::kOrgans, "groups of name, topic and, if needed, frame and vertices_topic");
+  std::set<std::string> organs, topics;
+  for (int i = 0; i < list.size(); ++i) {
+    const ParameterGroup group(
+        all.path_of(names::kOrgans) + "[" + std::to_string(i) + "]", list[i],
+        {names::kOrganName, names::kTopic, names::kFrame, names::kVerticesTopic});
+    const OrganParameters organ = parse_organ(group);
+    if (!organs.insert(organ.name).second) {
+      group.refuse(names::kOrganName, "must be unique among the organs");
+    }
+    if (!topics.insert(organ.topic).second) {
+      group.refuse(names::kTopic, "must be unique among all topics of the organs");
+    }
+    if (!organ.vertices_topic.empty() && !topics.insert(organ.vertices_topic).second) {
+      group.refuse(names::kVerticesTopic, "must be unique among all topics of the organs");
+    }
+    parameters.organs.push_back(organ);
+    for (std::string& sentence : group.misspelt()) {
+      parameters.misspelt.push_back(std::move(sentence));
+    }
+  }
+}
+
+}  // namespace
+
+MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpcValue& private_namespace) {
+  const ParameterGroup all("~", private_namespace, {names::kOrgans, names::kCollisionNode});
+  MeshAdapterParameters parameters;
+  parameters.misspelt = all.misspelt();
+  parse_organs(all, parameters);
+  if (all.has(names::kCollisionNode)) {
+    parameters.collision_node = graph_name(all, names::kCollisionNode);
+  }
+  return parameters;
+}
+
+MeshAdapterParameters load_mesh_adapter_parameters(const ros::NodeHandle& private_node) {
+  XmlRpcValue all;
+  if (!private_node.getParam(private_node.getNamespace(), all)) {
+    all.begin();  // An empty group: nothing is set.
+  }
+  return parse_mesh_adapter_parameters(all);
+}
+
+}  // namespace organ_collision

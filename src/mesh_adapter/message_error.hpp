@@ -1,0 +1,22 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace organ_collision {
+
+/// A message that cannot be turned into arrays. what() names the value and what is legal.
+class MessageError : public std::runtime_error {
+ public:
+  /// `reason`: short, the same for all of its kind, for counting.
+  MessageError(std::string reason, const std::string& message)
+      : std::runtime_error(message), reason_(std::move(reason)) {}
+
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+}  // namespace organ_collision

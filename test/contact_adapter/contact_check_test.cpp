@@ -1,0 +1,93 @@
+#include "contact_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "contact_arrays.hpp"
+#include "organ_collision/ros/rejection.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kInfinity = std::numeric_limits<double>::infinity();
+
+ContactArray good() {
+  Contact second = contact({0.1, 0.2, 0.3}, {1.0, 2.0, -2.0}, -0.001);
+  second.face = 42;
+  return touched({contact({0.1, 0.2, 0.3}, {1.0, 0.0, 0.0}, 0.001), second});
+}
+
+std::string refusal(const ContactArray& contacts) {
+  try {
+    check_contacts(contacts);
+  } catch (const Rejection& rejection) {
+    EXPECT_EQ(rejection.reason(), "malformed contacts");
+    return rejection.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST(ContactCheck, WhatTheNodeSendsIsAccepted) {
+  EXPECT_EQ(refusal(good()), "accepted");
+  EXPECT_EQ(refusal(touched({})), "accepted");
+  ContactArray with_regions = good();
+  with_regions.regions.resize(2);
+  EXPECT_EQ(refusal(with_regions), "accepted");
+}
+
+TEST(ContactCheck, NumbersThatAreNotFinite) {
+  for (const double bad : {kNan, kInfinity, -kInfinity}) {
+    ContactArray contacts = good();
+    contacts.contacts[1].depth = bad;
+    EXPECT_NE(refusal(contacts).find("depth of face 42 is"), std::string::npos);
+    contacts = good();
+    contacts.contacts[1].point.y = bad;
+    EXPECT_NE(refusal(contacts).find("point of face 42 is"), std::string::npos);
+    contacts = good();
+    contacts.contacts[1].normal.z = bad;
+    EXPECT_NE(refusal(contacts).find("normal of face 42 is"), std::string::npos);
+  }
+}
+
+TEST(ContactCheck, NormalsMustBeUnit) {
+  ContactArray contacts = good();
+  contacts.contacts[0].normal.x = 1.001;
+  EXPECT_EQ(refusal(contacts), "normal of face 0 is 1.001     0     0; must be unit");
+  contacts.contacts[0].normal.x = 0.0;
+  EXPECT_NE(refusal(contacts), "accepted");
+}
+
+TEST(ContactCheck, AsManyRegionsAsContacts) {
+  ContactArray contacts = good();
+  contacts.regions.resize(3);
+  EXPECT_EQ(refusal(contacts), "3 regions of 2 contacts; must be none or as many");
+}
+
+TEST(ContactCheck, ModeAndFrame) {
+  ContactArray contacts = good();
+  contacts.mode = 9;
+  EXPECT_EQ(refusal(contacts), "mode is 9; legal are 0 to 4");
+  contacts = good();
+  contacts.header.frame_id.clear();
+  EXPECT_NE(refusal(contacts).find("frame_id is empty"), std::string::npos);
+}
+
+TEST(ContactCheck, ThePapersModesHaveFacesAlone) {
+  for (const auto mode :
+       {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
+    ContactArray contacts = touched({Contact()});
+    contacts.mode = mode;
+    EXPECT_FALSE(has_geometry(contacts));
+    EXPECT_EQ(refusal(contacts), "accepted");
+  }
+  EXPECT_TRUE(has_geometry(good()));
+  ContactArray resting = good();
+  resting.mode = ContactArray::STATIC;
+  EXPECT_TRUE(has_geometry(resting));
+}
