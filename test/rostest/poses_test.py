@@ -15,7 +15,7 @@ import scenes
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
-RADIUS = 0.005
+RADIUS = 0.004
 BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), (0.013, 0.007, 0.4))  # of the arm, in the organ's frame
 TROCAR = BASE.translation
 SOON = 1e-6  # [m] of contact geometry that went through quaternions
@@ -39,8 +39,8 @@ class PosesTest(ContactCase):
     def setUpClass(cls):
         cls.node = NodeClient()
         cls.tf = TfSender()
-        cls.arm = rospy.Publisher('/arm/measured_cp', PoseStamped, queue_size=1000)
-        cls.base = rospy.Publisher('/arm/base', PoseStamped, queue_size=10, latch=True)
+        cls.arm = rospy.Publisher('/PSM1/measured_cp', PoseStamped, queue_size=1000)
+        cls.base = rospy.Publisher('/PSM1/base', PoseStamped, queue_size=10, latch=True)
         cls.stylus = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1000)
         for topic in (cls.arm, cls.base, cls.stylus):
             wait_until(lambda topic=topic: topic.get_num_connections() > 0, topic.name)
@@ -64,14 +64,14 @@ class PosesTest(ContactCase):
 
     def move_arm(self, tip, stamp):
         """The tip, in the organ's frame; the arm says it in that of its base."""
-        self.arm.publish(pose('arm_base', BASE.inverse().apply(tip), stamp))
+        self.arm.publish(pose('PSM1_base', BASE.inverse().apply(tip), stamp))
 
     def start(self, tip):
         """The organ and the arm, whose first step is done. Returns the stamp."""
         stamp = self.next_stamp()
         self.move_arm(tip, stamp)
         self.node.send_mesh(self.organ, SHEET, stamp)
-        first = self.node.contacts.wait_for(self.organ, 'arm', mesh_stamp=stamp, status=ContactArray.OK)
+        first = self.node.contacts.wait_for(self.organ, 'PSM1', mesh_stamp=stamp, status=ContactArray.OK)
         self.assertEqual(first.mode, STATIC)
         return stamp
 
@@ -88,7 +88,7 @@ class PosesTest(ContactCase):
         begin = self.start(tip_at(-0.05, 0.1))
         end = self.next_stamp()
         self.move_arm(tip_at(0.05, -0.1), end)
-        answer = self.node.contacts.wait_for(self.organ, 'arm', stamp=end)
+        answer = self.node.contacts.wait_for(self.organ, 'PSM1', stamp=end)
         self.assertEqual((answer.mode, answer.status), (SWEPT, ContactArray.OK), answer.message)
         self.assertEqual((answer.step_start, answer.mesh_stamp), (begin, begin))
         expected = oracle.swept_contacts(
@@ -105,8 +105,8 @@ class PosesTest(ContactCase):
             tips.append(tip_at(-0.09 + 0.18 * i / 99, 0.05 if i % 2 else -0.05))
             last = self.next_stamp(1)
             self.move_arm(tips[-1], last)
-        self.node.contacts.wait_for(self.organ, 'arm', stamp=last)
-        answers = [a for a in self.node.contacts.of(self.organ, 'arm') if a.mode == SWEPT and a.step_start >= start]
+        self.node.contacts.wait_for(self.organ, 'PSM1', stamp=last)
+        answers = [a for a in self.node.contacts.of(self.organ, 'PSM1') if a.mode == SWEPT and a.step_start >= start]
         self.assertEqual({answer.status for answer in answers}, {ContactArray.OK})
         # One step begins where the last one ended.
         ends = [start] + [answer.header.stamp for answer in answers]
@@ -117,10 +117,10 @@ class PosesTest(ContactCase):
     def test_new_shapes_are_swept_with_the_tip_of_their_time(self):
         self.start(tip_at(0.0, 0.2))
         self.move_arm(tip_at(0.02, 0.02), self.next_stamp())
-        self.node.contacts.wait_for(self.organ, 'arm', stamp=self.stamp)
+        self.node.contacts.wait_for(self.organ, 'PSM1', stamp=self.stamp)
         raised = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.03))
         self.node.send_vertices(self.organ, raised, self.stamp)
-        answer = self.node.contacts.wait_for(self.organ, 'arm', mesh_stamp=self.stamp)
+        answer = self.node.contacts.wait_for(self.organ, 'PSM1', mesh_stamp=self.stamp)
         axis = (TROCAR, tip_at(0.02, 0.02))
         expected = oracle.contacts(raised, SHEET, (axis, axis), RADIUS)
         self.assertGreater(len(expected), 0)
@@ -146,9 +146,9 @@ class PosesTest(ContactCase):
     def test_bad_poses_are_counted_and_change_nothing(self):
         self.start(tip_at(0.0, 0.2))
         for bad in (
-            pose('arm_base', (float('nan'), 0, 0), self.next_stamp()),
+            pose('PSM1_base', (float('nan'), 0, 0), self.next_stamp()),
             pose('', (0, 0, -1), self.next_stamp()),
-            pose('arm_base', (0, 0, -1), self.next_stamp(), rotation=(0, 0, 0, 0)),
+            pose('PSM1_base', (0, 0, -1), self.next_stamp(), rotation=(0, 0, 0, 0)),
         ):
             self.arm.publish(bad)
         wait_until(
@@ -157,7 +157,7 @@ class PosesTest(ContactCase):
         )
         end = self.next_stamp()
         self.move_arm(tip_at(0.0, 0.1), end)
-        answer = self.node.contacts.wait_for(self.organ, 'arm', stamp=end)
+        answer = self.node.contacts.wait_for(self.organ, 'PSM1', stamp=end)
         self.assertEqual((answer.status, answer.contacts), (ContactArray.OK, []))
 
 
