@@ -3,13 +3,13 @@
 #include <tf2/buffer_core.h>
 
 #include <cstddef>
-#include <deque>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "organ_collision/geometry/shaft.hpp"
 #include "organ_collision/ros/parameters.hpp"
+#include "organ_collision/ros/pose_stamps.hpp"
 #include "organ_collision/ros/transforms.hpp"
 
 namespace organ_collision {
@@ -24,17 +24,6 @@ struct PathSampling {
 struct SampledPath {
   ShaftPath path;
   std::size_t samples_cut = 0;
-};
-
-/// When the poses of a tip were that came as messages lately.
-class PoseStamps {
- public:
-  void add(ros::Time stamp);
-  /// Those after `from` and before `to`, rising.
-  std::vector<ros::Time> between(ros::Time from, ros::Time to) const;
-
- private:
-  std::deque<ros::Time> rising_;
 };
 
 /// Where tools are, in the frame of an organ, from TF.
