@@ -113,6 +113,7 @@ LatencyReport Simulator::run(double rate, double seconds) {
     waiting_[tick.toNSec()] = {ros::SteadyTime::now(), 0};
     vertices_.publish(message);
   }
+  report.late = ros::Time::now() > tick + period;
   answer_until(ros::Time::now() + ros::Duration(0.5));
   report.skipped = waiting_.size();
   waiting_.clear();

@@ -25,6 +25,7 @@ struct LatencyReport {
   std::size_t sent = 0;
   std::size_t skipped = 0;  ///< shapes without contacts of all tools
   std::size_t failed = 0;   ///< answers with another status than OK
+  bool late = false;        ///< shapes could not even be sent at that rate
   Latencies latencies;      ///< from publishing a shape to the contacts of the last tool
 };
 

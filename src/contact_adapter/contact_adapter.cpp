@@ -14,7 +14,8 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::uint32_t kQueue = 100;  // messages, as in the collision node
+// Messages. Forces that come late push wrongly: few may wait, of as many organs and tools.
+constexpr std::uint32_t kQueue = 20;
 
 }  // namespace
 
@@ -38,12 +39,11 @@ ContactAdapter::ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& priv
 void ContactAdapter::on_contacts(const ContactArray& message) {
   ++received_;
   try {
-    const Topics& topics = topics_of(message.organ, message.tool);
     if (message.status != ContactArray::OK) {
       throw Rejection(message.status, reason_of(message.status), message.message);
     }
     check_contacts(message);
-    publish(message, topics);
+    publish(message, topics_of(message.organ, message.tool));
   } catch (const Rejection& rejection) {
     failures_.add(rejection.reason(),
                   "organ '" + message.organ + "', tool '" + message.tool + "': " + rejection.what(),

@@ -6,7 +6,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_adapter");
   const ros::NodeHandle node;  // Outlives the try: without any, nothing is logged.
   try {
-    const organ_collision::ContactAdapter adapter(node, ros::NodeHandle("~"));
+    organ_collision::ContactAdapter adapter(node, ros::NodeHandle("~"));
     ros::spin();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

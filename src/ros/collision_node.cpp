@@ -95,7 +95,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   diagnostics_.add_to(updater_);
   // Of wall time: the updater's own period stands still with simulated time, or waits for it.
   diagnostic_timer_ = private_node_.createWallTimer(
-      ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+      ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
+      [this](const ros::WallTimerEvent&) { updater_.force_update(); });
   ROS_INFO("ready: %zu tools, GL %s", loaded_.parameters.tools.size(),
            evaluator_.gl_version().c_str());
 }
@@ -150,6 +151,7 @@ void CollisionNode::watch_clock() {
              now.toSec());
     transforms_.clear();
     poses_.forget_samples();
+    pose_topics_.forget_stamps();
     organs_.forget_previous_shapes();
     steps_.start_anew(organs_);
   }

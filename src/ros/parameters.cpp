@@ -94,6 +94,8 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative);
   p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, {1, kMostFaces});
   p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
+  p.diagnostic_period_sec =
+      all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, {0.01, 3600.0});
   return loaded;
 }
 

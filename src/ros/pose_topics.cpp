@@ -1,10 +1,12 @@
 #include "organ_collision/ros/pose_topics.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <sstream>
 
+#include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/conversions.hpp"
 
 namespace organ_collision {
@@ -16,6 +18,8 @@ using geometry_msgs::PoseStamped;
 constexpr std::uint32_t kQueue = 1000;
 /// [1] Quaternions are normalised if they are this near to length 1.
 constexpr double kUnit = 1e-3;
+/// [s] As long as TF keeps transforms: one from farther ahead would drop all others.
+constexpr double kAhead = 10.0;
 
 /// What is wrong with a pose; empty: nothing.
 std::string fault(const PoseStamped& pose) {
@@ -24,8 +28,12 @@ std::string fault(const PoseStamped& pose) {
   std::ostringstream text;
   if (tf_frame(pose.header.frame_id).empty()) {
     text << "has no frame: header.frame_id is empty";
-  } else if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-    text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite";
+  } else if (!((Eigen::Array3d(p.x, p.y, p.z).abs() <= tolerance::kFarthest).all())) {
+    text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite and within "
+         << tolerance::kFarthest << " m";
+  } else if (pose.header.stamp.toSec() > ros::Time::now().toSec() + kAhead) {
+    text << "is of " << pose.header.stamp << ", more than " << kAhead
+         << " s from now; the sender needs the same clock";
   } else if (const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
              !(std::abs(length - 1.0) <= kUnit)) {
     text << "has the orientation (" << q.x << ", " << q.y << ", " << q.z << ", " << q.w
@@ -51,11 +59,16 @@ geometry_msgs::TransformStamped to_transform(const PoseStamped& pose, const std:
   return transform;
 }
 
+ros::Time after(ros::Time time) {
+  ros::Time next;
+  return time.isZero() ? time : next.fromNSec(time.toNSec() + 1);
+}
+
 }  // namespace
 
 PoseTopics::PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks)
     : sinks_(sinks) {
-  for (const ToolParameters& tool : tools) streams_.push_back({tool, {}, {}});
+  for (const ToolParameters& tool : tools) streams_.push_back({tool, {}, {}, {}});
 }
 
 void PoseTopics::subscribe(ros::NodeHandle node) {
@@ -76,15 +89,18 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   Stream& stream = streams_[tool];
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
-  if (stamped.header.stamp.isZero()) stamped.header.stamp = ros::Time::now();
+  ros::Time& stamp = stamped.header.stamp;
+  // Several may come within a tick of simulated time; the last one counts as well.
+  if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
   if (!sinks_.transforms.setTransform(to_transform(stamped, stream.tool.tip_frame), "pose")) {
-    return reject(stream.tool.tip_frame, "is older than all that is kept");
+    return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
   }
+  stream.latest = std::max(stream.latest, stamp);
   if (const std::string frame = tf_frame(pose.header.frame_id); frame != stream.frame) {
     stream.frame = frame;
     place_base(stream);
   }
-  sinks_.poses.add_sample(stream.tool, stamped.header.stamp);
+  sinks_.poses.add_sample(stream.tool, stamp);
   sinks_.arrived(tool);
 }
 
@@ -97,8 +113,12 @@ void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {
 
 /// Bases are sent once, or seldom: they rest until they are sent again.
 void PoseTopics::place_base(const Stream& stream) {
-  if (!stream.base || stream.frame.empty()) return;
+  if (!stream.base || stream.frame.empty() || !check(*stream.base, stream.frame)) return;
   sinks_.transforms.setTransform(to_transform(*stream.base, stream.frame), "pose", true);
+}
+
+void PoseTopics::forget_stamps() {
+  for (Stream& stream : streams_) stream.latest = ros::Time();
 }
 
 /// False: it cannot be the pose of `frame`, and is counted.

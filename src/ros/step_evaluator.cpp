@@ -60,12 +60,27 @@ bool StepEvaluator::evaluate_front(const Organ& organ, std::size_t tool, OrganTo
 }
 
 void StepEvaluator::evaluate_tick(const OrganStore& organs) {
-  for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) evaluate_latest(organs, tool);
+  const ros::Time now = ros::Time::now();
+  for (const auto& [name, organ] : organs.organs()) {
+    for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {
+      evaluate_latest(organ, tool, now);
+    }
+  }
 }
 
 void StepEvaluator::evaluate_latest(const OrganStore& organs, std::size_t tool) {
   const ros::Time now = ros::Time::now();
-  for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now);
+  for (const auto& [name, organ] : organs.organs()) {
+    if (!is_answered(organ, tool)) evaluate_latest(organ, tool, now);
+  }
+}
+
+/// Whether the last step ended at the tool's latest pose, against this shape.
+bool StepEvaluator::is_answered(const Organ& organ, std::size_t tool) {
+  const OrganToolPair& pair = history_.of(organ.name(), tool);
+  if (!pair.last || pair.last->mesh != pair.current.mesh) return false;
+  const auto latest = poses_.axis(parameters_.tools[tool], organ.frame(), ros::Time(0));
+  return latest.found && !latest.found->stamp.isZero() && latest.found->stamp <= pair.last->stamp;
 }
 
 void StepEvaluator::evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now) {

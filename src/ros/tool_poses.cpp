@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "organ_collision/geometry/tolerances.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -57,6 +59,11 @@ void rest_trocar(ShaftPath& path) {
   for (ShaftWaypoint& waypoint : path) waypoint.axis.trocar = trocar;
 }
 
+bool is_near(const ShaftAxis& axis) {
+  return (axis.trocar.array().abs() <= tolerance::kFarthest).all() &&
+         (axis.tip.array().abs() <= tolerance::kFarthest).all();
+}
+
 /// Whole nanoseconds: ros::Duration would overflow at absurd stamps.
 std::int64_t elapsed(ros::Time from, ros::Time to) {
   return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
@@ -84,25 +91,29 @@ void ToolPoses::add_sample(const ToolParameters& tool, ros::Time stamp) {
   stamps_[tool.name].add(stamp);
 }
 
-/// `cut`: how many more there would be without samples_max.
+/// Poses that came as messages before those in between. `cut`: how many samples there would be more
+/// without samples_max.
 std::vector<ros::Time> ToolPoses::sample_times(const ToolParameters& tool, ros::Time from,
                                                ros::Time to, std::size_t& cut) const {
   const auto most = static_cast<std::size_t>(sampling_.samples_max - 1);
-  const double wanted =
-      std::max(0.0, std::ceil(1e-9 * nanoseconds(from, to) / sampling_.sample_sec - 1e-6) - 1.0);
-  const double count = std::min(wanted, static_cast<double>(most));
-  std::vector<ros::Time> times = even_times(from, to, static_cast<std::size_t>(count));
-  cut = static_cast<std::size_t>(wanted - count);
+  std::vector<ros::Time> times;
   if (const auto streamed = stamps_.find(tool.name); streamed != stamps_.end()) {
-    const std::vector<ros::Time> stamps = streamed->second.between(from, to);
-    times.insert(times.end(), stamps.begin(), stamps.end());
-    std::sort(times.begin(), times.end());
-    times.erase(std::unique(times.begin(), times.end()), times.end());
+    times = streamed->second.between(from, to);
   }
   if (times.size() > most) {
-    cut += times.size() - most;
+    cut = times.size() - most;
     thin_out(times, most);
+    return times;
   }
+  const double wanted =
+      std::max(0.0, std::ceil(1e-9 * nanoseconds(from, to) / sampling_.sample_sec - 1e-6) - 1.0);
+  const double count = std::min(wanted, static_cast<double>(most - times.size()));
+  // Between poses that come as often, TF knows nothing more.
+  if (times.empty()) cut = static_cast<std::size_t>(wanted - count);
+  const auto even = even_times(from, to, static_cast<std::size_t>(count));
+  times.insert(times.end(), even.begin(), even.end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
 }
 
@@ -129,7 +140,9 @@ SampledPath ToolPoses::path(const ToolParameters& tool, const std::string& organ
   SampledPath sampled;
   PathBuilder path(sampled.path, from.value);
   for (const ros::Time time : sample_times(tool, from.stamp, to.stamp, sampled.samples_cut)) {
-    if (const auto between = axis(tool, organ_frame, time); between.found) {
+    // One that cannot be evaluated is no reason to refuse all others.
+    if (const auto between = axis(tool, organ_frame, time);
+        between.found && is_near(between.found->value)) {
       path.add({nanoseconds(from.stamp, time) / duration, between.found->value});
     }
   }

@@ -129,6 +129,10 @@ TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
   EXPECT_TRUE(copy.same_faces(mesh));
   EXPECT_TRUE(mesh.same_faces(TriangleMesh(kCorners, kTetrahedron, 9)));
   EXPECT_FALSE(mesh.same_faces(TriangleMesh(kCorners, {0, 1, 2})));
+  std::vector<float> one_more = kCorners;
+  one_more.insert(one_more.end(), {1.0F, 2.0F, 3.0F});
+  EXPECT_FALSE(mesh.same_faces(TriangleMesh(one_more, kTetrahedron)));
+  EXPECT_FALSE(TriangleMesh(one_more, kTetrahedron).same_faces(mesh));
 }
 
 }  // namespace

@@ -53,8 +53,9 @@ class InstallTest(unittest.TestCase):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')
         programs = os.listdir(folder)
         self.assertTrue({'organ_collision_node', 'contact_adapter', 'organ_mesh_adapter', 'query_offline',
-                         'liver_simulator', 'demo_report'}
+                         'liver_simulator', 'demo_report', 'simulator.py', 'ask.py'}
                         <= set(programs), programs)
+        programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
         for path in [os.path.join(folder, program) for program in programs] + [nodelet]:
             self.assertNotIn('not found', run('ldd', path), path)
@@ -63,7 +64,7 @@ class InstallTest(unittest.TestCase):
         for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',
                      'launch/demo.launch', 'launch/contact_adapter.launch',
                      'launch/organ_mesh_adapter.launch', 'config/tools.yaml', 'config/organs.yaml',
-                     'msg/ContactArray.msg',
+                     'examples/start.launch', 'examples/tools.yaml', 'msg/ContactArray.msg',
                      'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
             self.assertTrue(os.path.exists(os.path.join(self.prefix, 'share/organ_collision', path)),
                             path)

@@ -68,6 +68,13 @@ struct NodeParts {
     return published;
   }
 
+  /// What is published when a pose of the tool comes.
+  std::vector<ContactArray> pose() {
+    published.clear();
+    steps.evaluate_latest(organs, 0);
+    return published;
+  }
+
   NodeParameters parameters;
   tf2::BufferCore transforms;
   OrganStore organs{MeshLimits{}};

@@ -64,6 +64,7 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.mesh_timeout_sec, 0.0);
   EXPECT_EQ(p.max_faces, 2'000'000);
   EXPECT_FALSE(p.publish_regions);
+  EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_TRUE(loaded.misspelt.empty());
 }
 
@@ -80,6 +81,7 @@ TEST(Parameters, EveryValueIsTaken) {
   all["mesh_timeout_sec"] = 1.5;
   all["max_faces"] = 1224;
   all["publish_regions"] = true;
+  all["diagnostic_period"] = 0.25;
   const NodeParameters p = parse_parameters(all).parameters;
   ASSERT_EQ(p.tools.size(), 2u);
   EXPECT_EQ(p.tools[0].name, "hook");
@@ -95,6 +97,7 @@ TEST(Parameters, EveryValueIsTaken) {
   EXPECT_EQ(p.mesh_timeout_sec, 1.5);
   EXPECT_EQ(p.max_faces, 1224);
   EXPECT_TRUE(p.publish_regions);
+  EXPECT_EQ(p.diagnostic_period_sec, 0.25);
 }
 
 TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
@@ -110,6 +113,7 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   expect_words(refusal("mesh_timeout_sec", -2), {"~mesh_timeout_sec", "-2", "at least 0"});
   expect_words(refusal("max_faces", 0), {"~max_faces", "at least 1", "16777216"});
   expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
+  expect_words(refusal("diagnostic_period", 0.0), {"~diagnostic_period", "'0'", "at least 0.01"});
   expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
 }
 

@@ -95,6 +95,13 @@ TEST_F(PoseTopicsTest, AStampOfZeroIsTheTimeOfArrival) {
   EXPECT_LE(latest->stamp.toSec(), ros::Time::now().toSec());
 }
 
+TEST_F(PoseTopicsTest, PosesWithoutAStampDoNotCollide) {
+  for (int i = 0; i < 1000; ++i) topics_.take_tip(0, pose("base", 0.0, {0.001 * i, 0.0, 0.0}));
+  EXPECT_EQ(arrived_.size(), 1000u);
+  EXPECT_EQ(rejected(), 0u);
+  EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.999, 0.0, 0.0)));
+}
+
 TEST_F(PoseTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
   topics_.take_base(0, pose("world", 1.0, {10.0, 0.0, 0.0}));
   topics_.take_tip(0, pose("base", 50.0, {0.1, 0.2, 0.3}));
@@ -109,6 +116,9 @@ TEST_F(PoseTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
   expect_rejected(pose("base", 2.0, {0.1, nan, 0.3}), "nan");
   expect_rejected(pose("base", 2.0, {0.1, std::numeric_limits<double>::infinity(), 0.3}), "inf");
+  expect_rejected(pose("base", 2.0, {0.1, -1e7, 0.3}), "-1e+07");
+  expect_rejected(pose("base", ros::Time::now().toSec() + 60.0, {0.1, 0.2, 0.3}), "clock");
+  expect_rejected(pose("base", 1.0, {0.4, 0.5, 0.6}), "stamp of an earlier one");
   expect_rejected(pose("", 2.0, {0.1, 0.2, 0.3}), "frame_id");
   expect_rejected(pose("left_tip", 2.0, {0.1, 0.2, 0.3}), "own frame");
   auto turned = pose("base", 2.0, {0.1, 0.2, 0.3});

@@ -49,6 +49,22 @@ TEST_F(StepEvaluatorTest, FirstIsStaticThenSwept) {
   EXPECT_TRUE(evaluate().empty());
 }
 
+TEST_F(StepEvaluatorTest, APoseIsAnsweredOnce) {
+  send_tip(1.0, kAbove);
+  EXPECT_TRUE(pose().empty());
+  send_mesh(1.0, 0.0);
+  EXPECT_TRUE(pose().empty());  // the first shape is answered as such
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  EXPECT_TRUE(pose().empty());
+  send_tip(1.1, kBelow);
+  expect_step(pose(), kSwept, 1.0, 1.1, 1);
+  EXPECT_TRUE(pose().empty());
+  send_tip(1.2, kAbove);
+  send_vertices(1.2, 0.0);
+  expect_step(evaluate(), kSwept, 1.1, 1.2, 1);
+  EXPECT_TRUE(pose().empty());
+}
+
 TEST_F(StepEvaluatorTest, OrganThatMovesThroughARestingTool) {
   send_tip(1.0, kAbove);
   send_tip(1.1, kAbove);

@@ -150,6 +150,29 @@ TEST_F(ToolPosesTest, PosesBeyondTheMostSamplesAreCounted) {
   }
 }
 
+TEST_F(ToolPosesTest, PosesGoBeforeSamplesInBetween) {
+  ToolPoses poses(buffer_, {0.001, 100});
+  for (int i = 0; i <= 90; ++i) {
+    const double time = 1.0 + 0.00111 * i;  // never at an even sample
+    send(time);
+    poses.add_sample(kTool, ros::Time(time));
+  }
+  const SampledPath sampled = poses.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1.0)},
+                                         {axis_in_liver(1.0999), ros::Time(1.0999)});
+  EXPECT_EQ(sampled.path.size(), 91u);
+  EXPECT_EQ(sampled.samples_cut, 0u);
+}
+
+TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
+  for (const double time : {1.0, 1.25, 1.75, 2.0}) send(time);
+  send_trocar(1.5);
+  set_point(buffer_, "world", "tip", 1.5, {0.0, 1e9, 0.0});
+  const SampledPath sampled = path(1.0, 2.0, {0.25, 100});
+  ASSERT_EQ(sampled.path.size(), 4u);
+  EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.25);
+  EXPECT_DOUBLE_EQ(sampled.path[2].fraction, 0.75);
+}
+
 TEST_F(ToolPosesTest, AToolWhosePosesNeverCameNamesTheTopic) {
   send_trocar(1.0);
   ToolParameters tool = kTool;

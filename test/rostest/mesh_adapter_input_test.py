@@ -74,7 +74,11 @@ class MeshAdapterInputTest(AdapterCase):
     def refuse(self, organ, topic, *cases, send_good):
         """Cases (message, words of the log): each leaves the organ as send_good made it, and after
         all of them it can still be moved."""
+        before = self.node.query(organ, FAR_AWAY).mesh_stamp
         send_good(SHEET)
+        wait_until(
+            lambda: self.node.query(organ, FAR_AWAY).mesh_stamp != before, 'a new shape of ' + organ
+        )
         good = self.wait_for_contacts(organ, SHEET)
         for message, words in cases:
             self.publish_until_logged(topic, message, words)

@@ -95,9 +95,11 @@ class TriangleMesh {
     return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
   }
 
-  /// Whether both have the same triangles, so that one can be the other's earlier shape.
+  /// Whether both have the same triangles and as many vertices, so that one can be the other's
+  /// earlier shape.
   bool same_faces(const TriangleMesh& other) const {
-    return topology_ == other.topology_ || faces() == other.faces();
+    return vertex_count() == other.vertex_count() &&
+           (topology_ == other.topology_ || faces() == other.faces());
   }
 
  private:

@@ -33,6 +33,7 @@ struct NodeParameters {
   double mesh_timeout_sec = 0.0;  ///< 0: never stale
   int max_faces = 2'000'000;
   bool publish_regions = false;
+  double diagnostic_period_sec = 1.0;  ///< of wall time
 };
 
 /// Parameters, and one sentence for each name that the node does not know.

@@ -38,10 +38,14 @@ class PoseTopics {
   void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
   void take_base(std::size_t tool, const geometry_msgs::PoseStamped& pose);
 
+  /// The clock jumped back.
+  void forget_stamps();
+
  private:
   struct Stream {
     ToolParameters tool;
     std::string frame;  ///< in which the tip's poses are; empty: none came
+    ros::Time latest;   ///< stamp of the tip's poses; zero: none came
     std::optional<geometry_msgs::PoseStamped> base;  ///< of that frame
   };
   void place_base(const Stream& stream);

@@ -42,9 +42,10 @@ class StepEvaluator {
   void add_shape(const Organ& organ, SteadyTime now);
   /// All shapes whose transforms are there, or have been waited for long enough.
   void evaluate_waiting(const OrganStore& organs, SteadyTime now);
-  /// All organs with the latest poses, of one tool or of all.
-  void evaluate_latest(const OrganStore& organs, std::size_t tool);
+  /// All organs with the latest poses.
   void evaluate_tick(const OrganStore& organs);
+  /// All organs with the latest pose of one tool, where that is not answered yet.
+  void evaluate_latest(const OrganStore& organs, std::size_t tool);
 
   void forget(const std::string& organ) { history_.forget(organ); }
   /// Forgets all history: the next step of every tool is static. Shapes that wait still wait.
@@ -61,6 +62,7 @@ class StepEvaluator {
 
  private:
   bool evaluate_front(const Organ& organ, std::size_t tool, OrganToolPair& pair, SteadyTime now);
+  bool is_answered(const Organ& organ, std::size_t tool);
   void evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now);
   void evaluate_step(const Organ& organ, std::size_t tool, OrganToolPair& pair,
                      const Timed<ShaftAxis>& end);
