@@ -79,7 +79,7 @@ void MarkerReader::read(const Marker& marker, Surface& surface) {
   if (!add) {
     surface.vertices.clear();
     surface.triangles.clear();
-    return name_.clear();
+    return read_name_.clear();
   }
   if (marker.type != Marker::TRIANGLE_LIST) {
     throw MessageError("other marker type", "marker '" + name + "' is of type " +
@@ -94,7 +94,7 @@ void MarkerReader::read(const Marker& marker, Surface& surface) {
   place_points(marker, surface.vertices);
   surface.triangles.resize(marker.points.size());
   std::iota(surface.triangles.begin(), surface.triangles.end(), 0);
-  name_ = name;
+  read_name_ = name;
 }
 
 void MarkerReader::check_name(const std::string& name) const {

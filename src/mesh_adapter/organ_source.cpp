@@ -49,6 +49,7 @@ void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
   surface_.stamp = stamp_or(arrival, surface_.stamp);
   if (!surface_.empty()) surface_.frame = frame_or_given(surface_.frame);
   feed_.send(surface_);
+  marker_reader_.keep();
 }
 
 void OrganSource::take_vertices(const ShapeShifter& message, ros::Time arrival) {

@@ -36,6 +36,7 @@ class MarkerReaderTest : public testing::Test {
   Surface read(const Marker& marker) {
     Surface surface{"table", ros::Time(3), {1.0f, 2.0f}, {9}};
     reader_.read(marker, surface);
+    reader_.keep();
     return surface;
   }
   std::string refusal_now() {

@@ -137,6 +137,16 @@ TEST(OrganSource, RefusesMessagesWithoutFrame) {
   EXPECT_FALSE(rig.vertices);
 }
 
+TEST(OrganSource, ARefusedMarkerIsNotTheOrgans) {
+  Rig rig;
+  visualization_msgs::Marker nowhere = marker();
+  nowhere.header.frame_id = "";
+  nowhere.id = 7;
+  expect_words(refusal([&] { rig.take(nowhere); }), {"no frame: "});
+  rig.take(marker());
+  rig.expect_mesh("liver", kArrival);
+}
+
 TEST(OrganSource, AnOrganIsRemovedInWhateverFrame) {
   Rig rig;
   rig.take(shape_msgs::Mesh());
