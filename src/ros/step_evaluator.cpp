@@ -20,6 +20,12 @@ std::uint8_t mode_of(const OrganToolPair& pair) {
   return pair.last ? ContactArray::SWEPT : ContactArray::STATIC;
 }
 
+/// Whether the last step went up to this pose, against this shape.
+bool is_answered(const OrganToolPair& pair, ros::Time pose) {
+  return pair.last && pair.last->mesh == pair.current.mesh && !pose.isZero() &&
+         pose <= pair.last->stamp;
+}
+
 }  // namespace
 
 void StepEvaluator::add_shape(const Organ& organ, SteadyTime now) {
@@ -63,27 +69,18 @@ void StepEvaluator::evaluate_tick(const OrganStore& organs) {
   const ros::Time now = ros::Time::now();
   for (const auto& [name, organ] : organs.organs()) {
     for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {
-      evaluate_latest(organ, tool, now);
+      evaluate_latest(organ, tool, now, false);
     }
   }
 }
 
 void StepEvaluator::evaluate_latest(const OrganStore& organs, std::size_t tool) {
   const ros::Time now = ros::Time::now();
-  for (const auto& [name, organ] : organs.organs()) {
-    if (!is_answered(organ, tool)) evaluate_latest(organ, tool, now);
-  }
+  for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now, true);
 }
 
-/// Whether the last step ended at the tool's latest pose, against this shape.
-bool StepEvaluator::is_answered(const Organ& organ, std::size_t tool) {
-  const OrganToolPair& pair = history_.of(organ.name(), tool);
-  if (!pair.last || pair.last->mesh != pair.current.mesh) return false;
-  const auto latest = poses_.axis(parameters_.tools[tool], organ.frame(), ros::Time(0));
-  return latest.found && !latest.found->stamp.isZero() && latest.found->stamp <= pair.last->stamp;
-}
-
-void StepEvaluator::evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now) {
+void StepEvaluator::evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now,
+                                    bool only_new) {
   OrganToolPair& pair = history_.of(organ.name(), tool);
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   if (is_stale(organ.latest(), now, parameters_.mesh_timeout_sec)) {
@@ -92,6 +89,7 @@ void StepEvaluator::evaluate_latest(const Organ& organ, std::size_t tool, ros::T
   }
   const auto end = poses_.axis(parameters_.tools[tool], organ.frame(), ros::Time(0));
   if (end.found) {
+    if (only_new && is_answered(pair, end.found->stamp)) return;
     evaluate_step(organ, tool, pair, *end.found);
   } else {
     fail(organ, tool, pair, now, ContactArray::NO_TRANSFORM, end.why_not);

@@ -62,8 +62,7 @@ class StepEvaluator {
 
  private:
   bool evaluate_front(const Organ& organ, std::size_t tool, OrganToolPair& pair, SteadyTime now);
-  bool is_answered(const Organ& organ, std::size_t tool);
-  void evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now);
+  void evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now, bool only_new);
   void evaluate_step(const Organ& organ, std::size_t tool, OrganToolPair& pair,
                      const Timed<ShaftAxis>& end);
   void evaluate_held(const Organ& organ, std::size_t tool, OrganToolPair& pair);
