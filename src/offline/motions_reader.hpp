@@ -14,8 +14,8 @@ struct Motion {
   std::string query;  ///< what the file calls it; printed with its contacts
   std::size_t line;   ///< in the file, from 1
   QueryMode mode;
-  ShaftPath path;  ///< in the mesh's frame [m]; one waypoint in the static modes
-  double radius;   ///< [m]
+  ToolPath path;  ///< in the mesh's frame [m]; one waypoint in the static modes
+  double radius;  ///< [m]
 };
 
 /// Reads a CSV file with the columns query, mode, trocar_x, trocar_y, trocar_z, previous_x,

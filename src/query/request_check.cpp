@@ -22,7 +22,7 @@ void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& 
          "); must be finite and within ", tolerance::kFarthest, " m");
 }
 
-void check_path(const ShaftPath& path) {
+void check_path(const ToolPath& path) {
   if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
   for (std::size_t i = 0; i < path.size(); ++i) {
     check_point("trocar", i, path[i].axis.trocar);

@@ -26,8 +26,8 @@ class Step {
   VolumeMargin margin(std::size_t leg) const;
 
  private:
-  const ShaftWaypoint& from(std::size_t leg) const { return waypoints_[leg]; }
-  const ShaftWaypoint& to(std::size_t leg) const {
+  const ToolWaypoint& from(std::size_t leg) const { return waypoints_[leg]; }
+  const ToolWaypoint& to(std::size_t leg) const {
     return waypoints_[waypoint_count_ > 1 ? leg + 1 : 0];
   }
   double begin(std::size_t leg) const { return waypoint_count_ > 1 ? from(leg).fraction : 0.0; }
@@ -35,7 +35,7 @@ class Step {
 
   const TriangleMesh& organ_;
   const TriangleMesh* organ_before_;
-  const ShaftWaypoint* waypoints_;
+  const ToolWaypoint* waypoints_;
   std::size_t waypoint_count_;
   double displacement_;  ///< [m] the farthest that any vertex moves during the step
 };

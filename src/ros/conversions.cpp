@@ -53,8 +53,8 @@ geometry_msgs::Polygon to_message(const Region& region) {
   return message;
 }
 
-ShaftPath to_path(const ToolMotion& motion, bool at_end_only,
-                  const Eigen::Isometry3d& T_target_source) {
+ToolPath to_path(const ToolMotion& motion, bool at_end_only,
+                 const Eigen::Isometry3d& T_target_source) {
   const ShaftAxis end{T_target_source * to_eigen(motion.trocar),
                       T_target_source * to_eigen(motion.tip)};
   if (at_end_only) return {{0.0, end}};

@@ -74,6 +74,10 @@ void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
 
 }  // namespace
 
+std::string ToolParameters::link_frame(const std::string& link) const {
+  return tf_frame(tf_prefix.empty() ? link : tf_prefix + "/" + link);
+}
+
 LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
   const ParameterGroup all(
       "~", private_namespace,

@@ -142,7 +142,7 @@ void StepEvaluator::evaluate_held(const Organ& organ, std::size_t tool, OrganToo
 }
 
 void StepEvaluator::run(const Organ& organ, std::size_t tool, OrganToolPair& pair,
-                        Timed<ShaftAxis> end, const ShaftPath& path) {
+                        Timed<ShaftAxis> end, const ToolPath& path) {
   if (end.stamp.isZero()) end.stamp = ros::Time::now();
   const ToolParameters& parameters = parameters_.tools[tool];
   const TriangleMesh& mesh = *pair.current.mesh;

@@ -19,7 +19,7 @@ ros::Time common_time(ros::Time a, ros::Time b) {
 }
 
 /// How far `b` is from the straight way from `a` to `c`, at its time.
-double bend(const ShaftWaypoint& a, const ShaftWaypoint& b, const ShaftWaypoint& c) {
+double bend(const ToolWaypoint& a, const ToolWaypoint& b, const ToolWaypoint& c) {
   const ShaftMotion motion{a.axis, c.axis};
   const ShaftAxis straight = motion.at((b.fraction - a.fraction) / (c.fraction - a.fraction));
   return std::max((straight.trocar - b.axis.trocar).norm(), (straight.tip - b.axis.tip).norm());
@@ -29,9 +29,9 @@ double bend(const ShaftWaypoint& a, const ShaftWaypoint& b, const ShaftWaypoint&
 /// two transforms TF interpolates, mostly in a straight line.
 class PathBuilder {
  public:
-  PathBuilder(ShaftPath& path, const ShaftAxis& begin) : path_(path) { path_ = {{0.0, begin}}; }
+  PathBuilder(ToolPath& path, const ShaftAxis& begin) : path_(path) { path_ = {{0.0, begin}}; }
 
-  void add(const ShaftWaypoint& next) {
+  void add(const ToolWaypoint& next) {
     const std::size_t size = path_.size();
     const double added = size > 1 ? bend(path_[size - 2], path_[size - 1], next) : 0.0;
     // Each waypoint left out turns the leg by no more than its own bend: the sum bounds them all.
@@ -45,18 +45,18 @@ class PathBuilder {
   }
 
  private:
-  ShaftPath& path_;
+  ToolPath& path_;
   double bends_left_out_ = 0.0;  ///< [m] of the last leg
 };
 
 /// A trocar that moves by rounding alone is at rest, for which viewing volumes are tighter.
-void rest_trocar(ShaftPath& path) {
+void rest_trocar(ToolPath& path) {
   const Eigen::Vector3d trocar = path.back().axis.trocar;
-  const auto is_there = [&](const ShaftWaypoint& waypoint) {
+  const auto is_there = [&](const ToolWaypoint& waypoint) {
     return (waypoint.axis.trocar - trocar).norm() <= kStraight;
   };
   if (!std::all_of(path.begin(), path.end(), is_there)) return;
-  for (ShaftWaypoint& waypoint : path) waypoint.axis.trocar = trocar;
+  for (ToolWaypoint& waypoint : path) waypoint.axis.trocar = trocar;
 }
 
 bool is_near(const ShaftAxis& axis) {

@@ -41,7 +41,7 @@ TEST(MotionsReader, reads_every_mode) {
 }
 
 TEST(MotionsReader, sweeps_from_the_previous_tip_about_a_resting_trocar) {
-  const ShaftPath path = read("7,swept" + kPoints + ",0.005\n")[0].path;
+  const ToolPath path = read("7,swept" + kPoints + ",0.005\n")[0].path;
   ASSERT_EQ(path.size(), 2U);
   EXPECT_EQ(path[0].fraction, 0.0);
   EXPECT_EQ(path[0].axis.trocar, Eigen::Vector3d(1, 2, 3));
@@ -54,7 +54,7 @@ TEST(MotionsReader, sweeps_from_the_previous_tip_about_a_resting_trocar) {
 TEST(MotionsReader, ignores_the_previous_tip_in_static_modes) {
   for (const char* mode : {"static", "paper_static"}) {
     for (const char* previous : {",,,", ",x,nan,-", ",4,5,6"}) {
-      const ShaftPath path =
+      const ToolPath path =
           read(std::string("7,") + mode + ",1,2,3" + previous + ",7,8,9,0.005\n")[0].path;
       ASSERT_EQ(path.size(), 1U);
       EXPECT_EQ(path[0].axis.trocar, Eigen::Vector3d(1, 2, 3));

@@ -75,7 +75,7 @@ class Simulation {
 
   TriangleMesh organ_, before_;
   std::vector<SharedVertices> shapes_;
-  std::vector<ShaftPath> paths_;
+  std::vector<ToolPath> paths_;
   CollisionRequest request_ = swept(organ_, {}, 0.005);
   CollisionQuery query_;
   CollisionResult result_;

@@ -67,7 +67,7 @@ TEST_P(CollisionQueryWith, OrderOfFacesAndVerticesOnlyRenumbers) {
         other.triangles[3 * f + k] = vertex_to[soup.triangles[3 * face_from[f] + k]];
 
     const TriangleMesh organ = mesh(soup), shuffled = mesh(other);
-    const ShaftPath path = random_path(true, random);
+    const ToolPath path = random_path(true, random);
     const std::vector<FaceContact> expected = contacts(swept(organ, path, 5e-3));
     std::vector<FaceContact> found = contacts(swept(shuffled, path, 5e-3));
     for (FaceContact& contact : found) contact.face = face_from[contact.face];
@@ -87,8 +87,8 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
   for (int i = 0; i < 30; ++i) {
     Soup soup = scattered_faces(100, random);
     for (float& x : soup.vertices) x = std::round(x * 4096.0F) / 4096.0F;
-    ShaftPath path = random_path(true, random);
-    for (ShaftWaypoint& waypoint : path)
+    ToolPath path = random_path(true, random);
+    for (ToolWaypoint& waypoint : path)
       waypoint.axis = {on_lattice(waypoint.axis.trocar), on_lattice(waypoint.axis.tip)};
     const TriangleMesh organ = mesh(soup);
     const std::vector<FaceContact> expected = contacts(swept(organ, path, 0.005));
@@ -102,7 +102,7 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
       const Vector3d p = map({soup.vertices[v], soup.vertices[v + 1], soup.vertices[v + 2]});
       for (int k = 0; k < 3; ++k) moved.vertices[v + k] = static_cast<float>(p[k]);
     }
-    for (ShaftWaypoint& waypoint : path)
+    for (ToolWaypoint& waypoint : path)
       waypoint.axis = {map(waypoint.axis.trocar), map(waypoint.axis.tip)};
     const TriangleMesh other = mesh(moved);
     const std::vector<FaceContact> found = contacts(swept(other, path, 0.005 * scale));

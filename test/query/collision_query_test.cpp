@@ -31,7 +31,7 @@ std::vector<FaceContact> by_brute_force(const CollisionRequest& request) {
     const Triangle after = request.organ->triangle(face);
     const Triangle before = request.organ_before ? request.organ_before->triangle(face) : after;
     for (std::size_t leg = 1; leg < request.path.size(); ++leg) {
-      const ShaftWaypoint &from = request.path[leg - 1], &to = request.path[leg];
+      const ToolWaypoint &from = request.path[leg - 1], &to = request.path[leg];
       const auto contact =
           refine({{from.axis, to.axis},
                   {between(before, after, from.fraction), between(before, after, to.fraction)},

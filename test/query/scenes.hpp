@@ -79,8 +79,8 @@ inline ShaftAxis random_axis(oracle::Random& random) {
 }
 
 /// With a resting or a moving trocar, through one to three legs.
-inline ShaftPath random_path(bool trocar_moves, oracle::Random& random) {
-  ShaftPath path = {{0.0, random_axis(random)}};
+inline ToolPath random_path(bool trocar_moves, oracle::Random& random) {
+  ToolPath path = {{0.0, random_axis(random)}};
   const int legs = random.integer(1, 3);
   for (int leg = 1; leg <= legs; ++leg) {
     ShaftAxis next = path.back().axis;
@@ -91,7 +91,7 @@ inline ShaftPath random_path(bool trocar_moves, oracle::Random& random) {
   return path;
 }
 
-inline CollisionRequest swept(const TriangleMesh& organ, const ShaftPath& path, double radius) {
+inline CollisionRequest swept(const TriangleMesh& organ, const ToolPath& path, double radius) {
   CollisionRequest request;
   request.organ = &organ;
   request.path = path;

@@ -89,7 +89,7 @@ TEST_F(Conversions, PathIsMovedIntoTheFrame) {
   motion.tip = message_point();
   const Eigen::Isometry3d T =
       Eigen::Translation3d(point()) * Eigen::AngleAxisd(0.7, Vector3d(1.0, -2.0, 0.5).normalized());
-  const ShaftPath path = to_path(motion, false, T);
+  const ToolPath path = to_path(motion, false, T);
   ASSERT_EQ(path.size(), 2u);
   EXPECT_EQ(path[0].fraction, 0.0);
   EXPECT_EQ(path[1].fraction, 1.0);
@@ -103,7 +103,7 @@ TEST_F(Conversions, PathOfTheEndAlone) {
   ToolMotion motion;
   motion.previous_tip.x = std::nan("");  // unused
   motion.tip = message_point();
-  const ShaftPath path = to_path(motion, true, Eigen::Isometry3d::Identity());
+  const ToolPath path = to_path(motion, true, Eigen::Isometry3d::Identity());
   ASSERT_EQ(path.size(), 1u);
   EXPECT_EQ(path[0].axis.tip, to_eigen(motion.tip));
 }

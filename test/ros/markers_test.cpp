@@ -22,7 +22,7 @@ class Markers : public testing::Test {
   }
 
   /// By the last part of their namespace.
-  std::map<std::string, Marker> markers(const ShaftPath& path) {
+  std::map<std::string, Marker> markers(const ToolPath& path) {
     std::map<std::string, Marker> by_name;
     for (const Marker& marker : step_markers({answer_, kTool, kMesh, path}).markers) {
       EXPECT_EQ(marker.header.frame_id, "liver_frame");
@@ -34,7 +34,7 @@ class Markers : public testing::Test {
   }
 
   ContactArrayPtr answer_ = boost::make_shared<ContactArray>();
-  ShaftPath still_{{0.0, {{0.0, 0.0, 2.0}, {0.0, 4.0, 2.0}}}};
+  ToolPath still_{{0.0, {{0.0, 0.0, 2.0}, {0.0, 4.0, 2.0}}}};
 };
 
 }  // namespace

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 namespace organ_collision {
 
@@ -26,15 +25,5 @@ struct ShaftMotion {
             start.tip + time * (end.tip - start.tip)};
   }
 };
-
-/// Where the axis was at `fraction` in [0, 1] of the step.
-struct ShaftWaypoint {
-  double fraction;
-  ShaftAxis axis;
-};
-
-/// How the axis moved during one step: linearly from waypoint to waypoint, with fractions rising
-/// from 0 to 1. A single waypoint is a tool at rest.
-using ShaftPath = std::vector<ShaftWaypoint>;
 
 }  // namespace organ_collision

@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "organ_collision/geometry/displacement.hpp"
-#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/link.hpp"
+#include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 #include "organ_collision/picking/gl_context.hpp"
 #include "organ_collision/picking/picker.hpp"
@@ -29,8 +30,9 @@ struct CollisionRequest {
   const TriangleMesh* organ = nullptr;  ///< the organ's shape at the end of the step
   const TriangleMesh* organ_before =
       nullptr;          ///< at its start, with the same faces; null: it rests
-  ShaftPath path;       ///< in the organ's frame; static modes look at the last waypoint only
-  double radius = 0.0;  ///< [m]
+  ToolPath path;        ///< in the organ's frame; static modes look at the last waypoint only
+  double radius = 0.0;  ///< [m] of the shaft; 0: the tool has links alone
+  const std::vector<Link>* links = nullptr;  ///< each with its pose in every waypoint; null: none
   QueryMode mode = QueryMode::kStatic;
   bool regions = false;  ///< also clip each contact's face to the tool's viewing volume
 };

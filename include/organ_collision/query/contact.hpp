@@ -10,7 +10,8 @@ namespace organ_collision {
 /// organ's frame.
 struct FaceContact {
   std::uint32_t face = 0;
-  std::uint32_t link = 0;  ///< of the tool; 0 for a plain shaft
+  /// Of the tool: its shaft, if it has one, is 0, and its links follow.
+  std::uint32_t link = 0;
   /// First touch, as a share of the step, in [0, 1]; 0 when static.
   double fraction = 0.0;
   /// The face's point nearest the axis, at first touch.

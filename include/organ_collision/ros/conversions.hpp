@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/picking/region_clipper.hpp"
 #include "organ_collision/query/contact.hpp"
 
@@ -29,8 +29,8 @@ geometry_msgs::Polygon to_message(const Region& region);
 
 /// The straight motion of a message, moved into the target frame: two waypoints, or the end alone
 /// when `at_end_only`.
-ShaftPath to_path(const ToolMotion& motion, bool at_end_only,
-                  const Eigen::Isometry3d& T_target_source);
+ToolPath to_path(const ToolMotion& motion, bool at_end_only,
+                 const Eigen::Isometry3d& T_target_source);
 
 /// A frame's name as tf2 takes it: without the leading slash of old.
 std::string tf_frame(const std::string& frame_id);

@@ -11,14 +11,23 @@
 
 namespace organ_collision {
 
-/// A shaft whose axis runs from the origin of one frame to the origin of another.
+/// A tool: a shaft whose axis runs from the origin of one frame to the origin of another, links of
+/// a robot, or both.
 struct ToolParameters {
   std::string name;
-  std::string trocar_frame;
+  std::string trocar_frame;  ///< empty: no shaft
   std::string tip_frame;
-  double radius = 0.0;               ///< [m]
-  std::string tip_pose_topic = {};   ///< PoseStamped that places tip_frame; empty: TF does
-  std::string base_pose_topic = {};  ///< the same for the frame of those poses
+  double radius = 0.0;                  ///< [m] of the shaft; 0: no shaft
+  std::string tip_pose_topic = {};      ///< PoseStamped that places tip_frame; empty: TF does
+  std::string base_pose_topic = {};     ///< the same for the frame of those poses
+  std::vector<std::string> links = {};  ///< of the robot's URDF, each once; empty: a shaft alone
+  std::string robot_description = {};   ///< parameter that holds the URDF; where `urdf` is empty
+  std::string urdf = {};                ///< file or URL of the URDF
+  std::string tf_prefix = {};           ///< before the links' names in TF, as PREFIX/LINK
+
+  bool has_shaft() const { return radius > 0.0; }
+  /// The TF frame of a link.
+  std::string link_frame(const std::string& link) const;
 };
 
 /// The node's parameters, as validated; the defaults are the documented ones.

@@ -21,7 +21,7 @@ struct EvaluatedStep {
   ContactArrayPtr answer;
   const ToolParameters& tool;
   const TriangleMesh& mesh;
-  const ShaftPath& path;  ///< empty when the evaluation failed before it was known
+  const ToolPath& path;  ///< empty when the evaluation failed before it was known
 };
 
 /// Evaluates every tool against every organ: at each new shape, at each tick. Each step begins
@@ -67,7 +67,7 @@ class StepEvaluator {
                      const Timed<ShaftAxis>& end);
   void evaluate_held(const Organ& organ, std::size_t tool, OrganToolPair& pair);
   void run(const Organ& organ, std::size_t tool, OrganToolPair& pair, Timed<ShaftAxis> end,
-           const ShaftPath& path);
+           const ToolPath& path);
   void fail(const Organ& organ, std::size_t tool, const OrganToolPair& pair, ros::Time stamp,
             std::uint8_t status, const std::string& message);
   SteadyTime deadline(const ShapeQueue::Entry& entry) const;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/ros/parameters.hpp"
 #include "organ_collision/ros/pose_stamps.hpp"
 #include "organ_collision/ros/transforms.hpp"
@@ -22,7 +22,7 @@ struct PathSampling {
 
 /// A tool's way, and how many samples it would have had more without `samples_max`.
 struct SampledPath {
-  ShaftPath path;
+  ToolPath path;
   std::size_t samples_cut = 0;
 };
 

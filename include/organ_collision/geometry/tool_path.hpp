@@ -1,0 +1,21 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "organ_collision/geometry/shaft.hpp"
+
+namespace organ_collision {
+
+/// Where a tool was at `fraction` in [0, 1] of the step, in the organ's frame [m].
+struct ToolWaypoint {
+  double fraction;
+  ShaftAxis axis;                             ///< of its shaft; means nothing where it has none
+  std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each of its links
+};
+
+/// How a tool moved during one step: from waypoint to waypoint, ends of the axis linearly, links as
+/// RigidMotion says, with fractions rising from 0 to 1. A single waypoint is a tool at rest.
+using ToolPath = std::vector<ToolWaypoint>;
+
+}  // namespace organ_collision

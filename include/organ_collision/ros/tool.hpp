@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "organ_collision/geometry/link.hpp"
+#include "organ_collision/ros/parameters.hpp"
+
+namespace organ_collision {
+
+/// A tool as the node uses it.
+struct Tool {
+  ToolParameters parameters;
+  std::vector<Link> links;  ///< in the order of parameters.links
+  std::string fault;        ///< why its links could not be loaded; empty: they were, or it has none
+};
+
+}  // namespace organ_collision

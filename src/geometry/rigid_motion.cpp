@@ -1,0 +1,22 @@
+#include "organ_collision/geometry/rigid_motion.hpp"
+
+namespace organ_collision {
+
+RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end)
+    : start_(start), end_(end) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(start.linear().transpose() * end.linear()));
+  axis_ = turn.axis();
+  angle_ = turn.angle();
+}
+
+Eigen::Isometry3d RigidMotion::at(double time) const {
+  if (time == 0.0) return start_;
+  if (time == 1.0) return end_;
+  Eigen::Isometry3d pose;
+  pose.translation() = start_.translation() + time * (end_.translation() - start_.translation());
+  pose.linear() = start_.linear() * Eigen::AngleAxisd(time * angle_, axis_).toRotationMatrix();
+  pose.makeAffine();
+  return pose;
+}
+
+}  // namespace organ_collision
