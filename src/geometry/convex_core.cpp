@@ -14,11 +14,9 @@ Vector3d ConvexCore::support(const Vector3d& direction) const {
       farthest = i;
     }
   }
-  if (disc_radius == 0.0) return points[farthest];
-  // On the rim of the flat end: along what of the direction is across the axis.
-  const Vector3d along = (points[1] - points[0]).normalized();
-  const Vector3d across = direction - along.dot(direction) * along;
-  return points[farthest] + disc_radius * across.stableNormalized();
+  if (!is_cylinder()) return points[farthest];
+  const Eigen::Vector2d across = rim.transpose() * direction;
+  return points[farthest] + rim * across.stableNormalized();
 }
 
 double ConvexCore::height(const Vector3d& direction) const {
@@ -28,7 +26,7 @@ double ConvexCore::height(const Vector3d& direction) const {
 ConvexCore operator*(const Eigen::Isometry3d& T_to_from, const ConvexCore& core) {
   ConvexCore moved;
   moved.count = core.count;
-  moved.disc_radius = core.disc_radius;
+  moved.rim = T_to_from.linear() * core.rim;
   for (std::size_t i = 0; i < core.count; ++i) moved.points[i] = T_to_from * core.points[i];
   return moved;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "organ_collision/geometry/tolerances.hpp"
 
@@ -10,20 +11,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Axis and face at one time, and the unit direction between their nearest points.
+/// Core and face at one time, and the unit direction between their nearest points.
 struct Instant {
   double time;
-  ShaftAxis axis;
+  ConvexCore core;
   Triangle face;
   ClosestPoints closest;
-  Vector3d normal;  ///< from the axis to the face; zero where they meet
+  Vector3d normal;  ///< from the core to the face; zero where they meet
 
-  Instant(double at, const ShaftMotion& shaft, const FaceMotion& motion)
+  Instant(double at, const CoreMotion& motion, const FaceMotion& face_motion,
+          double enough = std::numeric_limits<double>::infinity())
       : time(at),
-        axis(shaft.at(at)),
-        face(motion.at(at)),
-        closest(closest_points(axis, face)),
-        normal((closest.on_face - closest.on_axis).normalized()) {}
+        core(motion.at(at)),
+        face(face_motion.at(at)),
+        closest(closest_points(core, face, enough)),
+        normal((closest.on_face - closest.on_core).normalized()) {}
 };
 
 /// First root in (0, 1] of the quadratic with Bernstein coefficients a > 0, b, c; 2 if there is
@@ -40,35 +42,41 @@ double first_root(double a, double b, double c) {
 }
 
 /// The share of the time from `from` to `to` for which a plane that turns linearly from the one
-/// normal to the other surely keeps all corners of the face farther than `radius` from both ends of
-/// the axis; above 1 if it is all of it. The distance is at least a corner's height over the plane
-/// divided by the length of the turning normal n, and that length is at most (1 + n²) / 2: a
-/// quadratic in time, as the heights are.
-double clear_share(const Instant& from, const Instant& to, double radius) {
+/// normal to the other surely keeps the face farther than `radius` from the core; above 1 if it is
+/// all of it. The distance is at least a corner's height over the plane divided by the length of
+/// the turning normal n, and that length is at most (1 + n²) / 2: a quadratic in time, as the
+/// heights of corners over points of the core that move linearly are. A point that moves along a
+/// curve is off its chord by at most 4 s (1 - s) `bend` [m]; a rim reaches out by the length of
+/// such a quadratic, which is at most the one of its coefficients' lengths.
+double clear_share(const Instant& from, const Instant& to, double bend, double radius) {
   const bool turns = from.normal.dot(to.normal) > 0.0;
   const Vector3d& turned = turns ? to.normal : from.normal;
+  const auto &rim = from.core.rim, &rim_after = to.core.rim;
   const double radius_amid = 0.5 * (1.0 + from.normal.dot(turned)) * radius;
+  const double before = radius + (rim.transpose() * from.normal).norm();
+  const double amid = radius_amid + 2.0 * bend +
+                      0.5 * (rim_after.transpose() * from.normal + rim.transpose() * turned).norm();
+  const double after = radius + (rim_after.transpose() * turned).norm();
   double share = 2.0;
   for (int corner = 0; corner < 3; ++corner) {
-    for (const bool tip : {true, false}) {
-      const Vector3d before = from.face[corner] - (tip ? from.axis.tip : from.axis.trocar);
-      const Vector3d after = to.face[corner] - (tip ? to.axis.tip : to.axis.trocar);
+    for (std::size_t point = 0; point < from.core.count; ++point) {
+      const Vector3d height = from.face[corner] - from.core.points[point];
+      const Vector3d height_after = to.face[corner] - to.core.points[point];
       // No corner is nearer than the nearest points; only rounding can say so.
-      const double a = std::max(from.normal.dot(before), from.closest.distance) - radius;
-      const double b = 0.5 * (from.normal.dot(after) + turned.dot(before)) - radius_amid;
-      const double c = turned.dot(after) - radius;
+      const double a = std::max(from.normal.dot(height) - before, from.closest.distance - radius);
+      const double b = 0.5 * (from.normal.dot(height_after) + turned.dot(height)) - amid;
+      const double c = turned.dot(height_after) - after;
       share = std::min(share, first_root(a, b, c));
     }
   }
   return share;
 }
 
-/// [m] No point of the axis comes nearer to a point of the face by more than this.
-double farthest_move(const ShaftMotion& shaft, const FaceMotion& face) {
+/// [m] No point of the core comes nearer to a point of the face by more than this.
+double farthest_move(const CoreMotion& core, const FaceMotion& face) {
   double corner = 0.0;
   for (int i = 0; i < 3; ++i) corner = std::max(corner, (face.end[i] - face.start[i]).norm());
-  return corner + std::max((shaft.end.trocar - shaft.start.trocar).norm(),
-                           (shaft.end.tip - shaft.start.tip).norm());
+  return corner + core.farthest_move();
 }
 
 }  // namespace
@@ -78,21 +86,22 @@ Triangle FaceMotion::at(double time) const {
           start[2] + time * (end[2] - start[2])};
 }
 
-std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion& face,
-                                      double radius) {
+std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
+                                      double until) {
   constexpr int kMaxSteps = 1000;  // some ten suffice; beyond, motions are too fast for doubles
-  Instant now(0.0, shaft, face);
+  const double near = radius + farthest_move(core, face);
+  Instant now(0.0, core, face, near);
   if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
-  if (now.closest.distance > radius + farthest_move(shaft, face)) return std::nullopt;
-  Instant ahead(1.0, shaft, face);
+  if (now.closest.distance > near) return std::nullopt;
+  Instant ahead(until, core, face);
   for (int step = 0; step < kMaxSteps; ++step) {
-    const double share = clear_share(now, ahead, radius);
     const double length = ahead.time - now.time;
+    const double share = clear_share(now, ahead, core.bend(length), radius);
     const double before = now.closest.distance;
-    now = share > 1.0 ? ahead : Instant(now.time + share * length, shaft, face);
+    now = share > 1.0 ? ahead : Instant(now.time + share * length, core, face);
     if (now.closest.distance <= radius + tolerance::kTouch)
       return FirstTouch{now.time, now.closest};
-    if (now.time == 1.0) return std::nullopt;
+    if (now.time >= until) return std::nullopt;
     double next = 2.0;
     if (share <= 1.0) {
       // Twice the time until they touch, if they come nearer as fast as they did.
@@ -100,7 +109,7 @@ std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion
       next = 2.0 * (now.closest.distance - radius) / approach;
       if (!(next > 0.0 && next < 0.25)) next = 0.25;
     }
-    ahead = Instant(std::min(now.time + next * length, 1.0), shaft, face);
+    ahead = Instant(std::min(now.time + next * length, until), core, face);
   }
   return FirstTouch{now.time, now.closest};  // rather one contact too many
 }

@@ -22,7 +22,7 @@ LinkPart LinkPart::cylinder(const Eigen::Isometry3d& T_link_shape, double radius
                 nullptr,
                 tolerance::kSkin,
                 {T_link_shape.translation(), T_link_shape.linear(), {radius, radius, end.z()}}};
-  part.core.disc_radius = radius;
+  part.core.rim = radius * T_link_shape.linear().leftCols<2>();
   return part;
 }
 

@@ -78,7 +78,7 @@ std::optional<FaceContact> refine(const LegAndEnd& step, double radius) {
     contact.normal = piercing_normal(step.shaft.at(touch->time), step.face.at(touch->time));
     contact.depth = radius + contact.normal.dot(step.shaft_end.tip - point_end);
   } else {
-    contact.normal = (closest.on_face - closest.on_axis).normalized();
+    contact.normal = (closest.on_face - closest.on_core).normalized();
     contact.depth = radius - contact.normal.dot(point_end - axis_end);
   }
   contact.behind = face_normal(step.face_end).dot(axis_end - point_end) < -tolerance::kTie;

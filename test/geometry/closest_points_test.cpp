@@ -36,8 +36,8 @@ void expect_consistent(const ClosestPoints& found, const ShaftAxis& axis, const 
   const Vector3d on_face = found.barycentric[0] * face[0] + found.barycentric[1] * face[1] +
                            found.barycentric[2] * face[2];
   EXPECT_LE((found.on_face - on_face).norm(), slack);
-  EXPECT_LE((found.on_axis - axis.at(found.shaft)).norm(), slack);
-  EXPECT_NEAR((found.on_face - found.on_axis).norm(), found.distance, slack);
+  EXPECT_LE((found.on_core - axis.at(found.shaft)).norm(), slack);
+  EXPECT_NEAR((found.on_face - found.on_core).norm(), found.distance, slack);
 }
 
 class ClosestPointsTrials : public testing::TestWithParam<std::size_t> {
@@ -136,7 +136,7 @@ TEST(ClosestPoints, BallAndPointHaveOneNearestPair) {
   const ClosestPoints found = closest_points({center, center}, {corner, corner, corner});
   EXPECT_NEAR(found.distance, 0.5, 1e-15);
   EXPECT_EQ(found.shaft, 1.0);
-  EXPECT_EQ(found.on_axis, center);
+  EXPECT_EQ(found.on_core, center);
   EXPECT_EQ(found.on_face, corner);
 }
 

@@ -100,7 +100,7 @@ TEST_P(FirstTouchTrials, WithoutMotionIsTheDistance) {
   for (int i = 0; i < 300; ++i) {
     const Trial trial = oracle::make_trial(GetParam(), random);
     const ShaftAxis& axis = trial.motion.end;
-    const auto touch = first_touch({axis, axis}, resting(trial.face), trial.radius);
+    const auto touch = first_touch(ShaftMotion{axis, axis}, resting(trial.face), trial.radius);
     EXPECT_EQ(touch.has_value(), closest_points(axis, trial.face).distance <= trial.radius);
     if (touch) {
       EXPECT_EQ(touch->time, 0.0);
@@ -130,7 +130,7 @@ TEST(FirstTouch, GrazingIsDecidedByTheRadius) {
         const Vector3d half(0.0, 0.03, 0.07);
         const ShaftAxis start{middle - half - Vector3d(0.2, 0.0, 0.0), middle - half};
         const ShaftAxis end{start.trocar + 2.0 * half, middle + half};
-        const auto touch = first_touch({start, end}, resting(face), radius);
+        const auto touch = first_touch(ShaftMotion{start, end}, resting(face), radius);
         if (std::abs(gap - radius) > kBand) {
           EXPECT_EQ(touch.has_value(), gap < radius) << radius << " " << sign * digits;
         }
@@ -148,12 +148,12 @@ TEST(FirstTouch, TissueThatSwingsThroughARestingToolIsFound) {
                            Vector3d(-0.41, 0.1, 0.35)};
   const Vector3d swing(0.9, 0.0, 0.0);
   const FaceMotion motion{before, {before[0] + swing, before[1] + swing, before[2] + swing}};
-  EXPECT_FALSE(first_touch({axis, axis}, resting(motion.start), 2e-3));
-  EXPECT_FALSE(first_touch({axis, axis}, resting(motion.end), 2e-3));
-  const auto touch = first_touch({axis, axis}, motion, 2e-3);
+  EXPECT_FALSE(first_touch(ShaftMotion{axis, axis}, resting(motion.start), 2e-3));
+  EXPECT_FALSE(first_touch(ShaftMotion{axis, axis}, resting(motion.end), 2e-3));
+  const auto touch = first_touch(ShaftMotion{axis, axis}, motion, 2e-3);
   ASSERT_TRUE(touch);
   expect_at_radius(*touch, {axis, axis}, motion, 2e-3);
-  EXPECT_LT(touch->closest.on_face.x(), touch->closest.on_axis.x());
+  EXPECT_LT(touch->closest.on_face.x(), touch->closest.on_core.x());
 }
 
 // The time is where the ball's distance from the plane is the radius.
@@ -161,7 +161,7 @@ TEST(FirstTouch, TimeOfABallThatFallsOnAFace) {
   const Triangle face = {Vector3d(-1.0, -1.0, 0.2), Vector3d(2.0, -1.0, 0.2),
                          Vector3d(-1.0, 2.0, 0.2)};
   const Vector3d high(0.03, 0.01, 0.7), low(0.05, -0.02, 0.1);
-  const auto touch = first_touch({{high, high}, {low, low}}, resting(face), 0.025);
+  const auto touch = first_touch(ShaftMotion{{high, high}, {low, low}}, resting(face), 0.025);
   ASSERT_TRUE(touch);
   EXPECT_NEAR(touch->time, 0.475 / 0.6, 1e-9);
 }

@@ -92,12 +92,12 @@ class AimedFacesTest : public testing::TestWithParam<PickerKind> {
  protected:
   // Aims a face no larger than `size` [m] at the outward side of a tool that is brought there.
   void shoot(ShaftMotion motion, double radius, const Vector3d& outward, double size) {
-    const Vector3d on_axis = farthest(motion, outward, random_);
+    const Vector3d on_core = farthest(motion, outward, random_);
     const double reach = radius * (1 - random_.magnitude(1e-9, 1e-6));
-    const AimedFace face = aimed_face(on_axis + reach * outward, outward, size, random_);
-    const Vector3d by = face.touch - reach * outward - on_axis;
+    const AimedFace face = aimed_face(on_core + reach * outward, outward, size, random_);
+    const Vector3d by = face.touch - reach * outward - on_core;
     motion = moved(motion, by);
-    if ((face.touch - (on_axis + by)).norm() > radius) return;
+    if ((face.touch - (on_core + by)).norm() > radius) return;
     ++aimed_;
 
     VolumeMargin margin;

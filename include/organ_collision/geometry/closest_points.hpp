@@ -1,23 +1,32 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
+#include "organ_collision/geometry/convex_core.hpp"
 #include "organ_collision/geometry/shaft.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 
 namespace organ_collision {
 
-/// A nearest pair of an axis and a face.
+/// A nearest pair of a tool's core and a face.
 struct ClosestPoints {
-  double distance;              ///< [m] 0 where the axis pierces the face
-  double shaft;                 ///< place on the axis, in [0, 1] from trocar to tip
+  double distance;              ///< [m] 0 where the core meets the face
+  double shaft;                 ///< place on an axis, in [0, 1] from trocar to tip; else 0
   Eigen::Vector3d barycentric;  ///< of the point on the face, in the order of its corners
-  Eigen::Vector3d on_axis;      ///< [m]
+  Eigen::Vector3d on_core;      ///< [m]
   Eigen::Vector3d on_face;      ///< [m]
 };
 
 /// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a
 /// segment or a point). Of several pairs within tolerance::kTie, the one nearest the tip.
 ClosestPoints closest_points(const ShaftAxis& axis, const Triangle& face);
+
+/// The nearest points of any core and a face, at most 1e-12 m (or as much of the distance) farther
+/// apart than their distance: for an axis the closed form, else Gilbert, Johnson and Keerthi's
+/// iteration (1988). Once the distance is surely larger than `enough` [m], that is enough: a lower
+/// bound above it is the `distance` then, and the points are any.
+ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
+                             double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace organ_collision

@@ -14,8 +14,9 @@ namespace organ_collision {
 struct ConvexCore {
   std::array<Eigen::Vector3d, 8> points;
   std::size_t count = 0;
-  /// > 0: the core is a flat-ended cylinder of this radius; its two points are the ends' centres.
-  double disc_radius = 0.0;
+  /// Of a flat-ended cylinder, whose two points are the ends' centres: from a centre to the rim, in
+  /// two directions at right angles to each other and to the axis [m]. Else zero.
+  Eigen::Matrix<double, 3, 2> rim = Eigen::Matrix<double, 3, 2>::Zero();
 
   ConvexCore() = default;
   ConvexCore(const ShaftAxis& axis) : points{axis.trocar, axis.tip}, count(2) {}
@@ -25,7 +26,8 @@ struct ConvexCore {
   /// How far the core reaches along `direction`: direction · support(direction).
   double height(const Eigen::Vector3d& direction) const;
   /// Whether its nearest points have a place on a straight axis: a ball or a shaft.
-  bool is_axis() const { return count <= 2 && disc_radius == 0.0; }
+  bool is_axis() const { return count <= 2 && !is_cylinder(); }
+  bool is_cylinder() const { return rim(0, 0) != 0.0 || rim(1, 0) != 0.0 || rim(2, 0) != 0.0; }
   ShaftAxis axis() const { return {points[0], points[count - 1]}; }
 };
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "organ_collision/geometry/closest_points.hpp"
-#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/core_motion.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 
 namespace organ_collision {
@@ -17,20 +17,20 @@ struct FaceMotion {
   Triangle at(double time) const;
 };
 
-/// When an axis first comes within the radius of a face, and where.
+/// When a part's core first comes within the radius of a face, and where.
 struct FirstTouch {
   double time;  ///< in [0, 1] of the leg
   ClosestPoints closest;
 };
 
-/// First time of the leg at which distance(face, axis) <= radius, to within tolerance::kTouch;
-/// none if the axis stays farther during the whole leg. One routine for fixed and moving trocars,
-/// resting and moving faces.
+/// First time of the leg, up to `until`, at which distance(face, core) <= radius [m], to within
+/// tolerance::kTouch; none if the core stays farther all that time. One routine for fixed and
+/// moving trocars, links that turn, resting and moving faces.
 ///
 /// Conservative advancement with a turning plane: the plane between the nearest points at the
 /// start of an interval is turned linearly into the one at its end. While all corners stay beyond
 /// it by the radius, nothing touches; the first time one may not is where the search goes on.
-std::optional<FirstTouch> first_touch(const ShaftMotion& shaft, const FaceMotion& face,
-                                      double radius);
+std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
+                                      double until = 1.0);
 
 }  // namespace organ_collision

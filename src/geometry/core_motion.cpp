@@ -1,0 +1,44 @@
+#include "organ_collision/geometry/core_motion.hpp"
+
+#include <algorithm>
+
+namespace organ_collision {
+namespace {
+
+double reach(const ConvexCore& core) {
+  double farthest2 = 0.0;
+  for (std::size_t i = 0; i < core.count; ++i) {
+    farthest2 = std::max(farthest2, core.points[i].squaredNorm());
+  }
+  return std::sqrt(farthest2) + core.rim.col(0).norm();
+}
+
+}  // namespace
+
+CoreMotion::CoreMotion(const ConvexCore& core, const RigidMotion& motion)
+    : start_(motion.start() * core),
+      end_(motion.end() * core),
+      in_link_(core),
+      link_(&motion),
+      reach_(reach(core)) {}
+
+ConvexCore CoreMotion::at(double time) const {
+  if (time == 0.0) return start_;
+  if (time == 1.0) return end_;
+  if (link_) return link_->at(time) * in_link_;
+  return ShaftMotion{start_.axis(), end_.axis()}.at(time);
+}
+
+double CoreMotion::farthest_move() const {
+  if (link_) return link_->way() + reach_ * link_->angle();
+  return std::max((end_.points[0] - start_.points[0]).norm(),
+                  (end_.points[1] - start_.points[1]).norm());
+}
+
+double CoreMotion::bend(double duration) const {
+  if (!link_) return 0.0;
+  const double angle = duration * link_->angle();
+  return reach_ * angle * angle / 8.0;
+}
+
+}  // namespace organ_collision
