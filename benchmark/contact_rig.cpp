@@ -13,9 +13,10 @@ namespace {
 
 constexpr QueryMode kBoth[] = {QueryMode::kStatic, QueryMode::kSwept};
 
-/// A step of one leg, for one face.
-LegAndEnd leg(const ShaftMotion& shaft, const Triangle& before, const Triangle& now) {
-  return {shaft, {before, now}, 0.0, 1.0, shaft.end, now};
+/// Of a step of one leg, for one face.
+std::optional<FaceContact> refine_whole(const ToolStep& tool, const Triangle& before,
+                                        const Triangle& now) {
+  return refine({tool.motion, tool.radius, {tool.motion.end}}, {{before, now}, 0.0, 1.0, now});
 }
 
 }  // namespace
@@ -60,7 +61,7 @@ void ContactRig::check(std::size_t steps, bool organ_moves) {
       for (std::uint32_t face = 0; face < organ_.face_count(); ++face) {
         const Triangle now = organ_.triangle(face);
         const Triangle before = organ_moves && swept ? before_.triangle(face) : now;
-        if (refine(leg(tool.motion, before, now), tool.radius)) answer.faces.push_back(face);
+        if (refine_whole(tool, before, now)) answer.faces.push_back(face);
       }
       query_.evaluate(request(step, mode, organ_moves), result_);
       std::vector<std::uint32_t> found;
@@ -87,7 +88,7 @@ ContactRig::Timed ContactRig::contacts(bool organ_moves) {
     for (const Candidate& candidate : candidates_) {
       const Triangle now = organ_.triangle(candidate.face);
       const Triangle before = moves ? before_.triangle(candidate.face) : now;
-      timed.contacts += refine(leg(tool.motion, before, now), tool.radius).has_value();
+      timed.contacts += refine_whole(tool, before, now).has_value();
     }
     timed.seconds += watch.lap();
   }

@@ -7,23 +7,13 @@
 #include "camera_axes.hpp"
 #include "convex_hull.hpp"
 #include "organ_collision/picking/viewing_volume.hpp"
+#include "rounding.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-
-// How far a volume grows for what 32-bit clipping loses, as shares of the largest coordinate [1].
-struct Rounding {
-  double plane;     ///< every plane is misplaced by up to this
-  double division;  ///< the far plane by this times far / near as well
-};
-
-// Measured with faces aimed at the boundary: a tenth of the first is too little, and a sixteenth of
-// the second. The rest is margin.
-constexpr Rounding kCovered{1e-6, 16.0 / (1 << 24)};
-constexpr Rounding kIgnored{0.0, 0.0};
 
 // The perspective camera serves triangles of trocar and tips that are neither too thin nor too skew
 // for it; the box serves all others.

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "organ_collision/geometry/tolerances.hpp"
 
@@ -60,29 +61,75 @@ Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
   return turn ? Vector3d(-normal) : normal;
 }
 
+/// [m] How far a link reaches along a unit direction, from the organ frame's origin.
+double height(const Link& link, const Eigen::Isometry3d& T_organ_link, const Vector3d& direction) {
+  const Vector3d in_link = T_organ_link.linear().transpose() * direction;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const LinkPart& part : link.parts) {
+    highest = std::max(highest, part.height(in_link) + part.radius);
+  }
+  return highest + direction.dot(T_organ_link.translation());
+}
+
+/// The normal where a link pierces the face: the face's own, turned so that the way back out is the
+/// shorter one.
+Vector3d piercing_normal(const Link& link, const Eigen::Isometry3d& T_organ_link,
+                         const Triangle& face) {
+  Vector3d normal = face_normal(face);
+  if (normal.isZero(0.0)) normal = perpendicular(longest_edge(face), Vector3d::Zero());
+  const double middle = normal.dot(face[0]);
+  const double forward = height(link, T_organ_link, normal) - middle;
+  const double backward = height(link, T_organ_link, -normal) + middle;
+  const bool is_tie = std::abs(forward - backward) <= tolerance::kTie;
+  const bool turn = is_tie ? !first_nonzero_is_positive(normal) : backward < forward;
+  return turn ? Vector3d(-normal) : normal;
+}
+
+/// Where a point of the part is at the end of the step.
+Vector3d at_end(const FirstTouch& touch, const PartLeg& part) {
+  if (!part.end.link) return part.end.axis.at(touch.closest.shaft);
+  const Eigen::Isometry3d pose = part.core.link()->at(touch.time);
+  return part.end.pose * (pose.inverse() * touch.closest.on_core);
+}
+
+/// [m] How far the tool reaches along the normal of the face that it pierced, at the end of the
+/// step: its tip, or the foremost point of the link.
+double height_at_end(const PartLeg& part, const Vector3d& normal) {
+  const PartEnd& end = part.end;
+  return end.link ? height(*end.link, end.pose, normal) : normal.dot(end.axis.tip) + part.radius;
+}
+
 }  // namespace
 
-std::optional<FaceContact> refine(const LegAndEnd& step, double radius) {
-  const std::optional<FirstTouch> touch = first_touch(step.shaft, step.face, radius);
-  if (!touch) return std::nullopt;
-  const ClosestPoints& closest = touch->closest;
-  const Vector3d point_end = at(closest.barycentric, step.face_end);
-  const Vector3d axis_end = step.shaft_end.at(closest.shaft);
+FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face) {
+  const ClosestPoints& closest = touch.closest;
+  const Vector3d point_end = at(closest.barycentric, face.end);
+  const Vector3d core_end = at_end(touch, part);
 
   FaceContact contact;
-  contact.fraction = step.begin + touch->time * (step.finish - step.begin);
+  contact.link = part.link;
+  contact.fraction = face.begin + touch.time * (face.finish - face.begin);
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;
-  contact.shaft = closest.shaft;
+  contact.shaft = part.end.link ? 0.0 : closest.shaft;
   if (closest.distance <= tolerance::kPierced) {
-    contact.normal = piercing_normal(step.shaft.at(touch->time), step.face.at(touch->time));
-    contact.depth = radius + contact.normal.dot(step.shaft_end.tip - point_end);
+    const Triangle face_now = face.motion.at(touch.time);
+    contact.normal =
+        part.end.link ? piercing_normal(*part.end.link, part.core.link()->at(touch.time), face_now)
+                      : piercing_normal(part.core.at(touch.time).axis(), face_now);
+    contact.depth = height_at_end(part, contact.normal) - contact.normal.dot(point_end);
   } else {
     contact.normal = (closest.on_face - closest.on_core).normalized();
-    contact.depth = radius - contact.normal.dot(point_end - axis_end);
+    contact.depth = part.radius - contact.normal.dot(point_end - core_end);
   }
-  contact.behind = face_normal(step.face_end).dot(axis_end - point_end) < -tolerance::kTie;
+  contact.behind = face_normal(face.end).dot(core_end - point_end) < -tolerance::kTie;
   return contact;
+}
+
+std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face) {
+  const std::optional<FirstTouch> touch = first_touch(part.core, face.motion, part.radius);
+  if (!touch) return std::nullopt;
+  return contact_of(*touch, part, face);
 }
 
 }  // namespace organ_collision

@@ -15,6 +15,9 @@ template <typename... Parts>
   throw std::invalid_argument(message.str());
 }
 
+/// [1] How far a pose's rotation may be from one.
+constexpr double kRotation = 1e-6;
+
 void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& point) {
   // NaN is within nothing.
   if ((point.array().abs() <= tolerance::kFarthest).all()) return;
@@ -22,11 +25,30 @@ void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& 
          "); must be finite and within ", tolerance::kFarthest, " m");
 }
 
-void check_path(const ToolPath& path) {
+void check_links(const std::vector<Link>& links, const ToolWaypoint& waypoint, std::size_t index) {
+  if (waypoint.links.size() != links.size()) {
+    refuse("waypoint ", index, " has poses of ", waypoint.links.size(), " links; the tool has ",
+           links.size());
+  }
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    const Eigen::Isometry3d& pose = waypoint.links[i];
+    check_point(links[i].name.c_str(), index, pose.translation());
+    const Eigen::Matrix3d& turn = pose.linear();
+    if (!(turn * turn.transpose()).isIdentity(kRotation) || !(turn.determinant() > 0.0)) {
+      refuse("the orientation of ", links[i].name, " of waypoint ", index, " is no rotation");
+    }
+  }
+}
+
+void check_path(const CollisionRequest& request) {
+  const ToolPath& path = request.path;
   if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
   for (std::size_t i = 0; i < path.size(); ++i) {
-    check_point("trocar", i, path[i].axis.trocar);
-    check_point("tip", i, path[i].axis.tip);
+    if (request.radius > 0.0) {
+      check_point("trocar", i, path[i].axis.trocar);
+      check_point("tip", i, path[i].axis.tip);
+    }
+    if (request.links) check_links(*request.links, path[i], i);
     if (i > 0 && !(path[i].fraction > path[i - 1].fraction)) {
       refuse("waypoint ", i, " is at fraction ", path[i].fraction, " after ", path[i - 1].fraction,
              "; fractions must rise");
@@ -42,18 +64,30 @@ bool needs_resting_trocar(QueryMode mode) {
   return mode == QueryMode::kPaperSwept || mode == QueryMode::kPaperNaive;
 }
 
-}  // namespace
-
-void check(const CollisionRequest& request) {
-  if (!request.organ) refuse("the request names no organ");
-  if (!(request.radius > 0.0 && request.radius <= tolerance::kFarthest)) {
+void check_radius(const CollisionRequest& request) {
+  const bool has_links = request.links && !request.links->empty();
+  if (has_links && request.radius == 0.0) {
+    if (is_paper_mode(request.mode))
+      refuse("the paper's modes need a shaft; the tool has links alone");
+  } else if (!(request.radius > 0.0 && request.radius <= tolerance::kFarthest)) {
     refuse("radius is ", request.radius, " m; must be positive, finite and within ",
            tolerance::kFarthest, " m");
   }
+}
+
+}  // namespace
+
+bool is_paper_mode(QueryMode mode) {
+  return mode != QueryMode::kStatic && mode != QueryMode::kSwept;
+}
+
+void check(const CollisionRequest& request) {
+  if (!request.organ) refuse("the request names no organ");
   if (request.mode > QueryMode::kPaperNaive) {
     refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 to 4");
   }
-  check_path(request.path);
+  check_radius(request);
+  check_path(request);
   if (needs_resting_trocar(request.mode) &&
       request.path.front().axis.trocar != request.path.back().axis.trocar) {
     refuse("the trocar moves by ",

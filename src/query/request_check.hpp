@@ -4,6 +4,8 @@
 
 namespace organ_collision {
 
+bool is_paper_mode(QueryMode mode);
+
 /// Throws std::invalid_argument, naming the value and what is legal, for a request without answer.
 void check(const CollisionRequest& request);
 

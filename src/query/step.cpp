@@ -7,6 +7,8 @@ namespace organ_collision {
 Step::Step(const CollisionRequest& request, LastDisplacement& displacement)
     : organ_(*request.organ),
       organ_before_(request.mode == QueryMode::kStatic ? nullptr : request.organ_before),
+      radius_(request.radius),
+      links_(request.links),
       waypoints_(request.mode == QueryMode::kStatic ? &request.path.back() : request.path.data()),
       waypoint_count_(request.mode == QueryMode::kStatic ? 1 : request.path.size()),
       displacement_(organ_before_ ? displacement.between(*organ_before_, organ_) : 0.0) {}
@@ -17,21 +19,19 @@ std::size_t Step::leg_at(double fraction) const {
   return leg;
 }
 
-LegAndEnd Step::leg(std::size_t leg, std::uint32_t face) const {
+FaceLeg Step::face(std::size_t leg, std::uint32_t face) const {
   const Triangle end = organ_.triangle(face);
-  LegAndEnd step{
-      shaft(leg), {end, end}, begin(leg), finish(leg), waypoints_[waypoint_count_ - 1].axis, end};
+  FaceLeg on_leg{{end, end}, begin(leg), finish(leg), end};
   if (organ_before_) {
     const FaceMotion whole{organ_before_->triangle(face), end};
-    step.face = {whole.at(step.begin), step.finish == 1.0 ? end : whole.at(step.finish)};
+    on_leg.motion = {whole.at(on_leg.begin), on_leg.finish == 1.0 ? end : whole.at(on_leg.finish)};
   }
-  return step;
+  return on_leg;
 }
 
-VolumeMargin Step::margin(std::size_t leg) const {
-  const Eigen::Vector3d& trocar = from(leg).axis.trocar;
-  const Eigen::Vector3d low = organ_.box().min().cast<double>() - trocar;
-  const Eigen::Vector3d high = organ_.box().max().cast<double>() - trocar;
+VolumeMargin Step::margin(const Eigen::Vector3d& origin) const {
+  const Eigen::Vector3d low = organ_.box().min().cast<double>() - origin;
+  const Eigen::Vector3d high = organ_.box().max().cast<double>() - origin;
   return {displacement_, std::max(low.cwiseAbs().maxCoeff(), high.cwiseAbs().maxCoeff())};
 }
 

@@ -33,13 +33,11 @@ std::vector<FaceContact> by_brute_force(const CollisionRequest& request) {
     for (std::size_t leg = 1; leg < request.path.size(); ++leg) {
       const ToolWaypoint &from = request.path[leg - 1], &to = request.path[leg];
       const auto contact =
-          refine({{from.axis, to.axis},
-                  {between(before, after, from.fraction), between(before, after, to.fraction)},
+          refine({ShaftMotion{from.axis, to.axis}, request.radius, {request.path.back().axis}},
+                 {{between(before, after, from.fraction), between(before, after, to.fraction)},
                   from.fraction,
                   to.fraction,
-                  request.path.back().axis,
-                  after},
-                 request.radius);
+                  after});
       if (!contact) continue;
       contacts.push_back(*contact);
       contacts.back().face = face;

@@ -17,6 +17,19 @@ using Eigen::Vector3d;
 using oracle::Random;
 using oracle::Trial;
 
+struct LegAndEnd {
+  ShaftMotion shaft;
+  FaceMotion face;
+  double begin, finish;
+  ShaftAxis shaft_end;
+  Triangle face_end;
+};
+
+std::optional<FaceContact> refine(const LegAndEnd& step, double radius) {
+  return refine(PartLeg{step.shaft, radius, {step.shaft_end}},
+                FaceLeg{step.face, step.begin, step.finish, step.face_end});
+}
+
 LegAndEnd at_rest(const ShaftAxis& axis, const Triangle& face) {
   return {{axis, axis}, {face, face}, 0.0, 1.0, axis, face};
 }

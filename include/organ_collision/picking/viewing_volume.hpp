@@ -7,6 +7,7 @@
 
 #include "organ_collision/geometry/half_space.hpp"
 #include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/swept_box.hpp"
 
 namespace organ_collision {
 
@@ -81,7 +82,7 @@ ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius);
 /// How far the conservative volumes grow.
 struct VolumeMargin {
   double motion = 0.0;  ///< [m] the farthest that any vertex moved during the leg
-  double extent = 0.0;  ///< [m] largest coordinate of any drawn vertex relative to the trocar
+  double extent = 0.0;  ///< [m] largest coordinate of any drawn vertex relative to the origin
 };
 
 /// Contains every point within `radius` (+ margin.motion) of the axis at some time of the leg, for
@@ -91,8 +92,13 @@ struct VolumeMargin {
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin);
 
-/// The conservative volume without its margins: the tool's own, as near as six frustum planes and
-/// user planes can be to the swept capsule. What regions are clipped to.
+/// The same for a box of a link: contains it, grown by its radius, at every time of the leg. An
+/// orthographic box.
+ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin);
+
+/// The conservative volumes without their margins: the tool's own, as near as six frustum planes
+/// and user planes can be to the swept capsule, or the box. What regions are clipped to.
 ViewingVolume tool_volume(const ShaftMotion& motion, double radius);
+ViewingVolume tool_volume(const SweptBox& box);
 
 }  // namespace organ_collision

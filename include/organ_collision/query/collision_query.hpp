@@ -7,6 +7,7 @@
 
 #include "organ_collision/geometry/displacement.hpp"
 #include "organ_collision/geometry/link.hpp"
+#include "organ_collision/geometry/surface_touch.hpp"
 #include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 #include "organ_collision/picking/gl_context.hpp"
@@ -43,6 +44,7 @@ struct CollisionResult {
 };
 
 class Step;
+struct PartLeg;
 
 /// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
 /// Owns its GL context; use from one thread at a time. Keeps its buffers between queries.
@@ -60,14 +62,24 @@ class CollisionQuery {
   const std::string& gl_version() const { return context_->version(); }
 
  private:
+  void touch_shaft(const Step& step, std::size_t leg, std::vector<FaceContact>& contacts);
+  void touch_link(const Step& step, std::size_t leg, std::size_t link,
+                  std::vector<FaceContact>& contacts);
+  void touch_core(const Step& step, std::size_t leg, const PartLeg& part,
+                  std::vector<FaceContact>& contacts);
+  void touch_surface(const Step& step, std::size_t leg, const PartLeg& part,
+                     const ToolSurface& surface, std::vector<FaceContact>& contacts);
   void pick_unrefined(const CollisionRequest& request, CollisionResult& result);
-  void clip_regions(const CollisionRequest& request, const Step& step, CollisionResult& result);
+  void clip_regions(const Step& step, CollisionResult& result);
+  void clip_regions(const ViewingVolume& volume, const Step& step, std::size_t leg,
+                    std::uint32_t link, CollisionResult& result);
 
   std::unique_ptr<GlContext> context_;
   std::unique_ptr<Picker> picker_;
   RegionClipper region_clipper_;
   LastDisplacement displacement_;
   std::vector<Candidate> candidates_;
+  std::vector<FaceTouch> touches_;
   std::vector<std::uint32_t> faces_;
 };
 

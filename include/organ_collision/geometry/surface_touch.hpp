@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "organ_collision/geometry/first_touch.hpp"
+#include "organ_collision/geometry/rigid_motion.hpp"
+#include "organ_collision/geometry/tool_surface.hpp"
+
+namespace organ_collision {
+
+/// A face on one leg, and when it first touches, once that is found.
+struct FaceTouch {
+  std::uint32_t face;  ///< its number
+  FaceMotion motion;
+  std::optional<FirstTouch> first;
+};
+
+/// Finds when each of `faces` first comes within `radius` [m] of a link's surface: down the tree of
+/// boxes with the faces that may reach them, then face against face. Leaves the faces in another
+/// order. Allocates nothing.
+void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
+                        std::vector<FaceTouch>& faces);
+
+}  // namespace organ_collision

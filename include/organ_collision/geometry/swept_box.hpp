@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "organ_collision/geometry/first_touch.hpp"
+#include "organ_collision/geometry/oriented_box.hpp"
+#include "organ_collision/geometry/rigid_motion.hpp"
+
+namespace organ_collision {
+
+/// A box of a link, grown by a radius, on one leg of the link's way, in the organ's frame [m].
+class SweptBox {
+ public:
+  /// `box` in the link's frame.
+  SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius);
+
+  /// The box's centre at the start.
+  const Eigen::Vector3d& origin() const { return start_.center; }
+  /// The box's own axes half way: columns, orthonormal, right-handed.
+  const Eigen::Matrix3d& axes() const { return axes_; }
+  /// Of the whole leg, along the axes.
+  Eigen::Vector3d low() const { return start_.low.cwiseMin(end_.low).array() - reach_; }
+  Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
+
+  /// True: the face surely stays farther from the box than the radius during the leg. Tried are
+  /// planes that do not turn: across the box's axes half way, and along the face at the start. Both
+  /// ends of the leg decide, since between them points move linearly but for their bend.
+  bool stays_clear_of(const FaceMotion& face) const;
+
+ private:
+  struct Place {
+    Eigen::Vector3d center;
+    Eigen::Matrix3d half_edges;
+    Eigen::Vector3d low, high;  ///< along the axes
+  };
+  Place place(const OrientedBox& box, const Eigen::Isometry3d& pose) const;
+
+  Eigen::Matrix3d axes_;
+  Place start_, end_;
+  double reach_;  ///< [m] radius and bend
+};
+
+}  // namespace organ_collision
