@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "cylinder_distance.hpp"
 #include "organ_collision/geometry/closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
@@ -131,7 +132,8 @@ Vertex farthest_against(const Vector3d& direction, const ConvexCore& core, const
 
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, double enough) {
   if (core.is_axis()) return closest_points(core.axis(), face);
-  constexpr int kMaxSteps = 200;  // Some five suffice for hulls, some twenty for cylinders.
+  if (core.is_cylinder()) return cylinder_closest_points(core, face);
+  constexpr int kMaxSteps = 100;  // Some five suffice.
   Simplex simplex(farthest_against(face[0] - core.points[0], core, face));
   for (int step = 0; step < kMaxSteps; ++step) {
     const double distance = simplex.nearest().norm();

@@ -22,10 +22,10 @@ struct ClosestPoints {
 /// segment or a point). Of several pairs within tolerance::kTie, the one nearest the tip.
 ClosestPoints closest_points(const ShaftAxis& axis, const Triangle& face);
 
-/// The nearest points of any core and a face, at most 1e-12 m (or as much of the distance) farther
-/// apart than their distance: for an axis the closed form, else Gilbert, Johnson and Keerthi's
-/// iteration (1988). Once the distance is surely larger than `enough` [m], that is enough: a lower
-/// bound above it is the `distance` then, and the points are any.
+/// The nearest points of any core and a face. Of a hull of three and more points by Gilbert, Johnson
+/// and Keerthi's iteration (1988), until no point can be nearer by 1e-12 m, or as much of the
+/// distance. For hulls, `enough` [m] is enough: once the distance is surely larger, a lower bound
+/// above it is the `distance`, and the points are any.
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
                              double enough = std::numeric_limits<double>::infinity());
 

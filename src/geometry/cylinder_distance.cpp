@@ -1,0 +1,139 @@
+#include "cylinder_distance.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+class NearestToCylinder {
+ public:
+  NearestToCylinder(const ConvexCore& cylinder, const Triangle& face)
+      : cylinder_(cylinder),
+        face_(face),
+        along_((cylinder.points[1] - cylinder.points[0]).normalized()),
+        length_((cylinder.points[1] - cylinder.points[0]).norm()),
+        radius_(cylinder.rim.col(0).norm()) {
+    for (int i = 0; i < 3; ++i) consider_edge(i, (i + 1) % 3);
+    consider_inside();
+  }
+
+  const ClosestPoints& nearest() const { return nearest_; }
+
+ private:
+  /// From the nearest point of the solid cylinder to a point; zero inside.
+  Vector3d apart(const Vector3d& point) const {
+    const Vector3d from_end = point - cylinder_.points[0];
+    const double place = along_.dot(from_end);
+    const Vector3d across = from_end - place * along_;
+    const double distance = across.norm();
+    const double beyond = place - std::clamp(place, 0.0, length_);
+    Vector3d apart = beyond * along_;
+    if (distance > radius_) apart += (1.0 - radius_ / distance) * across;
+    return apart;
+  }
+
+  void consider(const Vector3d& barycentric, const Vector3d& on_face, const Vector3d& apart) {
+    const double distance = apart.norm();
+    if (distance < nearest_.distance) {
+      nearest_ = {distance, 0.0, barycentric, on_face - apart, on_face};
+    }
+  }
+
+  void consider_edge(int from, int to) {
+    const Vector3d edge = face_[to] - face_[from];
+    const double place = nearest_place(face_[from], edge);
+    const Vector3d on_face = face_[from] + place * edge;
+    Vector3d barycentric = Vector3d::Zero();
+    barycentric[from] = 1.0 - place;
+    barycentric[to] = place;
+    consider(barycentric, on_face, apart(on_face));
+  }
+
+  /// Half of the derivative of the squared distance along a line, and of that one.
+  struct Slope {
+    double value, rise;
+  };
+  Slope slope(const Vector3d& point, const Vector3d& direction) const {
+    const Vector3d from_end = point - cylinder_.points[0];
+    const double place = along_.dot(from_end), turn = along_.dot(direction);
+    const Vector3d across = from_end - place * along_, sideways = direction - turn * along_;
+    const double distance = across.norm();
+    Slope slope{0.0, 0.0};
+    if (place < 0.0 || place > length_) {
+      slope = {turn * (place - std::clamp(place, 0.0, length_)), turn * turn};
+    }
+    if (distance > radius_) {
+      const double outside = 1.0 - radius_ / distance, closing = across.dot(sideways) / distance;
+      slope.value += outside * distance * closing;
+      slope.rise += outside * sideways.squaredNorm() + (1.0 - outside) * closing * closing;
+    }
+    return slope;
+  }
+
+  /// Where on an edge, in [0, 1], the distance is least: its slope rises. Newton's steps, halved
+  /// where they leave the bracket or are no faster than halving.
+  double nearest_place(const Vector3d& corner, const Vector3d& edge) const {
+    constexpr int kMaxSteps = 200;  // Halving alone takes some sixty to neighbouring numbers.
+    if (slope(corner, edge).value >= 0.0) return 0.0;
+    if (slope(corner + edge, edge).value <= 0.0) return 1.0;
+    double low = 0.0, high = 1.0, place = 0.5, last_move = 1.0;
+    for (int step = 0; step < kMaxSteps; ++step) {
+      const Slope here = slope(corner + place * edge, edge);
+      if (here.value == 0.0) break;
+      (here.value < 0.0 ? low : high) = place;
+      const double newton = place - here.value / here.rise;
+      const bool is_good =
+          newton > low && newton < high && std::abs(newton - place) < 0.5 * last_move;
+      const double next = is_good ? newton : 0.5 * (low + high);
+      last_move = std::abs(next - place);
+      if (next == place || !(next > low && next < high)) break;
+      place = next;
+    }
+    return place;
+  }
+
+  void consider_inside() {
+    const Vector3d area = (face_[1] - face_[0]).cross(face_[2] - face_[0]);
+    if (!(area.squaredNorm() > 0.0)) return;
+    const Vector3d normal = area.normalized();
+    const Vector3d front = cylinder_.support(normal), back = cylinder_.support(-normal);
+    const double above = normal.dot(face_[0] - front), below = normal.dot(back - face_[0]);
+    if (above > 0.0) {
+      consider_projection(front, above * normal, area);
+    } else if (below > 0.0) {
+      consider_projection(back, -below * normal, area);
+    } else {
+      // The cylinder reaches through the face's plane: one point of the section is as good as any,
+      // since a section that is partly inside the face meets an edge.
+      const double share = above + below < 0.0 ? below / (above + below) : 0.5;
+      consider_projection(back + share * (front - back), Vector3d::Zero(), area);
+    }
+  }
+
+  /// Barycentric coordinates of a point's projection; Ericson, Real-Time Collision Detection, 3.4.
+  void consider_projection(const Vector3d& point, const Vector3d& apart, const Vector3d& area) {
+    const Vector3d a = face_[0] - point, b = face_[1] - point, c = face_[2] - point;
+    const Vector3d areas(area.dot(b.cross(c)), area.dot(c.cross(a)), area.dot(a.cross(b)));
+    if (!(areas.minCoeff() >= 0.0)) return;
+    consider(areas / areas.sum(), point + apart, apart);
+  }
+
+  const ConvexCore& cylinder_;
+  const Triangle& face_;
+  const Vector3d along_;
+  const double length_, radius_;
+  ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}};
+};
+
+}  // namespace
+
+ClosestPoints cylinder_closest_points(const ConvexCore& cylinder, const Triangle& face) {
+  return NearestToCylinder(cylinder, face).nearest();
+}
+
+}  // namespace organ_collision
