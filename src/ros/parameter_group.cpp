@@ -111,6 +111,21 @@ const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::stri
   return *value;
 }
 
+std::vector<std::string> ParameterGroup::texts(const std::string& name) const {
+  const std::string legal = "must be a list, not empty, of texts that are not empty, each once";
+  const XmlRpcValue* value = find(name, true, legal);
+  if (value->getType() != XmlRpcValue::TypeArray || value->size() == 0) refuse(name, legal);
+  std::vector<std::string> texts;
+  for (int i = 0; i < value->size(); ++i) {
+    const XmlRpcValue& item = (*value)[i];
+    if (item.getType() != XmlRpcValue::TypeString) refuse(name, legal);
+    const std::string& text = static_cast<const std::string&>(item);
+    if (text.empty() || std::count(texts.begin(), texts.end(), text) > 0) refuse(name, legal);
+    texts.push_back(text);
+  }
+  return texts;
+}
+
 std::vector<std::string> ParameterGroup::misspelt() const {
   std::vector<std::string> sentences;
   for (const auto& [name, value] : value_) {
@@ -125,6 +140,12 @@ void ParameterGroup::refuse(const std::string& name, const std::string& legal) c
   throw ParameterError(path_of(name) + " is '" + written(value_[name]) + "'; " + legal);
 }
 
+void ParameterGroup::refuse_missing(const std::string& name, const std::string& legal) const {
+  std::string message = path_of(name) + " is missing; " + legal;
+  for (const std::string& sentence : misspelt()) message += " (" + sentence + ")";
+  throw ParameterError(message);
+}
+
 std::string ParameterGroup::path_of(const std::string& name) const {
   return path_ == "~" ? path_ + name : path_ + "/" + name;
 }
@@ -133,9 +154,7 @@ const XmlRpcValue* ParameterGroup::find(const std::string& name, bool required,
                                         const std::string& legal) const {
   if (has(name)) return &value_[name];
   if (!required) return nullptr;
-  std::string message = path_of(name) + " is missing; " + legal;
-  for (const std::string& sentence : misspelt()) message += " (" + sentence + ")";
-  throw ParameterError(message);
+  refuse_missing(name, legal);
 }
 
 }  // namespace organ_collision

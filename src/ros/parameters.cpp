@@ -2,6 +2,7 @@
 
 #include <ros/names.h>
 
+#include <initializer_list>
 #include <limits>
 
 #include "organ_collision/ros/conversions.hpp"
@@ -19,6 +20,8 @@ constexpr double kMostFaces = 1 << 24;
 const NumberRange kNotNegative{0.0, kUnlimited};
 const NumberRange kPositive{0.0, kUnlimited, false};
 
+const std::string kShaft = "trocar_frame, tip_frame and radius";
+
 std::string frame(const ParameterGroup& tool, const char* name) {
   std::string frame = tf_frame(tool.text(name));
   if (frame.empty()) tool.refuse(name, "must be the name of a TF frame");
@@ -33,13 +36,28 @@ std::string topic(const ParameterGroup& tool, const char* name) {
   return topic;
 }
 
-ToolParameters parse_tool(const ParameterGroup& tool) {
-  if (tool.has(names::kLinks)) {
-    tool.refuse(names::kLinks,
-                "only shafts are supported: give trocar_frame, tip_frame and radius instead");
+std::string parameter_name(const ParameterGroup& tool, const char* name) {
+  std::string parameter = tool.text(name), error;
+  if (!ros::names::validate(parameter, error)) tool.refuse(name, "must be a parameter's name");
+  return parameter;
+}
+
+std::string tf_prefix(const ParameterGroup& tool) {
+  std::string prefix = tf_frame(tool.text(names::kTfPrefix));
+  if (prefix.empty() || prefix.back() == '/') {
+    tool.refuse(names::kTfPrefix, "must be without a slash at its end");
   }
-  ToolParameters parsed;
-  parsed.name = tool.text(names::kToolName);
+  return prefix;
+}
+
+void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> names,
+                const std::string& why) {
+  for (const char* name : names) {
+    if (tool.has(name)) tool.refuse(name, why);
+  }
+}
+
+void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.trocar_frame = frame(tool, names::kTrocarFrame);
   parsed.radius = tool.number(names::kRadius, {}, kPositive);
   parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
@@ -52,17 +70,54 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   if (parsed.tip_frame == parsed.trocar_frame) {
     tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
   }
+}
+
+void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
+  parsed.links = tool.texts(names::kLinks);
+  if (!tool.has(names::kUrdf)) {
+    parsed.robot_description = tool.has(names::kRobotDescription)
+                                   ? parameter_name(tool, names::kRobotDescription)
+                                   : names::kRobotDescription;
+  } else {
+    refuse_any(tool, {names::kRobotDescription}, "is not needed beside urdf; give one of them");
+    parsed.urdf = tool.text(names::kUrdf);
+  }
+  if (tool.has(names::kTfPrefix)) parsed.tf_prefix = tf_prefix(tool);
+}
+
+ToolParameters parse_tool(const ParameterGroup& tool) {
+  ToolParameters parsed;
+  parsed.name = tool.text(names::kToolName);
+  const bool has_links = tool.has(names::kLinks);
+  const bool has_shaft =
+      tool.has(names::kTrocarFrame) || tool.has(names::kTipFrame) || tool.has(names::kRadius);
+  if (!has_links && !has_shaft) {
+    tool.refuse_missing(names::kLinks, "a tool needs links, or " + kShaft + ", or all of them");
+  }
+  if (has_shaft) {
+    parse_shaft(tool, parsed);
+  } else {
+    refuse_any(tool, {names::kTipPoseTopic, names::kBasePoseTopic},
+               "goes with a shaft: give " + kShaft + ", or let TF place the links");
+  }
+  if (has_links) {
+    parse_links(tool, parsed);
+  } else {
+    refuse_any(tool, {names::kRobotDescription, names::kUrdf, names::kTfPrefix},
+               "goes with links, which are missing");
+  }
   return parsed;
 }
 
 void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
   const XmlRpcValue& list =
-      all.list(names::kTools, "groups of name, trocar_frame, tip_frame and radius [m]");
+      all.list(names::kTools, "groups of name and links, or name, " + kShaft + " [m]");
   for (int i = 0; i < list.size(); ++i) {
     const ParameterGroup group(
         all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
         {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kTipPoseTopic,
-         names::kBasePoseTopic, names::kRadius, names::kLinks});
+         names::kBasePoseTopic, names::kRadius, names::kLinks, names::kRobotDescription,
+         names::kUrdf, names::kTfPrefix});
     const ToolParameters tool = parse_tool(group);
     for (const ToolParameters& other : loaded.parameters.tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");

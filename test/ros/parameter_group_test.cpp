@@ -20,6 +20,13 @@ ParameterGroup group_of(const XmlRpcValue& x) {
   return {"~g", members, {"x", "y"}};
 }
 
+XmlRpcValue list_of(const XmlRpcValue& first, const XmlRpcValue& second) {
+  XmlRpcValue list;
+  list[0] = first;
+  list[1] = second;
+  return list;
+}
+
 template <typename Call>
 std::string message_of(const Call& call) {
   try {
@@ -40,6 +47,7 @@ TEST(ParameterGroup, TakesLegalValues) {
   EXPECT_TRUE(group_of(true).flag("x", false));
   EXPECT_EQ(group_of("text").text("x"), "text");
   EXPECT_EQ(group_of("b").choice("x", "a", {"a", "b"}), "b");
+  EXPECT_EQ(group_of(list_of("b", "a")).texts("x"), (std::vector<std::string>{"b", "a"}));
 }
 
 TEST(ParameterGroup, TakesDefaults) {
@@ -78,6 +86,19 @@ TEST(ParameterGroup, RefusesOtherTypes) {
   EXPECT_THROW(group_of("").text("x"), ParameterError);
   EXPECT_THROW(group_of(1).choice("x", "a", {"a", "1"}), ParameterError);
   EXPECT_THROW(group_of("text").list("x", "tools"), ParameterError);
+  EXPECT_THROW(group_of("text").texts("x"), ParameterError);
+  EXPECT_THROW(group_of(list_of("a", 1)).texts("x"), ParameterError);
+}
+
+TEST(ParameterGroup, TextsAreNotEmptyAndEachOnce) {
+  XmlRpcValue empty;
+  empty.setSize(0);
+  const std::string legal = "must be a list, not empty, of texts that are not empty, each once";
+  for (const XmlRpcValue& value : {empty, list_of("a", ""), list_of("a", "a")}) {
+    const std::string message = message_of([&] { group_of(value).texts("x"); });
+    EXPECT_NE(message.find(legal), std::string::npos) << message;
+  }
+  EXPECT_EQ(message_of([] { group_of(1).texts("y"); }), "~g/y is missing; " + legal);
 }
 
 TEST(ParameterGroup, MissingOnesNameWhatMayHaveBeenMeant) {

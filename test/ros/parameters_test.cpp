@@ -44,6 +44,15 @@ std::string refusal_of_tool(const char* name, const XmlRpcValue& value) {
   return refusal("tools", tools);
 }
 
+/// Of a tool that is one link.
+std::string refusal_of_links(const char* name, const XmlRpcValue& value) {
+  XmlRpcValue tools;
+  tools[0]["name"] = "PSM1";
+  tools[0]["links"][0] = "jaw";
+  tools[0][name] = value;
+  return refusal("tools", tools);
+}
+
 void expect_words(const std::string& message, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
     EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
@@ -128,7 +137,70 @@ TEST(Parameters, IllegalToolsAreNamed) {
                {"~tools[0]/tip_frame", "hook_trocar", "other"});
   expect_words(refusal_of_tool("tip_frame", "/hook_trocar"),
                {"~tools[0]/tip_frame", "hook_trocar", "other"});
-  expect_words(refusal_of_tool("links", "links"), {"~tools[0]/links", "only shafts"});
+}
+
+TEST(Parameters, ToolsMayBeLinks) {
+  XmlRpcValue all;
+  all["tools"][0]["name"] = "PSM1";
+  all["tools"][0]["links"][0] = "jaw";
+  all["tools"][0]["links"][1] = "other_jaw";
+  const ToolParameters plain = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(plain.links, (std::vector<std::string>{"jaw", "other_jaw"}));
+  EXPECT_EQ(plain.robot_description, "robot_description");
+  EXPECT_EQ(plain.urdf, "");
+  EXPECT_EQ(plain.link_frame("jaw"), "jaw");
+  EXPECT_FALSE(plain.has_shaft());
+
+  all["tools"][0]["robot_description"] = "/PSM1/robot_description";
+  all["tools"][0]["tf_prefix"] = "/left";
+  const ToolParameters named = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(named.robot_description, "/PSM1/robot_description");
+  EXPECT_EQ(named.link_frame("jaw"), "left/jaw");
+
+  all["tools"][0] = tool("hook");
+  all["tools"][0]["links"][0] = "jaw";
+  all["tools"][0]["urdf"] = "package://hooks/hook.urdf";
+  const ToolParameters both = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(both.urdf, "package://hooks/hook.urdf");
+  EXPECT_EQ(both.robot_description, "");
+  EXPECT_EQ(both.links, std::vector<std::string>{"jaw"});
+  EXPECT_TRUE(both.has_shaft());
+  EXPECT_EQ(both.trocar_frame, "hook_trocar");
+}
+
+TEST(Parameters, IllegalLinksAreNamed) {
+  XmlRpcValue empty, twice, unnamed;
+  empty.setSize(0);
+  twice[0] = twice[1] = "jaw";
+  unnamed[0] = "";
+  expect_words(refusal_of_tool("links", "jaw"), {"~tools[0]/links", "'jaw'", "list"});
+  expect_words(refusal_of_tool("links", empty), {"~tools[0]/links", "not empty"});
+  expect_words(refusal_of_tool("links", twice), {"~tools[0]/links", "jaw", "each once"});
+  expect_words(refusal_of_tool("links", unnamed), {"~tools[0]/links", "not empty"});
+
+  expect_words(refusal_of_links("robot_description", "a b"),
+               {"~tools[0]/robot_description", "'a b'"});
+  expect_words(refusal_of_links("urdf", ""), {"~tools[0]/urdf", "not empty"});
+  expect_words(refusal_of_links("tf_prefix", "left/"), {"~tools[0]/tf_prefix", "'left/'", "slash"});
+  expect_words(refusal_of_links("tf_prefix", "/"), {"~tools[0]/tf_prefix", "'/'", "slash"});
+}
+
+TEST(Parameters, WhatDoesNotGoTogetherIsNamed) {
+  XmlRpcValue tools;
+  tools[0]["name"] = "PSM1";
+  expect_words(refusal("tools", tools), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
+  expect_words(refusal_of_links("radius", 0.01), {"~tools[0]/trocar_frame", "missing"});
+  expect_words(refusal_of_links("trocar_frame", "a"), {"~tools[0]/radius", "missing"});
+  expect_words(refusal_of_links("tip_frame", "a"), {"~tools[0]/trocar_frame", "missing"});
+  expect_words(refusal_of_links("tip_pose_topic", "a"), {"~tools[0]/tip_pose_topic", "shaft"});
+  expect_words(refusal_of_links("base_pose_topic", "a"), {"~tools[0]/base_pose_topic", "shaft"});
+  for (const char* name : {"robot_description", "urdf", "tf_prefix"}) {
+    expect_words(refusal_of_tool(name, "a"), {std::string("~tools[0]/") + name, "links"});
+  }
+  tools[0]["links"][0] = "jaw";
+  tools[0]["urdf"] = "/hook.urdf";
+  tools[0]["robot_description"] = "robot_description";
+  expect_words(refusal("tools", tools), {"~tools[0]/robot_description", "beside urdf"});
 }
 
 TEST(Parameters, TipsMayComeAsPoses) {

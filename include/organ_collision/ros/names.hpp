@@ -34,5 +34,8 @@ inline constexpr char kTipPoseTopic[] = "tip_pose_topic";
 inline constexpr char kBasePoseTopic[] = "base_pose_topic";
 inline constexpr char kRadius[] = "radius";
 inline constexpr char kLinks[] = "links";
+inline constexpr char kRobotDescription[] = "robot_description";
+inline constexpr char kUrdf[] = "urdf";
+inline constexpr char kTfPrefix[] = "tf_prefix";
 
 }  // namespace organ_collision::names

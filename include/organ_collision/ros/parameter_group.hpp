@@ -42,12 +42,16 @@ class ParameterGroup {
   /// A text that is not empty, and a list: ParameterError if there is none.
   std::string text(const std::string& name) const;
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
+  /// A list, not empty, of texts that are not empty, each once.
+  std::vector<std::string> texts(const std::string& name) const;
 
   /// One sentence for each member that has no legal name, with the legal name nearest to it.
   std::vector<std::string> misspelt() const;
 
   /// Throws ParameterError: "~path/name is VALUE; LEGAL".
   [[noreturn]] void refuse(const std::string& name, const std::string& legal) const;
+  /// Throws ParameterError: "~path/name is missing; LEGAL", with what may be meant for it.
+  [[noreturn]] void refuse_missing(const std::string& name, const std::string& legal) const;
   std::string path_of(const std::string& name) const;
 
  private:

@@ -1,0 +1,105 @@
+#include "organ_collision/ros/mesh_file.hpp"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cstdint>
+#include <map>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "organ_collision/ros/resource.hpp"
+#include "organ_collision/ros/tool_error.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+
+/// Triangles whose corners at the same place are one vertex: STL names each corner anew.
+class TriangleCollector {
+ public:
+  void add(const aiNode& node, const aiScene& scene, const Affine3d& T_link_parent) {
+    const aiMatrix4x4& T_parent_node = node.mTransformation;
+    using RowMajor = Eigen::Matrix<ai_real, 4, 4, Eigen::RowMajor>;
+    const Affine3d T_link_node =
+        T_link_parent * Affine3d(Eigen::Map<const RowMajor>(&T_parent_node.a1).cast<double>());
+    for (unsigned i = 0; i < node.mNumMeshes; ++i)
+      add(*scene.mMeshes[node.mMeshes[i]], T_link_node);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], scene, T_link_node);
+  }
+
+  ToolSurface surface() && { return {std::move(vertices_), std::move(triangles_)}; }
+
+ private:
+  void add(const aiMesh& mesh, const Affine3d& T_link_mesh) {
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+      const aiFace& face = mesh.mFaces[i];
+      if (face.mNumIndices != 3) continue;
+      const auto corner = [&](unsigned j) {
+        const aiVector3D& v = mesh.mVertices[face.mIndices[j]];
+        return vertex(T_link_mesh * Vector3d(v.x, v.y, v.z));
+      };
+      triangles_.push_back({corner(0), corner(1), corner(2)});
+    }
+  }
+
+  std::uint32_t vertex(const Vector3d& position) {
+    if (!position.allFinite()) throw ToolError("has a vertex that is not finite");
+    const auto [known, is_new] = index_of_.insert(
+        {{position.x(), position.y(), position.z()}, static_cast<std::uint32_t>(vertices_.size())});
+    if (is_new) vertices_.push_back(position);
+    return known->second;
+  }
+
+  std::vector<Vector3d> vertices_;
+  std::vector<FaceIndices> triangles_;
+  std::map<std::array<double, 3>, std::uint32_t> index_of_;
+};
+
+void check_scale(const Vector3d& scale) {
+  if (scale.allFinite() && (scale.array() != 0.0).all()) return;
+  std::ostringstream message;
+  message << "its scale is " << scale.transpose() << "; must be finite, and not 0 along any axis";
+  throw ToolError(message.str());
+}
+
+/// By which assimp knows the format.
+std::string extension(const std::string& file) {
+  const std::size_t dot = file.find_last_of("./");
+  return dot == std::string::npos || file[dot] == '/' ? "" : file.substr(dot + 1);
+}
+
+ToolSurface parse(const std::string& content, const std::string& format,
+                  const Affine3d& T_link_mesh) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  // Else a file without triangles would get some, in the shape of its nodes.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  const aiScene* scene = importer.ReadFileFromMemory(content.data(), content.size(),
+                                                     aiProcess_Triangulate, format.c_str());
+  if (!scene) throw ToolError(importer.GetErrorString());
+  TriangleCollector triangles;
+  triangles.add(*scene->mRootNode, *scene, T_link_mesh);
+  return std::move(triangles).surface();
+}
+
+}  // namespace
+
+ToolSurface read_mesh_file(const std::string& file, const Vector3d& scale,
+                           const Eigen::Isometry3d& T_link_mesh) {
+  const std::string content = read_resource(file);
+  try {
+    check_scale(scale);
+    return parse(content, extension(file), T_link_mesh * Eigen::Scaling(scale));
+  } catch (const std::exception& error) {
+    throw ToolError("mesh '" + file + "': " + error.what());
+  }
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,50 @@
+#include "organ_collision/ros/tool_loader.hpp"
+
+#include "organ_collision/ros/resource.hpp"
+#include "organ_collision/ros/robot_model.hpp"
+#include "organ_collision/ros/tool_error.hpp"
+
+namespace organ_collision {
+namespace {
+
+std::string find_text(const std::string& parameter, const ros::NodeHandle& private_node) {
+  std::string resolved, text;
+  if (!private_node.searchParam(parameter, resolved)) {
+    throw ToolError("is set neither in " + private_node.getNamespace() +
+                    " nor in a namespace above; load the robot's URDF there, name the parameter "
+                    "that holds it, or give the tool's urdf");
+  }
+  if (!private_node.getParam(resolved, text)) throw ToolError("is no text; must be a URDF");
+  return text;
+}
+
+}  // namespace
+
+Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node) {
+  return load_tool(
+      parameters, [&](const std::string& parameter) { return find_text(parameter, private_node); });
+}
+
+Tool load_tool(const ToolParameters& parameters,
+               const std::function<std::string(const std::string& parameter)>& find_text) {
+  Tool tool;
+  tool.parameters = parameters;
+  if (parameters.links.empty()) return tool;
+  const bool is_file = !parameters.urdf.empty();
+  try {
+    const RobotModel robot(is_file ? read_resource(parameters.urdf)
+                                   : find_text(parameters.robot_description));
+    for (const std::string& link : parameters.links) {
+      tool.links.push_back(robot.link(link));
+      tool.joints.push_back(robot.moving_joint(link));
+    }
+  } catch (const std::exception& error) {
+    tool.links.clear();
+    tool.joints.clear();
+    tool.fault = parameters.name + ": " + (is_file ? "urdf " : "parameter ") + "'" +
+                 (is_file ? parameters.urdf : parameters.robot_description) + "': " + error.what();
+  }
+  return tool;
+}
+
+}  // namespace organ_collision

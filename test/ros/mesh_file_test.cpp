@@ -1,0 +1,123 @@
+#include "organ_collision/ros/mesh_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "tool_files.hpp"
+
+using namespace organ_collision;
+using Eigen::Vector3d;
+
+namespace {
+
+const Vector3d kUnit = Vector3d::Ones();
+const Vector3d kMillimetres = Vector3d::Constant(0.001);
+const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
+
+ToolSurface read(const std::string& name, const Vector3d& scale = kUnit,
+                 const Eigen::Isometry3d& T_link_mesh = kAtOrigin) {
+  return read_mesh_file(tool_file(name), scale, T_link_mesh);
+}
+
+/// Corners of the tetrahedron in the mesh files, in their units.
+const Vector3d kA(1, 2, 3), kB(9, 2, 4), kC(3, 8, 3.5), kD(2, 3, 10);
+const std::vector<Triangle> kJaw = {{kA, kC, kB}, {kA, kB, kD}, {kB, kC, kD}, {kC, kA, kD}};
+
+/// The same corners in the same order, whichever is first.
+bool is_same(const Triangle& a, const Triangle& b) {
+  for (std::size_t first = 0; first < 3; ++first) {
+    const auto is_near = [&](std::size_t i) { return (a[i] - b[(i + first) % 3]).norm() < 1e-8; };
+    if (is_near(0) && is_near(1) && is_near(2)) return true;
+  }
+  return false;
+}
+
+/// These triangles, each moved as `place` says, and no others.
+void expect_triangles(const ToolSurface& surface, const std::vector<Triangle>& triangles,
+                      const std::function<Vector3d(const Vector3d&)>& place) {
+  EXPECT_EQ(surface.faces().size(), triangles.size());
+  for (const Triangle& triangle : triangles) {
+    const Triangle placed = {place(triangle[0]), place(triangle[1]), place(triangle[2])};
+    int found = 0;
+    for (std::size_t i = 0; i < surface.faces().size(); ++i) {
+      if (is_same(surface.triangle(i), placed)) ++found;
+    }
+    EXPECT_EQ(found, 1) << placed[0].transpose() << ", " << placed[1].transpose() << ", "
+                        << placed[2].transpose();
+  }
+}
+
+std::string refusal(const std::string& name, const Vector3d& scale = kUnit) {
+  return tool_error([&] { read(name, scale); });
+}
+
+}  // namespace
+
+TEST(MeshFile, StlInBothForms) {
+  for (const std::string name : {"jaw_ascii.stl", "jaw_binary.stl"}) {
+    const ToolSurface surface = read(name, kMillimetres);
+    expect_triangles(surface, kJaw, [](const Vector3d& v) { return Vector3d(0.001 * v); });
+    EXPECT_EQ(surface.vertices().size(), 4u) << name;
+  }
+}
+
+TEST(MeshFile, ObjWithPolygonsButNoLinesAndLoneVertices) {
+  std::vector<Triangle> triangles = kJaw;
+  triangles.push_back({Vector3d(5, 1, 1), Vector3d(6, 1, 1), Vector3d(6, 2, 1)});
+  triangles.push_back({Vector3d(5, 1, 1), Vector3d(6, 2, 1), Vector3d(5, 2, 1)});
+  const ToolSurface surface = read("jaw.obj");
+  expect_triangles(surface, triangles, [](const Vector3d& v) { return v; });
+  EXPECT_EQ(surface.vertices().size(), 8u);
+}
+
+TEST(MeshFile, DaeWithItsNodesAndUnitButNotItsUpAxis) {
+  // Turned by 90 degrees about z, then moved by (10, 20, 30), all in millimetres.
+  const auto place = [](const Vector3d& v) {
+    return Vector3d(0.010 - 0.001 * v.y(), 0.020 + 0.001 * v.x(), 0.030 + 0.001 * v.z());
+  };
+  // The first triangle, and the quad's halves.
+  const std::vector<Triangle> triangles = {{kA, kC, kB}, {kA, kB, kC}, {kA, kC, kD}};
+  for (const std::string name : {"jaw.dae", "jaw_z_up.dae"}) {
+    expect_triangles(read(name), triangles, place);
+  }
+}
+
+TEST(MeshFile, ScaledThenPlacedInTheLink) {
+  Eigen::Isometry3d T_link_mesh(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
+  T_link_mesh.translation() << 0.1, 0.2, 0.3;
+  expect_triangles(read("jaw_ascii.stl", {0.001, 0.002, 0.003}, T_link_mesh), kJaw,
+                   [](const Vector3d& v) {
+                     return Vector3d(0.1 + 0.001 * v.x(), 0.2 - 0.003 * v.z(), 0.3 + 0.002 * v.y());
+                   });
+}
+
+TEST(MeshFile, NegativeScaleMirrors) {
+  expect_triangles(read("jaw_binary.stl", {1.0, -1.0, 1.0}), kJaw,
+                   [](const Vector3d& v) { return Vector3d(v.x(), -v.y(), v.z()); });
+}
+
+TEST(MeshFile, IllegalScalesAreNamed) {
+  expect_words(refusal("jaw.obj", {1.0, 0.0, 1.0}), {"jaw.obj", "scale", "1 0 1", "not 0"});
+  expect_words(refusal("jaw.obj", {1.0, 1.0, std::nan("")}), {"jaw.obj", "1   1 nan", "finite"});
+  const double infinity = std::numeric_limits<double>::infinity();
+  expect_words(refusal("jaw.obj", {-infinity, 1.0, 1.0}), {"jaw.obj", "-inf", "finite"});
+}
+
+TEST(MeshFile, UnreadableFilesAreNamed) {
+  expect_words(refusal("missing.stl"), {"missing.stl", "open"});
+  expect_words(refusal("broken.stl"), {tool_file("broken.stl")});
+  expect_words(refusal("broken_ascii.stl"), {tool_file("broken_ascii.stl")});
+  expect_words(refusal("broken.dae"), {tool_file("broken.dae")});
+  expect_words(refusal("notes.txt"), {tool_file("notes.txt"), "No suitable reader"});
+}
+
+TEST(MeshFile, NoSurfaceIsRefused) {
+  expect_words(refusal("points.obj"), {tool_file("points.obj"), "no triangle"});
+  expect_words(refusal("nodes_only.dae"), {tool_file("nodes_only.dae"), "no triangle"});
+  expect_words(refusal("not_finite.stl"), {tool_file("not_finite.stl"), "not finite"});
+  expect_words(refusal("jaw.obj", Vector3d::Constant(1e6)),
+               {tool_file("jaw.obj"), "vertex 0", "within 1e+06 m"});
+}
