@@ -7,6 +7,7 @@ RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(start.linear().transpose() * end.linear()));
   axis_ = turn.axis();
   angle_ = turn.angle();
+  half_way_ = at(0.5).linear();
 }
 
 Eigen::Isometry3d RigidMotion::at(double time) const {

@@ -1,11 +1,15 @@
 #include "organ_collision/geometry/surface_touch.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
+#include "fixed_plane.hpp"
 #include "organ_collision/geometry/swept_box.hpp"
 
 namespace organ_collision {
 namespace {
+
+using Eigen::Vector3d;
 
 ConvexCore core_of(const Triangle& triangle) {
   ConvexCore core;
@@ -14,8 +18,28 @@ ConvexCore core_of(const Triangle& triangle) {
   return core;
 }
 
-/// Nothing can be earlier.
-bool touches_at_start(const FaceTouch& face) { return face.first && face.first->time == 0.0; }
+Triangle corners(const ConvexCore& core) {
+  return {core.points[0], core.points[1], core.points[2]};
+}
+
+Vector3d normal(const Triangle& face) {
+  return (face[1] - face[0]).cross(face[2] - face[0]).stableNormalized();
+}
+
+/// As SweptBox::clear_until, by the planes of face and triangle at the start.
+double clear_until(const FaceMotion& triangle, const FaceMotion& face, double reach) {
+  double until = 0.0;
+  for (const Vector3d& direction : {normal(face.start), normal(triangle.start)}) {
+    until =
+        std::max(until, clear_until(heights(direction, face.start), heights(direction, face.end),
+                                    heights(direction, triangle.start),
+                                    heights(direction, triangle.end), reach));
+  }
+  return until;
+}
+
+/// Later touches are of no interest.
+double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
 
 class Descent {
  public:
@@ -28,7 +52,7 @@ class Descent {
     const ToolSurface::Node& node = surface_.nodes()[index];
     const SweptBox box(node.box, motion_, radius_);
     const Iterator kept = std::partition(begin, end, [&](const FaceTouch& face) {
-      return !touches_at_start(face) && !box.stays_clear_of(face.motion);
+      return latest(face) > 0.0 && box.clear_until(face.motion) <= latest(face);
     });
     if (kept == begin) return;
     if (node.second == 0) {
@@ -40,11 +64,13 @@ class Descent {
   }
 
  private:
-  void touch(std::uint32_t triangle, Iterator begin, Iterator end) const {
-    const CoreMotion core(core_of(surface_.triangle(triangle)), motion_);
+  void touch(std::uint32_t index, Iterator begin, Iterator end) const {
+    const CoreMotion core(core_of(surface_.triangle(index)), motion_);
+    const FaceMotion triangle{corners(core.start()), corners(core.end())};
+    const double reach = radius_ + core.bend(1.0);
     for (Iterator face = begin; face != end; ++face) {
-      if (touches_at_start(*face)) continue;
-      const double until = face->first ? face->first->time : 1.0;
+      const double until = latest(*face);
+      if (until == 0.0 || clear_until(triangle, face->motion, reach) > until) continue;
       const auto found = first_touch(core, face->motion, radius_, until);
       if (found && (!face->first || found->time < until)) face->first = found;
     }

@@ -1,6 +1,9 @@
 #include "organ_collision/geometry/swept_box.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+
+#include "fixed_plane.hpp"
 
 namespace organ_collision {
 namespace {
@@ -13,13 +16,6 @@ double bend(const OrientedBox& box, const RigidMotion& motion) {
   return (box.center.norm() + box.half_size.norm()) * motion.angle() * motion.angle() / 8.0;
 }
 
-/// Coordinates of the face's corners along the axes: a column for each.
-Matrix3d along(const Matrix3d& axes, const Triangle& face) {
-  Matrix3d corners;
-  corners << face[0], face[1], face[2];
-  return axes.transpose() * corners;
-}
-
 Vector3d face_normal(const Triangle& face) {
   return (face[1] - face[0]).cross(face[2] - face[0]).stableNormalized();
 }
@@ -27,7 +23,7 @@ Vector3d face_normal(const Triangle& face) {
 }  // namespace
 
 SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius)
-    : axes_(motion.at(0.5).linear() * box.axes),
+    : axes_(motion.half_way() * box.axes),
       start_(place(box, motion.start())),
       end_(place(box, motion.end())),
       reach_(radius + bend(box, motion)) {}
@@ -43,27 +39,25 @@ SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d&
   return place;
 }
 
-bool SweptBox::stays_clear_of(const FaceMotion& face) const {
-  const Matrix3d from = along(axes_, face.start), to = along(axes_, face.end);
-  const Vector3d above =
-      (from.rowwise().minCoeff() - start_.high).cwiseMin(to.rowwise().minCoeff() - end_.high);
-  const Vector3d below =
-      (start_.low - from.rowwise().maxCoeff()).cwiseMin(end_.low - to.rowwise().maxCoeff());
-  if (above.cwiseMax(below).maxCoeff() > reach_) return true;
-
-  const Vector3d normal = face_normal(face.start);
-  const auto gap = [&](const Place& box, const Triangle& corners, double side) {
-    const double reach = (normal.transpose() * box.half_edges).cwiseAbs().sum();
-    double nearest = side * normal.dot(corners[0] - box.center);
-    for (int i = 1; i < 3; ++i) {
-      nearest = std::min(nearest, side * normal.dot(corners[i] - box.center));
-    }
-    return nearest - reach;
-  };
-  for (const double side : {1.0, -1.0}) {
-    if (gap(start_, face.start, side) > reach_ && gap(end_, face.end, side) > reach_) return true;
+double SweptBox::clear_until(const FaceMotion& face) const {
+  double until = 0.0;
+  for (int i = 0; i < 3 && until <= 1.0; ++i) {
+    const Vector3d axis = axes_.col(i);
+    until =
+        std::max(until, organ_collision::clear_until(
+                            heights(axis, face.start), heights(axis, face.end),
+                            {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach_));
   }
-  return false;
+  if (until > 1.0) return until;
+  const Vector3d normal = face_normal(face.start);
+  const auto box_heights = [&](const Place& box) {
+    const double center = normal.dot(box.center);
+    const double half = (normal.transpose() * box.half_edges).cwiseAbs().sum();
+    return Heights{center - half, center + half};
+  };
+  return std::max(
+      until, organ_collision::clear_until(heights(normal, face.start), heights(normal, face.end),
+                                          box_heights(start_), box_heights(end_), reach_));
 }
 
 }  // namespace organ_collision

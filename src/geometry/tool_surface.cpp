@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 using Reason = MeshError::Reason;
 
 /// Fewer faces are not worth a test of their box.
-constexpr std::uint32_t kLeafFaces = 2;
+constexpr std::uint32_t kLeafFaces = 4;
 
 template <typename... Parts>
 [[noreturn]] void refuse(Reason reason, const Parts&... parts) {

@@ -15,6 +15,8 @@ class RigidMotion {
   const Eigen::Isometry3d& end() const { return end_; }
   /// T_organ_link at `time` in [0, 1] of the leg.
   Eigen::Isometry3d at(double time) const;
+  /// at(0.5).linear()
+  const Eigen::Matrix3d& half_way() const { return half_way_; }
 
   /// [rad] By how much the link turns, in [0, pi].
   double angle() const { return angle_; }
@@ -25,6 +27,7 @@ class RigidMotion {
   Eigen::Isometry3d start_, end_;
   Eigen::Vector3d axis_;  ///< unit, in the link's frame
   double angle_;
+  Eigen::Matrix3d half_way_;
 };
 
 }  // namespace organ_collision

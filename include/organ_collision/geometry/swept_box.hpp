@@ -22,10 +22,11 @@ class SweptBox {
   Eigen::Vector3d low() const { return start_.low.cwiseMin(end_.low).array() - reach_; }
   Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
 
-  /// True: the face surely stays farther from the box than the radius during the leg. Tried are
-  /// planes that do not turn: across the box's axes half way, and along the face at the start. Both
-  /// ends of the leg decide, since between them points move linearly but for their bend.
-  bool stays_clear_of(const FaceMotion& face) const;
+  /// A time of the leg before which the face surely stays farther from the box than the radius;
+  /// above 1: all the time. Tried are planes that do not turn: across the box's axes half way, and
+  /// along the face at the start. Since points move linearly but for their bend, the gap over such
+  /// a plane is at least what lies between its values at both ends of the leg.
+  double clear_until(const FaceMotion& face) const;
 
  private:
   struct Place {
