@@ -21,8 +21,9 @@ install(DIRECTORY include/organ_collision/
 install(TARGETS organ_collision_ros
   ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
   LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
-install(DIRECTORY config launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
+  PATTERN "*.py" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml")
-install(PROGRAMS examples/ask.py examples/simulator.py
+install(PROGRAMS examples/ask.py examples/grasper.py examples/simulator.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

@@ -53,7 +53,7 @@ class InstallTest(unittest.TestCase):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')
         programs = os.listdir(folder)
         self.assertTrue({'organ_collision_node', 'contact_adapter', 'organ_mesh_adapter', 'query_offline',
-                         'liver_simulator', 'demo_report', 'simulator.py', 'ask.py'}
+                         'liver_simulator', 'demo_report', 'simulator.py', 'ask.py', 'grasper.py'}
                         <= set(programs), programs)
         programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
@@ -64,8 +64,9 @@ class InstallTest(unittest.TestCase):
         for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',
                      'launch/demo.launch', 'launch/contact_adapter.launch',
                      'launch/organ_mesh_adapter.launch', 'config/tools.yaml', 'config/organs.yaml',
-                     'examples/start.launch', 'examples/tools.yaml', 'msg/ContactArray.msg',
-                     'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
+                     'examples/start.launch', 'examples/tools.yaml', 'examples/grasper.launch',
+                     'urdf/grasper.urdf', 'urdf/grasper.urdf.xacro', 'urdf/meshes/jaw.stl',
+                     'msg/ContactArray.msg', 'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
             self.assertTrue(os.path.exists(os.path.join(self.prefix, 'share/organ_collision', path)),
                             path)
         include = os.path.join(self.prefix, 'include', 'organ_collision')

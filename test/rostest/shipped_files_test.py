@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """Every launch file starts all its nodes and stops without a remainder, every configuration file
-loads, and the rviz files show topics and frames that exist."""
+loads, robots are known to TF as their URDF describes them, and the rviz files show topics and
+frames that exist."""
 
 import os
+import re
 import signal
 import subprocess
 import sys
 import tempfile
+from xml.etree import ElementTree
 
 from geometry_msgs.msg import WrenchStamped
 from organ_collision.msg import Contact, ContactArray, OrganMesh
@@ -46,6 +49,31 @@ def nodes_online():
         for _, nodes in group
         for node in nodes
     }
+
+
+def named_in(path, folder, ending):
+    """The files of a folder of the package that the text of a launch file names."""
+    with open(path) as text:
+        names = re.findall(r'find organ_collision\)/%s/(\w+\%s)"' % (folder, ending), text.read())
+    return [os.path.join(PACKAGE, folder, name) for name in names]
+
+
+class FrameLog:
+    """The names of all frames that TF knows."""
+
+    def __init__(self):
+        self.names = set()
+        self.subscribers = [
+            rospy.Subscriber(topic, TFMessage, self._add) for topic in ('/tf', '/tf_static')
+        ]
+
+    def _add(self, message):
+        for transform in message.transforms:
+            self.names |= {transform.header.frame_id, transform.child_frame_id}
+
+    def close(self):
+        for subscriber in self.subscribers:
+            subscriber.unregister()
 
 
 class Launched:
@@ -111,7 +139,12 @@ class ShippedFilesTest(ContactCase):
             <= {os.path.basename(path) for path in launch_files},
             launch_files,
         )
+        shown, robots = set(), set()
         for path in launch_files:
+            rviz_files = named_in(path, 'config', '.rviz')
+            urdf_files = named_in(path, 'urdf', '.urdf')
+            shown |= set(rviz_files)
+            robots |= set(urdf_files)
             with Launched(path) as launched:
                 launched.wait_for_nodes()
                 self.assertGreater(len(launched.nodes), 0, path)
@@ -122,11 +155,17 @@ class ShippedFilesTest(ContactCase):
                     self.check_contact_adapter()
                 if '/organ_mesh_adapter' in launched.nodes:
                     self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))
-                if os.path.basename(path) == 'demo.launch':
-                    self.check_demo()
+                for urdf_file in urdf_files:
+                    self.check_robot(urdf_file)
+                for rviz_file in rviz_files:
+                    self.check_scene(rviz_file)
             wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
             self.assertNotIn('has died', launched.printed, path)
             self.assertNotIn('escalating', launched.printed, path)
+        self.assertEqual(shown, set(files('config', '.rviz')))
+        self.assertEqual(robots, set(files('urdf', '.urdf')))
+        # test/examples/grasper_files_test.py expands them.
+        self.assertEqual(robots, {path[: -len('.xacro')] for path in files('urdf', '.xacro')})
 
     def check_contact_adapter(self):
         """It turns a contact of 1 mm depth into its default stiffness's 0.3 N."""
@@ -148,42 +187,41 @@ class ShippedFilesTest(ContactCase):
         subscriber.unregister()
         contacts.unregister()
 
-    def check_demo(self):
-        """Liver and tools move and meet; rviz files show only what is there."""
+    def check_robot(self, urdf_file):
+        """TF knows all its links, and its meshes are there."""
+        with open(urdf_file) as text:
+            robot = ElementTree.fromstring(text.read())
+        frames = FrameLog()
+        links = {link.get('name') for link in robot.iter('link')}
+        wait_until(
+            lambda: links <= frames.names, lambda: 'links %s of TF' % (links - frames.names)
+        )
+        frames.close()
+        for mesh in robot.iter('mesh'):
+            path = mesh.get('filename').replace('package://organ_collision', PACKAGE)
+            self.assertTrue(os.path.exists(path), path)
+
+    def check_scene(self, rviz_file):
+        """Organ and tools move and meet; the rviz file shows only what is there."""
         node = NodeClient()
         touched = wait_until(
             lambda: [m for m in list(node.contacts.messages) if m.contacts],
-            'contacts in the demo',
+            'contacts in the scene of ' + rviz_file,
             30.0,
         )
         self.assertTrue(all(m.status == ContactArray.OK for m in touched))
-        frames, kept = set(), []
-        for topic in ('/tf', '/tf_static'):
-            kept.append(
-                rospy.Subscriber(
-                    topic,
-                    TFMessage,
-                    lambda message: frames.update(
-                        name
-                        for t in message.transforms
-                        for name in (t.header.frame_id, t.child_frame_id)
-                    ),
-                )
-            )
-        wait_until(lambda: frames, 'frames of the demo')
+        with open(rviz_file) as text:
+            manager = yaml.safe_load(text)['Visualization Manager']
+        shown = self.shown_topics(manager['Displays'])
+        self.assertGreater(len(shown), 0, rviz_file)
         topics = {topic for topic, _ in rospy.get_published_topics()}
-        rviz_files = files('config', '.rviz')
-        self.assertGreater(len(rviz_files), 0)
-        for path in rviz_files:
-            with open(path) as text:
-                manager = yaml.safe_load(text)['Visualization Manager']
-            shown = self.shown_topics(manager['Displays'])
-            self.assertGreater(len(shown), 0, path)
-            self.assertEqual(shown - topics, set(), path)
-            fixed = manager['Global Options']['Fixed Frame']
-            wait_until(lambda: fixed in frames, 'the fixed frame %s of %s' % (fixed, path))
-        for subscriber in kept:
-            subscriber.unregister()
+        self.assertEqual(shown - topics, set(), rviz_file)
+        for display in manager['Displays']:
+            if display['Class'] == 'rviz/RobotModel':
+                self.assertTrue(rospy.has_param('/' + display['Robot Description']), rviz_file)
+        frames, fixed = FrameLog(), manager['Global Options']['Fixed Frame']
+        wait_until(lambda: fixed in frames.names, 'the fixed frame %s of %s' % (fixed, rviz_file))
+        frames.close()
         node.close()
 
     def shown_topics(self, displays):

@@ -1,0 +1,38 @@
+#!/usr/bin/python3
+"""Moves the grasper of grasper.launch: it dips into the liver, opens and closes."""
+
+import math
+
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
+import rospy
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Header
+import tf2_ros
+
+# The trocar's z axis points into the liver, at its right lobe.
+TROCAR = Transform(Vector3(-0.042, -0.075, 0.130), Quaternion(math.sin(-1.25), 0, 0, math.cos(-1.25)))
+
+# Of each joint: centre and swing [rad, or m for the insertion], period [s]. The right jaw mimics
+# the left one: robot_state_publisher knows that from the URDF.
+MOTION = {
+    'grasper_yaw': (0.0, 0.12, 11.0),
+    'grasper_pitch': (0.0, 0.10, 7.0),
+    'grasper_insertion': (0.087, 0.015, 3.0),
+    'grasper_roll': (0.0, 0.8, 13.0),
+    'grasper_wrist': (0.0, 0.4, 5.0),
+    'grasper_jaw': (0.3, 0.3, 2.0),
+}
+
+rospy.init_node('grasper')
+trocar = tf2_ros.StaticTransformBroadcaster()
+trocar.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'liver'), 'grasper_trocar', TROCAR))
+joints = rospy.Publisher('joint_states', JointState, queue_size=10)
+rate = rospy.Rate(200)
+start = rospy.Time.now()
+while not rospy.is_shutdown():
+    now = rospy.Time.now()
+    turns = 2 * math.pi * (now - start).to_sec()
+    positions = [centre + swing * math.sin(turns / period)
+                 for centre, swing, period in MOTION.values()]
+    joints.publish(JointState(header=Header(stamp=now), name=list(MOTION), position=positions))
+    rate.sleep()

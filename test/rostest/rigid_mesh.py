@@ -1,0 +1,49 @@
+"""A mesh of a robot's link, read from its STL file, and what it touches, worked out naively."""
+
+import struct
+
+import oracle
+
+
+def overlap(a, b):
+    """Whether the boxes around two lists of points do."""
+    return all(min(p) <= max(q) and min(q) <= max(p) for p, q in zip(zip(*a), zip(*b)))
+
+
+class RigidMesh:
+    """Its triangles: three corners each [m]."""
+
+    def __init__(self, triangles):
+        self.triangles = triangles
+
+    @classmethod
+    def from_stl(cls, path):
+        """A binary one."""
+        with open(path, 'rb') as file:
+            data = file.read()
+        count = struct.unpack_from('<I', data, 80)[0]
+        assert len(data) == 84 + 50 * count, path
+        numbers = [struct.unpack_from('<9f', data, 84 + 50 * i + 12) for i in range(count)]
+        return cls([(n[0:3], n[3:6], n[6:9]) for n in numbers])
+
+    def at(self, pose):
+        return RigidMesh([tuple(pose.apply(corner) for corner in t) for t in self.triangles])
+
+    def edges(self):
+        """Each once, of whatever triangles it is part of."""
+        return {tuple(sorted((t[i], t[i - 1]))) for t in self.triangles for i in range(3)}
+
+    def distance(self, point):
+        """From its surface [m]."""
+        return min(oracle.nearest((point, point), t).distance for t in self.triangles)
+
+    def faces_pierced(self, organ):
+        """Numbers of the organ's faces that an edge of this mesh goes through."""
+        edges = self.edges()
+        corners = [corner for triangle in self.triangles for corner in triangle]
+        near = [i for i in range(len(organ.faces)) if overlap(organ.face(i), corners)]
+        return {i for i in near if any(self._pierces(edge, organ.face(i)) for edge in edges)}
+
+    @staticmethod
+    def _pierces(edge, face):
+        return overlap(edge, face) and oracle.nearest(edge, face).distance <= oracle.PIERCED
