@@ -129,7 +129,7 @@ class NearestPair {
 ClosestPoints closest_points(const ShaftAxis& axis, const Triangle& face) {
   const NearestPair pairs(axis, face);
   const auto& [shaft, barycentric, apart, distance2] = pairs.nearest();
-  return {std::sqrt(distance2), shaft, barycentric, axis.at(shaft), on(face, barycentric)};
+  return {std::sqrt(distance2), shaft, barycentric, axis.at(shaft), on(face, barycentric), apart};
 }
 
 }  // namespace organ_collision

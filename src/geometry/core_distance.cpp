@@ -52,7 +52,7 @@ class Simplex {
   }
 
   ClosestPoints closest(const Triangle& face) const {
-    ClosestPoints closest{nearest().norm(), 0.0, Vector3d::Zero(), Vector3d::Zero(), {}};
+    ClosestPoints closest{nearest().norm(), 0.0, Vector3d::Zero(), Vector3d::Zero(), {}, nearest()};
     for (int i = 0; i < nearest_.count; ++i) {
       closest.on_core += nearest_.weights[i] * vertices_[i].on_core;
       closest.barycentric[vertices_[i].corner] += nearest_.weights[i];

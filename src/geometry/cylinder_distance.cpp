@@ -40,7 +40,7 @@ class NearestToCylinder {
   void consider(const Vector3d& barycentric, const Vector3d& on_face, const Vector3d& apart) {
     const double distance = apart.norm();
     if (distance < nearest_.distance) {
-      nearest_ = {distance, 0.0, barycentric, on_face - apart, on_face};
+      nearest_ = {distance, 0.0, barycentric, on_face - apart, on_face, apart};
     }
   }
 
@@ -127,7 +127,7 @@ class NearestToCylinder {
   const Triangle& face_;
   const Vector3d along_;
   const double length_, radius_;
-  ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}};
+  ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
 };
 
 }  // namespace

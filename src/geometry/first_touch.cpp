@@ -25,7 +25,7 @@ struct Instant {
         core(motion.at(at)),
         face(face_motion.at(at)),
         closest(closest_points(core, face, enough)),
-        normal((closest.on_face - closest.on_core).normalized()) {}
+        normal(closest.apart.normalized()) {}
 };
 
 /// First root in (0, 1] of the quadratic with Bernstein coefficients a > 0, b, c; 2 if there is

@@ -1,10 +1,19 @@
 #include "organ_collision/geometry/rigid_motion.hpp"
 
 namespace organ_collision {
+namespace {
+
+/// What is only nearly a rotation would grow or shrink the link on its way.
+Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
+  pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  return pose;
+}
+
+}  // namespace
 
 RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end)
-    : start_(start), end_(end) {
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(start.linear().transpose() * end.linear()));
+    : start_(orthonormal(start)), end_(orthonormal(end)) {
+  const Eigen::AngleAxisd turn(Eigen::Matrix3d(start_.linear().transpose() * end_.linear()));
   axis_ = turn.axis();
   angle_ = turn.angle();
   half_way_ = at(0.5).linear();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "organ_collision/geometry/tolerances.hpp"
@@ -39,6 +40,23 @@ void check(const std::vector<Vector3d>& vertices, const std::vector<FaceIndices>
   }
 }
 
+/// Leaves out vertices that no face uses: they are no part of the surface.
+void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(vertices.size(), kUnused);
+  std::vector<Vector3d> used;
+  for (FaceIndices& face : faces) {
+    for (std::uint32_t& corner : face) {
+      if (number[corner] == kUnused) {
+        number[corner] = static_cast<std::uint32_t>(used.size());
+        used.push_back(vertices[corner]);
+      }
+      corner = number[corner];
+    }
+  }
+  vertices.swap(used);
+}
+
 /// Axes along which points are spread most and least.
 Eigen::Matrix3d principal_axes(const std::vector<Vector3d>& points) {
   Vector3d mean = Vector3d::Zero();
@@ -61,6 +79,7 @@ OrientedBox box_around(const std::vector<Vector3d>& points, const Eigen::Matrix3
 ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices> faces)
     : vertices_(std::move(vertices)), faces_(std::move(faces)) {
   check(vertices_, faces_);
+  drop_unused(vertices_, faces_);
   build(0, static_cast<std::uint32_t>(faces_.size()));
 }
 

@@ -119,7 +119,7 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
                       : piercing_normal(part.core.at(touch.time).axis(), face_now);
     contact.depth = height_at_end(part, contact.normal) - contact.normal.dot(point_end);
   } else {
-    contact.normal = (closest.on_face - closest.on_core).normalized();
+    contact.normal = closest.apart.normalized();
     contact.depth = part.radius - contact.normal.dot(point_end - core_end);
   }
   contact.behind = face_normal(face.end).dot(core_end - point_end) < -tolerance::kTie;

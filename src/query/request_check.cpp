@@ -16,7 +16,7 @@ template <typename... Parts>
 }
 
 /// [1] How far a pose's rotation may be from one.
-constexpr double kRotation = 1e-6;
+constexpr double kRotation = 1e-9;
 
 void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& point) {
   // NaN is within nothing.

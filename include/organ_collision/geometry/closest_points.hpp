@@ -16,16 +16,18 @@ struct ClosestPoints {
   Eigen::Vector3d barycentric;  ///< of the point on the face, in the order of its corners
   Eigen::Vector3d on_core;      ///< [m]
   Eigen::Vector3d on_face;      ///< [m]
+  Eigen::Vector3d apart;        ///< [m] from core to face; far from the origin, more exact than
+                                ///< the difference of the points
 };
 
 /// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a
 /// segment or a point). Of several pairs within tolerance::kTie, the one nearest the tip.
 ClosestPoints closest_points(const ShaftAxis& axis, const Triangle& face);
 
-/// The nearest points of any core and a face. Of a hull of three and more points by Gilbert, Johnson
-/// and Keerthi's iteration (1988), until no point can be nearer by 1e-12 m, or as much of the
-/// distance. For hulls, `enough` [m] is enough: once the distance is surely larger, a lower bound
-/// above it is the `distance`, and the points are any.
+/// The nearest points of any core and a face. Of a hull of three and more points by Gilbert,
+/// Johnson and Keerthi's iteration (1988), until no point can be nearer by 1e-12 m, or as much of
+/// the distance. For hulls, `enough` [m] is enough: once the distance is surely larger, a lower
+/// bound above it is the `distance`, and the points are any.
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
                              double enough = std::numeric_limits<double>::infinity());
 

@@ -19,6 +19,7 @@ class ToolSurface {
   /// coordinates not finite or beyond tolerance::kFarthest, wrong indices, no face.
   ToolSurface(std::vector<Eigen::Vector3d> vertices, std::vector<FaceIndices> faces);
 
+  /// Those that faces use.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   /// In the order of the tree, not in the caller's.
   const std::vector<FaceIndices>& faces() const { return faces_; }
