@@ -11,8 +11,9 @@ namespace organ_collision {
 /// A tool as the node uses it.
 struct Tool {
   ToolParameters parameters;
-  std::vector<Link> links;  ///< in the order of parameters.links
-  std::string fault;        ///< why its links could not be loaded; empty: they were, or it has none
+  std::vector<Link> links;          ///< in the order of parameters.links
+  std::vector<std::string> joints;  ///< name of the joint that moves each link; may be empty
+  std::string fault;  ///< why its links could not be loaded; empty: they were, or it has none
 };
 
 }  // namespace organ_collision
