@@ -12,7 +12,7 @@ namespace organ_collision {
 struct Tool {
   ToolParameters parameters;
   std::vector<Link> links;          ///< in the order of parameters.links
-  std::vector<std::string> joints;  ///< name of the joint that moves each link; may be empty
+  std::vector<std::string> joints;  ///< that move them, for each link; empty: fixed, or the root
   std::string fault;  ///< why its links could not be loaded; empty: they were, or it has none
 };
 
