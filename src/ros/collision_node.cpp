@@ -84,8 +84,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       inbox_(inbox_callbacks()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
   for (const Tool& tool : tools_) {
-    if (tool.fault.empty()) continue;
-    ROS_ERROR("tool '%s': %s", tool.parameters.name.c_str(), tool.fault.c_str());
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
   }
 
   const auto no_delay = ros::TransportHints().tcpNoDelay();

@@ -56,9 +56,7 @@ void Diagnostics::tools(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, std::to_string(sources_.tools.size()) + " tools");
   for (const Tool& tool : sources_.tools) {
     status.add(tool.parameters.name + ", links", tool.links.size());
-    if (tool.fault.empty()) continue;
-    status.mergeSummary(DiagnosticStatus::ERROR,
-                        "tool '" + tool.parameters.name + "': " + tool.fault);
+    if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);
   }
 }
 

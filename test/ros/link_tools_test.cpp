@@ -9,6 +9,7 @@ namespace {
 
 const Eigen::Vector3d kAbove{0.1, 0.2, 0.3};
 const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
+const std::string kFault = "grasper: parameter 'robot_description' is not set";
 const std::vector<std::string> kAllLinks = {"", "wrist", "jaw"};
 
 /// The first tool has a shaft and links, the second links alone; they share the links. Wrist and
@@ -46,12 +47,12 @@ class LinkToolsTest : public testing::Test, protected NodeParts {
   void break_grasper() {
     tools[1].links.clear();
     tools[1].joints.clear();
-    tools[1].fault = "no parameter robot_description";
+    tools[1].fault = kFault;
   }
   static void expect_fault(const ContactArray& answer) {
     EXPECT_EQ(answer.tool, "grasper");
     EXPECT_EQ(answer.status, ContactArray::INVALID_TOOL);
-    EXPECT_EQ(answer.message, "no parameter robot_description");
+    EXPECT_EQ(answer.message, kFault);
     EXPECT_EQ(answer.links, (std::vector<std::string>{"wrist", "jaw"}));
     EXPECT_TRUE(answer.contacts.empty());
   }
