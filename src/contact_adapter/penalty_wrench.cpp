@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstdint>
 #include <tuple>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Push {
   Vector3d point;
   Vector3d normal;
   double depth;
+  std::uint32_t link;
   double own_depth;  ///< what is left of it when the deeper ones are left; u in the law
 };
 
@@ -34,7 +36,7 @@ std::vector<Push> pushes_of(const std::vector<Contact>& contacts) {
   for (const Contact& contact : contacts) {
     if (contact.depth <= 0.0) continue;
     const Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
-    pushes.push_back({to_eigen(contact.point), normal, contact.depth, contact.depth});
+    pushes.push_back({to_eigen(contact.point), normal, contact.depth, contact.link, contact.depth});
   }
   std::sort(pushes.begin(), pushes.end(), is_deeper);
   return pushes;
@@ -43,6 +45,7 @@ std::vector<Push> pushes_of(const std::vector<Contact>& contacts) {
 void find_own_depths(std::vector<Push>& pushes) {
   for (auto push = pushes.begin(); push != pushes.end(); ++push) {
     for (auto deeper = pushes.begin(); deeper != push && push->own_depth > 0.0; ++deeper) {
+      if (deeper->link != push->link) continue;
       const double in_front = deeper->normal.dot(deeper->point - push->point);
       push->own_depth = std::max(0.0, std::min(push->own_depth, in_front));
     }

@@ -15,8 +15,11 @@ constexpr std::size_t kShapesKept = 500;
 
 StaticComparison::StaticComparison(std::vector<ToolParameters> tools,
                                    const tf2::BufferCore& transforms)
-    : tools_(std::move(tools)), poses_(transforms, PathSampling{}) {
-  for (const ToolParameters& tool : tools_) tallies_[tool.name];
+    : poses_(transforms, PathSampling{}) {
+  for (ToolParameters& tool : tools) {
+    tallies_[tool.name];
+    tools_.emplace_back().parameters = std::move(tool);
+  }
 }
 
 void StaticComparison::add_shape(const ros::Time& stamp, std::vector<float> vertices) {
@@ -38,20 +41,20 @@ void StaticComparison::compare_waiting() {
 
 /// False if shape or pose is not there yet.
 bool StaticComparison::compare(const ContactArray& answer) {
-  const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const ToolParameters& tool) {
-    return tool.name == answer.tool;
+  const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) {
+    return tool.parameters.name == answer.tool;
   });
   const auto shape = std::find_if(shapes_.rbegin(), shapes_.rend(), [&](const Shape& shape) {
     return shape.stamp == answer.mesh_stamp;
   });
   if (tool == tools_.end() || shape == shapes_.rend() || triangles_.empty()) return false;
-  const auto axis = poses_.axis(*tool, answer.header.frame_id, answer.header.stamp);
-  if (!axis.found) return false;
+  const auto pose = poses_.pose(*tool, answer.header.frame_id, answer.header.stamp);
+  if (!pose.found) return false;
   Tally& tally = tallies_[answer.tool];
   for (const auto& contact : answer.contacts) {
-    const auto nearest = closest_points(axis.found->value, face(*shape, contact.face));
+    const auto nearest = closest_points(pose.found->value.axis, face(*shape, contact.face));
     ++tally.contacts;
-    if (nearest.distance > tool->radius + tolerance::kTouch) ++tally.missed_by_static;
+    if (nearest.distance > tool->parameters.radius + tolerance::kTouch) ++tally.missed_by_static;
   }
   return true;
 }

@@ -49,7 +49,7 @@ class StaticComparison {
   bool compare(const ContactArray& answer);
   Triangle face(const Shape& shape, std::uint32_t number) const;
 
-  std::vector<ToolParameters> tools_;
+  std::vector<Tool> tools_;
   ToolPoses poses_;
   std::vector<std::uint32_t> triangles_;
   std::deque<Shape> shapes_;

@@ -16,6 +16,11 @@ ContactArray answer_about(const std::string& organ, const std::string& tool, std
   return answer;
 }
 
+void set_links(ContactArray& answer, const ToolParameters& tool) {
+  answer.links.assign(tool.has_shaft() ? 1 : 0, "");
+  answer.links.insert(answer.links.end(), tool.links.begin(), tool.links.end());
+}
+
 void set_organ(ContactArray& answer, const Organ& organ, const OrganShape& shape) {
   answer.header.frame_id = organ.frame();
   answer.topology = shape.mesh->topology();
@@ -45,6 +50,8 @@ std::string reason_of(std::uint8_t status) {
       return "unknown tool";
     case ContactArray::PICKER_FAILED:
       return "picker failed";
+    case ContactArray::INVALID_TOOL:
+      return "invalid tool";
     default:
       return "invalid request";
   }

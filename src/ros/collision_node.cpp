@@ -10,6 +10,7 @@
 #include "organ_collision/ros/conversions.hpp"
 #include "organ_collision/ros/markers.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "organ_collision/ros/tool_loader.hpp"
 
 namespace organ_collision {
 namespace {
@@ -28,6 +29,14 @@ ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
 
 MeshLimits limits(const NodeParameters& parameters) {
   return {static_cast<std::size_t>(parameters.max_faces)};
+}
+
+std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
+                             const ros::NodeHandle& private_node) {
+  std::vector<Tool> tools;
+  for (const ToolParameters& of_tool : parameters)
+    tools.push_back(load_tool(of_tool, private_node));
+  return tools;
 }
 
 PathSampling sampling(const NodeParameters& parameters) {
@@ -58,15 +67,18 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
     : node_(on_queue(node, queue_)),
       private_node_(on_queue(private_node, queue_)),
       loaded_(load_parameters(private_node_)),
+      tools_(load_tools(loaded_.parameters.tools, private_node_)),
       organs_(limits(loaded_.parameters)),
       poses_(transforms_, sampling(loaded_.parameters)),
       evaluator_(loaded_.parameters.picker),
-      steps_(loaded_.parameters, poses_, evaluator_,
+      steps_(loaded_.parameters, tools_, poses_, evaluator_,
              [this](const EvaluatedStep& step) { publish(step); }),
-      services_({loaded_.parameters, organs_, transforms_, poses_, steps_.history(), evaluator_}),
-      diagnostics_({loaded_.parameters, loaded_.misspelt, organs_, evaluator_, steps_, counters_}),
+      services_(
+          {loaded_.parameters, tools_, organs_, transforms_, poses_, steps_.history(), evaluator_}),
+      diagnostics_(
+          {loaded_.parameters, tools_, loaded_.misspelt, organs_, evaluator_, steps_, counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
-      tool_is_due_(loaded_.parameters.tools.size(), false),
+      tool_is_due_(tools_.size(), false),
       contacts_(private_node_.advertise<ContactArray>(names::kContacts, 100)),
       markers_(private_node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 100)),
       transform_listener_(transforms_, node_, false),
@@ -74,6 +86,9 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                                               [this](std::size_t tool) { tip_moved(tool); }}),
       inbox_(inbox_callbacks()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
+  for (const Tool& tool : tools_) {
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
+  }
 
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
@@ -97,8 +112,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  ROS_INFO("ready: %zu tools, GL %s", loaded_.parameters.tools.size(),
-           evaluator_.gl_version().c_str());
+  ROS_INFO("ready: %zu tools, GL %s", tools_.size(), evaluator_.gl_version().c_str());
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
@@ -224,9 +238,10 @@ void CollisionNode::publish(const EvaluatedStep& step) {
 void CollisionNode::publish_failure(const std::string& organ, const std_msgs::Header& header,
                                     std::uint8_t status, const std::string& message) {
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-  for (const ToolParameters& tool : loaded_.parameters.tools) {
+  for (const Tool& tool : tools_) {
     const auto answer = boost::make_shared<ContactArray>(
-        answer_about(organ, tool.name, ContactArray::STATIC, stamp));
+        answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
+    set_links(*answer, tool.parameters);
     answer->header.frame_id = tf_frame(header.frame_id);
     set_failure(*answer, status, message);
     contacts_.publish(answer);

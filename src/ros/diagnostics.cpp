@@ -28,6 +28,7 @@ void show_failures(const std::string& what, FailureLog& log, DiagnosticStatusWra
 void Diagnostics::add_to(diagnostic_updater::Updater& updater) {
   updater.setHardwareID("none");
   updater.add("queries", this, &Diagnostics::queries);
+  updater.add("tools", this, &Diagnostics::tools);
   updater.add("organs", this, &Diagnostics::organs);
   updater.add("messages", this, &Diagnostics::messages);
 }
@@ -49,6 +50,14 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
   }
   show_failures("unanswered", sources_.counters.failed, status);
   show_failures("refused", sources_.counters.refused, status);
+}
+
+void Diagnostics::tools(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, std::to_string(sources_.tools.size()) + " tools");
+  for (const Tool& tool : sources_.tools) {
+    status.add(tool.parameters.name + ", links", tool.links.size());
+    if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);
+  }
 }
 
 void Diagnostics::organs(DiagnosticStatusWrapper& status) {

@@ -62,7 +62,7 @@ Marker shaft_cylinder(const EvaluatedStep& step) {
   shaft.pose.orientation.x = turn.x();
   shaft.pose.orientation.y = turn.y();
   shaft.pose.orientation.z = turn.z();
-  shaft.scale.x = shaft.scale.y = 2.0 * step.tool.radius;
+  shaft.scale.x = shaft.scale.y = 2.0 * step.tool.parameters.radius;
   shaft.scale.z = std::max(along.norm(), 1e-6);
   return shaft;
 }
@@ -70,7 +70,7 @@ Marker shaft_cylinder(const EvaluatedStep& step) {
 Marker tip_ball(const EvaluatedStep& step) {
   Marker ball = marker(step, "tip", Marker::SPHERE, kShaft);
   ball.pose.position = to_point(step.path.back().axis.tip);
-  ball.scale.x = ball.scale.y = ball.scale.z = 2.0 * step.tool.radius;
+  ball.scale.x = ball.scale.y = ball.scale.z = 2.0 * step.tool.parameters.radius;
   return ball;
 }
 
@@ -117,8 +117,11 @@ Marker region_outlines(const EvaluatedStep& step) {
 visualization_msgs::MarkerArray step_markers(const EvaluatedStep& step) {
   visualization_msgs::MarkerArray array;
   if (step.path.empty()) return array;
-  array.markers = {shaft_cylinder(step), tip_ball(step), swept_surface(step), touched_faces(step),
-                   region_outlines(step)};
+  if (step.tool.parameters.has_shaft()) {
+    array.markers = {shaft_cylinder(step), tip_ball(step), swept_surface(step)};
+  }
+  array.markers.push_back(touched_faces(step));
+  array.markers.push_back(region_outlines(step));
   return array;
 }
 

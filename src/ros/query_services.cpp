@@ -43,6 +43,21 @@ void check_motion(const QueryCollision::Request& request) {
   check_point("previous_tip", motion.previous_tip);
 }
 
+bool is_paper_mode(std::uint8_t mode) {
+  return mode != ContactArray::STATIC && mode != ContactArray::SWEPT;
+}
+
+void check_tool(const Tool& tool, std::uint8_t mode) {
+  if (!tool.fault.empty()) {
+    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
+  }
+  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
+    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
+           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
+           "(SWEPT)");
+  }
+}
+
 }  // namespace
 
 ContactArray QueryServices::query(const QueryCollision::Request& request) const {
@@ -76,9 +91,12 @@ std::vector<ContactArray> QueryServices::query_batch(
 }
 
 void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) const {
+  const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(request.tool);
+  if (tool) set_links(answer, tool->parameters);
   if (request.mode > ContactArray::PAPER_NAIVE) {
     refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
   }
+  if (tool) check_tool(*tool, request.mode);
   if (request.organ.empty()) refuse("organ is empty; must be an organ's name");
   const Organ& organ = sources_.organs.at(request.organ);
   set_organ(answer, organ, organ.latest());
@@ -93,10 +111,10 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   if (moves_organ(request)) collision.organ_before = organ.previous().mesh.get();
   collision.mode = static_cast<QueryMode>(request.mode);
   collision.regions = request.regions;
-  if (request.tool.empty()) {
-    set_motion(request, organ, collision, answer);
+  if (tool) {
+    set_tool_motion(request, organ, *tool, collision, answer);
   } else {
-    set_tool_motion(request, organ, collision, answer);
+    set_motion(request, organ, collision, answer);
   }
   sources_.evaluator.evaluate(collision, answer);
 }
@@ -119,33 +137,33 @@ void QueryServices::set_motion(const QueryCollision::Request& request, const Org
 }
 
 void QueryServices::set_tool_motion(const QueryCollision::Request& request, const Organ& organ,
-                                    CollisionRequest& collision, ContactArray& answer) const {
-  const ToolParameters& parameters = tool(request.tool);
-  const auto end = sources_.poses.axis(parameters, organ.frame(), request.header.stamp);
+                                    const Tool& tool, CollisionRequest& collision,
+                                    ContactArray& answer) const {
+  const auto end = sources_.poses.pose(tool, organ.frame(), request.header.stamp);
   if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
-  collision.radius = parameters.radius;
+  collision.radius = tool.parameters.radius;
+  collision.links = &tool.links;
   if (!end.found->stamp.isZero()) answer.header.stamp = end.found->stamp;
   answer.step_start = answer.header.stamp;
 
-  const std::size_t index =
-      static_cast<std::size_t>(&parameters - sources_.parameters.tools.data());
+  const auto index = static_cast<std::size_t>(&tool - sources_.tools.data());
   const LastStep* last = sources_.history.last(organ.name(), index);
   if (!last || looks_at_end_only(request.mode)) {
-    collision.path = {{0.0, end.found->value}};
+    collision.path = resting_path(end.found->value);
     return;
   }
   collision.path = sources_.poses
-                       .path(parameters, organ.frame(), {last->axis, last->stamp},
+                       .path(tool, organ.frame(), {last->pose, last->stamp},
                              {end.found->value, answer.header.stamp})
                        .path;
   answer.step_start = last->stamp;
 }
 
-const ToolParameters& QueryServices::tool(const std::string& name) const {
+const Tool& QueryServices::find_tool(const std::string& name) const {
   std::vector<std::string> names;
-  for (const ToolParameters& tool : sources_.parameters.tools) {
-    if (tool.name == name) return tool;
-    names.push_back("'" + tool.name + "'");
+  for (const Tool& tool : sources_.tools) {
+    if (tool.parameters.name == name) return tool;
+    names.push_back("'" + tool.parameters.name + "'");
   }
   throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
                   "tool '" + name + "' is unknown; " +

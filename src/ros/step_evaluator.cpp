@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <utility>
 
 #include "organ_collision/ros/answers.hpp"
 
@@ -29,7 +30,7 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 }  // namespace
 
 void StepEvaluator::add_shape(const Organ& organ, SteadyTime now) {
-  for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
     history_.of(organ.name(), tool).queue.push({organ.latest(), now});
   }
 }
@@ -47,20 +48,23 @@ bool StepEvaluator::evaluate_front(const Organ& organ, std::size_t tool, OrganTo
   const ShapeQueue::Entry entry = *pair.queue.front();
   const ros::Time stamp = entry.shape.stamp;
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
-  Lookup<ShaftAxis> end;
-  if (!late) {
-    end = poses_.axis(parameters_.tools[tool], organ.frame(), stamp);
+  const bool faulty = !tools_[tool].fault.empty();
+  Lookup<ToolPose> end;
+  if (!late && !faulty) {
+    end = poses_.pose(tools_[tool], organ.frame(), stamp);
     if (!end.found && now < deadline(entry)) return false;
   }
   pair.current = entry.shape;
   pair.queue.pop();
-  if (late) {
+  const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
+  if (faulty) {
+    fail(organ, tool, pair, failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
+  } else if (late) {
     evaluate_held(organ, tool, pair);
   } else if (end.found) {
     evaluate_step(organ, tool, pair, *end.found);
   } else {
-    fail(organ, tool, pair, stamp.isZero() ? ros::Time::now() : stamp, ContactArray::NO_TRANSFORM,
-         end.why_not);
+    fail(organ, tool, pair, failure, ContactArray::NO_TRANSFORM, end.why_not);
   }
   return true;
 }
@@ -68,7 +72,7 @@ bool StepEvaluator::evaluate_front(const Organ& organ, std::size_t tool, OrganTo
 void StepEvaluator::evaluate_tick(const OrganStore& organs) {
   const ros::Time now = ros::Time::now();
   for (const auto& [name, organ] : organs.organs()) {
-    for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {
+    for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
       evaluate_latest(organ, tool, now, false);
     }
   }
@@ -83,11 +87,14 @@ void StepEvaluator::evaluate_latest(const Organ& organ, std::size_t tool, ros::T
                                     bool only_new) {
   OrganToolPair& pair = history_.of(organ.name(), tool);
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
+    return fail(organ, tool, pair, now, ContactArray::INVALID_TOOL, fault);
+  }
   if (is_stale(organ.latest(), now, parameters_.mesh_timeout_sec)) {
     return fail(organ, tool, pair, now, ContactArray::STALE_MESH,
                 stale_message(organ, now, parameters_.mesh_timeout_sec));
   }
-  const auto end = poses_.axis(parameters_.tools[tool], organ.frame(), ros::Time(0));
+  const auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (end.found) {
     if (only_new && is_answered(pair, end.found->stamp)) return;
     evaluate_step(organ, tool, pair, *end.found);
@@ -103,7 +110,7 @@ void StepEvaluator::reset() {
 void StepEvaluator::start_anew(const OrganStore& organs) {
   history_.clear();
   for (const auto& [name, organ] : organs.organs()) {
-    for (std::size_t tool = 0; tool < parameters_.tools.size(); ++tool) {
+    for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
       history_.of(name, tool).current = organ.latest();
     }
   }
@@ -120,61 +127,64 @@ std::optional<SteadyTime> StepEvaluator::next_deadline() const {
 }
 
 void StepEvaluator::evaluate_step(const Organ& organ, std::size_t tool, OrganToolPair& pair,
-                                  const Timed<ShaftAxis>& end) {
-  if (!pair.last) return run(organ, tool, pair, end, {{0.0, end.value}});
+                                  const Timed<ToolPose>& end) {
+  if (!pair.last) return run(organ, tool, pair, end, resting_path(end.value));
   const LastStep& last = *pair.last;
-  Timed<ShaftAxis> stamped = end;
+  Timed<ToolPose> stamped = end;
   if (end.stamp.isZero()) {
     stamped.stamp = std::max(ros::Time::now(), last.stamp);
   } else if (end.stamp <= last.stamp) {
     return evaluate_held(organ, tool, pair);
   }
-  const SampledPath sampled =
-      poses_.path(parameters_.tools[tool], organ.frame(), {last.axis, last.stamp}, stamped);
+  SampledPath sampled = poses_.path(tools_[tool], organ.frame(), {last.pose, last.stamp}, stamped);
   samples_cut_ += sampled.samples_cut;
-  run(organ, tool, pair, stamped, sampled.path);
+  run(organ, tool, pair, std::move(stamped), std::move(sampled.path));
 }
 
 /// With the tool at rest where it was: time does not run backwards.
 void StepEvaluator::evaluate_held(const Organ& organ, std::size_t tool, OrganToolPair& pair) {
-  const Timed<ShaftAxis> end{pair.last->axis, pair.last->stamp};
-  run(organ, tool, pair, end, {{0.0, end.value}});
+  const LastStep& last = *pair.last;
+  run(organ, tool, pair, {last.pose, last.stamp}, resting_path(last.pose));
 }
 
 void StepEvaluator::run(const Organ& organ, std::size_t tool, OrganToolPair& pair,
-                        Timed<ShaftAxis> end, const ToolPath& path) {
+                        Timed<ToolPose> end, ToolPath path) {
   if (end.stamp.isZero()) end.stamp = ros::Time::now();
-  const ToolParameters& parameters = parameters_.tools[tool];
   const TriangleMesh& mesh = *pair.current.mesh;
 
   CollisionRequest request;
   request.organ = &mesh;
   if (pair.last && parameters_.organ_motion) request.organ_before = shape_before(*pair.last, mesh);
-  request.path = path;
-  request.radius = parameters.radius;
+  request.path = std::move(path);
+  request.radius = tools_[tool].parameters.radius;
+  request.links = &tools_[tool].links;
   request.mode = static_cast<QueryMode>(mode_of(pair));
   request.regions = parameters_.publish_regions;
 
-  const auto answer = boost::make_shared<ContactArray>(
-      answer_about(organ.name(), parameters.name, mode_of(pair), end.stamp));
-  set_organ(*answer, organ, pair.current);
-  if (pair.last) answer->step_start = pair.last->stamp;
+  const auto answer = answer_about_step(organ, tool, pair, end.stamp);
   evaluator_.evaluate(request, *answer);
   if (answer->status == ContactArray::OK) {
-    pair.last = LastStep{end.value, end.stamp, pair.current.mesh};
+    pair.last = LastStep{std::move(end.value), end.stamp, pair.current.mesh};
   }
-  publish_({answer, parameters, mesh, request.path});
+  publish_({answer, tools_[tool], mesh, request.path});
 }
 
 void StepEvaluator::fail(const Organ& organ, std::size_t tool, const OrganToolPair& pair,
                          ros::Time stamp, std::uint8_t status, const std::string& message) {
-  const ToolParameters& parameters = parameters_.tools[tool];
-  const auto answer = boost::make_shared<ContactArray>(
-      answer_about(organ.name(), parameters.name, mode_of(pair), stamp));
+  const auto answer = answer_about_step(organ, tool, pair, stamp);
+  set_failure(*answer, status, message);
+  publish_({answer, tools_[tool], *pair.current.mesh, {}});
+}
+
+ContactArrayPtr StepEvaluator::answer_about_step(const Organ& organ, std::size_t tool,
+                                                 const OrganToolPair& pair, ros::Time end) const {
+  const ToolParameters& parameters = tools_[tool].parameters;
+  auto answer = boost::make_shared<ContactArray>(
+      answer_about(organ.name(), parameters.name, mode_of(pair), end));
+  set_links(*answer, parameters);
   set_organ(*answer, organ, pair.current);
   if (pair.last) answer->step_start = pair.last->stamp;
-  set_failure(*answer, status, message);
-  publish_({answer, parameters, *pair.current.mesh, {}});
+  return answer;
 }
 
 SteadyTime StepEvaluator::deadline(const ShapeQueue::Entry& entry) const {

@@ -3,65 +3,39 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "organ_collision/geometry/tolerances.hpp"
+#include "organ_collision/ros/path_builder.hpp"
 
 namespace organ_collision {
 namespace {
 
-/// [m] A bend of a path, or a way of a trocar, by less is none.
-constexpr double kStraight = 1e-9;
+/// The times that some transforms are of, without those of any time.
+struct StampRange {
+  ros::Time earliest, latest;  ///< zero: all are of any time
 
-/// The earlier of two times; zero is of any time.
-ros::Time common_time(ros::Time a, ros::Time b) {
-  if (a.isZero()) return b;
-  return b.isZero() ? a : std::min(a, b);
-}
-
-/// How far `b` is from the straight way from `a` to `c`, at its time.
-double bend(const ToolWaypoint& a, const ToolWaypoint& b, const ToolWaypoint& c) {
-  const ShaftMotion motion{a.axis, c.axis};
-  const ShaftAxis straight = motion.at((b.fraction - a.fraction) / (c.fraction - a.fraction));
-  return std::max((straight.trocar - b.axis.trocar).norm(), (straight.tip - b.axis.tip).norm());
-}
-
-/// A path without the waypoints that add nothing: every leg costs a query of its own, and between
-/// two transforms TF interpolates, mostly in a straight line.
-class PathBuilder {
- public:
-  PathBuilder(ToolPath& path, const ShaftAxis& begin) : path_(path) { path_ = {{0.0, begin}}; }
-
-  void add(const ToolWaypoint& next) {
-    const std::size_t size = path_.size();
-    const double added = size > 1 ? bend(path_[size - 2], path_[size - 1], next) : 0.0;
-    // Each waypoint left out turns the leg by no more than its own bend: the sum bounds them all.
-    if (size > 1 && bends_left_out_ + added <= kStraight) {
-      bends_left_out_ += added;
-      path_.back() = next;
-    } else {
-      bends_left_out_ = 0.0;
-      path_.push_back(next);
-    }
+  void add(ros::Time stamp) {
+    if (stamp.isZero()) return;
+    earliest = earliest.isZero() ? stamp : std::min(earliest, stamp);
+    latest = std::max(latest, stamp);
   }
-
- private:
-  ToolPath& path_;
-  double bends_left_out_ = 0.0;  ///< [m] of the last leg
 };
 
-/// A trocar that moves by rounding alone is at rest, for which viewing volumes are tighter.
-void rest_trocar(ToolPath& path) {
-  const Eigen::Vector3d trocar = path.back().axis.trocar;
-  const auto is_there = [&](const ToolWaypoint& waypoint) {
-    return (waypoint.axis.trocar - trocar).norm() <= kStraight;
-  };
-  if (!std::all_of(path.begin(), path.end(), is_there)) return;
-  for (ToolWaypoint& waypoint : path) waypoint.axis.trocar = trocar;
+std::string without_link(const Tool& tool, std::size_t link, const std::string& why_not) {
+  const std::string& joint = tool.joints[link];
+  return "link '" + tool.links[link].name + "' of tool '" + tool.parameters.name + "'" +
+         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": " + why_not;
 }
 
-bool is_near(const ShaftAxis& axis) {
-  return (axis.trocar.array().abs() <= tolerance::kFarthest).all() &&
-         (axis.tip.array().abs() <= tolerance::kFarthest).all();
+bool is_near(const Eigen::Vector3d& point) {
+  return (point.array().abs() <= tolerance::kFarthest).all();
+}
+
+bool is_near(const ToolPose& pose) {
+  return is_near(pose.axis.trocar) && is_near(pose.axis.tip) &&
+         std::all_of(pose.links.begin(), pose.links.end(),
+                     [](const auto& link) { return is_near(link.translation()); });
 }
 
 /// Whole nanoseconds: ros::Duration would overflow at absurd stamps.
@@ -117,37 +91,54 @@ std::vector<ros::Time> ToolPoses::sample_times(const ToolParameters& tool, ros::
   return times;
 }
 
-Lookup<ShaftAxis> ToolPoses::axis(const ToolParameters& tool, const std::string& organ_frame,
-                                  ros::Time time) const {
-  const auto trocar = look_up(buffer_, organ_frame, tool.trocar_frame, time);
-  if (!trocar.found) return {std::nullopt, trocar.why_not};
-  const auto tip = look_up(buffer_, organ_frame, tool.tip_frame, time);
-  if (!tip.found) {
-    const bool silent = !tool.tip_pose_topic.empty() && stamps_.count(tool.name) == 0;
-    return {std::nullopt, silent ? "no pose came on " + tool.tip_pose_topic : tip.why_not};
+Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame,
+                                 ros::Time time) const {
+  const ToolParameters& parameters = tool.parameters;
+  ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+  StampRange stamps;
+  const auto look_up_frame = [&](const std::string& frame) {
+    auto lookup = look_up(buffer_, organ_frame, frame, time);
+    if (lookup.found) stamps.add(lookup.found->stamp);
+    return lookup;
+  };
+  if (parameters.has_shaft()) {
+    const auto trocar = look_up_frame(parameters.trocar_frame);
+    if (!trocar.found) return {std::nullopt, trocar.why_not};
+    const auto tip = look_up_frame(parameters.tip_frame);
+    if (!tip.found) return {std::nullopt, without_tip(parameters, tip.why_not)};
+    pose.axis = {trocar.found->value.translation(), tip.found->value.translation()};
   }
-  const ros::Time both = common_time(trocar.found->stamp, tip.found->stamp);
-  // Each was the latest of its own; the axis is made of two points of the same time.
-  if (time.isZero() && !both.isZero() && trocar.found->stamp != tip.found->stamp) {
-    return axis(tool, organ_frame, both);
+  pose.links.reserve(tool.links.size());
+  for (std::size_t i = 0; i < tool.links.size(); ++i) {
+    const auto link = look_up_frame(parameters.link_frame(tool.links[i].name));
+    if (!link.found) return {std::nullopt, without_link(tool, i, link.why_not)};
+    pose.links.push_back(link.found->value);
   }
-  return {{{{trocar.found->value.translation(), tip.found->value.translation()}, both}}, ""};
+  // Each was the latest of its own; a tool is made of parts at the same time.
+  if (stamps.earliest != stamps.latest) return this->pose(tool, organ_frame, stamps.earliest);
+  return {{{std::move(pose), stamps.earliest}}, ""};
 }
 
-SampledPath ToolPoses::path(const ToolParameters& tool, const std::string& organ_frame,
-                            const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const {
+std::string ToolPoses::without_tip(const ToolParameters& tool, const std::string& why_not) const {
+  const bool silent = !tool.tip_pose_topic.empty() && stamps_.count(tool.name) == 0;
+  return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
+}
+
+SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
+                            const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
   const double duration = nanoseconds(from.stamp, to.stamp);
   SampledPath sampled;
-  PathBuilder path(sampled.path, from.value);
-  for (const ros::Time time : sample_times(tool, from.stamp, to.stamp, sampled.samples_cut)) {
+  PathBuilder path(tool.links, from.value);
+  for (const ros::Time time :
+       sample_times(tool.parameters, from.stamp, to.stamp, sampled.samples_cut)) {
     // One that cannot be evaluated is no reason to refuse all others.
-    if (const auto between = axis(tool, organ_frame, time);
+    if (const auto between = pose(tool, organ_frame, time);
         between.found && is_near(between.found->value)) {
-      path.add({nanoseconds(from.stamp, time) / duration, between.found->value});
+      path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
     }
   }
-  path.add({1.0, to.value});
-  rest_trocar(sampled.path);
+  path.add(1.0, to.value);
+  sampled.path = path.take();
   return sampled;
 }
 

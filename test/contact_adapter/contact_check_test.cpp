@@ -69,6 +69,14 @@ TEST(ContactCheck, AsManyRegionsAsContacts) {
   EXPECT_EQ(refusal(contacts), "3 regions of 2 contacts; must be none or as many");
 }
 
+TEST(ContactCheck, SeveralLinksMayTouchAFace) {
+  ContactArray contacts = good();
+  contacts.links = {"wrist", "jaw"};
+  contacts.contacts[1].face = contacts.contacts[0].face;
+  contacts.contacts[1].link = 1;
+  EXPECT_EQ(refusal(contacts), "accepted");
+}
+
 TEST(ContactCheck, ModeAndFrame) {
   ContactArray contacts = good();
   contacts.mode = 9;

@@ -262,6 +262,39 @@ TEST(PenaltyWrench, AShaftThatLiesOnTheTissueIsPushedAtItsMiddle) {
   expect_near(found.torque, {0.0, -0.05 * 0.25, 0.0});
 }
 
+TEST(PenaltyWrench, LinksThatTouchTheSameFaceAreOneSpring) {
+  // A wrist 2 mm and a jaw 1 mm deep in flat tissue, in any order.
+  std::vector<Contact> contacts = {contact({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.002),
+                                   contact({0.01, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.001)};
+  for (const std::uint32_t jaw : {1u, 0u}) {
+    contacts[jaw].link = 1;
+    expect_near(wrench(contacts).force, {0.0, 0.0, kStiffness * 0.002});
+    std::swap(contacts[0], contacts[1]);
+  }
+}
+
+TEST(PenaltyWrench, ALinkThatCoversAnotherAddsNothing) {
+  std::mt19937 random(10);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<Contact> contacts = scattered_contacts(random, 10);
+    const Wrench alone = wrench(contacts);
+    for (std::size_t k = 0; k < 10; ++k) {
+      contacts.push_back(contacts[k]);
+      contacts.back().link = 1;
+    }
+    expect_same(wrench(contacts), alone);
+  }
+}
+
+TEST(PenaltyWrench, JawsThatCloseOnTissueAreSpringsOfTheirOwn) {
+  Contact left = contact({-0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
+  Contact right = contact({0.004, 0.0, 0.02}, {-1.0, 0.0, 0.0}, 0.003);
+  right.link = 1;
+  const Wrench found = wrench({left, right});
+  expect_near(found.force, {kStiffness * 0.002, 0.0, 0.0});
+  expect_near(found.torque, {0.0, kStiffness * 0.003 * 0.02, 0.0});
+}
+
 TEST(PenaltyWrench, AForceThatIsNotFiniteIsRefused) {
   const Contact deep = contact({0.1, 0.2, 0.3}, {0.0, 0.0, -1.0}, 1e300);
   EXPECT_THROW(penalty_wrench(touched({deep}), 1e300), Rejection);

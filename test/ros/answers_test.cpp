@@ -30,6 +30,19 @@ TEST(Answers, AboutAnOrganAndATool) {
   EXPECT_EQ(answer.links, std::vector<std::string>{""});
 }
 
+TEST(Answers, LinksOfATool) {
+  ContactArray answer = answer_about("liver", "hook", ContactArray::SWEPT, ros::Time(11));
+  ToolParameters tool{"hook", "hook_trocar", "hook_tip", 0.005};
+  set_links(answer, tool);
+  EXPECT_EQ(answer.links, std::vector<std::string>{""});
+  tool.links = {"wrist", "jaw"};
+  set_links(answer, tool);
+  EXPECT_EQ(answer.links, (std::vector<std::string>{"", "wrist", "jaw"}));
+  tool.radius = 0.0;
+  set_links(answer, tool);
+  EXPECT_EQ(answer.links, (std::vector<std::string>{"wrist", "jaw"}));
+}
+
 TEST(Answers, AFailureIsEmpty) {
   ContactArray answer = answer_about("liver", "hook", ContactArray::STATIC, ros::Time(11));
   answer.contacts.resize(3);
@@ -43,10 +56,10 @@ TEST(Answers, AFailureIsEmpty) {
 
 TEST(Answers, EachStatusHasItsOwnName) {
   std::set<std::string> names;
-  for (std::uint8_t status = 0; status <= ContactArray::PICKER_FAILED; ++status) {
+  for (std::uint8_t status = 0; status <= ContactArray::INVALID_TOOL; ++status) {
     names.insert(reason_of(status));
   }
-  EXPECT_EQ(names.size(), ContactArray::PICKER_FAILED + 1u);
+  EXPECT_EQ(names.size(), ContactArray::INVALID_TOOL + 1u);
 }
 
 TEST(Answers, StaleIsOlderThanTheLimit) {

@@ -26,7 +26,7 @@ class DiagnosticsTest : public testing::Test, protected NodeParts {
   std::vector<std::string> misspelt;
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  Diagnostics diagnostics{{parameters, misspelt, organs, evaluator, steps, counters}};
+  Diagnostics diagnostics{{parameters, tools, misspelt, organs, evaluator, steps, counters}};
 };
 
 }  // namespace
@@ -66,6 +66,20 @@ TEST_F(DiagnosticsTest, FailedEvaluationsAndMisspeltNamesWarn) {
   misspelt = {"~rates is no parameter"};
   values(&Diagnostics::queries);
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+}
+
+TEST_F(DiagnosticsTest, AToolWithAFaultIsAnError) {
+  tools.push_back(grasper());
+  auto shown = values(&Diagnostics::tools);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(status.message, "2 tools");
+  EXPECT_EQ(shown.at("hook, links"), "0");
+  EXPECT_EQ(shown.at("grasper, links"), "2");
+  tools.push_back(shaft_tool("needle", 0.001));
+  tools[1].fault = "grasper: parameter 'robot_description' is not set";
+  values(&Diagnostics::tools);
+  EXPECT_EQ(status.level, DiagnosticStatus::ERROR);
+  EXPECT_NE(status.message.find(tools[1].fault), std::string::npos) << status.message;
 }
 
 TEST_F(DiagnosticsTest, AgeOfEachOrgan) {

@@ -5,13 +5,15 @@
 #include <boost/make_shared.hpp>
 #include <map>
 
+#include "hand_made_tools.hpp"
+
 using namespace organ_collision;
 using visualization_msgs::Marker;
 
 namespace {
 
 const TriangleMesh kMesh({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 1, 3, 2});
-const ToolParameters kTool{"hook", "trocar", "tip", 0.25};
+const Tool kHook = shaft_tool("hook", 0.25);
 
 class Markers : public testing::Test {
  protected:
@@ -22,9 +24,9 @@ class Markers : public testing::Test {
   }
 
   /// By the last part of their namespace.
-  std::map<std::string, Marker> markers(const ToolPath& path) {
+  std::map<std::string, Marker> markers(const ToolPath& path, const Tool& tool = kHook) {
     std::map<std::string, Marker> by_name;
-    for (const Marker& marker : step_markers({answer_, kTool, kMesh, path}).markers) {
+    for (const Marker& marker : step_markers({answer_, tool, kMesh, path}).markers) {
       EXPECT_EQ(marker.header.frame_id, "liver_frame");
       EXPECT_EQ(marker.ns.rfind("liver/hook/", 0), 0u);
       EXPECT_GT(marker.lifetime.toSec(), 0.0);
@@ -89,6 +91,15 @@ TEST_F(Markers, RegionsAreClosedOutlines) {
   answer_->regions.resize(2);
   answer_->regions[1].points.resize(4);
   EXPECT_EQ(markers(still_).at("regions").points.size(), 8u);
+}
+
+TEST_F(Markers, LinksAloneHaveTouchedFacesAlone) {
+  answer_->contacts.resize(1);
+  const auto by_name =
+      markers({{0.0, still_[0].axis, {2, Eigen::Isometry3d::Identity()}}}, grasper());
+  EXPECT_EQ(by_name.size(), 2u);
+  EXPECT_EQ(by_name.at("touched").action, Marker::ADD);
+  EXPECT_EQ(by_name.at("regions").action, Marker::DELETE);
 }
 
 TEST_F(Markers, NoneOfAFailure) { EXPECT_TRUE(markers({}).empty()); }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hand_filled_transforms.hpp"
+#include "hand_made_tools.hpp"
 #include "organ_collision/ros/organ_store.hpp"
 #include "organ_collision/ros/query_services.hpp"
 #include "organ_collision/ros/step_evaluator.hpp"
@@ -20,7 +21,6 @@ struct NodeParts {
   NodeParts() {
     ros::Time::init();
     ros::Time::setNow(ros::Time(50));
-    parameters.tools = {{"hook", "hook_trocar", "hook_tip", 0.01}};
     set_point(transforms, "liver_frame", "hook_trocar", 0.0, {0.0, 0.0, 1.0}, true);
   }
 
@@ -76,15 +76,17 @@ struct NodeParts {
   }
 
   NodeParameters parameters;
+  std::vector<Tool> tools = {shaft_tool("hook", 0.01)};
   tf2::BufferCore transforms;
   OrganStore organs{MeshLimits{}};
   ToolPoses poses{transforms, {0.001, 100}};
   Evaluator evaluator{PickerKind::kFeedback};
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
-  StepEvaluator steps{parameters, poses, evaluator,
+  StepEvaluator steps{parameters, tools, poses, evaluator,
                       [this](const EvaluatedStep& step) { published.push_back(*step.answer); }};
-  QueryServices services{{parameters, organs, transforms, poses, steps.history(), evaluator}};
+  QueryServices services{
+      {parameters, tools, organs, transforms, poses, steps.history(), evaluator}};
 };
 
 }  // namespace organ_collision

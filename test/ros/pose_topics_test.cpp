@@ -78,9 +78,11 @@ TEST_F(PoseTopicsTest, PosesAreSamplesOfTheToolsWay) {
   topics_.take_tip(0, pose("base", 1.25, {0.1, 0.3, 0.0}));
   topics_.take_tip(0, pose("base", 1.5, {0.2, 0.0, 0.0}));
   const Vector3d trocar(0.0, 0.0, 0.0);
+  Tool tool;
+  tool.parameters = streamed_tool("left");
   const SampledPath sampled =
-      poses_.path(streamed_tool("left"), "base", {{trocar, {0.1, 0.0, 0.0}}, ros::Time(1.0)},
-                  {{trocar, {0.2, 0.0, 0.0}}, ros::Time(1.5)});
+      poses_.path(tool, "base", {{{trocar, {0.1, 0.0, 0.0}}}, ros::Time(1.0)},
+                  {{{trocar, {0.2, 0.0, 0.0}}}, ros::Time(1.5)});
   ASSERT_EQ(sampled.path.size(), 3u);
   EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.5);
   EXPECT_TRUE(sampled.path[1].axis.tip.isApprox(Vector3d(0.1, 0.3, 0.0)));

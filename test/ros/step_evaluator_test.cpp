@@ -139,7 +139,7 @@ TEST_F(StepEvaluatorTest, WaitingShapeIsNotReplacedByNewerOnes) {
 }
 
 TEST_F(StepEvaluatorTest, OneToolWithoutTransformDoesNotHoldUpTheOther) {
-  parameters.tools.push_back({"lost", "lost_trocar", "lost_tip", 0.01});
+  tools.push_back(shaft_tool("lost", 0.01));
   send_tip(1.0, kAbove);
   send_mesh(1.0, 0.0);
   auto published = evaluate();

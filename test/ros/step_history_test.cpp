@@ -12,7 +12,7 @@ ShapeQueue::Entry entry(int second) {
 }
 
 LastStep step(int second) {
-  return {{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}, ros::Time(second), nullptr};
+  return {{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}, ros::Time(second), nullptr};
 }
 
 int front(const ShapeQueue& queue) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hand_filled_transforms.hpp"
+#include "hand_made_tools.hpp"
 
 using namespace organ_collision;
 using Eigen::Isometry3d;
@@ -12,7 +13,12 @@ using Eigen::Vector3d;
 
 namespace {
 
-const ToolParameters kTool{"hook", "trocar", "tip", 0.005};
+Tool hook() {
+  Tool tool;
+  tool.parameters = {"hook", "trocar", "tip", 0.005};
+  return tool;
+}
+const Tool kTool = hook();
 const Isometry3d kWorldLiver = Eigen::Translation3d(0.3, 0.1, -0.4) *
                                Eigen::AngleAxisd(0.8, Vector3d(1.0, 2.0, -0.5).normalized());
 
@@ -41,8 +47,8 @@ class ToolPosesTest : public testing::Test {
   }
   SampledPath path(double from, double to, const PathSampling& sampling) const {
     return ToolPoses(buffer_, sampling)
-        .path(kTool, "liver", {axis_in_liver(from), ros::Time(from)},
-              {axis_in_liver(to), ros::Time(to)});
+        .path(kTool, "liver", {{axis_in_liver(from)}, ros::Time(from)},
+              {{axis_in_liver(to)}, ros::Time(to)});
   }
 
   tf2::BufferCore buffer_;
@@ -54,54 +60,54 @@ class ToolPosesTest : public testing::Test {
 TEST_F(ToolPosesTest, AxisInTheOrgansFrame) {
   send(1.0);
   send(2.0);
-  const auto lookup = poses_.axis(kTool, "liver", ros::Time(2.0));
+  const auto lookup = poses_.pose(kTool, "liver", ros::Time(2.0));
   ASSERT_TRUE(lookup.found) << lookup.why_not;
-  expect_axis(lookup.found->value, axis_in_liver(2.0));
+  expect_axis(lookup.found->value.axis, axis_in_liver(2.0));
   EXPECT_EQ(lookup.found->stamp, ros::Time(2.0));
 }
 
 TEST_F(ToolPosesTest, LatestIsTheLatestThatBothFramesHave) {
   for (const double time : {1.0, 1.5, 2.0}) send_trocar(time);
   for (const double time : {1.0, 1.5}) send_tip(time);
-  const auto lookup = poses_.axis(kTool, "liver", ros::Time(0));
+  const auto lookup = poses_.pose(kTool, "liver", ros::Time(0));
   ASSERT_TRUE(lookup.found) << lookup.why_not;
   EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
-  expect_axis(lookup.found->value, axis_in_liver(1.5));
+  expect_axis(lookup.found->value.axis, axis_in_liver(1.5));
 }
 
 TEST_F(ToolPosesTest, RestingTrocarTakesTheTipsTime) {
   set_point(buffer_, "world", "trocar", 0.0, trocar(1.5), true);
   send_tip(1.5);
-  const auto lookup = poses_.axis(kTool, "liver", ros::Time(0));
+  const auto lookup = poses_.pose(kTool, "liver", ros::Time(0));
   ASSERT_TRUE(lookup.found) << lookup.why_not;
   EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
-  expect_axis(lookup.found->value, axis_in_liver(1.5));
+  expect_axis(lookup.found->value.axis, axis_in_liver(1.5));
 }
 
 TEST_F(ToolPosesTest, AToolThatOnlyRestsIsOfAnyTime) {
   set_point(buffer_, "world", "trocar", 0.0, trocar(0.0), true);
   set_point(buffer_, "trocar", "tip", 0.0, tip(0.0) - trocar(0.0), true);
-  const auto lookup = poses_.axis(kTool, "liver", ros::Time(0));
+  const auto lookup = poses_.pose(kTool, "liver", ros::Time(0));
   ASSERT_TRUE(lookup.found) << lookup.why_not;
   EXPECT_TRUE(lookup.found->stamp.isZero());
-  expect_axis(lookup.found->value, axis_in_liver(0.0));
+  expect_axis(lookup.found->value.axis, axis_in_liver(0.0));
 }
 
 TEST_F(ToolPosesTest, NoneIfEitherFrameIsMissing) {
   send_tip(1.0);
-  EXPECT_NE(poses_.axis(kTool, "liver", ros::Time(1.0)).why_not.find("trocar"), std::string::npos);
+  EXPECT_NE(poses_.pose(kTool, "liver", ros::Time(1.0)).why_not.find("trocar"), std::string::npos);
   send_trocar(1.0);
-  EXPECT_TRUE(poses_.axis(kTool, "liver", ros::Time(1.0)).found);
-  const auto late = poses_.axis(kTool, "liver", ros::Time(1.1));
+  EXPECT_TRUE(poses_.pose(kTool, "liver", ros::Time(1.0)).found);
+  const auto late = poses_.pose(kTool, "liver", ros::Time(1.1));
   EXPECT_FALSE(late.found);
   EXPECT_FALSE(late.why_not.empty());
-  EXPECT_FALSE(poses_.axis(kTool, "kidney", ros::Time(1.0)).found);
+  EXPECT_FALSE(poses_.pose(kTool, "kidney", ros::Time(1.0)).found);
 }
 
 TEST_F(ToolPosesTest, NoneIfTheFramesNeverShareATime) {
   send_trocar(1.0);
   send_tip(2.0);
-  EXPECT_FALSE(poses_.axis(kTool, "liver", ros::Time(0)).found);
+  EXPECT_FALSE(poses_.pose(kTool, "liver", ros::Time(0)).found);
 }
 
 TEST_F(ToolPosesTest, PathFollowsTheArc) {
@@ -122,11 +128,11 @@ TEST_F(ToolPosesTest, PosesThatCameAsMessagesAreWaypoints) {
   ToolPoses poses(buffer_, {0.01, 100});
   for (const double time : times) {
     send(time);
-    poses.add_sample(kTool, ros::Time(time));
+    poses.add_sample(kTool.parameters, ros::Time(time));
   }
   poses.add_sample({"other", "trocar", "tip", 0.005}, ros::Time(1.05));
-  const SampledPath sampled = poses.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1.0)},
-                                         {axis_in_liver(1.1), ros::Time(1.1)});
+  const SampledPath sampled = poses.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1.0)},
+                                         {{axis_in_liver(1.1)}, ros::Time(1.1)});
   // Even samples in between lie on straight ways, and are left out.
   ASSERT_EQ(sampled.path.size(), 6u);
   for (int i = 0; i < 6; ++i) {
@@ -139,10 +145,10 @@ TEST_F(ToolPosesTest, PosesBeyondTheMostSamplesAreCounted) {
   ToolPoses poses(buffer_, {1.0, 5});
   for (int i = 0; i <= 100; ++i) {
     send(1.0 + 0.001 * i);
-    poses.add_sample(kTool, ros::Time(1.0 + 0.001 * i));
+    poses.add_sample(kTool.parameters, ros::Time(1.0 + 0.001 * i));
   }
-  const SampledPath sampled = poses.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1.0)},
-                                         {axis_in_liver(1.1), ros::Time(1.1)});
+  const SampledPath sampled = poses.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1.0)},
+                                         {{axis_in_liver(1.1)}, ros::Time(1.1)});
   EXPECT_EQ(sampled.path.size(), 6u);
   EXPECT_EQ(sampled.samples_cut, 95u);
   for (std::size_t i = 1; i < sampled.path.size(); ++i) {
@@ -155,10 +161,10 @@ TEST_F(ToolPosesTest, PosesGoBeforeSamplesInBetween) {
   for (int i = 0; i <= 90; ++i) {
     const double time = 1.0 + 0.00111 * i;  // never at an even sample
     send(time);
-    poses.add_sample(kTool, ros::Time(time));
+    poses.add_sample(kTool.parameters, ros::Time(time));
   }
-  const SampledPath sampled = poses.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1.0)},
-                                         {axis_in_liver(1.0999), ros::Time(1.0999)});
+  const SampledPath sampled = poses.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1.0)},
+                                         {{axis_in_liver(1.0999)}, ros::Time(1.0999)});
   EXPECT_EQ(sampled.path.size(), 91u);
   EXPECT_EQ(sampled.samples_cut, 0u);
 }
@@ -175,9 +181,9 @@ TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
 
 TEST_F(ToolPosesTest, AToolWhosePosesNeverCameNamesTheTopic) {
   send_trocar(1.0);
-  ToolParameters tool = kTool;
-  tool.tip_pose_topic = "/arm/measured_cp";
-  EXPECT_NE(poses_.axis(tool, "liver", ros::Time(1.0)).why_not.find("/arm/measured_cp"),
+  Tool tool = kTool;
+  tool.parameters.tip_pose_topic = "/arm/measured_cp";
+  EXPECT_NE(poses_.pose(tool, "liver", ros::Time(1.0)).why_not.find("/arm/measured_cp"),
             std::string::npos);
 }
 
@@ -242,20 +248,21 @@ TEST_F(ToolPosesTest, TrocarThatMovesByRoundingRests) {
   ShaftAxis from = axis_in_liver(1.0), to = axis_in_liver(1.0);
   from.trocar.x() += 1e-12;
   to.tip.y() += 0.01;
-  SampledPath sampled = poses_.path(kTool, "liver", {from, ros::Time(1)}, {to, ros::Time(1.001)});
+  SampledPath sampled =
+      poses_.path(kTool, "liver", {{from}, ros::Time(1)}, {{to}, ros::Time(1.001)});
   EXPECT_EQ(sampled.path.front().axis.trocar, to.trocar);
   EXPECT_EQ(sampled.path.front().axis.tip, from.tip);
   from.trocar.x() += 1e-6;
-  sampled = poses_.path(kTool, "liver", {from, ros::Time(1)}, {to, ros::Time(1.001)});
+  sampled = poses_.path(kTool, "liver", {{from}, ros::Time(1)}, {{to}, ros::Time(1.001)});
   EXPECT_EQ(sampled.path.front().axis.trocar, from.trocar);
 }
 
 TEST_F(ToolPosesTest, AbsurdStampsAreSurvived) {
   send(1.0);
   const ros::Time last(4294967295u, 999999999u);
-  EXPECT_FALSE(poses_.axis(kTool, "liver", last).found);
-  const SampledPath sampled =
-      poses_.path(kTool, "liver", {axis_in_liver(1.0), ros::Time(1)}, {axis_in_liver(2.0), last});
+  EXPECT_FALSE(poses_.pose(kTool, "liver", last).found);
+  const SampledPath sampled = poses_.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1)},
+                                          {{axis_in_liver(2.0)}, last});
   EXPECT_EQ(sampled.path.size(), 2u);
   EXPECT_GT(sampled.samples_cut, 0u);
 }

@@ -19,6 +19,7 @@ struct ConvexCore {
   Eigen::Matrix<double, 3, 2> rim = Eigen::Matrix<double, 3, 2>::Zero();
 
   ConvexCore() = default;
+  // An axis is a core. NOLINTNEXTLINE(google-explicit-constructor)
   ConvexCore(const ShaftAxis& axis) : points{axis.trocar, axis.tip}, count(2) {}
 
   /// The core's point farthest along `direction`, which need not be unit.

@@ -10,6 +10,7 @@ namespace organ_collision {
 /// linearly, or a link's core, which moves rigidly.
 class CoreMotion {
  public:
+  // An axis is a core. NOLINTNEXTLINE(google-explicit-constructor)
   CoreMotion(const ShaftMotion& shaft) : start_(shaft.start), end_(shaft.end) {}
   /// `core` in the link's frame. `motion` must outlive this.
   CoreMotion(const ConvexCore& core, const RigidMotion& motion);

@@ -7,13 +7,17 @@
 #include <string>
 
 #include "organ_collision/ros/organ.hpp"
+#include "organ_collision/ros/parameters.hpp"
 
 namespace organ_collision {
 
-/// An answer about one organ and one tool, still without contacts; header.stamp and step_start are
-/// `stamp`.
+/// An answer about one organ and one tool, a shaft alone, still without contacts; header.stamp and
+/// step_start are `stamp`.
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
+
+/// The names of the tool's parts, as ContactArray has them.
+void set_links(ContactArray& answer, const ToolParameters& tool);
 
 /// Frame, topology and mesh stamp of the shape that the answer is about.
 void set_organ(ContactArray& answer, const Organ& organ, const OrganShape& shape);

@@ -20,6 +20,7 @@
 #include "organ_collision/ros/pose_topics.hpp"
 #include "organ_collision/ros/query_services.hpp"
 #include "organ_collision/ros/step_evaluator.hpp"
+#include "organ_collision/ros/tool.hpp"
 #include "organ_collision/ros/tool_poses.hpp"
 
 namespace organ_collision {
@@ -58,6 +59,7 @@ class CollisionNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
+  std::vector<Tool> tools_;
   NodeCounters counters_;
 
   tf2_ros::Buffer transforms_;

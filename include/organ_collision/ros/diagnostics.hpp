@@ -11,6 +11,7 @@
 #include "organ_collision/ros/parameters.hpp"
 #include "organ_collision/ros/statistics.hpp"
 #include "organ_collision/ros/step_evaluator.hpp"
+#include "organ_collision/ros/tool.hpp"
 
 namespace organ_collision {
 
@@ -35,6 +36,7 @@ class Diagnostics {
   /// All must outlive it.
   struct Sources {
     const NodeParameters& parameters;
+    const std::vector<Tool>& tools;
     const std::vector<std::string>& misspelt;
     const OrganStore& organs;
     const Evaluator& evaluator;
@@ -46,6 +48,7 @@ class Diagnostics {
   void add_to(diagnostic_updater::Updater& updater);
 
   void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void tools(diagnostic_updater::DiagnosticStatusWrapper& status);
   void organs(diagnostic_updater::DiagnosticStatusWrapper& status);
   void messages(diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -4,10 +4,14 @@
 #include <organ_collision/QueryCollisionBatch.h>
 #include <tf2/buffer_core.h>
 
+#include <string>
+#include <vector>
+
 #include "organ_collision/ros/evaluator.hpp"
 #include "organ_collision/ros/organ_store.hpp"
 #include "organ_collision/ros/parameters.hpp"
 #include "organ_collision/ros/step_history.hpp"
+#include "organ_collision/ros/tool.hpp"
 #include "organ_collision/ros/tool_poses.hpp"
 
 namespace organ_collision {
@@ -18,6 +22,7 @@ class QueryServices {
   /// All must outlive it.
   struct Sources {
     const NodeParameters& parameters;
+    const std::vector<Tool>& tools;
     const OrganStore& organs;
     const tf2::BufferCore& transforms;
     const ToolPoses& poses;
@@ -31,11 +36,11 @@ class QueryServices {
   std::vector<ContactArray> query_batch(const QueryCollisionBatch::Request& request) const;
 
  private:
-  const ToolParameters& tool(const std::string& name) const;
+  const Tool& find_tool(const std::string& name) const;
   void answer(const QueryCollision::Request& request, ContactArray& answer) const;
   void set_motion(const QueryCollision::Request& request, const Organ& organ,
                   CollisionRequest& collision, ContactArray& answer) const;
-  void set_tool_motion(const QueryCollision::Request& request, const Organ& organ,
+  void set_tool_motion(const QueryCollision::Request& request, const Organ& organ, const Tool& tool,
                        CollisionRequest& collision, ContactArray& answer) const;
 
   Sources sources_;

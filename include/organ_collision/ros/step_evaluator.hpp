@@ -7,11 +7,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "organ_collision/ros/evaluator.hpp"
 #include "organ_collision/ros/organ_store.hpp"
 #include "organ_collision/ros/parameters.hpp"
 #include "organ_collision/ros/step_history.hpp"
+#include "organ_collision/ros/tool.hpp"
 #include "organ_collision/ros/tool_poses.hpp"
 
 namespace organ_collision {
@@ -19,21 +21,23 @@ namespace organ_collision {
 /// What one tool touched of one organ in one step, and how it moved.
 struct EvaluatedStep {
   ContactArrayPtr answer;
-  const ToolParameters& tool;
+  const Tool& tool;
   const TriangleMesh& mesh;
   const ToolPath& path;  ///< empty when the evaluation failed before it was known
 };
 
 /// Evaluates every tool against every organ: at each new shape, at each tick. Each step begins
-/// where the last one that succeeded ended.
+/// where the last one that succeeded ended. A tool with a fault is never evaluated: its answers say
+/// INVALID_TOOL.
 class StepEvaluator {
  public:
   using Publish = std::function<void(const EvaluatedStep&)>;
 
   /// The references must outlive it.
-  StepEvaluator(const NodeParameters& parameters, const ToolPoses& poses, Evaluator& evaluator,
-                Publish publish)
+  StepEvaluator(const NodeParameters& parameters, const std::vector<Tool>& tools,
+                const ToolPoses& poses, Evaluator& evaluator, Publish publish)
       : parameters_(parameters),
+        tools_(tools),
         poses_(poses),
         evaluator_(evaluator),
         publish_(std::move(publish)) {}
@@ -64,15 +68,18 @@ class StepEvaluator {
   bool evaluate_front(const Organ& organ, std::size_t tool, OrganToolPair& pair, SteadyTime now);
   void evaluate_latest(const Organ& organ, std::size_t tool, ros::Time now, bool only_new);
   void evaluate_step(const Organ& organ, std::size_t tool, OrganToolPair& pair,
-                     const Timed<ShaftAxis>& end);
+                     const Timed<ToolPose>& end);
   void evaluate_held(const Organ& organ, std::size_t tool, OrganToolPair& pair);
-  void run(const Organ& organ, std::size_t tool, OrganToolPair& pair, Timed<ShaftAxis> end,
-           const ToolPath& path);
+  void run(const Organ& organ, std::size_t tool, OrganToolPair& pair, Timed<ToolPose> end,
+           ToolPath path);
   void fail(const Organ& organ, std::size_t tool, const OrganToolPair& pair, ros::Time stamp,
             std::uint8_t status, const std::string& message);
+  ContactArrayPtr answer_about_step(const Organ& organ, std::size_t tool, const OrganToolPair& pair,
+                                    ros::Time end) const;
   SteadyTime deadline(const ShapeQueue::Entry& entry) const;
 
   const NodeParameters& parameters_;
+  const std::vector<Tool>& tools_;
   const ToolPoses& poses_;
   Evaluator& evaluator_;
   Publish publish_;

@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 #include "organ_collision/ros/organ.hpp"
 
@@ -20,7 +20,7 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 
 /// Where the last evaluation that succeeded ended; the next step begins there.
 struct LastStep {
-  ShaftAxis axis;  ///< in the organ's frame
+  ToolPose pose;
   ros::Time stamp;
   std::shared_ptr<const TriangleMesh> mesh;
 };

@@ -10,6 +10,7 @@
 #include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/ros/parameters.hpp"
 #include "organ_collision/ros/pose_stamps.hpp"
+#include "organ_collision/ros/tool.hpp"
 #include "organ_collision/ros/transforms.hpp"
 
 namespace organ_collision {
@@ -33,22 +34,21 @@ class ToolPoses {
   ToolPoses(const tf2::BufferCore& buffer, const PathSampling& sampling)
       : buffer_(buffer), sampling_(sampling) {}
 
-  /// The axis at a time; zero: at the latest time for which both its frames are known.
-  Lookup<ShaftAxis> axis(const ToolParameters& tool, const std::string& organ_frame,
-                         ros::Time time) const;
+  /// The pose at a time; zero: at the latest time for which all its frames are known.
+  Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
 
-  /// The way from one known axis to another, through samples of TF in between: evenly spaced, and
-  /// at the stamps of poses of the tip that came as messages. A sample that TF does not have, or
-  /// that lies on the straight way between its neighbours, is left out. A path always begins and
-  /// ends as given, but for 1e-9 m of a trocar at rest.
-  SampledPath path(const ToolParameters& tool, const std::string& organ_frame,
-                   const Timed<ShaftAxis>& from, const Timed<ShaftAxis>& to) const;
+  /// The way from one known pose to another, through samples of TF in between: evenly spaced, and
+  /// at the stamps of poses of the tip that came as messages. A sample that TF does not have is
+  /// left out; of the others, PathBuilder keeps those that add something.
+  SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
+                   const Timed<ToolPose>& to) const;
 
   /// A pose of the tool's tip came as a message, and is in the buffer.
   void add_sample(const ToolParameters& tool, ros::Time stamp);
   void forget_samples() { stamps_.clear(); }
 
  private:
+  std::string without_tip(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const ToolParameters& tool, ros::Time from, ros::Time to,
                                       std::size_t& cut) const;
 
