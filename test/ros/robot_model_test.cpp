@@ -59,7 +59,7 @@ TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
   const Link shaft = gripper().link("shaft");
   EXPECT_EQ(shaft.name, "shaft");
   ASSERT_EQ(shaft.parts.size(), 2u);  // And not the visual box.
-  EXPECT_EQ(shaft.parts[0].core.disc_radius, 0.004);
+  EXPECT_NEAR(shaft.parts[0].core.rim.col(0).norm(), 0.004, 1e-15);
   expect_extent(shaft.parts[0], {-0.14, -0.024, 0.096}, {0.16, -0.016, 0.104});
   EXPECT_EQ(shaft.parts[1].radius, 0.005);
   expect_extent(shaft.parts[1], {0.155, -0.025, 0.095}, {0.165, -0.015, 0.105});
