@@ -123,6 +123,18 @@ void add_contacts(Lab& lab, const SceneKey& key) {
   }
 }
 
+struct GrasperPartEntry {
+  const char* name;
+  double (GrasperRig::*run)();
+  const Findings& (GrasperRig::*findings)() const;
+};
+
+constexpr GrasperPartEntry kGrasperParts[] = {
+    {"grasper_static/ours/1224", &GrasperRig::static_query, &GrasperRig::findings},
+    {"grasper_swept/ours/1224", &GrasperRig::swept_query, &GrasperRig::findings},
+    {"grasper_static/fcl/1224", &GrasperRig::fcl_static_query, &GrasperRig::fcl_findings},
+};
+
 // One pass over each new shape; it is all that a step of these takes.
 template <typename Pass>
 void add_pass(Lab& lab, const char* name, const SceneKey& key, Pass pass) {
@@ -165,6 +177,16 @@ void add_benchmarks(Lab& lab, const SceneKey& key) {
   }
   add_contacts(lab, key);
   add_passes(lab, key);
+}
+
+void add_grasper(Lab& lab) {
+  for (const GrasperPartEntry& part : kGrasperParts) {
+    add(part.name, step_count(1224), [&lab, part](benchmark::State& state) {
+      GrasperRig& rig = lab.grasper_rig();
+      for ([[maybe_unused]] const auto _ : state) state.SetIterationTime((rig.*part.run)());
+      report((rig.*part.findings)(), state);
+    });
+  }
 }
 
 }  // namespace organ_collision::bench

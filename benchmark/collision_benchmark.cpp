@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
       add_benchmarks(lab, {faces, shuffled});
     }
   }
+  add_grasper(lab);
   SilentReporter display;
   PlainJsonReporter file;
   benchmark::RunSpecifiedBenchmarks(&display, &file);

@@ -14,7 +14,7 @@ namespace {
 constexpr QueryMode kBoth[] = {QueryMode::kStatic, QueryMode::kSwept};
 
 /// Of a step of one leg, for one face.
-std::optional<FaceContact> refine_whole(const ToolStep& tool, const Triangle& before,
+std::optional<FaceContact> refine_whole(const VolumeQuery& tool, const Triangle& before,
                                         const Triangle& now) {
   return refine({tool.motion, tool.radius, {tool.motion.end}}, {{before, now}, 0.0, 1.0, now});
 }

@@ -32,6 +32,15 @@ ContactRig& Lab::contact_rig(const SceneKey& key) {
   return *rig;
 }
 
+GrasperRig& Lab::grasper_rig() {
+  if (!grasper_rig_) {
+    grasper_rig_ = std::make_unique<GrasperRig>();
+    tell("ours, a grasper", {1224, false}, grasper_rig_->findings());
+    tell("fcl, a grasper", {1224, false}, grasper_rig_->fcl_findings());
+  }
+  return *grasper_rig_;
+}
+
 void Lab::tell(const std::string& name, const SceneKey& key, const Findings& findings) {
   const auto& [missed, wrong] = findings.errors;
   if (name.rfind("ours", 0) == 0) own_errors_ += missed + wrong;

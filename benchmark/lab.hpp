@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "contact_rig.hpp"
+#include "grasper_rig.hpp"
 #include "rig.hpp"
 #include "scene.hpp"
 
@@ -31,6 +32,7 @@ class Lab {
   Rig& rig(const std::string& name, std::unique_ptr<Engine> (*make)(), const SceneKey& key,
            bool rigid);
   ContactRig& contact_rig(const SceneKey& key);
+  GrasperRig& grasper_rig();
 
   /// Faces that the package's own pickers missed or found wrongly, in all scenes so far.
   std::size_t own_errors() const { return own_errors_; }
@@ -41,6 +43,7 @@ class Lab {
   std::map<SceneKey, std::unique_ptr<Scene>> scenes_;
   std::map<std::tuple<std::string, SceneKey, bool>, std::unique_ptr<Rig>> rigs_;
   std::map<SceneKey, std::unique_ptr<ContactRig>> contact_rigs_;
+  std::unique_ptr<GrasperRig> grasper_rig_;
   std::size_t own_errors_ = 0;
 };
 

@@ -86,6 +86,15 @@ def contact_table(results):
     return table(['with full geometry'] + results.sizes, rows)
 
 
+def grasper_table(results):
+    """Shaft, wrist and two jaws of 500 faces, against the organ of 1224 faces at rest."""
+    static = {engine: results.median.get(('grasper_static', engine, 1224, False)) for engine in ('ours', 'fcl')}
+    swept = results.median.get(('grasper_swept', 'ours', 1224, False))
+    rows = [['ours', microseconds(static['ours']), microseconds(swept)], ['fcl', microseconds(static['fcl']), ''],
+            ['fcl / ours', f"{static['fcl'] / static['ours']:.1f}", '']]
+    return table(['a grasper of four links', 'static, µs', 'swept, µs'], rows)
+
+
 def error_table(results):
     rows = []
     for engine in ENGINES:
@@ -136,6 +145,7 @@ def write_table(results, path):
             '## Times\n', *(part_table(results, part, False) for part in PARTS),
             'Vertices and faces in random order:\n', *(part_table(results, part, True) for part in PARTS),
             '## Contacts with full geometry\n', contact_table(results),
+            '## A grasper\n', grasper_table(results),
             "## The paper's figures 11 and 12\n", paper_table(results),
             '## Answers against the oracle, in all steps together\n', error_table(results)]
     path.write_text('\n'.join(text))
