@@ -57,16 +57,21 @@ void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> n
   }
 }
 
-void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
-  parsed.trocar_frame = frame(tool, names::kTrocarFrame);
-  parsed.radius = tool.number(names::kRadius, {}, kPositive);
+/// What places the tip, or a tool without shaft: a frame on TF, or poses as messages.
+void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParameters& parsed) {
   parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
   parsed.base_pose_topic = topic(tool, names::kBasePoseTopic);
-  const bool unnamed = !parsed.tip_pose_topic.empty() && !tool.has(names::kTipFrame);
-  parsed.tip_frame = unnamed ? parsed.name + "_tip" : frame(tool, names::kTipFrame);
   if (!parsed.base_pose_topic.empty() && parsed.tip_pose_topic.empty()) {
     tool.refuse(names::kBasePoseTopic, "goes with tip_pose_topic, in whose frame its poses are");
   }
+  const bool is_named = tool.has(names::kTipFrame) || parsed.tip_pose_topic.empty();
+  parsed.tip_frame = is_named ? frame(tool, names::kTipFrame) : unnamed;
+}
+
+void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
+  parsed.trocar_frame = frame(tool, names::kTrocarFrame);
+  parsed.radius = tool.number(names::kRadius, {}, kPositive);
+  parse_tip(tool, parsed.name + "_tip", parsed);
   if (parsed.tip_frame == parsed.trocar_frame) {
     tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
   }
@@ -89,22 +94,22 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   ToolParameters parsed;
   parsed.name = tool.text(names::kToolName);
   const bool has_links = tool.has(names::kLinks);
-  const bool has_shaft =
-      tool.has(names::kTrocarFrame) || tool.has(names::kTipFrame) || tool.has(names::kRadius);
+  const bool has_poses = tool.has(names::kTipPoseTopic) || tool.has(names::kBasePoseTopic);
+  const bool has_shaft = tool.has(names::kTrocarFrame) || tool.has(names::kRadius) ||
+                         (tool.has(names::kTipFrame) && !has_poses);
   if (!has_links && !has_shaft) {
     tool.refuse_missing(names::kLinks, "a tool needs links, or " + kShaft + ", or all of them");
-  }
-  if (has_shaft) {
-    parse_shaft(tool, parsed);
-  } else {
-    refuse_any(tool, {names::kTipPoseTopic, names::kBasePoseTopic},
-               "goes with a shaft: give " + kShaft + ", or let TF place the links");
   }
   if (has_links) {
     parse_links(tool, parsed);
   } else {
     refuse_any(tool, {names::kRobotDescription, names::kUrdf, names::kTfPrefix},
                "goes with links, which are missing");
+  }
+  if (has_shaft) {
+    parse_shaft(tool, parsed);
+  } else if (has_poses) {
+    parse_tip(tool, parsed.link_frame(parsed.links.front()), parsed);
   }
   return parsed;
 }

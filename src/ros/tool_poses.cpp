@@ -105,13 +105,15 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
     const auto trocar = look_up_frame(parameters.trocar_frame);
     if (!trocar.found) return {std::nullopt, trocar.why_not};
     const auto tip = look_up_frame(parameters.tip_frame);
-    if (!tip.found) return {std::nullopt, without_tip(parameters, tip.why_not)};
+    if (!tip.found) return {std::nullopt, unless_silent(parameters, tip.why_not)};
     pose.axis = {trocar.found->value.translation(), tip.found->value.translation()};
   }
   pose.links.reserve(tool.links.size());
   for (std::size_t i = 0; i < tool.links.size(); ++i) {
     const auto link = look_up_frame(parameters.link_frame(tool.links[i].name));
-    if (!link.found) return {std::nullopt, without_link(tool, i, link.why_not)};
+    if (!link.found) {
+      return {std::nullopt, unless_silent(parameters, without_link(tool, i, link.why_not))};
+    }
     pose.links.push_back(link.found->value);
   }
   // Each was the latest of its own; a tool is made of parts at the same time.
@@ -119,7 +121,8 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   return {{{std::move(pose), stamps.earliest}}, ""};
 }
 
-std::string ToolPoses::without_tip(const ToolParameters& tool, const std::string& why_not) const {
+std::string ToolPoses::unless_silent(const ToolParameters& tool,
+                                     const std::string& why_not) const {
   const bool silent = !tool.tip_pose_topic.empty() && stamps_.count(tool.name) == 0;
   return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
 }

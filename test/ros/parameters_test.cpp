@@ -192,8 +192,8 @@ TEST(Parameters, WhatDoesNotGoTogetherIsNamed) {
   expect_words(refusal_of_links("radius", 0.01), {"~tools[0]/trocar_frame", "missing"});
   expect_words(refusal_of_links("trocar_frame", "a"), {"~tools[0]/radius", "missing"});
   expect_words(refusal_of_links("tip_frame", "a"), {"~tools[0]/trocar_frame", "missing"});
-  expect_words(refusal_of_links("tip_pose_topic", "a"), {"~tools[0]/tip_pose_topic", "shaft"});
-  expect_words(refusal_of_links("base_pose_topic", "a"), {"~tools[0]/base_pose_topic", "shaft"});
+  expect_words(refusal_of_links("base_pose_topic", "/base"),
+               {"~tools[0]/base_pose_topic", "'/base'", "tip_pose_topic"});
   for (const char* name : {"robot_description", "urdf", "tf_prefix"}) {
     expect_words(refusal_of_tool(name, "a"), {std::string("~tools[0]/") + name, "links"});
   }
@@ -224,6 +224,22 @@ TEST(Parameters, TipsMayComeAsPoses) {
   expect_words(refusal_of_tool("tip_pose_topic", ""), {"~tools[0]/tip_pose_topic", "not empty"});
   expect_words(refusal_of_tool("base_pose_topic", "/base"),
                {"~tools[0]/base_pose_topic", "'/base'", "tip_pose_topic"});
+}
+
+TEST(Parameters, LinksMayComeAsPoses) {
+  XmlRpcValue all;
+  all["tools"][0]["name"] = "stylus";
+  all["tools"][0]["links"][0] = "pen";
+  all["tools"][0]["tf_prefix"] = "left";
+  all["tools"][0]["tip_pose_topic"] = "/stylus/measured_cp";
+  const ToolParameters first_link = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(first_link.tip_frame, "left/pen");
+  EXPECT_FALSE(first_link.has_shaft());
+
+  all["tools"][0]["tip_frame"] = "/pen_base";
+  const ToolParameters named = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(named.tip_frame, "pen_base");
+  EXPECT_FALSE(named.has_shaft());
 }
 
 TEST(Parameters, ToolNamesAreUnique) {

@@ -48,7 +48,8 @@ class ToolPoses {
   void forget_samples() { stamps_.clear(); }
 
  private:
-  std::string without_tip(const ToolParameters& tool, const std::string& why_not) const;
+  /// Why a tool's pose is not known: no message came that would have placed it, or as given.
+  std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const ToolParameters& tool, ros::Time from, ros::Time to,
                                       std::size_t& cut) const;
 
