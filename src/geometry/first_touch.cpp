@@ -89,14 +89,18 @@ Triangle FaceMotion::at(double time) const {
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       double until) {
   constexpr int kMaxSteps = 1000;  // some ten suffice; beyond, motions are too fast for doubles
-  const double near = radius + farthest_move(core, face);
+  const double move = farthest_move(core, face);
+  const double near = radius + move;
   Instant now(0.0, core, face, near);
   if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
   if (now.closest.distance > near) return std::nullopt;
+  // Nothing touches for this share of the leg, however little the direction of near points tells.
+  const auto sure = [&] { return (now.closest.distance - radius) / move; };
   Instant ahead(until, core, face);
   for (int step = 0; step < kMaxSteps; ++step) {
     const double length = ahead.time - now.time;
-    const double share = clear_share(now, ahead, core.bend(length), radius);
+    const double share =
+        std::max(clear_share(now, ahead, core.bend(length), radius), sure() / length);
     const double before = now.closest.distance;
     now = share > 1.0 ? ahead : Instant(now.time + share * length, core, face);
     if (now.closest.distance <= radius + tolerance::kTouch)
@@ -109,7 +113,7 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
       next = 2.0 * (now.closest.distance - radius) / approach;
       if (!(next > 0.0 && next < 0.25)) next = 0.25;
     }
-    ahead = Instant(std::min(now.time + next * length, until), core, face);
+    ahead = Instant(std::min(now.time + std::max(next * length, sure()), until), core, face);
   }
   return FirstTouch{now.time, now.closest};  // rather one contact too many
 }
