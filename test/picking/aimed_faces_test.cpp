@@ -3,11 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <iomanip>
 #include <stdexcept>
 #include <vector>
 
+#include "aimed_face.hpp"
 #include "organ_collision/picking/picker.hpp"
 #include "random_motions.hpp"
 
@@ -15,12 +15,6 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
-
-// A face that the tool touches, just so, at `touch`, and nowhere deeper.
-struct AimedFace {
-  TriangleMesh mesh;
-  Vector3d touch;  // [m] on the face as it is after rounding to 32 bits
-};
 
 // A point of the axis at some time of the motion that is farthest along `outward`: of several, any.
 Vector3d farthest(const ShaftMotion& motion, const Vector3d& outward, Random& random) {
@@ -33,54 +27,6 @@ Vector3d farthest(const ShaftMotion& motion, const Vector3d& outward, Random& ra
     if (outward.dot(point - best) > 1e-15) best = point;
   }
   return best;
-}
-
-// A face at about `place` that extends sideways and outward only, touched at a corner, at an edge
-// or in its interior.
-AimedFace aimed_face(const Vector3d& place, const Vector3d& outward, double largest,
-                     Random& random) {
-  const Vector3d side = outward.cross(random.direction()).normalized();
-  const double size = random.magnitude(1e-4, largest);
-  const double lift = random.below(2) == 0 ? 0 : random.uniform(0, 1);
-  const auto beyond = [&] {
-    return Vector3d(size *
-                    (Eigen::AngleAxisd(random.uniform(0, 7), outward) * side + lift * outward));
-  };
-  Vector3d share(1, 0, 0);
-  Triangle face = {place, place + beyond(), place + beyond()};
-  if (lift == 0 && random.below(2) == 0) {
-    const Vector3d arm = beyond();
-    face = {place - arm, place + 0.7 * arm, face[2]};
-    share = Vector3d(0.7, 1, 0) / 1.7;
-  } else if (lift == 0) {
-    const Vector3d arm = beyond(), other = outward.cross(arm);
-    face = {place - arm, place + arm + other, place + arm - other};
-    share = Vector3d(0.5, 0.25, 0.25);
-  }
-  const int turn = random.below(3);
-  std::vector<float> vertices;
-  for (int i = 0; i < 3; ++i) {
-    for (const double value : face[static_cast<std::size_t>((i + turn) % 3)]) {
-      vertices.push_back(static_cast<float>(value));
-    }
-  }
-  const TriangleMesh mesh(vertices, {0, 1, 2});
-  const Triangle rounded = mesh.triangle(0);
-  Vector3d touch = Vector3d::Zero();
-  for (int i = 0; i < 3; ++i) touch += share[(i + turn) % 3] * rounded[static_cast<std::size_t>(i)];
-  return {mesh, touch};
-}
-
-// Outward through a side, an edge or a corner of the volume, or anywhere.
-Vector3d aim(const ViewingVolume& volume, Random& random) {
-  const int planes = random.below(8);
-  if (planes == 0) return random.direction();
-  Vector3d outward = Vector3d::Zero();
-  for (int i = 0; i < std::max(1, planes - 4); ++i) {
-    const int index = random.below(static_cast<int>(volume.half_space_count()));
-    outward += volume.half_space(static_cast<std::size_t>(index)).normal;
-  }
-  return outward.norm() < 0.1 ? random.direction() : Vector3d(outward.normalized());
 }
 
 ShaftMotion moved(const ShaftMotion& motion, const Vector3d& by) {
@@ -100,11 +46,7 @@ class AimedFacesTest : public testing::TestWithParam<PickerKind> {
     if ((face.touch - (on_core + by)).norm() > radius) return;
     ++aimed_;
 
-    VolumeMargin margin;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d corner = face.mesh.vertex(k) - motion.start.trocar;
-      margin.extent = std::max(margin.extent, corner.cwiseAbs().maxCoeff());
-    }
+    const VolumeMargin margin{0.0, extent(face.mesh, motion.start.trocar)};
     picker_->pick(conservative_volume(motion, radius, margin), face.mesh, candidates_);
     if (candidates_.size() == 1) return;
     ADD_FAILURE() << std::setprecision(17) << motion << "radius " << radius << " outward "

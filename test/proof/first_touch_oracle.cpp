@@ -1,5 +1,6 @@
 #include "proof/first_touch_oracle.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "proof/exact_distance.hpp"
@@ -7,20 +8,18 @@
 namespace organ_collision::oracle {
 namespace {
 
+using Eigen::Vector3d;
+
 class Search {
  public:
-  Search(const ShaftMotion& shaft, const FaceMotion& face, double radius, double slack)
-      : shaft_(shaft), face_(face), radius_(radius), slack_(slack) {
-    double corner = 0.0;
-    for (int i = 0; i < 3; ++i) corner = std::max(corner, (face.end[i] - face.start[i]).norm());
-    speed_ = corner + std::max((shaft.end.trocar - shaft.start.trocar).norm(),
-                               (shaft.end.tip - shaft.start.tip).norm());
-  }
+  /// `distance` at a time of the leg [m], and how much it changes at most in the whole leg [m].
+  Search(std::function<double(double)> distance, double speed, double radius, double slack)
+      : distance_(std::move(distance)), speed_(speed), radius_(radius), slack_(slack) {}
 
   /// Looks at the interval, earlier half first, until it knows when they surely meet.
   void look(double from, double to) {
     const double half = 0.5 * (to - from), middle = from + half;
-    const double gap = distance_at(middle) - radius_;
+    const double gap = distance_(middle) - radius_;
     if (gap > half * speed_ + slack_) return;
     if (half * speed_ < slack_) {
       if (!found_.possibly) found_.possibly = from;
@@ -31,33 +30,71 @@ class Search {
     if (!found_.certainly) look(middle, to);
   }
 
-  const FirstTime& found() const { return found_; }
-
- private:
-  double distance_at(double time) const {
-    const auto between = [time](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-      return Eigen::Vector3d((1.0 - time) * a + time * b);
-    };
-    const Eigen::Vector3d tip = between(shaft_.start.tip, shaft_.end.tip);
-    return distance({between(shaft_.start.trocar, shaft_.end.trocar), tip, tip},
-                    {between(face_.start[0], face_.end[0]), between(face_.start[1], face_.end[1]),
-                     between(face_.start[2], face_.end[2])});
+  FirstTime in_the_leg() {
+    look(0.0, 1.0);
+    return found_;
   }
 
-  const ShaftMotion& shaft_;
-  const FaceMotion& face_;
-  const double radius_, slack_;
-  double speed_;  ///< [m] in the whole leg
+ private:
+  const std::function<double(double)> distance_;
+  const double speed_, radius_, slack_;
   FirstTime found_;
 };
+
+Vector3d between(const Vector3d& from, const Vector3d& to, double time) {
+  return (1.0 - time) * from + time * to;
+}
+
+Triangle at(const FaceMotion& face, double time) {
+  return {between(face.start[0], face.end[0], time), between(face.start[1], face.end[1], time),
+          between(face.start[2], face.end[2], time)};
+}
+
+/// [m] In the whole leg, of the fastest corner.
+double speed(const FaceMotion& face) {
+  double corner = 0.0;
+  for (int i = 0; i < 3; ++i) corner = std::max(corner, (face.end[i] - face.start[i]).norm());
+  return corner;
+}
+
+/// [m] Of the core's point that is farthest from the link's origin.
+double speed(const LinkTrial& trial) {
+  double reach = 0.0;
+  for (std::size_t i = 0; i < trial.core.count; ++i) {
+    reach = std::max(reach, trial.core.points[i].norm());
+  }
+  const Eigen::Quaterniond from(trial.start.linear()), to(trial.end.linear());
+  return (trial.end.translation() - trial.start.translation()).norm() +
+         (reach + trial.core.rim.norm()) * from.angularDistance(to);
+}
 
 }  // namespace
 
 FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, double radius,
                             double slack) {
-  Search search(shaft, face, radius, slack);
-  search.look(0.0, 1.0);
-  return search.found();
+  const auto distance_at = [&](double time) {
+    const Vector3d tip = between(shaft.start.tip, shaft.end.tip, time);
+    return distance({between(shaft.start.trocar, shaft.end.trocar, time), tip, tip},
+                    at(face, time));
+  };
+  const double axis = std::max((shaft.end.trocar - shaft.start.trocar).norm(),
+                               (shaft.end.tip - shaft.start.tip).norm());
+  return Search(distance_at, axis + speed(face), radius, slack).in_the_leg();
+}
+
+FirstTime first_time_within(const LinkTrial& trial, const FaceMotion& face, double slack) {
+  const auto distance_at = [&](double time) {
+    return closest_points(pose_at(trial, time) * trial.core, at(face, time)).distance;
+  };
+  return Search(distance_at, speed(trial) + speed(face), trial.radius, slack).in_the_leg();
+}
+
+Eigen::Isometry3d pose_at(const LinkTrial& trial, double time) {
+  const Eigen::Quaterniond from(trial.start.linear()), to(trial.end.linear());
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = from.slerp(time, to).toRotationMatrix();
+  pose.translation() = between(trial.start.translation(), trial.end.translation(), time);
+  return pose;
 }
 
 }  // namespace organ_collision::oracle

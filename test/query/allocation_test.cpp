@@ -4,6 +4,7 @@
 #include <new>
 #include <utility>
 
+#include "geometry/tool_meshes.hpp"
 #include "grid_surface.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "query/scenes.hpp"
@@ -32,17 +33,39 @@ namespace {
 
 constexpr std::size_t kShapes = 8;
 
+/// A box, a cylinder and a ball on one link, a mesh of 512 faces on another.
+std::vector<Link> some_links() {
+  oracle::Random random(10);
+  const auto pose = [&] { return oracle::random_pose(0.02, random); };
+  return {{"jaw",
+           {LinkPart::box(pose(), {0.02, 0.03, 0.05}), LinkPart::cylinder(pose(), 0.01, 0.06),
+            LinkPart::sphere(pose().translation(), 0.015)}},
+          {"plate", {LinkPart::mesh(wavy_mesh(16, 0.4).surface())}}};
+}
+
 /// An organ that goes through its shapes in a circle, and a tool that goes with it.
 class Simulation {
  public:
-  Simulation(bool shuffle, bool trocar_moves) : organ_(mesh(shuffle, 0)), before_(organ_) {
+  Simulation(bool shuffle, bool trocar_moves, std::vector<Link> links)
+      : organ_(mesh(shuffle, 0)), before_(organ_), links_(std::move(links)) {
     oracle::Random random(9);
     for (std::size_t i = 0; i < kShapes; ++i) {
       const TriangleMesh shape = mesh(shuffle, i);
       shapes_.push_back(std::make_shared<std::vector<float>>(shape.vertices()));
       paths_.push_back(random_path(trocar_moves, random));
+      for (std::size_t link = 0; link < links_.size(); ++link) {
+        Eigen::Isometry3d pose = oracle::random_pose(0.02, random);
+        for (ToolWaypoint& waypoint : paths_.back()) {
+          waypoint.links.push_back(pose);
+          pose.linear() *= oracle::random_turn(0.01, random);
+          pose.translation() += 1e-3 * random.direction();
+        }
+      }
     }
+    request_.links = &links_;
   }
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   /// A new shape, then both modes, the organ at rest and moving; returns how many contacts there
   /// were.
@@ -74,6 +97,7 @@ class Simulation {
   }
 
   TriangleMesh organ_, before_;
+  std::vector<Link> links_;
   std::vector<SharedVertices> shapes_;
   std::vector<ToolPath> paths_;
   CollisionRequest request_ = swept(organ_, {}, 0.005);
@@ -82,18 +106,30 @@ class Simulation {
   std::size_t next_ = 0;
 };
 
+/// Goes through all shapes twice, and then twice more, counting.
+void expect_none(Simulation& simulation, bool shuffle) {
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < 2 * kShapes; ++i) contacts += simulation.step();
+  EXPECT_GT(contacts, 1000U);
+  const std::size_t before = allocations;
+  for (std::size_t i = 0; i < 2 * kShapes; ++i) simulation.step();
+  EXPECT_GT(before, 0U);
+  EXPECT_EQ(allocations - before, 0U) << (shuffle ? "shuffled" : "in order");
+}
+
 TEST(Allocation, TheSteadyStateHasNone) {
   for (const bool shuffle : {false, true}) {
     for (const bool trocar_moves : {false, true}) {
-      Simulation simulation(shuffle, trocar_moves);
-      std::size_t contacts = 0;
-      for (std::size_t i = 0; i < 2 * kShapes; ++i) contacts += simulation.step();
-      EXPECT_GT(contacts, 1000U);
-      const std::size_t before = allocations;
-      for (std::size_t i = 0; i < 2 * kShapes; ++i) simulation.step();
-      EXPECT_GT(before, 0U);
-      EXPECT_EQ(allocations - before, 0U) << (shuffle ? "shuffled" : "in order");
+      Simulation simulation(shuffle, trocar_moves, {});
+      expect_none(simulation, shuffle);
     }
+  }
+}
+
+TEST(Allocation, LinksHaveNoneEither) {
+  for (const bool shuffle : {false, true}) {
+    Simulation simulation(shuffle, false, some_links());
+    expect_none(simulation, shuffle);
   }
 }
 

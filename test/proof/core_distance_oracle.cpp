@@ -1,0 +1,96 @@
+#include "proof/core_distance_oracle.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+
+#include "proof/exact_distance.hpp"
+
+namespace organ_collision::oracle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The least value of a convex function on [0, 1] (Kiefer 1953).
+double least_value(const std::function<double(double)>& function) {
+  constexpr double kGolden = 0.61803398874989484820;
+  double low = 0.0, high = 1.0;
+  double a = high - kGolden, b = low + kGolden;
+  double at_a = function(a), at_b = function(b);
+  double least = std::min({function(0.0), function(1.0), at_a, at_b});
+  for (int i = 0; i < 60; ++i) {
+    if (at_a < at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - kGolden * (high - low);
+      least = std::min(least, at_a = function(a));
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + kGolden * (high - low);
+      least = std::min(least, at_b = function(b));
+    }
+  }
+  return least;
+}
+
+double distance_of_cylinder(const ConvexCore& core, const Vector3d& point) {
+  const Vector3d axis = core.points[1] - core.points[0];
+  const Vector3d from_middle = point - 0.5 * (core.points[0] + core.points[1]);
+  const double along = from_middle.dot(axis.normalized());
+  const double beside = (from_middle - along * axis.normalized()).norm();
+  return std::hypot(std::max(0.0, std::abs(along) - 0.5 * axis.norm()),
+                    std::max(0.0, beside - core.rim.col(0).norm()));
+}
+
+/// A box's core has its corners as LinkPart::box has them: the last axis is the fastest.
+constexpr std::array<std::array<int, 4>, 6> kSides = {
+    {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
+
+bool box_contains(const ConvexCore& core, const Vector3d& point) {
+  for (const int corner : {1, 2, 4}) {
+    const Vector3d edge = core.points[corner] - core.points[0];
+    const double along = edge.dot(point - core.points[0]);
+    if (along < 0.0 || along > edge.squaredNorm()) return false;
+  }
+  return true;
+}
+
+double distance_of_box(const ConvexCore& core, const Triangle& face) {
+  if (box_contains(core, face[0])) return 0.0;
+  double least = INFINITY;
+  for (const auto& [a, b, c, d] : kSides) {
+    const auto& p = core.points;
+    least = std::min({least, distance(Triangle{p[a], p[b], p[c]}, face),
+                      distance(Triangle{p[a], p[c], p[d]}, face)});
+  }
+  return least;
+}
+
+}  // namespace
+
+double distance(const ConvexCore& core, const Triangle& face) {
+  if (core.is_cylinder()) {
+    // Convex in the place on the first side, since the places on the second are in proportion.
+    return least_value([&](double u) {
+      const Vector3d from = face[0] + u * (face[1] - face[0]);
+      const Vector3d across = (1.0 - u) * (face[2] - face[0]);
+      return least_value([&](double v) { return distance_of_cylinder(core, from + v * across); });
+    });
+  }
+  if (core.count == 8) return distance_of_box(core, face);
+  const auto& p = core.points;
+  return distance(Triangle{p[0], p[core.count > 1 ? 1 : 0], p[core.count > 2 ? 2 : core.count - 1]},
+                  face);
+}
+
+double distance(const ConvexCore& core, const Vector3d& point) {
+  if (core.is_cylinder()) return distance_of_cylinder(core, point);
+  return distance(core, Triangle{point, point, point});
+}
+
+}  // namespace organ_collision::oracle

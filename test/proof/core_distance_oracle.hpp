@@ -1,0 +1,16 @@
+#pragma once
+
+#include "organ_collision/geometry/convex_core.hpp"
+#include "organ_collision/geometry/triangle_mesh.hpp"
+
+namespace organ_collision::oracle {
+
+/// [m] Distance of a link's core and a face: of a ball's, a triangle's or a box's core exactly,
+/// from exact distances of triangles; of a cylinder's to 1e-11 m or so, by golden sections over the
+/// face of the distance from a point.
+double distance(const ConvexCore& core, const Triangle& face);
+
+/// [m] Of a point; 0 in the core. Of a triangle's core: from the triangle.
+double distance(const ConvexCore& core, const Eigen::Vector3d& point);
+
+}  // namespace organ_collision::oracle

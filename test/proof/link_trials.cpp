@@ -1,0 +1,234 @@
+#include "proof/link_trials.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <ostream>
+
+#include "organ_collision/geometry/link.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
+
+namespace organ_collision::oracle {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+Vector3d random_size(Random& random) {
+  return {random.scale(1e-4, 0.1), random.scale(1e-4, 0.1), random.scale(1e-4, 0.1)};
+}
+
+/// A point of the core.
+Vector3d point_of(const ConvexCore& core, Random& random) {
+  const double share = random.uniform(0.0, 1.0);
+  return share * core.support(random.direction()) +
+         (1.0 - share) * core.support(random.direction());
+}
+
+/// The core at some time of the trial.
+ConvexCore core_amid(const LinkTrial& trial, Random& random) {
+  return trial.motion().at(random.chance(0.3) ? 0.0 : random.uniform(0.0, 1.0)) * trial.core;
+}
+
+Triangle face_near(const Vector3d& point, double size, Random& random) {
+  return {point + size * random.direction(), point + size * random.direction(),
+          point + size * random.direction()};
+}
+
+/// A face of `size` within some radii of the core's surface.
+Triangle face_beside(const LinkTrial& trial, double size, Random& random) {
+  const Vector3d outward = random.direction();
+  const double gap = std::max(trial.radius, 1e-3) * random.uniform(0.0, 2.0);
+  return face_near(core_amid(trial, random).support(outward) + gap * outward, size, random);
+}
+
+void random_face(LinkTrial& trial, Random& random) {
+  trial.face = face_beside(trial, random.scale(1e-4, 0.05), random);
+}
+
+Vector3d on_lattice(const Vector3d& point) { return (point * 2048.0).array().round() / 2048.0; }
+
+/// Axes, corners and edges along and on each other, exactly; the link moves without turning.
+void lattice(LinkTrial& trial, Random& random) {
+  const auto steps = [&](int low, int high) {
+    return Vector3d(random.integer(low, high), random.integer(low, high),
+                    random.integer(low, high));
+  };
+  const Vector3d size = steps(1, 16) / 256.0;
+  Isometry3d pose = Isometry3d::Identity();
+  pose.translation() = steps(-16, 16) / 256.0;
+  if (trial.core.is_cylinder()) {
+    trial.core = LinkPart::cylinder(pose, size.x(), size.z()).core;
+  } else if (trial.core.count == 8) {
+    trial.core = LinkPart::box(pose, size).core;
+  } else {
+    for (Vector3d& point : trial.core.points) point = steps(-16, 16) / 256.0;
+  }
+  Eigen::Matrix3d turn;  // about (1, 1, 1): exact
+  turn << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  trial.start = Isometry3d::Identity();
+  if (random.chance(0.5)) trial.start.linear() = turn;
+  trial.end = trial.start;
+  trial.start.translation() = steps(-8, 8) / 256.0;
+  trial.end.translation() = steps(-8, 8) / 256.0;
+  const ConvexCore core = trial.end * trial.core;
+  for (Vector3d& corner : trial.face) {
+    const Vector3d exact = on_lattice(core.support(steps(-1, 1)) + steps(-4, 4) / 256.0);
+    corner = random.chance(0.5) ? on_lattice(core.points[0]) : exact;
+    corner += steps(-1, 1) * random.integer(0, 8) / 256.0;
+  }
+}
+
+void sliver(LinkTrial& trial, Random& random) {
+  const double size = random.scale(1e-4, 1.0);
+  trial.face = face_beside(trial, size, random);
+  const double place = random.uniform(-0.2, 1.2);
+  trial.face[2] = trial.face[0] + place * (trial.face[1] - trial.face[0]) +
+                  size * random.scale(1e-12, 1e-2) * random.direction();
+}
+
+void segment_or_point(LinkTrial& trial, Random& random) {
+  random_face(trial, random);
+  trial.face[2] = trial.face[random.integer(0, 1)];
+  if (random.chance(0.3)) trial.face[0] = trial.face[1] = trial.face[2];
+}
+
+/// The core is beside its inside, not its corners.
+void huge_face(LinkTrial& trial, Random& random) {
+  const double size = random.scale(0.2, 10.0);
+  const Triangle small = face_beside(trial, 1e-3, random);
+  const Vector3d amid = (small[0] + small[1] + small[2]) / 3.0;
+  for (int i = 0; i < 3; ++i) trial.face[i] = amid + size * (small[i] - amid).normalized();
+}
+
+void tiny_face(LinkTrial& trial, Random& random) {
+  trial.face = face_beside(trial, random.scale(1e-9, 1e-5), random);
+}
+
+void at_rest(LinkTrial& trial, Random& random) {
+  trial.end = trial.start;
+  random_face(trial, random);
+}
+
+/// Through the core, or wholly in it.
+void pierced(LinkTrial& trial, Random& random) {
+  const Vector3d inside = point_of(core_amid(trial, random), random);
+  trial.face = face_near(inside, random.scale(1e-6, 0.05), random);
+}
+
+/// A face along a side that the core has, or nearly.
+void along_a_side(LinkTrial& trial, Random& random) {
+  const ConvexCore core = core_amid(trial, random);
+  const Vector3d u = core.points[core.count - 1] - core.points[0];
+  const Vector3d v = core.is_cylinder() ? Vector3d(core.rim.col(0))
+                                        : Vector3d(core.points[core.count / 2] - core.points[0]);
+  const Vector3d out = 2.0 * u.cross(v).normalized() * trial.radius * random.uniform(0.0, 1.0);
+  for (Vector3d& corner : trial.face) {
+    corner = core.points[0] + random.uniform(-1.0, 2.0) * u + random.uniform(-1.0, 2.0) * v + out;
+  }
+}
+
+/// The organ a kilometre from the frame's origin.
+void far_away(LinkTrial& trial, Random& random) {
+  const Vector3d shift = 1e3 * random.direction();
+  trial.start.pretranslate(shift);
+  trial.end.pretranslate(shift);
+  random_face(trial, random);
+}
+
+struct Kind {
+  const char* name;
+  void (*place)(LinkTrial&, Random&);
+};
+constexpr Kind kKinds[] = {{"random", random_face},
+                           {"lattice", lattice},
+                           {"sliver", sliver},
+                           {"segment, point", segment_or_point},
+                           {"huge face", huge_face},
+                           {"tiny face", tiny_face},
+                           {"link at rest", at_rest},
+                           {"pierced", pierced},
+                           {"along a side", along_a_side},
+                           {"a kilometre away", far_away}};
+
+}  // namespace
+
+ConvexCore make_core(std::size_t core_kind, Random& random) {
+  const Isometry3d pose = random_pose(0.05, random);
+  const Vector3d size = random_size(random);
+  switch (core_kind) {
+    case 0:
+      return LinkPart::sphere(pose.translation(), 1.0).core;
+    case 1: {
+      ConvexCore core;
+      core.count = 3;
+      const double height = random.chance(0.2) ? 1e-6 : 1.0;
+      core.points[0] = pose.translation();
+      core.points[1] = core.points[0] + size.x() * random.direction();
+      core.points[2] = core.points[0] +
+                       random.uniform(-1.0, 2.0) * (core.points[1] - core.points[0]) +
+                       height * size.y() * random.direction();
+      return core;
+    }
+    case 2:
+      return LinkPart::box(pose, size).core;
+    default:
+      return LinkPart::cylinder(pose, size.x(), size.y()).core;
+  }
+}
+
+const std::vector<std::string>& link_trial_kinds() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Kind& kind : kKinds) all.emplace_back(kind.name);
+    return all;
+  }();
+  return names;
+}
+
+LinkTrial make_link_trial(std::size_t kind, std::size_t core_kind, Random& random) {
+  LinkTrial trial{make_core(core_kind, random), random_pose(0.1, random), {}, {}, 0.0};
+  trial.radius = random.chance(0.4) ? tolerance::kSkin : random.scale(0.5e-3, 10e-3);
+  const int turn = random.integer(0, 9);
+  const double angle = turn == 0 ? 0.0 : turn == 1 ? M_PI - 1e-6 : random.scale(1e-6, 3.14);
+  const double way = random.chance(0.2) ? 0.0 : random.scale(1e-6, 0.2);
+  trial.end = trial.start;
+  trial.end.linear() = trial.start.linear() * random_turn(angle, random);
+  trial.end.translation() += way * random.direction();
+  kKinds[kind].place(trial, random);
+  trial.face = rounded(trial.face);
+  return trial;
+}
+
+Isometry3d random_pose(double away, Random& random) {
+  Isometry3d pose = Isometry3d::Identity();
+  pose.linear() = random_turn(random.uniform(0.0, M_PI), random);
+  pose.translation() = random.point(away);
+  return pose;
+}
+
+Eigen::Matrix3d random_turn(double angle, Random& random) {
+  return Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix();
+}
+
+double rounding(const LinkTrial& trial) {
+  double largest = 0.2 + std::max(trial.start.translation().norm(), trial.end.translation().norm());
+  for (const Vector3d& corner : trial.face) largest = std::max(largest, corner.norm());
+  return 1e-15 * largest;
+}
+
+std::ostream& operator<<(std::ostream& out, const LinkTrial& trial) {
+  const Eigen::IOFormat row(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", "; ", "", "", "{",
+                            "}");
+  out << std::setprecision(17) << "core";
+  for (std::size_t i = 0; i < trial.core.count; ++i) {
+    out << ' ' << trial.core.points[i].transpose().format(row);
+  }
+  out << " rim " << trial.core.rim.transpose().format(row) << "\nstart "
+      << trial.start.matrix().topRows<3>().format(row) << "\nend "
+      << trial.end.matrix().topRows<3>().format(row) << "\nface";
+  for (const Vector3d& corner : trial.face) out << ' ' << corner.transpose().format(row);
+  return out << " radius " << trial.radius;
+}
+
+}  // namespace organ_collision::oracle
