@@ -195,7 +195,7 @@ class FirstTouchOfLinks : public testing::TestWithParam<std::tuple<std::size_t, 
 
 TEST_P(FirstTouchOfLinks, AgreesWithSearch) {
   int touches = 0;
-  for_each_trial(150, [&](const LinkTrial& trial, const FaceMotion& face, Random& /*random*/) {
+  for_each_trial(60, [&](const LinkTrial& trial, const FaceMotion& face, Random& /*random*/) {
     const RigidMotion motion = trial.motion();
     const auto touch = first_touch(CoreMotion(trial.core, motion), face, trial.radius);
     touches += touch.has_value();
