@@ -26,7 +26,7 @@ inline ToolMesh scattered_mesh(std::size_t faces, oracle::Random& random) {
     const Eigen::Vector3d center = random.point(0.05);
     const double size = random.scale(1e-5, 0.05);
     for (int corner = 0; corner < 3; ++corner) {
-      mesh.vertices.push_back(center + size * random.direction());
+      mesh.vertices.emplace_back(center + size * random.direction());
     }
     FaceIndices face = {3 * i, 3 * i + 1, 3 * i + 2};
     if (random.chance(0.1)) face[1] = face[0];
@@ -42,7 +42,7 @@ inline ToolMesh wavy_mesh(int side, double scale) {
   const GridSurface grid = grid_surface(side);
   ToolMesh mesh;
   for (std::size_t i = 0; i < grid.vertices.size(); i += 3) {
-    mesh.vertices.push_back(
+    mesh.vertices.emplace_back(
         scale * Eigen::Vector3d(grid.vertices[i], grid.vertices[i + 1], grid.vertices[i + 2]));
   }
   mesh.faces = grid.faces;
@@ -55,7 +55,7 @@ inline ToolMesh box_mesh(const Eigen::Isometry3d& T_link_shape, const Eigen::Vec
   for (const double x : {-0.5, 0.5}) {
     for (const double y : {-0.5, 0.5}) {
       for (const double z : {-0.5, 0.5}) {
-        mesh.vertices.push_back(T_link_shape * size.cwiseProduct(Eigen::Vector3d(x, y, z)));
+        mesh.vertices.emplace_back(T_link_shape * size.cwiseProduct(Eigen::Vector3d(x, y, z)));
       }
     }
   }

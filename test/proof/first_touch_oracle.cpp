@@ -21,7 +21,7 @@ class Search {
     const double half = 0.5 * (to - from), middle = from + half;
     const double gap = distance_(middle) - radius_;
     if (gap > half * speed_ + slack_) return;
-    if (half * speed_ < slack_) {
+    if (half * speed_ < slack_ || ++looks_ > kMostLooks) {
       if (!found_.possibly) found_.possibly = from;
       if (gap <= -slack_) found_.certainly = middle;
       return;
@@ -36,8 +36,12 @@ class Search {
   }
 
  private:
+  /// Where face and core slide along each other, it then no longer says for certain.
+  static constexpr int kMostLooks = 200'000;
+
   const std::function<double(double)> distance_;
   const double speed_, radius_, slack_;
+  int looks_ = 0;
   FirstTime found_;
 };
 
