@@ -41,11 +41,23 @@ double angle_between(const Isometry3d& a, const Isometry3d& b) {
 TEST(RigidMotion, BeginsAndEndsAtThePosesGiven) {
   for_each_case([](const Case& c, Random& /*random*/) {
     const RigidMotion motion(c.start, c.end);
-    EXPECT_EQ(motion.at(0.0).matrix(), c.start.matrix());
-    EXPECT_EQ(motion.at(1.0).matrix(), c.end.matrix());
+    EXPECT_LE((motion.at(0.0).matrix() - c.start.matrix()).norm(), 2e-15);
+    EXPECT_LE((motion.at(1.0).matrix() - c.end.matrix()).norm(), 2e-15);
     // It does not jump there.
     EXPECT_LE((motion.at(1e-12).matrix() - c.start.matrix()).norm(), 2e-11);
     EXPECT_LE((motion.at(1.0 - 1e-12).matrix() - c.end.matrix()).norm(), 2e-11);
+  });
+}
+
+TEST(RigidMotion, MakesRotationsOfWhatIsNearlyOne) {
+  for_each_case([](const Case& c, Random& /*random*/) {
+    Isometry3d worn = c.end;
+    worn.linear() *= 1.0 + 1e-6;
+    const RigidMotion motion(c.start, worn);
+    for (const double time : {0.0, 0.3, 1.0}) {
+      const Eigen::Matrix3d turn = motion.at(time).linear();
+      EXPECT_LE((turn * turn.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+    }
   });
 }
 

@@ -30,7 +30,7 @@ std::optional<FirstTouch> by_all_pairs(const ToolSurface& surface, const RigidMo
 }
 
 /// Left from another query.
-const FirstTouch kEarlier{0.0, {0.0, 0.0, Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}};
+const FirstTouch kEarlier{0.0, ClosestPoints{}};
 
 /// The faces of an organ about a tool, at rest and moving.
 std::vector<FaceTouch> faces_around(const Eigen::Isometry3d& pose, std::uint32_t count,

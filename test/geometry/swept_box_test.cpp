@@ -92,10 +92,12 @@ TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
       if (random.chance(0.5)) face.end[i] += random.scale(1e-5, 0.1) * random.direction();
     }
     const RigidMotion motion = trial.motion();
-    if (!SweptBox(box_of(trial.core), motion, trial.radius).stays_clear_of(face)) return;
+    const double until = SweptBox(box_of(trial.core), motion, trial.radius).clear_until(face);
+    if (until == 0.0) return;
     ++clear;
     for (int i = 0; i < 100; ++i) {
-      const double time = i < 2 ? i : random.uniform(0.0, 1.0);
+      // A share of rounding less than the time itself, when something may touch.
+      const double time = std::min(until, 1.0) * (i < 2 ? i : random.uniform(0.0, 1.0));
       EXPECT_GT(closest_points(motion.at(time) * trial.core, face.at(time)).distance,
                 trial.radius - oracle::rounding(trial))
           << "at " << time;
@@ -119,7 +121,7 @@ TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
     const RigidMotion motion = trial.motion();
     if (first_touch(CoreMotion(trial.core, motion), {trial.face, trial.face}, 0.01)) continue;
     ++far;
-    clear += SweptBox(box_of(trial.core), motion, 1e-3).stays_clear_of({trial.face, trial.face});
+    clear += SweptBox(box_of(trial.core), motion, 1e-3).clear_until({trial.face, trial.face}) > 1.0;
   }
   EXPECT_GT(clear, far * 8 / 10) << "of " << far;
 }
@@ -134,8 +136,8 @@ TEST(SweptBox, StaysClearOfAFaceOverACorner) {
     return FaceMotion{corners, {corners[0], corners[2], corners[1]}};
   };
   const double touching = 0.3 + 0.01 * std::sqrt(3.0);
-  EXPECT_TRUE(SweptBox(box, motion, 0.01).stays_clear_of(face(touching + 1e-9)));
-  EXPECT_FALSE(SweptBox(box, motion, 0.01).stays_clear_of(face(touching - 1e-9)));
+  EXPECT_GT(SweptBox(box, motion, 0.01).clear_until(face(touching + 1e-9)), 1.0);
+  EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until(face(touching - 1e-9)), 0.0);
 }
 
 // A face without a plane has only the box's axes.
@@ -144,8 +146,8 @@ TEST(SweptBox, NeedsNoPlane) {
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   const RigidMotion motion(pose, pose);
   const Vector3d far(0.0, 0.2, 0.0), near(0.0, 0.105, 0.0);
-  EXPECT_TRUE(SweptBox(box, motion, 0.01).stays_clear_of({{far, far, far}, {far, far, far}}));
-  EXPECT_FALSE(SweptBox(box, motion, 0.01).stays_clear_of({{near, far, far}, {far, far, far}}));
+  EXPECT_GT(SweptBox(box, motion, 0.01).clear_until({{far, far, far}, {far, far, far}}), 1.0);
+  EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until({{near, far, far}, {far, far, far}}), 0.0);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -72,15 +73,27 @@ class TreeCheck {
   std::vector<int> in_leaves_ = std::vector<int>(surface_.faces().size());
 };
 
-std::vector<FaceIndices> sorted(std::vector<FaceIndices> faces) {
-  std::sort(faces.begin(), faces.end());
-  return faces;
+/// The coordinates of each face's corners, in an order of their own.
+std::vector<std::array<double, 9>> sorted(const std::vector<FaceIndices>& faces,
+                                          const std::vector<Vector3d>& vertices) {
+  std::vector<std::array<double, 9>> corners;
+  for (const FaceIndices& face : faces) {
+    const Vector3d &a = vertices[face[0]], &b = vertices[face[1]], &c = vertices[face[2]];
+    corners.push_back({a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()});
+  }
+  std::sort(corners.begin(), corners.end());
+  return corners;
 }
 
 void expect_tree(const ToolMesh& mesh) {
   const ToolSurface surface = mesh.surface();
-  EXPECT_EQ(surface.vertices(), mesh.vertices);
-  EXPECT_EQ(sorted(surface.faces()), sorted(mesh.faces)) << "in another order, corners as given";
+  EXPECT_EQ(sorted(surface.faces(), surface.vertices()), sorted(mesh.faces, mesh.vertices))
+      << "in another order, corners as given";
+  std::vector<bool> used(surface.vertices().size());
+  for (const FaceIndices& face : surface.faces()) {
+    for (const std::uint32_t corner : face) used[corner] = true;
+  }
+  EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
   ASSERT_FALSE(surface.nodes().empty());
   EXPECT_EQ(surface.nodes().front().begin, 0U);
   EXPECT_EQ(surface.nodes().front().end, mesh.faces.size());
