@@ -26,11 +26,7 @@ ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcVa
 }
 
 ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node) {
-  XmlRpc::XmlRpcValue all;
-  if (!private_node.getParam(private_node.getNamespace(), all)) {
-    all.begin();  // An empty group: nothing is set.
-  }
-  return parse_contact_adapter_parameters(all);
+  return parse_contact_adapter_parameters(all_parameters(private_node));
 }
 
 }  // namespace organ_collision

@@ -76,11 +76,7 @@ MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpcValue& private_n
 }
 
 MeshAdapterParameters load_mesh_adapter_parameters(const ros::NodeHandle& private_node) {
-  XmlRpcValue all;
-  if (!private_node.getParam(private_node.getNamespace(), all)) {
-    all.begin();  // An empty group: nothing is set.
-  }
-  return parse_mesh_adapter_parameters(all);
+  return parse_mesh_adapter_parameters(all_parameters(private_node));
 }
 
 }  // namespace organ_collision

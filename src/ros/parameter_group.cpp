@@ -157,4 +157,12 @@ const XmlRpcValue* ParameterGroup::find(const std::string& name, bool required,
   refuse_missing(name, legal);
 }
 
+XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {
+  XmlRpcValue all;
+  if (!private_node.getParam(private_node.getNamespace(), all)) {
+    all.begin();  // Makes it an empty group.
+  }
+  return all;
+}
+
 }  // namespace organ_collision

@@ -164,11 +164,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
 }
 
 LoadedParameters load_parameters(const ros::NodeHandle& private_node) {
-  XmlRpcValue all;
-  if (!private_node.getParam(private_node.getNamespace(), all)) {
-    all.begin();  // An empty group: nothing is set.
-  }
-  return parse_parameters(all);
+  return parse_parameters(all_parameters(private_node));
 }
 
 }  // namespace organ_collision

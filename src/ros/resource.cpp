@@ -22,6 +22,15 @@ std::string read_file(const std::string& path) {
   return content.str();
 }
 
+bool begins_with(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+/// Others are left out: resource_retriever waits without limit for a server that does not answer.
+bool is_url(const std::string& name) {
+  return begins_with(name, "package://") || begins_with(name, "file://");
+}
+
 std::string read_url(const std::string& url) {
   try {
     const resource_retriever::MemoryResource found = resource_retriever::Retriever().get(url);
@@ -34,11 +43,11 @@ std::string read_url(const std::string& url) {
 }  // namespace
 
 std::string read_resource(const std::string& name) {
-  const bool is_url = name.find("://") != std::string::npos;
-  if (!is_url && (name.empty() || name.front() != '/')) {
-    refuse(name, "must be an absolute path, or begin with package://, file:// or http://");
+  const bool is_path = begins_with(name, "/");
+  if (!is_path && !is_url(name)) {
+    refuse(name, "must be an absolute path, or begin with package:// or file://");
   }
-  std::string content = is_url ? read_url(name) : read_file(name);
+  std::string content = is_path ? read_file(name) : read_url(name);
   if (content.empty()) refuse(name, "it is empty, or a folder");
   return content;
 }

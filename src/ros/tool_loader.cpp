@@ -9,7 +9,8 @@ namespace {
 
 std::string find_text(const std::string& parameter, const ros::NodeHandle& private_node) {
   std::string resolved, text;
-  if (!private_node.searchParam(parameter, resolved)) {
+  // searchParam finds a/b wherever an a is, though it be without b.
+  if (!private_node.searchParam(parameter, resolved) || !private_node.hasParam(resolved)) {
     throw ToolError("is set neither in " + private_node.getNamespace() +
                     " nor in a namespace above; load the robot's URDF there, name the parameter "
                     "that holds it, or give the tool's urdf");

@@ -42,6 +42,14 @@ TEST(Resource, RefusalsNameTheFileAndWhy) {
   expect_words(refusal(""), {"''", "absolute path", "package://"});
 }
 
+TEST(Resource, ServersAreNotAsked) {
+  // As this one would never answer.
+  for (const std::string url : {"http://192.0.2.1/jaw.stl", "https://192.0.2.1/jaw.stl",
+                                "HTTP://192.0.2.1/jaw.stl", "ftp://192.0.2.1/jaw.stl"}) {
+    expect_words(refusal(url), {"'" + url + "'", "absolute path", "package:// or file://"});
+  }
+}
+
 TEST(Resource, FoldersAndEmptyFilesAreRefused) {
   expect_words(refusal("/tmp"), {"'/tmp'", "folder"});
   expect_words(refusal("file:///tmp"), {"'file:///tmp'", "folder"});

@@ -3,7 +3,6 @@
 publish nothing, and how the adapter starts."""
 
 import math
-import signal
 import sys
 
 import diagnostic_msgs.msg
@@ -14,7 +13,8 @@ import rostest
 from std_msgs.msg import UInt32MultiArray
 
 from contact_case import faces_of, xyz
-from node_client import start_node, wait_until
+from node_client import wait_until
+from node_starter import NodeStarter
 import scenes
 from tool_case import ToolCase
 from vectors import cross
@@ -74,7 +74,7 @@ class Diagnostics:
         )
 
 
-class ContactAdapterTest(ToolCase):
+class ContactAdapterTest(ToolCase, NodeStarter):
     def connect(self, shape=SHEET, pair=None):
         """The outputs of this test's organ, from the first that is sure to come: topics appear with
         an organ's first step."""
@@ -228,12 +228,8 @@ class ContactAdapterTest(ToolCase):
         diagnostics.wait_for_count('unpublished, name taken', 1)
         self.assertEqual(outputs.of(self.stamp), [])
 
-    def refusal(self, stiffness):
-        """What a node with this stiffness says before it stops."""
-        process = start_node('/' + self.organ, {'stiffness': stiffness}, 'contact_adapter')
-        printed, _ = process.communicate(timeout=30)
-        self.assertGreater(process.returncode, 0, printed)  # negative: killed by a signal
-        return printed
+    def start_adapter(self, parameters):
+        return self.start('/' + self.organ, parameters, 'contact_adapter')
 
     def test_illegal_stiffness_stops_the_node(self):
         for stiffness, shown in (
@@ -243,20 +239,16 @@ class ContactAdapterTest(ToolCase):
             (float('nan'), "'nan'"),
             (float('inf'), "'inf'"),
         ):
-            self.assertIn(
-                '~stiffness is %s; must be a number, more than 0' % shown, self.refusal(stiffness)
+            self.assert_refused(
+                self.start_adapter({'stiffness': stiffness}),
+                ['~stiffness is %s; must be a number, more than 0' % shown],
             )
 
     def test_misspelt_names_are_reported(self):
         diagnostics = Diagnostics(self.organ)
-        process = start_node('/' + self.organ, {'stifness': 500}, 'contact_adapter')
-        try:
-            wait_until(lambda: 'stifness' in diagnostics.message, lambda: diagnostics.message)
-        finally:
-            process.send_signal(signal.SIGINT)
-            printed, _ = process.communicate(timeout=15)
-        self.assertEqual(process.returncode, 0, printed)
-        self.assertIn("stifness is no parameter; nearest is 'stiffness'", printed)
+        process = self.start_adapter({'stifness': 500})
+        wait_until(lambda: 'stifness' in diagnostics.message, lambda: diagnostics.message)
+        self.assertIn("stifness is no parameter; nearest is 'stiffness'", self.stop(process))
 
 
 if __name__ == '__main__':

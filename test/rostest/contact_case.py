@@ -27,13 +27,19 @@ class ContactCase(unittest.TestCase):
         self.assertEqual(result.message, '')
 
     def assert_contacts(self, result, expected, tolerance=1e-7):
-        """The result is `expected`, contacts of the oracle: the same faces, in order, and lengths,
+        """The result is `expected`, contacts of the oracle with the tool's first link, and none is
+        with another."""
+        self.assertEqual([c.face for c in result.contacts if c.link > 0], [])
+        self.assert_contacts_of_link(result, 0, expected, tolerance)
+
+    def assert_contacts_of_link(self, result, link, expected, tolerance):
+        """The contacts with one link are `expected`: the same faces, in order, and lengths,
         fractions and directions within `tolerance`."""
         self.assert_ok(result)
-        self.assertEqual(faces_of(result), [c.face for c in expected])
-        for found, right in zip(result.contacts, expected):
+        contacts = [c for c in result.contacts if c.link == link]
+        self.assertEqual([c.face for c in contacts], [c.face for c in expected])
+        for found, right in zip(contacts, expected):
             what = 'face %d' % right.face
-            self.assertEqual(found.link, 0, what)
             self.assertAlmostEqual(found.fraction, right.fraction, delta=tolerance, msg=what)
             self.assert_near(xyz(found.point), right.point, tolerance, what + ' point')
             self.assert_near(xyz(found.normal), right.normal, 100 * tolerance, what + ' normal')

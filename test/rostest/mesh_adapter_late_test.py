@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """A collision node that comes after the organs gets each of them in its present shape."""
 
-import signal
 import sys
 
 from organ_collision.msg import ContactArray, OrganMesh, OrganVertices
@@ -11,7 +10,8 @@ from visualization_msgs.msg import Marker
 
 from adapter_case import RADIUS, AdapterCase, MessageLog
 from foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
-from node_client import FAR_AWAY, NodeClient, start_node, wait_until
+from node_client import FAR_AWAY, NodeClient, wait_until
+from node_starter import NodeStarter
 import scenes
 
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
@@ -21,7 +21,7 @@ FINE = scenes.sheet(0.1, 7)
 TOOL = {'name': 'grasper', 'trocar_frame': 'trocar', 'tip_frame': 'tip', 'radius': RADIUS}
 
 
-class MeshAdapterLateTest(AdapterCase):
+class MeshAdapterLateTest(AdapterCase, NodeStarter):
     adapter = '/early_adapter'
 
     def send_organs(self, stamp):
@@ -46,22 +46,19 @@ class MeshAdapterLateTest(AdapterCase):
         self.send_organs(stamp)
         first = FINE
         for step in range(2):
-            process = start_node('/late', {'tools': [TOOL]})
-            try:
-                node = NodeClient('/late')
-                self.wait_for_contacts('first', first, node)
-                self.assertEqual(self.wait_for_contacts('second', LOWER, node).mesh_stamp, stamp)
-                self.wait_for_contacts('third', LOWEST, node)
-                gone = node.query('gone', FAR_AWAY)
-                self.assertEqual(gone.status, ContactArray.UNKNOWN_ORGAN)
+            process = self.start('/late', {'tools': [TOOL]})
+            node = NodeClient('/late')
+            self.wait_for_contacts('first', first, node)
+            self.assertEqual(self.wait_for_contacts('second', LOWER, node).mesh_stamp, stamp)
+            self.wait_for_contacts('third', LOWEST, node)
+            gone = node.query('gone', FAR_AWAY)
+            self.assertEqual(gone.status, ContactArray.UNKNOWN_ORGAN)
 
-                first = FINE.moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[1] - 0.001 * step))
-                self.publish('/early/first', shape_mesh(first))
-                self.wait_for_contacts('first', first, node)
-                node.close()
-            finally:
-                process.send_signal(signal.SIGINT)
-                process.communicate(timeout=15)
+            first = FINE.moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[1] - 0.001 * step))
+            self.publish('/early/first', shape_mesh(first))
+            self.wait_for_contacts('first', first, node)
+            node.close()
+            self.stop(process)
 
 
 if __name__ == '__main__':

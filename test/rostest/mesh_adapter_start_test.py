@@ -2,7 +2,6 @@
 """How organ_mesh_adapter starts: illegal parameters stop it and say why, misspelt ones are reported,
 and it can take over from another adapter."""
 
-import signal
 import sys
 
 from organ_collision.msg import OrganMesh
@@ -11,7 +10,8 @@ import rostest
 
 from adapter_case import AdapterCase, MessageLog
 from foreign_meshes import shape_mesh
-from node_client import start_node, wait_until
+from node_client import wait_until
+from node_starter import NodeStarter
 import scenes
 
 ORGAN = {'name': 'liver', 'topic': '/restart/liver', 'frame': 'liver_frame'}
@@ -34,35 +34,21 @@ SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
 FINE = scenes.sheet(0.1, 7)
 
 
-class MeshAdapterStartTest(AdapterCase):
-    def start(self, name, parameters):
-        process = start_node(name, parameters, 'organ_mesh_adapter')
-        self.addCleanup(process.communicate)
-        self.addCleanup(process.kill)
-        return process
-
-    def stop(self, process):
-        """As roslaunch stops a node; returns all that it printed."""
-        process.send_signal(signal.SIGINT)
-        printed, _ = process.communicate(timeout=15)
-        self.assertEqual(process.returncode, 0, printed)
-        return printed
+class MeshAdapterStartTest(AdapterCase, NodeStarter):
+    def start_adapter(self, name, parameters):
+        return self.start(name, parameters, 'organ_mesh_adapter')
 
     def test_illegal_parameters(self):
         started = [
-            (self.start('/illegal_%d' % i, parameters), parameters, words)
+            (self.start_adapter('/illegal_%d' % i, parameters), words)
             for i, (parameters, words) in enumerate(ILLEGAL)
         ]
-        for process, parameters, words in started:
-            printed, _ = process.communicate(timeout=30)
-            what = '%r: %s' % (parameters, printed)
-            self.assertGreater(process.returncode, 0, what)  # negative: killed by a signal
-            for word in words:
-                self.assertIn(word, printed, what)
+        for process, words in started:
+            self.assert_refused(process, words)
 
     def test_misspelt_names_are_reported(self):
         parameters = {'organs': [dict(ORGAN, frame_id='liver')], 'collision': '/organ_collision'}
-        process = self.start('/misspelt', parameters)
+        process = self.start_adapter('/misspelt', parameters)
         self.publish('/restart/liver', shape_mesh(SHEET), '/misspelt')
         printed = self.stop(process)
         for words in ("~collision is no parameter; nearest is 'collision_node'", '/frame_id is no'):
@@ -71,14 +57,14 @@ class MeshAdapterStartTest(AdapterCase):
     def test_a_restarted_adapter_is_not_taken_for_the_old_one(self):
         """The collision node still has the old one's triangles and their topology."""
         for name, mesh in (('/first', SHEET), ('/second', FINE), ('/third', SHEET)):
-            process = self.start(name, {'organs': [ORGAN]})
+            process = self.start_adapter(name, {'organs': [ORGAN]})
             self.publish('/restart/liver', shape_mesh(mesh), name)
             self.wait_for_contacts('liver', mesh)
             self.stop(process)
 
     def test_another_collision_node(self):
         parameters = {'organs': [ORGAN], 'collision_node': 'theatre/collisions'}
-        process = self.start('/elsewhere', parameters)
+        process = self.start_adapter('/elsewhere', parameters)
         meshes = MessageLog('/theatre/collisions/organ_mesh', OrganMesh)
         self.publish('/restart/liver', shape_mesh(SHEET), '/elsewhere')
         wait_until(lambda: meshes.of('liver'), 'a mesh for the other node')

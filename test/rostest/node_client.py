@@ -1,7 +1,6 @@
 """The node as its users see it: its topics, its services, TF and /diagnostics. Nothing here sleeps
 for a fixed time; whatever has to happen is waited for, at most LIMIT seconds."""
 
-import subprocess
 import threading
 import time
 
@@ -14,7 +13,6 @@ from organ_collision.srv import (
     QueryCollisionBatchRequest,
     QueryCollisionRequest,
 )
-import roslib.packages
 import rospy
 from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
@@ -126,7 +124,7 @@ class NodeClient:
         self.meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, queue_size=100)
         self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
         self.contacts = ContactLog(node + '/contacts')
-        self.diagnostics = {}
+        self.diagnostics, self.summaries = {}, {}
         self.diagnostics_subscriber = rospy.Subscriber(
             '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep_diagnostics
         )
@@ -158,6 +156,7 @@ class NodeClient:
     def _keep_diagnostics(self, message):
         for status in message.status:
             if status.name.lstrip('/').startswith(self.node.lstrip('/') + ':'):
+                self.summaries[status.name.split(': ')[-1]] = status.message
                 for pair in status.values:
                     self.diagnostics[pair.key] = pair.value
 
@@ -230,16 +229,3 @@ class NodeClient:
         )
         request.header.frame_id = self.frame if frame is None else frame
         return self.batch_service(request).results
-
-
-def start_node(name, parameters, program='organ_collision_node'):
-    """Starts a node of its own with these private parameters; the caller ends it."""
-    if parameters:
-        rospy.set_param(name, parameters)
-    path = roslib.packages.find_node('organ_collision', program)[0]
-    return subprocess.Popen(
-        [path, '__name:=' + name.strip('/')],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.STDOUT,
-        universal_newlines=True,
-    )

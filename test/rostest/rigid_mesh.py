@@ -17,14 +17,17 @@ class RigidMesh:
         self.triangles = triangles
 
     @classmethod
-    def from_stl(cls, path):
-        """A binary one."""
+    def from_stl(cls, path, unit=1.0):
+        """A binary one, with its unit [m]."""
         with open(path, 'rb') as file:
             data = file.read()
         count = struct.unpack_from('<I', data, 80)[0]
         assert len(data) == 84 + 50 * count, path
-        numbers = [struct.unpack_from('<9f', data, 84 + 50 * i + 12) for i in range(count)]
-        return cls([(n[0:3], n[3:6], n[6:9]) for n in numbers])
+        triangles = []
+        for i in range(count):
+            n = [unit * c for c in struct.unpack_from('<9f', data, 84 + 50 * i + 12)]
+            triangles.append((tuple(n[0:3]), tuple(n[3:6]), tuple(n[6:9])))
+        return cls(triangles)
 
     def at(self, pose):
         return RigidMesh([tuple(pose.apply(corner) for corner in t) for t in self.triangles])

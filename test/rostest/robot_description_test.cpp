@@ -44,6 +44,8 @@ TEST(RobotDescription, MayBeNamedAbsolutely) {
 TEST(RobotDescription, FaultsNameTheParameter) {
   expect_words(load("robot", "/left/organ_collision").fault,
                {"probe: parameter 'robot'", "neither in /left/organ_collision nor"});
+  expect_words(load("left/robot", "/organ_collision").fault,
+               {"probe: parameter 'left/robot'", "neither in /organ_collision nor"});
   expect_words(load("number", "/organ_collision").fault, {"probe: parameter 'number'", "no text"});
 }
 

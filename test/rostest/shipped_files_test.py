@@ -24,7 +24,8 @@ import yaml
 from adapter_case import MessageLog
 from contact_case import ContactCase
 from foreign_meshes import shape_mesh
-from node_client import NodeClient, shaft, start_node, wait_until
+from node_client import NodeClient, shaft, wait_until
+from node_starter import NodeStarter
 import oracle
 import scenes
 
@@ -104,7 +105,7 @@ class Launched:
         self.printed = self.output.read()
 
 
-class ShippedFilesTest(ContactCase):
+class ShippedFilesTest(ContactCase, NodeStarter):
     def check_collision_node(self, name, process=None):
         """It answers about an organ of its own."""
         node = NodeClient(name, process=process)
@@ -247,21 +248,15 @@ class ShippedFilesTest(ContactCase):
             self.assertIsInstance(parameters, dict, path)
             name = '/from_%d_%s' % (len(started), os.path.basename(path).replace('.', '_'))
             if 'tools' in parameters:
-                process = start_node(name, parameters)
+                process = self.start(name, parameters)
+                self.check_collision_node(name)
             elif 'organs' in parameters:
                 parameters['collision_node'] = name + '_collision'
-                process = start_node(name, parameters, 'organ_mesh_adapter')
+                process = self.start(name, parameters, 'organ_mesh_adapter')
+                self.check_mesh_adapter(parameters['organs'], parameters['collision_node'])
             else:
                 continue
-            try:
-                if 'tools' in parameters:
-                    self.check_collision_node(name)
-                else:
-                    self.check_mesh_adapter(parameters['organs'], parameters['collision_node'])
-            finally:
-                process.send_signal(signal.SIGINT)
-                printed, _ = process.communicate(timeout=15)
-            self.assertNotIn('is no parameter', printed, path)
+            self.assertNotIn('is no parameter', self.stop(process), path)
             started.add(os.path.relpath(path, PACKAGE))
         self.assertTrue({'config/tools.yaml', 'config/organs.yaml'} <= started, started)
 

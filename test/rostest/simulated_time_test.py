@@ -10,16 +10,16 @@ import rospy
 from rosgraph_msgs.msg import Clock
 import rostest
 
+from link_case import LinkCase, ball_contacts
 from node_client import wait_until
 import oracle
 import scenes
-from tool_case import ToolCase
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
 ABOVE = ((0.3, 0.007, 0.05), (0.013, 0.007, 0.05))
 BELOW = ((0.3, 0.007, -0.05), (0.013, 0.007, -0.05))
-RADIUS = 0.005
+RADIUS, BALL_RADIUS = 0.005, 0.006
 
 
 class SimulatedClock:
@@ -51,7 +51,9 @@ class SimulatedClock:
         self.thread.join()
 
 
-class SimulatedTimeTest(ToolCase):
+class SimulatedTimeTest(LinkCase):
+    link_frames = {'ball': ('ball',)}
+
     @classmethod
     def setUpClass(cls):
         cls.clock = SimulatedClock(100)
@@ -94,6 +96,20 @@ class SimulatedTimeTest(ToolCase):
         result = self.step(SHEET, {'grasper': BELOW}, vertices=True)['grasper']
         self.assertEqual(result.mode, SWEPT)
         self.assert_contacts(result, oracle.swept_contacts(SHEET, ABOVE, BELOW, RADIUS), 1e-6)
+
+    def test_a_jump_back_forgets_where_links_were(self):
+        before, after = ABOVE[1:], BELOW[1:]
+        self.jump(900)
+        self.step(SHEET, {'ball': before})
+        self.jump(400)
+        result = self.step(SHEET, {'ball': after}, vertices=True)['ball']
+        self.assertEqual((result.mode, result.header.stamp), (STATIC, self.stamp))
+        self.assert_contacts(result, [])
+        result = self.step(SHEET, {'ball': before}, vertices=True)['ball']
+        self.assertEqual(result.mode, SWEPT)
+        expected = ball_contacts(SHEET, after, before, BALL_RADIUS)
+        self.assertGreater(len(expected), 0)
+        self.assert_contacts(result, expected, 1e-6)
 
     def test_a_jump_back_while_a_transform_is_awaited(self):
         """What waited for the old time's transforms is not mixed up with the new time's."""

@@ -3,7 +3,6 @@
 latched mesh that is older than the node is taken in."""
 
 import copy
-import signal
 import sys
 
 from organ_collision.msg import ContactArray, OrganMesh
@@ -11,7 +10,8 @@ import rospy
 import rostest
 
 from contact_case import ContactCase
-from node_client import NodeClient, shaft, start_node
+from node_client import NodeClient, shaft
+from node_starter import NodeStarter
 import oracle
 import scenes
 
@@ -63,39 +63,18 @@ ILLEGAL_IN_TOOL = [
 ]
 
 
-class StartTest(ContactCase):
+class StartTest(ContactCase, NodeStarter):
     def setUp(self):
-        self.name, self.running = '/' + self.id().split('.')[-1], []
-
-    def tearDown(self):
-        for process in self.running:
-            process.kill()
-            process.communicate()
-
-    def start(self, name, parameters):
-        process = start_node(name, parameters)
-        self.running.append(process)
-        return process
-
-    def stop(self, process):
-        """As roslaunch stops a node; returns all that it printed."""
-        process.send_signal(signal.SIGINT)
-        printed, _ = process.communicate(timeout=15)
-        self.assertEqual(process.returncode, 0, printed)
-        return printed
+        self.name = '/' + self.id().split('.')[-1]
 
     def refused(self, cases):
         """[(parameters, words)]: all started at once, each must stop with its words printed."""
         started = [
-            (self.start('%s_%d' % (self.name, i), parameters), parameters, words)
+            (self.start('%s_%d' % (self.name, i), parameters), words)
             for i, (parameters, words) in enumerate(cases)
         ]
-        for process, parameters, words in started:
-            printed, _ = process.communicate(timeout=30)
-            what = '%r: %s' % (parameters, printed)
-            self.assertGreater(process.returncode, 0, what)  # negative: killed by a signal
-            for word in words:
-                self.assertIn(word, printed, what)
+        for process, words in started:
+            self.assert_refused(process, words)
 
     def test_illegal_parameters(self):
         self.refused([(dict({'tools': [TOOL]}, **change), words) for change, words in ILLEGAL])

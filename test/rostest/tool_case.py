@@ -29,14 +29,19 @@ class ToolCase(ContactCase):
         cls.stamp += step
         return cls.stamp
 
+    def frames(self, tool):
+        """Whose origins say where the tool is."""
+        return (tool + '_trocar', tool + '_tip')
+
     def place(self, tool, *way):
-        """The tool's trocar and tip, in the organ's frame: a way of (axis, stamp)."""
+        """The tool's frames, in the organ's frame: a way of (axis, stamp), or of as many other
+        points as it has frames."""
         turn = (0.1, 0.2, 0.3, 0.9)
         self.tf.send(
             *[
-                ('world', tool + end, scenes.Pose(turn, WORLD_LIVER.apply(point)), stamp)
+                ('world', frame, scenes.Pose(turn, WORLD_LIVER.apply(point)), stamp)
                 for axis, stamp in way
-                for end, point in zip(('_trocar', '_tip'), axis)
+                for frame, point in zip(self.frames(tool), axis)
             ]
         )
 

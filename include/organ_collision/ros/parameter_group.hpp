@@ -1,5 +1,6 @@
 #pragma once
 
+#include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <optional>
@@ -62,5 +63,8 @@ class ParameterGroup {
   XmlRpc::XmlRpcValue value_;
   std::vector<std::string> legal_names_;
 };
+
+/// All members of a node's private namespace; an empty group where there are none.
+XmlRpc::XmlRpcValue all_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision
