@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cylinder_distance.hpp"
 #include "organ_collision/geometry/closest_points.hpp"
@@ -128,6 +129,26 @@ Vertex farthest_against(const Vector3d& direction, const ConvexCore& core, const
   return {on_core, face[corner] - on_core, corner};
 }
 
+/// Of two triangles: some edge of the one is nearest to the other.
+ClosestPoints nearest_of_edges(const Triangle& core, const Triangle& face) {
+  ClosestPoints nearest = closest_points(ShaftAxis{core[0], core[1]}, face);
+  const auto consider = [&](const ClosestPoints& other) {
+    if (other.distance < nearest.distance) nearest = other;
+  };
+  for (int from = 0; from < 3; ++from) {
+    const int to = (from + 1) % 3;
+    consider(closest_points(ShaftAxis{core[from], core[to]}, face));
+    ClosestPoints turned = closest_points(ShaftAxis{face[from], face[to]}, core);
+    std::swap(turned.on_core, turned.on_face);
+    turned.apart = -turned.apart;
+    turned.barycentric =
+        (1.0 - turned.shaft) * Vector3d::Unit(from) + turned.shaft * Vector3d::Unit(to);
+    consider(turned);
+  }
+  nearest.shaft = 0.0;
+  return nearest;
+}
+
 }  // namespace
 
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, double enough) {
@@ -146,7 +167,11 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, doubl
       return closest;
     }
     if (distance - least <= tolerance::kTie * std::max(1.0, distance)) break;
-    if (simplex.has(next) || !simplex.add(next)) break;
+    if (simplex.has(next) || !simplex.add(next)) {
+      // Slivers: what is left of the simplex is rounding.
+      if (core.count > 3) break;
+      return nearest_of_edges({core.points[0], core.points[1], core.points[2]}, face);
+    }
   }
   return simplex.closest(face);
 }

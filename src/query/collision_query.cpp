@@ -7,6 +7,7 @@
 #include "organ_collision/picking/viewing_volume.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
 #include "request_check.hpp"
+#include "short_turns.hpp"
 #include "step.hpp"
 
 namespace organ_collision {
@@ -49,7 +50,7 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
   // The method: a camera's viewing volume is given the shape of the space that a part of the tool
   // swept, the organ is drawn in a picking mode, and exact distances decide on what survives
   // clipping.
-  const Step step(request, displacement_);
+  const Step step(request, with_short_turns(request.path, finer_path_), displacement_);
   for (std::size_t leg = 0; leg < step.leg_count(); ++leg) {
     if (step.has_shaft()) touch_shaft(step, leg, result.contacts);
     for (std::size_t link = 0; link < step.link_count(); ++link) {

@@ -4,13 +4,13 @@
 
 namespace organ_collision {
 
-Step::Step(const CollisionRequest& request, LastDisplacement& displacement)
+Step::Step(const CollisionRequest& request, const ToolPath& path, LastDisplacement& displacement)
     : organ_(*request.organ),
       organ_before_(request.mode == QueryMode::kStatic ? nullptr : request.organ_before),
       radius_(request.radius),
       links_(request.links),
-      waypoints_(request.mode == QueryMode::kStatic ? &request.path.back() : request.path.data()),
-      waypoint_count_(request.mode == QueryMode::kStatic ? 1 : request.path.size()),
+      waypoints_(request.mode == QueryMode::kStatic ? &path.back() : path.data()),
+      waypoint_count_(request.mode == QueryMode::kStatic ? 1 : path.size()),
       displacement_(organ_before_ ? displacement.between(*organ_before_, organ_) : 0.0) {}
 
 std::size_t Step::leg_at(double fraction) const {

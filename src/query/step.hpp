@@ -11,10 +11,10 @@
 namespace organ_collision {
 
 /// A request's step, leg by leg: the tool between two waypoints, the faces in that share of the
-/// step. A view of the request, which must outlive it.
+/// step. A view of request and path, which must outlive it.
 class Step {
  public:
-  Step(const CollisionRequest& request, LastDisplacement& displacement);
+  Step(const CollisionRequest& request, const ToolPath& path, LastDisplacement& displacement);
 
   const TriangleMesh& organ() const { return organ_; }
   bool has_shaft() const { return radius_ > 0.0; }

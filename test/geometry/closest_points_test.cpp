@@ -281,5 +281,19 @@ TEST(ClosestPoints, OfABoxOverAFace) {
   EXPECT_TRUE(corners.barycentric.isApprox(Vector3d(1.0, 0.0, 0.0), 1e-15));
 }
 
+// Simplices of this sliver lose their last digits: the iteration once ended 5e-9 m away.
+TEST(ClosestPoints, OfATriangleAndASliverThatItCrosses) {
+  ConvexCore core;
+  core.count = 3;
+  core.points[0] = {0.17114305824844669, -0.070832143718264406, 0.075604388100735304};
+  core.points[1] = {-0.073070756167903622, 0.12845783185099652, 0.21706014809197799};
+  core.points[2] = {0.30529214694163365, -0.17693657590614809, -0.026778788753655663};
+  const Triangle sliver = {
+      Vector3d(0.097863881263914834, -0.010914269146302644, 0.11828829142180715),
+      Vector3d(0.097886382760231622, -0.01114359919032734, 0.11785116413932015),
+      Vector3d(0.097884614586951718, -0.011125437227164728, 0.11788575081879075)};
+  EXPECT_LT(closest_points(core, sliver).distance, 1e-15);
+}
+
 }  // namespace
 }  // namespace organ_collision

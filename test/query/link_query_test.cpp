@@ -50,14 +50,14 @@ std::vector<Link> random_links(bool may_be_meshes, Random& random) {
   return links;
 }
 
-/// A path of shaft and links, through one to three legs.
-ToolPath random_link_path(std::size_t links, Random& random) {
+/// A path of shaft and links, through one to three legs that turn by at most `turn` [rad].
+ToolPath random_link_path(std::size_t links, double turn, Random& random) {
   ToolPath path = random_path(true, random);
   for (std::size_t link = 0; link < links; ++link) {
     Isometry3d pose = oracle::random_pose(0.1, random);
     for (ToolWaypoint& waypoint : path) {
       waypoint.links.push_back(pose);
-      pose.linear() *= oracle::random_turn(random.scale(1e-5, 2.0), random);
+      pose.linear() *= oracle::random_turn(random.scale(1e-5, turn), random);
       pose.translation() += random.scale(1e-5, 0.05) * random.direction();
     }
   }
@@ -66,12 +66,12 @@ ToolPath random_link_path(std::size_t links, Random& random) {
 
 /// An organ that rests or moves, and a tool of links, with or without a shaft.
 struct Scene {
-  Scene(bool may_be_meshes, Random& random)
+  Scene(bool may_be_meshes, Random& random, double turn = 0.19)
       : soup(scattered_faces(150, random)),
         organ(mesh(soup)),
         before(mesh(shaken(soup, random.scale(1e-5, 0.02), random))),
         links(random_links(may_be_meshes, random)) {
-    request = swept(organ, random_link_path(links.size(), random), 0.0);
+    request = swept(organ, random_link_path(links.size(), turn, random), 0.0);
     if (random.chance(0.5)) request.radius = random.scale(0.5e-3, 0.01);
     if (random.chance(0.5)) request.organ_before = &before;
     request.links = &links;
@@ -193,6 +193,24 @@ TEST_P(LinkQueryWith, FindsWhatBruteForceFinds) {
     found += all.size();
   }
   EXPECT_GT(found, 1000U);
+}
+
+// Long turns are gone through in pieces: times differ by as little as touches are sure.
+TEST_P(LinkQueryWith, FindsWhatBruteForceFindsInLongTurns) {
+  Random random(9);
+  std::size_t found = 0;
+  for (int i = 0; i < 60 && !HasFailure(); ++i) {
+    const Scene scene(false, random, 3.0);
+    const std::vector<FaceContact> all = BruteForce(scene.request).contacts();
+    const std::vector<FaceContact> asked = contacts(scene.request);
+    expect_same_links(asked, all);
+    for (std::size_t j = 0; j < all.size() && !HasFailure(); ++j) {
+      EXPECT_EQ(asked[j].face, all[j].face);
+      EXPECT_NEAR(asked[j].fraction, all[j].fraction, 1e-6);
+    }
+    found += all.size();
+  }
+  EXPECT_GT(found, 500U);
 }
 
 // Neighbouring faces of a mesh touch together: which of them is first is a matter of rounding.

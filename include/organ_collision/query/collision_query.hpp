@@ -80,6 +80,7 @@ class CollisionQuery {
   LastDisplacement displacement_;
   std::vector<Candidate> candidates_;
   std::vector<FaceTouch> touches_;
+  ToolPath finer_path_;
   std::vector<std::uint32_t> faces_;
 };
 
