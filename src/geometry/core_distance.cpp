@@ -158,7 +158,7 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, doubl
   Simplex simplex(farthest_against(face[0] - core.points[0], core, face));
   for (int step = 0; step < kMaxSteps; ++step) {
     const double distance = simplex.nearest().norm();
-    if (distance == 0.0) break;
+    if (distance <= tolerance::kTie) break;
     const Vertex next = farthest_against(simplex.nearest(), core, face);
     const double least = simplex.nearest().dot(next.apart) / distance;
     if (least > enough) {

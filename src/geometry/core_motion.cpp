@@ -5,12 +5,11 @@
 namespace organ_collision {
 namespace {
 
-double reach(const ConvexCore& core) {
-  double farthest2 = 0.0;
-  for (std::size_t i = 0; i < core.count; ++i) {
-    farthest2 = std::max(farthest2, core.points[i].squaredNorm());
-  }
-  return std::sqrt(farthest2) + core.rim.col(0).norm();
+double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
+  double arm = 0.0;
+  if (motion.angle() == 0.0) return arm;
+  for (std::size_t i = 0; i < core.count; ++i) arm = std::max(arm, motion.arm(core.points[i]));
+  return arm + core.rim.col(0).norm();
 }
 
 }  // namespace
@@ -20,7 +19,7 @@ CoreMotion::CoreMotion(const ConvexCore& core, const RigidMotion& motion)
       end_(motion.end() * core),
       in_link_(core),
       link_(&motion),
-      reach_(reach(core)) {}
+      arm_(longest_arm(core, motion)) {}
 
 ConvexCore CoreMotion::at(double time) const {
   if (time == 0.0) return start_;
@@ -30,7 +29,7 @@ ConvexCore CoreMotion::at(double time) const {
 }
 
 double CoreMotion::farthest_move() const {
-  if (link_) return link_->way() + reach_ * link_->angle();
+  if (link_) return link_->way() + arm_ * link_->angle();
   return std::max((end_.points[0] - start_.points[0]).norm(),
                   (end_.points[1] - start_.points[1]).norm());
 }
@@ -38,7 +37,11 @@ double CoreMotion::farthest_move() const {
 double CoreMotion::bend(double duration) const {
   if (!link_) return 0.0;
   const double angle = duration * link_->angle();
-  return reach_ * angle * angle / 8.0;
+  return arm_ * angle * angle / 8.0;
+}
+
+double CoreMotion::bend(double duration, const Eigen::Vector3d& normal) const {
+  return link_ ? link_->axis().cross(normal).norm() * bend(duration) : 0.0;
 }
 
 }  // namespace organ_collision

@@ -119,7 +119,7 @@ class NearestToCylinder {
   void consider_projection(const Vector3d& point, const Vector3d& apart, const Vector3d& area) {
     const Vector3d a = face_[0] - point, b = face_[1] - point, c = face_[2] - point;
     const Vector3d areas(area.dot(b.cross(c)), area.dot(c.cross(a)), area.dot(a.cross(b)));
-    if (!(areas.minCoeff() >= 0.0)) return;
+    if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return;
     consider(areas / areas.sum(), point + apart, apart);
   }
 

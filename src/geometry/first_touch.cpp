@@ -46,12 +46,14 @@ double first_root(double a, double b, double c) {
 /// all of it. The distance is at least a corner's height over the plane divided by the length of
 /// the turning normal n, and that length is at most (1 + n²) / 2: a quadratic in time, as the
 /// heights of corners over points of the core that move linearly are. A point that moves along a
-/// curve is off its chord by at most 4 s (1 - s) `bend` [m]; a rim reaches out by the length of
+/// curve is off its chord by at most 4 s (1 - s) bends; a rim reaches out by the length of
 /// such a quadratic, which is at most the one of its coefficients' lengths.
-double clear_share(const Instant& from, const Instant& to, double bend, double radius) {
+double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius) {
   const bool turns = from.normal.dot(to.normal) > 0.0;
   const Vector3d& turned = turns ? to.normal : from.normal;
   const auto &rim = from.core.rim, &rim_after = to.core.rim;
+  const double duration = to.time - from.time;
+  const double bend = std::max(core.bend(duration, from.normal), core.bend(duration, turned));
   const double radius_amid = 0.5 * (1.0 + from.normal.dot(turned)) * radius;
   const double before = radius + (rim.transpose() * from.normal).norm();
   const double amid = radius_amid + 2.0 * bend +
@@ -99,8 +101,7 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
   Instant ahead(until, core, face);
   for (int step = 0; step < kMaxSteps; ++step) {
     const double length = ahead.time - now.time;
-    const double share =
-        std::max(clear_share(now, ahead, core.bend(length), radius), sure() / length);
+    const double share = std::max(clear_share(now, ahead, core, radius), sure() / length);
     const double before = now.closest.distance;
     now = share > 1.0 ? ahead : Instant(now.time + share * length, core, face);
     if (now.closest.distance <= radius + tolerance::kTouch)

@@ -1,11 +1,16 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 
 #include "organ_collision/geometry/triangle_mesh.hpp"
 
 namespace organ_collision {
+
+/// Unit, at right angles to a triangle's plane; zero if it has none.
+inline Eigen::Vector3d plane_normal(const Triangle& corners) {
+  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
+}
 
 /// An interval of heights along a direction.
 struct Heights {

@@ -1,6 +1,5 @@
 #include "organ_collision/geometry/link.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "organ_collision/geometry/tolerances.hpp"
@@ -48,12 +47,7 @@ LinkPart LinkPart::mesh(ToolSurface surface) {
 }
 
 double LinkPart::height(const Vector3d& direction) const {
-  if (!surface) return core.height(direction);
-  double highest = -std::numeric_limits<double>::infinity();
-  for (const Vector3d& vertex : surface->vertices()) {
-    highest = std::max(highest, direction.dot(vertex));
-  }
-  return highest;
+  return surface ? surface->height(direction) : core.height(direction);
 }
 
 }  // namespace organ_collision

@@ -12,7 +12,8 @@ Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
 }  // namespace
 
 RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end)
-    : start_(orthonormal(start)), end_(orthonormal(end)) {
+    : start_(orthonormal(start)), end_(orthonormal(end)), half_way_(start_.linear()) {
+  if (start_.linear() == end_.linear()) return;
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(start_.linear().transpose() * end_.linear()));
   axis_ = turn.axis();
   angle_ = turn.angle();

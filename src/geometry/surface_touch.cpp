@@ -22,14 +22,10 @@ Triangle corners(const ConvexCore& core) {
   return {core.points[0], core.points[1], core.points[2]};
 }
 
-Vector3d normal(const Triangle& face) {
-  return (face[1] - face[0]).cross(face[2] - face[0]).stableNormalized();
-}
-
 /// As SweptBox::clear_until, by the planes of face and triangle at the start.
 double clear_until(const FaceMotion& triangle, const FaceMotion& face, double reach) {
   double until = 0.0;
-  for (const Vector3d& direction : {normal(face.start), normal(triangle.start)}) {
+  for (const Vector3d& direction : {plane_normal(face.start), plane_normal(triangle.start)}) {
     until =
         std::max(until, clear_until(heights(direction, face.start), heights(direction, face.end),
                                     heights(direction, triangle.start),

@@ -13,11 +13,10 @@ using Eigen::Vector3d;
 
 /// [m] Of any point of the box, as CoreMotion::bend.
 double bend(const OrientedBox& box, const RigidMotion& motion) {
-  return (box.center.norm() + box.half_size.norm()) * motion.angle() * motion.angle() / 8.0;
-}
-
-Vector3d face_normal(const Triangle& face) {
-  return (face[1] - face[0]).cross(face[2] - face[0]).stableNormalized();
+  if (motion.angle() == 0.0) return 0.0;
+  double arm = motion.arm(box.center);
+  for (int i = 0; i < 3; ++i) arm += box.half_size[i] * motion.arm(box.axes.col(i));
+  return arm * motion.angle() * motion.angle() / 8.0;
 }
 
 }  // namespace
@@ -49,7 +48,7 @@ double SweptBox::clear_until(const FaceMotion& face) const {
                             {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach_));
   }
   if (until > 1.0) return until;
-  const Vector3d normal = face_normal(face.start);
+  const Vector3d normal = plane_normal(face.start);
   const auto box_heights = [&](const Place& box) {
     const double center = normal.dot(box.center);
     const double half = (normal.transpose() * box.half_edges).cwiseAbs().sum();

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <sstream>
 
@@ -15,6 +16,8 @@ using Reason = MeshError::Reason;
 
 /// Fewer faces are not worth a test of their box.
 constexpr std::uint32_t kLeafFaces = 4;
+/// So few are looked through for the highest corner faster than boxes.
+constexpr std::uint32_t kScannedFaces = 64;
 
 template <typename... Parts>
 [[noreturn]] void refuse(Reason reason, const Parts&... parts) {
@@ -74,6 +77,10 @@ OrientedBox box_around(const std::vector<Vector3d>& points, const Eigen::Matrix3
   return {axes * box.center(), axes, 0.5 * box.sizes()};
 }
 
+double top(const OrientedBox& box, const Vector3d& direction) {
+  return direction.dot(box.center) + (direction.transpose() * box.axes).cwiseAbs() * box.half_size;
+}
+
 }  // namespace
 
 ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices> faces)
@@ -109,6 +116,35 @@ void ToolSurface::build(std::uint32_t begin, std::uint32_t end) {
   build(begin, half);
   nodes_[node].second = static_cast<std::uint32_t>(nodes_.size());
   build(half, end);
+}
+
+double ToolSurface::height(const Vector3d& direction) const {
+  double height = -std::numeric_limits<double>::infinity();
+  raise(0, direction, height);
+  return height;
+}
+
+/// Raises `height` to that of the node's faces: the child first that may reach higher, the other
+/// where it may reach higher still.
+void ToolSurface::raise(std::uint32_t node, const Vector3d& direction, double& height) const {
+  const auto& [box, begin, end, second] = nodes_[node];
+  if (end - begin <= kScannedFaces) {
+    for (std::uint32_t face = begin; face < end; ++face) {
+      for (const std::uint32_t corner : faces_[face]) {
+        height = std::max(height, direction.dot(vertices_[corner]));
+      }
+    }
+    return;
+  }
+  const std::uint32_t first = node + 1;
+  const double first_top = top(nodes_[first].box, direction);
+  const double second_top = top(nodes_[second].box, direction);
+  const bool swap = second_top > first_top;
+  raise(swap ? second : first, direction, height);
+  // Boxes are rounded.
+  if (std::min(first_top, second_top) >= height - 1e-12 * std::abs(height)) {
+    raise(swap ? first : second, direction, height);
+  }
 }
 
 }  // namespace organ_collision

@@ -121,8 +121,8 @@ void CollisionQuery::pick_unrefined(const CollisionRequest& request, CollisionRe
   }
 }
 
-/// Each contact's face, as it is at the end of the step, in the volume of the leg and the part of
-/// the tool that touched it.
+/// Each contact's face, as it is at the end of the step, in the volume of the leg that touched it:
+/// the shaft's, or that of the link's first part whose volume it meets.
 void CollisionQuery::clip_regions(const Step& step, CollisionResult& result) {
   result.regions.resize(result.contacts.size());
   for (std::size_t leg = 0; leg < step.leg_count(); ++leg) {

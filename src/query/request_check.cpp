@@ -35,7 +35,9 @@ void check_links(const std::vector<Link>& links, const ToolWaypoint& waypoint, s
     check_point(links[i].name.c_str(), index, pose.translation());
     const Eigen::Matrix3d& turn = pose.linear();
     if (!(turn * turn.transpose()).isIdentity(kRotation) || !(turn.determinant() > 0.0)) {
-      refuse("the orientation of ", links[i].name, " of waypoint ", index, " is no rotation");
+      refuse("the orientation of ", links[i].name, " of waypoint ", index, " has the determinant ",
+             turn.determinant(), "; must be a rotation: orthonormal within ", kRotation,
+             ", right-handed");
     }
   }
 }

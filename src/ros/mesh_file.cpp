@@ -75,14 +75,34 @@ std::string extension(const std::string& file) {
   return dot == std::string::npos || file[dot] == '/' ? "" : file.substr(dot + 1);
 }
 
+/// Not every importer of assimp looks at the indices, and its own steps rely on them.
+void check_indices(const aiScene& scene) {
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned j = 0; j < mesh.mNumFaces; ++j) {
+      const aiFace& face = mesh.mFaces[j];
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] < mesh.mNumVertices) continue;
+        throw ToolError("face " + std::to_string(j) + " names vertex " +
+                        std::to_string(face.mIndices[k]) + " of " +
+                        std::to_string(mesh.mNumVertices));
+      }
+    }
+  }
+}
+
 ToolSurface parse(const std::string& content, const std::string& format,
                   const Affine3d& T_link_mesh) {
   Assimp::Importer importer;
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Else a file without triangles would get some, in the shape of its nodes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  const aiScene* scene = importer.ReadFileFromMemory(content.data(), content.size(),
-                                                     aiProcess_Triangulate, format.c_str());
+  const aiScene* scene =
+      importer.ReadFileFromMemory(content.data(), content.size(), 0, format.c_str());
+  if (scene) {
+    check_indices(*scene);
+    scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
+  }
   if (!scene) throw ToolError(importer.GetErrorString());
   TriangleCollector triangles;
   triangles.add(*scene->mRootNode, *scene, T_link_mesh);

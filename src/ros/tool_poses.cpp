@@ -121,8 +121,7 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   return {{{std::move(pose), stamps.earliest}}, ""};
 }
 
-std::string ToolPoses::unless_silent(const ToolParameters& tool,
-                                     const std::string& why_not) const {
+std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::string& why_not) const {
   const bool silent = !tool.tip_pose_topic.empty() && stamps_.count(tool.name) == 0;
   return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
 }

@@ -126,6 +126,19 @@ TEST(ToolSurface, HugeAndTinyCoordinatesAreLegal) {
 }
 
 // A sheet lies flat in its boxes, however it is turned.
+TEST(ToolSurface, HeightIsThatOfTheHighestVertex) {
+  Random random(4);
+  const ToolSurface surface = scattered_mesh(150, random).surface();
+  for (int i = 0; i < 300; ++i) {
+    const Vector3d direction = random.scale(1e-3, 1e3) * random.direction();
+    double highest = -INFINITY;
+    for (const Vector3d& vertex : surface.vertices()) {
+      highest = std::max(highest, direction.dot(vertex));
+    }
+    EXPECT_EQ(surface.height(direction), highest);
+  }
+}
+
 TEST(ToolSurface, BoxesAreTurnedWithTheFaces) {
   Random random(2);
   for (int i = 0; i < 20; ++i) {

@@ -509,10 +509,10 @@ TEST_P(LinkQueryWith, RequestsWithoutAnswerAreRefusedByName) {
   expect_refused("left_jaw", [&](Request& r) { pose(r).translation().y() = nan; });
   expect_refused("left_jaw",
                  [&](Request& r) { pose(r).translation().x() = 2.0 * tolerance::kFarthest; });
-  expect_refused("no rotation", [&](Request& r) { pose(r).linear()(1, 2) = nan; });
-  expect_refused("no rotation", [&](Request& r) { pose(r).linear() *= 1.001; });
-  expect_refused("no rotation", [&](Request& r) { pose(r).linear().col(0) *= -1.0; });
-  expect_refused("no rotation", [&](Request& r) { pose(r).linear().setZero(); });
+  expect_refused("must be a rotation", [&](Request& r) { pose(r).linear()(1, 2) = nan; });
+  expect_refused("must be a rotation", [&](Request& r) { pose(r).linear() *= 1.001; });
+  expect_refused("must be a rotation", [&](Request& r) { pose(r).linear().col(0) *= -1.0; });
+  expect_refused("must be a rotation", [&](Request& r) { pose(r).linear().setZero(); });
   expect_refused("radius is -0.001", [](Request& r) { r.radius = -1e-3; });
   expect_refused("radius is nan", [&](Request& r) { r.radius = nan; });
   for (const QueryMode mode :

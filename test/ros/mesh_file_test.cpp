@@ -114,6 +114,11 @@ TEST(MeshFile, UnreadableFilesAreNamed) {
   expect_words(refusal("notes.txt"), {tool_file("notes.txt"), "No suitable reader"});
 }
 
+// assimp itself takes this one, and its steps would read beyond the vertices.
+TEST(MeshFile, WrongIndicesAreNamed) {
+  expect_words(refusal("wrong_index.ply"), {tool_file("wrong_index.ply"), "100000000", "of 3"});
+}
+
 TEST(MeshFile, NoSurfaceIsRefused) {
   expect_words(refusal("points.obj"), {tool_file("points.obj"), "no triangle"});
   expect_words(refusal("nodes_only.dae"), {tool_file("nodes_only.dae"), "no triangle"});

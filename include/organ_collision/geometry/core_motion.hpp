@@ -25,15 +25,17 @@ class CoreMotion {
   /// [m] No point of the core moves farther than this.
   double farthest_move() const;
   /// [m] No point's way between two times, `duration` in [0, 1] of the leg apart, is farther than
-  /// this from the straight and even way between its ends: the speed's direction turns by the
-  /// link's angle, and a curve leaves its chord by an eighth of its greatest acceleration.
+  /// this from the straight and even way between its ends, along `normal`: a curve leaves its chord
+  /// by at most an eighth of its greatest acceleration, at right angles to the turning axis.
+  double bend(double duration, const Eigen::Vector3d& normal) const;
+  /// The same along any direction.
   double bend(double duration) const;
 
  private:
   ConvexCore start_, end_;
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double reach_ = 0.0;  ///< [m] of the core from the link's origin
+  double arm_ = 0.0;  ///< [m] the core's farthest from the turning axis
 };
 
 }  // namespace organ_collision

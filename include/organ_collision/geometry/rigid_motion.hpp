@@ -20,13 +20,17 @@ class RigidMotion {
 
   /// [rad] By how much the link turns, in [0, pi].
   double angle() const { return angle_; }
+  /// Unit, in the organ's frame: what it turns about, all the time.
+  Eigen::Vector3d axis() const { return start_.linear() * axis_; }
+  /// How far a point in the link's frame is from that axis through the link's origin.
+  double arm(const Eigen::Vector3d& p_link) const { return axis_.cross(p_link).norm(); }
   /// [m] How far the link's origin moves.
   double way() const { return (end_.translation() - start_.translation()).norm(); }
 
  private:
   Eigen::Isometry3d start_, end_;
-  Eigen::Vector3d axis_;  ///< unit, in the link's frame
-  double angle_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  ///< unit, in the link's frame
+  double angle_ = 0.0;
   Eigen::Matrix3d half_way_;
 };
 

@@ -27,6 +27,9 @@ class ToolSurface {
     return {vertices_[faces_[face][0]], vertices_[faces_[face][1]], vertices_[faces_[face][2]]};
   }
 
+  /// How far it reaches along `direction`: the greatest direction · vertex.
+  double height(const Eigen::Vector3d& direction) const;
+
   /// A box around the faces [begin, end), and around those of its two children, which follow it:
   /// the first directly, the second at `second`. A leaf has none: `second` is 0.
   struct Node {
@@ -39,6 +42,7 @@ class ToolSurface {
 
  private:
   void build(std::uint32_t begin, std::uint32_t end);
+  void raise(std::uint32_t node, const Eigen::Vector3d& direction, double& height) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<FaceIndices> faces_;

@@ -39,7 +39,7 @@ struct CollisionRequest {
 };
 
 struct CollisionResult {
-  std::vector<FaceContact> contacts;  ///< by rising face, one for each
+  std::vector<FaceContact> contacts;  ///< by rising face, then link; one for each
   std::vector<Region> regions;        ///< empty unless asked for; else one for each contact
 };
 
@@ -54,7 +54,8 @@ class CollisionQuery {
   explicit CollisionQuery(PickerKind kind = PickerKind::kFeedback);
 
   /// Throws std::invalid_argument naming the value for a request that has no answer (radius not
-  /// positive, coordinates not finite, path empty or with fractions that do not rise from 0 to 1,
+  /// positive where there are no links, coordinates not finite, links without pose or with one that
+  /// is no rotation, path empty or with fractions that do not rise from 0 to 1,
   /// earlier shape of other faces, paper volume of a tool without length), GlError when the picker
   /// failed. `result` is empty then.
   void evaluate(const CollisionRequest& request, CollisionResult& result);

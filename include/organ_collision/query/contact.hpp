@@ -14,17 +14,19 @@ struct FaceContact {
   std::uint32_t link = 0;
   /// First touch, as a share of the step, in [0, 1]; 0 when static.
   double fraction = 0.0;
-  /// The face's point nearest the axis, at first touch.
+  /// The face's point nearest the axis, or the link, at first touch.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  /// Unit, from the axis to `point`; the face's own where the axis pierces it.
+  /// Unit, from the axis, or the link, to `point`; the face's own where they pierce it, turned the
+  /// tip's way, or so that the link's way back out is the shorter one.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// Of `point` in the face, in the order of its vertices.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
-  /// Place on the axis nearest `point`, in [0, 1] from trocar to tip.
+  /// Place on the axis nearest `point`, in [0, 1] from trocar to tip; 0 for links.
   double shaft = 0.0;
-  /// Penetration along `normal` at the end of the step; negative: touched and left.
+  /// Penetration along `normal` at the end of the step; negative: touched and left. Where a tool
+  /// pierces the face, that of its tip, or of the link's foremost point.
   double depth = 0.0;
-  /// That place on the axis is on the face's inner side at the end of the step.
+  /// That place on the axis, or the link, is on the face's inner side at the end of the step.
   bool behind = false;
   /// Paper modes only, which set nothing else but the face: depth range along the view, from the
   /// plane of the trocar.

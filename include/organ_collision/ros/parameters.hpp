@@ -17,7 +17,7 @@ struct ToolParameters {
   std::string name;
   std::string trocar_frame;  ///< empty: no shaft
   std::string tip_frame;     ///< of links alone: the frame that tip_pose_topic places, or empty
-  double radius = 0.0;                  ///< [m] of the shaft; 0: no shaft
+  double radius = 0.0;       ///< [m] of the shaft; 0: no shaft
   std::string tip_pose_topic = {};      ///< PoseStamped that places tip_frame; empty: TF does
   std::string base_pose_topic = {};     ///< the same for the frame of those poses
   std::vector<std::string> links = {};  ///< of the robot's URDF, each once; empty: a shaft alone
