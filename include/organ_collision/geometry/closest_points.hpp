@@ -26,8 +26,9 @@ ClosestPoints closest_points(const ShaftAxis& axis, const Triangle& face);
 
 /// The nearest points of any core and a face. Of a hull of three and more points by Gilbert,
 /// Johnson and Keerthi's iteration (1988), until no point can be nearer by 1e-12 m, or as much of
-/// the distance. For hulls, `enough` [m] is enough: once the distance is surely larger, a lower
-/// bound above it is the `distance`, and the points are any.
+/// the distance, or rounding ends it: of boxes as thin as 1e-6 m up to 1e-7 m too far. For hulls,
+/// `enough` [m] is enough: once the distance is surely larger, a lower bound above it is the
+/// `distance`, and the points are any.
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
                              double enough = std::numeric_limits<double>::infinity());
 
