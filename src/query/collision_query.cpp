@@ -58,6 +58,8 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
     }
   }
   keep_first_touches(result.contacts);
+  for (FaceContact& contact : result.contacts)
+    contact.vertices = step.organ().faces()[contact.face];
   if (request.regions) clip_regions(step, result);
 }
 

@@ -103,7 +103,6 @@ double height_at_end(const PartLeg& part, const Vector3d& normal) {
 
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face) {
   const ClosestPoints& closest = touch.closest;
-  const Vector3d point_end = at(closest.barycentric, face.end);
   const Vector3d core_end = at_end(touch, part);
 
   FaceContact contact;
@@ -111,18 +110,19 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   contact.fraction = face.begin + touch.time * (face.finish - face.begin);
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;
+  contact.end_point = at(closest.barycentric, face.end);
   contact.shaft = part.end.link ? 0.0 : closest.shaft;
   if (closest.distance <= tolerance::kPierced) {
     const Triangle face_now = face.motion.at(touch.time);
     contact.normal =
         part.end.link ? piercing_normal(*part.end.link, part.core.link()->at(touch.time), face_now)
                       : piercing_normal(part.core.at(touch.time).axis(), face_now);
-    contact.depth = height_at_end(part, contact.normal) - contact.normal.dot(point_end);
+    contact.depth = height_at_end(part, contact.normal) - contact.normal.dot(contact.end_point);
   } else {
     contact.normal = closest.apart.normalized();
-    contact.depth = part.radius - contact.normal.dot(point_end - core_end);
+    contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);
   }
-  contact.behind = face_normal(face.end).dot(core_end - point_end) < -tolerance::kTie;
+  contact.behind = face_normal(face.end).dot(core_end - contact.end_point) < -tolerance::kTie;
   return contact;
 }
 

@@ -217,7 +217,7 @@ bool CollisionNode::on_query(QueryCollision::Request& request, QueryCollision::R
 
 bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
                                    QueryCollisionBatch::Response& response) {
-  response.results = services_.query_batch(request);
+  response = services_.query_batch(request);
   for (const ContactArray& result : response.results) count_failure(counters_.refused, result);
   return true;
 }

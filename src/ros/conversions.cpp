@@ -29,6 +29,7 @@ geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector) {
 Contact to_message(const FaceContact& contact) {
   Contact message;
   message.face = contact.face;
+  for (std::size_t i = 0; i < 3; ++i) message.vertices[i] = contact.vertices[i];
   message.link = contact.link;
   message.fraction = contact.fraction;
   message.point = to_point(contact.point);
@@ -37,6 +38,7 @@ Contact to_message(const FaceContact& contact) {
   message.shaft = contact.shaft;
   message.depth = contact.depth;
   message.behind = contact.behind;
+  message.end_point = to_point(contact.end_point);
   message.view_min = contact.view_min;
   message.view_max = contact.view_max;
   return message;

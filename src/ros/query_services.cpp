@@ -18,6 +18,31 @@ template <typename... Parts>
   throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", message.str());
 }
 
+void refuse_unless(bool is_default, const char* field) {
+  if (!is_default) refuse(field, " is set, which this version of the node does not serve");
+}
+
+template <typename Request>
+void check_served_by_all(const Request& request) {
+  refuse_unless(request.margin == 0.0, "margin");
+  refuse_unless(!request.clearance, "clearance");
+  refuse_unless(!request.placement, "placement");
+}
+
+void check_served(const QueryCollision::Request& request) {
+  check_served_by_all(request);
+  refuse_unless(request.link_motion.previous.empty() && request.link_motion.links.empty(),
+                "link_motion");
+  refuse_unless(request.max_near == 0, "max_near");
+}
+
+void check_served(const QueryCollisionBatch::Request& request) {
+  check_served_by_all(request);
+  refuse_unless(request.tool.empty(), "tool");
+  refuse_unless(request.link_motions.empty(), "link_motions");
+  refuse_unless(!request.stop_at_first_contact, "stop_at_first_contact");
+}
+
 bool looks_at_end_only(std::uint8_t mode) {
   return mode == ContactArray::STATIC || mode == ContactArray::PAPER_STATIC;
 }
@@ -73,26 +98,34 @@ ContactArray QueryServices::query(const QueryCollision::Request& request) const 
   return result;
 }
 
-std::vector<ContactArray> QueryServices::query_batch(
+QueryCollisionBatch::Response QueryServices::query_batch(
     const QueryCollisionBatch::Request& request) const {
+  QueryCollisionBatch::Response response;
+  try {
+    check_served(request);
+  } catch (const Rejection& rejection) {
+    response.status = rejection.status();
+    response.message = rejection.what();
+    return response;
+  }
   QueryCollision::Request single;
   single.header = request.header;
   single.organ = request.organ;
   single.mode = request.mode;
   single.organ_motion = request.organ_motion;
   single.regions = false;
-  std::vector<ContactArray> results;
-  results.reserve(request.motions.size());
+  response.results.reserve(request.motions.size());
   for (const ToolMotion& motion : request.motions) {
     single.motion = motion;
-    results.push_back(query(single));
+    response.results.push_back(query(single));
   }
-  return results;
+  return response;
 }
 
 void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) const {
   const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(request.tool);
   if (tool) set_links(answer, tool->parameters);
+  check_served(request);
   if (request.mode > ContactArray::PAPER_NAIVE) {
     refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
   }

@@ -97,6 +97,28 @@ TEST_P(CollisionQueryWith, FindsWhatBruteForceFinds) {
   EXPECT_GT(found, 300U);
 }
 
+TEST_P(CollisionQueryWith, ContactsNameTheirVerticesAndWhereTheirPointEnds) {
+  Random random(31);
+  std::size_t found = 0;
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    const Soup soup = scattered_faces(100, random);
+    const TriangleMesh organ = mesh(soup);
+    const TriangleMesh before = mesh(shaken(soup, 0.01, random));
+    CollisionRequest request = swept(organ, random_path(true, random), 0.005);
+    request.organ_before = &before;
+    for (const FaceContact& contact : contacts(request)) {
+      ASSERT_EQ(contact.vertices, organ.faces()[contact.face]);
+      Vector3d end_point = Vector3d::Zero();
+      for (int k = 0; k < 3; ++k) {
+        end_point += contact.barycentric[k] * organ.vertex(contact.vertices[k]);
+      }
+      EXPECT_LE((contact.end_point - end_point).norm(), 1e-12);
+      ++found;
+    }
+  }
+  EXPECT_GT(found, 100U);
+}
+
 TEST_P(CollisionQueryWith, FacesAreThoseOfExactArithmetic) {
   Random random(2);
   for (int i = 0; i < 40; ++i) {

@@ -109,6 +109,7 @@ inline void expect_same(const FaceContact& a, const FaceContact& b, double slack
   EXPECT_NEAR(a.shaft, b.shaft, slack);
   EXPECT_NEAR(a.depth, b.depth, slack);
   EXPECT_EQ(a.behind, b.behind);
+  EXPECT_LE((a.end_point - b.end_point).norm(), slack) << "face " << a.face;
 }
 
 inline void expect_same(const std::vector<FaceContact>& a, const std::vector<FaceContact>& b,

@@ -208,17 +208,53 @@ TEST_F(QueryServicesTest, BatchAnswersEachMotionInOrder) {
   batch.header = request.header;
   batch.organ = "liver";
   batch.mode = ContactArray::SWEPT;
-  EXPECT_TRUE(services.query_batch(batch).empty());
+  EXPECT_TRUE(services.query_batch(batch).results.empty());
   ToolMotion aside = through();
   aside.tip = aside.previous_tip;
   ToolMotion bad = through();
   bad.radius = 0.0;
   batch.motions = {through(), aside, bad, through()};
-  const std::vector<ContactArray> results = services.query_batch(batch);
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  EXPECT_EQ(response.status, ContactArray::OK);
+  const std::vector<ContactArray>& results = response.results;
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].contacts.size(), 1u);
   EXPECT_TRUE(results[1].contacts.empty());
   EXPECT_EQ(results[1].status, ContactArray::OK);
   EXPECT_EQ(results[2].status, ContactArray::INVALID_REQUEST);
   EXPECT_EQ(results[3].contacts.size(), 1u);
+}
+
+TEST_F(QueryServicesTest, WhatIsNotServedIsRefusedByName) {
+  const QueryCollision::Request legal = request;
+  const auto refuses = [&](const char* field, auto set) {
+    request = legal;
+    set(request);
+    expect_refused(ContactArray::INVALID_REQUEST, {field});
+  };
+  using Single = QueryCollision::Request;
+  refuses("margin", [](Single& r) { r.margin = 0.01; });
+  refuses("clearance", [](Single& r) { r.clearance = true; });
+  refuses("placement", [](Single& r) { r.placement = true; });
+  refuses("max_near", [](Single& r) { r.max_near = 1; });
+  refuses("link_motion", [](Single& r) { r.link_motion.links.resize(1); });
+
+  const auto batch_refuses = [&](const char* field, auto set) {
+    QueryCollisionBatch::Request batch;
+    batch.header = legal.header;
+    batch.organ = legal.organ;
+    batch.motions = {legal.motion};
+    set(batch);
+    const QueryCollisionBatch::Response response = services.query_batch(batch);
+    EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
+    EXPECT_NE(response.message.find(field), std::string::npos) << response.message;
+    EXPECT_TRUE(response.results.empty());
+  };
+  using Batch = QueryCollisionBatch::Request;
+  batch_refuses("margin", [](Batch& b) { b.margin = 0.01; });
+  batch_refuses("clearance", [](Batch& b) { b.clearance = true; });
+  batch_refuses("placement", [](Batch& b) { b.placement = true; });
+  batch_refuses("tool", [](Batch& b) { b.tool = "probe"; });
+  batch_refuses("link_motions", [](Batch& b) { b.link_motions.resize(1); });
+  batch_refuses("stop_at_first_contact", [](Batch& b) { b.stop_at_first_contact = true; });
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 
 namespace organ_collision {
@@ -10,6 +11,8 @@ namespace organ_collision {
 /// organ's frame.
 struct FaceContact {
   std::uint32_t face = 0;
+  /// Its corners: indices of the organ's vertices, in the order of `barycentric`.
+  std::array<std::uint32_t, 3> vertices = {};
   /// Of the tool: its shaft, if it has one, is 0, and its links follow.
   std::uint32_t link = 0;
   /// First touch, as a share of the step, in [0, 1]; 0 when static.
@@ -28,6 +31,8 @@ struct FaceContact {
   double depth = 0.0;
   /// That place on the axis, or the link, is on the face's inner side at the end of the step.
   bool behind = false;
+  /// The same point of the face, by its barycentrics, at the end of the step.
+  Eigen::Vector3d end_point = Eigen::Vector3d::Zero();
   /// Paper modes only, which set nothing else but the face: depth range along the view, from the
   /// plane of the trocar.
   double view_min = 0.0;

@@ -33,7 +33,7 @@ class QueryServices {
   explicit QueryServices(const Sources& sources) : sources_(sources) {}
 
   ContactArray query(const QueryCollision::Request& request) const;
-  std::vector<ContactArray> query_batch(const QueryCollisionBatch::Request& request) const;
+  QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request) const;
 
  private:
   const Tool& find_tool(const std::string& name) const;
