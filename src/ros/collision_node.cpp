@@ -10,6 +10,7 @@
 #include "organ_collision/ros/conversions.hpp"
 #include "organ_collision/ros/markers.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/tool_loader.hpp"
 
 namespace organ_collision {
@@ -242,7 +243,7 @@ void CollisionNode::publish_failure(const std::string& organ, const std_msgs::He
     const auto answer = boost::make_shared<ContactArray>(
         answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
     set_links(*answer, tool.parameters);
-    answer->header.frame_id = tf_frame(header.frame_id);
+    answer->header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
     set_failure(*answer, status, message);
     contacts_.publish(answer);
   }

@@ -64,6 +64,7 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now,
                               const std::function<TriangleMesh()>& made) {
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
+  check_name("organ", message.organ);
   if (message.vertices.empty() && message.triangles.empty()) {
     organs_.erase(message.organ);
     without_mesh_.insert(message.organ);
@@ -74,6 +75,7 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now,
     if (frame.empty()) {
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
+    check_name("header.frame_id", frame);
     const OrganChange change = apply_checked(pointer, frame, now, made);
     without_mesh_.erase(message.organ);
     return change;
@@ -116,10 +118,12 @@ OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer, const st
 OrganChange OrganStore::apply(const OrganVerticesConstPtr& pointer, ros::Time now) {
   const OrganVertices& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
+  check_name("organ", message.organ);
   at(message.organ);
   Organ& organ = organs_.at(message.organ);
   const std::string named = "vertices of organ " + quoted(message.organ);
   const std::string frame = tf_frame(message.header.frame_id);
+  check_name("header.frame_id", frame);
   if (frame != organ.frame()) {
     refuse(frame.empty() ? "empty frame" : "other frame",
            named + ": header.frame_id is " + quoted(frame) + "; must be that of its mesh, " +

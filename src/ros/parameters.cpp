@@ -25,6 +25,7 @@ const std::string kShaft = "trocar_frame, tip_frame and radius";
 std::string frame(const ParameterGroup& tool, const char* name) {
   std::string frame = tf_frame(tool.text(name));
   if (frame.empty()) tool.refuse(name, "must be the name of a TF frame");
+  tool.check_name(name, frame);
   return frame;
 }
 
@@ -79,6 +80,7 @@ void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
 
 void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.links = tool.texts(names::kLinks);
+  for (const std::string& link : parsed.links) tool.check_name(names::kLinks, link);
   if (!tool.has(names::kUrdf)) {
     parsed.robot_description = tool.has(names::kRobotDescription)
                                    ? parameter_name(tool, names::kRobotDescription)
@@ -93,6 +95,7 @@ void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
 ToolParameters parse_tool(const ParameterGroup& tool) {
   ToolParameters parsed;
   parsed.name = tool.text(names::kToolName);
+  tool.check_name(names::kToolName, parsed.name);
   const bool has_links = tool.has(names::kLinks);
   const bool has_poses = tool.has(names::kTipPoseTopic) || tool.has(names::kBasePoseTopic);
   const bool has_shaft = tool.has(names::kTrocarFrame) || tool.has(names::kRadius) ||

@@ -152,6 +152,28 @@ TEST_F(OrganStoreTest, OrganWhoseMeshesWereAllRefusedHasNoMesh) {
   EXPECT_EQ(status_of("spleen"), ContactArray::NO_MESH);
 }
 
+TEST_F(OrganStoreTest, IllegalNamesAreRefusedAndNotKept) {
+  const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
+  for (const std::string& name : {std::string(10'000'000, 'x'), std::string("li\nver")}) {
+    OrganMesh bad = mesh(name);
+    expect_refused(bad, invalid, "illegal name", {"organ"});
+    bad.vertices.clear();
+    bad.triangles.clear();
+    expect_refused(bad, invalid, "illegal name", {"organ"});
+    EXPECT_EQ(status_of(name), ContactArray::UNKNOWN_ORGAN);
+    OrganVertices bad_vertices = vertices(1);
+    bad_vertices.organ = name;
+    expect_refused(bad_vertices, invalid, "illegal name", {"organ"});
+    bad = mesh();
+    bad.header.frame_id = name;
+    expect_refused(bad, invalid, "illegal name", {"header.frame_id"});
+  }
+  apply(mesh(), ros::Time(7));
+  OrganVertices elsewhere = vertices(1);
+  elsewhere.header.frame_id = std::string(10'000'000, 'x');
+  expect_refused(elsewhere, invalid, "illegal name", {"header.frame_id"});
+}
+
 TEST_F(OrganStoreTest, BadMeshesLeaveTheGoodOne) {
   apply(mesh(), ros::Time(7));
   for (const std::uint32_t topology : {1, 2}) {

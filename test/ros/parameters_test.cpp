@@ -131,6 +131,14 @@ TEST(Parameters, IllegalToolsAreNamed) {
   expect_words(refusal_of_tool("radius", 0.0), {"~tools[0]/radius", "'0'", "more than 0"});
   expect_words(refusal_of_tool("radius", infinity), {"~tools[0]/radius", "inf", "more than 0"});
   expect_words(refusal_of_tool("name", ""), {"~tools[0]/name", "not empty"});
+  const std::string too_long(257, 'x');
+  for (const char* name : {"name", "trocar_frame", "tip_frame"}) {
+    expect_words(refusal_of_tool(name, too_long), {name, "at most 256 bytes"});
+  }
+  expect_words(refusal_of_tool("name", "ho\nok"), {"~tools[0]/name", "control characters"});
+  XmlRpcValue links;
+  links[0] = too_long;
+  expect_words(refusal_of_links("links", links), {"~tools[0]/links", "at most 256 bytes"});
   expect_words(refusal_of_tool("tip_frame", ""), {"~tools[0]/tip_frame", "not empty"});
   expect_words(refusal_of_tool("tip_frame", "/"), {"~tools[0]/tip_frame", "'/'"});
   expect_words(refusal_of_tool("tip_frame", "hook_trocar"),
