@@ -57,7 +57,9 @@ class QueuedCall : public ros::CallbackInterface {
   std::function<void()> function_;
 };
 
-void count_failure(FailureLog& log, const ContactArray& answer) {
+/// Of a ContactArray, or of a batch.
+template <typename Answer>
+void count_failure(FailureLog& log, const Answer& answer) {
   if (answer.status == ContactArray::OK) return;
   log.add(reason_of(answer.status), answer.message, SteadyClock::now());
 }
@@ -219,6 +221,7 @@ bool CollisionNode::on_query(QueryCollision::Request& request, QueryCollision::R
 bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
                                    QueryCollisionBatch::Response& response) {
   response = services_.query_batch(request);
+  count_failure(counters_.refused, response);
   for (const ContactArray& result : response.results) count_failure(counters_.refused, result);
   return true;
 }
