@@ -93,11 +93,13 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
   }
 
+  using MeshEvent = ros::MessageEvent<const OrganMesh>;
+  const boost::function<void(const MeshEvent&)> add_mesh = [this](const MeshEvent& event) {
+    inbox_.add(event.getConstMessage(), event.getConnectionHeaderPtr());
+  };
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
-      private_node_.subscribe<OrganMesh>(
-          names::kOrganMesh, 100, [this](const OrganMeshConstPtr& message) { inbox_.add(message); },
-          {}, no_delay),
+      private_node_.subscribe<OrganMesh>(names::kOrganMesh, 100, add_mesh, {}, no_delay),
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
           [this](const OrganVerticesConstPtr& message) { inbox_.add(message); }, {}, no_delay)};
@@ -170,6 +172,7 @@ void CollisionNode::watch_clock() {
     poses_.forget_samples();
     pose_topics_.forget_stamps();
     organs_.forget_previous_shapes();
+    organs_.forget_connections();
     steps_.start_anew(organs_);
   }
   last_now_ = now;
@@ -178,11 +181,13 @@ void CollisionNode::watch_clock() {
 OrganInbox::Callbacks CollisionNode::inbox_callbacks() {
   OrganInbox::Callbacks callbacks;
   callbacks.make = [this](const OrganMeshConstPtr& message) { return organs_.make(message); };
-  callbacks.is_known = [this](const OrganMesh& message) {
-    return organs_.has_topology(message.organ, message.topology);
+  callbacks.is_known = [this](const OrganMesh& message, const Connection& connection) {
+    return !organs_.is_new(message, connection);
   };
-  callbacks.take = [this](const OrganMeshConstPtr& message, const auto& made) {
-    change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now, made); });
+  callbacks.take = [this](const OrganMeshConstPtr& message, const Connection& connection,
+                          const auto& made) {
+    change_organ(*message,
+                 [&](ros::Time now) { return organs_.apply(message, connection, now, made); });
   };
   callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
     change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now); });
@@ -228,6 +233,7 @@ bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
 
 bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
   organs_.forget_previous_shapes();
+  organs_.forget_connections();
   steps_.reset();
   return true;
 }
