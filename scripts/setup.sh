@@ -3,6 +3,7 @@
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$repository/build
+devel=$repository/devel # rosrun finds nothing below build/
 
 say() { printf '\n==> %s\n' "$*"; }
 
@@ -56,7 +57,7 @@ install_packages() {
 }
 
 # continue_as_owner ARGUMENTS...: under sudo, what follows is done by the user who typed it, if the
-# repository is theirs: else root's files in build/ would stand in their way later.
+# repository is theirs: else root's files in build/ and devel/ would stand in their way later.
 continue_as_owner() {
   if [ "$(id -u)" = 0 ] && [ -n "${SUDO_USER:-}" ] && [ "$SUDO_USER" != root ] &&
     [ "$(stat -c %U "$repository")" = "$SUDO_USER" ]; then
@@ -74,16 +75,17 @@ build_jobs() {
   echo "$cores"
 }
 
-# build_package CMAKE_OPTIONS...: in Release, into build/.
+# build_package CMAKE_OPTIONS...: in Release, into build/ and devel/.
 build_package() {
-  local stranger
-  if [ -d "$build" ]; then
-    stranger=$(find "$build" -maxdepth 2 ! -writable -print -quit)
-    [ -z "$stranger" ] || fail "cannot write $stranger, made by $(stat -c %U "$stranger"); remove build/ first: sudo rm -r $build"
-  fi
+  local folder stranger
+  for folder in "$build" "$devel"; do
+    [ -d "$folder" ] || continue
+    stranger=$(find "$folder" -maxdepth 2 ! -writable -print -quit)
+    [ -z "$stranger" ] || fail "cannot write $stranger, made by $(stat -c %U "$stranger"); remove build/ and devel/ first: sudo rm -r $build $devel"
+  done
   use_ros
   say "Building in $build"
-  cmake -S "$repository" -B "$build" -DCMAKE_BUILD_TYPE=Release "$@"
+  cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release "$@"
   cmake --build "$build" --parallel "$(build_jobs)"
 }
 
@@ -107,7 +109,7 @@ check_localhost() {
 use_built_package() {
   set +u
   # shellcheck disable=SC1091
-  . "$build/devel/setup.bash"
+  . "$devel/setup.bash"
   set -u
   check_localhost
   # ROS nodes find each other by the host's name, which not every host can resolve.

@@ -8,6 +8,7 @@
 #include "organ_collision/ros/answers.hpp"
 #include "organ_collision/ros/diagnostics.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/rejection.hpp"
 #include "penalty_wrench.hpp"
 
@@ -46,7 +47,8 @@ void ContactAdapter::on_contacts(const ContactArray& message) {
     publish(message, topics_of(message.organ, message.tool));
   } catch (const Rejection& rejection) {
     failures_.add(rejection.reason(),
-                  "organ '" + message.organ + "', tool '" + message.tool + "': " + rejection.what(),
+                  "organ '" + plain_text(message.organ, kLongestName) + "', tool '" +
+                      plain_text(message.tool, kLongestName) + "': " + rejection.what(),
                   std::chrono::steady_clock::now());
   }
 }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/rejection.hpp"
 
 namespace organ_collision {
@@ -17,6 +18,11 @@ template <typename... Parts>
   std::ostringstream message;
   (message << ... << parts);
   throw Rejection(ContactArray::INVALID_REQUEST, "malformed contacts", message.str());
+}
+
+void refuse_illegal_name(const char* what, const std::string& name) {
+  const std::string fault = name_fault(name);
+  if (!fault.empty()) refuse(what, " ", fault);
 }
 
 void check_geometry(const Contact& contact) {
@@ -44,6 +50,9 @@ void check_contacts(const ContactArray& contacts) {
     refuse("mode is ", int{contacts.mode}, "; legal are 0 to ", int{ContactArray::PAPER_NAIVE});
   }
   if (contacts.header.frame_id.empty()) refuse("frame_id is empty; must be the organ's frame");
+  refuse_illegal_name("frame_id", contacts.header.frame_id);
+  refuse_illegal_name("organ", contacts.organ);
+  refuse_illegal_name("tool", contacts.tool);
   const std::size_t regions = contacts.regions.size();
   if (regions != 0 && regions != contacts.contacts.size()) {
     refuse(regions, " regions of ", contacts.contacts.size(), " contacts; must be none or as many");

@@ -9,6 +9,7 @@
 
 #include "message_error.hpp"
 #include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -66,6 +67,9 @@ void place_points(const Marker& marker, std::vector<float>& vertices) {
 }  // namespace
 
 void MarkerReader::read(const Marker& marker, Surface& surface) {
+  if (const std::string fault = name_fault(marker.ns); !fault.empty()) {
+    throw MessageError("illegal name", "the marker's namespace " + fault);
+  }
   const std::string name = name_of(marker);
   const bool add = marker.action == Marker::ADD;
   if (!add && marker.action != Marker::DELETE && marker.action != Marker::DELETEALL) {

@@ -26,10 +26,12 @@ std::string graph_name(const ParameterGroup& group, const char* name) {
 OrganParameters parse_organ(const ParameterGroup& group) {
   OrganParameters organ;
   organ.name = group.text(names::kOrganName);
+  group.check_name(names::kOrganName, organ.name);
   organ.topic = graph_name(group, names::kTopic);
   if (group.has(names::kFrame)) {
     organ.frame = tf_frame(group.text(names::kFrame));
     if (organ.frame.empty()) group.refuse(names::kFrame, "must be the name of a TF frame");
+    group.check_name(names::kFrame, organ.frame);
   }
   if (group.has(names::kVerticesTopic)) {
     organ.vertices_topic = graph_name(group, names::kVerticesTopic);

@@ -7,6 +7,7 @@
 #include "mesh_conversions.hpp"
 #include "message_error.hpp"
 #include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 #include "point_cloud_reader.hpp"
 
 namespace organ_collision {
@@ -76,6 +77,9 @@ void OrganSource::read(const ShapeShifter& message) {
 /// The parameter is what the user says; a simulator may name any frame. It is said once.
 std::string OrganSource::frame_or_given(const std::string& named) {
   std::string frame = tf_frame(named);
+  if (const std::string fault = name_fault(frame); !fault.empty()) {
+    throw MessageError("illegal name", "the messages' frame " + fault);
+  }
   const std::string& given = parameters_.frame;
   if (given.empty()) {
     if (!frame.empty()) return frame;

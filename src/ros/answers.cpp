@@ -2,6 +2,8 @@
 
 #include <sstream>
 
+#include "organ_collision/ros/plain_text.hpp"
+
 namespace organ_collision {
 
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
@@ -9,8 +11,8 @@ ContactArray answer_about(const std::string& organ, const std::string& tool, std
   ContactArray answer;
   answer.header.stamp = stamp;
   answer.step_start = stamp;
-  answer.organ = organ;
-  answer.tool = tool;
+  answer.organ = plain_text(organ, kLongestName);
+  answer.tool = plain_text(tool, kLongestName);
   answer.links = {""};
   answer.mode = mode;
   return answer;
@@ -29,7 +31,7 @@ void set_organ(ContactArray& answer, const Organ& organ, const OrganShape& shape
 
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message) {
   answer.status = status;
-  answer.message = message;
+  answer.message = plain_text(message, kLongestMessage);
   answer.contacts.clear();
   answer.regions.clear();
 }

@@ -10,6 +10,7 @@
 #include "organ_collision/ros/conversions.hpp"
 #include "organ_collision/ros/markers.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/tool_loader.hpp"
 
 namespace organ_collision {
@@ -56,7 +57,9 @@ class QueuedCall : public ros::CallbackInterface {
   std::function<void()> function_;
 };
 
-void count_failure(FailureLog& log, const ContactArray& answer) {
+/// Of a ContactArray, or of a batch.
+template <typename Answer>
+void count_failure(FailureLog& log, const Answer& answer) {
   if (answer.status == ContactArray::OK) return;
   log.add(reason_of(answer.status), answer.message, SteadyClock::now());
 }
@@ -90,11 +93,13 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
   }
 
+  using MeshEvent = ros::MessageEvent<const OrganMesh>;
+  const boost::function<void(const MeshEvent&)> add_mesh = [this](const MeshEvent& event) {
+    inbox_.add(event.getConstMessage(), event.getConnectionHeaderPtr());
+  };
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   subscribers_ = {
-      private_node_.subscribe<OrganMesh>(
-          names::kOrganMesh, 100, [this](const OrganMeshConstPtr& message) { inbox_.add(message); },
-          {}, no_delay),
+      private_node_.subscribe<OrganMesh>(names::kOrganMesh, 100, add_mesh, {}, no_delay),
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
           [this](const OrganVerticesConstPtr& message) { inbox_.add(message); }, {}, no_delay)};
@@ -167,6 +172,7 @@ void CollisionNode::watch_clock() {
     poses_.forget_samples();
     pose_topics_.forget_stamps();
     organs_.forget_previous_shapes();
+    organs_.forget_connections();
     steps_.start_anew(organs_);
   }
   last_now_ = now;
@@ -175,11 +181,13 @@ void CollisionNode::watch_clock() {
 OrganInbox::Callbacks CollisionNode::inbox_callbacks() {
   OrganInbox::Callbacks callbacks;
   callbacks.make = [this](const OrganMeshConstPtr& message) { return organs_.make(message); };
-  callbacks.is_known = [this](const OrganMesh& message) {
-    return organs_.has_topology(message.organ, message.topology);
+  callbacks.is_known = [this](const OrganMesh& message, const Connection& connection) {
+    return !organs_.is_new(message, connection);
   };
-  callbacks.take = [this](const OrganMeshConstPtr& message, const auto& made) {
-    change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now, made); });
+  callbacks.take = [this](const OrganMeshConstPtr& message, const Connection& connection,
+                          const auto& made) {
+    change_organ(*message,
+                 [&](ros::Time now) { return organs_.apply(message, connection, now, made); });
   };
   callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
     change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now); });
@@ -218,12 +226,14 @@ bool CollisionNode::on_query(QueryCollision::Request& request, QueryCollision::R
 bool CollisionNode::on_query_batch(QueryCollisionBatch::Request& request,
                                    QueryCollisionBatch::Response& response) {
   response = services_.query_batch(request);
+  count_failure(counters_.refused, response);
   for (const ContactArray& result : response.results) count_failure(counters_.refused, result);
   return true;
 }
 
 bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
   organs_.forget_previous_shapes();
+  organs_.forget_connections();
   steps_.reset();
   return true;
 }
@@ -242,7 +252,7 @@ void CollisionNode::publish_failure(const std::string& organ, const std_msgs::He
     const auto answer = boost::make_shared<ContactArray>(
         answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
     set_links(*answer, tool.parameters);
-    answer->header.frame_id = tf_frame(header.frame_id);
+    answer->header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
     set_failure(*answer, status, message);
     contacts_.publish(answer);
   }

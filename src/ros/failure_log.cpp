@@ -2,6 +2,8 @@
 
 #include <ros/console.h>
 
+#include "organ_collision/ros/plain_text.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -13,10 +15,10 @@ void FailureLog::add(const std::string& reason, const std::string& message, Time
   Entry& entry = entries_[reason];
   ++entry.count;
   ++entry.not_yet_reported;
-  entry.latest = message;
+  entry.latest = plain_text(message, kLongestMessage);
   if (entry.count > 1 && now - entry.logged < kLogPeriod) return;
   entry.logged = now;
-  ROS_WARN("%s: %s (%lu so far)", reason.c_str(), message.c_str(),
+  ROS_WARN("%s: %s (%lu so far)", reason.c_str(), entry.latest.c_str(),
            static_cast<unsigned long>(entry.count));
 }
 

@@ -18,12 +18,14 @@ OrganInbox::~OrganInbox() {
   thread_.join();
 }
 
-void OrganInbox::add(const OrganMeshConstPtr& message) {
+void OrganInbox::add(const OrganMeshConstPtr& message, const Connection& connection) {
   Entry entry;
   entry.mesh = message;
+  entry.connection = connection;
   const bool is_large = message->triangles.size() > 3 * kLarge;
   const bool waits = waiting_.count(message->organ) > 0;
-  if (is_large && (waits || !callbacks_.is_known(*message))) entry.made = start_making(message);
+  if (is_large && (waits || !callbacks_.is_known(*message, connection)))
+    entry.made = start_making(message);
   add(message->organ, std::move(entry));
 }
 
@@ -61,7 +63,7 @@ void OrganInbox::hand_on(Entries& entries) {
 
 void OrganInbox::hand_on(Entry& entry) const {
   if (entry.vertices) return callbacks_.take_vertices(entry.vertices);
-  callbacks_.take(entry.mesh, [&] {
+  callbacks_.take(entry.mesh, entry.connection, [&] {
     return entry.made.valid() ? entry.made.get() : callbacks_.make(entry.mesh);
   });
 }

@@ -49,23 +49,40 @@ bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& t
   return true;
 }
 
+bool has_new_topology(const Organ& organ, const OrganMesh& message) {
+  return message.topology != organ.latest().mesh->topology();
+}
+
 }  // namespace
 
 TriangleMesh OrganStore::make(const OrganMeshConstPtr& message) const {
   return {vertices_of(message), message->triangles, message->topology, limits_};
 }
 
-bool OrganStore::has_topology(const std::string& organ, std::uint32_t topology) const {
-  const auto known = organs_.find(organ);
-  return known != organs_.end() && known->second.latest().mesh->topology() == topology;
+bool OrganStore::is_new(const OrganMesh& message, const Connection& connection) const {
+  const auto known = organs_.find(message.organ);
+  return known == organs_.end() || has_new_topology(known->second, message) ||
+         is_another_organ(known->second, message, connection);
 }
 
-OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now,
-                              const std::function<TriangleMesh()>& made) {
+/// Under the number that the organ has.
+bool OrganStore::is_another_organ(const Organ& organ, const OrganMesh& message,
+                                  const Connection& connection) const {
+  const auto known = connections_.find(organ.name());
+  if (known != connections_.end() && known->second.contains(connection)) return false;
+  const TriangleMesh& latest = *organ.latest().mesh;
+  return message.vertices.size() != latest.vertices().size() ||
+         !has_triangles(latest, message.triangles);
+}
+
+OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, const Connection& connection,
+                              ros::Time now, const std::function<TriangleMesh()>& made) {
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
+  check_name("organ", message.organ);
   if (message.vertices.empty() && message.triangles.empty()) {
     organs_.erase(message.organ);
+    connections_.erase(message.organ);
     without_mesh_.insert(message.organ);
     return OrganChange::kRemoved;
   }
@@ -74,7 +91,9 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now,
     if (frame.empty()) {
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
-    const OrganChange change = apply_checked(pointer, frame, now, made);
+    check_name("header.frame_id", frame);
+    const OrganChange change = apply_checked(pointer, connection, frame, now, made);
+    connections_[message.organ].add(connection);
     without_mesh_.erase(message.organ);
     return change;
   } catch (const std::runtime_error&) {
@@ -83,7 +102,8 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, ros::Time now,
   }
 }
 
-OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer, const std::string& frame,
+OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer,
+                                      const Connection& connection, const std::string& frame,
                                       ros::Time now, const std::function<TriangleMesh()>& made) {
   const OrganMesh& message = *pointer;
   const ros::Time stamp = message.header.stamp;
@@ -94,20 +114,24 @@ OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer, const st
       return OrganChange::kShape;
     }
     Organ& organ = known->second;
-    const TriangleMesh& latest = *organ.latest().mesh;
-    if (message.topology != latest.topology()) {
+    OrganChange change = OrganChange::kShape;
+    if (has_new_topology(organ, message)) {
       organ.replace(made(), stamp, now);
-    } else if (has_triangles(latest, message.triangles)) {
+    } else if (is_another_organ(organ, message, connection)) {
+      organ.replace(made(), stamp, now);
+      change = OrganChange::kOrgan;
+    } else if (has_triangles(*organ.latest().mesh, message.triangles)) {
       organ.move(vertices_of(pointer), stamp, now);
     } else {
       refuse("same topology, other triangles",
              "organ " + quoted(message.organ) + " already has other triangles of topology " +
-                 std::to_string(message.topology) + "; new triangles need another number");
+                 std::to_string(message.topology) +
+                 "; for new triangles raise `topology`, or call the service reset first");
     }
-    if (frame == organ.frame()) return OrganChange::kShape;
+    if (frame == organ.frame()) return change;
     organ.set_frame(frame);
     organ.forget_previous();
-    return OrganChange::kFrame;
+    return change == OrganChange::kShape ? OrganChange::kFrame : change;
   } catch (const MeshError& error) {
     refuse(reason_of(error), "mesh of organ " + quoted(message.organ) + ": " + error.what());
   }
@@ -116,10 +140,12 @@ OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer, const st
 OrganChange OrganStore::apply(const OrganVerticesConstPtr& pointer, ros::Time now) {
   const OrganVertices& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
+  check_name("organ", message.organ);
   at(message.organ);
   Organ& organ = organs_.at(message.organ);
   const std::string named = "vertices of organ " + quoted(message.organ);
   const std::string frame = tf_frame(message.header.frame_id);
+  check_name("header.frame_id", frame);
   if (frame != organ.frame()) {
     refuse(frame.empty() ? "empty frame" : "other frame",
            named + ": header.frame_id is " + quoted(frame) + "; must be that of its mesh, " +

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/spelling.hpp"
 
 namespace organ_collision {
@@ -28,7 +29,7 @@ std::string written(const NumberRange& range) {
 std::string written(const XmlRpcValue& value) {
   std::ostringstream text;
   value.write(text);
-  return text.str();
+  return plain_text(text.str(), kLongestMessage);
 }
 
 bool contains(const NumberRange& range, double number) {
@@ -134,6 +135,11 @@ std::vector<std::string> ParameterGroup::misspelt() const {
                         nearest_name(name, legal_names_) + "', legal are " + listed(legal_names_));
   }
   return sentences;
+}
+
+void ParameterGroup::check_name(const std::string& name, const std::string& text) const {
+  const std::string fault = name_fault(text);
+  if (!fault.empty()) refuse(name, fault);
 }
 
 void ParameterGroup::refuse(const std::string& name, const std::string& legal) const {

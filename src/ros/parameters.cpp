@@ -17,6 +17,9 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// Face numbers travel through GL as 32-bit floats, exact up to here.
 constexpr double kMostFaces = 1 << 24;
 
+/// [bytes] roscpp gives up on larger messages.
+constexpr double kMostMessageBytes = 1e9;
+
 const NumberRange kNotNegative{0.0, kUnlimited};
 const NumberRange kPositive{0.0, kUnlimited, false};
 
@@ -25,6 +28,7 @@ const std::string kShaft = "trocar_frame, tip_frame and radius";
 std::string frame(const ParameterGroup& tool, const char* name) {
   std::string frame = tf_frame(tool.text(name));
   if (frame.empty()) tool.refuse(name, "must be the name of a TF frame");
+  tool.check_name(name, frame);
   return frame;
 }
 
@@ -79,6 +83,7 @@ void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
 
 void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.links = tool.texts(names::kLinks);
+  for (const std::string& link : parsed.links) tool.check_name(names::kLinks, link);
   if (!tool.has(names::kUrdf)) {
     parsed.robot_description = tool.has(names::kRobotDescription)
                                    ? parameter_name(tool, names::kRobotDescription)
@@ -93,6 +98,7 @@ void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
 ToolParameters parse_tool(const ParameterGroup& tool) {
   ToolParameters parsed;
   parsed.name = tool.text(names::kToolName);
+  tool.check_name(names::kToolName, parsed.name);
   const bool has_links = tool.has(names::kLinks);
   const bool has_poses = tool.has(names::kTipPoseTopic) || tool.has(names::kBasePoseTopic);
   const bool has_shaft = tool.has(names::kTrocarFrame) || tool.has(names::kRadius) ||
@@ -143,7 +149,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
       "~", private_namespace,
       {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
        names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
-       names::kPublishRegions, names::kDiagnosticPeriod});
+       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod});
   LoadedParameters loaded;
   loaded.misspelt = all.misspelt();
   parse_tools(all, loaded);
@@ -157,6 +163,9 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
   p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, {0.0, 60.0});
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative);
   p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, {1, kMostFaces});
+  p.max_batch = all.whole_number(names::kMaxBatch, p.max_batch, {1, 1'000'000});
+  p.max_batch_bytes =
+      all.whole_number(names::kMaxBatchBytes, p.max_batch_bytes, {1, kMostMessageBytes});
   p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, {0.01, 3600.0});

@@ -8,6 +8,7 @@
 
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -28,6 +29,8 @@ std::string fault(const PoseStamped& pose) {
   std::ostringstream text;
   if (tf_frame(pose.header.frame_id).empty()) {
     text << "has no frame: header.frame_id is empty";
+  } else if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
+    text << "is in the frame " << wrong;
   } else if (!((Eigen::Array3d(p.x, p.y, p.z).abs() <= tolerance::kFarthest).all())) {
     text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite and within "
          << tolerance::kFarthest << " m";

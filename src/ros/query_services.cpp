@@ -1,10 +1,13 @@
 #include "organ_collision/ros/query_services.hpp"
 
+#include <ros/serialization.h>
+
 #include <cmath>
 #include <sstream>
 
 #include "organ_collision/ros/answers.hpp"
 #include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/spelling.hpp"
 #include "organ_collision/ros/transforms.hpp"
 
@@ -47,8 +50,9 @@ bool looks_at_end_only(std::uint8_t mode) {
   return mode == ContactArray::STATIC || mode == ContactArray::PAPER_STATIC;
 }
 
-bool moves_organ(const QueryCollision::Request& request) {
-  return request.organ_motion && request.mode == ContactArray::SWEPT;
+void check_mode(std::uint8_t mode) {
+  if (mode <= ContactArray::PAPER_NAIVE) return;
+  refuse("mode is ", static_cast<int>(mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
 }
 
 void check_point(const char* name, const geometry_msgs::Point& point) {
@@ -56,14 +60,13 @@ void check_point(const char* name, const geometry_msgs::Point& point) {
   refuse("motion.", name, " is (", point.x, ", ", point.y, ", ", point.z, "); must be finite");
 }
 
-void check_motion(const QueryCollision::Request& request) {
-  const ToolMotion& motion = request.motion;
+void check_motion(const ToolMotion& motion, std::uint8_t mode) {
   if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
     refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
   }
   check_point("trocar", motion.trocar);
   check_point("tip", motion.tip);
-  if (looks_at_end_only(request.mode)) return;
+  if (looks_at_end_only(mode)) return;
   check_point("previous_trocar", motion.previous_trocar);
   check_point("previous_tip", motion.previous_tip);
 }
@@ -83,13 +86,34 @@ void check_tool(const Tool& tool, std::uint8_t mode) {
   }
 }
 
+ros::Time stamp_or_now(const std_msgs::Header& header) {
+  return header.stamp.isZero() ? ros::Time::now() : header.stamp;
+}
+
+CollisionRequest collision_with(const Organ& organ, std::uint8_t mode, bool organ_motion) {
+  CollisionRequest collision;
+  collision.organ = organ.latest().mesh.get();
+  const bool moves = organ_motion && mode == ContactArray::SWEPT;
+  if (moves) collision.organ_before = organ.previous().mesh.get();
+  collision.mode = static_cast<QueryMode>(mode);
+  return collision;
+}
+
+/// A motion as the request has it, moved into the organ's frame.
+void set_motion(const ToolMotion& motion, const Timed<Eigen::Isometry3d>& T_organ_motion,
+                CollisionRequest& collision, ContactArray& answer) {
+  collision.path = to_path(motion, looks_at_end_only(answer.mode), T_organ_motion.value);
+  collision.radius = motion.radius;
+  if (!T_organ_motion.stamp.isZero()) answer.header.stamp = T_organ_motion.stamp;
+  answer.step_start = answer.header.stamp;
+}
+
 }  // namespace
 
 ContactArray QueryServices::query(const QueryCollision::Request& request) const {
   ContactArray result =
-      answer_about(request.organ, request.tool, request.mode,
-                   request.header.stamp.isZero() ? ros::Time::now() : request.header.stamp);
-  result.header.frame_id = request.header.frame_id;
+      answer_about(request.organ, request.tool, request.mode, stamp_or_now(request.header));
+  result.header.frame_id = plain_text(request.header.frame_id, kLongestName);
   try {
     answer(request, result);
   } catch (const Rejection& rejection) {
@@ -102,71 +126,106 @@ QueryCollisionBatch::Response QueryServices::query_batch(
     const QueryCollisionBatch::Request& request) const {
   QueryCollisionBatch::Response response;
   try {
-    check_served(request);
+    answer(request, response);
   } catch (const Rejection& rejection) {
     response.status = rejection.status();
-    response.message = rejection.what();
-    return response;
-  }
-  QueryCollision::Request single;
-  single.header = request.header;
-  single.organ = request.organ;
-  single.mode = request.mode;
-  single.organ_motion = request.organ_motion;
-  single.regions = false;
-  response.results.reserve(request.motions.size());
-  for (const ToolMotion& motion : request.motions) {
-    single.motion = motion;
-    response.results.push_back(query(single));
+    response.message = plain_text(rejection.what(), kLongestMessage);
+    response.results.clear();
   }
   return response;
 }
 
 void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) const {
+  check_name("tool", request.tool);
   const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(request.tool);
   if (tool) set_links(answer, tool->parameters);
   check_served(request);
-  if (request.mode > ContactArray::PAPER_NAIVE) {
-    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
-  }
+  check_mode(request.mode);
   if (tool) check_tool(*tool, request.mode);
-  if (request.organ.empty()) refuse("organ is empty; must be an organ's name");
-  const Organ& organ = sources_.organs.at(request.organ);
+  const Organ& organ = find_organ(request.organ);
   set_organ(answer, organ, organ.latest());
-  const ros::Time now = ros::Time::now();
-  if (is_stale(organ.latest(), now, sources_.parameters.mesh_timeout_sec)) {
-    throw Rejection(ContactArray::STALE_MESH, "stale mesh",
-                    stale_message(organ, now, sources_.parameters.mesh_timeout_sec));
-  }
+  check_age(organ);
 
-  CollisionRequest collision;
-  collision.organ = organ.latest().mesh.get();
-  if (moves_organ(request)) collision.organ_before = organ.previous().mesh.get();
-  collision.mode = static_cast<QueryMode>(request.mode);
+  CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
   collision.regions = request.regions;
   if (tool) {
     set_tool_motion(request, organ, *tool, collision, answer);
   } else {
-    set_motion(request, organ, collision, answer);
+    check_motion(request.motion, request.mode);
+    set_motion(request.motion, motion_frame(request.header, organ), collision, answer);
   }
   sources_.evaluator.evaluate(collision, answer);
 }
 
-void QueryServices::set_motion(const QueryCollision::Request& request, const Organ& organ,
-                               CollisionRequest& collision, ContactArray& answer) const {
-  check_motion(request);
-  const std::string frame = tf_frame(request.header.frame_id);
+/// All motions are of one frame and one time, so that one transform serves them all.
+void QueryServices::answer(const QueryCollisionBatch::Request& request,
+                           QueryCollisionBatch::Response& response) const {
+  check_served(request);
+  check_mode(request.mode);
+  check_size(request.motions.size());
+  const Organ& organ = find_organ(request.organ);
+  check_age(organ);
+  const Timed<Eigen::Isometry3d> T_organ_motion = motion_frame(request.header, organ);
+  ContactArray unanswered =
+      answer_about(request.organ, "", request.mode, stamp_or_now(request.header));
+  set_organ(unanswered, organ, organ.latest());
+
+  CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
+  std::size_t bytes = 0;
+  response.results.reserve(request.motions.size());
+  for (const ToolMotion& motion : request.motions) {
+    ContactArray& result = response.results.emplace_back(unanswered);
+    try {
+      check_motion(motion, request.mode);
+      set_motion(motion, T_organ_motion, collision, result);
+      sources_.evaluator.evaluate(collision, result);
+    } catch (const Rejection& rejection) {
+      set_failure(result, rejection.status(), rejection.what());
+    }
+    bytes += ros::serialization::serializationLength(result);
+    check_bytes(bytes, response.results.size(), request.motions.size());
+  }
+}
+
+void QueryServices::check_size(std::size_t motions) const {
+  const auto most = static_cast<std::size_t>(sources_.parameters.max_batch);
+  if (motions <= most) return;
+  refuse("the batch has ", motions, " motions; must be at most ", most,
+         " (max_batch): ask in several batches");
+}
+
+void QueryServices::check_bytes(std::size_t bytes, std::size_t answered,
+                                std::size_t motions) const {
+  const auto most = static_cast<std::size_t>(sources_.parameters.max_batch_bytes);
+  if (bytes <= most) return;
+  refuse("the answers to the first ", answered, " of ", motions, " motions have ", bytes,
+         " bytes; a batch's must have at most ", most,
+         " (max_batch_bytes): ask for fewer motions at once");
+}
+
+const Organ& QueryServices::find_organ(const std::string& name) const {
+  if (name.empty()) refuse("organ is empty; must be an organ's name");
+  check_name("organ", name);
+  return sources_.organs.at(name);
+}
+
+void QueryServices::check_age(const Organ& organ) const {
+  const ros::Time now = ros::Time::now();
+  const double timeout_sec = sources_.parameters.mesh_timeout_sec;
+  if (!is_stale(organ.latest(), now, timeout_sec)) return;
+  throw Rejection(ContactArray::STALE_MESH, "stale mesh", stale_message(organ, now, timeout_sec));
+}
+
+Timed<Eigen::Isometry3d> QueryServices::motion_frame(const std_msgs::Header& header,
+                                                     const Organ& organ) const {
+  const std::string frame = tf_frame(header.frame_id);
   if (frame.empty()) refuse("header.frame_id is empty; must be the frame of `motion`");
-  const auto T_organ_motion =
-      look_up(sources_.transforms, organ.frame(), frame, request.header.stamp);
+  check_name("header.frame_id", frame);
+  const auto T_organ_motion = look_up(sources_.transforms, organ.frame(), frame, header.stamp);
   if (!T_organ_motion.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
   }
-  collision.path =
-      to_path(request.motion, looks_at_end_only(request.mode), T_organ_motion.found->value);
-  collision.radius = request.motion.radius;
-  if (!T_organ_motion.found->stamp.isZero()) answer.header.stamp = T_organ_motion.found->stamp;
-  answer.step_start = answer.header.stamp;
+  return *T_organ_motion.found;
 }
 
 void QueryServices::set_tool_motion(const QueryCollision::Request& request, const Organ& organ,

@@ -1,5 +1,6 @@
 #include "organ_collision/ros/tool_loader.hpp"
 
+#include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/resource.hpp"
 #include "organ_collision/ros/robot_model.hpp"
 #include "organ_collision/ros/tool_error.hpp"
@@ -42,8 +43,10 @@ Tool load_tool(const ToolParameters& parameters,
   } catch (const std::exception& error) {
     tool.links.clear();
     tool.joints.clear();
-    tool.fault = parameters.name + ": " + (is_file ? "urdf " : "parameter ") + "'" +
-                 (is_file ? parameters.urdf : parameters.robot_description) + "': " + error.what();
+    const std::string fault = parameters.name + ": " + (is_file ? "urdf " : "parameter ") + "'" +
+                              (is_file ? parameters.urdf : parameters.robot_description) +
+                              "': " + error.what();
+    tool.fault = plain_text(fault, kLongestMessage);
   }
   return tool;
 }

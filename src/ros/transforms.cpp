@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "organ_collision/ros/conversions.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 
 namespace organ_collision {
 
@@ -17,7 +18,9 @@ Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::stri
     }
     return {{{T_target_source, time.isZero() ? found.header.stamp : time}}, ""};
   } catch (const std::runtime_error& error) {  // tf2's own, and ros::Time's at absurd stamps.
-    return {std::nullopt, "no transform from " + source + " to " + target + ": " + error.what()};
+    // Of a loop, tf2 lists all frames that there are.
+    return {std::nullopt, "no transform from " + source + " to " + target + ": " +
+                              plain_text(error.what(), kLongestMessage)};
   }
 }
 

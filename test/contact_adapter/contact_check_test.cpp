@@ -55,6 +55,20 @@ TEST(ContactCheck, NumbersThatAreNotFinite) {
   }
 }
 
+TEST(ContactCheck, NamesMustBeLegal) {
+  for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
+    ContactArray contacts = good();
+    contacts.organ = name;
+    EXPECT_NE(refusal(contacts).find("organ '"), std::string::npos);
+    contacts = good();
+    contacts.tool = name;
+    EXPECT_NE(refusal(contacts).find("tool '"), std::string::npos);
+    contacts = good();
+    contacts.header.frame_id = name;
+    EXPECT_NE(refusal(contacts).find("frame_id '"), std::string::npos);
+  }
+}
+
 TEST(ContactCheck, NormalsMustBeUnit) {
   ContactArray contacts = good();
   contacts.contacts[0].normal.x = 1.001;

@@ -118,6 +118,10 @@ TEST_F(MarkerReaderTest, TheFirstTriangleListIsTheOrganUntilItIsDeleted) {
   expect_words(refusal([&] { read(other); }), {"other marker: ", "'tools/3'", "'organs/3'"});
   other.action = Marker::DELETE;
   expect_words(refusal([&] { read(other); }), {"other marker: "});
+  other.ns = std::string(10'000'000, 'x');
+  const std::string illegal = refusal([&] { read(other); });
+  expect_words(illegal, {"illegal name: ", "namespace 'xxx", "at most 256 bytes"});
+  EXPECT_LT(illegal.size(), 1000u);
   other.ns = marker_.ns;
   other.id = 4;
   expect_words(refusal([&] { read(other); }), {"other marker: ", "'organs/4'"});

@@ -71,6 +71,8 @@ TEST(MeshAdapterParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   const std::string path = "~organs[1]/";
   expect_words(refusal_of_organ("name", ""), {path + "name", "not empty"});
   expect_words(refusal_of_organ("name", "liver"), {path + "name", "liver", "unique"});
+  expect_words(refusal_of_organ("name", std::string(257, 'x')), {path + "name", "256 bytes"});
+  expect_words(refusal_of_organ("frame", "a\nb"), {path + "frame", "control characters"});
   expect_words(refusal_of_organ("topic", 3), {path + "topic", "'3'", "text"});
   expect_words(refusal_of_organ("topic", "sim liver"), {path + "topic", "sim liver", "name"});
   expect_words(refusal_of_organ("topic", "~mesh"), {path + "topic", "'~mesh'", "not private"});

@@ -140,6 +140,8 @@ TEST(OrganSource, RefusesMessagesWithoutFrame) {
 TEST(OrganSource, ARefusedMarkerIsNotTheOrgans) {
   Rig rig;
   visualization_msgs::Marker nowhere = marker();
+  nowhere.header.frame_id = "a\nb";
+  expect_words(refusal([&] { rig.take(nowhere); }), {"illegal name: ", "frame 'a b'"});
   nowhere.header.frame_id = "";
   nowhere.id = 7;
   expect_words(refusal([&] { rig.take(nowhere); }), {"no frame: "});

@@ -4,6 +4,8 @@
 
 #include <set>
 
+#include "organ_collision/ros/plain_text.hpp"
+
 using namespace organ_collision;
 
 namespace {
@@ -52,6 +54,18 @@ TEST(Answers, AFailureIsEmpty) {
   EXPECT_EQ(answer.message, "no transform from a to b");
   EXPECT_TRUE(answer.contacts.empty());
   EXPECT_TRUE(answer.regions.empty());
+}
+
+TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
+  const std::string huge(10'000'000, 'x');
+  ContactArray answer = answer_about("o\n" + huge, "t\xFF" + huge, ContactArray::STATIC, {});
+  EXPECT_LE(answer.organ.size(), kLongestName);
+  EXPECT_EQ(answer.organ.rfind("o xxx", 0), 0u) << answer.organ;
+  EXPECT_LE(answer.tool.size(), kLongestName);
+  EXPECT_EQ(answer.tool.rfind("t?xxx", 0), 0u) << answer.tool;
+  set_failure(answer, ContactArray::NO_TRANSFORM, "m\n" + huge);
+  EXPECT_LE(answer.message.size(), kLongestMessage);
+  EXPECT_EQ(answer.message.rfind("m xxx", 0), 0u) << answer.message;
 }
 
 TEST(Answers, EachStatusHasItsOwnName) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "organ_collision/ros/plain_text.hpp"
+
 using namespace organ_collision;
 
 TEST(FailureLog, CountsByReason) {
@@ -14,6 +16,14 @@ TEST(FailureLog, CountsByReason) {
   EXPECT_EQ(log.by_reason().at("wrong size").count, 2u);
   EXPECT_EQ(log.by_reason().at("wrong size").latest, "8 numbers");
   EXPECT_EQ(log.by_reason().at("not finite").not_yet_reported, 1u);
+}
+
+TEST(FailureLog, MessagesArePlainAndShort) {
+  FailureLog log;
+  log.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
+  const std::string& latest = log.by_reason().at("wrong size").latest;
+  EXPECT_LE(latest.size(), kLongestMessage);
+  EXPECT_EQ(latest.rfind("a xxx", 0), 0u) << latest;
 }
 
 TEST(FailureLog, ReportedOnce) {

@@ -43,6 +43,7 @@ class OrganInboxTest : public testing::Test {
 
   std::vector<std::string> taken_;
   std::thread::id made_in_;
+  Connection connection_;  ///< of the last mesh taken
   std::uint32_t known_ = 0;
 
  private:
@@ -53,8 +54,12 @@ class OrganInboxTest : public testing::Test {
       made_in_ = std::this_thread::get_id();
       return TriangleMesh(message->vertices, message->triangles, message->topology);
     };
-    callbacks.is_known = [this](const OrganMesh& message) { return message.topology == known_; };
-    callbacks.take = [this](const OrganMeshConstPtr& message, const auto& made) {
+    callbacks.is_known = [this](const OrganMesh& message, const Connection&) {
+      return message.topology == known_;
+    };
+    callbacks.take = [this](const OrganMeshConstPtr& message, const Connection& connection,
+                            const auto& made) {
+      connection_ = connection;
       std::string text = message->organ + " mesh " + std::to_string(message->topology);
       if (message->topology != known_) {
         try {
@@ -123,6 +128,15 @@ TEST_F(OrganInboxTest, TheOrderOfEachOrganStays) {
   inbox_.hand_on();
   EXPECT_EQ(Texts(taken_.begin() + 3, taken_.end()),
             (Texts{"liver mesh 3, 10001", "spleen mesh 4, 10001"}));
+}
+
+TEST_F(OrganInboxTest, AMeshIsTakenWithItsConnection) {
+  const auto header = boost::make_shared<const ros::M_string>();
+  inbox_.add(mesh("liver", 1, kFaces), header);
+  let(1);
+  wait_for_wakes(1);
+  inbox_.hand_on();
+  EXPECT_EQ(connection_.lock(), header);
 }
 
 TEST_F(OrganInboxTest, AKnownTopologyIsNotMadeAgain) {

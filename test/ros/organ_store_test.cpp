@@ -34,19 +34,23 @@ OrganVertices vertices(float z, std::uint32_t topology = 1) {
 
 class OrganStoreTest : public testing::Test {
  protected:
-  template <typename Message>
-  OrganChange apply(const Message& message, ros::Time now) {
-    return store_.apply(boost::make_shared<const Message>(message), now);
+  OrganChange apply(const OrganMesh& message, ros::Time now, const Connection& connection = {}) {
+    const auto pointer = boost::make_shared<const OrganMesh>(message);
+    return store_.apply(pointer, connection, now, [&] { return store_.make(pointer); });
+  }
+  OrganChange apply(const OrganVertices& message, ros::Time now, const Connection& = {}) {
+    return store_.apply(boost::make_shared<const OrganVertices>(message), now);
   }
 
   /// Refused with these, and the liver stays as it was.
   template <typename Message>
   void expect_refused(const Message& message, std::uint8_t status, const std::string& reason,
-                      const std::vector<std::string>& words = {}) {
+                      const std::vector<std::string>& words = {},
+                      const Connection& connection = {}) {
     const bool known = store_.organs().count("liver") > 0;
     const OrganShape before = known ? store_.at("liver").latest() : OrganShape{};
     try {
-      apply(message, ros::Time(9));
+      apply(message, ros::Time(9), connection);
       ADD_FAILURE() << "accepted: " << reason;
     } catch (const Rejection& rejection) {
       EXPECT_EQ(rejection.status(), status) << rejection.what();
@@ -70,6 +74,8 @@ class OrganStoreTest : public testing::Test {
     return ContactArray::OK;
   }
 
+  const ros::M_stringPtr first_ = boost::make_shared<ros::M_string>();
+  const ros::M_stringPtr second_ = boost::make_shared<ros::M_string>();
   OrganStore store_{MeshLimits{2}};
 };
 
@@ -121,6 +127,70 @@ TEST_F(OrganStoreTest, NewTopologyHasNoPreviousShape) {
   EXPECT_FALSE(store_.at("liver").previous().mesh);
 }
 
+TEST_F(OrganStoreTest, OtherTrianglesOverANewConnectionAreAnotherOrgan) {
+  apply(mesh(), ros::Time(7), first_);
+  EXPECT_EQ(apply(vertices(3), ros::Time(8)), OrganChange::kShape);
+  OrganMesh other = mesh();
+  other.triangles = {0, 1, 3};
+  expect_refused(other, ContactArray::INVALID_REQUEST, "same topology, other triangles",
+                 {"'liver'", "raise `topology`", "reset"}, first_);
+  EXPECT_EQ(apply(other, ros::Time(9), second_), OrganChange::kOrgan);
+  EXPECT_EQ(store_.at("liver").latest().mesh->face_count(), 1u);
+  EXPECT_FALSE(store_.at("liver").previous().mesh);
+  // What still comes from the one before does not displace it.
+  expect_refused(mesh(), ContactArray::INVALID_REQUEST, "same topology, other triangles", {},
+                 first_);
+}
+
+TEST_F(OrganStoreTest, AnotherNumberOfVerticesOverANewConnectionIsAnotherOrgan) {
+  apply(mesh(), ros::Time(7), first_);
+  OrganMesh more = mesh();
+  more.vertices.insert(more.vertices.end(), {5, 5, 5});
+  expect_refused(more, ContactArray::INVALID_REQUEST, "wrong size", {}, first_);
+  EXPECT_EQ(apply(more, ros::Time(8), second_), OrganChange::kOrgan);
+}
+
+TEST_F(OrganStoreTest, TheSameTrianglesOverANewConnectionCountAsVertices) {
+  apply(mesh(), ros::Time(7), first_);
+  EXPECT_EQ(apply(mesh(), ros::Time(8), second_), OrganChange::kShape);
+  EXPECT_TRUE(store_.at("liver").previous().mesh);
+  OrganMesh other = mesh();
+  other.triangles = {0, 1, 3};
+  expect_refused(other, ContactArray::INVALID_REQUEST, "same topology, other triangles", {},
+                 second_);
+}
+
+TEST_F(OrganStoreTest, ARefusedMeshDoesNotMakeItsConnectionKnown) {
+  apply(mesh(), ros::Time(7), first_);
+  OrganMesh bad = mesh();
+  bad.triangles = {0, 1, 4};
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "index out of range", {}, second_);
+  bad.triangles = {0, 1, 3};
+  EXPECT_EQ(apply(bad, ros::Time(8), second_), OrganChange::kOrgan);
+}
+
+TEST_F(OrganStoreTest, ForgottenConnectionsAreNew) {
+  apply(mesh(), ros::Time(7), first_);
+  store_.forget_connections();
+  OrganMesh other = mesh();
+  other.triangles = {0, 1, 3};
+  EXPECT_EQ(apply(other, ros::Time(8), first_), OrganChange::kOrgan);
+  expect_refused(mesh(), ContactArray::INVALID_REQUEST, "same topology, other triangles", {},
+                 first_);
+}
+
+TEST_F(OrganStoreTest, WhatIsNewIsSaidBeforehand) {
+  EXPECT_TRUE(store_.is_new(mesh(), first_));
+  apply(mesh(), ros::Time(7), first_);
+  EXPECT_FALSE(store_.is_new(mesh(), first_));
+  EXPECT_FALSE(store_.is_new(mesh(), second_));
+  EXPECT_TRUE(store_.is_new(mesh("liver", 2), first_));
+  OrganMesh other = mesh();
+  other.triangles = {0, 1, 3};
+  EXPECT_FALSE(store_.is_new(other, first_));
+  EXPECT_TRUE(store_.is_new(other, second_));
+}
+
 TEST_F(OrganStoreTest, OtherFrame) {
   apply(mesh(), ros::Time(7));
   OrganMesh elsewhere = mesh();
@@ -150,6 +220,28 @@ TEST_F(OrganStoreTest, OrganWhoseMeshesWereAllRefusedHasNoMesh) {
   bad.organ = "spleen";
   expect_refused(bad, ContactArray::INVALID_REQUEST, "empty frame");
   EXPECT_EQ(status_of("spleen"), ContactArray::NO_MESH);
+}
+
+TEST_F(OrganStoreTest, IllegalNamesAreRefusedAndNotKept) {
+  const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
+  for (const std::string& name : {std::string(10'000'000, 'x'), std::string("li\nver")}) {
+    OrganMesh bad = mesh(name);
+    expect_refused(bad, invalid, "illegal name", {"organ"});
+    bad.vertices.clear();
+    bad.triangles.clear();
+    expect_refused(bad, invalid, "illegal name", {"organ"});
+    EXPECT_EQ(status_of(name), ContactArray::UNKNOWN_ORGAN);
+    OrganVertices bad_vertices = vertices(1);
+    bad_vertices.organ = name;
+    expect_refused(bad_vertices, invalid, "illegal name", {"organ"});
+    bad = mesh();
+    bad.header.frame_id = name;
+    expect_refused(bad, invalid, "illegal name", {"header.frame_id"});
+  }
+  apply(mesh(), ros::Time(7));
+  OrganVertices elsewhere = vertices(1);
+  elsewhere.header.frame_id = std::string(10'000'000, 'x');
+  expect_refused(elsewhere, invalid, "illegal name", {"header.frame_id"});
 }
 
 TEST_F(OrganStoreTest, BadMeshesLeaveTheGoodOne) {

@@ -72,6 +72,8 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.tf_timeout_sec, 0.02);
   EXPECT_EQ(p.mesh_timeout_sec, 0.0);
   EXPECT_EQ(p.max_faces, 2'000'000);
+  EXPECT_EQ(p.max_batch, 1000);
+  EXPECT_EQ(p.max_batch_bytes, 67'108'864);
   EXPECT_FALSE(p.publish_regions);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_TRUE(loaded.misspelt.empty());
@@ -89,6 +91,8 @@ TEST(Parameters, EveryValueIsTaken) {
   all["tf_timeout_sec"] = 0;
   all["mesh_timeout_sec"] = 1.5;
   all["max_faces"] = 1224;
+  all["max_batch"] = 20'000;
+  all["max_batch_bytes"] = 4096;
   all["publish_regions"] = true;
   all["diagnostic_period"] = 0.25;
   const NodeParameters p = parse_parameters(all).parameters;
@@ -105,6 +109,8 @@ TEST(Parameters, EveryValueIsTaken) {
   EXPECT_EQ(p.tf_timeout_sec, 0.0);
   EXPECT_EQ(p.mesh_timeout_sec, 1.5);
   EXPECT_EQ(p.max_faces, 1224);
+  EXPECT_EQ(p.max_batch, 20'000);
+  EXPECT_EQ(p.max_batch_bytes, 4096);
   EXPECT_TRUE(p.publish_regions);
   EXPECT_EQ(p.diagnostic_period_sec, 0.25);
 }
@@ -121,6 +127,8 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   expect_words(refusal("tf_timeout_sec", -0.1), {"~tf_timeout_sec", "-0.1", "at least 0"});
   expect_words(refusal("mesh_timeout_sec", -2), {"~mesh_timeout_sec", "-2", "at least 0"});
   expect_words(refusal("max_faces", 0), {"~max_faces", "at least 1", "16777216"});
+  expect_words(refusal("max_batch", 0), {"~max_batch", "at least 1", "1000000"});
+  expect_words(refusal("max_batch_bytes", 0), {"~max_batch_bytes", "at least 1", "1000000000"});
   expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
   expect_words(refusal("diagnostic_period", 0.0), {"~diagnostic_period", "'0'", "at least 0.01"});
   expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
@@ -131,6 +139,14 @@ TEST(Parameters, IllegalToolsAreNamed) {
   expect_words(refusal_of_tool("radius", 0.0), {"~tools[0]/radius", "'0'", "more than 0"});
   expect_words(refusal_of_tool("radius", infinity), {"~tools[0]/radius", "inf", "more than 0"});
   expect_words(refusal_of_tool("name", ""), {"~tools[0]/name", "not empty"});
+  const std::string too_long(257, 'x');
+  for (const char* name : {"name", "trocar_frame", "tip_frame"}) {
+    expect_words(refusal_of_tool(name, too_long), {name, "at most 256 bytes"});
+  }
+  expect_words(refusal_of_tool("name", "ho\nok"), {"~tools[0]/name", "control characters"});
+  XmlRpcValue links;
+  links[0] = too_long;
+  expect_words(refusal_of_links("links", links), {"~tools[0]/links", "at most 256 bytes"});
   expect_words(refusal_of_tool("tip_frame", ""), {"~tools[0]/tip_frame", "not empty"});
   expect_words(refusal_of_tool("tip_frame", "/"), {"~tools[0]/tip_frame", "'/'"});
   expect_words(refusal_of_tool("tip_frame", "hook_trocar"),

@@ -122,6 +122,7 @@ TEST_F(PoseTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   expect_rejected(pose("base", ros::Time::now().toSec() + 60.0, {0.1, 0.2, 0.3}), "clock");
   expect_rejected(pose("base", 1.0, {0.4, 0.5, 0.6}), "stamp of an earlier one");
   expect_rejected(pose("", 2.0, {0.1, 0.2, 0.3}), "frame_id");
+  expect_rejected(pose(std::string(10'000'000, 'x'), 2.0, {0.1, 0.2, 0.3}), "at most 256 bytes");
   expect_rejected(pose("left_tip", 2.0, {0.1, 0.2, 0.3}), "own frame");
   auto turned = pose("base", 2.0, {0.1, 0.2, 0.3});
   turned.pose.orientation.w = 0.0;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "hand_filled_transforms.hpp"
+#include "organ_collision/ros/plain_text.hpp"
 
 using namespace organ_collision;
 using Eigen::Isometry3d;
@@ -60,6 +61,20 @@ TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
     EXPECT_NE(lookup.why_not.find(std::string("from ") + frame + " to liver"), std::string::npos)
         << lookup.why_not;
   }
+}
+
+TEST(LookUp, ALoopAmongManyFramesIsToldInAShortMessage) {
+  tf2::BufferCore buffer;
+  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "b", "a", 3.0, pose(0.1, 0.5));
+  for (int i = 0; i < 1000; ++i) {
+    set_transform(buffer, "b", std::string(1000, 'x') + std::to_string(i), 3.0, pose(0.1, 0.5));
+  }
+  const auto lookup = look_up(buffer, "liver", "a", ros::Time(3.0));
+  EXPECT_FALSE(lookup.found);
+  EXPECT_LE(lookup.why_not.size(), 2 * kLongestMessage);
+  EXPECT_NE(lookup.why_not.find("from a to liver"), std::string::npos) << lookup.why_not;
 }
 
 TEST(LookUp, NothingOutsideTheKnownTimes) {

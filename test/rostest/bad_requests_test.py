@@ -42,6 +42,12 @@ class BadRequestsTest(ContactCase):
             self.assertIn(word, result.message)
         self.assert_good_state()
 
+    def assert_invalid_batch(self, answer, status, *words):
+        self.assertEqual((answer.status, answer.results), (status, []), answer.message)
+        for word in words:
+            self.assertIn(word, answer.message)
+        self.assert_good_state()
+
     def test_radius(self):
         for radius, word in ((0.0, '0'), (-0.25, '-0.25'), (NAN, 'nan'), (INFINITY, 'inf')):
             for mode in range(5):
@@ -91,8 +97,8 @@ class BadRequestsTest(ContactCase):
         self.assert_invalid(
             self.node.query('kidney', motion), ContactArray.UNKNOWN_ORGAN, 'kidney', 'good'
         )
-        self.assert_invalid(
-            self.node.query_batch('kidney', [motion])[0], ContactArray.UNKNOWN_ORGAN, 'kidney'
+        self.assert_invalid_batch(
+            self.node.answer_batch('kidney', [motion]), ContactArray.UNKNOWN_ORGAN, 'kidney', 'good'
         )
         self.assert_invalid(
             self.node.query('good', tool='scalpel'), ContactArray.UNKNOWN_TOOL, 'scalpel', 'grasper'
@@ -110,8 +116,8 @@ class BadRequestsTest(ContactCase):
                 str(mode),
                 '4',
             )
-            self.assert_invalid(
-                self.node.query_batch('good', [shaft(*AXIS, 0.005, AXIS)], mode)[0],
+            self.assert_invalid_batch(
+                self.node.answer_batch('good', [shaft(*AXIS, 0.005, AXIS)], mode),
                 ContactArray.INVALID_REQUEST,
                 str(mode),
             )
@@ -122,8 +128,8 @@ class BadRequestsTest(ContactCase):
             self.node.query('good', motion, frame='nowhere'), ContactArray.NO_TRANSFORM, 'nowhere'
         )
         self.assert_invalid(self.node.query('good', motion, frame=''), ContactArray.INVALID_REQUEST)
-        self.assert_invalid(
-            self.node.query_batch('good', [motion], frame='nowhere')[0],
+        self.assert_invalid_batch(
+            self.node.answer_batch('good', [motion], frame='nowhere'),
             ContactArray.NO_TRANSFORM,
             'nowhere',
         )

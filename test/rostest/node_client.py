@@ -223,9 +223,18 @@ class NodeClient:
         request.header.stamp = stamp
         return self.query_service(request).result
 
-    def query_batch(self, organ, motions, mode=ContactArray.STATIC, frame=None, organ_motion=False):
+    def answer_batch(
+        self, organ, motions, mode=ContactArray.STATIC, frame=None, organ_motion=False
+    ):
         request = QueryCollisionBatchRequest(
             organ=organ, motions=motions, mode=mode, organ_motion=organ_motion
         )
         request.header.frame_id = self.frame if frame is None else frame
-        return self.batch_service(request).results
+        return self.batch_service(request)
+
+    def query_batch(self, *args, **named):
+        """The results of a batch that can be answered."""
+        answer = self.answer_batch(*args, **named)
+        if answer.status != ContactArray.OK:
+            raise AssertionError('batch refused: %d, %s' % (answer.status, answer.message))
+        return answer.results

@@ -9,7 +9,9 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <boost/make_shared.hpp>
+#include <cstdint>
 #include <functional>
+#include <vector>
 
 namespace organ_collision {
 namespace {
@@ -64,6 +66,15 @@ class NodeletTest : public testing::Test {
         wait_for([&] { return received_ && received_->mesh_stamp == shape->header.stamp; }));
   }
 
+  /// Publishes a mesh, of topology 0, until it is answered.
+  void send_mesh(const std::vector<std::uint32_t>& triangles) {
+    const auto mesh = sheet_message<OrganMesh>(0.005F);
+    mesh->triangles = triangles;
+    mesh_.publish(mesh);
+    ASSERT_TRUE(
+        wait_for([&] { return received_ && received_->header.stamp == mesh->header.stamp; }));
+  }
+
   ros::NodeHandle node_;
   tf2_ros::StaticTransformBroadcaster frames_;
   ros::Subscriber contacts_;
@@ -93,6 +104,22 @@ TEST_F(NodeletTest, KeepsShapesOfTheSameProcessWithoutACopy) {
   EXPECT_TRUE(received_->contacts.empty());
   send(sheet_message<OrganVertices>(-0.3F));
   EXPECT_TRUE(wait_for([&] { return shape.use_count() == 1; }));
+}
+
+TEST_F(NodeletTest, AMeshOfANewPublisherOfTheSameProcessIsAnotherOrgan) {
+  nodelet::Loader loader(false);
+  ASSERT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
+  send_mesh({0, 1, 2, 0, 2, 3});
+  EXPECT_EQ(received_->status, ContactArray::OK) << received_->message;
+  send_mesh({0, 1, 2});
+  EXPECT_EQ(received_->status, ContactArray::INVALID_REQUEST);
+  send_mesh({0, 1, 2, 0, 2, 3});
+  EXPECT_EQ(received_->mode, ContactArray::SWEPT);
+  mesh_.shutdown();
+  mesh_ = node_.advertise<OrganMesh>("/organ_collision/organ_mesh", 1, true);
+  send_mesh({0, 1, 2});
+  EXPECT_EQ(received_->status, ContactArray::OK) << received_->message;
+  EXPECT_EQ(received_->mode, ContactArray::STATIC);
 }
 
 TEST_F(NodeletTest, IsLoadedAgainAfterUnloading) {

@@ -12,7 +12,8 @@
 namespace organ_collision {
 
 /// An answer about one organ and one tool, a shaft alone, still without contacts; header.stamp and
-/// step_start are `stamp`.
+/// step_start are `stamp`. The names are those of a message and need not be legal: the answer has
+/// them as plain text of at most kLongestName bytes (plain_text.hpp).
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
 
@@ -22,6 +23,7 @@ void set_links(ContactArray& answer, const ToolParameters& tool);
 /// Frame, topology and mesh stamp of the shape that the answer is about.
 void set_organ(ContactArray& answer, const Organ& organ, const OrganShape& shape);
 
+/// The message is cut to kLongestMessage bytes of plain text.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
 /// The short name of a status, as failures are counted by.

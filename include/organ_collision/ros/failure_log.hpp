@@ -15,7 +15,7 @@ class FailureLog {
   struct Entry {
     std::uint64_t count = 0;
     std::uint64_t not_yet_reported = 0;  ///< since the last call of reported()
-    std::string latest;                  ///< message
+    std::string latest;                  ///< message, plain and at most kLongestMessage bytes
     Time logged;
   };
 

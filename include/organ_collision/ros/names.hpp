@@ -23,6 +23,8 @@ inline constexpr char kMotionSamplesMax[] = "motion_samples_max";
 inline constexpr char kTfTimeoutSec[] = "tf_timeout_sec";
 inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
 inline constexpr char kMaxFaces[] = "max_faces";
+inline constexpr char kMaxBatch[] = "max_batch";
+inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
 inline constexpr char kPublishRegions[] = "publish_regions";
 inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
 

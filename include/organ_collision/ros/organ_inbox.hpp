@@ -13,6 +13,7 @@
 #include <thread>
 
 #include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/ros/connection.hpp"
 
 namespace organ_collision {
 
@@ -29,10 +30,13 @@ class OrganInbox {
   struct Callbacks {
     /// Throws MeshError. Called in the inbox's own thread.
     std::function<TriangleMesh(const OrganMeshConstPtr&)> make;
-    /// Whether the organ already has the message's topology: there is nothing to make then.
-    std::function<bool(const OrganMesh&)> is_known;
+    /// Whether the organ already has the message's triangles, or will refuse them: there is
+    /// nothing to make then.
+    std::function<bool(const OrganMesh&, const Connection&)> is_known;
     /// Takes a message. `made` gives the mesh, or throws what making it threw; at most once.
-    std::function<void(const OrganMeshConstPtr&, const std::function<TriangleMesh()>& made)> take;
+    std::function<void(const OrganMeshConstPtr&, const Connection&,
+                       const std::function<TriangleMesh()>& made)>
+        take;
     std::function<void(const OrganVerticesConstPtr&)> take_vertices;
     /// Called in the inbox's own thread: hand_on has something to do.
     std::function<void()> wake;
@@ -43,7 +47,7 @@ class OrganInbox {
   OrganInbox(const OrganInbox&) = delete;
   OrganInbox& operator=(const OrganInbox&) = delete;
 
-  void add(const OrganMeshConstPtr& message);
+  void add(const OrganMeshConstPtr& message, const Connection& connection = {});
   void add(const OrganVerticesConstPtr& message);
   /// Everything that waits for nothing any more.
   void hand_on();
@@ -52,6 +56,7 @@ class OrganInbox {
   /// One of the two.
   struct Entry {
     OrganMeshConstPtr mesh;
+    Connection connection;  ///< of the mesh
     OrganVerticesConstPtr vertices;
     std::future<TriangleMesh> made;  ///< of a large mesh only
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 
+#include "organ_collision/ros/connection.hpp"
 #include "organ_collision/ros/organ.hpp"
 #include "organ_collision/ros/rejection.hpp"
 
@@ -19,6 +20,7 @@ namespace organ_collision {
 enum class OrganChange {
   kShape,   ///< it has a new shape
   kFrame,   ///< it has a new shape, in another frame: nothing known before compares to it
+  kOrgan,   ///< it is another organ of that name: nothing known before compares to it
   kRemoved  ///< it is gone
 };
 
@@ -32,15 +34,19 @@ class OrganStore {
 
   /// Throw Rejection. The message's vertices become the organ's shape as they are, without a copy;
   /// the message lives as long as that shape is needed. `made` gives what `make` would, asked only
-  /// where the triangles are new.
-  OrganChange apply(const OrganMeshConstPtr& message, ros::Time now,
+  /// where the triangles are new. New triangles under the number that the organ has are another
+  /// organ where they come over a connection that is new to it, as from a simulator that was
+  /// restarted, and are refused over any other.
+  OrganChange apply(const OrganMeshConstPtr& message, const Connection& connection, ros::Time now,
                     const std::function<TriangleMesh()>& made);
   OrganChange apply(const OrganMeshConstPtr& message, ros::Time now) {
-    return apply(message, now, [&] { return make(message); });
+    return apply(message, {}, now, [&] { return make(message); });
   }
   OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now);
-  /// Whether the organ has triangles of that topology.
-  bool has_topology(const std::string& organ, std::uint32_t topology) const;
+  /// Whether `apply` would ask for `made`.
+  bool is_new(const OrganMesh& message, const Connection& connection) const;
+  /// All connections are new again: the next mesh of each organ may be another organ.
+  void forget_connections() { connections_.clear(); }
 
   /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for one that was removed or never sent validly.
   const Organ& at(const std::string& name) const;
@@ -50,13 +56,17 @@ class OrganStore {
   void forget_previous_shapes();
 
  private:
-  OrganChange apply_checked(const OrganMeshConstPtr& message, const std::string& frame,
-                            ros::Time now, const std::function<TriangleMesh()>& made);
+  OrganChange apply_checked(const OrganMeshConstPtr& message, const Connection& connection,
+                            const std::string& frame, ros::Time now,
+                            const std::function<TriangleMesh()>& made);
+  bool is_another_organ(const Organ& organ, const OrganMesh& message,
+                        const Connection& connection) const;
   std::string known_organs() const;
 
   MeshLimits limits_;
   std::map<std::string, Organ> organs_;
-  std::set<std::string> without_mesh_;  ///< heard of, but removed or never valid
+  std::map<std::string, ConnectionSet> connections_;  ///< by organ: over which its meshes came
+  std::set<std::string> without_mesh_;                ///< heard of, but removed or never valid
 };
 
 }  // namespace organ_collision

@@ -49,6 +49,8 @@ class ParameterGroup {
   /// One sentence for each member that has no legal name, with the legal name nearest to it.
   std::vector<std::string> misspelt() const;
 
+  /// Throws ParameterError where `text`, of the member, is no legal name (plain_text.hpp).
+  void check_name(const std::string& name, const std::string& text) const;
   /// Throws ParameterError: "~path/name is VALUE; LEGAL".
   [[noreturn]] void refuse(const std::string& name, const std::string& legal) const;
   /// Throws ParameterError: "~path/name is missing; LEGAL", with what may be meant for it.

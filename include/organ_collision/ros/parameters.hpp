@@ -41,6 +41,8 @@ struct NodeParameters {
   double tf_timeout_sec = 0.02;
   double mesh_timeout_sec = 0.0;  ///< 0: never stale
   int max_faces = 2'000'000;
+  int max_batch = 1000;            ///< motions of a batch
+  int max_batch_bytes = 64 << 20;  ///< [bytes] of the results of a batch, as ROS sends them
   bool publish_regions = false;
   double diagnostic_period_sec = 1.0;  ///< of wall time
 };

@@ -2,8 +2,11 @@
 
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
+#include <std_msgs/Header.h>
 #include <tf2/buffer_core.h>
 
+#include <Eigen/Geometry>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,6 +16,7 @@
 #include "organ_collision/ros/step_history.hpp"
 #include "organ_collision/ros/tool.hpp"
 #include "organ_collision/ros/tool_poses.hpp"
+#include "organ_collision/ros/transforms.hpp"
 
 namespace organ_collision {
 
@@ -33,13 +37,23 @@ class QueryServices {
   explicit QueryServices(const Sources& sources) : sources_(sources) {}
 
   ContactArray query(const QueryCollision::Request& request) const;
+  /// One look-up in TF serves the whole batch. A batch that fails as a whole has no results, only a
+  /// status and a message: where it is larger than max_batch, or where its results grow larger than
+  /// max_batch_bytes, too.
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request) const;
 
  private:
-  const Tool& find_tool(const std::string& name) const;
+  // All throw Rejection.
   void answer(const QueryCollision::Request& request, ContactArray& answer) const;
-  void set_motion(const QueryCollision::Request& request, const Organ& organ,
-                  CollisionRequest& collision, ContactArray& answer) const;
+  void answer(const QueryCollisionBatch::Request& request,
+              QueryCollisionBatch::Response& response) const;
+  void check_size(std::size_t motions) const;
+  void check_bytes(std::size_t bytes, std::size_t answered, std::size_t motions) const;
+  const Tool& find_tool(const std::string& name) const;
+  const Organ& find_organ(const std::string& name) const;
+  void check_age(const Organ& organ) const;
+  /// The transform from the frame of a request's motions to the organ's.
+  Timed<Eigen::Isometry3d> motion_frame(const std_msgs::Header& header, const Organ& organ) const;
   void set_tool_motion(const QueryCollision::Request& request, const Organ& organ, const Tool& tool,
                        CollisionRequest& collision, ContactArray& answer) const;
 

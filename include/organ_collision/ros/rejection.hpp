@@ -21,4 +21,8 @@ class Rejection : public std::runtime_error {
   std::string reason_;
 };
 
+/// Throws Rejection where an organ, a tool or a frame has no legal name (plain_text.hpp), as "WHAT
+/// 'NAME' ...". An empty name passes.
+void check_name(const std::string& what, const std::string& name);
+
 }  // namespace organ_collision

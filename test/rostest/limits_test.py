@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""Names and batches of any size: what is too large is refused in a small answer, which says what is
+legal."""
+
+import io
+import sys
+
+from organ_collision.msg import ContactArray
+import rospy
+from rosgraph_msgs.msg import Log
+import rostest
+
+from contact_case import ContactCase
+from node_client import NodeClient, TfSender, shaft, wait_until
+import oracle
+import scenes
+
+SHEET = scenes.sheet(0.1, 4)
+AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+GOOD = rospy.Time(5)
+HUGE = 'x' * 10**7
+ILLEGAL = (HUGE, 'a\nb', '\x1b[31m')
+SMALL = 4000  # [bytes] more than the longest names and the longest message together
+
+
+def size(message):
+    buffer = io.BytesIO()
+    message.serialize(buffer)
+    return len(buffer.getvalue())
+
+
+class LimitsTest(ContactCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.node = NodeClient()
+        cls.log = []
+        cls.log_subscriber = rospy.Subscriber('/rosout', Log, cls.log.append)
+        wait_until(lambda: cls.log_subscriber.get_num_connections() > 0, 'the log')
+        cls.node.send_mesh('good', SHEET, GOOD)
+        cls.node.wait_for_shape('good', GOOD)
+
+    def assert_refused(self, answer, *words):
+        self.assertEqual(answer.status, ContactArray.INVALID_REQUEST, answer.message[:1000])
+        self.assertLess(size(answer), SMALL)
+        for word in words:
+            self.assertIn(word, answer.message)
+
+    def test_illegal_names_in_requests(self):
+        motion = shaft(*AXIS, 0.005)
+        for name in ILLEGAL:
+            self.assert_refused(self.node.query(name, motion), 'organ', '256')
+            self.assert_refused(self.node.query('good', tool=name), 'tool', '256')
+            self.assert_refused(self.node.query('good', motion, frame=name), 'frame_id', '256')
+            for batch in (
+                self.node.answer_batch(name, [motion] * 30),
+                self.node.answer_batch('good', [motion] * 30, frame=name),
+            ):
+                self.assert_refused(batch, '256')
+                self.assertEqual(batch.results, [])
+
+    def test_illegal_names_in_messages(self):
+        for number, name in enumerate(ILLEGAL):
+            stamp = rospy.Time(10 + number)
+            self.node.send_mesh(name, SHEET, stamp)
+            answer = wait_until(
+                lambda: [m for m in self.node.contacts.messages if m.header.stamp == stamp],
+                'an answer about the illegal name',
+            )[0]
+            self.assert_refused(answer, 'organ', '256')
+            wait_until(
+                lambda: [m for m in self.log if 'illegal name' in m.msg], 'a warning in the log'
+            )
+        self.assertLess(max(len(m.msg) for m in self.log), SMALL)
+        self.assertLess(max(map(len, self.node.diagnostics.values()), default=0), SMALL)
+
+    def test_a_loop_in_tf_with_long_names(self):
+        tf = TfSender()
+        wait_until(tf.connected, 'connections to TF')
+        tf.send_resting(
+            ('loop_a', 'loop_b', scenes.Pose((0, 0, 0, 1), (0, 0, 1))),
+            ('loop_b', 'loop_a', scenes.Pose((0, 0, 0, 1), (0, 0, 1))),
+            ('table', 'liver_frame', scenes.Pose((0, 0, 0, 1), (0, 0, 1))),
+            *[
+                ('loop_b', 'x' * 1000 + str(i), scenes.Pose((0, 0, 0, 1), (0, 0, 1)))
+                for i in range(500)
+            ]
+        )
+        motion = shaft(*AXIS, 0.005)
+        wait_until(
+            lambda: 'loop.' in self.node.query('good', motion, frame='loop_a').message, 'the loop'
+        )
+        answer = self.node.query('good', motion, frame='loop_a')
+        self.assertEqual(answer.status, ContactArray.NO_TRANSFORM)
+        self.assertLess(size(answer), SMALL)
+        batch = self.node.answer_batch('good', [motion] * 30, frame='loop_a')
+        self.assertEqual((batch.status, batch.results), (ContactArray.NO_TRANSFORM, []))
+        self.assertLess(size(batch), SMALL)
+
+    def test_a_batch_of_too_many_motions(self):
+        motion = shaft(*AXIS, 0.005)
+        expected = oracle.static_contacts(SHEET, AXIS, 0.005)
+        self.assertGreater(len(expected), 0)
+        answer = self.node.answer_batch('good', [motion] * 30)
+        self.assertEqual((answer.status, answer.message), (ContactArray.OK, ''))
+        self.assertEqual(len(answer.results), 30)
+        for result in answer.results:
+            self.assert_contacts(result, expected)
+        answer = self.node.answer_batch('good', [motion] * 31)
+        self.assert_refused(answer, '31 motions', '30', 'max_batch')
+        self.assertEqual(answer.results, [])
+        # The log and /diagnostics count it.
+        wait_until(
+            lambda: [m for m in self.log if '31 motions' in m.msg], 'a warning in the log'
+        )
+
+    def test_a_batch_whose_answers_are_too_large(self):
+        through_all = shaft((0.0, 0.0, 0.1), (0.0, 0.0, -0.1), 0.2)
+        one = self.node.query('good', through_all)
+        self.assertEqual(len(one.contacts), 32)
+        fit = 100000 // size(one)
+        self.assertIn(fit, range(10, 30))
+        answer = self.node.answer_batch('good', [through_all] * fit)
+        self.assertEqual((answer.status, len(answer.results)), (ContactArray.OK, fit))
+        answer = self.node.answer_batch('good', [through_all] * 30)
+        self.assert_refused(answer, 'first %d of 30' % (fit + 1), '100000', 'max_batch_bytes')
+        self.assertEqual(answer.results, [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('limits_test')
+    rostest.rosrun('organ_collision', 'limits', LimitsTest, sys.argv)
