@@ -43,17 +43,10 @@ PathSampling sampling(const NodeParameters& parameters) {
   return {parameters.motion_sample_sec, parameters.motion_samples_max};
 }
 
-/// What another thread asks this one to do.
-class QueuedCall : public ros::CallbackInterface {
+/// Ends the wait for a callback, and does no more.
+class WakeUp : public ros::CallbackInterface {
  public:
-  explicit QueuedCall(std::function<void()> function) : function_(std::move(function)) {}
-  CallResult call() override {
-    function_();
-    return Success;
-  }
-
- private:
-  std::function<void()> function_;
+  CallResult call() override { return Success; }
 };
 
 void count_failure(FailureLog& log, const ContactArray& answer) {
@@ -144,16 +137,23 @@ void CollisionNode::call_callbacks() {
   const SteadyClock::time_point end = SteadyClock::now() + kLongestDrain;
   while (called && SteadyClock::now() < end) called = call_one(ros::WallDuration(0.0));
   watch_clock();
+  guard([this] { inbox_.hand_on(); });
 }
 
 /// False: there was none.
 bool CollisionNode::call_one(ros::WallDuration wait) {
   watch_clock();
+  bool called = true;
+  guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
+  return called;
+}
+
+/// What a callback throws is counted, and the node goes on.
+void CollisionNode::guard(const std::function<void()>& callback) {
   try {
-    return queue_.callOne(wait) == ros::CallbackQueue::Called;
-  } catch (const std::exception& error) {  // As tf2's listener throws at absurd stamps.
+    callback();
+  } catch (const std::exception& error) {  // Above all, that memory is short.
     counters_.rejected.add("exception", error.what(), SteadyClock::now());
-    return true;
   }
 }
 
@@ -184,9 +184,7 @@ OrganInbox::Callbacks CollisionNode::inbox_callbacks() {
   callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
     change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now); });
   };
-  callbacks.wake = [this] {
-    queue_.addCallback(boost::make_shared<QueuedCall>([this] { inbox_.hand_on(); }));
-  };
+  callbacks.wake = [this] { queue_.addCallback(boost::make_shared<WakeUp>()); };
   return callbacks;
 }
 

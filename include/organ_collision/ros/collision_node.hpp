@@ -39,6 +39,7 @@ class CollisionNode {
  private:
   void call_callbacks();
   bool call_one(ros::WallDuration wait);
+  void guard(const std::function<void()>& callback);
   void watch_clock();
   void evaluate();
   void tip_moved(std::size_t tool);

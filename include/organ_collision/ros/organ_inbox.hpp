@@ -34,7 +34,7 @@ class OrganInbox {
     /// Takes a message. `made` gives the mesh, or throws what making it threw; at most once.
     std::function<void(const OrganMeshConstPtr&, const std::function<TriangleMesh()>& made)> take;
     std::function<void(const OrganVerticesConstPtr&)> take_vertices;
-    /// Called in the inbox's own thread: hand_on has something to do.
+    /// Called in the inbox's own thread: hand_on has something to do. It may throw bad_alloc.
     std::function<void()> wake;
   };
   explicit OrganInbox(Callbacks callbacks);
@@ -45,7 +45,8 @@ class OrganInbox {
 
   void add(const OrganMeshConstPtr& message);
   void add(const OrganVerticesConstPtr& message);
-  /// Everything that waits for nothing any more.
+  /// Everything that waits for nothing any more. To be called now and then even without a wake. What
+  /// a callback throws comes out; what stood behind that message is handed on by the next call.
   void hand_on();
 
  private:
@@ -64,6 +65,7 @@ class OrganInbox {
   void hand_on(Entry& entry) const;
   std::future<TriangleMesh> start_making(const OrganMeshConstPtr& message);
   void make_meshes();
+  void wake() const;
 
   Callbacks callbacks_;
   std::map<std::string, Entries> waiting_;  ///< by organ; only those for which something waits
