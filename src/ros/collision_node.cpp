@@ -68,14 +68,14 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
              [this](const EvaluatedStep& step) { publish(step); }),
       services_(
           {loaded_.parameters, tools_, organs_, transforms_, poses_, steps_.history(), evaluator_}),
-      diagnostics_(
-          {loaded_.parameters, tools_, loaded_.misspelt, organs_, evaluator_, steps_, counters_}),
+      diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, organs_, evaluator_, steps_,
+                    transforms_, counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       tool_is_due_(tools_.size(), false),
       contacts_(private_node_.advertise<ContactArray>(names::kContacts, 100)),
       markers_(private_node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 100)),
-      transform_listener_(transforms_, node_, false),
-      pose_topics_(loaded_.parameters.tools, {transforms_, poses_, counters_.rejected,
+      transform_topics_(transforms_, counters_.rejected),
+      pose_topics_(loaded_.parameters.tools, {transforms_, counters_.rejected,
                                               [this](std::size_t tool) { tip_moved(tool); }}),
       inbox_(inbox_callbacks()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
@@ -91,6 +91,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
           [this](const OrganVerticesConstPtr& message) { inbox_.add(message); }, {}, no_delay)};
+  transform_topics_.subscribe(node_);
   pose_topics_.subscribe(node_);
   servers_ = {
       private_node_.advertiseService(names::kQuery, &CollisionNode::on_query, this),
@@ -164,7 +165,6 @@ void CollisionNode::watch_clock() {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
     transforms_.clear();
-    poses_.forget_samples();
     pose_topics_.forget_stamps();
     organs_.forget_previous_shapes();
     steps_.start_anew(organs_);

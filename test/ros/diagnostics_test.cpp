@@ -26,7 +26,8 @@ class DiagnosticsTest : public testing::Test, protected NodeParts {
   std::vector<std::string> misspelt;
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  Diagnostics diagnostics{{parameters, tools, misspelt, organs, evaluator, steps, counters}};
+  Diagnostics diagnostics{
+      {parameters, tools, misspelt, organs, evaluator, steps, transforms, counters}};
 };
 
 }  // namespace

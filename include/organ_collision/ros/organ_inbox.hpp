@@ -45,8 +45,9 @@ class OrganInbox {
 
   void add(const OrganMeshConstPtr& message);
   void add(const OrganVerticesConstPtr& message);
-  /// Everything that waits for nothing any more. To be called now and then even without a wake. What
-  /// a callback throws comes out; what stood behind that message is handed on by the next call.
+  /// Everything that waits for nothing any more. To be called now and then even without a wake.
+  /// What a callback throws comes out; what stood behind that message is handed on by the next
+  /// call.
   void hand_on();
 
  private:
