@@ -46,7 +46,7 @@ ToolPath PathBuilder::take() {
 /// straight.
 double PathBuilder::bend(const ToolWaypoint& a, const ToolWaypoint& b,
                          const ToolWaypoint& c) const {
-  const Deviation deviation = deviation_(a, b, c);
+  const Deviation deviation = deviation_(b, StraightWay(a, c));
   return std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
 }
 

@@ -19,8 +19,9 @@ struct Leg {
 Leg straight_leg(const ToolPath& path, const PathDeviation& deviation, std::size_t begin,
                  std::size_t end) {
   Leg leg{begin, end, begin};
+  const StraightWay way(path[begin], path[end]);
   for (std::size_t i = begin + 1; i < end; ++i) {
-    const double most = deviation(path[begin], path[i], path[end]).most();
+    const double most = deviation(path[i], way).most();
     if (most > leg.deviation) {
       leg.deviation = most;
       leg.farthest = i;

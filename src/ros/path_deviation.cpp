@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "organ_collision/geometry/rigid_motion.hpp"
-
 namespace organ_collision {
 namespace {
 
@@ -34,18 +32,25 @@ double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double r
 
 }  // namespace
 
+StraightWay::StraightWay(const ToolWaypoint& from, const ToolWaypoint& to)
+    : begin(from.fraction), duration(to.fraction - from.fraction), axis{from.axis, to.axis} {
+  links.reserve(from.links.size());
+  for (std::size_t i = 0; i < from.links.size(); ++i) {
+    links.emplace_back(from.links[i], to.links[i]);
+  }
+}
+
 PathDeviation::PathDeviation(const std::vector<Link>& links) {
   reaches_.reserve(links.size());
   for (const Link& link : links) reaches_.push_back(reach(link));
 }
 
-Deviation PathDeviation::operator()(const ToolWaypoint& a, const ToolWaypoint& b,
-                                    const ToolWaypoint& c) const {
-  const double time = (b.fraction - a.fraction) / (c.fraction - a.fraction);
-  Deviation deviation{distance(ShaftMotion{a.axis, c.axis}.at(time), b.axis), 0.0};
+Deviation PathDeviation::operator()(const ToolWaypoint& waypoint, const StraightWay& way) const {
+  const double time = (waypoint.fraction - way.begin) / way.duration;
+  Deviation deviation{distance(way.axis.at(time), waypoint.axis), 0.0};
   for (std::size_t i = 0; i < reaches_.size(); ++i) {
-    const Eigen::Isometry3d straight = RigidMotion(a.links[i], c.links[i]).at(time);
-    deviation.links = std::max(deviation.links, distance(straight, b.links[i], reaches_[i]));
+    deviation.links =
+        std::max(deviation.links, distance(way.links[i].at(time), waypoint.links[i], reaches_[i]));
   }
   return deviation;
 }

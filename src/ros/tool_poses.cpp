@@ -12,6 +12,10 @@
 namespace organ_collision {
 namespace {
 
+/// For each pose that is read, TF looks through all that it was told since: a step of many seconds
+/// would take most of one.
+constexpr std::size_t kMostRead = 1000;
+
 /// The times that some transforms are of, without those of any time.
 struct StampRange {
   ros::Time earliest, latest;  ///< zero: all are of any time
@@ -52,6 +56,15 @@ double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
 
+/// Leaves at most `most` of them, spread evenly. How many it took away.
+std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
+  const std::size_t size = times.size();
+  if (size <= most) return 0;
+  for (std::size_t i = 0; i < most; ++i) times[i] = times[i * size / most];
+  times.resize(most);
+  return size - most;
+}
+
 /// Adds so many times, evenly spaced between two.
 void add_even_times(ros::Time from, ros::Time to, std::size_t count,
                     std::vector<ros::Time>& times) {
@@ -83,6 +96,9 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
                                                ros::Time from, ros::Time to,
                                                std::size_t& cut) const {
   std::vector<ros::Time> told = buffer_.stamps_between(organ_frame, frames_of(tool), from, to);
+  const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
+  cut = thin_out(told, std::max(kMostRead, samples_max));
+  if (cut > 0) return told;
   told.push_back(to);
   const double spacing = std::max(sampling_.sample_sec, seconds(from, to) / sampling_.samples_max);
   std::vector<ros::Time> times;

@@ -27,7 +27,7 @@ ToolPath heights(const std::vector<double>& heights) {
 double distance(const ToolPath& path, const ToolWaypoint& waypoint) {
   std::size_t leg = 1;
   while (path[leg].fraction < waypoint.fraction) ++leg;
-  return kOfAShaft(path[leg - 1], waypoint, path[leg]).most();
+  return kOfAShaft(waypoint, StraightWay(path[leg - 1], path[leg])).most();
 }
 
 std::vector<double> fractions(const ToolPath& path) {

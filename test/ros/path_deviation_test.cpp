@@ -22,16 +22,16 @@ Isometry3d pose(const Vector3d& origin, double angle = 0.0) {
 
 TEST(PathDeviation, EitherEndOfTheAxisCounts) {
   const PathDeviation deviation({});
-  const Vector3d trocar(0.1, 0.2, 0.3), tip(0.4, 0.1, -0.2), way(0.04, -0.08, 0.02);
-  const ToolWaypoint a = at(0.2, trocar, tip), c = at(0.6, trocar + way, tip - way);
-  const ToolWaypoint straight = at(0.3, trocar + 0.25 * way, tip - 0.25 * way);
-  EXPECT_NEAR(deviation(a, straight, c).most(), 0.0, 1e-15);
+  const Vector3d trocar(0.1, 0.2, 0.3), tip(0.4, 0.1, -0.2), moved(0.04, -0.08, 0.02);
+  const StraightWay way(at(0.2, trocar, tip), at(0.6, trocar + moved, tip - moved));
+  const ToolWaypoint straight = at(0.3, trocar + 0.25 * moved, tip - 0.25 * moved);
+  EXPECT_NEAR(deviation(straight, way).most(), 0.0, 1e-15);
   ToolWaypoint bent = straight;
   bent.axis.tip += Vector3d(0.0, 0.003, -0.004);
-  EXPECT_NEAR(deviation(a, bent, c).axis, 0.005, 1e-15);
+  EXPECT_NEAR(deviation(bent, way).axis, 0.005, 1e-15);
   bent.axis.trocar += Vector3d(0.012, 0.0, -0.005);
-  EXPECT_NEAR(deviation(a, bent, c).axis, 0.013, 1e-15);
-  EXPECT_EQ(deviation(a, bent, c).links, 0.0);
+  EXPECT_NEAR(deviation(bent, way).axis, 0.013, 1e-15);
+  EXPECT_EQ(deviation(bent, way).links, 0.0);
 }
 
 TEST(PathDeviation, LinksCountWithAllThatTheyReach) {
@@ -42,15 +42,15 @@ TEST(PathDeviation, LinksCountWithAllThatTheyReach) {
     return at(fraction, rest, rest, {wrist, jaw});
   };
   const Isometry3d still = pose({0.1, 0.2, 0.3}, 0.4);
-  const ToolWaypoint a = poses(0.0, still, still), c = poses(1.0, still, still);
-  EXPECT_NEAR(deviation(a, poses(0.5, still, still), c).most(), 0.0, 1e-15);
+  const StraightWay way(poses(0.0, still, still), poses(1.0, still, still));
+  EXPECT_NEAR(deviation(poses(0.5, still, still), way).most(), 0.0, 1e-15);
   const Isometry3d aside = Eigen::Translation3d(0.0, 0.02, 0.0) * still;
-  EXPECT_NEAR(deviation(a, poses(0.5, aside, still), c).links, 0.02, 1e-12);
+  EXPECT_NEAR(deviation(poses(0.5, aside, still), way).links, 0.02, 1e-12);
   // The jaw's farthest point is 60 mm from its origin, the wrist's 10 mm.
   const Isometry3d turned = pose({0.1, 0.2, 0.3}, 0.5);
-  const double wrist = deviation(a, poses(0.5, turned, still), c).links;
-  const double jaw = deviation(a, poses(0.5, still, turned), c).links;
+  const double wrist = deviation(poses(0.5, turned, still), way).links;
+  const double jaw = deviation(poses(0.5, still, turned), way).links;
   EXPECT_GE(jaw, 0.06 * 2.0 * std::sin(0.05) - 1e-12);
   EXPECT_GT(jaw, wrist);
-  EXPECT_EQ(deviation(a, poses(0.5, turned, turned), c).most(), jaw);
+  EXPECT_EQ(deviation(poses(0.5, turned, turned), way).most(), jaw);
 }

@@ -165,6 +165,16 @@ TEST_F(ToolPosesTest, OfTooManyPosesThoseThatMatterMostStay) {
   EXPECT_LE(sampled.deviation_cut, 1e-6 + 1e-12);
 }
 
+TEST_F(ToolPosesTest, OfVeryManyPosesThoseReadAreSpreadEvenly) {
+  for (int i = 0; i <= 3000; ++i) send(1.0 + 0.001 * i);
+  const SampledPath sampled = path(1.0, 4.0, {1.0, 4});
+  ASSERT_EQ(sampled.path.size(), 5u);
+  EXPECT_EQ(sampled.samples_cut, 2999u - 3u);
+  for (int leg = 1; leg <= 4; ++leg) {
+    EXPECT_LT(sampled.path[leg].fraction - sampled.path[leg - 1].fraction, 0.5);
+  }
+}
+
 TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
   for (const double time : {1.0, 1.25, 1.75, 2.0}) send(time);
   send_trocar(1.5);

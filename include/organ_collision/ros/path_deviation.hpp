@@ -3,14 +3,26 @@
 #include <vector>
 
 #include "organ_collision/geometry/link.hpp"
+#include "organ_collision/geometry/rigid_motion.hpp"
 #include "organ_collision/geometry/tool_path.hpp"
 
 namespace organ_collision {
 
-/// How far a waypoint is from the straight way between two others, at its time [m].
+/// The straight way from one waypoint to another: ends of the axis linearly, links as RigidMotion
+/// says.
+struct StraightWay {
+  /// Their fractions rise.
+  StraightWay(const ToolWaypoint& from, const ToolWaypoint& to);
+
+  double begin, duration;  ///< fractions of the step
+  ShaftMotion axis;
+  std::vector<RigidMotion> links;
+};
+
+/// How far a waypoint is from a straight way, at its time [m].
 struct Deviation {
   double axis;   ///< of either end of the axis
-  double links;  ///< of any point of the links, whose straight way is that of RigidMotion, or more
+  double links;  ///< of any point of the links, or more
 
   double most() const { return axis > links ? axis : links; }
 };
@@ -20,8 +32,7 @@ class PathDeviation {
  public:
   explicit PathDeviation(const std::vector<Link>& links);
 
-  /// Of `b` from the way from `a` to `c`; their fractions rise.
-  Deviation operator()(const ToolWaypoint& a, const ToolWaypoint& b, const ToolWaypoint& c) const;
+  Deviation operator()(const ToolWaypoint& waypoint, const StraightWay& way) const;
 
  private:
   std::vector<double> reaches_;  ///< [m] of each link, from its origin

@@ -22,7 +22,7 @@ struct PathSampling {
 struct SampledPath {
   ToolPath path;
   std::size_t samples_cut = 0;
-  double deviation_cut = 0.0;  ///< [m] the farthest that any pose left out is from the path
+  double deviation_cut = 0.0;  ///< [m] the farthest that a pose read and left out is from the path
 };
 
 /// Where tools are, in the frame of an organ, from TF.
@@ -38,7 +38,7 @@ class ToolPoses {
   /// The way from one known pose to another, through all that TF was told in between, and through
   /// samples where that is seldom. A sample that TF does not have is left out; of the others,
   /// PathBuilder keeps those that add something and, if they are too many, cut_path those that add
-  /// most.
+  /// most. Of more than a thousand, and than samples_max, those read are spread evenly.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
