@@ -144,7 +144,7 @@ class DemoReport {
     }
   }
 
-  tf2_ros::Buffer transforms_;
+  TransformBuffer transforms_;
   tf2_ros::TransformListener transform_listener_;
   StaticComparison comparison_;
 

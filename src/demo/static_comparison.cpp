@@ -13,8 +13,7 @@ constexpr std::size_t kShapesKept = 500;
 
 }  // namespace
 
-StaticComparison::StaticComparison(std::vector<ToolParameters> tools,
-                                   const tf2::BufferCore& transforms)
+StaticComparison::StaticComparison(std::vector<ToolParameters> tools, TransformBuffer& transforms)
     : poses_(transforms, PathSampling{}) {
   for (ToolParameters& tool : tools) {
     tallies_[tool.name];

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <organ_collision/ContactArray.h>
-#include <tf2/buffer_core.h>
 
 #include <cstddef>
 #include <deque>
@@ -25,7 +24,7 @@ class StaticComparison {
   };
 
   /// `transforms` must outlive it.
-  StaticComparison(std::vector<ToolParameters> tools, const tf2::BufferCore& transforms);
+  StaticComparison(std::vector<ToolParameters> tools, TransformBuffer& transforms);
 
   /// `triangles`: three vertex indices a face.
   void set_triangles(std::vector<std::uint32_t> triangles) { triangles_ = std::move(triangles); }

@@ -44,17 +44,10 @@ PathSampling sampling(const NodeParameters& parameters) {
   return {parameters.motion_sample_sec, parameters.motion_samples_max};
 }
 
-/// What another thread asks this one to do.
-class QueuedCall : public ros::CallbackInterface {
+/// Ends the wait for a callback, and does no more.
+class WakeUp : public ros::CallbackInterface {
  public:
-  explicit QueuedCall(std::function<void()> function) : function_(std::move(function)) {}
-  CallResult call() override {
-    function_();
-    return Success;
-  }
-
- private:
-  std::function<void()> function_;
+  CallResult call() override { return Success; }
 };
 
 /// Of a ContactArray, or of a batch.
@@ -78,14 +71,14 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
              [this](const EvaluatedStep& step) { publish(step); }),
       services_(
           {loaded_.parameters, tools_, organs_, transforms_, poses_, steps_.history(), evaluator_}),
-      diagnostics_(
-          {loaded_.parameters, tools_, loaded_.misspelt, organs_, evaluator_, steps_, counters_}),
+      diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, organs_, evaluator_, steps_,
+                    transforms_, counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       tool_is_due_(tools_.size(), false),
       contacts_(private_node_.advertise<ContactArray>(names::kContacts, 100)),
       markers_(private_node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 100)),
-      transform_listener_(transforms_, node_, false),
-      pose_topics_(loaded_.parameters.tools, {transforms_, poses_, counters_.rejected,
+      transform_topics_(transforms_, counters_.rejected),
+      pose_topics_(loaded_.parameters.tools, {transforms_, counters_.rejected,
                                               [this](std::size_t tool) { tip_moved(tool); }}),
       inbox_(inbox_callbacks()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
@@ -103,6 +96,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_.subscribe<OrganVertices>(
           names::kOrganVertices, 100,
           [this](const OrganVerticesConstPtr& message) { inbox_.add(message); }, {}, no_delay)};
+  transform_topics_.subscribe(node_);
   pose_topics_.subscribe(node_);
   servers_ = {
       private_node_.advertiseService(names::kQuery, &CollisionNode::on_query, this),
@@ -149,16 +143,23 @@ void CollisionNode::call_callbacks() {
   const SteadyClock::time_point end = SteadyClock::now() + kLongestDrain;
   while (called && SteadyClock::now() < end) called = call_one(ros::WallDuration(0.0));
   watch_clock();
+  guard([this] { inbox_.hand_on(); });
 }
 
 /// False: there was none.
 bool CollisionNode::call_one(ros::WallDuration wait) {
   watch_clock();
+  bool called = true;
+  guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
+  return called;
+}
+
+/// What a callback throws is counted, and the node goes on.
+void CollisionNode::guard(const std::function<void()>& callback) {
   try {
-    return queue_.callOne(wait) == ros::CallbackQueue::Called;
-  } catch (const std::exception& error) {  // As tf2's listener throws at absurd stamps.
+    callback();
+  } catch (const std::exception& error) {  // Above all, that memory is short.
     counters_.rejected.add("exception", error.what(), SteadyClock::now());
-    return true;
   }
 }
 
@@ -169,7 +170,6 @@ void CollisionNode::watch_clock() {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
     transforms_.clear();
-    poses_.forget_samples();
     pose_topics_.forget_stamps();
     organs_.forget_previous_shapes();
     organs_.forget_connections();
@@ -192,9 +192,7 @@ OrganInbox::Callbacks CollisionNode::inbox_callbacks() {
   callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
     change_organ(*message, [&](ros::Time now) { return organs_.apply(message, now); });
   };
-  callbacks.wake = [this] {
-    queue_.addCallback(boost::make_shared<QueuedCall>([this] { inbox_.hand_on(); }));
-  };
+  callbacks.wake = [this] { queue_.addCallback(boost::make_shared<WakeUp>()); };
   return callbacks;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <utility>
 
 namespace organ_collision {
@@ -92,8 +93,15 @@ void OrganInbox::make_meshes() {
     tasks_.pop_front();
     lock.unlock();
     task();
-    callbacks_.wake();
+    wake();
     lock.lock();
+  }
+}
+
+void OrganInbox::wake() const {
+  try {
+    callbacks_.wake();
+  } catch (const std::bad_alloc&) {  // hand_on is called all the same, somewhat later.
   }
 }
 

@@ -34,6 +34,19 @@ std::string reason_of(const MeshError& error) {
   return "invalid mesh";
 }
 
+/// Of what is being thrown, the Rejection. `named`: which message it is about.
+[[noreturn]] void reject_thrown(const std::string& named) {
+  try {
+    throw;
+  } catch (const Rejection&) {
+    throw;
+  } catch (const MeshError& error) {
+    refuse(reason_of(error), named + ": " + error.what());
+  } catch (const std::exception& error) {  // Above all, that memory is short.
+    refuse("not made", named + " could not be made: " + error.what());
+  }
+}
+
 template <typename Message>
 SharedVertices vertices_of(const boost::shared_ptr<const Message>& message) {
   return {&message->vertices, [message](const void*) {}};
@@ -96,7 +109,7 @@ OrganChange OrganStore::apply(const OrganMeshConstPtr& pointer, const Connection
     connections_[message.organ].add(connection);
     without_mesh_.erase(message.organ);
     return change;
-  } catch (const std::runtime_error&) {
+  } catch (...) {
     if (organs_.count(message.organ) == 0) without_mesh_.insert(message.organ);
     throw;
   }
@@ -132,8 +145,8 @@ OrganChange OrganStore::apply_checked(const OrganMeshConstPtr& pointer,
     organ.set_frame(frame);
     organ.forget_previous();
     return change == OrganChange::kShape ? OrganChange::kFrame : change;
-  } catch (const MeshError& error) {
-    refuse(reason_of(error), "mesh of organ " + quoted(message.organ) + ": " + error.what());
+  } catch (...) {
+    reject_thrown("mesh of organ " + quoted(message.organ));
   }
 }
 
@@ -158,8 +171,8 @@ OrganChange OrganStore::apply(const OrganVerticesConstPtr& pointer, ros::Time no
   }
   try {
     organ.move(vertices_of(pointer), message.header.stamp, now);
-  } catch (const MeshError& error) {
-    refuse(reason_of(error), named + ": " + error.what());
+  } catch (...) {
+    reject_thrown(named);
   }
   return OrganChange::kShape;
 }

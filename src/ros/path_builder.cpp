@@ -1,10 +1,7 @@
 #include "organ_collision/ros/path_builder.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
-
-#include "organ_collision/geometry/rigid_motion.hpp"
 
 namespace organ_collision {
 namespace {
@@ -13,30 +10,6 @@ namespace {
 constexpr double kStraight = 1e-9;
 /// [m] The same for points of links.
 constexpr double kStraightLink = 1e-6;
-
-/// [m] The farthest that any point of the link lies from its origin, or farther.
-double reach(const Link& link) {
-  double farthest = 0.0;
-  for (const LinkPart& part : link.parts) {
-    const OrientedBox& box = part.bounds;
-    const Eigen::Vector3d center = box.axes.transpose() * box.center;
-    farthest = std::max(farthest, (center.cwiseAbs() + box.half_size).norm() + part.radius);
-  }
-  return farthest;
-}
-
-/// [m] How far two axes are apart, end by end.
-double distance(const ShaftAxis& a, const ShaftAxis& b) {
-  return std::max((a.trocar - b.trocar).norm(), (a.tip - b.tip).norm());
-}
-
-/// [m] How far any point within `reach` of the origin is from where it would be in another pose, or
-/// farther. Turning by an angle moves it by 2 reach sin(angle / 2), and the turns' matrices differ
-/// by sqrt(8) sin(angle / 2).
-double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double reach) {
-  return (a.translation() - b.translation()).norm() +
-         reach * std::sqrt(0.5) * (a.linear() - b.linear()).norm();
-}
 
 /// A trocar that moves by rounding alone is at rest, for which viewing volumes are tighter.
 void rest_trocar(ToolPath& path) {
@@ -49,11 +22,6 @@ void rest_trocar(ToolPath& path) {
 }
 
 }  // namespace
-
-PathBuilder::PathBuilder(const std::vector<Link>& links, const ToolPose& begin)
-    : path_(resting_path(begin)) {
-  for (const Link& link : links) reaches_.push_back(reach(link));
-}
 
 void PathBuilder::add(double fraction, const ToolPose& pose) {
   ToolWaypoint next{fraction, pose.axis, pose.links};
@@ -78,13 +46,8 @@ ToolPath PathBuilder::take() {
 /// straight.
 double PathBuilder::bend(const ToolWaypoint& a, const ToolWaypoint& b,
                          const ToolWaypoint& c) const {
-  const double time = (b.fraction - a.fraction) / (c.fraction - a.fraction);
-  double bend = distance(ShaftMotion{a.axis, c.axis}.at(time), b.axis) / kStraight;
-  for (std::size_t i = 0; i < reaches_.size(); ++i) {
-    const Eigen::Isometry3d straight = RigidMotion(a.links[i], c.links[i]).at(time);
-    bend = std::max(bend, distance(straight, b.links[i], reaches_[i]) / kStraightLink);
-  }
-  return bend;
+  const Deviation deviation = deviation_(b, StraightWay(a, c));
+  return std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
 }
 
 }  // namespace organ_collision

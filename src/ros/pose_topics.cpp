@@ -95,7 +95,7 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   ros::Time& stamp = stamped.header.stamp;
   // Several may come within a tick of simulated time; the last one counts as well.
   if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
-  if (!sinks_.transforms.setTransform(to_transform(stamped, stream.tool.tip_frame), "pose")) {
+  if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {
     return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
   }
   stream.latest = std::max(stream.latest, stamp);
@@ -103,7 +103,6 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
     stream.frame = frame;
     place_base(stream);
   }
-  sinks_.poses.add_sample(stream.tool, stamp);
   sinks_.arrived(tool);
 }
 
@@ -117,7 +116,7 @@ void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {
 /// Bases are sent once, or seldom: they rest until they are sent again.
 void PoseTopics::place_base(const Stream& stream) {
   if (!stream.base || stream.frame.empty() || !check(*stream.base, stream.frame)) return;
-  sinks_.transforms.setTransform(to_transform(*stream.base, stream.frame), "pose", true);
+  sinks_.transforms.add(to_transform(*stream.base, stream.frame), "pose", true);
 }
 
 void PoseTopics::forget_stamps() {

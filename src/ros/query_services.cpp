@@ -244,6 +244,11 @@ void QueryServices::set_tool_motion(const QueryCollision::Request& request, cons
     collision.path = resting_path(end.found->value);
     return;
   }
+  if (answer.header.stamp < last->stamp) {
+    refuse("the step would end at ", answer.header.stamp,
+           " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
+           last->stamp, " s; header.stamp must not be earlier");
+  }
   collision.path = sources_.poses
                        .path(tool, organ.frame(), {last->pose, last->stamp},
                              {end.found->value, answer.header.stamp})

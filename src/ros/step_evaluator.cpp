@@ -138,6 +138,7 @@ void StepEvaluator::evaluate_step(const Organ& organ, std::size_t tool, OrganToo
   }
   SampledPath sampled = poses_.path(tools_[tool], organ.frame(), {last.pose, last.stamp}, stamped);
   samples_cut_ += sampled.samples_cut;
+  deviation_cut_ = std::max(deviation_cut_, sampled.deviation_cut);
   run(organ, tool, pair, std::move(stamped), std::move(sampled.path));
 }
 
@@ -164,6 +165,7 @@ void StepEvaluator::run(const Organ& organ, std::size_t tool, OrganToolPair& pai
   const auto answer = answer_about_step(organ, tool, pair, end.stamp);
   evaluator_.evaluate(request, *answer);
   if (answer->status == ContactArray::OK) {
+    poses_.set_answered(tools_[tool], organ.frame(), end.stamp);
     pair.last = LastStep{std::move(end.value), end.stamp, pair.current.mesh};
   }
   publish_({answer, tools_[tool], mesh, request.path});

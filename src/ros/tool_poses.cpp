@@ -7,9 +7,14 @@
 
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/path_builder.hpp"
+#include "organ_collision/ros/path_cut.hpp"
 
 namespace organ_collision {
 namespace {
+
+/// For each pose that is read, TF looks through all that it was told since: a step of many seconds
+/// would take most of one.
+constexpr std::size_t kMostRead = 1000;
 
 /// The times that some transforms are of, without those of any time.
 struct StampRange {
@@ -44,50 +49,71 @@ std::int64_t elapsed(ros::Time from, ros::Time to) {
 }
 double nanoseconds(ros::Time from, ros::Time to) { return static_cast<double>(elapsed(from, to)); }
 
-/// So many times, evenly spaced between two.
-std::vector<ros::Time> even_times(ros::Time from, ros::Time to, std::size_t count) {
-  const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
-  std::vector<ros::Time> times(count);
-  std::uint64_t time = from.toNSec();
-  for (ros::Time& between : times) between.fromNSec(time += static_cast<std::uint64_t>(step));
-  return times;
+double seconds(ros::Time from, ros::Time to) { return 1e-9 * nanoseconds(from, to); }
+
+/// How many samples at this distance lie between two times.
+double samples_between(double gap_sec, double spacing_sec) {
+  return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
 
-/// Leaves `count` of them, spread evenly.
-void thin_out(std::vector<ros::Time>& times, std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) times[i] = times[i * times.size() / count];
-  times.resize(count);
+/// Leaves at most `most` of them, spread evenly. How many it took away.
+std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
+  const std::size_t size = times.size();
+  if (size <= most) return 0;
+  for (std::size_t i = 0; i < most; ++i) times[i] = times[i * size / most];
+  times.resize(most);
+  return size - most;
+}
+
+/// Adds so many times, evenly spaced between two.
+void add_even_times(ros::Time from, ros::Time to, std::size_t count,
+                    std::vector<ros::Time>& times) {
+  const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
+  std::uint64_t time = from.toNSec();
+  for (std::size_t i = 0; i < count; ++i) {
+    times.emplace_back().fromNSec(time += static_cast<std::uint64_t>(step));
+  }
+}
+
+/// The frames that say where a tool is.
+TransformBuffer::Frames frames_of(const Tool& tool) {
+  const ToolParameters& parameters = tool.parameters;
+  TransformBuffer::Frames frames;
+  if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
+  for (const Link& link : tool.links) frames.push_back(parameters.link_frame(link.name));
+  return frames;
 }
 
 }  // namespace
 
-void ToolPoses::add_sample(const ToolParameters& tool, ros::Time stamp) {
-  stamps_[tool.name].add(stamp);
+void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time) {
+  buffer_.set_answered(organ_frame, frames_of(tool), time);
 }
 
-/// Poses that came as messages before those in between. `cut`: how many samples there would be more
-/// without samples_max.
-std::vector<ros::Time> ToolPoses::sample_times(const ToolParameters& tool, ros::Time from,
-                                               ros::Time to, std::size_t& cut) const {
-  const auto most = static_cast<std::size_t>(sampling_.samples_max - 1);
+/// All times that TF was told of, and samples in between where those are farther apart than
+/// sample_sec. `cut`: how many samples there would be more without samples_max.
+std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
+                                               ros::Time from, ros::Time to,
+                                               std::size_t& cut) const {
+  std::vector<ros::Time> told = buffer_.stamps_between(organ_frame, frames_of(tool), from, to);
+  const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
+  cut = thin_out(told, std::max(kMostRead, samples_max));
+  if (cut > 0) return told;
+  told.push_back(to);
+  const double spacing = std::max(sampling_.sample_sec, seconds(from, to) / sampling_.samples_max);
   std::vector<ros::Time> times;
-  if (const auto streamed = stamps_.find(tool.name); streamed != stamps_.end()) {
-    times = streamed->second.between(from, to);
+  double wanted = 0.0, sampled = 0.0;
+  for (const ros::Time stamp : told) {
+    const double gap = seconds(from, stamp);
+    const double count = samples_between(gap, spacing);
+    add_even_times(from, stamp, static_cast<std::size_t>(count), times);
+    times.push_back(stamp);
+    wanted += samples_between(gap, sampling_.sample_sec);
+    sampled += count;
+    from = stamp;
   }
-  if (times.size() > most) {
-    cut = times.size() - most;
-    thin_out(times, most);
-    return times;
-  }
-  const double wanted =
-      std::max(0.0, std::ceil(1e-9 * nanoseconds(from, to) / sampling_.sample_sec - 1e-6) - 1.0);
-  const double count = std::min(wanted, static_cast<double>(most - times.size()));
-  // Between poses that come as often, TF knows nothing more.
-  if (times.empty()) cut = static_cast<std::size_t>(wanted - count);
-  const auto even = even_times(from, to, static_cast<std::size_t>(count));
-  times.insert(times.end(), even.begin(), even.end());
-  std::sort(times.begin(), times.end());
-  times.erase(std::unique(times.begin(), times.end()), times.end());
+  times.pop_back();
+  cut = static_cast<std::size_t>(wanted - sampled);
   return times;
 }
 
@@ -122,17 +148,17 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
 }
 
 std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::string& why_not) const {
-  const bool silent = !tool.tip_pose_topic.empty() && stamps_.count(tool.name) == 0;
+  const bool silent = !tool.tip_pose_topic.empty() && !buffer_.has_heard(tool.tip_frame);
   return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
 }
 
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
                             const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
   const double duration = nanoseconds(from.stamp, to.stamp);
-  SampledPath sampled;
-  PathBuilder path(tool.links, from.value);
-  for (const ros::Time time :
-       sample_times(tool.parameters, from.stamp, to.stamp, sampled.samples_cut)) {
+  const PathDeviation deviation(tool.links);
+  PathBuilder path(deviation, from.value);
+  std::size_t samples_cut = 0;
+  for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, samples_cut)) {
     // One that cannot be evaluated is no reason to refuse all others.
     if (const auto between = pose(tool, organ_frame, time);
         between.found && is_near(between.found->value)) {
@@ -140,8 +166,8 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
     }
   }
   path.add(1.0, to.value);
-  sampled.path = path.take();
-  return sampled;
+  CutPath cut = cut_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
+  return {std::move(cut.path), samples_cut + cut.cut, cut.deviation};
 }
 
 }  // namespace organ_collision

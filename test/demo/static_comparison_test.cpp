@@ -52,7 +52,7 @@ class StaticComparisonTest : public testing::Test {
 
   const StaticComparison::Tally& tally() const { return comparison_.tallies().at("probe"); }
 
-  tf2::BufferCore transforms_;
+  TransformBuffer transforms_;
   StaticComparison comparison_{{{"probe", "trocar", "tip", 0.005}}, transforms_};
 };
 

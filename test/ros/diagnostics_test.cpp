@@ -26,7 +26,8 @@ class DiagnosticsTest : public testing::Test, protected NodeParts {
   std::vector<std::string> misspelt;
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  Diagnostics diagnostics{{parameters, tools, misspelt, organs, evaluator, steps, counters}};
+  Diagnostics diagnostics{
+      {parameters, tools, misspelt, organs, evaluator, steps, transforms, counters}};
 };
 
 }  // namespace
@@ -43,6 +44,19 @@ TEST_F(DiagnosticsTest, QueryTimesAndGlVersion) {
   EXPECT_EQ(shown.at("queries"), "1");
   EXPECT_GT(std::stod(shown.at("query time, median [us]")), 0.0);
   EXPECT_EQ(shown.at("query time, worst [us]"), shown.at("query time, 99th percentile [us]"));
+}
+
+TEST_F(DiagnosticsTest, MotionThatWasNotSweptThrough) {
+  for (const double time : {1.0, 2.0}) {
+    send_tip(time, {0.1, 0.2, 0.3});
+    send_mesh(time, 0.0);
+    evaluate();
+  }
+  auto shown = values(&Diagnostics::queries);
+  EXPECT_EQ(shown.at("transforms after their step"), "0");
+  EXPECT_EQ(shown.at("motion samples cut, farthest from the swept way [m]"), "0");
+  send_tip(1.5, {0.1, 0.2, -0.3});
+  EXPECT_EQ(values(&Diagnostics::queries).at("transforms after their step"), "1");
 }
 
 TEST_F(DiagnosticsTest, RejectedMessagesByReason) {

@@ -1,15 +1,16 @@
 #pragma once
 
 #include <geometry_msgs/TransformStamped.h>
-#include <tf2/buffer_core.h>
 
 #include <Eigen/Geometry>
 #include <string>
 
+#include "organ_collision/ros/transform_buffer.hpp"
+
 namespace organ_collision {
 
 /// Gives a TF buffer a transform, as a listener would.
-inline void set_transform(tf2::BufferCore& buffer, const std::string& parent,
+inline void set_transform(TransformBuffer& buffer, const std::string& parent,
                           const std::string& child, double time,
                           const Eigen::Isometry3d& T_parent_child, bool resting = false) {
   geometry_msgs::TransformStamped message;
@@ -24,10 +25,10 @@ inline void set_transform(tf2::BufferCore& buffer, const std::string& parent,
   message.transform.rotation.x = turn.x();
   message.transform.rotation.y = turn.y();
   message.transform.rotation.z = turn.z();
-  buffer.setTransform(message, "test", resting);
+  buffer.add(message, "test", resting);
 }
 
-inline void set_point(tf2::BufferCore& buffer, const std::string& parent, const std::string& child,
+inline void set_point(TransformBuffer& buffer, const std::string& parent, const std::string& child,
                       double time, const Eigen::Vector3d& point, bool resting = false) {
   set_transform(buffer, parent, child, time, Eigen::Isometry3d(Eigen::Translation3d(point)),
                 resting);

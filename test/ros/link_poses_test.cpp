@@ -56,7 +56,7 @@ class LinkPosesTest : public testing::Test {
   }
 
   const Tool grasper_ = grasper();
-  tf2::BufferCore buffer_;
+  TransformBuffer buffer_;
   ToolPoses poses_{buffer_, {0.001, 100}};
 };
 

@@ -77,7 +77,7 @@ struct NodeParts {
 
   NodeParameters parameters;
   std::vector<Tool> tools = {shaft_tool("hook", 0.01)};
-  tf2::BufferCore transforms;
+  TransformBuffer transforms;
   OrganStore organs{MeshLimits{}};
   ToolPoses poses{transforms, {0.001, 100}};
   Evaluator evaluator{PickerKind::kFeedback};

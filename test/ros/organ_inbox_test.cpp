@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <boost/make_shared.hpp>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -41,6 +42,15 @@ class OrganInboxTest : public testing::Test {
     while (wakes_ < wakes) std::this_thread::yield();
   }
 
+  /// Whether it was called or not.
+  void hand_on_until_taken(std::size_t messages) {
+    while (taken_.size() < messages) {
+      std::this_thread::yield();
+      inbox_.hand_on();
+    }
+  }
+
+  bool memory_is_short_ = false;  ///< for making, and for waking
   std::vector<std::string> taken_;
   std::thread::id made_in_;
   Connection connection_;  ///< of the last mesh taken
@@ -52,6 +62,7 @@ class OrganInboxTest : public testing::Test {
     callbacks.make = [this](const OrganMeshConstPtr& message) {
       allowed_.at(message->topology).get_future().wait();
       made_in_ = std::this_thread::get_id();
+      if (memory_is_short_) throw std::bad_alloc();
       return TriangleMesh(message->vertices, message->triangles, message->topology);
     };
     callbacks.is_known = [this](const OrganMesh& message, const Connection&) {
@@ -73,7 +84,10 @@ class OrganInboxTest : public testing::Test {
     callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
       taken_.push_back(message->organ + " vertices " + std::to_string(message->topology));
     };
-    callbacks.wake = [this] { ++wakes_; };
+    callbacks.wake = [this] {
+      if (memory_is_short_) throw std::bad_alloc();
+      ++wakes_;
+    };
     return callbacks;
   }
 
@@ -153,6 +167,18 @@ TEST_F(OrganInboxTest, WhatIsWrongWithAMeshComesWithIt) {
   wait_for_wakes(1);
   inbox_.hand_on();
   EXPECT_EQ(taken_, Texts{"liver mesh 1, refused"});
+}
+
+TEST_F(OrganInboxTest, WhatCannotBeMadeHoldsNothingUp) {
+  memory_is_short_ = true;
+  inbox_.add(mesh("liver", 1, kFaces));
+  inbox_.add(vertices("liver", 1));
+  let(1);
+  EXPECT_THROW(hand_on_until_taken(1), std::bad_alloc);
+  inbox_.hand_on();
+  EXPECT_EQ(taken_, Texts{"liver vertices 1"});
+  inbox_.add(vertices("liver", 2));
+  EXPECT_EQ(taken_.back(), "liver vertices 2");
 }
 
 TEST_F(OrganInboxTest, TheOldestVerticesGoWhereTooManyWait) {

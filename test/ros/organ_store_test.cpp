@@ -6,6 +6,7 @@
 #include <boost/make_shared.hpp>
 #include <cmath>
 #include <limits>
+#include <new>
 
 using namespace organ_collision;
 
@@ -273,6 +274,27 @@ TEST_F(OrganStoreTest, BadMeshesLeaveTheGoodOne) {
   bad.triangles = {0, 1, 2, 1, 2, 3};
   expect_refused(bad, ContactArray::INVALID_REQUEST, "same topology, other triangles",
                  {"'liver'", "1"});
+}
+
+TEST_F(OrganStoreTest, MeshesThatCannotBeMadeLeaveTheGoodOne) {
+  const auto apply_without_memory = [&](const std::string& organ) {
+    const auto message = boost::make_shared<const OrganMesh>(mesh(organ, 2));
+    try {
+      store_.apply(message, ros::Time(8), []() -> TriangleMesh { throw std::bad_alloc(); });
+      ADD_FAILURE() << "accepted";
+    } catch (const Rejection& rejection) {
+      EXPECT_EQ(rejection.status(), ContactArray::INVALID_REQUEST);
+      EXPECT_EQ(rejection.reason(), "not made");
+      EXPECT_NE(std::string(rejection.what()).find("'" + organ + "'"), std::string::npos);
+      EXPECT_NE(std::string(rejection.what()).find("bad_alloc"), std::string::npos);
+    }
+  };
+  apply(mesh(), ros::Time(7));
+  apply_without_memory("liver");
+  EXPECT_EQ(store_.at("liver").latest().mesh->topology(), 1u);
+  EXPECT_EQ(store_.at("liver").latest().received, ros::Time(7));
+  apply_without_memory("spleen");
+  EXPECT_EQ(status_of("spleen"), ContactArray::NO_MESH);
 }
 
 TEST_F(OrganStoreTest, BadVerticesLeaveTheGoodOnes) {

@@ -32,7 +32,8 @@ Isometry3d on_an_arm(double time) {
 
 template <typename PoseAt>
 ToolPath path_of(const std::vector<Link>& links, int steps, double duration, PoseAt pose_at) {
-  PathBuilder path(links, {kNowhere, {pose_at(0.0)}});
+  const PathDeviation deviation(links);
+  PathBuilder path(deviation, {kNowhere, {pose_at(0.0)}});
   for (int i = 1; i <= steps; ++i) {
     const double fraction = i == steps ? 1.0 : double(i) / steps;
     path.add(fraction, {kNowhere, {pose_at(fraction * duration)}});
@@ -104,8 +105,9 @@ TEST(PathBuilder, EveryLinkCounts) {
   const Isometry3d rest = pose({0.3, 0.1, 0.2}, 0.4, {1.0, 0.0, 2.0});
   std::vector<Link> links = one_ball();
   links.push_back(links.front());
+  const PathDeviation deviation(links);
   for (const std::size_t moving : {0u, 1u}) {
-    PathBuilder path(links, {kNowhere, {on_an_arm(0.0), on_an_arm(0.0)}});
+    PathBuilder path(deviation, {kNowhere, {on_an_arm(0.0), on_an_arm(0.0)}});
     for (const double fraction : {0.5, 1.0}) {
       ToolPose next{kNowhere, {rest, rest}};
       next.links[moving] = on_an_arm(fraction);
@@ -127,10 +129,11 @@ TEST(PathBuilder, MoreThanHalfATurnIsNoStraightWay) {
 TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
   // 10 nm off the straight way.
   const Isometry3d still = on_an_arm(0.0);
+  const PathDeviation deviation(one_ball());
   const auto waypoints = [&](double axis_bend, double link_bend) {
     const ShaftAxis bent{Vector3d(0.0, axis_bend, 0.0), Vector3d(0.0, axis_bend, 0.3)};
     const ShaftAxis straight{Vector3d(0.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.3)};
-    PathBuilder path(one_ball(), {straight, {still}});
+    PathBuilder path(deviation, {straight, {still}});
     path.add(0.3, {bent, {Eigen::Translation3d(0.0, link_bend, 0.0) * still}});
     path.add(1.0, {straight, {still}});
     return path.take().size();
@@ -144,7 +147,8 @@ TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
 TEST(PathBuilder, ATrocarThatMovesByRoundingRests) {
   const ShaftAxis from{Vector3d(0.1, 0.2, 0.3), Vector3d(0.1, 0.2, 0.0)};
   const ShaftAxis to{Vector3d(0.1, 0.2 + 1e-12, 0.3), Vector3d(0.2, 0.2, 0.0)};
-  PathBuilder path({}, {from});
+  const PathDeviation deviation({});
+  PathBuilder path(deviation, {from});
   path.add(1.0, {to});
   const ToolPath taken = path.take();
   ASSERT_EQ(taken.size(), 2u);

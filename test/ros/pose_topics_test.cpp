@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "hand_filled_transforms.hpp"
+#include "organ_collision/ros/tool_poses.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;
@@ -51,13 +52,12 @@ class PoseTopicsTest : public testing::Test {
     EXPECT_NE(message.find(word), std::string::npos) << message;
   }
 
-  tf2::BufferCore buffer_;
+  TransformBuffer buffer_;
   ToolPoses poses_{buffer_, {1.0, 100}};
   FailureLog rejected_;
   std::vector<std::size_t> arrived_;
-  PoseTopics topics_{
-      {streamed_tool("left"), streamed_tool("right")},
-      {buffer_, poses_, rejected_, [this](std::size_t i) { arrived_.push_back(i); }}};
+  PoseTopics topics_{{streamed_tool("left"), streamed_tool("right")},
+                     {buffer_, rejected_, [this](std::size_t i) { arrived_.push_back(i); }}};
 };
 
 }  // namespace

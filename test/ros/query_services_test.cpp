@@ -117,6 +117,27 @@ TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
   EXPECT_EQ(services.query(request).step_start, ros::Time(1.05));
 }
 
+TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
+  request.tool = "hook";
+  send_tip(1.0, kAbove);
+  send_tip(1.2, kBelow);
+  send_vertices(1.125, 0.0);
+  evaluate();
+  request.header.stamp = ros::Time(1.0625);
+  for (const std::uint8_t mode :
+       {ContactArray::SWEPT, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
+    request.mode = mode;
+    expect_refused(ContactArray::INVALID_REQUEST, {"'hook'", "1.062500000", "1.125000000"});
+  }
+  request.mode = ContactArray::STATIC;
+  EXPECT_EQ(services.query(request).status, ContactArray::OK);
+  request.mode = ContactArray::SWEPT;
+  request.header.stamp = ros::Time(1.125);
+  const ContactArray at_rest = services.query(request);
+  EXPECT_EQ(at_rest.status, ContactArray::OK) << at_rest.message;
+  EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
+}
+
 TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
   request.tool = "hook";
   send_tip(1.0, kBelow);

@@ -45,13 +45,16 @@ class ToolPosesTest : public testing::Test {
     EXPECT_LT((axis.trocar - expected.trocar).norm(), tolerance);
     EXPECT_LT((axis.tip - expected.tip).norm(), tolerance);
   }
-  SampledPath path(double from, double to, const PathSampling& sampling) const {
+  Timed<ToolPose> known_pose(double time) const {
+    return *poses_.pose(kTool, "liver", ros::Time(time)).found;
+  }
+  SampledPath path(double from, double to, const PathSampling& sampling) {
     return ToolPoses(buffer_, sampling)
         .path(kTool, "liver", {{axis_in_liver(from)}, ros::Time(from)},
               {{axis_in_liver(to)}, ros::Time(to)});
   }
 
-  tf2::BufferCore buffer_;
+  TransformBuffer buffer_;
   ToolPoses poses_{buffer_, {0.001, 100}};
 };
 
@@ -123,16 +126,11 @@ TEST_F(ToolPosesTest, PathFollowsTheArc) {
   EXPECT_EQ(sampled.path.back().fraction, 1.0);
 }
 
-TEST_F(ToolPosesTest, PosesThatCameAsMessagesAreWaypoints) {
+TEST_F(ToolPosesTest, EveryPoseThatTfWasToldIsAWaypoint) {
   const double times[] = {1.0, 1.013, 1.0134, 1.02, 1.071, 1.1};
-  ToolPoses poses(buffer_, {0.01, 100});
-  for (const double time : times) {
-    send(time);
-    poses.add_sample(kTool.parameters, ros::Time(time));
-  }
-  poses.add_sample({"other", "trocar", "tip", 0.005}, ros::Time(1.05));
-  const SampledPath sampled = poses.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1.0)},
-                                         {{axis_in_liver(1.1)}, ros::Time(1.1)});
+  for (const double time : times) send(time);
+  set_point(buffer_, "world", "other", 1.05, {1.0, 2.0, 3.0});
+  const SampledPath sampled = path(1.0, 1.1, {0.01, 100});
   // Even samples in between lie on straight ways, and are left out.
   ASSERT_EQ(sampled.path.size(), 6u);
   for (int i = 0; i < 6; ++i) {
@@ -141,32 +139,40 @@ TEST_F(ToolPosesTest, PosesThatCameAsMessagesAreWaypoints) {
   }
 }
 
-TEST_F(ToolPosesTest, PosesBeyondTheMostSamplesAreCounted) {
-  ToolPoses poses(buffer_, {1.0, 5});
-  for (int i = 0; i <= 100; ++i) {
-    send(1.0 + 0.001 * i);
-    poses.add_sample(kTool.parameters, ros::Time(1.0 + 0.001 * i));
-  }
-  const SampledPath sampled = poses.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1.0)},
-                                         {{axis_in_liver(1.1)}, ros::Time(1.1)});
-  EXPECT_EQ(sampled.path.size(), 6u);
-  EXPECT_EQ(sampled.samples_cut, 95u);
-  for (std::size_t i = 1; i < sampled.path.size(); ++i) {
-    EXPECT_GT(sampled.path[i].fraction, sampled.path[i - 1].fraction);
-  }
+TEST_F(ToolPosesTest, FramesNeedNotMoveAtTheSameTimes) {
+  for (int i = 0; i <= 20; ++i) send_trocar(1.0 + 0.005 * i);
+  for (int i = 0; i <= 7; ++i) send_tip(1.0 + 0.015 * i);
+  const SampledPath sampled =
+      ToolPoses(buffer_, {1.0, 100}).path(kTool, "liver", known_pose(1.0), known_pose(1.1));
+  // The trocar moves straight; the way bends where the tip's does.
+  ASSERT_EQ(sampled.path.size(), 8u);
+  for (int i = 0; i <= 6; ++i) EXPECT_NEAR(sampled.path[i].fraction, 0.15 * i, 1e-7);
 }
 
-TEST_F(ToolPosesTest, PosesGoBeforeSamplesInBetween) {
-  ToolPoses poses(buffer_, {0.001, 100});
-  for (int i = 0; i <= 90; ++i) {
-    const double time = 1.0 + 0.00111 * i;  // never at an even sample
-    send(time);
-    poses.add_sample(kTool.parameters, ros::Time(time));
+TEST_F(ToolPosesTest, OfTooManyPosesThoseThatMatterMostStay) {
+  for (int i = 0; i <= 100; ++i) {
+    const double time = 1.0 + 0.001 * i;
+    send_trocar(time);
+    const double stab = i == 37 ? 0.3 : 0.0, wobble = i % 2 == 0 ? 0.0 : 1e-6;
+    set_point(buffer_, "world", "tip", time, trocar(time) - Vector3d(0.0, wobble, 0.1 + stab));
   }
-  const SampledPath sampled = poses.path(kTool, "liver", {{axis_in_liver(1.0)}, ros::Time(1.0)},
-                                         {{axis_in_liver(1.0999)}, ros::Time(1.0999)});
-  EXPECT_EQ(sampled.path.size(), 91u);
-  EXPECT_EQ(sampled.samples_cut, 0u);
+  const SampledPath sampled =
+      ToolPoses(buffer_, {1.0, 4}).path(kTool, "liver", known_pose(1.0), known_pose(1.1));
+  ASSERT_EQ(sampled.path.size(), 5u);
+  for (int i = 1; i <= 3; ++i) EXPECT_NEAR(sampled.path[i].fraction, 0.35 + 0.01 * i, 1e-7);
+  EXPECT_EQ(sampled.samples_cut, 96u);
+  EXPECT_GE(sampled.deviation_cut, 0.5e-6);
+  EXPECT_LE(sampled.deviation_cut, 1e-6 + 1e-12);
+}
+
+TEST_F(ToolPosesTest, OfVeryManyPosesThoseReadAreSpreadEvenly) {
+  for (int i = 0; i <= 3000; ++i) send(1.0 + 0.001 * i);
+  const SampledPath sampled = path(1.0, 4.0, {1.0, 4});
+  ASSERT_EQ(sampled.path.size(), 5u);
+  EXPECT_EQ(sampled.samples_cut, 2999u - 3u);
+  for (int leg = 1; leg <= 4; ++leg) {
+    EXPECT_LT(sampled.path[leg].fraction - sampled.path[leg - 1].fraction, 0.5);
+  }
 }
 
 TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
@@ -192,10 +198,24 @@ TEST_F(ToolPosesTest, CutSamplesAreCountedAndTheWayStaysWhole) {
   const SampledPath sampled = path(1.0, 2.0, {0.01, 4});
   ASSERT_EQ(sampled.path.size(), 5u);
   EXPECT_EQ(sampled.samples_cut, 96u);
-  for (int i = 0; i <= 4; ++i) {
-    EXPECT_DOUBLE_EQ(sampled.path[i].fraction, 0.25 * i);
-    expect_axis(sampled.path[i].axis, axis_in_liver(1.0 + 0.25 * i), 1e-7);
+  for (int leg = 1; leg <= 4; ++leg) {
+    const ToolWaypoint &a = sampled.path[leg - 1], &b = sampled.path[leg];
+    expect_axis(b.axis, axis_in_liver(1.0 + b.fraction), 1e-7);
+    for (const double time : {0.25, 0.5, 0.75}) {
+      expect_axis(ShaftMotion{a.axis, b.axis}.at(time),
+                  axis_in_liver(1.0 + a.fraction + time * (b.fraction - a.fraction)),
+                  sampled.deviation_cut + 2e-5);
+    }
   }
+  EXPECT_LT(sampled.deviation_cut, 0.01);
+}
+
+TEST_F(ToolPosesTest, StraightSamplesInBetweenAreCounted) {
+  for (const double time : {1.0, 2.0}) send(time);
+  const SampledPath sampled = path(1.0, 2.0, {0.01, 4});
+  EXPECT_EQ(sampled.path.size(), 2u);
+  EXPECT_EQ(sampled.samples_cut, 96u);
+  EXPECT_EQ(sampled.deviation_cut, 0.0);
 }
 
 TEST_F(ToolPosesTest, SamplesThatTfLacksAreLeftOut) {

@@ -19,7 +19,7 @@ Isometry3d pose(double x, double angle) {
 }  // namespace
 
 TEST(LookUp, FollowsTheChain) {
-  tf2::BufferCore buffer;
+  TransformBuffer buffer;
   set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
   set_transform(buffer, "world", "tip", 3.0, pose(0.4, -1.1));
   const auto found = look_up(buffer, "liver", "tip", ros::Time(3.0)).found;
@@ -30,7 +30,7 @@ TEST(LookUp, FollowsTheChain) {
 }
 
 TEST(LookUp, LatestSaysItsTime) {
-  tf2::BufferCore buffer;
+  TransformBuffer buffer;
   for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
   const auto found = look_up(buffer, "a", "b", ros::Time(0)).found;
   ASSERT_TRUE(found);
@@ -39,20 +39,20 @@ TEST(LookUp, LatestSaysItsTime) {
 }
 
 TEST(LookUp, RestingTransformsAreOfAnyTime) {
-  tf2::BufferCore buffer;
+  TransformBuffer buffer;
   set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.2), true);
   EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(0)).found->stamp.isZero());
   EXPECT_EQ(look_up(buffer, "a", "b", ros::Time(99)).found->stamp, ros::Time(99));
 }
 
 TEST(LookUp, AFrameInItselfNeedsNoTransform) {
-  const auto found = look_up(tf2::BufferCore(), "liver", "liver", ros::Time(4)).found;
+  const auto found = look_up(TransformBuffer(), "liver", "liver", ros::Time(4)).found;
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->value.isApprox(Isometry3d::Identity()));
 }
 
 TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
-  tf2::BufferCore buffer;
+  TransformBuffer buffer;
   set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
   set_transform(buffer, "elsewhere", "tip", 3.0, pose(0.1, 0.5));
   for (const char* frame : {"tip", "never_heard_of", "", "/world"}) {
@@ -78,7 +78,7 @@ TEST(LookUp, ALoopAmongManyFramesIsToldInAShortMessage) {
 }
 
 TEST(LookUp, NothingOutsideTheKnownTimes) {
-  tf2::BufferCore buffer;
+  TransformBuffer buffer;
   for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
   EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(2.9)).found);
   EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(3.6)).found);

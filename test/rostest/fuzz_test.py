@@ -39,7 +39,7 @@ class FuzzTest(ContactCase):
         cls.node = NodeClient()
         cls.rng = random.Random(4711)
         cls.tf = TfSender()
-        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.wait_for(cls.node)
         cls.tf.send_resting(
             *[
                 ('liver_frame', 'grasper' + end, scenes.Pose((0, 0, 0, 1), point))

@@ -31,7 +31,7 @@ class MeshAdapterTest(AdapterCase):
         super().setUpClass()
         cls.vertices = MessageLog('/organ_collision/organ_vertices', OrganVertices)
         cls.tf = TfSender()
-        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.wait_for(cls.node)
         cls.tf.send_resting(
             *[
                 ('liver_frame', 'grasper' + end, scenes.Pose((0, 0, 0, 1), point))

@@ -37,6 +37,12 @@ def wait_until(condition, what, limit=LIMIT):
         time.sleep(0.005)
 
 
+def is_heard(topic, process):
+    """Whether a node listens to a publisher of this one. Others may as well: their number says
+    nothing."""
+    return process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
+
+
 class TfSender:
     """Sends transforms as a robot would: on /tf and, once and for all, on /tf_static."""
 
@@ -45,8 +51,12 @@ class TfSender:
         self.resting = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
         self.resting_transforms = []
 
-    def connected(self):
-        return self.moving.get_num_connections() > 0 and self.resting.get_num_connections() > 0
+    def wait_for(self, node):
+        """Until the node of this NodeClient listens: what is sent on /tf before is lost to it."""
+        wait_until(
+            lambda: is_heard(self.moving, node.process) and is_heard(self.resting, node.process),
+            'connections from TF to ' + node.process,
+        )
 
     def send(self, *transforms):
         """Each a (parent, child, pose, stamp); all in one message, as queues are short."""
@@ -136,10 +146,8 @@ class NodeClient:
         wait_until(self.connected, 'connections to ' + node)
 
     def connected(self):
-        """Other nodes may listen on the same topics: this one is looked for by its name."""
         return self.contacts.subscriber.get_num_connections() > 0 and all(
-            self.process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
-            for topic in (self.meshes, self.shapes)
+            is_heard(topic, self.process) for topic in (self.meshes, self.shapes)
         )
 
     def close(self):

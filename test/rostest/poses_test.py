@@ -44,7 +44,7 @@ class PosesTest(ContactCase):
         cls.stylus = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1000)
         for topic in (cls.arm, cls.base, cls.stylus):
             wait_until(lambda topic=topic: topic.get_num_connections() > 0, topic.name)
-        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.wait_for(cls.node)
         cls.base.publish(pose('liver_frame', BASE.translation, rotation=BASE.rotation))
         cls.tf.send_resting(
             ('liver_frame', 'stylus_trocar', scenes.Pose((0, 0, 0, 1), (0.0, 0.0, 0.3)))

@@ -26,7 +26,7 @@ class QueryFramesTest(ContactCase):
     def setUpClass(cls):
         cls.node = NodeClient()
         cls.tf = TfSender()
-        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.wait_for(cls.node)
         cls.tf.send_resting(('liver_frame', 'camera', CAMERA_IN_LIVER))
         cls.node.send_mesh('framed', SHEET, rospy.Time(7, 5))
         cls.node.wait_for_shape('framed', rospy.Time(7, 5))

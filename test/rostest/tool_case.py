@@ -1,6 +1,7 @@
 """A test with tools that move by TF. Its points are in the organ's frame, which is turned and far
 off in the world; trocars and tips are sent in the world's."""
 
+from organ_collision.msg import ContactArray
 import rospy
 
 from contact_case import ContactCase
@@ -9,6 +10,7 @@ import scenes
 
 WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
 STEP = rospy.Duration(0, 10**7)
+OUT_OF_REACH = 'out_of_reach'  # an organ that no tool touches
 
 
 class ToolCase(ContactCase):
@@ -16,9 +18,12 @@ class ToolCase(ContactCase):
     def setUpClass(cls):
         cls.node = NodeClient()
         cls.tf = TfSender()
-        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.wait_for(cls.node)
         cls.tf.send_resting(('world', 'liver_frame', WORLD_LIVER))
         cls.stamp = rospy.Time.now()
+        far_away = scenes.one_face().moved(lambda v: (v[0] + 100.0, v[1], v[2]))
+        cls.node.send_mesh(OUT_OF_REACH, far_away)
+        cls.node.wait_for_shape(OUT_OF_REACH, rospy.Time())
 
     def setUp(self):
         self.organ = self.id().split('.')[-1]
@@ -45,16 +50,29 @@ class ToolCase(ContactCase):
             ]
         )
 
+    def place_and_wait(self, tool, axis, stamp):
+        """The same at one time; returns when the node has heard of it."""
+
+        def is_there():
+            result = self.node.query(OUT_OF_REACH, tool=tool, stamp=stamp)
+            seen[:] = [result.status, result.message]
+            return result.status == ContactArray.OK
+
+        seen = []
+        self.place(tool, (axis, stamp))
+        wait_until(is_there, lambda: 'the pose of %s at %s: %s' % (tool, stamp, seen))
+
     def step(self, shape, tools, topology=1, vertices=False, step=STEP):
         """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns
-        {name: what the node published of it}."""
+        {name: what the node published of it}. The node knows where the tools are before it hears of
+        the shape: it waits for no transform, however busy the machine is."""
         return self.step_of_organs({self.organ: shape}, tools, topology, vertices, step)[self.organ]
 
     def step_of_organs(self, shapes, tools, topology=1, vertices=False, step=STEP):
         """The same for many organs at one time, {organ: shape}. Returns {organ: {tool: result}}."""
         stamp = self.next_stamp(step)
         for tool, axis in tools.items():
-            self.place(tool, (axis, stamp))
+            self.place_and_wait(tool, axis, stamp)
         send = self.node.send_vertices if vertices else self.node.send_mesh
         for organ, shape in shapes.items():
             send(organ, shape, stamp, topology)

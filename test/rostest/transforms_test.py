@@ -1,15 +1,15 @@
 #!/usr/bin/python3
 """Transforms that come late, never or in between, and meshes that come late."""
 
+import random
 import sys
-import time
 
 from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
 from contact_case import faces_of
-from node_client import wait_until
+from node_client import NodeClient, wait_until
 import oracle
 import scenes
 from tool_case import STEP, ToolCase
@@ -76,30 +76,41 @@ class TransformsTest(ToolCase):
         self.assertGreater(len(expected), 0)
         self.assert_contacts(result, expected, 1e-6)
 
+    def patient(self):
+        """A node that waits for transforms longer than any test."""
+        node = NodeClient('/patient')
+        self.tf.wait_for(node)
+        return node
+
+    def await_transform(self):
+        """Such a node whose organ's last shape awaits its transform, and the shape's stamp."""
+        node = self.patient()
+        first, second = self.next_stamp(), self.next_stamp()
+        self.place('grasper', (at_height(0.05), first))
+        node.send_mesh(self.organ, SHEET, first)
+        self.assert_ok(node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=first))
+        node.send_vertices(self.organ, SHEET, second)
+        node.wait_for_shape(self.organ, second)
+        return node, second
+
     def test_a_transform_that_lags_is_awaited(self):
-        """The mesh comes 0.2 s before the transform of its stamp, and is evaluated when that is
-        there: neither without it, nor only after the time limit of a second."""
-        self.step(SHEET, {'grasper': at_height(0.05)})
-        stamp = self.next_stamp()
-        self.node.send_vertices(self.organ, SHEET, stamp)
-        time.sleep(0.2)
-        self.assertEqual(self.node.contacts.of(self.organ, mesh_stamp=stamp), [])
-        sent = time.monotonic()
+        """The shape comes before the transform of its stamp, and is evaluated when that is there:
+        neither without it, nor only after the time limit."""
+        node, stamp = self.await_transform()
+        self.assertEqual(node.contacts.of(self.organ, mesh_stamp=stamp), [])
         self.place('grasper', (at_height(0.003), stamp))
-        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
-        self.assertLess(time.monotonic() - sent, 0.6)
+        result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
         self.assert_contacts(
             result, oracle.swept_contacts(SHEET, at_height(0.05), at_height(0.003), RADIUS), 1e-6
         )
 
     def test_services_answer_while_a_transform_is_awaited(self):
-        self.step(SHEET, {'grasper': at_height(0.05)})
-        self.node.send_vertices(self.organ, SHEET, self.next_stamp())
-        begin = time.monotonic()
+        node, stamp = self.await_transform()
         for _ in range(20):
-            self.assertEqual(self.node.query(self.organ, tool='grasper').status, ContactArray.OK)
-        self.assertLess(time.monotonic() - begin, 0.6)
-        self.place('grasper', (at_height(0.05), self.stamp))
+            self.assertEqual(node.query(self.organ, tool='grasper').status, ContactArray.OK)
+        self.assertEqual(node.contacts.of(self.organ, mesh_stamp=stamp), [])
+        self.place('grasper', (at_height(0.05), stamp))
+        self.assert_ok(node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp))
 
     def test_through_the_sheet_and_back_between_two_meshes(self):
         """Only the poses in between touch: above at both ends of the step."""
@@ -122,6 +133,38 @@ class TransformsTest(ToolCase):
             self.assertAlmostEqual(found.fraction, right.fraction / 2, delta=2e-3)
             self.assertLess(found.depth, 0)
             self.assertFalse(found.behind)
+
+    def test_through_the_sheet_and_back_within_a_millisecond(self):
+        """At any times: between those at which the way is sampled, if TF says nothing."""
+        chance = random.Random(5)
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        for _ in range(50):
+            begin = self.stamp
+            start, down, up = sorted(chance.randrange(4 * 10**6, 5 * 10**6) for _ in range(3))
+            self.place(
+                'grasper',
+                *[
+                    (at_height(height), begin + rospy.Duration(0, nanoseconds))
+                    for height, nanoseconds in ((0.05, start), (-0.05, down), (0.05, up))
+                ]
+            )
+            result = self.step(SHEET, {'grasper': at_height(0.05)}, vertices=True)['grasper']
+            way_down = oracle.swept_contacts(SHEET, at_height(0.05), at_height(-0.05), RADIUS)
+            self.assert_ok(result)
+            self.assertEqual(faces_of(result), [c.face for c in way_down])
+            for found, right in zip(result.contacts, way_down):
+                touch = (start + right.fraction * (down - start)) / 1e7
+                self.assertAlmostEqual(found.fraction, touch, delta=1e-6)
+
+    def test_transforms_after_their_step_are_counted(self):
+        self.step(SHEET, {'grasper': at_height(0.05)})
+        begin = self.stamp
+        self.step(SHEET, {'grasper': at_height(0.05)}, vertices=True)
+        self.place('grasper', (at_height(-0.05), begin + rospy.Duration(0, 3 * 10**6)))
+        wait_until(
+            lambda: int(self.node.diagnostics.get('transforms after their step', 0)) >= 2,
+            lambda: 'two late transforms in /diagnostics: %s' % self.node.diagnostics,
+        )
 
     def test_a_long_step_is_not_cut_short(self):
         """A second between two meshes holds more samples than motion_samples_max: the stab in its
@@ -168,13 +211,14 @@ class TransformsTest(ToolCase):
         stamps = [self.next_stamp(), self.next_stamp()]
         poses = [scenes.Pose((0.1, 0.0, 0.0, 1.0), (0.01, 0.02, z)) for z in (-0.05, 0.06)]
         axis = at_height(0.0)
+        node = self.patient()
         for stamp, pose in zip(stamps, poses):
             self.tf.send(('liver_frame', 'breathing', pose, stamp))
             self.place('grasper', (axis, stamp))
-            message = self.node.mesh_message(self.organ, SHEET, stamp)
+            message = node.mesh_message(self.organ, SHEET, stamp)
             message.header.frame_id = 'breathing'
-            self.node.meshes.publish(message)
-            result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+            node.meshes.publish(message)
+            result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
         self.assertEqual(result.header.frame_id, 'breathing')
         seen = [tuple(map(pose.inverse().apply, axis)) for pose in poses]
         self.assertEqual(oracle.static_contacts(SHEET, seen[0], RADIUS), [])
@@ -198,26 +242,23 @@ class TransformsTest(ToolCase):
 
     def test_reset_keeps_a_mesh_that_awaits_its_transform(self):
         """It is no history: it is still evaluated, as the first of its tool."""
-        self.step(SHEET, {'grasper': at_height(0.05)})
-        stamp = self.next_stamp()
-        self.node.send_vertices(self.organ, SHEET, stamp)
-        self.node.wait_for_shape(self.organ, stamp)
-        self.node.reset()
+        node, stamp = self.await_transform()
+        node.reset()
         self.place('grasper', (at_height(0.003), stamp))
-        result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+        result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
         self.assertEqual(result.mode, STATIC)
         expected = oracle.static_contacts(SHEET, at_height(0.003), RADIUS)
         self.assert_contacts(result, expected)
 
     def test_an_organ_is_removed_while_it_awaits_a_transform(self):
-        self.step(SHEET, {'grasper': at_height(0.05)})
-        gone = self.next_stamp()
-        self.node.send_vertices(self.organ, SHEET, gone)
-        self.node.wait_for_shape(self.organ, gone)
-        self.node.remove(self.organ)
-        result = self.step(SHEET, {'grasper': at_height(0.003)})['grasper']
+        node, gone = self.await_transform()
+        node.remove(self.organ)
+        back = self.next_stamp()
+        self.place('grasper', (at_height(0.003), back))
+        node.send_mesh(self.organ, SHEET, back)
+        result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=back)
         self.assertEqual(result.mode, STATIC)
-        self.assertEqual(self.node.contacts.of(self.organ, 'grasper', mesh_stamp=gone), [])
+        self.assertEqual(node.contacts.of(self.organ, 'grasper', mesh_stamp=gone), [])
 
     def test_frames_that_are_not_connected(self):
         """The organ's frame hangs on no tree: no answer, which is not an empty one."""

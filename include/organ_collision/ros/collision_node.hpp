@@ -7,8 +7,6 @@
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Empty.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 
 #include <functional>
 
@@ -22,6 +20,8 @@
 #include "organ_collision/ros/step_evaluator.hpp"
 #include "organ_collision/ros/tool.hpp"
 #include "organ_collision/ros/tool_poses.hpp"
+#include "organ_collision/ros/transform_buffer.hpp"
+#include "organ_collision/ros/transform_topics.hpp"
 
 namespace organ_collision {
 
@@ -39,6 +39,7 @@ class CollisionNode {
  private:
   void call_callbacks();
   bool call_one(ros::WallDuration wait);
+  void guard(const std::function<void()>& callback);
   void watch_clock();
   void evaluate();
   void tip_moved(std::size_t tool);
@@ -62,7 +63,7 @@ class CollisionNode {
   std::vector<Tool> tools_;
   NodeCounters counters_;
 
-  tf2_ros::Buffer transforms_;
+  TransformBuffer transforms_;
   OrganStore organs_;
   ToolPoses poses_;
   Evaluator evaluator_;
@@ -77,7 +78,7 @@ class CollisionNode {
 
   ros::Publisher contacts_;
   ros::Publisher markers_;
-  tf2_ros::TransformListener transform_listener_;
+  TransformTopics transform_topics_;
   PoseTopics pose_topics_;
   OrganInbox inbox_;
   std::vector<ros::Subscriber> subscribers_;

@@ -12,6 +12,7 @@
 #include "organ_collision/ros/statistics.hpp"
 #include "organ_collision/ros/step_evaluator.hpp"
 #include "organ_collision/ros/tool.hpp"
+#include "organ_collision/ros/transform_buffer.hpp"
 
 namespace organ_collision {
 
@@ -41,6 +42,7 @@ class Diagnostics {
     const OrganStore& organs;
     const Evaluator& evaluator;
     const StepEvaluator& steps;
+    const TransformBuffer& transforms;
     NodeCounters& counters;
   };
 

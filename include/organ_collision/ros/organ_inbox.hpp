@@ -38,7 +38,7 @@ class OrganInbox {
                        const std::function<TriangleMesh()>& made)>
         take;
     std::function<void(const OrganVerticesConstPtr&)> take_vertices;
-    /// Called in the inbox's own thread: hand_on has something to do.
+    /// Called in the inbox's own thread: hand_on has something to do. It may throw bad_alloc.
     std::function<void()> wake;
   };
   explicit OrganInbox(Callbacks callbacks);
@@ -49,7 +49,9 @@ class OrganInbox {
 
   void add(const OrganMeshConstPtr& message, const Connection& connection = {});
   void add(const OrganVerticesConstPtr& message);
-  /// Everything that waits for nothing any more.
+  /// Everything that waits for nothing any more. To be called now and then even without a wake.
+  /// What a callback throws comes out; what stood behind that message is handed on by the next
+  /// call.
   void hand_on();
 
  private:
@@ -69,6 +71,7 @@ class OrganInbox {
   void hand_on(Entry& entry) const;
   std::future<TriangleMesh> start_making(const OrganMeshConstPtr& message);
   void make_meshes();
+  void wake() const;
 
   Callbacks callbacks_;
   std::map<std::string, Entries> waiting_;  ///< by organ; only those for which something waits

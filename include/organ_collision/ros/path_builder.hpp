@@ -1,9 +1,7 @@
 #pragma once
 
-#include <vector>
-
-#include "organ_collision/geometry/link.hpp"
 #include "organ_collision/geometry/tool_path.hpp"
+#include "organ_collision/ros/path_deviation.hpp"
 
 namespace organ_collision {
 
@@ -13,8 +11,9 @@ namespace organ_collision {
 /// straight way is that of RigidMotion, to 1e-6 m. Joints in a chain follow that way only roughly.
 class PathBuilder {
  public:
-  /// At fraction 0.
-  PathBuilder(const std::vector<Link>& links, const ToolPose& begin);
+  /// At fraction 0. `deviation` must outlive it.
+  PathBuilder(const PathDeviation& deviation, const ToolPose& begin)
+      : deviation_(deviation), path_(resting_path(begin)) {}
 
   /// Fractions rise, up to 1.
   void add(double fraction, const ToolPose& pose);
@@ -26,7 +25,7 @@ class PathBuilder {
  private:
   double bend(const ToolWaypoint& a, const ToolWaypoint& b, const ToolWaypoint& c) const;
 
-  std::vector<double> reaches_;  ///< [m] of each link, from its origin
+  const PathDeviation& deviation_;
   ToolPath path_;
   double bends_left_out_ = 0.0;  ///< of the last leg, as `bend` has them
 };

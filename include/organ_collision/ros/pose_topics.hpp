@@ -2,7 +2,6 @@
 
 #include <geometry_msgs/PoseStamped.h>
 #include <ros/node_handle.h>
-#include <tf2/buffer_core.h>
 
 #include <functional>
 #include <optional>
@@ -11,7 +10,7 @@
 
 #include "organ_collision/ros/failure_log.hpp"
 #include "organ_collision/ros/parameters.hpp"
-#include "organ_collision/ros/tool_poses.hpp"
+#include "organ_collision/ros/transform_buffer.hpp"
 
 namespace organ_collision {
 
@@ -23,8 +22,7 @@ class PoseTopics {
   /// Where poses go; all must outlive it. `arrived` gets the tool's index, after each pose of a
   /// tip.
   struct Sinks {
-    tf2::BufferCore& transforms;
-    ToolPoses& poses;
+    TransformBuffer& transforms;
     FailureLog& rejected;
     std::function<void(std::size_t)> arrived;
   };

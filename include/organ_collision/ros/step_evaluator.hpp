@@ -34,8 +34,8 @@ class StepEvaluator {
   using Publish = std::function<void(const EvaluatedStep&)>;
 
   /// The references must outlive it.
-  StepEvaluator(const NodeParameters& parameters, const std::vector<Tool>& tools,
-                const ToolPoses& poses, Evaluator& evaluator, Publish publish)
+  StepEvaluator(const NodeParameters& parameters, const std::vector<Tool>& tools, ToolPoses& poses,
+                Evaluator& evaluator, Publish publish)
       : parameters_(parameters),
         tools_(tools),
         poses_(poses),
@@ -63,6 +63,9 @@ class StepEvaluator {
   const StepHistory& history() const { return history_; }
   /// Samples of motion that motion_samples_max cut, since the start.
   std::size_t samples_cut() const { return samples_cut_; }
+  /// [m] The farthest that any of them was from the way that the tool was swept along, since the
+  /// start.
+  double deviation_cut() const { return deviation_cut_; }
 
  private:
   bool evaluate_front(const Organ& organ, std::size_t tool, OrganToolPair& pair, SteadyTime now);
@@ -80,11 +83,12 @@ class StepEvaluator {
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;
-  const ToolPoses& poses_;
+  ToolPoses& poses_;
   Evaluator& evaluator_;
   Publish publish_;
   StepHistory history_;
   std::size_t samples_cut_ = 0;
+  double deviation_cut_ = 0.0;
 };
 
 }  // namespace organ_collision
