@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "rough_steps.hpp"
 #include "stopwatch.hpp"
 #include "vertex_pass.hpp"
 
@@ -169,7 +170,56 @@ void add_passes(Lab& lab, const SceneKey& key) {
            });
 }
 
+struct RoughEntry {
+  const char* name;
+  std::size_t faces;
+  RoughSteps::Organ organ;
+  RoughSteps::Tool tool;
+  std::size_t samples;
+};
+
+constexpr RoughEntry kRoughSteps[] = {
+    {"rough_rest_shaft_2/ours/1224", 1224, RoughSteps::Organ::kRests, RoughSteps::Tool::kShaft, 2},
+    {"rough_rest_shaft_100/ours/1224", 1224, RoughSteps::Organ::kRests, RoughSteps::Tool::kShaft,
+     100},
+    {"rough_rest_grasper_2/ours/1224", 1224, RoughSteps::Organ::kRests, RoughSteps::Tool::kGrasper,
+     2},
+    {"rough_rest_grasper_100/ours/1224", 1224, RoughSteps::Organ::kRests,
+     RoughSteps::Tool::kGrasper, 100},
+    {"rough_rest_shaft_2/ours/100000", 100'000, RoughSteps::Organ::kRests, RoughSteps::Tool::kShaft,
+     2},
+    {"rough_rest_shaft_100/ours/100000", 100'000, RoughSteps::Organ::kRests,
+     RoughSteps::Tool::kShaft, 100},
+    {"rough_glitch_shaft_2/ours/100000", 100'000, RoughSteps::Organ::kGlitches,
+     RoughSteps::Tool::kShaft, 2},
+    {"rough_glitch_shaft_100/ours/100000", 100'000, RoughSteps::Organ::kGlitches,
+     RoughSteps::Tool::kShaft, 100},
+    {"rough_glitch_grasper_100/ours/100000", 100'000, RoughSteps::Organ::kGlitches,
+     RoughSteps::Tool::kGrasper, 100},
+    {"rough_jump_shaft_2/ours/100000", 100'000, RoughSteps::Organ::kJumps, RoughSteps::Tool::kShaft,
+     2},
+    {"rough_jump_shaft_100/ours/100000", 100'000, RoughSteps::Organ::kJumps,
+     RoughSteps::Tool::kShaft, 100},
+};
+
 }  // namespace
+
+void add_rough_steps() {
+  constexpr std::size_t kRuns = 5;
+  for (const RoughEntry& entry : kRoughSteps) {
+    add(entry.name, kRuns, [entry](benchmark::State& state) {
+      RoughSteps steps(entry.faces, entry.organ, entry.tool, entry.samples);
+      steps.run();
+      std::size_t contacts = 0;
+      for ([[maybe_unused]] const auto _ : state) {
+        const RoughSteps::Timed timed = steps.run();
+        state.SetIterationTime(timed.seconds);
+        contacts = timed.contacts;
+      }
+      state.counters["contacts"] = static_cast<double>(contacts);
+    });
+  }
+}
 
 void add_benchmarks(Lab& lab, const SceneKey& key) {
   for (const EngineEntry& engine : kEngines) {

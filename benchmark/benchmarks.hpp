@@ -9,5 +9,7 @@ namespace organ_collision::bench {
 void add_benchmarks(Lab& lab, const SceneKey& key);
 /// Those of a grasper of four links.
 void add_grasper(Lab& lab);
+/// Those of steps that are not smooth.
+void add_rough_steps();
 
 }  // namespace organ_collision::bench

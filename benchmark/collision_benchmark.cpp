@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
     }
   }
   add_grasper(lab);
+  add_rough_steps();
   SilentReporter display;
   PlainJsonReporter file;
   benchmark::RunSpecifiedBenchmarks(&display, &file);

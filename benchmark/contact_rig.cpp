@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "engines/shared_context.hpp"
-#include "organ_collision/geometry/displacement.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
 #include "stopwatch.hpp"
 
@@ -77,13 +76,13 @@ void ContactRig::check(std::size_t steps, bool organ_moves) {
 ContactRig::Timed ContactRig::contacts(bool organ_moves) {
   const SceneStep& step = scene_.steps[next_++ % scene_.steps.size()];
   move_organ(step);
-  const double displacement = organ_moves ? largest_displacement(before_, organ_) : 0.0;
   Timed timed{0.0, 0};
   for (const CheckedQuery* checked : {&step.fixed, &step.swept}) {
     const bool moves = organ_moves && checked == &step.swept;
     const VolumeQuery& tool = checked->query;
-    const VolumeMargin margin{moves ? displacement : 0.0, tool.extent};
-    picker_->pick(conservative_volume(tool.motion, tool.radius, margin), organ_, candidates_);
+    const OrganMotion organ =
+        moves ? OrganMotion(before_, before_.block_boxes(), organ_, 0.0, 1.0) : OrganMotion(organ_);
+    picker_->pick(PartSweep(tool.motion, tool.radius), organ, candidates_);
     Stopwatch watch;
     for (const Candidate& candidate : candidates_) {
       const Triangle now = organ_.triangle(candidate.face);

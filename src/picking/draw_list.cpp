@@ -1,13 +1,35 @@
 #include "draw_list.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace organ_collision {
 namespace {
 
+// [1] A volume grows by at most this share of the part's thickness for how far faces move, and for
+// what 32 bits lose (a millionth of the largest coordinate). Beyond, more faces would survive
+// clipping than it is worth.
+constexpr double kMostMove = 0.5;
+constexpr double kMostExtent = 0.01 / 1e-6;
+
 Triangle shifted(const Triangle& face, const Eigen::Vector3d& origin) {
   return {face[0] - origin, face[1] - origin, face[2] - origin};
+}
+
+/// [m] The farthest that a corner is from where it is half way.
+double half_move(const FaceMotion& face) {
+  double squared = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    squared = std::max(squared, (face.end[i] - face.start[i]).squaredNorm());
+  }
+  return 0.5 * std::sqrt(squared);
+}
+
+/// [m] Largest coordinate.
+double extent(const Triangle& face) {
+  return std::max({face[0].cwiseAbs().maxCoeff(), face[1].cwiseAbs().maxCoeff(),
+                   face[2].cwiseAbs().maxCoeff()});
 }
 
 }  // namespace
@@ -16,28 +38,53 @@ std::uint32_t face_number(float lower, float upper) {
   return static_cast<std::uint32_t>(lower) | static_cast<std::uint32_t>(upper) << 16;
 }
 
-void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
+/// Calls add(face) for each face that outcodes do not reject.
+template <typename Add>
+void DrawList::for_each_face(const ViewingVolume& volume, const OrganMotion& organ, Add add) {
   constexpr std::size_t kRun = FaceClusters::kRun;
-  const FaceClusters& clusters = mesh.clusters();
+  const FaceClusters& clusters = organ.after().clusters();
   vertices_.clear();
-  outcodes_.assign(volume, mesh);
+  undrawn_.clear();
+  outcodes_.assign(volume, organ);
   for (std::size_t section = 0; section < clusters.section_count(); ++section) {
     if (outcodes_.section_is_outside(section)) continue;
     outcodes_.add_blocks(section);
     const std::size_t end = std::min((section + 1) * kRun, clusters.block_count());
     for (std::size_t block = section * kRun; block < end; ++block) {
-      if (!outcodes_.cluster_is_outside(block)) add_cluster(block, volume.origin(), mesh);
+      if (outcodes_.cluster_is_outside(block)) continue;
+      outcodes_.add_vertices(block);
+      for (const FaceClusters::Face& face : clusters.faces(block)) {
+        if (!outcodes_.face_is_outside(face.corners)) add(face);
+      }
     }
   }
 }
 
-void DrawList::add_cluster(std::size_t block, const Eigen::Vector3d& origin,
-                           const TriangleMesh& mesh) {
-  outcodes_.add_vertices(block);
-  for (const FaceClusters::Face& face : mesh.clusters().faces(block)) {
-    if (outcodes_.face_is_outside(face.corners)) continue;
-    add(shifted(mesh.triangle(face.corners), origin), face.number);
-  }
+void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
+  for_each_face(volume, OrganMotion(mesh), [&](const FaceClusters::Face& face) {
+    add(shifted(mesh.triangle(face.corners), volume.origin()), face.number);
+  });
+}
+
+ViewingVolume DrawList::assign(const PartSweep& part, const OrganMotion& organ) {
+  const Eigen::Vector3d& origin = part.origin();
+  const double organ_extent = organ.extent(origin);
+  const double most_extent = std::min(organ_extent, kMostExtent * part.thickness());
+  const double most_move = kMostMove * part.thickness();
+  const ViewingVolume volume = part.volume({0.0, most_extent});
+  double farthest_move = 0.0;
+  for_each_face(volume, organ, [&](const FaceClusters::Face& face) {
+    const FaceMotion motion = organ.face(face.corners);
+    const double move = organ.rests() ? 0.0 : half_move(motion);
+    const Triangle half_way = shifted(organ.rests() ? motion.end : motion.at(0.5), origin);
+    if (move > most_move || (organ_extent > most_extent && extent(half_way) > most_extent)) {
+      undrawn_.push_back(face.number);
+    } else {
+      farthest_move = std::max(farthest_move, move);
+      add(half_way, face.number);
+    }
+  });
+  return farthest_move > 0.0 ? part.volume({farthest_move, most_extent}) : volume;
 }
 
 void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh,

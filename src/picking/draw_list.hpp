@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ_motion.hpp"
+#include "organ_collision/picking/part_sweep.hpp"
 #include "organ_collision/picking/viewing_volume.hpp"
 #include "outcodes.hpp"
 
@@ -27,17 +28,27 @@ class DrawList {
   /// reject: whose three corners, or the boxes that hold these, are outside of one half-space.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
 
+  /// Replaces the list by the faces of an organ that may meet a part during their motion, each
+  /// drawn where it is half way. Returns the volume to draw them in: around the part, and grown by
+  /// how far one of them moves from there, and for what 32 bits lose. A single face shall not make
+  /// it large: those that move far, or that reach far from the part, are `undrawn`.
+  ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
+
   /// Replaces the list by `faces`; they are numbered by their place in it.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh,
               const std::vector<std::uint32_t>& faces);
 
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
+  /// Numbers of faces that may meet the part, and that GL is not to decide on.
+  const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:
-  void add_cluster(std::size_t block, const Eigen::Vector3d& origin, const TriangleMesh& mesh);
+  template <typename Add>
+  void for_each_face(const ViewingVolume& volume, const OrganMotion& organ, Add add);
   void add(const Triangle& face, std::uint32_t number);
 
   std::vector<DrawVertex> vertices_;
+  std::vector<std::uint32_t> undrawn_;
   Outcodes outcodes_;
 };
 

@@ -5,11 +5,33 @@
 #include "feedback.hpp"
 
 namespace organ_collision {
+namespace {
+
+void sort_by_face(std::vector<Candidate>& candidates) {
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+}
+
+}  // namespace
 
 void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                           std::vector<Candidate>& candidates) {
   candidates.clear();
   draw_list_.assign(volume, mesh);
+  clip(volume, candidates);
+  sort_by_face(candidates);
+}
+
+void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
+                          std::vector<Candidate>& candidates) {
+  candidates.clear();
+  clip(draw_list_.assign(part, organ), candidates);
+  for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
+  sort_by_face(candidates);
+}
+
+/// Adds the faces of the list that meet the volume.
+void FeedbackPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
   const std::size_t size = draw_feedback(context_, volume, draw_list_.vertices(), buffer_);
   // Faces come back in the order drawn; one that was clipped as several primitives in a row.
   for_each_vertex(buffer_, size, [&](const FeedbackVertex& vertex) {
@@ -21,8 +43,6 @@ void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
     candidate.view_min = std::min(candidate.view_min, depth);
     candidate.view_max = std::max(candidate.view_max, depth);
   });
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
 }
 
 }  // namespace organ_collision

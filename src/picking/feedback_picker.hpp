@@ -12,8 +12,12 @@ class FeedbackPicker : public Picker {
 
   void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
             std::vector<Candidate>& candidates) override;
+  void pick(const PartSweep& part, const OrganMotion& organ,
+            std::vector<Candidate>& candidates) override;
 
  private:
+  void clip(const ViewingVolume& volume, std::vector<Candidate>& candidates);
+
   GlContext& context_;
   DrawList draw_list_;
   std::vector<float> buffer_ = std::vector<float>(4096);

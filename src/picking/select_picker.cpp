@@ -1,5 +1,6 @@
 #include "select_picker.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "gl_functions.hpp"
@@ -36,27 +37,50 @@ double window_depth(std::uint32_t recorded) {
   return (depth - kNearDepth) / (kFarDepth - kNearDepth);
 }
 
-void draw_named(const GlFunctions& gl, const std::vector<FaceIndices>& faces,
-                const std::vector<Eigen::Vector3f>& vertices) {
-  gl.InitNames();
-  gl.PushName(0);
-  for (std::size_t i = 0; i < faces.size(); ++i) {
-    gl.LoadName(static_cast<GLuint>(i));
-    gl.Begin(GL_TRIANGLES);
-    for (const std::uint32_t vertex : faces[i]) gl.Vertex3fv(vertices[vertex].data());
-    gl.End();
-  }
-}
-
 }  // namespace
 
 void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                         std::vector<Candidate>& candidates) {
-  candidates.clear();
   vertices_.resize(mesh.vertex_count());
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     vertices_[i] = (mesh.vertex(i) - volume.origin()).cast<float>();
   }
+  candidates.clear();
+  const auto draw_named = [&](const GlFunctions& gl) {
+    const std::vector<FaceIndices>& faces = mesh.faces();
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      gl.LoadName(static_cast<GLuint>(i));
+      gl.Begin(GL_TRIANGLES);
+      for (const std::uint32_t vertex : faces[i]) gl.Vertex3fv(vertices_[vertex].data());
+      gl.End();
+    }
+  };
+  select(volume, draw_named, candidates);
+}
+
+void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
+                        std::vector<Candidate>& candidates) {
+  const ViewingVolume volume = draw_list_.assign(part, organ);
+  candidates.clear();
+  for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
+  const auto draw_named = [&](const GlFunctions& gl) {
+    const std::vector<DrawVertex>& vertices = draw_list_.vertices();
+    for (std::size_t i = 0; i < vertices.size(); i += 3) {
+      gl.LoadName(face_number(vertices[i].number[0], vertices[i].number[1]));
+      gl.Begin(GL_TRIANGLES);
+      for (std::size_t k = i; k < i + 3; ++k) gl.Vertex3fv(vertices[k].position.data());
+      gl.End();
+    }
+  };
+  select(volume, draw_named, candidates);
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+}
+
+/// Adds the faces that `draw_named(gl)` draws and that meet the volume.
+template <typename Draw>
+void SelectPicker::select(const ViewingVolume& volume, Draw draw_named,
+                          std::vector<Candidate>& candidates) {
   context_.make_current();
   const GlFunctions& gl = context_.functions();
   const ScopedVolume scoped_volume(gl, volume);
@@ -65,7 +89,9 @@ void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
   while (hits < 0) {
     gl.SelectBuffer(static_cast<GLsizei>(buffer_.size()), buffer_.data());
     gl.RenderMode(GL_SELECT);
-    draw_named(gl, mesh.faces(), vertices_);
+    gl.InitNames();
+    gl.PushName(0);
+    draw_named(gl);
     hits = gl.RenderMode(GL_RENDER);
     context_.check("a select query");
     if (hits < 0) buffer_.resize(4 * buffer_.size());

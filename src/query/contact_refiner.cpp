@@ -44,8 +44,8 @@ Vector3d perpendicular(const Vector3d& a, const Vector3d& b) {
 }
 
 bool first_nonzero_is_positive(const Vector3d& v) {
-  for (const double component : v) {
-    if (std::abs(component) > tolerance::kParallel) return component > 0.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (std::abs(v[i]) > tolerance::kParallel) return v[i] > 0.0;
   }
   return true;
 }

@@ -3,7 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "organ_collision/geometry/displacement.hpp"
+#include "leg_span.hpp"
+#include "organ_collision/geometry/organ_motion.hpp"
 #include "organ_collision/picking/viewing_volume.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
@@ -14,7 +15,8 @@ namespace organ_collision {
 /// step. A view of request and path, which must outlive it.
 class Step {
  public:
-  Step(const CollisionRequest& request, const ToolPath& path, LastDisplacement& displacement);
+  /// `boxes` are refitted where the organ's shapes do not share their clusters.
+  Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& boxes);
 
   const TriangleMesh& organ() const { return organ_; }
   bool has_shaft() const { return radius_ > 0.0; }
@@ -31,25 +33,38 @@ class Step {
   /// The leg that a fraction of the step falls in; the earlier one at a waypoint.
   std::size_t leg_at(double fraction) const;
 
-  ShaftMotion shaft(std::size_t leg) const { return {from(leg).axis, to(leg).axis}; }
+  LegSpan span_of(std::size_t leg) const { return {leg, leg + 1, 0.0}; }
+  /// The longest spans found that begin with a leg.
+  LegSpan shaft_span(std::size_t leg) const;
+  LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
+
+  /// What moves how on a leg, or along the chord of a span.
+  ShaftMotion shaft(std::size_t leg) const { return shaft(span_of(leg)); }
+  ShaftMotion shaft(const LegSpan& span) const { return {from(span).axis, to(span).axis}; }
   RigidMotion link_motion(std::size_t leg, std::size_t link) const {
-    return {from(leg).links[link], to(leg).links[link]};
+    return link_motion(span_of(leg), link);
   }
+  RigidMotion link_motion(const LegSpan& span, std::size_t link) const {
+    return {from(span).links[link], to(span).links[link]};
+  }
+  OrganMotion organ_motion(const LegSpan& span) const;
   FaceLeg face(std::size_t leg, std::uint32_t face) const;
+  /// The leg of a span in which a time of its chord falls; the earlier one at a waypoint.
+  std::size_t leg_at(const LegSpan& span, double time) const;
   /// Where shaft and links are when the step ends.
   PartEnd shaft_end() const { return {last().axis}; }
   PartEnd link_end(std::size_t link) const { return {{}, &(*links_)[link], last().links[link]}; }
-  /// For a volume whose coordinates are relative to `origin`.
-  VolumeMargin margin(const Eigen::Vector3d& origin) const;
 
  private:
   const ToolWaypoint& last() const { return waypoints_[waypoint_count_ - 1]; }
-  const ToolWaypoint& from(std::size_t leg) const { return waypoints_[leg]; }
-  const ToolWaypoint& to(std::size_t leg) const {
-    return waypoints_[waypoint_count_ > 1 ? leg + 1 : 0];
+  const ToolWaypoint& from(const LegSpan& span) const { return waypoints_[span.begin]; }
+  const ToolWaypoint& to(const LegSpan& span) const {
+    return waypoints_[waypoint_count_ > 1 ? span.end : 0];
   }
-  double begin(std::size_t leg) const { return waypoint_count_ > 1 ? from(leg).fraction : 0.0; }
-  double finish(std::size_t leg) const { return waypoint_count_ > 1 ? to(leg).fraction : 1.0; }
+  double begin(const LegSpan& span) const {
+    return waypoint_count_ > 1 ? from(span).fraction : 0.0;
+  }
+  double finish(const LegSpan& span) const { return waypoint_count_ > 1 ? to(span).fraction : 1.0; }
 
   const TriangleMesh& organ_;
   const TriangleMesh* organ_before_;
@@ -57,7 +72,7 @@ class Step {
   const std::vector<Link>* links_;
   const ToolWaypoint* waypoints_;
   std::size_t waypoint_count_;
-  double displacement_;  ///< [m] the farthest that any vertex moves during the step
+  const BlockBoxes* boxes_before_ = nullptr;  ///< of the organ before, in its present clusters
 };
 
 }  // namespace organ_collision

@@ -69,7 +69,7 @@ TEST(Outcodes, RejectTheFacesOutsideOfOneHalfSpace) {
       std::size_t rejected = 0;
       for (std::size_t trial = 0; trial < 54; ++trial) {
         const ViewingVolume volume = random_volume(random, Vector3d::Constant(far), trial % 9);
-        outcodes.assign(volume, mesh);
+        outcodes.assign(volume, OrganMotion(mesh));
         const std::set<std::uint32_t> faces = kept(outcodes, mesh);
         for (std::uint32_t i = 0; i < mesh.face_count(); ++i) {
           const double outside = farthest_outside(mesh.triangle(i), volume);
@@ -105,7 +105,7 @@ TEST(Outcodes, NeverRejectAFaceThatTouchesTheVolumeInOnePoint) {
       for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
     }
     const TriangleMesh mesh(vertices, {0, 1, 2});
-    outcodes.assign(volume, mesh);
+    outcodes.assign(volume, OrganMotion(mesh));
     const std::set<std::uint32_t> faces = kept(outcodes, mesh);
     if (farthest_outside(mesh.triangle(0), volume) <= 0.0) {
       EXPECT_EQ(faces.count(0), 1U);
@@ -118,10 +118,10 @@ TEST(Outcodes, StartAnewForAnotherShape) {
   const ViewingVolume below = ViewingVolume::orthographic(
       {Vector3d::Zero(), Vector3d::Zero(), Eigen::Matrix3d::Identity(), -2, 2, -2, 2, -2, 0.5});
   TriangleMesh mesh({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
-  outcodes.assign(below, mesh);
+  outcodes.assign(below, OrganMotion(mesh));
   EXPECT_EQ(kept(outcodes, mesh).size(), 1U);
   mesh.move_vertices(std::vector<float>{0, 0, 1, 1, 0, 1, 0, 1, 1});
-  outcodes.assign(below, mesh);
+  outcodes.assign(below, OrganMotion(mesh));
   EXPECT_EQ(kept(outcodes, mesh).size(), 0U);
 }
 

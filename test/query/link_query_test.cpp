@@ -15,7 +15,7 @@
 #include "organ_collision/query/contact_refiner.hpp"
 #include "proof/core_distance_oracle.hpp"
 #include "proof/exact_distance.hpp"
-#include "query/scenes.hpp"
+#include "query/link_scenes.hpp"
 
 namespace organ_collision {
 namespace {
@@ -23,156 +23,6 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using oracle::Random;
-
-LinkPart random_part(bool may_be_mesh, Random& random) {
-  const Isometry3d pose = oracle::random_pose(0.03, random);
-  switch (random.integer(0, may_be_mesh ? 3 : 2)) {
-    case 0:
-      return LinkPart::sphere(pose.translation(), random.scale(3e-3, 0.04));
-    case 1:
-      return LinkPart::cylinder(pose, random.scale(3e-3, 0.04), random.scale(3e-3, 0.15));
-    case 2:
-      return LinkPart::box(
-          pose, {random.scale(3e-3, 0.15), random.scale(3e-3, 0.15), random.scale(3e-3, 0.15)});
-    default:
-      return LinkPart::mesh(
-          scattered_mesh(static_cast<std::size_t>(random.integer(1, 20)), random).surface());
-  }
-}
-
-std::vector<Link> random_links(bool may_be_meshes, Random& random) {
-  std::vector<Link> links(static_cast<std::size_t>(random.integer(1, 3)));
-  for (Link& link : links) {
-    link.name = "link " + std::to_string(&link - links.data());
-    const int parts = random.integer(1, 3);
-    for (int i = 0; i < parts; ++i) link.parts.push_back(random_part(may_be_meshes, random));
-  }
-  return links;
-}
-
-/// A path of shaft and links, through one to three legs that turn by at most `turn` [rad].
-ToolPath random_link_path(std::size_t links, double turn, Random& random) {
-  ToolPath path = random_path(true, random);
-  for (std::size_t link = 0; link < links; ++link) {
-    Isometry3d pose = oracle::random_pose(0.1, random);
-    for (ToolWaypoint& waypoint : path) {
-      waypoint.links.push_back(pose);
-      pose.linear() *= oracle::random_turn(random.scale(1e-5, turn), random);
-      pose.translation() += random.scale(1e-5, 0.05) * random.direction();
-    }
-  }
-  return path;
-}
-
-/// An organ that rests or moves, and a tool of links, with or without a shaft.
-struct Scene {
-  Scene(bool may_be_meshes, Random& random, double turn = 0.19)
-      : soup(scattered_faces(150, random)),
-        organ(mesh(soup)),
-        before(mesh(shaken(soup, random.scale(1e-5, 0.02), random))),
-        links(random_links(may_be_meshes, random)) {
-    request = swept(organ, random_link_path(links.size(), turn, random), 0.0);
-    if (random.chance(0.5)) request.radius = random.scale(0.5e-3, 0.01);
-    if (random.chance(0.5)) request.organ_before = &before;
-    request.links = &links;
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  Soup soup;
-  TriangleMesh organ, before;
-  std::vector<Link> links;
-  CollisionRequest request;
-};
-
-/// The first touch of a face with any triangle of a part's surface.
-std::optional<FaceContact> refine_surface(const PartLeg& part, const ToolSurface& surface,
-                                          const FaceLeg& face) {
-  std::optional<FirstTouch> first;
-  for (std::size_t i = 0; i < surface.faces().size(); ++i) {
-    ConvexCore core;
-    core.count = 3;
-    const Triangle triangle = surface.triangle(i);
-    std::copy(triangle.begin(), triangle.end(), core.points.begin());
-    const auto touch = first_touch(CoreMotion(core, *part.core.link()), face.motion, part.radius);
-    if (touch && (!first || touch->time < first->time)) first = touch;
-  }
-  if (!first) return std::nullopt;
-  return contact_of(*first, part, face);
-}
-
-/// Every face with every part in every leg: no picking, no boxes.
-class BruteForce {
- public:
-  explicit BruteForce(const CollisionRequest& request) : request_(request) {
-    const bool has_shaft = request.radius > 0.0;
-    for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
-      if (has_shaft) touch_shaft(face);
-      for (std::uint32_t link = 0; link < request.links->size(); ++link) {
-        touch_link(face, link, has_shaft ? link + 1 : link);
-      }
-    }
-  }
-
-  const std::vector<FaceContact>& contacts() const { return contacts_; }
-
- private:
-  FaceLeg leg(std::uint32_t face, std::size_t i) const {
-    const Triangle after = request_.organ->triangle(face);
-    const FaceMotion whole{request_.organ_before ? request_.organ_before->triangle(face) : after,
-                           after};
-    const double begin = request_.path[i - 1].fraction, finish = request_.path[i].fraction;
-    return {{whole.at(begin), whole.at(finish)}, begin, finish, after};
-  }
-
-  void touch_shaft(std::uint32_t face) {
-    std::optional<FaceContact> best;
-    for (std::size_t i = 1; i < request_.path.size(); ++i) {
-      const ShaftMotion shaft{request_.path[i - 1].axis, request_.path[i].axis};
-      keep_first(refine({shaft, request_.radius, {request_.path.back().axis}}, leg(face, i)), best);
-    }
-    keep(best, face);
-  }
-
-  void touch_link(std::uint32_t face, std::uint32_t index, std::uint32_t number) {
-    const Link& link = (*request_.links)[index];
-    std::optional<FaceContact> best;
-    for (std::size_t i = 1; i < request_.path.size(); ++i) {
-      const RigidMotion motion(request_.path[i - 1].links[index], request_.path[i].links[index]);
-      for (const LinkPart& part : link.parts) {
-        const PartLeg on_leg{{part.core, motion},
-                             part.radius,
-                             {{}, &link, request_.path.back().links[index]},
-                             number};
-        keep_first(part.surface ? refine_surface(on_leg, *part.surface, leg(face, i))
-                                : refine(on_leg, leg(face, i)),
-                   best);
-      }
-    }
-    keep(best, face);
-  }
-
-  static void keep_first(const std::optional<FaceContact>& contact,
-                         std::optional<FaceContact>& best) {
-    if (contact && (!best || is_before(*contact, *best))) best = contact;
-  }
-
-  /// Earlier, else deeper, else by the point.
-  static bool is_before(const FaceContact& a, const FaceContact& b) {
-    const Vector3d &p = a.point, &q = b.point;
-    return std::make_tuple(a.fraction, -a.depth, p.x(), p.y(), p.z()) <
-           std::make_tuple(b.fraction, -b.depth, q.x(), q.y(), q.z());
-  }
-
-  void keep(const std::optional<FaceContact>& best, std::uint32_t face) {
-    if (!best) return;
-    contacts_.push_back(*best);
-    contacts_.back().face = face;
-  }
-
-  const CollisionRequest& request_;
-  std::vector<FaceContact> contacts_;
-};
 
 using LinkQueryWith = CollisionQueryWith;
 
@@ -185,7 +35,7 @@ TEST_P(LinkQueryWith, FindsWhatBruteForceFinds) {
   Random random(1);
   std::size_t found = 0;
   for (int i = 0; i < 150 && !HasFailure(); ++i) {
-    const Scene scene(false, random);
+    const LinkScene scene(false, random);
     const std::vector<FaceContact> all = BruteForce(scene.request).contacts();
     const std::vector<FaceContact> asked = contacts(scene.request);
     expect_same(asked, all, 1e-12);
@@ -200,7 +50,7 @@ TEST_P(LinkQueryWith, FindsWhatBruteForceFindsInLongTurns) {
   Random random(9);
   std::size_t found = 0;
   for (int i = 0; i < 60 && !HasFailure(); ++i) {
-    const Scene scene(false, random, 3.0);
+    const LinkScene scene(false, random, 3.0);
     const std::vector<FaceContact> all = BruteForce(scene.request).contacts();
     const std::vector<FaceContact> asked = contacts(scene.request);
     expect_same_links(asked, all);
@@ -218,7 +68,7 @@ TEST_P(LinkQueryWith, FindsWhatBruteForceFindsWithMeshes) {
   Random random(2);
   std::size_t found = 0;
   for (int i = 0; i < 100 && !HasFailure(); ++i) {
-    const Scene scene(true, random);
+    const LinkScene scene(true, random);
     const std::vector<FaceContact> all = BruteForce(scene.request).contacts();
     const std::vector<FaceContact> asked = contacts(scene.request);
     ASSERT_EQ(asked.size(), all.size());
@@ -241,7 +91,7 @@ TEST_P(LinkQueryWith, StaticContactsAreThoseOfTheOracle) {
   Random random(3);
   std::size_t touching = 0;
   for (int i = 0; i < 12; ++i) {
-    Scene scene(false, random);
+    LinkScene scene(false, random);
     scene.request.mode = QueryMode::kStatic;
     scene.request.radius = 0.0;
     std::vector<std::vector<bool>> touched(scene.links.size(),
@@ -272,7 +122,7 @@ TEST_P(LinkQueryWith, ABoxAndItsTwelveTrianglesTouchTheSame) {
   Random random(4);
   std::size_t both = 0, inside = 0;
   for (int i = 0; i < 200 && !HasFailure(); ++i) {
-    Scene scene(false, random);
+    LinkScene scene(false, random);
     scene.request.radius = 0.0;
     const Isometry3d shape = oracle::random_pose(0.03, random);
     const Vector3d size(random.scale(0.01, 0.1), random.scale(0.01, 0.1), random.scale(0.01, 0.1));
@@ -312,7 +162,7 @@ TEST_P(LinkQueryWith, ABoxAndItsTwelveTrianglesTouchTheSame) {
 TEST_P(LinkQueryWith, ShaftAndLinksAreNumberedAndIndependent) {
   Random random(5);
   for (int i = 0; i < 50; ++i) {
-    const Scene scene(true, random);
+    const LinkScene scene(true, random);
     CollisionRequest together = scene.request, shaft = scene.request, links = scene.request;
     together.radius = shaft.radius = 4e-3;
     shaft.links = nullptr;
@@ -335,7 +185,7 @@ TEST_P(LinkQueryWith, ShaftAndLinksAreNumberedAndIndependent) {
 TEST_P(LinkQueryWith, LinksAreIndependentOfEachOther) {
   Random random(6);
   for (int i = 0; i < 30; ++i) {
-    Scene scene(true, random);
+    LinkScene scene(true, random);
     scene.request.radius = 0.0;
     const std::vector<FaceContact> together = contacts(scene.request);
     for (std::uint32_t link = 0; link < scene.links.size(); ++link) {
@@ -355,7 +205,7 @@ TEST_P(LinkQueryWith, LinksAreIndependentOfEachOther) {
 TEST_P(LinkQueryWith, StaticIsSweptWithoutMotion) {
   Random random(7);
   for (int i = 0; i < 30; ++i) {
-    Scene scene(true, random);
+    LinkScene scene(true, random);
     scene.request.organ_before = nullptr;
     scene.request.mode = QueryMode::kStatic;
     const std::vector<FaceContact> expected = contacts(scene.request);
@@ -372,7 +222,7 @@ TEST_P(LinkQueryWith, MotionSplitInTwoFindsTheUnion) {
   Random random(8);
   std::size_t found = 0;
   for (int i = 0; i < 60 && !HasFailure(); ++i) {
-    Scene scene(false, random);
+    LinkScene scene(false, random);
     scene.request.radius = 0.0;
     ToolPath& path = scene.request.path;
     path.resize(2);
@@ -399,7 +249,7 @@ TEST_P(LinkQueryWith, MotionSplitInTwoFindsTheUnion) {
 TEST_P(LinkQueryWith, OrderOfFacesOnlyRenumbers) {
   Random random(9);
   for (int i = 0; i < 30; ++i) {
-    Scene scene(true, random);
+    LinkScene scene(true, random);
     scene.request.organ_before = nullptr;
     const std::vector<FaceContact> expected = contacts(scene.request);
     std::vector<std::uint32_t> from(scene.organ.face_count());
@@ -423,7 +273,7 @@ TEST_P(LinkQueryWith, OrderOfFacesOnlyRenumbers) {
 
 TEST_P(LinkQueryWith, PaperModesLookAtTheShaftAlone) {
   Random random(10);
-  Scene scene(true, random);
+  LinkScene scene(true, random);
   scene.request.radius = 5e-3;
   scene.request.mode = QueryMode::kPaperStatic;
   const std::vector<FaceContact> found = contacts(scene.request);
@@ -435,7 +285,7 @@ TEST_P(LinkQueryWith, PaperModesLookAtTheShaftAlone) {
 
 TEST_P(LinkQueryWith, LinksWithoutPartsTouchNothing) {
   Random random(11);
-  Scene scene(false, random);
+  LinkScene scene(false, random);
   scene.request.radius = 0.0;
   for (Link& link : scene.links) link.parts.clear();
   EXPECT_TRUE(contacts(scene.request).empty());
@@ -454,7 +304,7 @@ TEST_P(LinkQueryWith, RegionsLieInTheFaceAndInAVolumeOfItsLink) {
   Random random(12);
   std::size_t filled = 0, all = 0;
   for (int i = 0; i < 40; ++i) {
-    Scene scene(true, random);
+    LinkScene scene(true, random);
     scene.request.radius = 0.0;
     scene.request.regions = true;
     scene.request.mode = QueryMode::kStatic;
@@ -482,7 +332,7 @@ TEST_P(LinkQueryWith, RegionsLieInTheFaceAndInAVolumeOfItsLink) {
 
 TEST_P(LinkQueryWith, RequestsWithoutAnswerAreRefusedByName) {
   Random random(13);
-  Scene scene(false, random);
+  LinkScene scene(false, random);
   scene.request.radius = 0.0;
   scene.links.resize(1);
   scene.links[0].name = "left_jaw";

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "organ_collision/geometry/organ_motion.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
 #include "organ_collision/picking/gl_context.hpp"
+#include "organ_collision/picking/part_sweep.hpp"
 #include "organ_collision/picking/viewing_volume.hpp"
 
 namespace organ_collision {
@@ -28,6 +30,11 @@ class Picker {
   /// Replaces `candidates` by the faces of `mesh` that meet `volume`, by rising number, each once.
   /// Makes the context current. Throws GlError if GL did not work: no answer, not an empty one.
   virtual void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+                    std::vector<Candidate>& candidates) = 0;
+
+  /// Replaces `candidates` by at least the faces of `organ` that come within the space that `part`
+  /// sweeps, by rising number, each once; their depth range means nothing. Otherwise the same.
+  virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
 };
 

@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/displacement.hpp"
 #include "organ_collision/geometry/link.hpp"
-#include "organ_collision/geometry/surface_touch.hpp"
 #include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
-#include "organ_collision/picking/gl_context.hpp"
 #include "organ_collision/picking/picker.hpp"
 #include "organ_collision/picking/region_clipper.hpp"
 #include "organ_collision/query/contact.hpp"
@@ -43,46 +40,29 @@ struct CollisionResult {
   std::vector<Region> regions;        ///< empty unless asked for; else one for each contact
 };
 
-class Step;
-struct PartLeg;
-
 /// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
 /// Owns its GL context; use from one thread at a time. Keeps its buffers between queries.
 class CollisionQuery {
  public:
   /// Throws GlError where GL picking does not work here.
   explicit CollisionQuery(PickerKind kind = PickerKind::kFeedback);
+  ~CollisionQuery();
+  CollisionQuery(CollisionQuery&&) noexcept;
+  CollisionQuery& operator=(CollisionQuery&&) noexcept;
 
   /// Throws std::invalid_argument naming the value for a request that has no answer (radius not
   /// positive where there are no links, coordinates not finite, links without pose or with one that
   /// is no rotation, path empty or with fractions that do not rise from 0 to 1,
   /// earlier shape of other faces, paper volume of a tool without length), GlError when the picker
-  /// failed. `result` is empty then.
+  /// failed. `result` is empty after either.
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
-  const std::string& gl_version() const { return context_->version(); }
+  /// GL_VERSION of its context.
+  const std::string& gl_version() const;
 
  private:
-  void touch_shaft(const Step& step, std::size_t leg, std::vector<FaceContact>& contacts);
-  void touch_link(const Step& step, std::size_t leg, std::size_t link,
-                  std::vector<FaceContact>& contacts);
-  void touch_core(const Step& step, std::size_t leg, const PartLeg& part,
-                  std::vector<FaceContact>& contacts);
-  void touch_surface(const Step& step, std::size_t leg, const PartLeg& part,
-                     const ToolSurface& surface, std::vector<FaceContact>& contacts);
-  void pick_unrefined(const CollisionRequest& request, CollisionResult& result);
-  void clip_regions(const Step& step, CollisionResult& result);
-  void clip_regions(const ViewingVolume& volume, const Step& step, std::size_t leg,
-                    std::uint32_t link, CollisionResult& result);
-
-  std::unique_ptr<GlContext> context_;
-  std::unique_ptr<Picker> picker_;
-  RegionClipper region_clipper_;
-  LastDisplacement displacement_;
-  std::vector<Candidate> candidates_;
-  std::vector<FaceTouch> touches_;
-  ToolPath finer_path_;
-  std::vector<std::uint32_t> faces_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace organ_collision

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "organ_collision/picking/region_clipper.hpp"
+#include "organ_collision/query/contact.hpp"
+#include "step.hpp"
+
+namespace organ_collision {
+
+/// Finds the regions of contacts: each contact's face, as it is at the end of the step, in the
+/// volume of the leg that touched it: the shaft's, or that of the link's first part whose volume it
+/// meets. Keeps its memory.
+class ContactRegions {
+ public:
+  /// Draws in `context`, which must outlive it.
+  explicit ContactRegions(GlContext& context) : clipper_(context) {}
+
+  /// Replaces `regions` by one for each of `contacts`. Throws GlError if GL did not work.
+  void find(const Step& step, const std::vector<FaceContact>& contacts,
+            std::vector<Region>& regions);
+
+ private:
+  /// A contact, to be sorted by the volumes that it may be clipped to.
+  struct Place {
+    std::size_t leg;
+    std::uint32_t link;
+    std::size_t contact;
+
+    bool shares_volumes(const Place& other) const { return leg == other.leg && link == other.link; }
+  };
+  using Places = std::vector<Place>::const_iterator;
+
+  void clip(const Step& step, Places begin, Places end, const std::vector<FaceContact>& contacts,
+            std::vector<Region>& regions);
+  void clip(const ViewingVolume& volume, const TriangleMesh& organ, Places begin, Places end,
+            const std::vector<FaceContact>& contacts, std::vector<Region>& regions);
+
+  RegionClipper clipper_;
+  std::vector<Place> places_;
+  std::vector<std::uint32_t> faces_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,124 @@
+#include "leg_span.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "organ_collision/geometry/rigid_motion.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+// [1] A span's volume is thicker than its legs' by at most this share.
+constexpr double kAllowedShare = 0.25;
+// [rad] A chord turns by no more than a leg (short_turns.hpp).
+constexpr double kMostTurn = 0.2;
+
+constexpr double kTooFar = std::numeric_limits<double>::infinity();
+
+/// Twice the sine of half the angle between two orientations: how far a point at a distance of one
+/// from any axis moves, at most.
+double turn(const Isometry3d& from, const Isometry3d& to) {
+  return (to.linear() - from.linear()).norm() / std::sqrt(2.0);
+}
+
+double share(const ToolWaypoint* waypoints, std::size_t begin, std::size_t i, std::size_t end) {
+  return (waypoints[i].fraction - waypoints[begin].fraction) /
+         (waypoints[end].fraction - waypoints[begin].fraction);
+}
+
+/// [m] How far the shaft's axis is from its chord between two waypoints; of no interest beyond
+/// `allowed`.
+double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
+                       double allowed) {
+  const ShaftMotion chord{waypoints[begin].axis, waypoints[end].axis};
+  double deviation = 0.0;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const ShaftAxis& axis = waypoints[i].axis;
+    const ShaftAxis on_chord = chord.at(share(waypoints, begin, i, end));
+    deviation = std::max(
+        {deviation, (axis.trocar - on_chord.trocar).norm(), (axis.tip - on_chord.tip).norm()});
+    if (deviation > allowed) return kTooFar;
+  }
+  return deviation;
+}
+
+/// [m] The same of a link. Between waypoints, leg and chord both leave the straight way between
+/// their ends by at most an eighth of the radius times the squared angle (CoreMotion::bend).
+double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
+                      std::size_t link, const LinkBall& ball, double allowed) {
+  const Isometry3d& first = waypoints[begin].links[link];
+  const Isometry3d& last = waypoints[end].links[link];
+  if (turn(first, last) > kMostTurn) return kTooFar;
+  const RigidMotion chord(first, last);
+  const double arm = ball.center.norm() + ball.radius;
+  double at_waypoints = 0.0, between = 0.0, time = 0.0;
+  for (std::size_t i = begin + 1; i <= end; ++i) {
+    const Isometry3d& pose = waypoints[i].links[link];
+    const double next_time = share(waypoints, begin, i, end);
+    const Isometry3d on_chord = chord.at(next_time);
+    at_waypoints = std::max(at_waypoints, (pose * ball.center - on_chord * ball.center).norm() +
+                                              ball.radius * turn(pose, on_chord));
+    // An angle is at most pi / 2 times its chord.
+    const double leg_angle = M_PI_2 * turn(waypoints[i - 1].links[link], pose);
+    const double chord_angle = chord.angle() * (next_time - time);
+    between = std::max(between, arm * (leg_angle * leg_angle + chord_angle * chord_angle) / 8.0);
+    time = next_time;
+    if (at_waypoints + between > allowed) return kTooFar;
+  }
+  return at_waypoints + between;
+}
+
+/// Tries all legs that are left, then half of them, and so on.
+template <typename Deviation>
+LegSpan longest_span(std::size_t count, std::size_t begin, Deviation deviation) {
+  for (std::size_t legs = count > 1 ? count - 1 - begin : 1; legs > 1; legs /= 2) {
+    const double found = deviation(begin, begin + legs);
+    if (found < kTooFar) return {begin, begin + legs, found};
+  }
+  return {begin, begin + 1, 0.0};
+}
+
+}  // namespace
+
+LinkBall ball_around(const Link& link) {
+  Eigen::AlignedBox3d box;
+  for (const LinkPart& part : link.parts) box.extend(part.bounds.center);
+  LinkBall ball{box.center(), 0.0};
+  for (const LinkPart& part : link.parts) {
+    ball.radius = std::max(
+        ball.radius, (part.bounds.center - ball.center).norm() + part.bounds.half_size.norm());
+  }
+  return ball;
+}
+
+double allowed_deviation(const Link& link) {
+  double thickness = kTooFar;
+  for (const LinkPart& part : link.parts) {
+    Vector3d half = part.bounds.half_size;
+    std::sort(half.data(), half.data() + half.size());
+    thickness = std::min(thickness, half[1] + part.radius);
+  }
+  return kAllowedShare * thickness;
+}
+
+double allowed_deviation(double shaft_radius) { return kAllowedShare * shaft_radius; }
+
+LegSpan shaft_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
+                   double allowed) {
+  return longest_span(count, begin, [&](std::size_t first, std::size_t last) {
+    return shaft_deviation(waypoints, first, last, allowed);
+  });
+}
+
+LegSpan link_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
+                  std::size_t link, const LinkBall& ball, double allowed) {
+  return longest_span(count, begin, [&](std::size_t first, std::size_t last) {
+    return link_deviation(waypoints, first, last, link, ball, allowed);
+  });
+}
+
+}  // namespace organ_collision
