@@ -94,6 +94,10 @@ void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
     kept.normal = turned(kept.normal, now, greatest_angle(distance, radius));
     kept.by_tip = contact.shaft >= 1.0;
     kept.depth_in_plane = radius;
+  } else if (!kept.is_nearest) {
+    // The face comes to be nearest past the surface, as beside an edge: it adds nothing at once.
+    kept.depth_in_plane =
+        std::min(kept.depth_in_plane, kept.depth + distance * kept.normal.dot(now));
   }
   kept.depth = kept.depth_in_plane - distance * kept.normal.dot(now);
 }
@@ -122,6 +126,7 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
     if (basins[i] != i) continue;
     const Kept* before = find(contacts[i]);
     nearest[i] = kept_now(contacts[i], radius_at(contacts[i], answer, shaft_radius));
+    nearest[i].is_nearest = true;
     passed[i] = nearest[i].is_past || (before && before->is_past);
   }
 
@@ -142,7 +147,9 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
       push.counts = radius && passed[basins[i]];
       if (push.counts) push.depth = depth_of_side(contact, own->normal, *radius);
     }
-    kept.insert({{contact.face, contact.link}, own ? *own : there});
+    Kept& now = kept[{contact.face, contact.link}];
+    now = own ? *own : there;
+    now.is_nearest = basins[i] == i;
     pushes.push_back(push);
   }
   kept_ = std::move(kept);

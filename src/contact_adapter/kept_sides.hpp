@@ -50,6 +50,7 @@ class KeptSides {
     double depth_in_plane = 0.0;                       ///< [m] with the axis in the face's plane
     std::optional<bool> behind = {};  ///< Contact.behind on that side; none: the axis only pierced
     bool by_tip = false;              ///< the tip was nearest when the axis was last on that side
+    bool is_nearest = false;          ///< as basins_of() says
     bool is_past = false;             ///< the axis pierces the face, or is on its other side
   };
   using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;

@@ -147,14 +147,14 @@ TEST(ForceTrajectory, PastOneSideOfACreaseTheOtherCountsOn) {
 TEST(ForceTrajectory, AnEdgeIsNotSlippedOffPastTheRadius) {
   for (const double cell : kCells) {
     const TriangleMesh edge = folded_sheet(-M_PI / 4, -M_PI / 4, cell);
-    for (const double beside : {0.0, 3e-5, 3e-4}) {
+    for (const double beside : {0.0, 3e-5, 1e-3}) {
       for (const double tilt : {0.0, -0.01, 0.05}) {
         const auto steps = expect_no_jump(
             "cell " + std::to_string(cell), edge,
             {lying(beside, 0.007, tilt), lying(beside, -0.004, tilt), lying(beside, 0.007, tilt)});
         for (const ForceStep& step : steps) {
           if (step.force.norm() > 0.5) {
-            EXPECT_LE(angle_between(step.force, Vector3d::UnitZ()), 0.3);
+            EXPECT_LE(angle_between(step.force, Vector3d::UnitZ()), 0.6);
           }
         }
       }
