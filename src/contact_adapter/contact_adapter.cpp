@@ -1,16 +1,19 @@
 #include "contact_adapter.hpp"
 
-#include <geometry_msgs/WrenchStamped.h>
+#include <ros/names.h>
+#include <ros/param.h>
 #include <std_msgs/UInt32MultiArray.h>
 
 #include "contact_check.hpp"
 #include "face_list.hpp"
+#include "force_limit.hpp"
 #include "organ_collision/ros/answers.hpp"
 #include "organ_collision/ros/diagnostics.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/rejection.hpp"
 #include "penalty_wrench.hpp"
+#include "shaft_radius.hpp"
 
 namespace organ_collision {
 namespace {
@@ -44,7 +47,7 @@ void ContactAdapter::on_contacts(const ContactArray& message) {
       throw Rejection(message.status, reason_of(message.status), message.message);
     }
     check_contacts(message);
-    publish(message, topics_of(message.organ, message.tool));
+    publish(message, pair_of(message.organ, message.tool));
   } catch (const Rejection& rejection) {
     failures_.add(rejection.reason(),
                   "organ '" + plain_text(message.organ, kLongestName) + "', tool '" +
@@ -53,26 +56,49 @@ void ContactAdapter::on_contacts(const ContactArray& message) {
   }
 }
 
-void ContactAdapter::publish(const ContactArray& contacts, const Topics& topics) {
-  if (has_geometry(contacts))
-    topics.wrench.publish(penalty_wrench(contacts, parameters_.stiffness));
-  topics.faces.publish(face_list(contacts));
+void ContactAdapter::publish(const ContactArray& contacts, Pair& pair) {
+  if (has_geometry(contacts)) pair.wrench.publish(wrench_of(contacts, pair.sides));
+  pair.faces.publish(face_list(contacts));
 }
 
-const ContactAdapter::Topics& ContactAdapter::topics_of(const std::string& organ,
-                                                        const std::string& tool) {
-  const auto known = topics_.find({organ, tool});
-  if (known != topics_.end()) return known->second;
+geometry_msgs::WrenchStamped ContactAdapter::wrench_of(const ContactArray& contacts,
+                                                       KeptSides& sides) {
+  const std::vector<Push> pushes = sides.follow(contacts, radius_of(contacts.tool));
+  geometry_msgs::WrenchStamped stamped;
+  stamped.header = contacts.header;
+  stamped.wrench = penalty_wrench(pushes, parameters_.stiffness);
+  if (limit_force(stamped.wrench, parameters_.max_force)) {
+    clipped_.add("max_force",
+                 "organ '" + contacts.organ + "', tool '" + contacts.tool +
+                     "': the force is clipped to " + std::to_string(parameters_.max_force) + " N",
+                 std::chrono::steady_clock::now());
+  }
+  return stamped;
+}
+
+/// From the node that publishes the contacts; cached, so that it follows changes and costs little.
+KeptSides::Radius ContactAdapter::radius_of(const std::string& tool) const {
+  XmlRpc::XmlRpcValue tools;
+  const std::string node = ros::names::parentNamespace(subscriber_.getTopic());
+  ros::param::getCached(ros::names::append(node, names::kTools), tools);
+  return shaft_radius(tools, tool);
+}
+
+ContactAdapter::Pair& ContactAdapter::pair_of(const std::string& organ, const std::string& tool) {
+  const auto known = pairs_.find({organ, tool});
+  if (known != pairs_.end()) return known->second;
+  if (!radius_of(tool)) {
+    ROS_INFO("the radius of tool '%s' is not known: past a face its depth stays", tool.c_str());
+  }
   const std::string name = names_.of(organ, tool);
-  const Topics topics{
-      private_node_.advertise<std_msgs::UInt32MultiArray>(name + "/faces", kQueue),
-      private_node_.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", kQueue)};
-  return topics_.insert({{organ, tool}, topics}).first->second;
+  const Pair pair{private_node_.advertise<std_msgs::UInt32MultiArray>(name + "/faces", kQueue),
+                  private_node_.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", kQueue)};
+  return pairs_.insert({{organ, tool}, pair}).first->second;
 }
 
 void ContactAdapter::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  status.summary(DiagnosticStatus::OK, std::to_string(topics_.size()) + " pairs of organ and tool");
+  status.summary(DiagnosticStatus::OK, std::to_string(pairs_.size()) + " pairs of organ and tool");
   if (received_ == 0) {
     status.summary(DiagnosticStatus::WARN, "nothing came yet on " + subscriber_.getTopic());
   }
@@ -81,6 +107,7 @@ void ContactAdapter::diagnose(diagnostic_updater::DiagnosticStatusWrapper& statu
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
   show_failures("unpublished", failures_, status);
+  show_failures("clipped", clipped_, status);
 }
 
 }  // namespace organ_collision

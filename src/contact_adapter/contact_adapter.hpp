@@ -1,6 +1,7 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <ros/node_handle.h>
 
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "contact_adapter_parameters.hpp"
+#include "kept_sides.hpp"
 #include "organ_collision/ros/failure_log.hpp"
 #include "pair_names.hpp"
 
@@ -24,22 +26,26 @@ class ContactAdapter {
   ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& private_node);
 
  private:
-  struct Topics {
+  struct Pair {
     ros::Publisher faces;
     ros::Publisher wrench;
+    KeptSides sides = {};
   };
 
   void on_contacts(const ContactArray& message);
-  void publish(const ContactArray& contacts, const Topics& topics);
-  const Topics& topics_of(const std::string& organ, const std::string& tool);
+  void publish(const ContactArray& contacts, Pair& pair);
+  geometry_msgs::WrenchStamped wrench_of(const ContactArray& contacts, KeptSides& sides);
+  Pair& pair_of(const std::string& organ, const std::string& tool);
+  KeptSides::Radius radius_of(const std::string& tool) const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle private_node_;
   ContactAdapterParameters parameters_;
   PairNames names_;
-  std::map<std::pair<std::string, std::string>, Topics> topics_;  ///< by organ and tool
-  std::uint64_t received_ = 0;                                    ///< messages, failed ones too
+  std::map<std::pair<std::string, std::string>, Pair> pairs_;  ///< by organ and tool
+  std::uint64_t received_ = 0;                                 ///< messages, failed ones too
   FailureLog failures_;
+  FailureLog clipped_;  ///< wrenches that were published with less force than the law says
   diagnostic_updater::Updater updater_;
   ros::WallTimer diagnostic_timer_;
   ros::Subscriber subscriber_;

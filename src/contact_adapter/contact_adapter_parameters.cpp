@@ -1,6 +1,7 @@
 #include "contact_adapter_parameters.hpp"
 
 #include <limits>
+#include <optional>
 
 #include "organ_collision/ros/names.hpp"
 #include "organ_collision/ros/parameter_group.hpp"
@@ -9,6 +10,7 @@ namespace organ_collision {
 namespace {
 
 constexpr char kStiffness[] = "stiffness";
+constexpr char kMaxForce[] = "max_force";
 const NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), false};
 /// Longer ones, which timers do not take, are as good as never.
 const NumberRange kPeriod{0.0, 1e6, false};
@@ -16,10 +18,11 @@ const NumberRange kPeriod{0.0, 1e6, false};
 }  // namespace
 
 ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all) {
-  const ParameterGroup group("~", all, {kStiffness, names::kDiagnosticPeriod});
+  const ParameterGroup group("~", all, {kStiffness, kMaxForce, names::kDiagnosticPeriod});
   ContactAdapterParameters p;
   p.misspelt = group.misspelt();
   p.stiffness = group.number(kStiffness, p.stiffness, kPositive);
+  if (group.has(kMaxForce)) p.max_force = group.number(kMaxForce, std::nullopt, kPositive);
   p.diagnostic_period_sec =
       group.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kPeriod);
   return p;

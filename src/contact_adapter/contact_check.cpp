@@ -31,6 +31,10 @@ void check_geometry(const Contact& contact) {
   if (!point.allFinite()) {
     refuse("point of face ", contact.face, " is ", point.transpose(), "; must be finite");
   }
+  const Eigen::Vector3d end_point = to_eigen(contact.end_point);
+  if (!end_point.allFinite()) {
+    refuse("end_point of face ", contact.face, " is ", end_point.transpose(), "; must be finite");
+  }
   if (!std::isfinite(contact.depth)) {
     refuse("depth of face ", contact.face, " is ", contact.depth, "; must be finite");
   }

@@ -2,9 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdint>
-#include <tuple>
-#include <vector>
+#include <cmath>
+#include <string>
 
 #include "organ_collision/ros/conversions.hpp"
 #include "organ_collision/ros/rejection.hpp"
@@ -14,64 +13,98 @@ namespace {
 
 using Eigen::Vector3d;
 
-struct Push {
-  Vector3d point;
+/// [1] A shift that lacks at most this share of the greatest depth is enough.
+constexpr double kEnough = 1e-6;
+// Bounds of the search. Ordinary contacts need one to three springs.
+constexpr int kRounds = 8;
+constexpr int kSpringsARound = 16;
+constexpr int kSweeps = 200;
+
+struct Spring {
   Vector3d normal;
-  double depth;
-  std::uint32_t link;
-  double own_depth;  ///< what is left of it when the deeper ones are left; u in the law
+  double depth;         ///< [m] d in the law
+  double length = 0.0;  ///< [m] l in the law
+  double lack = 0.0;    ///< [m] what the lengths of all leave of the depth
 };
 
-/// Deepest first. Ties are decided by the place: the order of the contacts does not matter.
-bool is_deeper(const Push& a, const Push& b) {
-  const auto key = [](const Push& push) {
-    return std::make_tuple(-push.depth, push.point.x(), push.point.y(), push.point.z(),
-                           push.normal.x(), push.normal.y(), push.normal.z());
-  };
-  return key(a) < key(b);
-}
+double agreement(const Vector3d& a, const Vector3d& b) { return std::max(0.0, a.dot(b)); }
 
-std::vector<Push> pushes_of(const std::vector<Contact>& contacts) {
-  std::vector<Push> pushes;
-  for (const Contact& contact : contacts) {
-    if (contact.depth <= 0.0) continue;
-    const Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
-    pushes.push_back({to_eigen(contact.point), normal, contact.depth, contact.link, contact.depth});
+std::vector<Spring> springs_of(const std::vector<Push>& pushes) {
+  std::vector<Spring> springs;
+  for (const Push& push : pushes) {
+    if (push.counts && push.depth > 0.0) springs.push_back({push.normal, push.depth});
   }
-  std::sort(pushes.begin(), pushes.end(), is_deeper);
-  return pushes;
+  return springs;
 }
 
-void find_own_depths(std::vector<Push>& pushes) {
-  for (auto push = pushes.begin(); push != pushes.end(); ++push) {
-    for (auto deeper = pushes.begin(); deeper != push && push->own_depth > 0.0; ++deeper) {
-      if (deeper->link != push->link) continue;
-      const double in_front = deeper->normal.dot(deeper->point - push->point);
-      push->own_depth = std::max(0.0, std::min(push->own_depth, in_front));
+/// Lengthens the one that lacks most, again and again, until none lacks more than `enough`, some
+/// times at most. Adds them to `used`. Returns whether there was any.
+bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, double enough) {
+  for (int count = 0; count < kSpringsARound; ++count) {
+    const auto most =
+        std::max_element(springs.begin(), springs.end(),
+                         [](const Spring& a, const Spring& b) { return a.lack < b.lack; });
+    if (most->lack <= enough) return count > 0;
+    const std::size_t i = most - springs.begin();
+    if (std::find(used.begin(), used.end(), i) == used.end()) used.push_back(i);
+    const double by = most->lack;
+    const Vector3d along = most->normal;
+    most->length += by;
+    for (Spring& spring : springs) spring.lack -= by * agreement(spring.normal, along);
+  }
+  return true;
+}
+
+/// Balances the used springs by projected Gauss-Seidel sweeps: each is as long as the others leave
+/// it to be.
+void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used, double enough) {
+  double change = enough;
+  for (int sweep = 0; sweep < kSweeps && change >= enough; ++sweep) {
+    change = 0.0;
+    for (const std::size_t i : used) {
+      double others = 0.0;
+      for (const std::size_t j : used) {
+        if (j != i) others += springs[j].length * agreement(springs[j].normal, springs[i].normal);
+      }
+      const double length = std::max(0.0, springs[i].depth - others);
+      change = std::max(change, std::abs(length - springs[i].length));
+      springs[i].length = length;
     }
   }
 }
 
-double agreement(const Push& a, const Push& b) { return std::max(0.0, a.normal.dot(b.normal)); }
-
-/// The sum of all own depths along the normal along which it is greatest [m].
-double greatest_along_a_normal(const std::vector<Push>& own) {
-  double greatest = 0.0;
-  for (const Push& along : own) {
-    double sum = 0.0;
-    for (const Push& push : own) sum += push.own_depth * agreement(push, along);
-    greatest = std::max(greatest, sum);
+/// What the lengths leave of each depth.
+void find_lacks(std::vector<Spring>& springs, const std::vector<std::size_t>& used) {
+  for (Spring& spring : springs) {
+    spring.lack = spring.depth;
+    for (const std::size_t i : used) {
+      spring.lack -= springs[i].length * agreement(springs[i].normal, spring.normal);
+    }
   }
-  return greatest;
 }
 
-/// Where a push acts: the mean place of all that push its way.
-Vector3d place_of(const Push& push, const std::vector<Push>& all) {
+/// Finds all lengths; returns which of them may not be zero.
+std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
+  double greatest = 0.0;
+  for (const Spring& spring : springs) greatest = std::max(greatest, spring.depth);
+  const double enough = kEnough * greatest;
+  std::vector<std::size_t> used;
+  if (springs.empty()) return used;
+  find_lacks(springs, used);
+  for (int round = 0; round < kRounds && lengthen(springs, used, enough); ++round) {
+    balance(springs, used, 0.1 * enough);
+    find_lacks(springs, used);
+  }
+  return used;
+}
+
+/// Where a spring acts: the mean place of all that push its way.
+Vector3d place_of(const Spring& spring, const std::vector<Push>& pushes) {
   Vector3d sum = Vector3d::Zero();
   double weights = 0.0;
-  for (const Push& other : all) {
-    const double weight = other.depth * agreement(other, push);
-    sum += weight * other.point;
+  for (const Push& push : pushes) {
+    const double weight = std::max(0.0, push.depth) * agreement(push.normal, spring.normal);
+    sum += weight * push.place;
     weights += weight;
   }
   return sum / weights;
@@ -79,31 +112,22 @@ Vector3d place_of(const Push& push, const std::vector<Push>& all) {
 
 }  // namespace
 
-geometry_msgs::WrenchStamped penalty_wrench(const ContactArray& contacts, double stiffness) {
-  geometry_msgs::WrenchStamped result;
-  result.header = contacts.header;
-  std::vector<Push> pushes = pushes_of(contacts.contacts);
-  if (pushes.empty()) return result;
-
-  find_own_depths(pushes);
-  std::vector<Push> own;
-  std::copy_if(pushes.begin(), pushes.end(), std::back_inserter(own),
-               [](const Push& push) { return push.own_depth > 0.0; });
-  const double scale = stiffness * pushes.front().depth / greatest_along_a_normal(own);
+geometry_msgs::Wrench penalty_wrench(const std::vector<Push>& pushes, double stiffness) {
+  std::vector<Spring> springs = springs_of(pushes);
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
-  for (const Push& push : own) {
-    const Vector3d part = -scale * push.own_depth * push.normal;
+  for (const std::size_t i : find_lengths(springs)) {
+    const Vector3d part = -stiffness * springs[i].length * springs[i].normal;
     force += part;
-    torque += place_of(push, pushes).cross(part);
+    torque += place_of(springs[i], pushes).cross(part);
   }
   if (!force.allFinite() || !torque.allFinite()) {
     throw Rejection(ContactArray::INVALID_REQUEST, "force not finite",
-                    "the force is not finite; the deepest of " + std::to_string(pushes.size()) +
-                        " contacts is " + std::to_string(pushes.front().depth) + " m deep");
+                    "the force of " + std::to_string(springs.size()) + " contacts is not finite");
   }
-  result.wrench.force = to_vector(force);
-  result.wrench.torque = to_vector(torque);
-  return result;
+  geometry_msgs::Wrench wrench;
+  wrench.force = to_vector(force);
+  wrench.torque = to_vector(torque);
+  return wrench;
 }
 
 }  // namespace organ_collision

@@ -33,6 +33,7 @@ std::string refusal(const char* name, const XmlRpcValue& value) {
 TEST(ContactAdapterParameters, DefaultsAreTheDocumentedOnes) {
   const ContactAdapterParameters p = parse_contact_adapter_parameters(group());
   EXPECT_EQ(p.stiffness, 300.0);
+  EXPECT_EQ(p.max_force, std::numeric_limits<double>::infinity());
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_TRUE(p.misspelt.empty());
 }
@@ -40,9 +41,11 @@ TEST(ContactAdapterParameters, DefaultsAreTheDocumentedOnes) {
 TEST(ContactAdapterParameters, AllAreRead) {
   XmlRpcValue all = group();
   all["stiffness"] = 500;
+  all["max_force"] = 7.5;
   all["diagnostic_period"] = 0.25;
   const ContactAdapterParameters p = parse_contact_adapter_parameters(all);
   EXPECT_EQ(p.stiffness, 500.0);
+  EXPECT_EQ(p.max_force, 7.5);
   EXPECT_EQ(p.diagnostic_period_sec, 0.25);
 }
 
@@ -52,6 +55,8 @@ TEST(ContactAdapterParameters, IllegalOnesAreRefused) {
   EXPECT_EQ(refusal("stiffness", "soft"), "~stiffness is 'soft'; must be a number, more than 0");
   EXPECT_NE(refusal("stiffness", std::numeric_limits<double>::infinity()), "accepted");
   EXPECT_NE(refusal("stiffness", std::numeric_limits<double>::quiet_NaN()), "accepted");
+  EXPECT_EQ(refusal("max_force", 0), "~max_force is '0'; must be a number, more than 0");
+  EXPECT_NE(refusal("max_force", std::numeric_limits<double>::infinity()), "accepted");
   EXPECT_NE(refusal("diagnostic_period", 0.0), "accepted");
 }
 

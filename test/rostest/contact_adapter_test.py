@@ -231,6 +231,38 @@ class ContactAdapterTest(ToolCase, NodeStarter):
     def start_adapter(self, parameters):
         return self.start('/' + self.organ, parameters, 'contact_adapter')
 
+    def test_larger_forces_are_clipped(self):
+        """1.5 N to 1 N, at the same place; smaller ones stay. The log and /diagnostics say so."""
+        name, diagnostics = self.organ, Diagnostics(self.organ)
+        process = self.start_adapter({'stiffness': STIFFNESS, 'max_force': 1.0})
+        outputs = Outputs(self.organ + '/probe', '/' + name)
+
+        def both_come():
+            self.step(scenes.one_face(), CLEAR)
+            return outputs.wrenches
+
+        wait_until(both_come, 'the wrenches of ' + name)
+        self.step(scenes.one_face(), at_height(0.004), vertices=True)
+        place = (TROCAR[0], TROCAR[1], 0.0)
+        force = (0.0, 0.0, STIFFNESS * 0.001)
+        self.assert_wrench(outputs.wait_for(self.stamp), force, cross(place, force))
+        self.step(scenes.one_face(), PRESSED, vertices=True)
+        self.assert_wrench(
+            outputs.wait_for(self.stamp), (0.0, 0.0, 1.0), cross(place, (0.0, 0.0, 1.0))
+        )
+        diagnostics.wait_for_count('clipped, max_force', 1)
+        self.assertIn('the force is clipped to 1.000000 N', self.stop(process))
+
+    def test_a_shaft_that_sinks_past_its_radius_is_pushed_on(self):
+        """The axis comes to lie below the sheet: the force keeps its direction and grows."""
+        outputs = self.connect()
+        for height in (0.002, 0.0005, -0.0005, -0.002):
+            lying = {'probe': ((-0.03, 0.007, height), (0.03, 0.007, height))}
+            self.step(SHEET, lying, vertices=True)
+            force = xyz(outputs.wait_for(self.stamp).wrench.force)
+            expected = (0.0, 0.0, STIFFNESS * (RADIUS - height))
+            self.assert_near(force, expected, STIFFNESS * 0.001, 'force')
+
     def test_illegal_stiffness_stops_the_node(self):
         for stiffness, shown in (
             (0, "'0'"),

@@ -1,0 +1,63 @@
+// The contact adapter's forces: from an answer to a wrench, of as many contacts on a half sphere.
+
+#include <benchmark/benchmark.h>
+#include <organ_collision/ContactArray.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+#include "organ_collision/ros/conversions.hpp"
+#include "penalty_wrench.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+constexpr double kRadius = 0.005;  // [m]
+
+/// Contacts spread evenly over the lower half of a ball. In a dent of its own shape the ball is
+/// pressed down, and is as deep as each normal points down; in tight tissue it is equally deep.
+ContactArray half_sphere(std::uint32_t count, bool is_tight) {
+  constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
+  ContactArray answer;
+  answer.links = {""};
+  answer.mode = ContactArray::SWEPT;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double down = (i + 0.5) / count, across = std::sqrt(1.0 - down * down);
+    const Eigen::Vector3d normal(across * std::cos(kGoldenAngle * i),
+                                 across * std::sin(kGoldenAngle * i), -down);
+    Contact contact;
+    contact.face = i;
+    contact.vertices = {3 * i, 3 * i + 1, 3 * i + 2};
+    contact.barycentric = {0.2, 0.3, 0.5};
+    contact.normal = to_vector(normal);
+    contact.depth = is_tight ? 0.001 : 0.001 * down;
+    contact.point = contact.end_point = to_point((kRadius - contact.depth) * normal);
+    answer.contacts.push_back(contact);
+  }
+  return answer;
+}
+
+void run(benchmark::State& state, bool is_tight) {
+  const ContactArray answer = half_sphere(static_cast<std::uint32_t>(state.range(0)), is_tight);
+  KeptSides sides;
+  for ([[maybe_unused]] const auto _ : state) {
+    benchmark::DoNotOptimize(penalty_wrench(sides.follow(answer, kRadius), 300.0));
+  }
+}
+
+BENCHMARK_CAPTURE(run, dent, false)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(30'000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, tight, true)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(30'000)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace organ_collision::bench
+
+BENCHMARK_MAIN();

@@ -1,0 +1,19 @@
+#include "force_limit.hpp"
+
+#include <Eigen/Core>
+
+#include "organ_collision/ros/conversions.hpp"
+
+namespace organ_collision {
+
+bool limit_force(geometry_msgs::Wrench& wrench, double max_force) {
+  const Eigen::Vector3d force(wrench.force.x, wrench.force.y, wrench.force.z);
+  const Eigen::Vector3d torque(wrench.torque.x, wrench.torque.y, wrench.torque.z);
+  const double magnitude = force.stableNorm();
+  if (magnitude <= max_force) return false;
+  wrench.force = to_vector(max_force / magnitude * force);
+  wrench.torque = to_vector(max_force / magnitude * torque);
+  return true;
+}
+
+}  // namespace organ_collision

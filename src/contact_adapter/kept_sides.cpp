@@ -1,0 +1,159 @@
+#include "kept_sides.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "basins.hpp"
+#include "organ_collision/ros/conversions.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The shaft's, where the contact is one of it.
+KeptSides::Radius radius_at(const Contact& contact, const ContactArray& answer,
+                            const KeptSides::Radius& radius) {
+  const bool is_shaft = contact.link < answer.links.size() && answer.links[contact.link].empty();
+  return is_shaft ? radius : std::nullopt;
+}
+
+Vector3d normal_of(const Contact& contact) {
+  return {contact.normal.x, contact.normal.y, contact.normal.z};
+}
+
+/// [1] Cosine of the angle above which two kept normals are of two sides, as those of a crease.
+constexpr double kSameSide = 0.9;
+
+/// How far a kept normal may be from the contact's own [rad], with the axis `distance` [m] from the
+/// face. The nearer the axis is to an edge, the faster the direction to it turns. From half the
+/// radius on, the kept normal follows it less and less, and so turns no faster than the tool moves.
+double greatest_angle(double distance, double radius) {
+  return M_PI * std::max(0.0, 1.0 - 2.0 * distance / radius);
+}
+
+/// `kept`, turned towards `now` until they are within the angle [rad]; both unit.
+Vector3d turned(const Vector3d& kept, const Vector3d& now, double angle) {
+  const double apart = std::atan2(kept.cross(now).norm(), kept.dot(now));
+  if (apart <= angle) return kept;
+  const Vector3d across = kept - kept.dot(now) * now;
+  if (angle == 0.0 || across.isZero(0.0)) return now;
+  return std::cos(angle) * now + std::sin(angle) * across.normalized();
+}
+
+/// [m] What a side that is not nearest any more still pushes: its contact's own depth, the less the
+/// more the contact's normal has turned away from the side and the farther the axis is.
+double depth_of_side(const Contact& contact, const Vector3d& side, double radius) {
+  const double distance = std::clamp(radius - contact.depth, 0.0, radius);
+  const double turned_away = 1.0 - side.dot(normal_of(contact));
+  return (radius - distance) * std::max(0.0, 1.0 - distance / radius * turned_away);
+}
+
+}  // namespace
+
+const KeptSides::Kept* KeptSides::find(const Contact& contact) const {
+  const auto kept = kept_.find({contact.face, contact.link});
+  return kept == kept_.end() ? nullptr : &kept->second;
+}
+
+KeptSides::Kept KeptSides::first_touch(const Contact& contact, const Radius& radius) {
+  Kept kept;
+  kept.normal = normal_of(contact);
+  kept.depth = contact.depth;
+  kept.depth_in_plane = radius.value_or(contact.depth);
+  // A face that is pierced from the start was pierced by the tip, for all that is known.
+  kept.by_tip = contact.shaft >= 1.0 || contact.fraction == 0.0;
+  if (!radius) return kept;
+  kept.is_past = contact.depth >= *radius;
+  if (!kept.is_past) kept.behind = contact.behind != 0;
+  return kept;
+}
+
+void KeptSides::move_on(const Contact& contact, Kept& kept) {
+  const Vector3d now = normal_of(contact);
+  kept.is_past = now.dot(kept.normal) < 0.0;
+  if (kept.is_past) return;
+  kept.normal = now;
+  kept.depth = contact.depth;
+}
+
+void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
+  const Vector3d now = normal_of(contact);
+  const double distance = radius - contact.depth;
+  if (distance <= 0.0) {  // The axis pierces the face, or passed it during the step.
+    kept.is_past = true;
+    if (kept.by_tip && now.dot(kept.normal) >= kSameSide) kept.depth_in_plane = contact.depth;
+    kept.depth = kept.depth_in_plane;
+    return;
+  }
+  const bool behind = contact.behind != 0;
+  if (!kept.behind) kept.behind = (now.dot(kept.normal) > 0.0) == behind;
+  kept.is_past = behind != *kept.behind;
+  if (!kept.is_past) {
+    kept.normal = turned(kept.normal, now, greatest_angle(distance, radius));
+    kept.by_tip = contact.shaft >= 1.0;
+    kept.depth_in_plane = radius;
+  } else if (!kept.is_nearest) {
+    // The face comes to be nearest past the surface, as beside an edge: it adds nothing at once.
+    kept.depth_in_plane =
+        std::min(kept.depth_in_plane, kept.depth + distance * kept.normal.dot(now));
+  }
+  kept.depth = kept.depth_in_plane - distance * kept.normal.dot(now);
+}
+
+KeptSides::Kept KeptSides::kept_now(const Contact& contact, const Radius& radius) const {
+  const Kept* before = find(contact);
+  if (!before) return first_touch(contact, radius);
+  Kept kept = *before;
+  if (radius) {
+    move_on(contact, *radius, kept);
+  } else {
+    move_on(contact, kept);
+  }
+  return kept;
+}
+
+std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& shaft_radius) {
+  if (answer.mode == ContactArray::STATIC || answer.topology != topology_) kept_.clear();
+  topology_ = answer.topology;
+
+  const std::vector<Contact>& contacts = answer.contacts;
+  const std::vector<std::size_t> basins = basins_of(contacts);
+  std::vector<Kept> nearest(contacts.size());
+  std::vector<bool> passed(contacts.size());  // at the begin or the end of the step
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (basins[i] != i) continue;
+    const Kept* before = find(contacts[i]);
+    nearest[i] = kept_now(contacts[i], radius_at(contacts[i], answer, shaft_radius));
+    nearest[i].is_nearest = true;
+    passed[i] = nearest[i].is_past || (before && before->is_past);
+  }
+
+  std::map<FaceAndLink, Kept> kept;
+  std::vector<Push> pushes;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    const Kept& there = nearest[basins[i]];
+    Push push{to_eigen(contact.end_point), there.normal, there.depth, basins[i] == i};
+    if (!push.counts) push.depth = std::min(there.depth, contact.depth);
+    // Faces around the nearest one share what is known of it. Those of another side keep their own:
+    // past a crease, where its edge is nearest, both sides push on.
+    const Kept* own = push.counts ? nullptr : find(contact);
+    if (own && own->normal.dot(there.normal) >= kSameSide) own = nullptr;
+    if (own) {
+      const Radius radius = radius_at(contact, answer, shaft_radius);
+      push.normal = own->normal;
+      push.counts = radius && passed[basins[i]];
+      if (push.counts) push.depth = depth_of_side(contact, own->normal, *radius);
+    }
+    Kept& now = kept[{contact.face, contact.link}];
+    now = own ? *own : there;
+    now.is_nearest = basins[i] == i;
+    pushes.push_back(push);
+  }
+  kept_ = std::move(kept);
+  return pushes;
+}
+
+}  // namespace organ_collision

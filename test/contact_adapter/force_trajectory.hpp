@@ -1,0 +1,111 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "organ_collision/query/collision_query.hpp"
+#include "organ_collision/ros/conversions.hpp"
+
+namespace organ_collision {
+
+constexpr double kRadius = 0.005;      // [m]
+constexpr double kStiffness = 1000.0;  // [N/m]
+
+/// A surface over a grid of n by m cells, each of two faces, at `place(u, v)`, u and v in [0, 1];
+/// the faces look along the cross product of the directions of growing u and v.
+template <typename Place>
+TriangleMesh grid_mesh(int n, int m, const Place& place) {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  for (int i = 0; i <= n; ++i) {
+    for (int j = 0; j <= m; ++j) {
+      const Eigen::Vector3d p = place(static_cast<double>(i) / n, static_cast<double>(j) / m);
+      for (const double x : p) vertices.push_back(static_cast<float>(x));
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < m; ++j) {
+      const std::uint32_t a = i * (m + 1) + j, b = a + m + 1;
+      triangles.insert(triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
+    }
+  }
+  return {vertices, triangles};
+}
+
+/// Two plane sheets of 40 mm that meet along the y axis, 160 mm long; their directions away from it
+/// are `left` and `right` [rad] above the x axis' negative and positive half. Cells of `cell` [m].
+inline TriangleMesh folded_sheet(double left, double right, double cell) {
+  const int half = static_cast<int>(std::lround(0.04 / cell));
+  const int along = static_cast<int>(std::lround(0.16 / cell));
+  return grid_mesh(2 * half, along, [&](double u, double v) -> Eigen::Vector3d {
+    const double way = 0.08 * u - 0.04;
+    const double angle = way < 0.0 ? left : right;
+    return {way * std::cos(angle), 0.16 * v - 0.0813, std::abs(way) * std::sin(angle)};
+  });
+}
+
+/// The force [N] that a law makes of each answer, one after the other.
+using ForceLaw = std::function<Eigen::Vector3d(const ContactArray&)>;
+
+struct ForceStep {
+  ShaftAxis axis;
+  Eigen::Vector3d force;
+  double change;  ///< [N] since the last step
+  double way;     ///< [m] of the end of the axis that moved farther
+};
+
+/// A shaft that goes through `poses`, against an organ at rest: queried step by step as the node
+/// does, the first static, the others swept.
+inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
+                                           const TriangleMesh& organ, const ForceLaw& law) {
+  CollisionQuery query;
+  CollisionResult result;
+  std::vector<ForceStep> steps;
+  for (const ShaftAxis& pose : poses) {
+    CollisionRequest request;
+    request.organ = &organ;
+    request.radius = kRadius;
+    request.mode = steps.empty() ? QueryMode::kStatic : QueryMode::kSwept;
+    request.path = {{0.0, steps.empty() ? pose : steps.back().axis}, {1.0, pose}};
+    query.evaluate(request, result);
+    ContactArray answer;
+    answer.links = {""};
+    answer.mode = static_cast<std::uint8_t>(request.mode);
+    for (const FaceContact& contact : result.contacts)
+      answer.contacts.push_back(to_message(contact));
+    ForceStep step{pose, law(answer), 0.0, 0.0};
+    if (!steps.empty()) {
+      const ForceStep& last = steps.back();
+      step.change = (step.force - last.force).norm();
+      step.way =
+          std::max((pose.trocar - last.axis.trocar).norm(), (pose.tip - last.axis.tip).norm());
+    }
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+/// Poses from one to the next in steps of at most `most` [m] of either end.
+inline std::vector<ShaftAxis> way_through(const std::vector<ShaftAxis>& corners, double most) {
+  std::vector<ShaftAxis> poses = {corners.front()};
+  for (std::size_t i = 1; i < corners.size(); ++i) {
+    const ShaftAxis &from = corners[i - 1], &to = corners[i];
+    const double way = std::max((to.trocar - from.trocar).norm(), (to.tip - from.tip).norm());
+    const int count = static_cast<int>(std::ceil(way / most));
+    for (int k = 1; k <= count; ++k) {
+      const double share = static_cast<double>(k) / count;
+      poses.push_back({from.trocar + share * (to.trocar - from.trocar),
+                       from.tip + share * (to.tip - from.tip)});
+    }
+  }
+  return poses;
+}
+
+}  // namespace organ_collision
