@@ -39,12 +39,15 @@ void keep_first_touches(std::vector<FaceContact>& contacts) {
 CollisionQuery::CollisionQuery(PickerKind kind)
     : context_(std::make_unique<GlContext>()),
       picker_(make_picker(kind, *context_)),
-      region_clipper_(*context_) {}
+      region_clipper_(*context_) {
+  context_->release();
+}
 
 void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& result) {
   result.contacts.clear();
   result.regions.clear();
   check(request);
+  const ScopedCurrentContext current(*context_);
   if (is_paper_mode(request.mode)) return pick_unrefined(request, result);
 
   // The method: a camera's viewing volume is given the shape of the space that a part of the tool

@@ -47,7 +47,8 @@ class Step;
 struct PartLeg;
 
 /// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
-/// Owns its GL context; use from one thread at a time. Keeps its buffers between queries.
+/// Owns its GL context, which is current in the calling thread only while a function runs: any
+/// thread may make, use and destroy it, one at a time. Keeps its buffers between queries.
 class CollisionQuery {
  public:
   /// Throws GlError where GL picking does not work here.
