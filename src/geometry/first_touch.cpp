@@ -95,7 +95,7 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
   const double near = radius + move;
   Instant now(0.0, core, face, near);
   if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
-  if (now.closest.distance > near) return std::nullopt;
+  if (now.closest.distance > near || until == 0.0) return std::nullopt;
   // Nothing touches for this share of the leg, however little the direction of near points tells.
   const auto sure = [&] { return (now.closest.distance - radius) / move; };
   Instant ahead(until, core, face);

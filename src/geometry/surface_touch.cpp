@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <tuple>
 
 #include "fixed_plane.hpp"
 #include "organ_collision/geometry/swept_box.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
 namespace {
@@ -37,6 +39,18 @@ double clear_until(const FaceMotion& triangle, const FaceMotion& face, double re
 /// Later touches are of no interest.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
 
+/// Whether no triangle can touch the face earlier or deeper: all that pierce it are as deep.
+bool is_settled(const FaceTouch& face) {
+  return face.first && face.first->time == 0.0 &&
+         face.first->closest.distance <= tolerance::kPierced;
+}
+
+/// Whether `touch` is the earlier, or at the same time the nearer one, which is deeper then.
+bool precedes(const FirstTouch& touch, const FirstTouch& other) {
+  return std::tie(touch.time, touch.closest.distance) <
+         std::tie(other.time, other.closest.distance);
+}
+
 class Descent {
  public:
   using Iterator = std::vector<FaceTouch>::iterator;
@@ -48,7 +62,7 @@ class Descent {
     const ToolSurface::Node& node = surface_.nodes()[index];
     const SweptBox box(node.box, motion_, radius_);
     const Iterator kept = std::partition(begin, end, [&](const FaceTouch& face) {
-      return latest(face) > 0.0 && box.clear_until(face.motion) <= latest(face);
+      return !is_settled(face) && box.clear_until(face.motion) <= latest(face);
     });
     if (kept == begin) return;
     if (node.second == 0) {
@@ -66,9 +80,9 @@ class Descent {
     const double reach = radius_ + core.bend(1.0);
     for (Iterator face = begin; face != end; ++face) {
       const double until = latest(*face);
-      if (until == 0.0 || clear_until(triangle, face->motion, reach) > until) continue;
+      if (is_settled(*face) || clear_until(triangle, face->motion, reach) > until) continue;
       const auto found = first_touch(core, face->motion, radius_, until);
-      if (found && (!face->first || found->time < until)) face->first = found;
+      if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
     }
   }
 

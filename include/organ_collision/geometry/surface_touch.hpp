@@ -18,7 +18,8 @@ struct FaceTouch {
 };
 
 /// Finds when each of `faces` first comes within `radius` [m] of a link's surface: down the tree of
-/// boxes with the faces that may reach them, then face against face. Leaves the faces in another
+/// boxes with the faces that may reach them, then face against face. Of triangles that touch a face
+/// when the leg begins, the nearest counts: it is the deepest then. Leaves the faces in another
 /// order. Allocates nothing.
 void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
                         std::vector<FaceTouch>& faces);
