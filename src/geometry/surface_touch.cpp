@@ -55,8 +55,8 @@ class Descent {
  public:
   using Iterator = std::vector<FaceTouch>::iterator;
 
-  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius)
-      : surface_(surface), motion_(motion), radius_(radius) {}
+  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget)
+      : surface_(surface), motion_(motion), radius_(radius), budget_(budget) {}
 
   void visit(std::uint32_t index, Iterator begin, Iterator end) const {
     const ToolSurface::Node& node = surface_.nodes()[index];
@@ -81,7 +81,7 @@ class Descent {
     for (Iterator face = begin; face != end; ++face) {
       const double until = latest(*face);
       if (is_settled(*face) || clear_until(triangle, face->motion, reach) > until) continue;
-      const auto found = first_touch(core, face->motion, radius_, until);
+      const auto found = first_touch(core, face->motion, radius_, budget_, until);
       if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
     }
   }
@@ -89,14 +89,21 @@ class Descent {
   const ToolSurface& surface_;
   const RigidMotion& motion_;
   double radius_;
+  WorkBudget& budget_;
 };
 
 }  // namespace
 
 void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
-                        std::vector<FaceTouch>& faces) {
+                        WorkBudget& budget, std::vector<FaceTouch>& faces) {
   for (FaceTouch& face : faces) face.first.reset();
-  Descent(surface, motion, radius).visit(0, faces.begin(), faces.end());
+  Descent(surface, motion, radius, budget).visit(0, faces.begin(), faces.end());
+}
+
+void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
+                        std::vector<FaceTouch>& faces) {
+  WorkBudget unlimited = WorkBudget::unlimited();
+  find_first_touches(surface, motion, radius, unlimited, faces);
 }
 
 }  // namespace organ_collision

@@ -46,6 +46,8 @@ CollisionQuery::CollisionQuery(PickerKind kind)
 void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& result) {
   result.contacts.clear();
   result.regions.clear();
+  result.unresolved = 0;
+  budget_ = {};
   check(request);
   const ScopedCurrentContext current(*context_);
   if (is_paper_mode(request.mode)) return pick_unrefined(request, result);
@@ -61,8 +63,10 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
     }
   }
   keep_first_touches(result.contacts);
-  for (FaceContact& contact : result.contacts)
+  for (FaceContact& contact : result.contacts) {
     contact.vertices = step.organ().faces()[contact.face];
+    if (!contact.is_resolved) ++result.unresolved;
+  }
   if (request.regions) clip_regions(step, result);
 }
 
@@ -92,8 +96,9 @@ void CollisionQuery::touch_link(const Step& step, std::size_t leg, std::size_t l
 /// Confirms candidates by their distance from a convex part.
 void CollisionQuery::touch_core(const Step& step, std::size_t leg, const PartLeg& part,
                                 std::vector<FaceContact>& contacts) {
+  budget_.add_pairs(step.organ().face_count());
   for (const Candidate& candidate : candidates_) {
-    std::optional<FaceContact> contact = refine(part, step.face(leg, candidate.face));
+    std::optional<FaceContact> contact = refine(part, step.face(leg, candidate.face), budget_);
     if (!contact) continue;
     contact->face = candidate.face;
     contacts.push_back(*contact);
@@ -103,11 +108,12 @@ void CollisionQuery::touch_core(const Step& step, std::size_t leg, const PartLeg
 /// Confirms candidates face against face.
 void CollisionQuery::touch_surface(const Step& step, std::size_t leg, const PartLeg& part,
                                    const ToolSurface& surface, std::vector<FaceContact>& contacts) {
+  budget_.add_pairs(step.organ().face_count() * surface.faces().size());
   touches_.clear();
   for (const Candidate& candidate : candidates_) {
     touches_.push_back({candidate.face, step.face(leg, candidate.face).motion, {}});
   }
-  find_first_touches(surface, *part.core.link(), part.radius, touches_);
+  find_first_touches(surface, *part.core.link(), part.radius, budget_, touches_);
   for (const FaceTouch& touch : touches_) {
     if (!touch.first) continue;
     contacts.push_back(contact_of(*touch.first, part, step.face(leg, touch.face)));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -10,6 +11,7 @@
 #include "organ_collision/geometry/surface_touch.hpp"
 #include "organ_collision/geometry/tool_path.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/work_budget.hpp"
 #include "organ_collision/picking/gl_context.hpp"
 #include "organ_collision/picking/picker.hpp"
 #include "organ_collision/picking/region_clipper.hpp"
@@ -41,6 +43,7 @@ struct CollisionRequest {
 struct CollisionResult {
   std::vector<FaceContact> contacts;  ///< by rising face, then link; one for each
   std::vector<Region> regions;        ///< empty unless asked for; else one for each contact
+  std::size_t unresolved = 0;         ///< of the contacts, as in msg/ContactArray.msg
 };
 
 class Step;
@@ -80,6 +83,7 @@ class CollisionQuery {
   std::unique_ptr<Picker> picker_;
   RegionClipper region_clipper_;
   LastDisplacement displacement_;
+  WorkBudget budget_;
   std::vector<Candidate> candidates_;
   std::vector<FaceTouch> touches_;
   ToolPath finer_path_;
