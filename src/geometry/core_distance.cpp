@@ -146,6 +146,7 @@ ClosestPoints nearest_of_edges(const Triangle& core, const Triangle& face) {
     consider(turned);
   }
   nearest.shaft = 0.0;
+  nearest.steps = 6 * nearest.steps;
   return nearest;
 }
 
@@ -156,7 +157,8 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, doubl
   if (core.is_cylinder()) return cylinder_closest_points(core, face);
   constexpr int kMaxSteps = 100;  // Some five suffice.
   Simplex simplex(farthest_against(face[0] - core.points[0], core, face));
-  for (int step = 0; step < kMaxSteps; ++step) {
+  int step = 1;
+  for (; step < kMaxSteps; ++step) {
     const double distance = simplex.nearest().norm();
     if (distance <= tolerance::kTie) break;
     const Vertex next = farthest_against(simplex.nearest(), core, face);
@@ -164,6 +166,7 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, doubl
     if (least > enough) {
       ClosestPoints closest = simplex.closest(face);
       closest.distance = least;
+      closest.steps = step;
       return closest;
     }
     if (distance - least <= tolerance::kTie * std::max(1.0, distance)) break;
@@ -173,7 +176,9 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, doubl
       return nearest_of_edges({core.points[0], core.points[1], core.points[2]}, face);
     }
   }
-  return simplex.closest(face);
+  ClosestPoints closest = simplex.closest(face);
+  closest.steps = step;
+  return closest;
 }
 
 }  // namespace organ_collision

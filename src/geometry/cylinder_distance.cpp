@@ -18,8 +18,9 @@ class NearestToCylinder {
         along_((cylinder.points[1] - cylinder.points[0]).normalized()),
         length_((cylinder.points[1] - cylinder.points[0]).norm()),
         radius_(cylinder.rim.col(0).norm()) {
-    for (int i = 0; i < 3; ++i) consider_edge(i, (i + 1) % 3);
     consider_inside();
+    for (int i = 0; i < 3 && !is_found_; ++i) consider_edge(i, (i + 1) % 3);
+    nearest_.steps = steps_;
   }
 
   const ClosestPoints& nearest() const { return nearest_; }
@@ -41,6 +42,7 @@ class NearestToCylinder {
     const double distance = apart.norm();
     if (distance < nearest_.distance) {
       nearest_ = {distance, 0.0, barycentric, on_face - apart, on_face, apart};
+      is_found_ = distance == 0.0;
     }
   }
 
@@ -77,12 +79,12 @@ class NearestToCylinder {
 
   /// Where on an edge, in [0, 1], the distance is least: its slope rises. Newton's steps, halved
   /// where they leave the bracket or are no faster than halving.
-  double nearest_place(const Vector3d& corner, const Vector3d& edge) const {
+  double nearest_place(const Vector3d& corner, const Vector3d& edge) {
     constexpr int kMaxSteps = 200;  // Halving alone takes some sixty to neighbouring numbers.
     if (slope(corner, edge).value >= 0.0) return 0.0;
     if (slope(corner + edge, edge).value <= 0.0) return 1.0;
     double low = 0.0, high = 1.0, place = 0.5, last_move = 1.0;
-    for (int step = 0; step < kMaxSteps; ++step) {
+    for (int step = 0; step < kMaxSteps; ++step, ++steps_) {
       const Slope here = slope(corner + place * edge, edge);
       if (here.value == 0.0) break;
       (here.value < 0.0 ? low : high) = place;
@@ -121,12 +123,15 @@ class NearestToCylinder {
     const Vector3d areas(area.dot(b.cross(c)), area.dot(c.cross(a)), area.dot(a.cross(b)));
     if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return;
     consider(areas / areas.sum(), point + apart, apart);
+    is_found_ = true;
   }
 
   const ConvexCore& cylinder_;
   const Triangle& face_;
   const Vector3d along_;
   const double length_, radius_;
+  bool is_found_ = false;  ///< none is nearer: the nearest point of the face's plane is in the face
+  int steps_ = 4;          ///< as in ClosestPoints
   ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "fixed_plane.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -81,6 +82,30 @@ double farthest_move(const CoreMotion& core, const FaceMotion& face) {
   return corner + core.farthest_move();
 }
 
+/// [m] The largest coordinate of the core and the face at both ends of the leg.
+double extent(const CoreMotion& core, const FaceMotion& face) {
+  double largest = 0.0;
+  const auto consider = [&](const Vector3d& point) {
+    largest = std::max(largest, point.cwiseAbs().maxCoeff());
+  };
+  for (const ConvexCore* end : {&core.start(), &core.end()}) {
+    for (std::size_t i = 0; i < end->count; ++i) consider(end->points[i]);
+  }
+  for (const Triangle* end : {&face.start, &face.end}) {
+    for (const Vector3d& corner : *end) consider(corner);
+  }
+  return largest;
+}
+
+/// Whether a plane at right angles to `normal`, which keeps core and face apart at the start, keeps
+/// them farther apart than `distance` at the end as well, and so all the time.
+bool stays_beyond(const Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
+                  double distance) {
+  const double reach = distance + core.bend(1.0, normal);
+  return heights(normal, face.start).low - core.start().height(normal) > reach &&
+         heights(normal, face.end).low - core.end().height(normal) > reach;
+}
+
 }  // namespace
 
 Triangle FaceMotion::at(double time) const {
@@ -89,23 +114,31 @@ Triangle FaceMotion::at(double time) const {
 }
 
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
-                                      double until) {
-  constexpr int kMaxSteps = 1000;  // some ten suffice; beyond, motions are too fast for doubles
+                                      WorkBudget& budget, double until) {
+  constexpr int kMaxSteps = 1000;  // Some ten suffice.
+  if (budget.is_used_up() && !core.start().is_axis()) {
+    // A pair of points on core and face that costs no search.
+    return FirstTouch{0.0, closest_points(core.start().axis(), face.start), false};
+  }
   const double move = farthest_move(core, face);
   const double near = radius + move;
   Instant now(0.0, core, face, near);
+  budget.spend(now.closest.steps);
   if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
-  if (now.closest.distance > near) return std::nullopt;
+  if (now.closest.distance > near || until == 0.0) return std::nullopt;
+  const double touching = radius + tolerance::kTouch + tolerance::kRounding * extent(core, face);
+  if (stays_beyond(now.normal, core, face, touching)) return std::nullopt;
   // Nothing touches for this share of the leg, however little the direction of near points tells.
   const auto sure = [&] { return (now.closest.distance - radius) / move; };
   Instant ahead(until, core, face);
-  for (int step = 0; step < kMaxSteps; ++step) {
+  for (int step = 0; step < kMaxSteps && !budget.is_used_up(); ++step) {
+    budget.spend(ahead.closest.steps);
     const double length = ahead.time - now.time;
     const double share = std::max(clear_share(now, ahead, core, radius), sure() / length);
     const double before = now.closest.distance;
     now = share > 1.0 ? ahead : Instant(now.time + share * length, core, face);
-    if (now.closest.distance <= radius + tolerance::kTouch)
-      return FirstTouch{now.time, now.closest};
+    budget.spend(now.closest.steps);
+    if (now.closest.distance <= touching) return FirstTouch{now.time, now.closest};
     if (now.time >= until) return std::nullopt;
     double next = 2.0;
     if (share <= 1.0) {
@@ -116,7 +149,13 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
     }
     ahead = Instant(std::min(now.time + std::max(next * length, sure()), until), core, face);
   }
-  return FirstTouch{now.time, now.closest};  // rather one contact too many
+  return FirstTouch{now.time, now.closest, false};  // rather one contact too many
+}
+
+std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
+                                      double until) {
+  WorkBudget unlimited = WorkBudget::unlimited();
+  return first_touch(core, face, radius, unlimited, until);
 }
 
 }  // namespace organ_collision

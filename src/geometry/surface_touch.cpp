@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <tuple>
 
 #include "fixed_plane.hpp"
 #include "organ_collision/geometry/swept_box.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
 namespace {
@@ -37,18 +39,30 @@ double clear_until(const FaceMotion& triangle, const FaceMotion& face, double re
 /// Later touches are of no interest.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
 
+/// Whether no triangle can touch the face earlier or deeper: all that pierce it are as deep.
+bool is_settled(const FaceTouch& face) {
+  return face.first && face.first->time == 0.0 &&
+         face.first->closest.distance <= tolerance::kPierced;
+}
+
+/// Whether `touch` is the earlier, or at the same time the nearer one, which is deeper then.
+bool precedes(const FirstTouch& touch, const FirstTouch& other) {
+  return std::tie(touch.time, touch.closest.distance) <
+         std::tie(other.time, other.closest.distance);
+}
+
 class Descent {
  public:
   using Iterator = std::vector<FaceTouch>::iterator;
 
-  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius)
-      : surface_(surface), motion_(motion), radius_(radius) {}
+  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget)
+      : surface_(surface), motion_(motion), radius_(radius), budget_(budget) {}
 
   void visit(std::uint32_t index, Iterator begin, Iterator end) const {
     const ToolSurface::Node& node = surface_.nodes()[index];
     const SweptBox box(node.box, motion_, radius_);
     const Iterator kept = std::partition(begin, end, [&](const FaceTouch& face) {
-      return latest(face) > 0.0 && box.clear_until(face.motion) <= latest(face);
+      return !is_settled(face) && box.clear_until(face.motion) <= latest(face);
     });
     if (kept == begin) return;
     if (node.second == 0) {
@@ -66,23 +80,30 @@ class Descent {
     const double reach = radius_ + core.bend(1.0);
     for (Iterator face = begin; face != end; ++face) {
       const double until = latest(*face);
-      if (until == 0.0 || clear_until(triangle, face->motion, reach) > until) continue;
-      const auto found = first_touch(core, face->motion, radius_, until);
-      if (found && (!face->first || found->time < until)) face->first = found;
+      if (is_settled(*face) || clear_until(triangle, face->motion, reach) > until) continue;
+      const auto found = first_touch(core, face->motion, radius_, budget_, until);
+      if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
     }
   }
 
   const ToolSurface& surface_;
   const RigidMotion& motion_;
   double radius_;
+  WorkBudget& budget_;
 };
 
 }  // namespace
 
 void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
-                        std::vector<FaceTouch>& faces) {
+                        WorkBudget& budget, std::vector<FaceTouch>& faces) {
   for (FaceTouch& face : faces) face.first.reset();
-  Descent(surface, motion, radius).visit(0, faces.begin(), faces.end());
+  Descent(surface, motion, radius, budget).visit(0, faces.begin(), faces.end());
+}
+
+void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
+                        std::vector<FaceTouch>& faces) {
+  WorkBudget unlimited = WorkBudget::unlimited();
+  find_first_touches(surface, motion, radius, unlimited, faces);
 }
 
 }  // namespace organ_collision

@@ -60,6 +60,18 @@ void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& face
   vertices.swap(used);
 }
 
+/// Puts faces in an order that does not depend on the caller's: by their corners.
+void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
+  const auto is_less = [&](const FaceIndices& a, const FaceIndices& b) {
+    for (std::size_t corner = 0; corner < a.size(); ++corner) {
+      const Vector3d &p = vertices[a[corner]], &q = vertices[b[corner]];
+      if (p != q) return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+    }
+    return false;
+  };
+  std::sort(faces.begin(), faces.end(), is_less);
+}
+
 /// Axes along which points are spread most and least.
 Eigen::Matrix3d principal_axes(const std::vector<Vector3d>& points) {
   Vector3d mean = Vector3d::Zero();
@@ -86,6 +98,7 @@ double top(const OrientedBox& box, const Vector3d& direction) {
 ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices> faces)
     : vertices_(std::move(vertices)), faces_(std::move(faces)) {
   check(vertices_, faces_);
+  sort_by_corners(vertices_, faces_);
   drop_unused(vertices_, faces_);
   build(0, static_cast<std::uint32_t>(faces_.size()));
 }

@@ -1,5 +1,7 @@
 #include "organ_collision/picking/viewing_volume.hpp"
 
+#include <algorithm>
+
 namespace organ_collision {
 namespace {
 
@@ -66,9 +68,10 @@ HalfSpace ViewingVolume::half_space(std::size_t index) const {
 
 double ViewingVolume::view_depth(double window_depth) const {
   const double range = far_ - near_;
-  if (!perspective_) return window_depth * range;
-  // far near / (far - window_depth range) - near, without the cancellation.
-  return near_ * window_depth * range / (far_ - window_depth * range);
+  const double depth = std::clamp(window_depth, 0.0, 1.0);  // Clipping rounds.
+  if (!perspective_) return depth * range;
+  // far near / (far - depth range) - near, without the cancellations.
+  return near_ * depth * range / (near_ + (1.0 - depth) * range);
 }
 
 }  // namespace organ_collision

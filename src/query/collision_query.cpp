@@ -34,6 +34,12 @@ void keep_first_touches(std::vector<FaceContact>& contacts) {
   contacts.erase(end, contacts.end());
 }
 
+void clear(CollisionResult& result) {
+  result.contacts.clear();
+  result.regions.clear();
+  result.unresolved = 0;
+}
+
 void pick_unrefined(const CollisionRequest& request, Picker& picker,
                     std::vector<Candidate>& candidates, std::vector<FaceContact>& contacts) {
   picker.pick(paper_volume(request), *request.organ, candidates);
@@ -50,7 +56,9 @@ void pick_unrefined(const CollisionRequest& request, Picker& picker,
 
 struct CollisionQuery::State {
   explicit State(PickerKind kind)
-      : picker(make_picker(kind, context)), finder(*picker), regions(context) {}
+      : picker(make_picker(kind, context)), finder(*picker), regions(context) {
+    context.release();
+  }
 
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
@@ -71,14 +79,13 @@ CollisionQuery& CollisionQuery::operator=(CollisionQuery&&) noexcept = default;
 const std::string& CollisionQuery::gl_version() const { return state_->context.version(); }
 
 void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& result) {
-  result.contacts.clear();
-  result.regions.clear();
+  clear(result);
+  check(request);
   try {
-    check(request);
+    const ScopedCurrentContext current(state_->context);
     state_->evaluate(request, result);
   } catch (...) {
-    result.contacts.clear();
-    result.regions.clear();
+    clear(result);
     throw;
   }
 }
@@ -92,6 +99,7 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
   keep_first_touches(result.contacts);
   for (FaceContact& contact : result.contacts) {
     contact.vertices = request.organ->faces()[contact.face];
+    if (!contact.is_resolved) ++result.unresolved;
   }
   if (request.regions) regions.find(step, result.contacts, result.regions);
 }

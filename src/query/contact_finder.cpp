@@ -19,6 +19,7 @@ void with_part(const Step& step, const LegSpan& span, const LinkPart* shape, std
 }  // namespace
 
 void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
+  budget_ = {};
   touched_leg_.resize(step.organ().face_count());
   try {
     if (step.has_shaft()) touch_shaft(step, contacts);
@@ -58,6 +59,7 @@ void ContactFinder::touch_link(const Step& step, std::size_t link,
 void ContactFinder::touch_part(const Step& step, const LegSpan& span, const Part& part,
                                std::vector<FaceContact>& contacts) {
   pick(step, span, part);
+  budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
   open_faces_.clear();
   for (const Candidate& candidate : candidates_) {
     if (is_open(candidate.face, span.begin)) open_faces_.push_back({candidate.face, span.begin});
@@ -122,9 +124,11 @@ void ContactFinder::touch_on_leg(const Step& step, std::size_t leg, const Part& 
 /// When each of `touches_` first comes within `radius` of the part.
 void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
   if (shape && shape->surface) {
-    find_first_touches(*shape->surface, *part.core.link(), radius, touches_);
+    find_first_touches(*shape->surface, *part.core.link(), radius, budget_, touches_);
   } else {
-    for (FaceTouch& touch : touches_) touch.first = first_touch(part.core, touch.motion, radius);
+    for (FaceTouch& touch : touches_) {
+      touch.first = first_touch(part.core, touch.motion, radius, budget_);
+    }
   }
 }
 

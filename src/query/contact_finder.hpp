@@ -29,6 +29,11 @@ class ContactFinder {
   struct Part {
     const LinkPart* shape = nullptr;  ///< null: the shaft
     std::size_t link = 0;
+
+    /// A surface is as many convex parts as it has triangles.
+    std::size_t convex_count() const {
+      return shape && shape->surface ? shape->surface->faces().size() : 1;
+    }
   };
   /// A face that the part may touch, from a leg on.
   struct OpenFace {
@@ -49,6 +54,7 @@ class ContactFinder {
   void open_all(const std::vector<FaceContact>& touched, std::size_t begin);
 
   Picker& picker_;
+  WorkBudget budget_;  ///< of the present step
   std::vector<Candidate> candidates_;
   std::vector<OpenFace> open_faces_;
   std::vector<FaceTouch> touches_;

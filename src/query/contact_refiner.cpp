@@ -107,6 +107,7 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
 
   FaceContact contact;
   contact.link = part.link;
+  contact.is_resolved = touch.is_resolved;
   contact.fraction = face.begin + touch.time * (face.finish - face.begin);
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;
@@ -126,10 +127,15 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   return contact;
 }
 
-std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face) {
-  const std::optional<FirstTouch> touch = first_touch(part.core, face.motion, part.radius);
+std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face, WorkBudget& budget) {
+  const std::optional<FirstTouch> touch = first_touch(part.core, face.motion, part.radius, budget);
   if (!touch) return std::nullopt;
   return contact_of(*touch, part, face);
+}
+
+std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face) {
+  WorkBudget unlimited = WorkBudget::unlimited();
+  return refine(part, face, unlimited);
 }
 
 }  // namespace organ_collision

@@ -37,6 +37,7 @@ void Evaluator::evaluate(const CollisionRequest& request, ContactArray& answer) 
   query_times_.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 
   answer.status = ContactArray::OK;
+  answer.unresolved = static_cast<std::uint32_t>(result_.unresolved);
   for (const FaceContact& contact : result_.contacts)
     answer.contacts.push_back(to_message(contact));
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));

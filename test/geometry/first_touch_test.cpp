@@ -234,10 +234,72 @@ TEST_P(FirstTouchOfLinks, UntilCutsTheLegShort) {
   });
 }
 
+WorkBudget used_up() {
+  WorkBudget budget;
+  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kLeastPairs);
+  return budget;
+}
+
+// What touches is reported; what is not resolved has a pair of points on core and face.
+TEST_P(FirstTouchOfLinks, WithoutBudgetNoTouchIsMissed) {
+  int unresolved = 0;
+  for_each_trial(60, [&](const LinkTrial& trial, const FaceMotion& face, Random& random) {
+    const RigidMotion motion = trial.motion();
+    const CoreMotion core(trial.core, motion);
+    WorkBudget budget = used_up();
+    const double until = random.chance(0.5) ? 1.0 : random.uniform(0.0, 1.0);
+    const auto all = first_touch(core, face, trial.radius, until);
+    const auto touch = first_touch(core, face, trial.radius, budget, until);
+    if (all) {
+      ASSERT_TRUE(touch);
+    }
+    if (!touch) return;
+    EXPECT_LE(touch->time, all ? all->time : until);
+    const ClosestPoints& closest = touch->closest;
+    EXPECT_NEAR((closest.on_face - closest.on_core).norm(), closest.distance, band(trial));
+    EXPECT_TRUE(closest.on_core.allFinite());
+    EXPECT_NEAR(closest.barycentric.sum(), 1.0, 1e-9);
+    if (touch->is_resolved) {
+      EXPECT_TRUE(all);
+    }
+    unresolved += !touch->is_resolved;
+  });
+  EXPECT_GT(unresolved, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Kinds, FirstTouchOfLinks,
     testing::Combine(testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()),
                      testing::Range<std::size_t>(0, oracle::kCoreKinds)));
+
+/// Steps that it takes to decide on shafts that slide over faces at the radius, and some roundings
+/// more, within `far` [m] of the origin.
+std::uint64_t steps_of_grazing(double far) {
+  Random random(11);
+  WorkBudget budget = WorkBudget::unlimited();
+  const auto over_plane = [&](double height) {
+    return Vector3d(far * random.uniform(-0.5, 0.5), far * random.uniform(-0.5, 0.5), height);
+  };
+  for (int i = 0; i < 1000; ++i) {
+    const double radius = random.uniform(0.01, 0.1) * far, size = 0.01 * far;
+    const Vector3d corner = over_plane(0.0);
+    const Triangle face = oracle::rounded(
+        {corner, corner + size * Vector3d::UnitX(), corner + size * Vector3d::UnitY()});
+    const ShaftAxis start{over_plane(radius + (i % 12) * 1.2e-16 * far),
+                          over_plane(radius + (i % 12) * 1.2e-16 * far)};
+    const Vector3d step =
+        random.uniform(1.0, 2.0) * (face[0] - start.trocar).cwiseProduct(Vector3d(1.0, 1.0, 0.0));
+    first_touch(ShaftMotion{start, {start.trocar + step, start.tip + step}}, resting(face), radius,
+                budget);
+  }
+  return budget.spent();
+}
+
+// Far away, distances are rounded by more than kTouch: the search must not go on for less.
+TEST(FirstTouch, FarFromTheOriginGrazingTakesAboutAsMuchWork) {
+  const std::uint64_t near = steps_of_grazing(1.0);
+  for (const double far : {1e5, 4e5, 8e5}) EXPECT_LE(steps_of_grazing(far), 3 * near) << far;
+}
 
 TEST(FirstTouch, TrialsThatOnceFailed) {
   for (const Trial& trial :

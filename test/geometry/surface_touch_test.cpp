@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <random>
 
 #include "geometry/tool_meshes.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
@@ -111,6 +112,35 @@ TEST(SurfaceTouch, IsNoneInsideAClosedMesh) {
   faces = {face(0.05)};
   find_first_touches(surface, motion, tolerance::kSkin, faces);
   EXPECT_TRUE(faces[0].first);
+}
+
+/// A triangle across the plane z = 0, piercing it at x, and one just above it, 5e-9 m.
+ToolMesh piercing_and_grazing(double x, double y) {
+  ToolMesh mesh;
+  mesh.vertices = {{x, 0.0, 0.01},      {x, 0.002, 0.01},       {x, 0.001, -0.01},
+                   {y, 0.0, 5e-9},      {y + 0.002, 0.0, 5e-9}, {y, 0.002, 5e-9},
+                   {y + 0.1, 0.0, 0.1}, {y + 0.1, 0.002, 0.1},  {y + 0.1, 0.001, 0.1}};
+  mesh.faces = {{0, 1, 2}, {3, 4, 5}, {6, 7, 8}};
+  return mesh;
+}
+
+// Both touch when the leg begins, whichever of them is looked at first.
+TEST(SurfaceTouch, OfTouchesAtTheSameTimeIsTheNearest) {
+  Random random(3);
+  const Triangle corners = {Vector3d(-0.1, -0.1, 0.0), Vector3d(0.2, -0.1, 0.0),
+                            Vector3d(-0.1, 0.2, 0.0)};
+  for (int i = 0; i < 200; ++i) {
+    ToolMesh mesh = piercing_and_grazing(random.uniform(-0.01, 0.02), random.uniform(-0.01, 0.02));
+    std::shuffle(mesh.faces.begin(), mesh.faces.end(), std::mt19937(static_cast<unsigned>(i)));
+    Eigen::Isometry3d end = Eigen::Isometry3d::Identity();
+    if (random.chance(0.5)) end.translation() = 0.01 * random.direction();
+    const RigidMotion motion(Eigen::Isometry3d::Identity(), end);
+    std::vector<FaceTouch> faces = {{0, {corners, corners}, {}}};
+    find_first_touches(mesh.surface(), motion, tolerance::kSkin, faces);
+    ASSERT_TRUE(faces[0].first);
+    EXPECT_EQ(faces[0].first->time, 0.0);
+    EXPECT_LE(faces[0].first->closest.distance, tolerance::kTie);
+  }
 }
 
 TEST(SurfaceTouch, OfNoFacesIsNothing) {

@@ -271,6 +271,53 @@ TEST_P(LinkQueryWith, OrderOfFacesOnlyRenumbers) {
   }
 }
 
+// Scattered triangles touch and pierce the same face; some are twice there.
+TEST_P(LinkQueryWith, OrderOfAToolsTrianglesChangesNothing) {
+  Random random(14);
+  std::size_t found = 0;
+  for (int i = 0; i < 40 && !HasFailure(); ++i) {
+    Scene scene(false, random);
+    scene.request.radius = 0.0;
+    scene.links.resize(1);
+    for (ToolWaypoint& waypoint : scene.request.path) waypoint.links.resize(1);
+    if (random.chance(0.5)) scene.request.mode = QueryMode::kStatic;
+    ToolMesh tool = scattered_mesh(60, random);
+    scene.links[0].parts = {LinkPart::mesh(tool.surface())};
+    const std::vector<FaceContact> expected = contacts(scene.request);
+    found += expected.size();
+    for (unsigned order = 0; order < 3; ++order) {
+      std::shuffle(tool.faces.begin(), tool.faces.end(), std::mt19937(order));
+      scene.links[0].parts = {LinkPart::mesh(tool.surface())};
+      expect_same(contacts(scene.request), expected, 0.0);
+    }
+  }
+  EXPECT_GT(found, 300U);
+}
+
+// A face in the plane z = 0: one triangle ends 5e-9 m above it, another 0.01 m below.
+TEST_P(LinkQueryWith, TheDeepestOfAToolsTrianglesIsTheContact) {
+  const TriangleMesh organ({-1.0F, -1.0F, 0.0F, 2.0F, -1.0F, 0.0F, -1.0F, 2.0F, 0.0F}, {0, 1, 2});
+  ToolMesh tool;
+  tool.vertices = {{0.00, 0.0, 0.1}, {0.01, 0.0, 0.1}, {0.0, 0.0, 5e-9},
+                   {0.02, 0.0, 0.1}, {0.03, 0.0, 0.1}, {0.02, 0.0, -0.01}};
+  for (const std::vector<FaceIndices>& faces :
+       {std::vector<FaceIndices>{{0, 1, 2}, {3, 4, 5}}, {{3, 4, 5}, {0, 1, 2}}}) {
+    for (const double side : {1.0, -1.0}) {  // either triangle has the smaller coordinates
+      ToolMesh mirrored = tool;
+      mirrored.faces = faces;
+      for (Vector3d& vertex : mirrored.vertices) vertex.x() *= side;
+      const std::vector<Link> links = {{"jaw", {LinkPart::mesh(mirrored.surface())}}};
+      const ShaftAxis none{Vector3d::Zero(), Vector3d::Zero()};
+      CollisionRequest request = swept(organ, {{0.0, none, {Isometry3d::Identity()}}}, 0.0);
+      request.links = &links;
+      request.mode = QueryMode::kStatic;
+      const std::vector<FaceContact> found = contacts(request);
+      ASSERT_EQ(found.size(), 1U);
+      EXPECT_NEAR(found[0].depth, 0.01, 1e-7);
+    }
+  }
+}
+
 TEST_P(LinkQueryWith, PaperModesLookAtTheShaftAlone) {
   Random random(10);
   LinkScene scene(true, random);

@@ -123,6 +123,7 @@ class CollisionQueryWith : public testing::TestWithParam<PickerKind> {
  protected:
   std::vector<FaceContact> contacts(const CollisionRequest& request) {
     query_.evaluate(request, result_);
+    EXPECT_EQ(result_.unresolved, 0U) << "the work that a query may cost was used up";
     return result_.contacts;
   }
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 using namespace organ_collision;
 
 namespace {
@@ -43,6 +45,33 @@ TEST_P(EvaluatorTest, RequestWithoutAnswerBecomesAStatus) {
   EXPECT_EQ(answer_.status, ContactArray::INVALID_REQUEST);
   EXPECT_NE(answer_.message.find("-0.25"), std::string::npos) << answer_.message;
   EXPECT_TRUE(answer_.contacts.empty());
+}
+
+// A long tool turns about among faces that fly through each other, a mistake of units.
+TEST_P(EvaluatorTest, CountsWhatIsNotResolved) {
+  std::vector<float> before, now;
+  std::vector<std::uint32_t> triangles;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> anywhere(-4e5F, 4e5F);
+  for (std::uint32_t i = 0; i < 180'000; ++i) {
+    for (int k = 0; k < 3; ++k) before.push_back(anywhere(random));
+    for (int k = 0; k < 3; ++k) now.push_back(anywhere(random));
+    triangles.push_back(i);
+  }
+  const TriangleMesh organ_before(before, triangles), organ(now, triangles);
+  CollisionRequest wild = request();
+  wild.organ = &organ;
+  wild.organ_before = &organ_before;
+  wild.mode = QueryMode::kSwept;
+  wild.path = {{0.0, {{0.0, 0.0, 4e5}, {4e5, 0.0, -4e5}}},
+               {1.0, {{0.0, 1e5, 3e5}, {-4e5, 0.0, -3e5}}}};
+  evaluator_.evaluate(wild, answer_);
+  EXPECT_EQ(answer_.status, ContactArray::OK);
+  EXPECT_GT(answer_.unresolved, 0u);
+  EXPECT_LE(answer_.unresolved, answer_.contacts.size());
+  answer_ = {};
+  evaluator_.evaluate(request(), answer_);
+  EXPECT_EQ(answer_.unresolved, 0u);
 }
 
 TEST_P(EvaluatorTest, TimesWhatItAnswered) {

@@ -18,6 +18,7 @@ struct ClosestPoints {
   Eigen::Vector3d on_face;      ///< [m]
   Eigen::Vector3d apart;        ///< [m] from core to face; far from the origin, more exact than
                                 ///< the difference of the points
+  int steps = 2;                ///< what finding it took, as WorkBudget counts
 };
 
 /// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a

@@ -5,6 +5,7 @@
 #include "organ_collision/geometry/closest_points.hpp"
 #include "organ_collision/geometry/core_motion.hpp"
 #include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/work_budget.hpp"
 
 namespace organ_collision {
 
@@ -21,15 +22,21 @@ struct FaceMotion {
 struct FirstTouch {
   double time;  ///< in [0, 1] of the leg
   ClosestPoints closest;
+  bool is_resolved = true;  ///< false: not before this time, and whether at all is not known
 };
 
 /// First time of the leg, up to `until`, at which distance(face, core) <= radius [m], to within
-/// tolerance::kTouch; none if the core stays farther all that time. One routine for fixed and
-/// moving trocars, links that turn, resting and moving faces.
+/// tolerance::kTouch, and kRounding of the largest coordinate; none if the core stays farther all
+/// that time. One routine for fixed and moving trocars, links that turn, resting and moving faces.
+/// What `budget` does not suffice for is a touch that is not resolved: no face is missed.
 ///
 /// Conservative advancement with a turning plane: the plane between the nearest points at the
 /// start of an interval is turned linearly into the one at its end. While all corners stay beyond
 /// it by the radius, nothing touches; the first time one may not is where the search goes on.
+std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
+                                      WorkBudget& budget, double until = 1.0);
+
+/// The same with as much work as it takes.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       double until = 1.0);
 

@@ -18,8 +18,14 @@ struct FaceTouch {
 };
 
 /// Finds when each of `faces` first comes within `radius` [m] of a link's surface: down the tree of
-/// boxes with the faces that may reach them, then face against face. Leaves the faces in another
+/// boxes with the faces that may reach them, then face against face. Of triangles that touch a face
+/// when the leg begins, the nearest counts: it is the deepest then. Leaves the faces in another
 /// order. Allocates nothing.
+/// What `budget` does not suffice for is as first_touch says.
+void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
+                        WorkBudget& budget, std::vector<FaceTouch>& faces);
+
+/// The same with as much work as it takes.
 void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
                         std::vector<FaceTouch>& faces);
 

@@ -8,6 +8,10 @@ namespace organ_collision::tolerance {
 /// is not. Where the step begins, and in static queries, the distance as rounded decides.
 inline constexpr double kTouch = 1e-10;
 
+/// [1] The same as a share of the largest coordinate: some roundings of it. Nearer than that, a
+/// distance and the next time of the leg are rounding. More than kTouch from 12.5 km on.
+inline constexpr double kRounding = 8e-15;
+
 /// [m] At most this distance between axis and face counts as piercing: the direction between the
 /// nearest points is then noise, so the normal is taken from the face.
 inline constexpr double kPierced = 1e-9;

@@ -21,7 +21,8 @@ class ToolSurface {
 
   /// Those that faces use.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
-  /// In the order of the tree, not in the caller's.
+  /// In the order of the tree, whatever the caller's is: triangles in another order make the same
+  /// surface.
   const std::vector<FaceIndices>& faces() const { return faces_; }
   Triangle triangle(std::size_t face) const {
     return {vertices_[faces_[face][0]], vertices_[faces_[face][1]], vertices_[faces_[face][2]]};

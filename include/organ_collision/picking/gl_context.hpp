@@ -15,7 +15,8 @@ class GlError : public std::runtime_error {
 
 /// An OSMesa compatibility context without a window, its framebuffer, and the GL functions loaded
 /// from it (never linked: where libGL was loaded first, linked ones silently do nothing).
-/// Move-only. Belongs to one thread at a time: current only between make_current and release.
+/// Move-only. Belongs to one thread at a time. Making it, make_current and every picker leave it
+/// current in the calling thread: release it there before another thread uses or destroys it.
 class GlContext {
  public:
   /// Throws GlError when OSMesa gives no context, no function, or no version string.
@@ -40,6 +41,19 @@ class GlContext {
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// Makes a context current in the calling thread; its end releases the context, so that any thread
+/// may use or destroy it next.
+class ScopedCurrentContext {
+ public:
+  explicit ScopedCurrentContext(GlContext& context) : context_(context) { context_.make_current(); }
+  ~ScopedCurrentContext() { context_.release(); }
+  ScopedCurrentContext(const ScopedCurrentContext&) = delete;
+  ScopedCurrentContext& operator=(const ScopedCurrentContext&) = delete;
+
+ private:
+  GlContext& context_;
 };
 
 }  // namespace organ_collision

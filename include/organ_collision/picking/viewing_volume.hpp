@@ -33,7 +33,7 @@ class ViewingVolume {
   HalfSpace half_space(std::size_t index) const;
 
   /// [m] Distance behind the near plane, along the view, of a point at GL's window depth.
-  /// `window_depth` in [0, 1].
+  /// `window_depth` in [0, 1]; what rounding leaves beyond counts as at the plane.
   double view_depth(double window_depth) const;
 
   /// A camera at `eye` (shifted coordinates) with orthonormal axes x (right), y (up) and
@@ -60,14 +60,16 @@ class ViewingVolume {
   bool perspective_;
 };
 
-/// A motion for which the asked volume does not exist (paper volumes of a tool without length).
+/// A motion for which the asked volume does not exist (paper volumes of a tool without length or
+/// thickness). what() names the value and what is legal.
 class VolumeError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
 /// The 1999 paper's volumes, to the letter: they miss some faces near a swept tool's sides and end,
-/// and are not grown for 32-bit clipping. Radius in metres. Throw VolumeError when trocar and tip
-/// coincide.
+/// and are not grown for 32-bit clipping. Radius in metres. Throw VolumeError where 32-bit clipping
+/// makes nothing of them: trocar and tip within 1e-9 m of each other, a radius less than that or
+/// than a millionth of the shaft's length.
 ///
 /// Static (section 3): a box of half-width `radius` around the axis, flat at both ends.
 ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -38,10 +39,12 @@ struct CollisionRequest {
 struct CollisionResult {
   std::vector<FaceContact> contacts;  ///< by rising face, then link; one for each
   std::vector<Region> regions;        ///< empty unless asked for; else one for each contact
+  std::size_t unresolved = 0;         ///< of the contacts, as in msg/ContactArray.msg
 };
 
 /// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
-/// Owns its GL context; use from one thread at a time. Keeps its buffers between queries.
+/// Owns its GL context, which is current in the calling thread only while a function runs: any
+/// thread may make, use and destroy it, one at a time. Keeps its buffers between queries.
 class CollisionQuery {
  public:
   /// Throws GlError where GL picking does not work here.

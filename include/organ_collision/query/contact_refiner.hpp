@@ -36,7 +36,10 @@ struct FaceLeg {
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face);
 
 /// The contact of a candidate face, by exact distances: none if it stays farther from the part's
-/// core than the radius during the leg.
+/// core than the radius during the leg. As first_touch says where `budget` does not suffice.
+std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face, WorkBudget& budget);
+
+/// The same with as much work as it takes.
 std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face);
 
 }  // namespace organ_collision

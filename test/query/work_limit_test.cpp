@@ -1,0 +1,152 @@
+// collision_query.hpp where a request asks for more work than a query may cost.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "organ_collision/query/contact_refiner.hpp"
+#include "proof/link_trials.hpp"
+#include "query/scenes.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using oracle::Random;
+
+constexpr double kFar = 4e5;  // [m]
+
+/// Long slivers through each other.
+Soup slivers(std::size_t count, Random& random) {
+  Soup soup;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vector3d a = random.point(kFar), b = random.point(kFar);
+    const Vector3d c =
+        a + random.uniform(-0.2, 1.2) * (b - a) + random.scale(1e-3, 1e3) * random.direction();
+    for (const Vector3d& corner : {a, b, c}) {
+      for (const double x : corner) soup.vertices.push_back(static_cast<float>(x));
+      soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
+    }
+  }
+  return soup;
+}
+
+/// A tool that turns and moves among them while they move the other way.
+class WorkLimit : public testing::Test {
+ protected:
+  WorkLimit() {
+    request_ = swept(organ_, {}, 0.0);
+    request_.organ_before = &before_;
+    const Isometry3d start = oracle::random_pose(0.3 * kFar, random_);
+    Isometry3d end = start;
+    end.linear() *= oracle::random_turn(0.19, random_);
+    end.translation() += 0.5 * kFar * random_.direction();
+    for (const Isometry3d& pose : {start, end}) {
+      request_.path.push_back({pose.isApprox(start) ? 0.0 : 1.0,
+                               {pose * Vector3d(0.0, 0.0, kFar), pose * Vector3d(kFar, 0.0, -kFar)},
+                               {pose}});
+    }
+  }
+
+  std::vector<FaceContact> contacts() {
+    query_.evaluate(request_, result_);
+    return result_.contacts;
+  }
+
+  Random random_{1};
+  const Soup soup_ = slivers(60'000, random_);
+  const TriangleMesh organ_ = mesh(soup_), before_ = mesh(shaken(soup_, 0.3 * kFar, random_));
+  CollisionRequest request_;
+  CollisionQuery query_;
+  CollisionResult result_;
+};
+
+void expect_finite(const FaceContact& contact) {
+  EXPECT_TRUE(contact.point.allFinite());
+  EXPECT_NEAR(contact.normal.norm(), 1.0, 1e-9);
+  EXPECT_NEAR(contact.barycentric.sum(), 1.0, 1e-9);
+  EXPECT_TRUE(std::isfinite(contact.depth));
+  EXPECT_TRUE(contact.end_point.allFinite());
+  EXPECT_GE(contact.fraction, 0.0);
+  EXPECT_LE(contact.fraction, 1.0);
+}
+
+/// Every face that touches, by as much work as it takes, is among the contacts.
+void expect_none_missed(const PartLeg& part, const CollisionRequest& request,
+                        const CollisionResult& result) {
+  auto contact = result.contacts.begin();
+  std::size_t resolved = 0;
+  for (std::uint32_t face = 0; face < request.organ->face_count(); face += 7) {
+    const Triangle end = request.organ->triangle(face);
+    const auto touch =
+        first_touch(part.core, {request.organ_before->triangle(face), end}, part.radius);
+    contact = std::lower_bound(contact, result.contacts.end(), face,
+                               [](const FaceContact& c, std::uint32_t f) { return c.face < f; });
+    const bool is_found = contact != result.contacts.end() && contact->face == face;
+    if (touch) {
+      ASSERT_TRUE(is_found) << "face " << face;
+    }
+    if (is_found && contact->is_resolved) {
+      ++resolved;
+      ASSERT_TRUE(touch);
+      EXPECT_EQ(contact->fraction, touch->time);
+    }
+  }
+  EXPECT_GT(resolved, 10U);
+}
+
+void expect_counted(const CollisionResult& result) {
+  for (const FaceContact& contact : result.contacts) expect_finite(contact);
+  const auto unresolved = std::count_if(result.contacts.begin(), result.contacts.end(),
+                                        [](const FaceContact& c) { return !c.is_resolved; });
+  EXPECT_EQ(result.unresolved, static_cast<std::size_t>(unresolved));
+  EXPECT_GT(unresolved, 0);
+}
+
+TEST_F(WorkLimit, OfAShaftReportsWhatIsNotResolved) {
+  request_.radius = 1e-3 * kFar;
+  for (ToolWaypoint& waypoint : request_.path) {
+    waypoint.links.clear();
+    for (Vector3d* point : {&waypoint.axis.trocar, &waypoint.axis.tip}) {
+      *point = point->cwiseMax(-1e6).cwiseMin(1e6);
+    }
+  }
+  contacts();
+  expect_counted(result_);
+  const ShaftMotion motion{request_.path[0].axis, request_.path[1].axis};
+  expect_none_missed({motion, request_.radius, {motion.end}}, request_, result_);
+}
+
+TEST_F(WorkLimit, OfLinksReportsWhatIsNotResolved) {
+  for (const LinkPart& part :
+       {LinkPart::box(Isometry3d::Identity(), {kFar, 1e-6 * kFar, 0.01 * kFar}),
+        LinkPart::cylinder(Isometry3d::Identity(), 0.3 * kFar, 0.1 * kFar)}) {
+    const std::vector<Link> links = {{"link", {part}}};
+    request_.links = &links;
+    contacts();
+    expect_counted(result_);
+    const RigidMotion motion(request_.path[0].links[0], request_.path[1].links[0]);
+    expect_none_missed({{part.core, motion}, part.radius, {{}, &links[0], motion.end()}}, request_,
+                       result_);
+  }
+}
+
+// The same request costs the same work: the answer does not depend on what was asked before.
+TEST_F(WorkLimit, IsTheSameForEveryQuery) {
+  const std::vector<Link> links = {
+      {"link", {LinkPart::box(Isometry3d::Identity(), {kFar, 0.2 * kFar, 0.01 * kFar})}}};
+  request_.links = &links;
+  const std::vector<FaceContact> first = contacts();
+  const std::size_t unresolved = result_.unresolved;
+  EXPECT_GT(unresolved, 0U);
+  expect_same(contacts(), first, 0.0);
+  EXPECT_EQ(result_.unresolved, unresolved);
+  request_.organ_before = nullptr;
+  request_.mode = QueryMode::kStatic;
+  contacts();
+  EXPECT_EQ(result_.unresolved, 0U);
+}
+
+}  // namespace
+}  // namespace organ_collision
