@@ -8,9 +8,9 @@ namespace organ_collision {
 bool has_geometry(const ContactArray& contacts);
 
 /// Of an answer that says OK. Throws Rejection, with the value, for what no collision node sends:
-/// an unknown mode, no frame, illegal names, regions whose number is neither zero nor that of the contacts; and of
-/// contacts with geometry, a depth, point or end point that is not finite, or a normal that is not
-/// unit (to 1e-6).
+/// an unknown mode, no frame, illegal names, regions whose number is neither zero nor that of the
+/// contacts; and of contacts with geometry, a depth, point or end point that is not finite, or a
+/// normal that is not unit (to 1e-6).
 void check_contacts(const ContactArray& contacts);
 
 }  // namespace organ_collision

@@ -35,11 +35,8 @@ struct FaceLeg {
 /// is left for the caller to set.
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face);
 
-/// The contact of a candidate face, by exact distances: none if it stays farther from the part's
-/// core than the radius during the leg. As first_touch says where `budget` does not suffice.
-std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face, WorkBudget& budget);
-
-/// The same with as much work as it takes.
+/// The contact of a candidate face, by exact distances and with as much work as it takes: none if
+/// it stays farther from the part's core than the radius during the leg.
 std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face);
 
 }  // namespace organ_collision
