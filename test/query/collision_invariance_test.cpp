@@ -111,6 +111,7 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
     for (std::size_t j = 0; j < found.size(); ++j) {
       FaceContact contact = expected[j];
       contact.point = map(contact.point);
+      contact.end_point = map(contact.end_point);
       contact.normal = turn * contact.normal;
       contact.depth *= scale;
       expect_same(found[j], contact, 1e-6);
