@@ -276,7 +276,7 @@ TEST_P(LinkQueryWith, OrderOfAToolsTrianglesChangesNothing) {
   Random random(14);
   std::size_t found = 0;
   for (int i = 0; i < 40 && !HasFailure(); ++i) {
-    Scene scene(false, random);
+    LinkScene scene(false, random);
     scene.request.radius = 0.0;
     scene.links.resize(1);
     for (ToolWaypoint& waypoint : scene.request.path) waypoint.links.resize(1);
