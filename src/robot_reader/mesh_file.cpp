@@ -7,6 +7,7 @@
 #include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -106,9 +107,20 @@ void check_indices(const aiScene& scene) {
   }
 }
 
+bool is_space(char character) { return std::isspace(static_cast<unsigned char>(character)) != 0; }
+
+/// Whether there is one with white space around it.
+bool has_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if (is_space(text[at - 1]) && end < text.size() && is_space(text[end])) return true;
+  }
+  return false;
+}
+
 /// assimp reads on for ever where a PLY's header has no end, as in a file that was cut off.
 void check_ply_header(const std::string& content) {
-  if (content.compare(0, 3, "ply") == 0 && content.find("end_header") == std::string::npos) {
+  if (content.compare(0, 3, "ply") == 0 && !has_word(content, "end_header")) {
     throw ToolError("its header has no end_header; the file may be cut off");
   }
 }

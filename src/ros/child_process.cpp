@@ -147,7 +147,9 @@ std::string read_all(int descriptor, const ProcessLimits& limits, std::string& o
     pollfd waited{descriptor, POLLIN, 0};
     const int ready = poll(&waited, 1, static_cast<int>(std::max<long>(0, left.count())));
     if (ready == 0) {
-      return "took more than " + std::to_string(limits.time.count()) + " ms";
+      std::ostringstream failure;
+      failure << "took more than " << std::chrono::duration<double>(limits.time).count() << " s";
+      return failure.str();
     }
     const ssize_t count = ready < 0 ? -1 : read(descriptor, block.data(), block.size());
     if (count < 0 && errno != EINTR) fail(errno, "read");
