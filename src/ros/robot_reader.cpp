@@ -23,8 +23,8 @@ std::string find_program() {
   dladdr(reinterpret_cast<const void*>(&find_program), &library);
   const std::string file = library.dli_fname ? library.dli_fname : "";
   const std::string folder = file.substr(0, file.find_last_of('/') + 1);
-  const std::string below = folder + "organ_collision/" + kProgram;
-  return access(below.c_str(), X_OK) == 0 ? below : folder + kProgram;
+  const std::string beside = folder + kProgram;
+  return access(beside.c_str(), X_OK) == 0 ? beside : folder + "organ_collision/" + kProgram;
 }
 
 ProcessResult run_reader(std::vector<std::string> arguments, const std::string& input) {
