@@ -23,6 +23,9 @@ constexpr std::chrono::milliseconds kLongestWait(10);
 /// Callbacks are called for at most this long before what they brought is evaluated.
 constexpr std::chrono::milliseconds kLongestDrain(2);
 
+/// What is published on breaking down has so long to leave before its publishers close.
+const ros::WallDuration kLastWords(1.0);
+
 ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
   node.setCallbackQueue(&queue);
   return node;
@@ -115,10 +118,29 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
-  while (private_node_.ok() && !stop()) {
-    call_callbacks();
-    evaluate();
+  try {
+    while (private_node_.ok() && !stop()) {
+      call_callbacks();
+      evaluate();
+    }
+  } catch (const std::exception& error) {
+    publish_breakdown(error.what());
+    throw;
   }
+}
+
+/// Nobody may take what is missing from now on for the absence of contacts.
+void CollisionNode::publish_breakdown(const std::string& why) {
+  const std::string message =
+      "the node broke down: " + why + "; once it is back, send the organs again";
+  counters_.failed.add(reason_of(ContactArray::PICKER_FAILED), message, SteadyClock::now());
+  for (const auto& [name, organ] : organs_.organs()) {
+    std_msgs::Header header;
+    header.frame_id = organ.frame();
+    publish_failure(name, header, ContactArray::PICKER_FAILED, message);
+  }
+  updater_.force_update();
+  kLastWords.sleep();
 }
 
 void CollisionNode::evaluate() {

@@ -1,4 +1,5 @@
 #include <nodelet/nodelet.h>
+#include <ros/init.h>
 
 #include <atomic>
 #include <future>
@@ -8,6 +9,11 @@
 #include "organ_collision/ros/collision_node.hpp"
 
 namespace organ_collision {
+namespace {
+
+const ros::WallDuration kBetweenStarts(0.2);
+
+}  // namespace
 
 /// The node in a nodelet manager: messages of the same process arrive without copies.
 class CollisionNodelet : public nodelet::Nodelet {
@@ -29,13 +35,32 @@ class CollisionNodelet : public nodelet::Nodelet {
   void work(std::promise<void>& ready) {
     std::unique_ptr<CollisionNode> node;
     try {
-      node = std::make_unique<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
+      node = make_node();
     } catch (const std::exception& error) {
       NODELET_FATAL("%s", error.what());
       return ready.set_exception(std::current_exception());
     }
     ready.set_value();
-    node->run([this] { return stop_.load(); });
+    while (!run(node)) node.reset();
+  }
+
+  std::unique_ptr<CollisionNode> make_node() {
+    return std::make_unique<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
+  }
+
+  /// False: the node broke down, and starts anew. Its manager and the nodelets beside it live on.
+  bool run(std::unique_ptr<CollisionNode>& node) {
+    const auto stop = [this] { return stop_ || !ros::ok(); };
+    try {
+      if (!node) node = make_node();
+      node->run(stop);
+      return true;
+    } catch (const std::exception& error) {
+      NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
+    }
+    // Or it might do nothing but break down.
+    if (!stop()) kBetweenStarts.sleep();
+    return stop();
   }
 
   std::atomic<bool> stop_{false};

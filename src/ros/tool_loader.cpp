@@ -1,8 +1,10 @@
 #include "organ_collision/ros/tool_loader.hpp"
 
+#include <utility>
+
+#include "organ_collision/ros/link_builder.hpp"
 #include "organ_collision/ros/plain_text.hpp"
-#include "organ_collision/ros/resource.hpp"
-#include "organ_collision/ros/robot_model.hpp"
+#include "organ_collision/ros/robot_reader.hpp"
 #include "organ_collision/ros/tool_error.hpp"
 
 namespace organ_collision {
@@ -34,11 +36,12 @@ Tool load_tool(const ToolParameters& parameters,
   if (parameters.links.empty()) return tool;
   const bool is_file = !parameters.urdf.empty();
   try {
-    const RobotModel robot(is_file ? read_resource(parameters.urdf)
-                                   : find_text(parameters.robot_description));
-    for (const std::string& link : parameters.links) {
-      tool.links.push_back(robot.link(link));
-      tool.joints.push_back(robot.moving_joint(link));
+    std::vector<LinkDescription> links =
+        is_file ? read_robot_file(parameters.urdf, parameters.links)
+                : read_robot_text(find_text(parameters.robot_description), parameters.links);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      tool.joints.push_back(links[i].joint);
+      tool.links.push_back(build_link(parameters.links[i], std::move(links[i])));
     }
   } catch (const std::exception& error) {
     tool.links.clear();

@@ -52,13 +52,20 @@ class InstallTest(unittest.TestCase):
     def test_installed_programs_and_nodelet_find_their_libraries(self):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')
         programs = os.listdir(folder)
-        self.assertTrue({'organ_collision_node', 'contact_adapter', 'organ_mesh_adapter', 'query_offline',
-                         'liver_simulator', 'demo_report', 'simulator.py', 'ask.py', 'grasper.py'}
+        self.assertTrue({'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter',
+                         'query_offline', 'liver_simulator', 'demo_report', 'simulator.py', 'ask.py', 'grasper.py'}
                         <= set(programs), programs)
         programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
         for path in [os.path.join(folder, program) for program in programs] + [nodelet]:
             self.assertNotIn('not found', run('ldd', path), path)
+
+    def test_the_program_that_reads_robots_runs_where_the_node_looks_for_it(self):
+        lib = os.path.join(self.prefix, 'lib')
+        self.assertTrue(os.path.exists(os.path.join(lib, 'liborgan_collision_ros.so')))
+        urdf = os.path.join(self.prefix, 'share/organ_collision/urdf/grasper.urdf')
+        said = run(os.path.join(lib, 'organ_collision', 'robot_reader'), urdf, 'no_such_link')
+        self.assertIn("link 'no_such_link' is unknown", said)
 
     def test_everything_that_the_package_ships_is_there(self):
         for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',

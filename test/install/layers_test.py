@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """geometry <- picking <- query <- ros: what each layer includes and links.
 
-Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY
+Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY ROS_LIBRARY
 """
 
 import glob
@@ -14,6 +14,7 @@ import unittest
 SOURCE = sys.argv[1]
 LAYERS = ['geometry', 'picking', 'query', 'ros']
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
+ROS_LIBRARY = sys.argv[5]
 ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_msgs|std_srvs)[_/]')
 GL = re.compile(r'\b(GL|EGL)/')
 
@@ -61,6 +62,9 @@ class LayersTest(unittest.TestCase):
     def test_picking_links_osmesa_and_no_other_gl(self):
         self.assertIn('libOSMesa.so', linked(LIBRARIES['picking']))
         self.assertNotRegex(linked(LIBRARIES['picking']), r'lib(GL|EGL)\.so')
+
+    def test_the_node_links_no_parser_of_robots_files(self):
+        self.assertNotRegex(linked(ROS_LIBRARY), r'lib(assimp|urdfdom\w*|tinyxml2?)\.so')
 
     def test_no_layer_before_ros_links_it(self):
         for library in LIBRARIES.values():

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,12 @@ namespace organ_collision {
 /// The URL of a file of test/data/tools.
 inline std::string tool_file(const std::string& name) {
   return "package://organ_collision/test/data/tools/" + name;
+}
+
+/// Its content.
+inline std::string tool_text(const std::string& name) {
+  std::ifstream file(ORGAN_COLLISION_TEST_DATA "/tools/" + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// What the ToolError says that `action` throws; a failure where it throws none.

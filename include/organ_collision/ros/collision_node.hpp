@@ -33,7 +33,8 @@ class CollisionNode {
   /// Throws ParameterError, GlError. The calling thread must be the one that runs it.
   CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// Works until ROS shuts down or `stop` says so.
+  /// Works until ROS shuts down or `stop` says so. Throws what it cannot go on from, such as
+  /// std::bad_alloc; before that, it answers PICKER_FAILED for each organ and tool.
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:
@@ -55,6 +56,7 @@ class CollisionNode {
   void publish(const EvaluatedStep& step);
   void publish_failure(const std::string& organ, const std_msgs::Header& header,
                        std::uint8_t status, const std::string& message);
+  void publish_breakdown(const std::string& why);
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;

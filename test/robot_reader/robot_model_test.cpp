@@ -1,10 +1,10 @@
-#include "organ_collision/ros/robot_model.hpp"
+#include "robot_model.hpp"
 
 #include <console_bridge/console.h>
 #include <gtest/gtest.h>
 
-#include "organ_collision/ros/resource.hpp"
-#include "tool_files.hpp"
+#include "resource.hpp"
+#include "ros/tool_files.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;
@@ -13,17 +13,13 @@ namespace {
 
 RobotModel gripper() { return RobotModel(read_resource(tool_file("gripper.urdf"))); }
 
-/// How far a part reaches along an axis, with its radius.
-double reach(const LinkPart& part, const Vector3d& direction) {
-  return part.height(direction) + part.radius;
+LinkDescription link(const RobotModel& model, const std::string& name) {
+  return model.link(name, [](const std::string&) {});
 }
 
-/// The box around a part, along the link's axes.
-void expect_extent(const LinkPart& part, const Vector3d& lowest, const Vector3d& highest) {
-  for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    EXPECT_NEAR(reach(part, Vector3d::Unit(axis)), highest[axis], 2e-8) << axis;
-    EXPECT_NEAR(-reach(part, -Vector3d::Unit(axis)), lowest[axis], 2e-8) << axis;
-  }
+void expect_pose(const ShapePose& pose, const Vector3d& position, const Vector3d& image_of_x) {
+  EXPECT_LT((pose.position - position).norm(), 1e-15);
+  EXPECT_LT((pose.orientation * Vector3d::UnitX() - image_of_x).norm(), 1e-15);
 }
 
 std::string robot(const std::string& elements) {
@@ -31,9 +27,8 @@ std::string robot(const std::string& elements) {
 }
 
 /// A robot of one link 'tip' with a collision shape.
-std::string robot_of(const std::string& shape, const std::string& origin = "<origin/>") {
-  return robot("<link name='tip'><collision>" + origin + "<geometry>" + shape +
-               "</geometry></collision></link>");
+std::string robot_of(const std::string& shape) {
+  return robot("<link name='tip'><collision><geometry>" + shape + "</geometry></collision></link>");
 }
 
 std::string refusal(const std::string& urdf) {
@@ -42,7 +37,7 @@ std::string refusal(const std::string& urdf) {
 
 std::string refusal_of_tip(const std::string& urdf) {
   const RobotModel model(urdf);
-  return tool_error([&] { model.link("tip"); });
+  return tool_error([&] { link(model, "tip"); });
 }
 
 class SilentHandler : public console_bridge::OutputHandler {
@@ -56,39 +51,45 @@ class SilentHandler : public console_bridge::OutputHandler {
 }  // namespace
 
 TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
-  const Link shaft = gripper().link("shaft");
-  EXPECT_EQ(shaft.name, "shaft");
-  ASSERT_EQ(shaft.parts.size(), 2u);  // And not the visual box.
-  EXPECT_NEAR(shaft.parts[0].core.rim.col(0).norm(), 0.004, 1e-15);
-  expect_extent(shaft.parts[0], {-0.14, -0.024, 0.096}, {0.16, -0.016, 0.104});
-  EXPECT_EQ(shaft.parts[1].radius, 0.005);
-  expect_extent(shaft.parts[1], {0.155, -0.025, 0.095}, {0.165, -0.015, 0.105});
+  const LinkDescription shaft = link(gripper(), "shaft");
+  ASSERT_EQ(shaft.shapes.size(), 2u);  // And not the visual box.
+  const auto& cylinder = std::get<CylinderDescription>(shaft.shapes[0]);
+  EXPECT_EQ(cylinder.radius, 0.004);
+  EXPECT_EQ(cylinder.length, 0.3);
+  expect_pose(cylinder.pose, {0.01, -0.02, 0.1}, -Vector3d::UnitZ());
+  const auto& sphere = std::get<SphereDescription>(shaft.shapes[1]);
+  EXPECT_EQ(sphere.radius, 0.005);
+  expect_pose(sphere.pose, {0.16, -0.02, 0.1}, Vector3d::UnitX());
 }
 
 TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
-  const Link wrist = gripper().link("wrist");
-  ASSERT_EQ(wrist.parts.size(), 1u);
-  expect_extent(wrist.parts[0], {0.48, 0.24, -0.155}, {0.52, 0.26, -0.095});
+  const LinkDescription wrist = link(gripper(), "wrist");
+  ASSERT_EQ(wrist.shapes.size(), 1u);
+  const auto& box = std::get<BoxDescription>(wrist.shapes[0]);
+  EXPECT_EQ(box.size, Vector3d(0.02, 0.04, 0.06));
+  expect_pose(box.pose, {0.5, 0.25, -0.125}, Vector3d::UnitY());
 }
 
-TEST(RobotModel, MeshesScaledAndPlaced) {
-  const Link jaw = gripper().link("jaw");
-  ASSERT_EQ(jaw.parts.size(), 1u);
-  ASSERT_TRUE(jaw.parts[0].surface);
-  EXPECT_EQ(jaw.parts[0].surface->faces().size(), 4u);
-  expect_extent(jaw.parts[0], {0.092, 0.201, 0.306}, {0.098, 0.209, 0.32});
-
-  const Link mirrored = gripper().link("other_jaw");
-  expect_extent(mirrored.parts.at(0), {0.001, -0.008, 0.003}, {0.009, -0.002, 0.01});
+TEST(RobotModel, MeshesAreToldOfAndThenRead) {
+  std::vector<std::string> told;
+  const LinkDescription jaw =
+      gripper().link("jaw", [&](const std::string& what) { told.push_back(what); });
+  EXPECT_EQ(told,
+            std::vector<std::string>{"link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'"});
+  ASSERT_EQ(jaw.shapes.size(), 1u);
+  const auto& mesh = std::get<MeshDescription>(jaw.shapes[0]);
+  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
 }
 
 TEST(RobotModel, MovingJoints) {
   const RobotModel model = gripper();
-  EXPECT_EQ(model.moving_joint("mount"), "");
-  EXPECT_EQ(model.moving_joint("shaft"), "insertion");
-  EXPECT_EQ(model.moving_joint("wrist"), "");
-  EXPECT_EQ(model.moving_joint("jaw"), "jaw_joint");
-  EXPECT_EQ(model.moving_joint("other_jaw"), "other_jaw_joint");
+  EXPECT_EQ(link(model, "mount").joint, "");
+  EXPECT_EQ(link(model, "shaft").joint, "insertion");
+  EXPECT_EQ(link(model, "wrist").joint, "");
+  EXPECT_EQ(link(model, "jaw").joint, "jaw_joint");
+  EXPECT_EQ(link(model, "other_jaw").joint, "other_jaw_joint");
 }
 
 TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
@@ -101,28 +102,11 @@ TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
 
 TEST(RobotModel, UnknownLinksAreNamedWithTheNearest) {
   const RobotModel model = gripper();
-  expect_words(tool_error([&] { model.link("jaws"); }),
+  expect_words(tool_error([&] { link(model, "jaws"); }),
                {"'jaws' is unknown", "nearest is 'jaw'", "jaw, mount, other_jaw, shaft, wrist"});
 }
 
-TEST(RobotModel, LinksWithoutShapeAreRefused) {
-  const RobotModel model = gripper();
-  expect_words(tool_error([&] { model.link("mount"); }), {"'mount'", "no collision or visual"});
-}
-
-TEST(RobotModel, IllegalSizesAreNamed) {
-  expect_words(refusal_of_tip(robot_of("<sphere radius='0'/>")),
-               {"'tip'", "sphere's radius is 0", "more than 0"});
-  expect_words(refusal_of_tip(robot_of("<cylinder radius='-0.01' length='1'/>")),
-               {"'tip'", "cylinder's radius is -0.01", "more than 0"});
-  expect_words(refusal_of_tip(robot_of("<cylinder radius='0.01' length='0'/>")),
-               {"'tip'", "cylinder's length is 0", "more than 0"});
-  expect_words(refusal_of_tip(robot_of("<box size='1 -2 3'/>")),
-               {"'tip'", "box's side is -2", "more than 0"});
-  expect_words(refusal_of_tip(robot_of("<sphere radius='2e6'/>")), {"2e+06", "at most 1e+06 m"});
-  expect_words(refusal_of_tip(robot_of("<sphere radius='1'/>", "<origin xyz='0 -1e7 0'/>")),
-               {"'tip'", "origin", "-1e+07", "within 1e+06 m"});
-}
+TEST(RobotModel, LinksMayHaveNoShape) { EXPECT_TRUE(link(gripper(), "mount").shapes.empty()); }
 
 TEST(RobotModel, LinksReadInPartAreRefused) {
   // urdfdom would leave out the second shape, and all that follow.
@@ -142,8 +126,8 @@ TEST(RobotModel, FaultsOfOtherLinksDoNotMatter) {
       "<link name='tip'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
       "<link name='tip_2'><collision><geometry><cone/></geometry></collision></link>"
       "<joint name='j' type='fixed'><parent link='tip'/><child link='tip_2'/></joint>"));
-  EXPECT_EQ(model.link("tip").parts.size(), 1u);
-  expect_words(tool_error([&] { model.link("tip_2"); }), {"'tip_2'", "cone"});
+  EXPECT_EQ(link(model, "tip").shapes.size(), 1u);
+  expect_words(tool_error([&] { link(model, "tip_2"); }), {"'tip_2'", "cone"});
 }
 
 TEST(RobotModel, MeshFaultsNameTheLinkAndTheFile) {

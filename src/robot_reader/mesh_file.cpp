@@ -1,19 +1,23 @@
-#include "organ_collision/ros/mesh_file.hpp"
+#include "mesh_file.hpp"
 
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <array>
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <cctype>
 #include <cstdint>
 #include <map>
+#include <memory>
+#include <new>
 #include <sstream>
 #include <utility>
 #include <vector>
 
-#include "organ_collision/ros/resource.hpp"
 #include "organ_collision/ros/tool_error.hpp"
+#include "resource.hpp"
 
 namespace organ_collision {
 namespace {
@@ -34,7 +38,9 @@ class TriangleCollector {
     for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], scene, T_link_node);
   }
 
-  ToolSurface surface() && { return {std::move(vertices_), std::move(triangles_)}; }
+  MeshDescription mesh(const std::string& file) && {
+    return {file, std::move(vertices_), std::move(triangles_)};
+  }
 
  private:
   void add(const aiMesh& mesh, const Affine3d& T_link_mesh) {
@@ -60,6 +66,16 @@ class TriangleCollector {
   std::vector<Vector3d> vertices_;
   std::vector<FaceIndices> triangles_;
   std::map<std::array<double, 3>, std::uint32_t> index_of_;
+};
+
+/// What a mesh file names, such as its materials, is neither needed nor to be trusted: it may be a
+/// FIFO.
+class NoOtherFiles : public Assimp::IOSystem {
+ public:
+  bool Exists(const char* /*file*/) const override { return false; }
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* /*file*/, const char* /*mode*/) override { return nullptr; }
+  void Close(Assimp::IOStream* /*stream*/) override {}
 };
 
 void check_scale(const Vector3d& scale) {
@@ -91,32 +107,58 @@ void check_indices(const aiScene& scene) {
   }
 }
 
-ToolSurface parse(const std::string& content, const std::string& format,
-                  const Affine3d& T_link_mesh) {
+bool is_space(char character) { return std::isspace(static_cast<unsigned char>(character)) != 0; }
+
+/// Whether there is one with white space around it.
+bool has_word(const std::string& text, const std::string& word) {
+  for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if (is_space(text[at - 1]) && end < text.size() && is_space(text[end])) return true;
+  }
+  return false;
+}
+
+/// assimp reads on for ever where a PLY's header has no end, as in a file that was cut off.
+void check_ply_header(const std::string& content) {
+  if (content.compare(0, 3, "ply") == 0 && !has_word(content, "end_header")) {
+    throw ToolError("its header has no end_header; the file may be cut off");
+  }
+}
+
+/// Of its failure: it passes on what it caught.
+std::string reason(const Assimp::Importer& importer) {
+  const std::string error = importer.GetErrorString();
+  return error == std::bad_alloc().what() ? "there is not enough memory to read it" : error;
+}
+
+MeshDescription parse(const std::string& file, const std::string& content,
+                      const Affine3d& T_link_mesh) {
   Assimp::Importer importer;
+  importer.SetIOHandler(std::make_unique<NoOtherFiles>().release());  // It takes it over.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   // Else a file without triangles would get some, in the shape of its nodes.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene =
-      importer.ReadFileFromMemory(content.data(), content.size(), 0, format.c_str());
+      importer.ReadFileFromMemory(content.data(), content.size(), 0, extension(file).c_str());
   if (scene) {
     check_indices(*scene);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
-  if (!scene) throw ToolError(importer.GetErrorString());
+  if (!scene) throw ToolError(reason(importer));
   TriangleCollector triangles;
   triangles.add(*scene->mRootNode, *scene, T_link_mesh);
-  return std::move(triangles).surface();
+  return std::move(triangles).mesh(file);
 }
 
 }  // namespace
 
-ToolSurface read_mesh_file(const std::string& file, const Vector3d& scale,
-                           const Eigen::Isometry3d& T_link_mesh) {
+MeshDescription read_mesh_file(const std::string& file, const Vector3d& scale,
+                               const Affine3d& T_link_mesh) {
   const std::string content = read_resource(file);
   try {
     check_scale(scale);
-    return parse(content, extension(file), T_link_mesh * Eigen::Scaling(scale));
+    check_ply_header(content);
+    return parse(file, content, T_link_mesh * Eigen::Scaling(scale));
   } catch (const std::exception& error) {
     throw ToolError("mesh '" + file + "': " + error.what());
   }

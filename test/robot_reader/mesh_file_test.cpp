@@ -1,12 +1,17 @@
-#include "organ_collision/ros/mesh_file.hpp"
+#include "mesh_file.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cmath>
+#include <cstdio>
+#include <fstream>
 #include <functional>
 #include <limits>
+#include <utility>
 
-#include "tool_files.hpp"
+#include "organ_collision/geometry/tool_surface.hpp"
+#include "ros/tool_files.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;
@@ -19,7 +24,9 @@ const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
 
 ToolSurface read(const std::string& name, const Vector3d& scale = kUnit,
                  const Eigen::Isometry3d& T_link_mesh = kAtOrigin) {
-  return read_mesh_file(tool_file(name), scale, T_link_mesh);
+  MeshDescription mesh = read_mesh_file(tool_file(name), scale, T_link_mesh);
+  EXPECT_EQ(mesh.file, tool_file(name));
+  return {std::move(mesh.vertices), std::move(mesh.triangles)};
 }
 
 /// Corners of the tetrahedron in the mesh files, in their units.
@@ -61,6 +68,13 @@ TEST(MeshFile, StlInBothForms) {
     const ToolSurface surface = read(name, kMillimetres);
     expect_triangles(surface, kJaw, [](const Vector3d& v) { return Vector3d(0.001 * v); });
     EXPECT_EQ(surface.vertices().size(), 4u) << name;
+  }
+}
+
+TEST(MeshFile, PlyInBothForms) {
+  for (const std::string name : {"jaw_ascii.ply", "jaw_binary.ply"}) {
+    expect_triangles(read(name, kMillimetres), kJaw,
+                     [](const Vector3d& v) { return Vector3d(0.001 * v); });
   }
 }
 
@@ -107,7 +121,7 @@ TEST(MeshFile, IllegalScalesAreNamed) {
 }
 
 TEST(MeshFile, UnreadableFilesAreNamed) {
-  expect_words(refusal("missing.stl"), {"missing.stl", "open"});
+  expect_words(refusal("missing.stl"), {"missing.stl", "no such file"});
   expect_words(refusal("broken.stl"), {tool_file("broken.stl")});
   expect_words(refusal("broken_ascii.stl"), {tool_file("broken_ascii.stl")});
   expect_words(refusal("broken.dae"), {tool_file("broken.dae")});
@@ -119,10 +133,35 @@ TEST(MeshFile, WrongIndicesAreNamed) {
   expect_words(refusal("wrong_index.ply"), {tool_file("wrong_index.ply"), "100000000", "of 3"});
 }
 
+TEST(MeshFile, CutOffPlyIsRefused) {
+  // assimp would read it for ever.
+  expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
+  const std::string whole = tool_text("jaw_ascii.ply"), path = testing::TempDir() + "cut_off.ply";
+  const std::size_t end = whole.find("end_header");
+  std::string joined = whole;
+  joined.erase(end + 10, 1);
+  for (const std::string& text :
+       {whole.substr(0, end + 10), whole.substr(0, end) + "9" + whole.substr(end), joined}) {
+    std::ofstream(path) << text;
+    expect_words(tool_error([&] { read_mesh_file(path, kUnit, kAtOrigin); }), {path, "end_header"});
+  }
+  std::remove(path.c_str());
+}
+
 TEST(MeshFile, NoSurfaceIsRefused) {
-  expect_words(refusal("points.obj"), {tool_file("points.obj"), "no triangle"});
-  expect_words(refusal("nodes_only.dae"), {tool_file("nodes_only.dae"), "no triangle"});
+  for (const std::string name : {"points.obj", "nodes_only.dae"}) {
+    EXPECT_TRUE(read_mesh_file(tool_file(name), kUnit, kAtOrigin).triangles.empty()) << name;
+  }
   expect_words(refusal("not_finite.stl"), {tool_file("not_finite.stl"), "not finite"});
-  expect_words(refusal("jaw.obj", Vector3d::Constant(1e6)),
-               {tool_file("jaw.obj"), "vertex 0", "within 1e+06 m"});
+}
+
+TEST(MeshFile, OtherFilesThatItNamesAreNotRead) {
+  // Its materials: opening this FIFO would wait for ever.
+  const std::string fifo = testing::TempDir() + "materials.mtl",
+                    path = testing::TempDir() + "a.obj";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  std::ofstream(path) << "mtllib " << fifo << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 1u);
+  std::remove(path.c_str());
+  std::remove(fifo.c_str());
 }

@@ -1,0 +1,121 @@
+#include "resource.hpp"
+
+#include <fcntl.h>
+#include <ros/package.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+
+#include "organ_collision/ros/reader_limits.hpp"
+#include "organ_collision/ros/tool_error.hpp"
+
+namespace organ_collision {
+namespace {
+
+const std::string kPackage = "package://";
+const std::string kFile = "file://";
+
+[[noreturn]] void refuse(const std::string& name, const std::string& why) {
+  throw ToolError("cannot read '" + name + "': " + why);
+}
+
+class ScopedFile {
+ public:
+  explicit ScopedFile(int descriptor) : descriptor_(descriptor) {}
+  ~ScopedFile() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  ScopedFile(const ScopedFile&) = delete;
+  ScopedFile& operator=(const ScopedFile&) = delete;
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// The size of a file that may be read.
+std::size_t checked_size(const std::string& path, const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder");
+  if (S_ISFIFO(status.st_mode)) refuse(path, "it is a FIFO; must be a regular file");
+  if (!S_ISREG(status.st_mode)) refuse(path, "it is a device or socket; must be a regular file");
+  if (status.st_size == 0) refuse(path, "it is empty");
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (size > reader_limits::kFileBytes) {
+    refuse(path, "it has " + std::to_string(size) + " bytes; at most " +
+                     std::to_string(reader_limits::kFileBytes) + " are read");
+  }
+  return size;
+}
+
+/// Follows links. Looks before it opens, as opening alone may wait or set a device off, and once
+/// more after, as the file may have been exchanged.
+std::string read_file(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) != 0) {
+    refuse(path, errno == ENOENT ? "there is no such file" : std::strerror(errno));
+  }
+  checked_size(path, status);
+  const ScopedFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
+  if (file.descriptor() < 0 || fstat(file.descriptor(), &status) != 0) {
+    refuse(path, std::strerror(errno));
+  }
+  std::string content(checked_size(path, status), '\0');
+  std::size_t done = 0;
+  while (done < content.size()) {
+    const ssize_t count = read(file.descriptor(), &content[done], content.size() - done);
+    if (count < 0) refuse(path, std::strerror(errno));
+    if (count == 0) refuse(path, "it became shorter while it was read");
+    done += static_cast<std::size_t>(count);
+  }
+  return content;
+}
+
+bool begins_with(const std::string& text, const std::string& prefix) {
+  return text.compare(0, prefix.size(), prefix) == 0;
+}
+
+/// With %41 for A, as URLs have it; a % before anything but a byte's two digits stands for itself.
+std::string decoded(const std::string& url) {
+  std::string text;
+  for (std::size_t i = 0; i < url.size(); ++i) {
+    const bool is_escape = url[i] == '%' && i + 2 < url.size() &&
+                           std::isxdigit(static_cast<unsigned char>(url[i + 1])) != 0 &&
+                           std::isxdigit(static_cast<unsigned char>(url[i + 2])) != 0;
+    const int byte = is_escape ? std::stoi(url.substr(i + 1, 2), nullptr, 16) : 0;
+    text += byte == 0 ? url[i] : static_cast<char>(byte);
+    if (byte != 0) i += 2;
+  }
+  return text;
+}
+
+std::string path_in_package(const std::string& url) {
+  const std::size_t slash = url.find('/', kPackage.size());
+  if (slash == std::string::npos) refuse(url, "names no file in the package");
+  const std::string package = url.substr(kPackage.size(), slash - kPackage.size());
+  const std::string folder = ros::package::getPath(package);
+  if (folder.empty()) {
+    refuse(url, "package '" + package + "' does not exist, or is not in ROS_PACKAGE_PATH");
+  }
+  return folder + decoded(url.substr(slash));
+}
+
+std::string path_of_url(const std::string& url) {
+  const std::string path = url.substr(kFile.size());
+  if (path.empty() || path[0] != '/') refuse(url, "must be file:// and an absolute path");
+  return decoded(path);
+}
+
+}  // namespace
+
+std::string read_resource(const std::string& name) {
+  if (begins_with(name, "/")) return read_file(name);
+  if (begins_with(name, kPackage)) return read_file(path_in_package(name));
+  if (begins_with(name, kFile)) return read_file(path_of_url(name));
+  // Servers are left out: one that does not answer would hold the node's start up.
+  refuse(name, "must be an absolute path, or begin with package:// or file://");
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,72 @@
+// Reads links of a robot for the node: broken files end this program, not the node.
+//
+// Usage: robot_reader URDF LINK...
+// URDF: a file or URL; -: it comes on standard input. Standard output: see robot_reply.hpp.
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <iterator>
+#include <new>
+
+#include "organ_collision/ros/robot_reply.hpp"
+#include "process_limits.hpp"
+#include "resource.hpp"
+#include "robot_model.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+/// Where replies go; libraries that print to standard output must not spoil them.
+class ReplyStream {
+ public:
+  ReplyStream() : descriptor_(dup(STDOUT_FILENO)) { dup2(STDERR_FILENO, STDOUT_FILENO); }
+
+  void write(const std::string& record) const {
+    for (std::size_t done = 0; done < record.size();) {
+      const ssize_t count = ::write(descriptor_, &record[done], record.size() - done);
+      if (count < 0 && errno != EINTR) std::exit(EXIT_FAILURE);  // Nobody listens any more.
+      if (count > 0) done += static_cast<std::size_t>(count);
+    }
+  }
+
+ private:
+  int descriptor_;
+};
+
+std::string read_urdf(const std::string& name) {
+  if (name != "-") return read_resource(name);
+  return {std::istreambuf_iterator<char>(std::cin), {}};
+}
+
+std::string read_links(int argc, char** argv, const ReplyStream& reply) {
+  const RobotModel robot(read_urdf(argv[1]));
+  std::vector<LinkDescription> links;
+  for (int i = 2; i < argc; ++i) {
+    links.push_back(
+        robot.link(argv[i], [&](const std::string& what) { reply.write(reading_record(what)); }));
+  }
+  return links_record(std::move(links));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::cerr << "Usage: robot_reader URDF LINK...; the node runs it\n";
+    return EXIT_FAILURE;
+  }
+  const ReplyStream reply;
+  try {
+    limit_process();
+    reply.write(read_links(argc, argv, reply));
+  } catch (const std::bad_alloc&) {
+    reply.write(refusal_record("there is not enough memory to read it"));
+  } catch (const std::exception& error) {
+    reply.write(refusal_record(error.what()));
+  }
+}

@@ -1,0 +1,66 @@
+#include "organ_collision/ros/robot_reader.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <system_error>
+#include <utility>
+
+#include "organ_collision/ros/child_process.hpp"
+#include "organ_collision/ros/reader_limits.hpp"
+#include "organ_collision/ros/robot_reply.hpp"
+#include "organ_collision/ros/tool_error.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr char kProgram[] = "robot_reader";
+
+/// Below the folder of this library or, where it is linked into a program, beside the program: in
+/// a build folder, an install space and a nodelet manager alike.
+std::string find_program() {
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&find_program), &library);
+  const std::string file = library.dli_fname ? library.dli_fname : "";
+  const std::string folder = file.substr(0, file.find_last_of('/') + 1);
+  const std::string beside = folder + kProgram;
+  return access(beside.c_str(), X_OK) == 0 ? beside : folder + "organ_collision/" + kProgram;
+}
+
+ProcessResult run_reader(std::vector<std::string> arguments, const std::string& input) {
+  arguments.insert(arguments.begin(), find_program());
+  try {
+    return run_process(arguments, input, {reader_limits::kTime, reader_limits::kReplyBytes});
+  } catch (const std::system_error& error) {
+    throw ToolError("cannot run " + arguments[0] + ", which reads it: " + error.code().message());
+  }
+}
+
+std::vector<LinkDescription> read(const std::string& urdf, const std::string& input,
+                                  const std::vector<std::string>& links) {
+  std::vector<std::string> arguments = {urdf};
+  arguments.insert(arguments.end(), links.begin(), links.end());
+  const ProcessResult result = run_reader(std::move(arguments), input);
+  RobotReply reply = parse_reply(result.output);
+  if (reply.refusal) throw ToolError(*reply.refusal);
+  if (result.failure.empty() && reply.links && reply.links->size() == links.size()) {
+    return *std::move(reply.links);
+  }
+  throw ToolError((reply.reading.empty() ? "" : reply.reading + ": ") + kProgram + " " +
+                  (result.failure.empty() ? "gave a malformed answer" : result.failure) +
+                  " while it read it; the file may be broken, or too large");
+}
+
+}  // namespace
+
+std::vector<LinkDescription> read_robot_file(const std::string& urdf,
+                                             const std::vector<std::string>& links) {
+  return read(urdf, "", links);
+}
+
+std::vector<LinkDescription> read_robot_text(const std::string& urdf,
+                                             const std::vector<std::string>& links) {
+  return read("-", urdf, links);
+}
+
+}  // namespace organ_collision

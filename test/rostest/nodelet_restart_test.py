@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""What a nodelet cannot go on from ends neither its manager nor the nodelets beside it: it says so
+for each tool, starts anew, and answers again."""
+
+import sys
+
+from organ_collision.msg import ContactArray
+import rospy
+import rostest
+
+from contact_case import ContactCase
+from node_client import NodeClient, TfSender, wait_until
+import scenes
+
+SMALL = scenes.sheet(0.02, 4)
+# The probe touches all of its faces, and the hook none: their contacts need more than a mebibyte.
+LARGE = scenes.sheet(0.02, 70)
+
+
+class NodeletRestartTest(ContactCase):
+    def setUp(self):
+        self.left, self.right = (
+            NodeClient(name + '/organ_collision', process='/manager') for name in ('/left', '/right')
+        )
+        self.tf = TfSender()
+        wait_until(self.tf.connected, 'connections to TF')
+        for tool, x in (('probe', 0.0), ('hook', 1.0)):
+            self.tf.send_resting(
+                *(
+                    ('liver_frame', tool + end, scenes.Pose((0, 0, 0, 1), (x, 0.0, z)))
+                    for end, z in (('_trocar', 0.3), ('_tip', 0.05))
+                )
+            )
+
+    def send(self, client, mesh, topology):
+        """A new shape; returns the probe's answer, which may come only once the node is back."""
+
+        def answers():
+            client.send_mesh('liver', mesh, stamp, topology)
+            return client.contacts.of('liver', 'probe', status=ContactArray.OK, mesh_stamp=stamp)
+
+        stamp = rospy.Time.now()
+        return wait_until(answers, 'contacts of the shape of %s' % stamp)[0]
+
+    def assert_touched(self, answer, mesh):
+        self.assert_ok(answer)
+        self.assertEqual([c.face for c in answer.contacts], list(range(len(mesh.faces))))
+
+    def test_one_nodelet_breaks_down_and_is_back(self):
+        for client in (self.left, self.right):
+            self.assert_touched(self.send(client, SMALL, 1), SMALL)
+
+        stamp = rospy.Time.now()
+        self.left.send_mesh('liver', LARGE, stamp, 2)
+        for tool in ('probe', 'hook'):
+            failure = self.left.contacts.wait_for(
+                'liver', tool, status=ContactArray.PICKER_FAILED
+            )
+            self.assertIn('bad_alloc', failure.message)
+            self.assertIn('send the organs again', failure.message)
+            self.assertEqual(failure.contacts, [])
+            self.assertEqual(failure.header.frame_id, 'liver_frame')
+        wait_until(
+            lambda: 'bad_alloc' in self.left.summaries.get('queries', ''),
+            lambda: self.left.summaries,
+        )
+
+        self.assert_touched(self.send(self.right, SMALL, 1), SMALL)
+        answer = self.send(self.left, SMALL, 3)
+        self.assert_touched(answer, SMALL)
+        self.assertEqual(answer.mode, ContactArray.STATIC)
+        self.assertEqual(self.right.contacts.of('liver', status=ContactArray.PICKER_FAILED), [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('nodelet_restart_test')
+    rostest.rosrun('organ_collision', 'nodelet_restart', NodeletRestartTest, sys.argv)

@@ -1,0 +1,18 @@
+// Preloaded into a process: no block of more than a mebibyte can be had by `new`.
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr std::size_t kLargest = 1 << 20;
+
+}  // namespace
+
+void* operator new(std::size_t size) {
+  void* const block = size <= kLargest ? std::malloc(size) : nullptr;
+  if (!block) throw std::bad_alloc();
+  return block;
+}
+
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t /*size*/) noexcept { std::free(block); }
