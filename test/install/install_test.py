@@ -17,7 +17,7 @@ PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/'
 
 
 def run(*command, **environment):
-    done = subprocess.run(command, env={**PLAIN_ENVIRONMENT, **environment}, text=True,
+    done = subprocess.run(command, env={**PLAIN_ENVIRONMENT, **environment}, errors='replace',
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     if done.returncode != 0:
         raise AssertionError('%s: exit code %d\n%s' % (command, done.returncode, done.stdout[-2000:]))

@@ -280,7 +280,7 @@ TEST_F(OrganStoreTest, MeshesThatCannotBeMadeLeaveTheGoodOne) {
   const auto apply_without_memory = [&](const std::string& organ) {
     const auto message = boost::make_shared<const OrganMesh>(mesh(organ, 2));
     try {
-      store_.apply(message, ros::Time(8), []() -> TriangleMesh { throw std::bad_alloc(); });
+      store_.apply(message, {}, ros::Time(8), []() -> TriangleMesh { throw std::bad_alloc(); });
       ADD_FAILURE() << "accepted";
     } catch (const Rejection& rejection) {
       EXPECT_EQ(rejection.status(), ContactArray::INVALID_REQUEST);

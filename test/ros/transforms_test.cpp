@@ -64,7 +64,7 @@ TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
 }
 
 TEST(LookUp, ALoopAmongManyFramesIsToldInAShortMessage) {
-  tf2::BufferCore buffer;
+  TransformBuffer buffer;
   set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
   set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.5));
   set_transform(buffer, "b", "a", 3.0, pose(0.1, 0.5));

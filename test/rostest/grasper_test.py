@@ -9,6 +9,7 @@ from organ_collision.msg import ContactArray, OrganMesh, OrganVertices
 import roslib.packages
 import rospy
 import rostest
+from tf2_msgs.msg import TFMessage
 import tf2_ros
 
 from contact_case import ContactCase, xyz
@@ -55,7 +56,11 @@ class GrasperTest(ContactCase):
     def setUpClass(cls):
         """Records until both jaws have touched often enough."""
         cls.transforms = tf2_ros.Buffer(rospy.Duration(100.0))
-        listener = tf2_ros.TransformListener(cls.transforms)
+        # A tf2_ros.TransformListener drops what comes faster than a busy machine takes it.
+        listeners = [
+            rospy.Subscriber('/tf', TFMessage, cls.add_transforms),
+            rospy.Subscriber('/tf_static', TFMessage, cls.add_transforms, True),
+        ]
         cls.shapes = ShapeLog()
         log = ContactLog('/organ_collision/contacts')
 
@@ -68,15 +73,29 @@ class GrasperTest(ContactCase):
 
         for jaw in JAWS:
             wait_until(lambda: len(touched(jaw)) >= ANSWERS_WANTED, 'contacts of ' + jaw, 60.0)
-        for subscriber in [log.subscriber, *cls.shapes.subscribers]:
-            subscriber.unregister()
-        listener.unregister()
+        log.subscriber.unregister()
         cls.answers = log.messages
+        wait_until(cls.has_all_about_answers, 'the transforms and shapes of the answers')
+        for subscriber in [*listeners, *cls.shapes.subscribers]:
+            subscriber.unregister()
         cls.checked = [
             (jaw, answer)
             for jaw in JAWS
             for answer in touched(jaw)[:: len(touched(jaw)) // ANSWERS_CHECKED]
         ]
+
+    @classmethod
+    def add_transforms(cls, message, resting=False):
+        add = cls.transforms.set_transform_static if resting else cls.transforms.set_transform
+        for transform in message.transforms:
+            add(transform, 'test')
+
+    @classmethod
+    def has_all_about_answers(cls):
+        last = cls.answers[-1]
+        return last.mesh_stamp in cls.shapes.vertices and all(
+            cls.transforms.can_transform('liver', link, last.header.stamp) for link in LINKS
+        )
 
     def pose(self, frame, time, parent='liver'):
         transform = self.transforms.lookup_transform(parent, frame, time).transform

@@ -75,7 +75,7 @@ class LimitsTest(ContactCase):
 
     def test_a_loop_in_tf_with_long_names(self):
         tf = TfSender()
-        wait_until(tf.connected, 'connections to TF')
+        tf.wait_for(self.node)
         tf.send_resting(
             ('loop_a', 'loop_b', scenes.Pose((0, 0, 0, 1), (0, 0, 1))),
             ('loop_b', 'loop_a', scenes.Pose((0, 0, 0, 1), (0, 0, 1))),

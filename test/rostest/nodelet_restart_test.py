@@ -23,7 +23,7 @@ class NodeletRestartTest(ContactCase):
             NodeClient(name + '/organ_collision', process='/manager') for name in ('/left', '/right')
         )
         self.tf = TfSender()
-        wait_until(self.tf.connected, 'connections to TF')
+        self.tf.wait_for(self.left)
         for tool, x in (('probe', 0.0), ('hook', 1.0)):
             self.tf.send_resting(
                 *(

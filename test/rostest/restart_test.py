@@ -23,7 +23,7 @@ class RestartTest(ContactCase):
     def setUpClass(cls):
         cls.node = NodeClient()
         cls.tf = TfSender()
-        wait_until(cls.tf.connected, 'connections to TF')
+        cls.tf.wait_for(cls.node)
         cls.tf.send_resting(
             ('liver_frame', 'grasper_trocar', scenes.Pose((0, 0, 0, 1), (0.013, 0.007, 0.3))),
             ('liver_frame', 'grasper_tip', scenes.Pose((0, 0, 0, 1), TIP)),
