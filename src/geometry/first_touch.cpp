@@ -97,20 +97,18 @@ double extent(const CoreMotion& core, const FaceMotion& face) {
   return largest;
 }
 
-/// Whether a plane at right angles to `normal`, which keeps core and face apart at the start, keeps
-/// them farther apart than `distance` at the end as well, and so all the time.
-bool stays_beyond(const Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
-                  double distance) {
-  const double reach = distance + core.bend(1.0, normal);
-  return heights(normal, face.start).low - core.start().height(normal) > reach &&
-         heights(normal, face.end).low - core.end().height(normal) > reach;
-}
-
 }  // namespace
 
 Triangle FaceMotion::at(double time) const {
   return {start[0] + time * (end[0] - start[0]), start[1] + time * (end[1] - start[1]),
           start[2] + time * (end[2] - start[2])};
+}
+
+bool stays_beyond(const Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
+                  double distance) {
+  const double reach = distance + core.bend(1.0, normal);
+  return heights(normal, face.start).low - core.start().height(normal) > reach &&
+         heights(normal, face.end).low - core.end().height(normal) > reach;
 }
 
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,

@@ -98,19 +98,29 @@ void ContactFinder::find_first_legs(const Step& step, const LegSpan& span, const
   });
   open_faces_.clear();
   for (const FaceTouch& touch : touches_) {
-    if (touch.first) open_faces_.push_back({touch.face, step.leg_at(span, touch.first->time)});
+    if (!touch.first) continue;
+    const ClosestPoints& closest = touch.first->closest;
+    const bool is_direction = !part.is_surface() && closest.distance > tolerance::kPierced;
+    open_faces_.push_back({touch.face, step.leg_at(span, touch.first->time),
+                           is_direction ? closest.apart.normalized() : Eigen::Vector3d::Zero()});
   }
 }
 
 /// Confirms the open faces that may touch on a leg by exact distances.
 void ContactFinder::touch_on_leg(const Step& step, std::size_t leg, const Part& part,
                                  std::vector<FaceContact>& contacts) {
-  touches_.clear();
-  for (const OpenFace& open : open_faces_) {
-    if (open.leg <= leg) touches_.push_back({open.face, step.face(leg, open.face).motion, {}});
-  }
-  if (touches_.empty()) return;
+  const auto is_due = [leg](const OpenFace& open) { return open.leg <= leg; };
+  if (std::none_of(open_faces_.begin(), open_faces_.end(), is_due)) return;
+  const OrganMotion organ = step.organ_motion(step.span_of(leg));
   with_part(step, step.span_of(leg), part.shape, part.link, [&](const PartLeg& on_leg) {
+    touches_.clear();
+    for (const OpenFace& open : open_faces_) {
+      if (!is_due(open)) continue;
+      const FaceMotion face = organ.face(step.organ().faces()[open.face]);
+      // The plane that parted them before does so on most legs of a hand that trembles.
+      if (stays_beyond(open.normal, on_leg.core, face, on_leg.radius + tolerance::kTouch)) continue;
+      touches_.push_back({open.face, face, {}});
+    }
     find_touches(on_leg, part.shape, on_leg.radius);
     for (const FaceTouch& touch : touches_) {
       if (!touch.first) continue;
@@ -123,6 +133,7 @@ void ContactFinder::touch_on_leg(const Step& step, std::size_t leg, const Part& 
 
 /// When each of `touches_` first comes within `radius` of the part.
 void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
+  if (touches_.empty()) return;
   if (shape && shape->surface) {
     find_first_touches(*shape->surface, *part.core.link(), radius, budget_, touches_);
   } else {

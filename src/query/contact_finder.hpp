@@ -30,15 +30,16 @@ class ContactFinder {
     const LinkPart* shape = nullptr;  ///< null: the shaft
     std::size_t link = 0;
 
+    bool is_surface() const { return shape && shape->surface; }
     /// A surface is as many convex parts as it has triangles.
-    std::size_t convex_count() const {
-      return shape && shape->surface ? shape->surface->faces().size() : 1;
-    }
+    std::size_t convex_count() const { return is_surface() ? shape->surface->faces().size() : 1; }
   };
   /// A face that the part may touch, from a leg on.
   struct OpenFace {
     std::uint32_t face;
     std::size_t leg;
+    /// Unit, from the part to the face, where they are near; zero: not known.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
   void touch_shaft(const Step& step, std::vector<FaceContact>& contacts);
