@@ -200,6 +200,10 @@ constexpr RoughEntry kRoughSteps[] = {
      2},
     {"rough_jump_shaft_100/ours/100000", 100'000, RoughSteps::Organ::kJumps,
      RoughSteps::Tool::kShaft, 100},
+    {"rough_jump_grasper_2/ours/100000", 100'000, RoughSteps::Organ::kJumps,
+     RoughSteps::Tool::kGrasper, 2},
+    {"rough_jump_grasper_100/ours/100000", 100'000, RoughSteps::Organ::kJumps,
+     RoughSteps::Tool::kGrasper, 100},
 };
 
 }  // namespace

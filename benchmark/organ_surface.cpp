@@ -13,7 +13,7 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 
 void append(OrganSurface& organ, const Eigen::Vector3d& point) {
-  for (const double value : point) organ.vertices.push_back(static_cast<float>(value));
+  for (int k = 0; k < 3; ++k) organ.vertices.push_back(static_cast<float>(point[k]));
 }
 
 /// Rings of vertices between two poles, which are vertices as well.

@@ -14,13 +14,13 @@ using Eigen::Vector3d;
 constexpr double kJump = 0.1;            // [m]
 constexpr double kTremor = 5e-5;         // [m] standard deviation along each axis
 constexpr double kJawOpening = 0.3;      // [rad]
-constexpr std::size_t kGlitching = 700;  // a vertex far from the tools
+constexpr std::size_t kGlitching = 700;  // a vertex of large organs, far from the tools
 /// Where the organ's faces are smallest: of 1224 a grasper touches some 100 there.
 const ShaftAxis kOntoTheEnd{{-0.0361, 0.1536, -0.0694}, {-0.0832, 0.0, 0.0}};
 
 std::vector<float> shape_before(const OrganSurface& organ, RoughSteps::Organ how) {
   std::vector<float> vertices = organ.vertices;
-  if (how == RoughSteps::Organ::kGlitches) vertices[3 * kGlitching] -= static_cast<float>(kJump);
+  if (how == RoughSteps::Organ::kGlitches) vertices.at(3 * kGlitching) -= static_cast<float>(kJump);
   if (how == RoughSteps::Organ::kJumps) {
     for (std::size_t i = 2; i < vertices.size(); i += 3) vertices[i] -= static_cast<float>(kJump);
   }

@@ -57,6 +57,11 @@ void check_contacts(const ContactArray& contacts) {
   refuse_illegal_name("frame_id", contacts.header.frame_id);
   refuse_illegal_name("organ", contacts.organ);
   refuse_illegal_name("tool", contacts.tool);
+  if (contacts.unresolved > 0) {
+    throw Rejection(ContactArray::INVALID_REQUEST, "unresolved contacts",
+                    std::to_string(contacts.unresolved) +
+                        " contacts were not resolved; no force follows from their depths");
+  }
   const std::size_t regions = contacts.regions.size();
   if (regions != 0 && regions != contacts.contacts.size()) {
     refuse(regions, " regions of ", contacts.contacts.size(), " contacts; must be none or as many");

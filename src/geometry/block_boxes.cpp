@@ -79,6 +79,9 @@ bool all_finite(const std::vector<float>& values) {
 
 bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& vertices) {
   blocks_.resize(round_up(clusters.block_count()), empty_box());
+  // Other clusters may have had more blocks.
+  std::fill(blocks_.begin() + static_cast<std::ptrdiff_t>(clusters.block_count()), blocks_.end(),
+            empty_box());
   sections_.resize(round_up(clusters.section_count()), empty_box());
   const float sum = clusters.block_of_run().empty()
                         ? fit_scattered(vertices, clusters.block_of_vertex(), blocks_)

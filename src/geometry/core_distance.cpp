@@ -146,7 +146,7 @@ ClosestPoints nearest_of_edges(const Triangle& core, const Triangle& face) {
     consider(turned);
   }
   nearest.shaft = 0.0;
-  nearest.steps = 6 * nearest.steps;
+  nearest.steps *= 6;
   return nearest;
 }
 

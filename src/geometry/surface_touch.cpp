@@ -61,6 +61,7 @@ class Descent {
   void visit(std::uint32_t index, Iterator begin, Iterator end) const {
     const ToolSurface::Node& node = surface_.nodes()[index];
     const SweptBox box(node.box, motion_, radius_);
+    budget_.spend(static_cast<std::uint64_t>(end - begin));
     const Iterator kept = std::partition(begin, end, [&](const FaceTouch& face) {
       return !is_settled(face) && box.clear_until(face.motion) <= latest(face);
     });
@@ -79,8 +80,14 @@ class Descent {
     const FaceMotion triangle{corners(core.start()), corners(core.end())};
     const double reach = radius_ + core.bend(1.0);
     for (Iterator face = begin; face != end; ++face) {
+      if (is_settled(*face)) continue;
+      if (face->first && budget_.is_used_up()) {
+        face->first->is_resolved = false;  // A touch, but perhaps not the first one.
+        continue;
+      }
       const double until = latest(*face);
-      if (is_settled(*face) || clear_until(triangle, face->motion, reach) > until) continue;
+      budget_.spend(1);
+      if (clear_until(triangle, face->motion, reach) > until) continue;
       const auto found = first_touch(core, face->motion, radius_, budget_, until);
       if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
     }

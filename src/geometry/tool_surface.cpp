@@ -65,7 +65,9 @@ void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndi
   const auto is_less = [&](const FaceIndices& a, const FaceIndices& b) {
     for (std::size_t corner = 0; corner < a.size(); ++corner) {
       const Vector3d &p = vertices[a[corner]], &q = vertices[b[corner]];
-      if (p != q) return std::lexicographical_compare(p.begin(), p.end(), q.begin(), q.end());
+      if (p != q) {
+        return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+      }
     }
     return false;
   };

@@ -1,6 +1,5 @@
 #include "outcodes.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 

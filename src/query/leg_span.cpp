@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "organ_collision/geometry/rigid_motion.hpp"
+#include "short_turns.hpp"
 
 namespace organ_collision {
 namespace {
@@ -14,8 +15,8 @@ using Eigen::Vector3d;
 
 // [1] A span's volume is thicker than its legs' by at most this share.
 constexpr double kAllowedShare = 0.25;
-// [rad] A chord turns by no more than a leg (short_turns.hpp).
-constexpr double kMostTurn = 0.2;
+// [1] How far a pose's rotation may be from one (request_check.cpp); legs are without that error.
+constexpr double kRotation = 1e-9;
 
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 
@@ -69,7 +70,7 @@ double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::siz
     time = next_time;
     if (at_waypoints + between > allowed) return kTooFar;
   }
-  return at_waypoints + between;
+  return at_waypoints + between + kRotation * arm;
 }
 
 /// Tries all legs that are left, then half of them, and so on.

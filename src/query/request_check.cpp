@@ -51,6 +51,10 @@ void check_path(const CollisionRequest& request) {
       check_point("tip", i, path[i].axis.tip);
     }
     if (request.links) check_links(*request.links, path[i], i);
+    if (path[i].links.size() != path[0].links.size()) {
+      refuse("waypoint ", i, " has poses of ", path[i].links.size(),
+             " links, and the first one of ", path[0].links.size());
+    }
     if (i > 0 && !(path[i].fraction > path[i - 1].fraction)) {
       refuse("waypoint ", i, " is at fraction ", path[i].fraction, " after ", path[i - 1].fraction,
              "; fractions must rise");

@@ -8,9 +8,6 @@
 namespace organ_collision {
 namespace {
 
-/// [rad] An arc of a fifth leaves its chord by half a percent of its radius.
-constexpr double kMostTurn = 0.2;
-
 /// The cosine of the angle that turns one pose into the other: half of the trace less one.
 double cosine(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   return 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);

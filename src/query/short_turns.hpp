@@ -4,6 +4,10 @@
 
 namespace organ_collision {
 
+/// [rad] No leg turns a link by more. An arc of a fifth leaves its chord by half a percent of its
+/// radius.
+inline constexpr double kMostTurn = 0.2;
+
 /// The same way with waypoints added where a link turns far within a leg: the boxes around an arc
 /// are larger the farther it turns. `finer` holds it, unless it is the path itself.
 const ToolPath& with_short_turns(const ToolPath& path, ToolPath& finer);

@@ -5,7 +5,6 @@
 
 #include "leg_span.hpp"
 #include "organ_collision/geometry/organ_motion.hpp"
-#include "organ_collision/picking/viewing_volume.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/contact_refiner.hpp"
 

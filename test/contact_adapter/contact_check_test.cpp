@@ -55,6 +55,12 @@ TEST(ContactCheck, NumbersThatAreNotFinite) {
   }
 }
 
+TEST(ContactCheck, ContactsThatAreNotResolvedAreNoGroundForAForce) {
+  ContactArray contacts = good();
+  contacts.unresolved = 1;
+  EXPECT_THROW(check_contacts(contacts), Rejection);
+}
+
 TEST(ContactCheck, NamesMustBeLegal) {
   for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
     ContactArray contacts = good();

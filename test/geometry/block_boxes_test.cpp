@@ -28,6 +28,18 @@ Eigen::AlignedBox3f plain(const BlockBoxes::Box& box) {
   return {box.min.head<3>().matrix(), box.max.head<3>().matrix()};
 }
 
+TEST(BlockBoxes, KeepNothingOfOtherClusters) {
+  const GridSurface large = grid_surface(64), small = grid_surface(7);
+  const FaceClusters of_large(large.faces, large.vertices), of_small(small.faces, small.vertices);
+  BlockBoxes reused, fresh;
+  ASSERT_TRUE(reused.refit(of_large, large.vertices));
+  ASSERT_TRUE(reused.refit(of_small, small.vertices));
+  ASSERT_TRUE(fresh.refit(of_small, small.vertices));
+  EXPECT_TRUE(reused.all().isApprox(fresh.all(), 0.0F));
+  ASSERT_EQ(reused.sections().size(), fresh.sections().size());
+  EXPECT_TRUE(plain(reused.sections()[0]).isApprox(plain(fresh.sections()[0]), 0.0F));
+}
+
 TEST(BlockBoxes, AreTheSmallestInEveryShape) {
   for (const int side : {1, 7, 30, 64, 101}) {
     for (const bool shuffle : {false, true}) {

@@ -24,6 +24,15 @@ TEST(WorkBudget, GrowsWithThePairsBeyondTheLeast) {
   EXPECT_TRUE(budget.is_used_up());
 }
 
+TEST(WorkBudget, GrowsNoFurtherThanTheMostPairs) {
+  WorkBudget budget;
+  budget.add_pairs(1000 * WorkBudget::kMostPairs);
+  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kMostPairs - 1);
+  EXPECT_FALSE(budget.is_used_up());
+  budget.spend(1);
+  EXPECT_TRUE(budget.is_used_up());
+}
+
 TEST(WorkBudget, UnlimitedIsNeverUsedUp) {
   WorkBudget budget = WorkBudget::unlimited();
   budget.spend(std::uint64_t{1} << 60U);

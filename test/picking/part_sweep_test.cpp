@@ -95,7 +95,7 @@ TEST_P(PartSweepWith, MissesNoMovingFaceThatComesNearABox) {
     for (int i = 0; i < 40; ++i) {
       const double time = random.uniform(0, 1);
       Vector3d corner = moving.box.half_size;
-      for (double& x : corner) x *= random.uniform(-1, 1);
+      for (int k = 0; k < 3; ++k) corner[k] *= random.uniform(-1, 1);
       const Vector3d on_box = motion.at(time) * (moving.box.center + moving.box.axes * corner);
       faces.add(on_box, time, random.magnitude(1e-4, 0.1), some_move(random), random);
     }

@@ -22,7 +22,7 @@ class Soup {
  public:
   void add(const Triangle& face) {
     for (const Vector3d& corner : face) {
-      for (const double value : corner) vertices_.push_back(static_cast<float>(value));
+      for (int k = 0; k < 3; ++k) vertices_.push_back(static_cast<float>(corner[k]));
     }
   }
   std::size_t size() const { return vertices_.size() / 9; }

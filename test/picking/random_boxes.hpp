@@ -32,7 +32,9 @@ inline MovingBox random_box(double offset, Random& random) {
   OrientedBox& box = moving.box;
   box.center = random.uniform(0, 0.1) * random.direction();
   box.axes = random_turn(random.uniform(0, M_PI), random);
-  for (double& half : box.half_size) half = random.below(8) == 0 ? 0 : random.magnitude(1e-4, 0.1);
+  for (int k = 0; k < 3; ++k) {
+    box.half_size[k] = random.below(8) == 0 ? 0 : random.magnitude(1e-4, 0.1);
+  }
   if (random.below(8) == 0) box.half_size.setZero();
   moving.radius = random.below(2) == 0 ? tolerance::kSkin : random.magnitude(0.0005, 0.01);
   moving.start = Eigen::Isometry3d::Identity();

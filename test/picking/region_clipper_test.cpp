@@ -50,7 +50,7 @@ TEST(RegionClipper, RegionsAreTheClippedFaces) {
       const Vector3d centre =
           motion.at(random.uniform(0, 1)).at(random.uniform(0, 1)) + 0.01 * random.direction();
       const Vector3d corner = centre + random.uniform(0.001, 0.05) * random.direction();
-      for (const double value : corner) vertices.push_back(static_cast<float>(value));
+      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
       triangles.push_back(k);
     }
     const TriangleMesh mesh(vertices, triangles);

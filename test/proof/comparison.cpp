@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 TriangleMesh mesh_of(const Triangle& face) {
   std::vector<float> vertices;
   for (const Vector3d& corner : face) {
-    for (const double x : corner) vertices.push_back(static_cast<float>(x));
+    for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
   }
   return {vertices, {0, 1, 2}};
 }

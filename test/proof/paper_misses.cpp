@@ -39,7 +39,7 @@ TriangleMesh faces_near(const ShaftMotion& motion, Random& random) {
                             random.uniform(0.0, 2.0 * kRadius) * random.direction();
     for (int corner = 0; corner < 3; ++corner) {
       const Vector3d vertex = center + 2e-3 * random.direction();
-      for (const double x : vertex) vertices.push_back(static_cast<float>(x));
+      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(vertex[k]));
       triangles.push_back(static_cast<std::uint32_t>(triangles.size()));
     }
   }

@@ -151,7 +151,7 @@ TEST_P(CollisionQueryWith, TrialsThatAPickerOnceMissed) {
        oracle::read_trials(ORGAN_COLLISION_TEST_DATA "/picker_trials.txt")) {
     std::vector<float> vertices;
     for (const Vector3d& corner : trial.face) {
-      for (const double x : corner) vertices.push_back(static_cast<float>(x));
+      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
     }
     const TriangleMesh organ(vertices, {0, 1, 2});
     const auto& [start, end] = trial.motion;

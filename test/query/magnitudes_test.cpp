@@ -38,7 +38,7 @@ TriangleMesh faces_about(const ToolPath& path, double size, Random& random) {
     const Vector3d amid = axis.at(random.uniform(0.0, 1.0));
     for (std::uint32_t corner = 0; corner < 3; ++corner) {
       const Vector3d vertex = within_reach(amid + size * random.direction());
-      for (const double x : vertex) vertices.push_back(static_cast<float>(x));
+      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(vertex[k]));
       triangles.push_back(3 * i + corner);
     }
   }

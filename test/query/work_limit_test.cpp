@@ -25,7 +25,7 @@ Soup slivers(std::size_t count, Random& random) {
     const Vector3d c =
         a + random.uniform(-0.2, 1.2) * (b - a) + random.scale(1e-3, 1e3) * random.direction();
     for (const Vector3d& corner : {a, b, c}) {
-      for (const double x : corner) soup.vertices.push_back(static_cast<float>(x));
+      for (int k = 0; k < 3; ++k) soup.vertices.push_back(static_cast<float>(corner[k]));
       soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
     }
   }

@@ -25,8 +25,8 @@ struct FirstTouch {
   bool is_resolved = true;  ///< false: not before this time, and whether at all is not known
 };
 
-/// Whether the core stays farther than `distance` [m] from the face during the whole leg, because it
-/// does so from a plane at right angles to `normal` that faces it. False says nothing. `normal`:
+/// Whether the core stays farther than `distance` [m] from the face during the whole leg, because
+/// it does so from a plane at right angles to `normal` that faces it. False says nothing. `normal`:
 /// unit, from the core to the face.
 bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
                   double distance);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
 #include "organ_collision/geometry/shaft.hpp"
 #include "organ_collision/geometry/swept_box.hpp"
@@ -18,9 +19,12 @@ class PartSweep {
 
   /// Of the volumes' shifted coordinates [m].
   const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_->start.trocar; }
-  /// [m] The radius of the shaft, or half of the box's smallest edge.
+  /// [m] The radius of the shaft, or half of the box's middle edge: a box may be flat.
   double thickness() const {
-    return box_ ? 0.5 * (box_->high() - box_->low()).minCoeff() : radius_;
+    if (!box_) return radius_;
+    Eigen::Vector3d edges = box_->high() - box_->low();
+    std::sort(edges.data(), edges.data() + edges.size());
+    return 0.5 * edges[1];
   }
   ViewingVolume volume(const VolumeMargin& margin) const {
     return box_ ? conservative_volume(*box_, margin)

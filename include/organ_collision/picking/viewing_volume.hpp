@@ -83,11 +83,11 @@ ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius);
 
 /// How far the conservative volumes grow.
 struct VolumeMargin {
-  double motion = 0.0;  ///< [m] the farthest that any vertex moved during the leg
+  double motion = 0.0;  ///< [m] the farthest of a face, at any time, from where it is drawn
   double extent = 0.0;  ///< [m] largest coordinate of any drawn vertex relative to the origin
 };
 
-/// Contains every point within `radius` (+ margin.motion) of the axis at some time of the leg, for
+/// Contains every point within `radius` + margin.motion of the axis at some time of the leg, for
 /// every motion: trocar moving or not, tip at the trocar, no motion, motion along the axis. Grown
 /// so that 32-bit clipping of vertices up to `margin.extent` from the trocar loses nothing. Static:
 /// a leg without motion.

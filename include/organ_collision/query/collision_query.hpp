@@ -56,8 +56,8 @@ class CollisionQuery {
   /// Throws std::invalid_argument naming the value for a request that has no answer (radius not
   /// positive where there are no links, coordinates not finite, links without pose or with one that
   /// is no rotation, path empty or with fractions that do not rise from 0 to 1,
-  /// earlier shape of other faces, paper volume of a tool without length), GlError when the picker
-  /// failed. `result` is empty after either.
+  /// earlier shape of other faces, paper volume of a tool that is too short or too thin), GlError
+  /// when the picker failed. `result` is empty after either.
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
   /// GL_VERSION of its context.

@@ -33,7 +33,8 @@ struct FaceContact {
   bool behind = false;
   /// The same point of the face, by its barycentrics, at the end of the step.
   Eigen::Vector3d end_point = Eigen::Vector3d::Zero();
-  /// False: reported to be safe, since the query's work was used up; not in the message.
+  /// False: reported to be safe, since the work that a query may cost was used up. Its point,
+  /// normal and depth need not be those of the first touch then. Not in the message.
   bool is_resolved = true;
   /// Paper modes only, which set nothing else but the face: depth range along the view, from the
   /// plane of the trocar.
