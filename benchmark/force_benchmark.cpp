@@ -8,7 +8,7 @@
 #include <cstdint>
 
 #include "organ_collision/ros/conversions.hpp"
-#include "penalty_wrench.hpp"
+#include "wrench_law.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -40,9 +40,9 @@ ContactArray half_sphere(std::uint32_t count, bool is_tight) {
 
 void run(benchmark::State& state, bool is_tight) {
   const ContactArray answer = half_sphere(static_cast<std::uint32_t>(state.range(0)), is_tight);
-  KeptSides sides;
+  WrenchLaw law;
   for ([[maybe_unused]] const auto _ : state) {
-    benchmark::DoNotOptimize(penalty_wrench(sides.follow(answer, kRadius), 300.0));
+    benchmark::DoNotOptimize(law.follow(answer, 0.001, 300.0, kRadius));
   }
 }
 

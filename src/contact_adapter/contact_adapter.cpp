@@ -12,7 +12,6 @@
 #include "organ_collision/ros/names.hpp"
 #include "organ_collision/ros/plain_text.hpp"
 #include "organ_collision/ros/rejection.hpp"
-#include "penalty_wrench.hpp"
 #include "shaft_radius.hpp"
 
 namespace organ_collision {
@@ -57,16 +56,18 @@ void ContactAdapter::on_contacts(const ContactArray& message) {
 }
 
 void ContactAdapter::publish(const ContactArray& contacts, Pair& pair) {
-  if (has_geometry(contacts)) pair.wrench.publish(wrench_of(contacts, pair.sides));
+  if (has_geometry(contacts)) pair.wrench.publish(wrench_of(contacts, pair));
   pair.faces.publish(face_list(contacts));
 }
 
-geometry_msgs::WrenchStamped ContactAdapter::wrench_of(const ContactArray& contacts,
-                                                       KeptSides& sides) {
-  const std::vector<Push> pushes = sides.follow(contacts, radius_of(contacts.tool));
+geometry_msgs::WrenchStamped ContactAdapter::wrench_of(const ContactArray& contacts, Pair& pair) {
+  const auto now = std::chrono::steady_clock::now();
+  const double seconds = std::chrono::duration<double>(now - pair.evaluated).count();
+  pair.evaluated = now;
   geometry_msgs::WrenchStamped stamped;
   stamped.header = contacts.header;
-  stamped.wrench = penalty_wrench(pushes, parameters_.stiffness);
+  stamped.wrench =
+      pair.law.follow(contacts, seconds, parameters_.stiffness, radius_of(contacts.tool));
   if (limit_force(stamped.wrench, parameters_.max_force)) {
     clipped_.add("max_force",
                  "organ '" + contacts.organ + "', tool '" + contacts.tool +

@@ -5,15 +5,16 @@
 #include <organ_collision/ContactArray.h>
 #include <ros/node_handle.h>
 
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 
 #include "contact_adapter_parameters.hpp"
-#include "kept_sides.hpp"
 #include "organ_collision/ros/failure_log.hpp"
 #include "pair_names.hpp"
+#include "wrench_law.hpp"
 
 namespace organ_collision {
 
@@ -29,12 +30,14 @@ class ContactAdapter {
   struct Pair {
     ros::Publisher faces;
     ros::Publisher wrench;
-    KeptSides sides = {};
+    WrenchLaw law = {};
+    /// When the law was last asked. No stamp: those of a tool that is not sent at rest stand still.
+    std::chrono::steady_clock::time_point evaluated = {};
   };
 
   void on_contacts(const ContactArray& message);
   void publish(const ContactArray& contacts, Pair& pair);
-  geometry_msgs::WrenchStamped wrench_of(const ContactArray& contacts, KeptSides& sides);
+  geometry_msgs::WrenchStamped wrench_of(const ContactArray& contacts, Pair& pair);
   Pair& pair_of(const std::string& organ, const std::string& tool);
   KeptSides::Radius radius_of(const std::string& tool) const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -6,18 +6,12 @@
 
 #include "basins.hpp"
 #include "organ_collision/ros/conversions.hpp"
+#include "shaft_radius.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
-
-/// The shaft's, where the contact is one of it.
-KeptSides::Radius radius_at(const Contact& contact, const ContactArray& answer,
-                            const KeptSides::Radius& radius) {
-  const bool is_shaft = contact.link < answer.links.size() && answer.links[contact.link].empty();
-  return is_shaft ? radius : std::nullopt;
-}
 
 Vector3d normal_of(const Contact& contact) {
   return {contact.normal.x, contact.normal.y, contact.normal.z};

@@ -34,4 +34,10 @@ std::optional<double> shaft_radius(const XmlRpcValue& tools, const std::string& 
   return std::nullopt;
 }
 
+std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
+                                const std::optional<double>& shaft_radius) {
+  const bool is_shaft = contact.link < answer.links.size() && answer.links[contact.link].empty();
+  return is_shaft ? shaft_radius : std::nullopt;
+}
+
 }  // namespace organ_collision
