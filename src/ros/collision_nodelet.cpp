@@ -63,15 +63,14 @@ class CollisionNodelet : public nodelet::Nodelet {
     while (!is_to_stop()) {
       try {
         if (!node) node = make_node();
-        pause_sec = kShortestPauseSec;
         node->run([this] { return is_to_stop(); });
         return;
       } catch (const std::exception& error) {
         NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
+        pause_sec = node ? kShortestPauseSec : std::min(2.0 * pause_sec, kLongestPauseSec);
       }
       node.reset();
       pause(pause_sec);
-      pause_sec = std::min(2.0 * pause_sec, kLongestPauseSec);
     }
   }
 
