@@ -10,6 +10,10 @@ void append_number(double number, std::string& csv) {
   csv.append(text, std::snprintf(text, sizeof text, ",%.17g", number));
 }
 
+void append_vector(const Eigen::Vector3d& vector, std::string& csv) {
+  for (int axis = 0; axis < 3; ++axis) append_number(vector[axis], csv);
+}
+
 bool is_exact(QueryMode mode) { return mode == QueryMode::kStatic || mode == QueryMode::kSwept; }
 
 }  // namespace
@@ -24,8 +28,8 @@ void append_contacts(const Motion& motion, const CollisionResult& result, std::s
     if (is_exact(motion.mode)) {
       append_number(contact.fraction, csv);
       append_number(contact.depth, csv);
-      for (const double x : contact.point) append_number(x, csv);
-      for (const double x : contact.normal) append_number(x, csv);
+      append_vector(contact.point, csv);
+      append_vector(contact.normal, csv);
     } else {
       csv += ",,,,,,,,";
     }

@@ -9,8 +9,21 @@
 
 #include "organ_collision/ros/reader_limits.hpp"
 
+// GCC has macros that say so, and clang has features.
+#ifndef __has_feature
+#define __has_feature(feature) 0
+#endif
+
 namespace organ_collision {
 namespace {
+
+/// AddressSanitizer and ThreadSanitizer themselves take terabytes of address space.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
 
 /// Limits that are lower already stay as they are.
 template <typename Resource>
@@ -27,9 +40,7 @@ void limit(Resource resource, rlim_t value) {
 
 void limit_process() {
   limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
-#ifndef __SANITIZE_ADDRESS__  // AddressSanitizer itself takes terabytes.
-  limit(RLIMIT_AS, reader_limits::kMemoryBytes);
-#endif
+  if (!kSanitized) limit(RLIMIT_AS, reader_limits::kMemoryBytes);
   // Also where cores go to a program, which RLIMIT_CORE does not bind.
   prctl(PR_SET_DUMPABLE, 0);
 }

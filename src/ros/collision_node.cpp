@@ -53,6 +53,16 @@ class WakeUp : public ros::CallbackInterface {
   CallResult call() override { return Success; }
 };
 
+/// Of the node's last words: where one fails, the others are still said, and the exception that
+/// they are about goes on.
+template <typename Action>
+void attempt(const Action& action) {
+  try {
+    action();
+  } catch (const std::exception&) {  // Above all, that memory is short. No one is left to tell.
+  }
+}
+
 /// Of a ContactArray, or of a batch.
 template <typename Answer>
 void count_failure(FailureLog& log, const Answer& answer) {
@@ -131,15 +141,21 @@ void CollisionNode::run(const std::function<bool()>& stop) {
 
 /// Nobody may take what is missing from now on for the absence of contacts.
 void CollisionNode::publish_breakdown(const std::string& why) {
-  const std::string message =
-      "the node broke down: " + why + "; once it is back, send the organs again";
-  counters_.failed.add(reason_of(ContactArray::PICKER_FAILED), message, SteadyClock::now());
+  std::string message;
+  attempt([&] {
+    message = "the node broke down: " + why + "; once it is back, send the organs again";
+    counters_.failed.add(reason_of(ContactArray::PICKER_FAILED), message, SteadyClock::now());
+  });
   for (const auto& [name, organ] : organs_.organs()) {
-    std_msgs::Header header;
-    header.frame_id = organ.frame();
-    publish_failure(name, header, ContactArray::PICKER_FAILED, message);
+    for (const Tool& tool : tools_) {
+      attempt([&, &name = name, &organ = organ] {
+        std_msgs::Header header;
+        header.frame_id = organ.frame();
+        publish_failure(tool, name, header, ContactArray::PICKER_FAILED, message);
+      });
+    }
   }
-  updater_.force_update();
+  attempt([this] { updater_.force_update(); });
   kLastWords.sleep();
 }
 
@@ -267,15 +283,19 @@ void CollisionNode::publish(const EvaluatedStep& step) {
 
 void CollisionNode::publish_failure(const std::string& organ, const std_msgs::Header& header,
                                     std::uint8_t status, const std::string& message) {
+  for (const Tool& tool : tools_) publish_failure(tool, organ, header, status, message);
+}
+
+void CollisionNode::publish_failure(const Tool& tool, const std::string& organ,
+                                    const std_msgs::Header& header, std::uint8_t status,
+                                    const std::string& message) {
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-  for (const Tool& tool : tools_) {
-    const auto answer = boost::make_shared<ContactArray>(
-        answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
-    set_links(*answer, tool.parameters);
-    answer->header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
-    set_failure(*answer, status, message);
-    contacts_.publish(answer);
-  }
+  const auto answer = boost::make_shared<ContactArray>(
+      answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
+  set_links(*answer, tool.parameters);
+  answer->header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
+  set_failure(*answer, status, message);
+  contacts_.publish(answer);
 }
 
 }  // namespace organ_collision

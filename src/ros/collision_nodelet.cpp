@@ -1,17 +1,25 @@
 #include <nodelet/nodelet.h>
 #include <ros/init.h>
 
+#include <algorithm>
 #include <atomic>
 #include <future>
+#include <memory>
 #include <pluginlib/class_list_macros.hpp>
 #include <thread>
+#include <utility>
 
 #include "organ_collision/ros/collision_node.hpp"
 
 namespace organ_collision {
 namespace {
 
-const ros::WallDuration kBetweenStarts(0.2);
+/// Between starts, or it might do nothing but break down. The pause doubles while the node cannot
+/// be made.
+constexpr double kShortestPauseSec = 0.2;
+constexpr double kLongestPauseSec = 5.0;
+/// Stopping is noticed so soon within a pause.
+const ros::WallDuration kPauseStep(0.05);
 
 }  // namespace
 
@@ -28,7 +36,8 @@ class CollisionNodelet : public nodelet::Nodelet {
   void onInit() override {
     std::promise<void> ready;
     std::future<void> outcome = ready.get_future();
-    worker_ = std::thread([this, &ready] { work(ready); });
+    // The worker may still be at work on it when this has returned.
+    worker_ = std::thread([this, ready = std::move(ready)]() mutable { work(ready); });
     outcome.get();
   }
 
@@ -41,27 +50,36 @@ class CollisionNodelet : public nodelet::Nodelet {
       return ready.set_exception(std::current_exception());
     }
     ready.set_value();
-    while (!run(node)) node.reset();
+    run(std::move(node));
   }
 
   std::unique_ptr<CollisionNode> make_node() {
     return std::make_unique<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
   }
 
-  /// False: the node broke down, and starts anew. Its manager and the nodelets beside it live on.
-  bool run(std::unique_ptr<CollisionNode>& node) {
-    const auto stop = [this] { return stop_ || !ros::ok(); };
-    try {
-      if (!node) node = make_node();
-      node->run(stop);
-      return true;
-    } catch (const std::exception& error) {
-      NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
+  /// A node that breaks down starts anew. Its manager and the nodelets beside it live on.
+  void run(std::unique_ptr<CollisionNode> node) {
+    double pause_sec = kShortestPauseSec;
+    while (!is_to_stop()) {
+      try {
+        if (!node) node = make_node();
+        node->run([this] { return is_to_stop(); });
+        return;
+      } catch (const std::exception& error) {
+        NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
+        pause_sec = node ? kShortestPauseSec : std::min(2.0 * pause_sec, kLongestPauseSec);
+      }
+      node.reset();
+      pause(pause_sec);
     }
-    // Or it might do nothing but break down.
-    if (!stop()) kBetweenStarts.sleep();
-    return stop();
   }
+
+  void pause(double seconds) const {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+    while (!is_to_stop() && ros::WallTime::now() < end) kPauseStep.sleep();
+  }
+
+  bool is_to_stop() const { return stop_ || !ros::ok(); }
 
   std::atomic<bool> stop_{false};
   std::thread worker_;

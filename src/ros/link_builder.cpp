@@ -48,7 +48,7 @@ LinkPart part(const CylinderDescription& cylinder) {
 }
 
 LinkPart part(const BoxDescription& box) {
-  for (const double side : box.size) checked_size("a box's side", side);
+  for (int axis = 0; axis < 3; ++axis) checked_size("a box's side", box.size[axis]);
   return LinkPart::box(checked_pose(box.pose), box.size);
 }
 

@@ -3,6 +3,7 @@
 #include <ros/serialization.h>
 
 #include <cmath>
+#include <exception>
 #include <sstream>
 
 #include "organ_collision/ros/answers.hpp"
@@ -86,6 +87,14 @@ void check_tool(const Tool& tool, std::uint8_t mode) {
   }
 }
 
+/// The results give their memory back, which may be what was short.
+void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
+                 const std::string& message) {
+  response.results = {};
+  response.status = status;
+  response.message = plain_text(message, kLongestMessage);
+}
+
 ros::Time stamp_or_now(const std_msgs::Header& header) {
   return header.stamp.isZero() ? ros::Time::now() : header.stamp;
 }
@@ -118,6 +127,8 @@ ContactArray QueryServices::query(const QueryCollision::Request& request) const 
     answer(request, result);
   } catch (const Rejection& rejection) {
     set_failure(result, rejection.status(), rejection.what());
+  } catch (const std::exception& error) {
+    set_failure(result, ContactArray::PICKER_FAILED, error.what());
   }
   return result;
 }
@@ -128,9 +139,9 @@ QueryCollisionBatch::Response QueryServices::query_batch(
   try {
     answer(request, response);
   } catch (const Rejection& rejection) {
-    response.status = rejection.status();
-    response.message = plain_text(rejection.what(), kLongestMessage);
-    response.results.clear();
+    set_failure(response, rejection.status(), rejection.what());
+  } catch (const std::exception& error) {
+    set_failure(response, ContactArray::PICKER_FAILED, error.what());
   }
   return response;
 }
@@ -171,7 +182,7 @@ void QueryServices::answer(const QueryCollisionBatch::Request& request,
   set_organ(unanswered, organ, organ.latest());
 
   CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
-  std::size_t bytes = 0;
+  std::size_t bytes = ros::serialization::serializationLength(response);
   response.results.reserve(request.motions.size());
   for (const ToolMotion& motion : request.motions) {
     ContactArray& result = response.results.emplace_back(unanswered);

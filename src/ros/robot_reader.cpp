@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <system_error>
 #include <utility>
 
@@ -16,15 +17,28 @@ namespace {
 
 constexpr char kProgram[] = "robot_reader";
 
+bool can_run(const std::filesystem::path& program) { return access(program.c_str(), X_OK) == 0; }
+
+/// Of this library or, where it is linked into a program, of the program.
+std::filesystem::path folder_of_this_code() {
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&folder_of_this_code), &library);
+  std::filesystem::path file = library.dli_fname ? library.dli_fname : "";
+  if (!file.has_parent_path()) {  // A program that the shell found in PATH is known by its bare
+                                  // name.
+    std::error_code ignored;
+    file = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  }
+  return file.parent_path();
+}
+
 /// Below the folder of this library or, where it is linked into a program, beside the program: in
 /// a build folder, an install space and a nodelet manager alike.
 std::string find_program() {
-  Dl_info library{};
-  dladdr(reinterpret_cast<const void*>(&find_program), &library);
-  const std::string file = library.dli_fname ? library.dli_fname : "";
-  const std::string folder = file.substr(0, file.find_last_of('/') + 1);
-  const std::string beside = folder + kProgram;
-  return access(beside.c_str(), X_OK) == 0 ? beside : folder + "organ_collision/" + kProgram;
+  const std::filesystem::path folder = folder_of_this_code();
+  const std::filesystem::path below = folder / "organ_collision" / kProgram;
+  const std::filesystem::path beside = folder / kProgram;
+  return !can_run(below) && can_run(beside) ? beside : below;
 }
 
 ProcessResult run_reader(std::vector<std::string> arguments, const std::string& input) {

@@ -3,13 +3,34 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <new>
 
 #include "node_parts.hpp"
 #include "organ_collision/ros/conversions.hpp"
 #include "organ_collision/ros/plain_text.hpp"
 
 using namespace organ_collision;
+
+namespace {
+
+constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
+
+/// What is larger fails.
+std::size_t largest_allocation = kAnySize;
+
+}  // namespace
+
+// Where GCC inlined only one of a pair, it would warn that they do not fit together.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  void* const memory = size > largest_allocation ? nullptr : std::malloc(size);
+  return memory ? memory : throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t /*size*/) noexcept {
+  std::free(memory);
+}
 
 namespace {
 
@@ -146,6 +167,33 @@ TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
   EXPECT_EQ(answer.contacts.size(), 1u);
   EXPECT_EQ(answer.contacts[0].fraction, 0.0);
   EXPECT_EQ(answer.step_start, answer.header.stamp);
+}
+
+TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
+  const auto with_scarce_memory = [](std::size_t most, auto ask) {
+    largest_allocation = most;
+    auto answer = ask();
+    largest_allocation = kAnySize;
+    return answer;
+  };
+  const ContactArray answer =
+      with_scarce_memory(sizeof(Contact) - 1, [&] { return services.query(request); });
+  EXPECT_EQ(answer.status, ContactArray::PICKER_FAILED);
+  EXPECT_EQ(answer.message, "std::bad_alloc");
+  EXPECT_TRUE(answer.contacts.empty());
+
+  QueryCollisionBatch::Request batch;
+  batch.header = request.header;
+  batch.organ = "liver";
+  batch.motions.assign(100, through());
+  const QueryCollisionBatch::Response response = with_scarce_memory(
+      100 * sizeof(ContactArray) - 1, [&] { return services.query_batch(batch); });
+  EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);
+  EXPECT_EQ(response.message, "std::bad_alloc");
+  EXPECT_TRUE(response.results.empty());
+
+  EXPECT_EQ(services.query(request).contacts.size(), 1u);
+  EXPECT_EQ(services.query_batch(batch).results.size(), 100u);
 }
 
 TEST_F(QueryServicesTest, HistoryIsLeftAlone) {
@@ -333,14 +381,16 @@ TEST_F(QueryServicesTest, BatchWhoseResultsGrowTooLargeIsRefused) {
   batch.mode = ContactArray::SWEPT;
   batch.motions.assign(5, through());
   const std::uint32_t one = ros::serialization::serializationLength(services.query(request));
-  parameters.max_batch_bytes = static_cast<int>(5 * one);
-  EXPECT_EQ(services.query_batch(batch).results.size(), 5u);
+  const std::uint32_t all =
+      5 * one + ros::serialization::serializationLength(QueryCollisionBatch::Response());
+  parameters.max_batch_bytes = static_cast<int>(all);
+  EXPECT_EQ(ros::serialization::serializationLength(services.query_batch(batch)), all);
   parameters.max_batch_bytes -= 1;
   EXPECT_EQ(services.query_batch(batch).message,
-            "the answers to the first 5 of 5 motions have " + std::to_string(5 * one) +
-                " bytes; a batch's must have at most " + std::to_string(5 * one - 1) +
+            "the answers to the first 5 of 5 motions have " + std::to_string(all) +
+                " bytes; a batch's must have at most " + std::to_string(all - 1) +
                 " (max_batch_bytes): ask for fewer motions at once");
-  parameters.max_batch_bytes = static_cast<int>(one);
+  parameters.max_batch_bytes = static_cast<int>(all - 4 * one);
   const QueryCollisionBatch::Response response = services.query_batch(batch);
   EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
   EXPECT_NE(response.message.find("first 2 of 5"), std::string::npos) << response.message;

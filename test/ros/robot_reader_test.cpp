@@ -48,12 +48,13 @@ TEST(RobotReader, RefusalsAreTheReaders) {
   expect_words(tool_error([] { read_robot_file("-", {"tip"}); }), {"no legal URDF"});
 }
 
-TEST(RobotReader, WhatEndsTheReaderNamesTheFile) {
+// Some versions of the parsers crash on them, and others say what is wrong.
+TEST(RobotReader, FilesThatMayCrashTheReaderAreRefusedByName) {
   for (const std::string name : {"crashing.obj", "crashing.dae"}) {
     expect_words(refusal(robot_of(tool_file(name))),
-                 {"link 'tip': mesh '" + tool_file(name) + "'", "was ended by signal"});
+                 {"link 'tip': mesh '" + tool_file(name) + "'"});
   }
-  expect_words(refusal(tool_text("crashing.urdf")), {"was ended by signal"});
+  EXPECT_FALSE(refusal(tool_text("crashing.urdf")).empty());
 }
 
 TEST(RobotReader, TooMuchMemoryNamesTheFile) {
@@ -61,15 +62,16 @@ TEST(RobotReader, TooMuchMemoryNamesTheFile) {
                {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
-// A lower limit of this process holds for the reader too. Here it is only noticed.
-TEST(RobotReader, TooMuchProcessorTimeNamesTheFile) {
+// Some versions of the parser hang on it. A lower limit of this process holds for the reader too,
+// and ends it sooner; here it is only noticed.
+TEST(RobotReader, FilesThatMayHangTheReaderAreRefusedByName) {
   const auto former_action = std::signal(SIGXCPU, SIG_IGN);
   rlimit former{};
   getrlimit(RLIMIT_CPU, &former);
   const rlimit lower{1, former.rlim_max};
   setrlimit(RLIMIT_CPU, &lower);
   expect_words(refusal(robot_of(tool_file("endless.ply"))),
-               {"link 'tip': mesh '" + tool_file("endless.ply") + "'", "CPU time limit exceeded"});
+               {"link 'tip': mesh '" + tool_file("endless.ply") + "'"});
   setrlimit(RLIMIT_CPU, &former);
   std::signal(SIGXCPU, former_action);
 }

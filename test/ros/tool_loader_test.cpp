@@ -117,5 +117,5 @@ TEST(ToolLoader, FilesThatCrashOrHangTheirParsersAreFaults) {
   }
   ToolParameters parameters = gripper({"tip"});
   parameters.urdf = tool_file("crashing.urdf");
-  expect_fault(parameters, {"crashing.urdf'", "robot_reader was ended by signal"});
+  expect_fault(parameters, {"crashing.urdf'"});
 }

@@ -135,6 +135,7 @@ class NodeClient:
         self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
         self.contacts = ContactLog(node + '/contacts')
         self.diagnostics, self.summaries = {}, {}
+        self.past_summaries = {}  # Of each name all that came, in order.
         self.diagnostics_subscriber = rospy.Subscriber(
             '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep_diagnostics
         )
@@ -164,7 +165,9 @@ class NodeClient:
     def _keep_diagnostics(self, message):
         for status in message.status:
             if status.name.lstrip('/').startswith(self.node.lstrip('/') + ':'):
-                self.summaries[status.name.split(': ')[-1]] = status.message
+                name = status.name.split(': ')[-1]
+                self.summaries[name] = status.message
+                self.past_summaries.setdefault(name, []).append(status.message)
                 for pair in status.values:
                     self.diagnostics[pair.key] = pair.value
 

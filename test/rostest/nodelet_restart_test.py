@@ -60,9 +60,10 @@ class NodeletRestartTest(ContactCase):
             self.assertIn('send the organs again', failure.message)
             self.assertEqual(failure.contacts, [])
             self.assertEqual(failure.header.frame_id, 'liver_frame')
+        # The node that is back soon says that all is well.
         wait_until(
-            lambda: 'bad_alloc' in self.left.summaries.get('queries', ''),
-            lambda: self.left.summaries,
+            lambda: any('bad_alloc' in s for s in self.left.past_summaries.get('queries', [])),
+            lambda: self.left.past_summaries,
         )
 
         self.assert_touched(self.send(self.right, SMALL, 1), SMALL)

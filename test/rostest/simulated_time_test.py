@@ -153,16 +153,20 @@ class SimulatedTimeTest(LinkCase):
             result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
             self.assertEqual(result.status, ContactArray.NO_TRANSFORM)
 
-    def test_ticks_are_no_fewer_than_the_rate_says(self):
+    def test_ticks_are_as_many_as_the_rate_says(self):
+        """By the simulator's clock, which waits for a busy machine."""
         node = NodeClient('/ticking')
         with self.clock.lock:
             node.send_mesh(self.organ, SHEET)
             node.wait_for_shape(self.organ, rospy.Time())
             node.contacts.wait_for(self.organ, 'grasper')
+            start = len(node.contacts.of(self.organ))
             for _ in range(50):
                 before = len(node.contacts.of(self.organ))
                 self.clock.tick()
                 wait_until(lambda: len(node.contacts.of(self.organ)) > before, 'one more tick')
+            # The few others are of the new shape, and of ticks just before the clock stood still.
+            self.assertLessEqual(len(node.contacts.of(self.organ)) - start, 55)
 
 
 if __name__ == '__main__':

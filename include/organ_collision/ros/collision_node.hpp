@@ -56,6 +56,8 @@ class CollisionNode {
   void publish(const EvaluatedStep& step);
   void publish_failure(const std::string& organ, const std_msgs::Header& header,
                        std::uint8_t status, const std::string& message);
+  void publish_failure(const Tool& tool, const std::string& organ, const std_msgs::Header& header,
+                       std::uint8_t status, const std::string& message);
   void publish_breakdown(const std::string& why);
 
   ros::CallbackQueue queue_;

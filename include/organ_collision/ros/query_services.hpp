@@ -20,7 +20,8 @@
 
 namespace organ_collision {
 
-/// Answers what a tool would touch, or touches. Changes no organ and no history; never throws.
+/// Answers what a tool would touch, or touches. Changes no organ and no history. Never throws: what
+/// goes wrong is the answer's status, and PICKER_FAILED where it is no fault of the request.
 class QueryServices {
  public:
   /// All must outlive it.
@@ -43,7 +44,7 @@ class QueryServices {
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request) const;
 
  private:
-  // All throw Rejection.
+  // All throw Rejection, or what else goes wrong, such as std::bad_alloc.
   void answer(const QueryCollision::Request& request, ContactArray& answer) const;
   void answer(const QueryCollisionBatch::Request& request,
               QueryCollisionBatch::Response& response) const;
