@@ -64,12 +64,13 @@ void ContactFinder::touch_part(const Step& step, const LegSpan& span, const Part
   for (const Candidate& candidate : candidates_) {
     if (is_open(candidate.face, span.begin)) open_faces_.push_back({candidate.face, span.begin});
   }
-  if (span.leg_count() > 1) find_first_legs(step, span, part);
   for (std::size_t leg = span.begin; leg < span.end && !open_faces_.empty(); ++leg) {
     touch_on_leg(step, leg, part, contacts);
     const auto is_closed = [&](const OpenFace& open) { return !is_open(open.face, leg + 1); };
     open_faces_.erase(std::remove_if(open_faces_.begin(), open_faces_.end(), is_closed),
                       open_faces_.end());
+    // Most faces of a sustained contact touch on the first leg and need no bound.
+    if (leg == span.begin && span.leg_count() > 1) find_first_legs(step, span, part);
   }
 }
 
