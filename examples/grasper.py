@@ -23,16 +23,20 @@ MOTION = {
     'grasper_jaw': (0.3, 0.3, 2.0),
 }
 
-rospy.init_node('grasper')
+# Ctrl-C in the midst of a publish can lock rospy's own signal handler up; an exception cannot.
+rospy.init_node('grasper', disable_signals=True)
 trocar = tf2_ros.StaticTransformBroadcaster()
 trocar.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'liver'), 'grasper_trocar', TROCAR))
 joints = rospy.Publisher('joint_states', JointState, queue_size=10)
 rate = rospy.Rate(200)
 start = rospy.Time.now()
-while not rospy.is_shutdown():
-    now = rospy.Time.now()
-    turns = 2 * math.pi * (now - start).to_sec()
-    positions = [centre + swing * math.sin(turns / period)
-                 for centre, swing, period in MOTION.values()]
-    joints.publish(JointState(header=Header(stamp=now), name=list(MOTION), position=positions))
-    rate.sleep()
+try:
+    while not rospy.is_shutdown():
+        now = rospy.Time.now()
+        turns = 2 * math.pi * (now - start).to_sec()
+        positions = [centre + swing * math.sin(turns / period)
+                     for centre, swing, period in MOTION.values()]
+        joints.publish(JointState(header=Header(stamp=now), name=list(MOTION), position=positions))
+        rate.sleep()
+except KeyboardInterrupt:
+    rospy.signal_shutdown('interrupted')
