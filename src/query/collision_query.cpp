@@ -24,10 +24,14 @@ ViewingVolume paper_volume(const CollisionRequest& request) {
 /// the first touch stays, of several the deepest. Parts that pierce a face together are as deep:
 /// the point decides, so that other contacts do not.
 void keep_first_touches(std::vector<FaceContact>& contacts) {
-  std::sort(contacts.begin(), contacts.end(), [](const FaceContact& a, const FaceContact& b) {
+  const auto precedes = [](const FaceContact& a, const FaceContact& b) {
     return std::tie(a.face, a.link, a.fraction, b.depth, a.point.x(), a.point.y(), a.point.z()) <
            std::tie(b.face, b.link, b.fraction, a.depth, b.point.x(), b.point.y(), b.point.z());
-  });
+  };
+  // A shaft's contacts on one leg come in order.
+  if (!std::is_sorted(contacts.begin(), contacts.end(), precedes)) {
+    std::sort(contacts.begin(), contacts.end(), precedes);
+  }
   const auto end = std::unique(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
     return a.face == b.face && a.link == b.link;
   });
