@@ -7,6 +7,7 @@
 #include "scoped_volume.hpp"
 
 namespace organ_collision {
+
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                           const std::vector<DrawVertex>& vertices, std::vector<float>& buffer) {
   if (vertices.empty()) return 0;

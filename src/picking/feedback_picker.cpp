@@ -2,17 +2,10 @@
 
 #include <algorithm>
 
+#include "candidates.hpp"
 #include "feedback.hpp"
 
 namespace organ_collision {
-namespace {
-
-void sort_by_face(std::vector<Candidate>& candidates) {
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
-}
-
-}  // namespace
 
 void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                           std::vector<Candidate>& candidates) {
@@ -26,7 +19,7 @@ void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
                           std::vector<Candidate>& candidates) {
   candidates.clear();
   clip(draw_list_.assign(part, organ), candidates);
-  for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
+  add_undrawn(draw_list_, candidates);
   sort_by_face(candidates);
 }
 

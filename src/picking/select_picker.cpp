@@ -1,8 +1,8 @@
 #include "select_picker.hpp"
 
-#include <algorithm>
 #include <limits>
 
+#include "candidates.hpp"
 #include "gl_functions.hpp"
 #include "scoped_volume.hpp"
 
@@ -62,7 +62,7 @@ void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
                         std::vector<Candidate>& candidates) {
   const ViewingVolume volume = draw_list_.assign(part, organ);
   candidates.clear();
-  for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
+  add_undrawn(draw_list_, candidates);
   const auto draw_named = [&](const GlFunctions& gl) {
     const std::vector<DrawVertex>& vertices = draw_list_.vertices();
     for (std::size_t i = 0; i < vertices.size(); i += 3) {
@@ -73,8 +73,7 @@ void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
     }
   };
   select(volume, draw_named, candidates);
-  std::sort(candidates.begin(), candidates.end(),
-            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+  sort_by_face(candidates);
 }
 
 /// Adds the faces that `draw_named(gl)` draws and that meet the volume.

@@ -42,7 +42,7 @@ bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const F
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until = 1.0);
 
-/// The same with as much work as it takes.
+/// The same with as much work as it takes, up to a thousand advances.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       double until = 1.0);
 
