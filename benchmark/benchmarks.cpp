@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "rough_steps.hpp"
-#include "stopwatch.hpp"
-#include "vertex_pass.hpp"
+#include "benchmark/rigs/rough_steps.hpp"
+#include "benchmark/rigs/stopwatch.hpp"
+#include "benchmark/rigs/vertex_pass.hpp"
 
 namespace organ_collision::bench {
 namespace {

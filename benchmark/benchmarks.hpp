@@ -1,6 +1,6 @@
 #pragma once
 
-#include "lab.hpp"
+#include "benchmark/rigs/lab.hpp"
 
 namespace organ_collision::bench {
 

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstdint>
 
-#include "organ_collision/ros/conversions.hpp"
-#include "wrench_law.hpp"
+#include "contact_adapter/wrench_law.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision::bench {
 namespace {

@@ -6,12 +6,14 @@ function(organ_collision_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror)
 endfunction()
 
-# organ_collision_layer(NAME SOURCES...): one of the package's libraries, organ_collision_NAME.
+# organ_collision_layer(NAME SOURCES...): one of the package's libraries, organ_collision_NAME. Headers
+# in include/ are installed; those beside the sources are found by their path from src/, and are not.
 function(organ_collision_layer name)
   add_library(organ_collision_${name} ${ARGN})
   add_library(organ_collision::${name} ALIAS organ_collision_${name})
   set_target_properties(organ_collision_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(organ_collision_${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:include>)
   organ_collision_target(organ_collision_${name})
 endfunction()

@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "organ_collision/geometry/face_clusters.hpp"
+#include "organ_collision/geometry/organ/face_clusters.hpp"
 
 namespace organ_collision {
 

@@ -2,7 +2,7 @@
 
 #include <BulletCollision/CollisionShapes/btTriangleIndexVertexArray.h>
 
-#include "organ_surface.hpp"
+#include "benchmark/scenes/organ_surface.hpp"
 
 namespace organ_collision::bench {
 

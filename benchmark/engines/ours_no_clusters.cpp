@@ -1,7 +1,7 @@
 #include <array>
 
 #include "engine.hpp"
-#include "feedback.hpp"
+#include "picking/gl/feedback.hpp"
 #include "scan_outcodes.hpp"
 #include "shared_context.hpp"
 

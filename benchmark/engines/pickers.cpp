@@ -1,7 +1,7 @@
 #include <optional>
 
 #include "engine.hpp"
-#include "organ_collision/picking/picker.hpp"
+#include "picking/pickers/picker.hpp"
 #include "shared_context.hpp"
 
 namespace organ_collision::bench {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "organ_collision/picking/gl_context.hpp"
+#include "picking/gl/gl_context.hpp"
 
 namespace organ_collision::bench {
 

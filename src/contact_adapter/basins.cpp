@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 namespace {

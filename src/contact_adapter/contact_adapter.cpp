@@ -7,11 +7,11 @@
 #include "contact_check.hpp"
 #include "face_list.hpp"
 #include "force_limit.hpp"
-#include "organ_collision/ros/answers.hpp"
-#include "organ_collision/ros/diagnostics.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "organ_collision/ros/plain_text.hpp"
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
+#include "ros/publishing/diagnostics.hpp"
+#include "ros/steps/contact_array.hpp"
 #include "shaft_radius.hpp"
 
 namespace organ_collision {

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "contact_adapter_parameters.hpp"
-#include "organ_collision/ros/failure_log.hpp"
 #include "pair_names.hpp"
+#include "ros/interface/failure_log.hpp"
 #include "wrench_law.hpp"
 
 namespace organ_collision {

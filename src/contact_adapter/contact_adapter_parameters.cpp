@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "organ_collision/ros/names.hpp"
-#include "organ_collision/ros/parameter_group.hpp"
+#include "ros/interface/parameter_group.hpp"
 
 namespace organ_collision {
 namespace {

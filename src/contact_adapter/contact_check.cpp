@@ -4,9 +4,9 @@
 #include <cmath>
 #include <sstream>
 
-#include "organ_collision/ros/conversions.hpp"
-#include "organ_collision/ros/plain_text.hpp"
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "basins.hpp"
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 #include "shaft_radius.hpp"
 
 namespace organ_collision {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
 namespace {

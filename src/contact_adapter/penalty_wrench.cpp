@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "organ_collision/ros/conversions.hpp"
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
 namespace {

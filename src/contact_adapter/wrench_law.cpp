@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "organ_collision/ros/conversions.hpp"
 #include "penalty_wrench.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 namespace {

@@ -13,8 +13,8 @@
 #include <set>
 #include <sstream>
 
-#include "demo/static_comparison.hpp"
-#include "organ_collision/ros/parameters.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "static_comparison.hpp"
 
 namespace organ_collision {
 namespace {

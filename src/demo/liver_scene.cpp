@@ -1,4 +1,4 @@
-#include "demo/liver_scene.hpp"
+#include "liver_scene.hpp"
 
 #include <Eigen/Geometry>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "demo/liver_surface.hpp"
-#include "organ_collision/geometry/shaft.hpp"
+#include "liver_surface.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 
 namespace organ_collision {
 

@@ -13,9 +13,9 @@
 #include <algorithm>
 #include <map>
 
-#include "demo/liver_scene.hpp"
-#include "demo/liver_soft_body.hpp"
-#include "demo/scripted_tools.hpp"
+#include "liver_scene.hpp"
+#include "liver_soft_body.hpp"
+#include "scripted_tools.hpp"
 
 namespace organ_collision {
 namespace {

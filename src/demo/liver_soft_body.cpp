@@ -1,4 +1,4 @@
-#include "demo/liver_soft_body.hpp"
+#include "liver_soft_body.hpp"
 
 #include <BulletSoftBody/btSoftBody.h>
 

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "demo/liver_surface.hpp"
+#include "liver_surface.hpp"
 
 class btSoftBody;
 struct btSoftBodyWorldInfo;

@@ -1,4 +1,4 @@
-#include "demo/liver_surface.hpp"
+#include "liver_surface.hpp"
 
 #include <array>
 #include <cmath>

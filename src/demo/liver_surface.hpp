@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
 
 namespace organ_collision {
 

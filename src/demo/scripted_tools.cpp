@@ -1,9 +1,9 @@
-#include "demo/scripted_tools.hpp"
+#include "scripted_tools.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "demo/liver_surface.hpp"
+#include "liver_surface.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/shaft.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 
 namespace organ_collision {
 

@@ -1,9 +1,9 @@
-#include "demo/static_comparison.hpp"
+#include "static_comparison.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "organ_collision/geometry/closest_points.hpp"
+#include "geometry/distance/closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {

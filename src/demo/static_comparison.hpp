@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/triangle_mesh.hpp"
-#include "organ_collision/ros/tool_poses.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "ros/motion/tool_poses.hpp"
 
 namespace organ_collision {
 

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "message_error.hpp"
-#include "organ_collision/ros/conversions.hpp"
-#include "organ_collision/ros/plain_text.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "mesh_adapter_names.hpp"
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 namespace {

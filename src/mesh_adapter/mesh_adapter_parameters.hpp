@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/ros/parameter_group.hpp"
+#include "ros/interface/parameter_group.hpp"
 
 namespace organ_collision {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "surface.hpp"
 
 namespace organ_collision {

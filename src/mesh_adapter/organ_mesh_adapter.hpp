@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "mesh_adapter_parameters.hpp"
-#include "organ_collision/ros/failure_log.hpp"
 #include "organ_source.hpp"
+#include "ros/interface/failure_log.hpp"
 
 namespace organ_collision {
 

@@ -6,9 +6,9 @@
 
 #include "mesh_conversions.hpp"
 #include "message_error.hpp"
-#include "organ_collision/ros/conversions.hpp"
-#include "organ_collision/ros/plain_text.hpp"
 #include "point_cloud_reader.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "message_error.hpp"
-#include "organ_collision/ros/spelling.hpp"
+#include "ros/interface/spelling.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
 
 namespace organ_collision {
 

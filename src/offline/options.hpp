@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/picking/picker.hpp"
+#include "picking/pickers/picker.hpp"
 
 namespace organ_collision {
 

@@ -5,9 +5,9 @@
 
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
-#include "organ_collision/picking/viewing_volume.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 #include "request_check.hpp"
-#include "short_turns.hpp"
+#include "rotation_subdivision.hpp"
 #include "step.hpp"
 
 namespace organ_collision {
@@ -98,7 +98,7 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
   if (is_paper_mode(request.mode)) {
     return pick_unrefined(request, *picker, candidates, result.contacts);
   }
-  const Step step(request, with_short_turns(request.path, finer_path), boxes_before);
+  const Step step(request, with_subdivided_rotations(request.path, finer_path), boxes_before);
   finder.find(step, result.contacts);
   keep_first_touches(result.contacts);
   for (FaceContact& contact : result.contacts) {

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "organ_collision/geometry/surface_touch.hpp"
-#include "organ_collision/picking/picker.hpp"
+#include "contact_refiner.hpp"
+#include "geometry/distance/surface_touch.hpp"
 #include "organ_collision/query/contact.hpp"
-#include "organ_collision/query/contact_refiner.hpp"
+#include "picking/pickers/picker.hpp"
 #include "step.hpp"
 
 namespace organ_collision {

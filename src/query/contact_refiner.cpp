@@ -1,4 +1,4 @@
-#include "organ_collision/query/contact_refiner.hpp"
+#include "contact_refiner.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "organ_collision/picking/region_clipper.hpp"
 #include "organ_collision/query/contact.hpp"
+#include "picking/pickers/region_clipper.hpp"
 #include "step.hpp"
 
 namespace organ_collision {

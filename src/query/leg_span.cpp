@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "organ_collision/geometry/rigid_motion.hpp"
-#include "short_turns.hpp"
+#include "geometry/tool/rigid_motion.hpp"
+#include "rotation_subdivision.hpp"
 
 namespace organ_collision {
 namespace {
@@ -53,7 +53,7 @@ double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::siz
                       std::size_t link, const LinkBall& ball, double allowed) {
   const Isometry3d& first = waypoints[begin].links[link];
   const Isometry3d& last = waypoints[end].links[link];
-  if (turn(first, last) > kMostTurn) return kTooFar;
+  if (turn(first, last) > kMaxRotation) return kTooFar;
   const RigidMotion chord(first, last);
   const double arm = ball.center.norm() + ball.radius;
   double at_waypoints = 0.0, between = 0.0, time = 0.0;

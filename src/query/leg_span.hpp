@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "organ_collision/geometry/link.hpp"
-#include "organ_collision/geometry/tool_path.hpp"
+#include "organ_collision/geometry/tool/link.hpp"
+#include "organ_collision/geometry/tool/tool_path.hpp"
 
 namespace organ_collision {
 

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "contact_refiner.hpp"
+#include "geometry/organ/organ_motion.hpp"
 #include "leg_span.hpp"
-#include "organ_collision/geometry/organ_motion.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "organ_collision/query/contact_refiner.hpp"
 
 namespace organ_collision {
 

@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "organ_collision/ros/tool_error.hpp"
 #include "resource.hpp"
+#include "ros/tools/tool_error.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "organ_collision/ros/link_description.hpp"
+#include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
 

@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
-#include "organ_collision/ros/reader_limits.hpp"
+#include "ros/tools/reader_limits.hpp"
 
 // GCC has macros that say so, and clang has features.
 #ifndef __has_feature

@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "organ_collision/ros/reader_limits.hpp"
-#include "organ_collision/ros/tool_error.hpp"
+#include "ros/tools/reader_limits.hpp"
+#include "ros/tools/tool_error.hpp"
 
 namespace organ_collision {
 namespace {

@@ -4,8 +4,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "mesh_file.hpp"
-#include "organ_collision/ros/spelling.hpp"
-#include "organ_collision/ros/tool_error.hpp"
+#include "ros/interface/spelling.hpp"
+#include "ros/tools/tool_error.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/ros/link_description.hpp"
+#include "ros/tools/link_description.hpp"
 
 namespace urdf {
 class ModelInterface;

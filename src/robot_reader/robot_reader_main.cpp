@@ -12,10 +12,10 @@
 #include <iterator>
 #include <new>
 
-#include "organ_collision/ros/robot_reply.hpp"
 #include "process_limits.hpp"
 #include "resource.hpp"
 #include "robot_model.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 using namespace organ_collision;
 

@@ -1,4 +1,4 @@
-#include "basins.hpp"
+#include "contact_adapter/basins.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,10 @@
-#include "contact_adapter_parameters.hpp"
+#include "contact_adapter/contact_adapter_parameters.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "organ_collision/ros/parameter_group.hpp"
+#include "ros/interface/parameter_group.hpp"
 
 using namespace organ_collision;
 using XmlRpc::XmlRpcValue;

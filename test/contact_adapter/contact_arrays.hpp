@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 

@@ -1,4 +1,4 @@
-#include "contact_check.hpp"
+#include "contact_adapter/contact_check.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <string>
 
 #include "contact_arrays.hpp"
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/rejection.hpp"
 
 using namespace organ_collision;
 

@@ -1,4 +1,4 @@
-#include "contact_motion.hpp"
+#include "contact_adapter/contact_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "face_list.hpp"
+#include "contact_adapter/face_list.hpp"
 
 #include <gtest/gtest.h>
 

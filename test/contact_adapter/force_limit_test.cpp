@@ -1,10 +1,10 @@
-#include "force_limit.hpp"
+#include "contact_adapter/force_limit.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 
 using namespace organ_collision;
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "organ_collision/ros/conversions.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "penalty_wrench.hpp"
-#include "wrench_law.hpp"
+#include "contact_adapter/penalty_wrench.hpp"
+#include "contact_adapter/wrench_law.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;

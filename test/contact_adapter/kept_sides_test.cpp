@@ -1,4 +1,4 @@
-#include "kept_sides.hpp"
+#include "contact_adapter/kept_sides.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
-#include "pair_names.hpp"
+#include "contact_adapter/pair_names.hpp"
 
 #include <gtest/gtest.h>
 #include <ros/names.h>
 
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/rejection.hpp"
 
 using namespace organ_collision;
 

@@ -1,4 +1,4 @@
-#include "penalty_wrench.hpp"
+#include "contact_adapter/penalty_wrench.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "organ_collision/ros/rejection.hpp"
+#include "ros/interface/rejection.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;

@@ -1,4 +1,4 @@
-#include "shaft_radius.hpp"
+#include "contact_adapter/shaft_radius.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "wrench_law.hpp"
+#include "contact_adapter/wrench_law.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "demo/liver_surface.hpp"
-#include "organ_collision/geometry/closest_points.hpp"
+#include "geometry/distance/closest_points.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,4 +1,4 @@
-#include "marker_reader.hpp"
+#include "mesh_adapter/marker_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <limits>
 #include <random>
 
-#include "organ_collision/ros/conversions.hpp"
 #include "refusal.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 namespace {

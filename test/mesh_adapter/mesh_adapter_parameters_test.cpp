@@ -1,4 +1,4 @@
-#include "mesh_adapter_parameters.hpp"
+#include "mesh_adapter/mesh_adapter_parameters.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "mesh_conversions.hpp"
+#include "mesh_adapter/mesh_conversions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "message_error.hpp"
+#include "mesh_adapter/message_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "organ_feed.hpp"
+#include "mesh_adapter/organ_feed.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "grid_surface.hpp"
 #include "refusal.hpp"
+#include "test/grid_surface.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,12 +1,12 @@
-#include "organ_source.hpp"
+#include "mesh_adapter/organ_source.hpp"
 
 #include <gtest/gtest.h>
 #include <pcl_msgs/PolygonMesh.h>
 #include <shape_msgs/Mesh.h>
 
 #include "clouds.hpp"
-#include "organ_collision/ros/conversions.hpp"
 #include "refusal.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 namespace {

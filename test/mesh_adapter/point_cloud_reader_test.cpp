@@ -1,4 +1,4 @@
-#include "point_cloud_reader.hpp"
+#include "mesh_adapter/point_cloud_reader.hpp"
 
 #include <gtest/gtest.h>
 

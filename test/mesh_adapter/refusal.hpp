@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "message_error.hpp"
+#include "mesh_adapter/message_error.hpp"
 
 namespace organ_collision {
 

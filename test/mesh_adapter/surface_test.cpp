@@ -1,4 +1,4 @@
-#include "surface.hpp"
+#include "mesh_adapter/surface.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contacts_csv.hpp"
+#include "offline/contacts_csv.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "input_error.hpp"
+#include "offline/input_error.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "motions_reader.hpp"
+#include "offline/motions_reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "obj_reader.hpp"
+#include "offline/obj_reader.hpp"
 
 #include <gtest/gtest.h>
 

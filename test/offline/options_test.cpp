@@ -1,4 +1,4 @@
-#include "options.hpp"
+#include "offline/options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "input_error.hpp"
+#include "offline/input_error.hpp"
 
 namespace organ_collision {
 

@@ -1,4 +1,4 @@
-#include "text_reader.hpp"
+#include "offline/text_reader.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
-#include "proof/comparison.hpp"
+#include "comparison.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 
-#include "organ_collision/geometry/first_touch.hpp"
-#include "proof/exact_distance.hpp"
-#include "proof/exact_volume.hpp"
-#include "proof/first_touch_oracle.hpp"
+#include "exact_distance.hpp"
+#include "exact_volume.hpp"
+#include "first_touch_oracle.hpp"
+#include "geometry/distance/first_touch.hpp"
 
 namespace organ_collision::oracle {
 namespace {

@@ -2,12 +2,12 @@
 
 #include <memory>
 
-#include "organ_collision/picking/gl_context.hpp"
-#include "organ_collision/picking/picker.hpp"
-#include "organ_collision/picking/viewing_volume.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "proof/tally.hpp"
-#include "proof/trials.hpp"
+#include "picking/gl/gl_context.hpp"
+#include "picking/pickers/picker.hpp"
+#include "picking/volumes/viewing_volume.hpp"
+#include "tally.hpp"
+#include "trials.hpp"
 
 namespace organ_collision::oracle {
 

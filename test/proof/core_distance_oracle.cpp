@@ -1,4 +1,4 @@
-#include "proof/core_distance_oracle.hpp"
+#include "core_distance_oracle.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "proof/exact_distance.hpp"
+#include "exact_distance.hpp"
 
 namespace organ_collision::oracle {
 namespace {

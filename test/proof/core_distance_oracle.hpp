@@ -1,7 +1,7 @@
 #pragma once
 
-#include "organ_collision/geometry/convex_core.hpp"
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
 
 namespace organ_collision::oracle {
 

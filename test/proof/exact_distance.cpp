@@ -1,4 +1,4 @@
-#include "proof/exact_distance.hpp"
+#include "exact_distance.hpp"
 
 #include <CGAL/Gmpzf.h>
 #include <CGAL/Interval_nt.h>

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "organ_collision/geometry/shaft.hpp"
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 
 /// Answers by exact arithmetic on the very doubles given: what the library is measured against.
 namespace organ_collision::oracle {

@@ -1,4 +1,4 @@
-#include "proof/exact_volume.hpp"
+#include "exact_volume.hpp"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Interval_nt.h>

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "organ_collision/geometry/triangle_mesh.hpp"
-#include "organ_collision/picking/viewing_volume.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision::oracle {
 

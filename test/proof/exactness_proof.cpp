@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "proof/comparison.hpp"
+#include "comparison.hpp"
 
 namespace organ_collision::oracle {
 namespace {

@@ -1,9 +1,9 @@
-#include "proof/first_touch_oracle.hpp"
+#include "first_touch_oracle.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "proof/exact_distance.hpp"
+#include "exact_distance.hpp"
 
 namespace organ_collision::oracle {
 namespace {

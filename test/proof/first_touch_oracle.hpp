@@ -3,8 +3,8 @@
 #include <functional>
 #include <optional>
 
-#include "organ_collision/geometry/first_touch.hpp"
-#include "proof/link_trials.hpp"
+#include "geometry/distance/first_touch.hpp"
+#include "link_trials.hpp"
 
 namespace organ_collision::oracle {
 

@@ -1,12 +1,12 @@
-#include "proof/link_trials.hpp"
+#include "link_trials.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <ostream>
 
-#include "organ_collision/geometry/link.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
+#include "organ_collision/geometry/tool/link.hpp"
 
 namespace organ_collision::oracle {
 namespace {
@@ -188,7 +188,7 @@ const std::vector<std::string>& link_trial_kinds() {
 
 LinkTrial make_link_trial(std::size_t kind, std::size_t core_kind, Random& random) {
   LinkTrial trial{make_core(core_kind, random), random_pose(0.1, random), {}, {}, 0.0};
-  trial.radius = random.chance(0.4) ? tolerance::kSkin : random.scale(0.5e-3, 10e-3);
+  trial.radius = random.chance(0.4) ? tolerance::kConvexMargin : random.scale(0.5e-3, 10e-3);
   const int turn = random.integer(0, 9);
   const double angle = turn == 0 ? 0.0 : turn == 1 ? M_PI - 1e-6 : random.scale(1e-6, 3.14);
   const double way = random.chance(0.2) ? 0.0 : random.scale(1e-6, 0.2);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/convex_core.hpp"
-#include "organ_collision/geometry/rigid_motion.hpp"
-#include "organ_collision/geometry/triangle_mesh.hpp"
-#include "proof/trials.hpp"
+#include "geometry/tool/rigid_motion.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
+#include "trials.hpp"
 
 namespace organ_collision::oracle {
 

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "exact_distance.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "proof/exact_distance.hpp"
-#include "proof/trials.hpp"
+#include "trials.hpp"
 
 namespace organ_collision::oracle {
 namespace {

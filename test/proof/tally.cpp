@@ -1,4 +1,4 @@
-#include "proof/tally.hpp"
+#include "tally.hpp"
 
 #include <algorithm>
 #include <iomanip>

@@ -1,4 +1,4 @@
-#include "proof/trials.hpp"
+#include "trials.hpp"
 
 #include <Eigen/Geometry>
 #include <array>
@@ -8,7 +8,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "proof/exact_distance.hpp"
+#include "exact_distance.hpp"
 
 namespace organ_collision::oracle {
 namespace {

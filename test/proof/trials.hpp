@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/shaft.hpp"
-#include "organ_collision/geometry/triangle_mesh.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 
 namespace organ_collision::oracle {
 

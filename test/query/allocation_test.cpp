@@ -4,10 +4,10 @@
 #include <new>
 #include <utility>
 
-#include "geometry/tool_meshes.hpp"
-#include "grid_surface.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "query/scenes.hpp"
+#include "scenes.hpp"
+#include "test/geometry/tool/tool_meshes.hpp"
+#include "test/grid_surface.hpp"
 
 // Counts what C++ code allocates in this program; Mesa is C and allocates by itself.
 namespace {

@@ -8,8 +8,8 @@
 #include <random>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "proof/trials.hpp"
-#include "query/scenes.hpp"
+#include "scenes.hpp"
+#include "test/proof/trials.hpp"
 
 namespace organ_collision {
 namespace {

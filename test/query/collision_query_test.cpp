@@ -6,11 +6,11 @@
 #include <limits>
 #include <string>
 
-#include "grid_surface.hpp"
-#include "organ_collision/query/contact_refiner.hpp"
-#include "proof/exact_distance.hpp"
-#include "proof/trials.hpp"
-#include "query/scenes.hpp"
+#include "query/contact_refiner.hpp"
+#include "scenes.hpp"
+#include "test/grid_surface.hpp"
+#include "test/proof/exact_distance.hpp"
+#include "test/proof/trials.hpp"
 
 namespace organ_collision {
 namespace {

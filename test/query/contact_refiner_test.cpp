@@ -1,4 +1,4 @@
-#include "organ_collision/query/contact_refiner.hpp"
+#include "query/contact_refiner.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "organ_collision/geometry/tolerances.hpp"
-#include "proof/exact_distance.hpp"
-#include "proof/trials.hpp"
+#include "test/proof/exact_distance.hpp"
+#include "test/proof/trials.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "query/link_scenes.hpp"
+#include "link_scenes.hpp"
 
 namespace {
 

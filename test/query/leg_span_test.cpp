@@ -1,9 +1,9 @@
-#include "leg_span.hpp"
+#include "query/leg_span.hpp"
 
 #include <gtest/gtest.h>
 
-#include "organ_collision/geometry/rigid_motion.hpp"
-#include "query/link_scenes.hpp"
+#include "geometry/tool/rigid_motion.hpp"
+#include "link_scenes.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "organ_collision/geometry/tolerances.hpp"
-#include "organ_collision/query/contact_refiner.hpp"
-#include "proof/core_distance_oracle.hpp"
-#include "proof/link_trials.hpp"
+#include "query/contact_refiner.hpp"
+#include "test/proof/core_distance_oracle.hpp"
+#include "test/proof/link_trials.hpp"
 
 namespace organ_collision {
 namespace {
@@ -178,11 +178,11 @@ TEST(LinkContact, PiercedLeavesTheWayThatIsShorter) {
   const auto below = refine(kCube, kOrigin, kOrigin, face_at(0.03));
   ASSERT_TRUE(below);
   EXPECT_TRUE(below->normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-14));
-  EXPECT_NEAR(below->depth, 0.02 + tolerance::kSkin, 1e-12);
+  EXPECT_NEAR(below->depth, 0.02 + tolerance::kConvexMargin, 1e-12);
   const auto above = refine(kCube, kOrigin, kOrigin, face_at(-0.01));
   ASSERT_TRUE(above);
   EXPECT_TRUE(above->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-14));
-  EXPECT_NEAR(above->depth, 0.04 + tolerance::kSkin, 1e-12);
+  EXPECT_NEAR(above->depth, 0.04 + tolerance::kConvexMargin, 1e-12);
 }
 
 // Both ways are as long: the first component that is not zero decides, not the order of corners.
@@ -192,7 +192,7 @@ TEST(LinkContact, PiercedInTheMiddleTakesTheNormalWithAPositiveFirstComponent) {
     const auto contact = refine(kCube, kOrigin, kOrigin, same);
     ASSERT_TRUE(contact);
     EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, 1.0), 1e-14));
-    EXPECT_NEAR(contact->depth, 0.05 + tolerance::kSkin, 1e-12);
+    EXPECT_NEAR(contact->depth, 0.05 + tolerance::kConvexMargin, 1e-12);
   }
 }
 
@@ -204,7 +204,7 @@ TEST(LinkContact, PiercedLeavesWithTheWholeLink) {
       refine(link, kCube, kOrigin, kOrigin, {face, face}, {0.0, 1.0, kOrigin, face});
   ASSERT_TRUE(contact);
   EXPECT_TRUE(contact->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-14));
-  EXPECT_NEAR(contact->depth, 0.08 + tolerance::kSkin, 1e-12);
+  EXPECT_NEAR(contact->depth, 0.08 + tolerance::kConvexMargin, 1e-12);
 }
 
 TEST(LinkContact, OfDegenerateFacesInsideHasADirection) {

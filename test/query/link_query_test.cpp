@@ -9,13 +9,13 @@
 #include <string>
 #include <tuple>
 
-#include "geometry/tool_meshes.hpp"
+#include "link_scenes.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "organ_collision/query/contact_refiner.hpp"
-#include "proof/core_distance_oracle.hpp"
-#include "proof/exact_distance.hpp"
-#include "query/link_scenes.hpp"
+#include "query/contact_refiner.hpp"
+#include "test/geometry/tool/tool_meshes.hpp"
+#include "test/proof/core_distance_oracle.hpp"
+#include "test/proof/exact_distance.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,10 +6,10 @@
 #include <tuple>
 #include <vector>
 
-#include "geometry/tool_meshes.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "organ_collision/query/contact_refiner.hpp"
-#include "query/scenes.hpp"
+#include "query/contact_refiner.hpp"
+#include "scenes.hpp"
+#include "test/geometry/tool/tool_meshes.hpp"
 
 namespace organ_collision {
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "organ_collision/geometry/tolerances.hpp"
-#include "query/scenes.hpp"
+#include "scenes.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "query/link_scenes.hpp"
+#include "link_scenes.hpp"
 
 namespace organ_collision {
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "query/scenes.hpp"
+#include "scenes.hpp"
 
 namespace organ_collision {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "proof/trials.hpp"
+#include "test/proof/trials.hpp"
 
 namespace organ_collision {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "organ_collision/query/contact_refiner.hpp"
-#include "proof/link_trials.hpp"
-#include "query/scenes.hpp"
+#include "query/contact_refiner.hpp"
+#include "scenes.hpp"
+#include "test/proof/link_trials.hpp"
 
 namespace organ_collision {
 namespace {

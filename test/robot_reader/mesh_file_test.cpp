@@ -1,4 +1,4 @@
-#include "mesh_file.hpp"
+#include "robot_reader/mesh_file.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,8 +10,8 @@
 #include <limits>
 #include <utility>
 
-#include "organ_collision/geometry/tool_surface.hpp"
-#include "ros/tool_files.hpp"
+#include "organ_collision/geometry/tool/tool_surface.hpp"
+#include "test/ros/tools/tool_files.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;

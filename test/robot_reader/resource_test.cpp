@@ -1,4 +1,4 @@
-#include "resource.hpp"
+#include "robot_reader/resource.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "organ_collision/ros/reader_limits.hpp"
-#include "ros/tool_files.hpp"
+#include "ros/tools/reader_limits.hpp"
+#include "test/ros/tools/tool_files.hpp"
 
 using namespace organ_collision;
 

@@ -1,10 +1,10 @@
-#include "robot_model.hpp"
+#include "robot_reader/robot_model.hpp"
 
 #include <console_bridge/console.h>
 #include <gtest/gtest.h>
 
-#include "resource.hpp"
-#include "ros/tool_files.hpp"
+#include "robot_reader/resource.hpp"
+#include "test/ros/tools/tool_files.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;

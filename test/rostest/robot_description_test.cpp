@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "organ_collision/ros/tool_loader.hpp"
-#include "tool_files.hpp"
+#include "ros/tools/tool_loader.hpp"
+#include "test/ros/tools/tool_files.hpp"
 
 namespace organ_collision {
 namespace {

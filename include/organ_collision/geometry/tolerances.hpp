@@ -19,7 +19,7 @@ inline constexpr double kPierced = 1e-9;
 /// [m] Radius that parts of links with flat faces are given, so that the direction in which they
 /// first touch is none of rounding: they touch what is nearer than this. Less than 32 bits round
 /// off a vertex 0.2 m from the origin.
-inline constexpr double kSkin = 1e-8;
+inline constexpr double kConvexMargin = 1e-8;
 
 /// [m] Nearest pairs that are apart by the same vector, within this, are tied; the one nearest the
 /// tip is taken.

@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/link.hpp"
-#include "organ_collision/geometry/tool_path.hpp"
-#include "organ_collision/geometry/triangle_mesh.hpp"
-#include "organ_collision/picking/picker.hpp"
-#include "organ_collision/picking/region_clipper.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/link.hpp"
+#include "organ_collision/geometry/tool/tool_path.hpp"
+#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/region.hpp"
 #include "organ_collision/query/contact.hpp"
 
 namespace organ_collision {

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "organ_collision/geometry/tool/convex_core.hpp"
+#include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/tool_surface.hpp"
+
+namespace organ_collision {
+
+/// A rigid piece of a link, in the link's frame: all points within `radius` of the core or, if it
+/// has one, of the surface.
+struct LinkPart {
+  ConvexCore core;
+  std::shared_ptr<const ToolSurface> surface;  ///< null: the part is convex
+  double radius;                               ///< [m] > 0
+  OrientedBox bounds;                          ///< of core or surface, without the radius
+
+  // The shapes of URDF, at a pose in the link's frame. Sizes in metres, positive. What has flat
+  // faces gets the radius tolerance::kConvexMargin.
+  static LinkPart sphere(const Eigen::Vector3d& center, double radius);
+  /// Along z, centred, with flat ends.
+  static LinkPart cylinder(const Eigen::Isometry3d& T_link_shape, double radius, double length);
+  /// Centred; `size` along x, y and z.
+  static LinkPart box(const Eigen::Isometry3d& T_link_shape, const Eigen::Vector3d& size);
+  /// Of a mesh already in the link's frame.
+  static LinkPart mesh(ToolSurface surface);
+
+  /// How far core or surface reaches along `direction`.
+  double height(const Eigen::Vector3d& direction) const;
+};
+
+/// A rigid link of a tool.
+struct Link {
+  std::string name;
+  std::vector<LinkPart> parts;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,62 @@
+#include "swept_box.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "separating_plane.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+/// [m] Of any point of the box, as CoreMotion::bend.
+double bend(const OrientedBox& box, const RigidMotion& motion) {
+  if (motion.angle() == 0.0) return 0.0;
+  double arm = motion.arm(box.center);
+  for (int i = 0; i < 3; ++i) arm += box.half_size[i] * motion.arm(box.axes.col(i));
+  return arm * motion.angle() * motion.angle() / 8.0;
+}
+
+}  // namespace
+
+SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius)
+    : axes_(motion.half_way() * box.axes),
+      start_(place(box, motion.start())),
+      end_(place(box, motion.end())),
+      reach_(radius + bend(box, motion)) {}
+
+SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
+  Place place;
+  place.center = pose * box.center;
+  place.half_edges = pose.linear() * box.axes * box.half_size.asDiagonal();
+  const Vector3d center = axes_.transpose() * place.center;
+  const Vector3d half = (axes_.transpose() * place.half_edges).cwiseAbs().rowwise().sum();
+  place.low = center - half;
+  place.high = center + half;
+  return place;
+}
+
+double SweptBox::clear_until(const FaceMotion& face) const {
+  double until = 0.0;
+  for (int i = 0; i < 3 && until <= 1.0; ++i) {
+    const Vector3d axis = axes_.col(i);
+    until =
+        std::max(until, organ_collision::clear_until(
+                            heights(axis, face.start), heights(axis, face.end),
+                            {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach_));
+  }
+  if (until > 1.0) return until;
+  const Vector3d normal = plane_normal(face.start);
+  const auto box_heights = [&](const Place& box) {
+    const double center = normal.dot(box.center);
+    const double half = (normal.transpose() * box.half_edges).cwiseAbs().sum();
+    return Heights{center - half, center + half};
+  };
+  return std::max(
+      until, organ_collision::clear_until(heights(normal, face.start), heights(normal, face.end),
+                                          box_heights(start_), box_heights(end_), reach_));
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,136 @@
+#include "organ_collision/geometry/organ/face_clusters.hpp"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace organ_collision {
+namespace {
+
+constexpr std::uint32_t kRun = FaceClusters::kRun;
+constexpr std::uint32_t kNone = ~0U;
+
+/// Spreads ten bits to every third one.
+std::uint32_t spread(std::uint32_t bits) {
+  bits = (bits | (bits << 16)) & 0x030000FFU;
+  bits = (bits | (bits << 8)) & 0x0300F00FU;
+  bits = (bits | (bits << 4)) & 0x030C30C3U;
+  return (bits | (bits << 2)) & 0x09249249U;
+}
+
+Eigen::Vector3f vertex(const std::vector<float>& vertices, std::size_t i) {
+  return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]);
+}
+
+/// Every `stride`-th vertex, by its number, along a Morton curve through 1024 cells a side.
+std::vector<std::uint32_t> morton_order(const std::vector<float>& vertices, std::size_t stride) {
+  const auto count = static_cast<Eigen::Index>(vertices.size() / 3);
+  const Eigen::Map<const Eigen::Matrix3Xf> points(vertices.data(), 3, count);
+  const Eigen::Vector3d low = points.rowwise().minCoeff().cast<double>();
+  const Eigen::Vector3d size = points.rowwise().maxCoeff().cast<double>() - low;
+  const double cells = size.maxCoeff() > 0.0 ? 1023.0 / size.maxCoeff() : 0.0;
+
+  std::vector<std::uint64_t> keyed;
+  for (std::size_t i = 0; 3 * i < vertices.size(); i += stride) {
+    const Eigen::Vector3d cell = (vertex(vertices, i).cast<double>() - low) * cells;
+    const std::uint64_t key = spread(static_cast<std::uint32_t>(cell.x())) |
+                              spread(static_cast<std::uint32_t>(cell.y())) << 1 |
+                              spread(static_cast<std::uint32_t>(cell.z())) << 2;
+    keyed.push_back(key << 32 | i);
+  }
+  std::sort(keyed.begin(), keyed.end());
+  return {keyed.begin(), keyed.end()};
+}
+
+/// Whether vertices that follow each other are not much farther apart than the ends of edges. A
+/// sample of each tells.
+bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
+  constexpr std::size_t kSamples = 4096;
+  constexpr double kFar = 4.0;
+  const std::size_t count = vertices.size() / 3;
+  double steps = 0.0, edges = 0.0;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    const std::size_t place = i * count / kSamples;
+    const FaceIndices& face = faces[i * faces.size() / kSamples];
+    const std::size_t next = std::min(place + 1, count - 1);
+    steps += (vertex(vertices, next) - vertex(vertices, place)).norm();
+    edges += (vertex(vertices, face[1]) - vertex(vertices, face[0])).norm();
+  }
+  return steps <= kFar * edges;
+}
+
+}  // namespace
+
+FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
+                           const std::vector<float>& vertices) {
+  if (is_coherent(faces, vertices)) {
+    order_runs(vertices);
+  } else {
+    order_vertices(vertices);
+  }
+  Numbers block_of(vertices.size() / 3);
+  for (std::uint32_t i = 0; i < order_.size(); ++i) block_of[order_[i]] = i / kRun;
+  group(faces, block_of);
+  find_blocks(block_of);
+  find_sections();
+  if (block_of_run_.empty()) block_of_vertex_ = std::move(block_of);
+}
+
+void FaceClusters::order_runs(const std::vector<float>& vertices) {
+  const std::size_t last = vertices.size() / 3 - 1;
+  block_of_run_.resize(last / kRun + 1);
+  for (const std::uint32_t first : morton_order(vertices, kRun)) {
+    block_of_run_[first / kRun] = static_cast<std::uint32_t>(order_.size() / kRun);
+    for (std::uint32_t i = 0; i < kRun; ++i) {
+      order_.push_back(std::min(first + i, static_cast<std::uint32_t>(last)));
+    }
+  }
+}
+
+void FaceClusters::order_vertices(const std::vector<float>& vertices) {
+  order_ = morton_order(vertices, 1);
+  order_.resize((order_.size() + kRun - 1) / kRun * kRun, order_.back());
+}
+
+/// Sorts the faces by the block of their first vertex; counting sort keeps rising numbers.
+void FaceClusters::group(const std::vector<FaceIndices>& faces, const Numbers& block_of) {
+  const auto home = [&](const FaceIndices& face) {
+    return std::min({block_of[face[0]], block_of[face[1]], block_of[face[2]]});
+  };
+  face_begin_.assign(block_count() + 1, 0);
+  for (const FaceIndices& face : faces) ++face_begin_[home(face) + 1];
+  std::partial_sum(face_begin_.begin(), face_begin_.end(), face_begin_.begin());
+  faces_.resize(faces.size());
+  Numbers next(face_begin_.begin(), face_begin_.end() - 1);
+  for (std::uint32_t i = 0; i < faces.size(); ++i) faces_[next[home(faces[i])]++] = {faces[i], i};
+}
+
+void FaceClusters::find_blocks(const Numbers& block_of) {
+  Numbers found_for(block_count(), kNone);
+  for (std::uint32_t cluster = 0; cluster < block_count(); ++cluster) {
+    for (const Face& face : faces(cluster)) {
+      for (const std::uint32_t corner : face.corners) {
+        const std::uint32_t block = block_of[corner];
+        if (std::exchange(found_for[block], cluster) != cluster) blocks_.all.push_back(block);
+      }
+    }
+    blocks_.begin.push_back(static_cast<std::uint32_t>(blocks_.all.size()));
+  }
+}
+
+void FaceClusters::find_sections() {
+  Numbers found_for(section_count(), kNone);
+  for (std::uint32_t section = 0; section < section_count(); ++section) {
+    const std::size_t end = std::min((section + 1) * kRun, block_count());
+    for (std::size_t block = section * kRun; block < end; ++block) {
+      for (const std::uint32_t neighbour : blocks(block)) {
+        const std::uint32_t found = neighbour / kRun;
+        if (std::exchange(found_for[found], section) != section) sections_.all.push_back(found);
+      }
+    }
+    sections_.begin.push_back(static_cast<std::uint32_t>(sections_.all.size()));
+  }
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "face_motion.hpp"
+#include "organ_collision/geometry/organ/block_boxes.hpp"
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+
+namespace organ_collision {
+
+/// The surface of an organ during some share of a step, in its frame [m]: it rests, or each vertex
+/// moves linearly. A view of its shapes, which must outlive it.
+class OrganMotion {
+ public:
+  /// At rest.
+  explicit OrganMotion(const TriangleMesh& organ)
+      : before_(&organ), boxes_before_(&organ.block_boxes()), after_(&organ) {}
+  /// From `begin` to `finish`, fractions in [0, 1] of a step in which the organ moves from `before`
+  /// to `after`. Both have the same faces; `boxes_before` are of the shape `before`, in the
+  /// clusters of `after`.
+  OrganMotion(const TriangleMesh& before, const BlockBoxes& boxes_before, const TriangleMesh& after,
+              double begin, double finish)
+      : before_(&before),
+        boxes_before_(&boxes_before),
+        after_(&after),
+        begin_(begin),
+        finish_(finish) {}
+
+  bool rests() const { return before_ == after_; }
+  /// The shapes at the start and at the end of the whole step.
+  const TriangleMesh& before() const { return *before_; }
+  const BlockBoxes& boxes_before() const { return *boxes_before_; }
+  const TriangleMesh& after() const { return *after_; }
+  /// The share of the step, as fractions of it.
+  double begin() const { return begin_; }
+  double finish() const { return finish_; }
+
+  /// One face during that share.
+  FaceMotion face(const FaceIndices& corners) const;
+  /// [m] The largest coordinate, relative to `origin`, that any vertex has at any time of the step.
+  double extent(const Eigen::Vector3d& origin) const;
+
+ private:
+  const TriangleMesh* before_;
+  const BlockBoxes* boxes_before_;
+  const TriangleMesh* after_;
+  double begin_ = 0.0, finish_ = 1.0;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,47 @@
+#include "core_motion.hpp"
+
+#include <algorithm>
+
+namespace organ_collision {
+namespace {
+
+double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
+  double arm = 0.0;
+  if (motion.angle() == 0.0) return arm;
+  for (std::size_t i = 0; i < core.count; ++i) arm = std::max(arm, motion.arm(core.points[i]));
+  return arm + core.rim.col(0).norm();
+}
+
+}  // namespace
+
+CoreMotion::CoreMotion(const ConvexCore& core, const RigidMotion& motion)
+    : start_(motion.start() * core),
+      end_(motion.end() * core),
+      in_link_(core),
+      link_(&motion),
+      arm_(longest_arm(core, motion)) {}
+
+ConvexCore CoreMotion::at(double time) const {
+  if (time == 0.0) return start_;
+  if (time == 1.0) return end_;
+  if (link_) return link_->at(time) * in_link_;
+  return ShaftMotion{start_.axis(), end_.axis()}.at(time);
+}
+
+double CoreMotion::farthest_move() const {
+  if (link_) return link_->way() + arm_ * link_->angle();
+  return std::max((end_.points[0] - start_.points[0]).norm(),
+                  (end_.points[1] - start_.points[1]).norm());
+}
+
+double CoreMotion::bend(double duration) const {
+  if (!link_) return 0.0;
+  const double angle = duration * link_->angle();
+  return arm_ * angle * angle / 8.0;
+}
+
+double CoreMotion::bend(double duration, const Eigen::Vector3d& normal) const {
+  return link_ ? link_->axis().cross(normal).norm() * bend(duration) : 0.0;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,165 @@
+#include "organ_collision/geometry/tool/tool_surface.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "organ_collision/geometry/tolerances.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+using Reason = MeshError::Reason;
+
+/// Fewer faces are not worth a test of their box.
+constexpr std::uint32_t kLeafFaces = 4;
+/// So few are looked through for the highest corner faster than boxes.
+constexpr std::uint32_t kScannedFaces = 64;
+
+template <typename... Parts>
+[[noreturn]] void refuse(Reason reason, const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw MeshError(reason, message.str());
+}
+
+void check(const std::vector<Vector3d>& vertices, const std::vector<FaceIndices>& faces) {
+  if (faces.empty()) refuse(Reason::kNoTriangles, "has no triangle; at least one is needed");
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Vector3d& v = vertices[i];
+    if ((v.array().abs() <= tolerance::kFarthest).all()) continue;
+    refuse(v.allFinite() ? Reason::kTooFar : Reason::kNotFinite, "vertex ", i, " is at (", v.x(),
+           ", ", v.y(), ", ", v.z(), "); must be finite and within ", tolerance::kFarthest, " m");
+  }
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (const std::uint32_t corner : faces[i]) {
+      if (corner >= vertices.size()) {
+        refuse(Reason::kIndex, "face ", i, " names vertex ", corner, " of ", vertices.size());
+      }
+    }
+  }
+}
+
+/// Leaves out vertices that no face uses: they are no part of the surface.
+void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
+  constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> number(vertices.size(), kUnused);
+  std::vector<Vector3d> used;
+  for (FaceIndices& face : faces) {
+    for (std::uint32_t& corner : face) {
+      if (number[corner] == kUnused) {
+        number[corner] = static_cast<std::uint32_t>(used.size());
+        used.push_back(vertices[corner]);
+      }
+      corner = number[corner];
+    }
+  }
+  vertices.swap(used);
+}
+
+/// Puts faces in an order that does not depend on the caller's: by their corners.
+void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
+  const auto is_less = [&](const FaceIndices& a, const FaceIndices& b) {
+    for (std::size_t corner = 0; corner < a.size(); ++corner) {
+      const Vector3d &p = vertices[a[corner]], &q = vertices[b[corner]];
+      if (p != q) {
+        return std::lexicographical_compare(p.data(), p.data() + 3, q.data(), q.data() + 3);
+      }
+    }
+    return false;
+  };
+  std::sort(faces.begin(), faces.end(), is_less);
+}
+
+/// Axes along which points are spread most and least.
+Eigen::Matrix3d principal_axes(const std::vector<Vector3d>& points) {
+  Vector3d mean = Vector3d::Zero();
+  for (const Vector3d& point : points) mean += point / static_cast<double>(points.size());
+  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  for (const Vector3d& point : points) spread += (point - mean) * (point - mean).transpose();
+  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  return axes;
+}
+
+OrientedBox box_around(const std::vector<Vector3d>& points, const Eigen::Matrix3d& axes) {
+  Eigen::AlignedBox3d box;
+  for (const Vector3d& point : points) box.extend(Vector3d(axes.transpose() * point));
+  return {axes * box.center(), axes, 0.5 * box.sizes()};
+}
+
+double top(const OrientedBox& box, const Vector3d& direction) {
+  return direction.dot(box.center) + (direction.transpose() * box.axes).cwiseAbs() * box.half_size;
+}
+
+}  // namespace
+
+ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices> faces)
+    : vertices_(std::move(vertices)), faces_(std::move(faces)) {
+  check(vertices_, faces_);
+  sort_by_corners(vertices_, faces_);
+  drop_unused(vertices_, faces_);
+  build(0, static_cast<std::uint32_t>(faces_.size()));
+}
+
+/// Splits at the median of the faces' middles along the box's longest axis.
+void ToolSurface::build(std::uint32_t begin, std::uint32_t end) {
+  std::vector<Vector3d> corners;
+  for (std::uint32_t face = begin; face < end; ++face) {
+    for (const Vector3d& corner : triangle(face)) corners.push_back(corner);
+  }
+  const OrientedBox principal = box_around(corners, principal_axes(corners));
+  const OrientedBox aligned = box_around(corners, Eigen::Matrix3d::Identity());
+  const OrientedBox& box =
+      principal.half_size.prod() < aligned.half_size.prod() ? principal : aligned;
+  const std::size_t node = nodes_.size();
+  nodes_.push_back({box, begin, end, 0});
+  if (end - begin <= kLeafFaces) return;
+
+  Eigen::Index longest = 0;
+  box.half_size.maxCoeff(&longest);
+  const Vector3d along = box.axes.col(longest);
+  const auto place = [&](const FaceIndices& face) {
+    return along.dot(vertices_[face[0]] + vertices_[face[1]] + vertices_[face[2]]);
+  };
+  const std::uint32_t half = begin + (end - begin) / 2;
+  std::nth_element(faces_.begin() + begin, faces_.begin() + half, faces_.begin() + end,
+                   [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  build(begin, half);
+  nodes_[node].second = static_cast<std::uint32_t>(nodes_.size());
+  build(half, end);
+}
+
+double ToolSurface::height(const Vector3d& direction) const {
+  double height = -std::numeric_limits<double>::infinity();
+  raise(0, direction, height);
+  return height;
+}
+
+/// Raises `height` to that of the node's faces: the child first that may reach higher, the other
+/// where it may reach higher still.
+void ToolSurface::raise(std::uint32_t node, const Vector3d& direction, double& height) const {
+  const auto& [box, begin, end, second] = nodes_[node];
+  if (end - begin <= kScannedFaces) {
+    for (std::uint32_t face = begin; face < end; ++face) {
+      for (const std::uint32_t corner : faces_[face]) {
+        height = std::max(height, direction.dot(vertices_[corner]));
+      }
+    }
+    return;
+  }
+  const std::uint32_t first = node + 1;
+  const double first_top = top(nodes_[first].box, direction);
+  const double second_top = top(nodes_[second].box, direction);
+  const bool swap = second_top > first_top;
+  raise(swap ? second : first, direction, height);
+  // Boxes are rounded.
+  if (std::min(first_top, second_top) >= height - 1e-12 * std::abs(height)) {
+    raise(swap ? first : second, direction, height);
+  }
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "organ_collision/geometry/organ/face_clusters.hpp"
+
+namespace organ_collision {
+
+// The compiler's own vectors, as wide as every 64-bit processor has them.
+inline constexpr std::size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
+using LaneCodes = std::int32_t __attribute__((vector_size(sizeof(float) * kLanes)));
+
+/// One value for each of FaceClusters::kRun points.
+using ValueRun = std::array<Lanes, FaceClusters::kRun / kLanes>;
+using CodeRun = std::array<LaneCodes, FaceClusters::kRun / kLanes>;
+
+/// Coordinates of a run of points [m].
+struct PointRun {
+  ValueRun x, y, z;
+};
+
+/// A run of boxes; points are boxes without extent.
+struct BoxRun {
+  PointRun low, high;
+};
+
+/// `xyz(i)` points to the coordinates of point i.
+template <typename Coordinates>
+PointRun load_points(Coordinates xyz) {
+  PointRun run;
+  for (std::size_t i = 0; i < run.x.size(); ++i) {
+    const float* const a = xyz(kLanes * i);
+    const float* const b = xyz(kLanes * i + 1);
+    const float* const c = xyz(kLanes * i + 2);
+    const float* const d = xyz(kLanes * i + 3);
+    run.x[i] = Lanes{a[0], b[0], c[0], d[0]};
+    run.y[i] = Lanes{a[1], b[1], c[1], d[1]};
+    run.z[i] = Lanes{a[2], b[2], c[2], d[2]};
+  }
+  return run;
+}
+
+/// Where points that move linearly are at a fraction of their way.
+PointRun between(const PointRun& before, const PointRun& after, float fraction);
+
+/// The sum of the largest magnitudes of the coordinates of each box [m].
+ValueRun magnitude(const BoxRun& boxes);
+
+/// The greater one of each two values.
+ValueRun greater(const ValueRun& a, const ValueRun& b);
+ValueRun scaled(const ValueRun& values, float factor);
+
+}  // namespace organ_collision

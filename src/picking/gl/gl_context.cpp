@@ -1,0 +1,85 @@
+#include "gl_context.hpp"
+
+#include <GL/osmesa.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdio>
+
+#include "gl_functions.hpp"
+
+namespace organ_collision {
+namespace {
+
+// [pixel] Nothing is ever drawn into it; OSMesa wants one all the same.
+constexpr int kFramebufferSide = 4;
+
+}  // namespace
+
+struct GlContext::State {
+  OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
+  std::array<std::uint8_t, 4 * kFramebufferSide * kFramebufferSide> framebuffer;
+  GlFunctions functions;
+  std::string version;
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (context == nullptr) return;
+    release();
+    OSMesaDestroyContext(context);
+  }
+
+  bool is_current() const { return OSMesaGetCurrentContext() == context; }
+
+  void release() {
+    if (is_current()) OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
+  }
+};
+
+GlContext::GlContext() : state_(std::make_unique<State>()) {
+  if (state_->context == nullptr) {
+    throw GlError("OSMesa gives no compatibility context: install libosmesa6 (Mesa before 25.1)");
+  }
+  make_current();
+  state_->functions = load_gl_functions();
+  const GLubyte* version = state_->functions.GetString(GL_VERSION);
+  if (version == nullptr) {
+    throw GlError(
+        "OpenGL gives no version string, so its calls do nothing: another OpenGL library took "
+        "OSMesa's place; install libosmesa6 and start this process without preloading libGL");
+  }
+  state_->version = reinterpret_cast<const char*>(version);
+  // On for good: switching them costs as much as drawing a face.
+  state_->functions.EnableClientState(GL_VERTEX_ARRAY);
+  state_->functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
+}
+
+GlContext::~GlContext() = default;
+GlContext::GlContext(GlContext&&) noexcept = default;
+GlContext& GlContext::operator=(GlContext&&) noexcept = default;
+
+void GlContext::make_current() {
+  if (state_->is_current()) return;
+  if (OSMesaMakeCurrent(state_->context, state_->framebuffer.data(), GL_UNSIGNED_BYTE,
+                        kFramebufferSide, kFramebufferSide) != GL_TRUE) {
+    throw GlError("OSMesa cannot make its context current: is it current in another thread?");
+  }
+}
+
+void GlContext::release() { state_->release(); }
+
+const std::string& GlContext::version() const { return state_->version; }
+
+const GlFunctions& GlContext::functions() const { return state_->functions; }
+
+void GlContext::check(const char* where) const {
+  const GLenum error = state_->functions.GetError();
+  if (error == GL_NO_ERROR) return;
+  char code[16];
+  std::snprintf(code, sizeof code, "0x%04x", error);
+  throw GlError(std::string("OpenGL error ") + code + " in " + where);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "organ_collision/picking/gl_error.hpp"
+
+namespace organ_collision {
+
+struct GlFunctions;
+
+/// An OSMesa compatibility context without a window, its framebuffer, and the GL functions loaded
+/// from it (never linked: where libGL was loaded first, linked ones silently do nothing).
+/// Move-only. Belongs to one thread at a time. Making it, make_current and every picker leave it
+/// current in the calling thread: release it there before another thread uses or destroys it.
+class GlContext {
+ public:
+  /// Throws GlError when OSMesa gives no context, no function, or no version string.
+  GlContext();
+  ~GlContext();
+  GlContext(GlContext&&) noexcept;
+  GlContext& operator=(GlContext&&) noexcept;
+
+  /// Makes this context current in the calling thread; cheap when it already is.
+  void make_current();
+  /// Leaves the calling thread without a current context, if this one was.
+  void release();
+
+  /// GL_VERSION, as "4.5 (Compatibility Profile) Mesa 22.3.6".
+  const std::string& version() const;
+  /// The functions of this context; valid as long as it lives.
+  const GlFunctions& functions() const;
+
+  /// Throws GlError naming `where` and the error code if GL reports one.
+  void check(const char* where) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Makes a context current in the calling thread; its end releases the context, so that any thread
+/// may use or destroy it next.
+class ScopedCurrentContext {
+ public:
+  explicit ScopedCurrentContext(GlContext& context) : context_(context) { context_.make_current(); }
+  ~ScopedCurrentContext() { context_.release(); }
+  ScopedCurrentContext(const ScopedCurrentContext&) = delete;
+  ScopedCurrentContext& operator=(const ScopedCurrentContext&) = delete;
+
+ private:
+  GlContext& context_;
+};
+
+}  // namespace organ_collision

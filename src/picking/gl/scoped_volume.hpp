@@ -1,0 +1,22 @@
+#pragma once
+
+#include "gl_functions.hpp"
+#include "picking/volumes/viewing_volume.hpp"
+
+namespace organ_collision {
+
+/// Makes GL clip to a viewing volume, for vertices in its shifted coordinates; its end disables the
+/// user planes again. Relies on no earlier state.
+class ScopedVolume {
+ public:
+  ScopedVolume(const GlFunctions& gl, const ViewingVolume& volume);
+  ~ScopedVolume();
+  ScopedVolume(const ScopedVolume&) = delete;
+  ScopedVolume& operator=(const ScopedVolume&) = delete;
+
+ private:
+  const GlFunctions& gl_;
+  GLenum user_plane_count_;
+};
+
+}  // namespace organ_collision

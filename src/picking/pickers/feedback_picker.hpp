@@ -1,0 +1,26 @@
+#pragma once
+
+#include "picker.hpp"
+#include "picking/culling/draw_list.hpp"
+
+namespace organ_collision {
+
+/// Picks in GL_FEEDBACK mode: one draw call for all faces that are not plainly outside.
+class FeedbackPicker : public Picker {
+ public:
+  explicit FeedbackPicker(GlContext& context) : context_(context) {}
+
+  void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+            std::vector<Candidate>& candidates) override;
+  void pick(const PartSweep& part, const OrganMotion& organ,
+            std::vector<Candidate>& candidates) override;
+
+ private:
+  void clip(const ViewingVolume& volume, std::vector<Candidate>& candidates);
+
+  GlContext& context_;
+  DrawList draw_list_;
+  std::vector<float> buffer_ = std::vector<float>(4096);
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,144 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "camera_axes.hpp"
+#include "convex_hull.hpp"
+#include "rounding.hpp"
+#include "viewing_volume.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+// The perspective camera serves triangles of trocar and tips that are neither too thin nor too skew
+// for it; the box serves all others.
+constexpr double kMinSine = 1e-3;       // [1] of the angle at the trocar
+constexpr double kMinStep = 1e-3;       // [1] the tip's way, as a share of the axis
+constexpr double kMinForward = 0.3;     // [1] cosine between either axis and the view
+constexpr double kMinNearShare = 1e-3;  // [1] near, as a share of far
+
+// [1] A user plane that cuts less than this share of the radius off the box is not worth its cost.
+constexpr double kWorthCutting = 0.25;
+
+// Both ends of the axis before and after the leg, relative to the first trocar [m].
+struct Ends {
+  explicit Ends(const ShaftMotion& motion)
+      : origin(motion.start.trocar),
+        trocar_end(motion.end.trocar - origin),
+        tip_start(motion.start.tip - origin),
+        tip_end(motion.end.tip - origin) {}
+
+  double extent() const {
+    return std::max({trocar_end.stableNorm(), tip_start.stableNorm(), tip_end.stableNorm()});
+  }
+
+  Vector3d origin, trocar_end, tip_start, tip_end;
+};
+
+// The wedge of the paper's section 4, its sides moved outward by the radius at right angles, its
+// ends by the radius along the view. None where the triangle does not suit it, or the trocar moves.
+// `extent` [m]: the largest coordinate among motion and drawn faces.
+std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double extent,
+                                   const Rounding& rounding) {
+  const double longest = std::max(ends.tip_start.norm(), ends.tip_end.norm());
+  const Vector3d step = ends.tip_end - ends.tip_start;
+  if (!ends.trocar_end.isZero(0) || step.norm() < kMinStep * longest) return std::nullopt;
+  const Vector3d start = ends.tip_start.normalized();
+  const Vector3d end = ends.tip_end.normalized();
+  if (!(start.cross(end).norm() >= kMinSine)) return std::nullopt;
+
+  const Vector3d along = step.normalized();
+  const Eigen::Matrix3d axes = camera_axes(start - along * along.dot(start), along);
+  const Vector3d view = axes.col(2);
+  if (std::min(view.dot(start), view.dot(end)) < kMinForward) return std::nullopt;
+  const double left = axes.col(0).dot(start) / view.dot(start);
+  const double right = axes.col(0).dot(end) / view.dot(end);
+
+  // The sides meet this many radii behind the trocar, on the bisector of the angle there.
+  const Vector3d bisector = (start + end).normalized();
+  const double back = 2 / (end - start).norm();
+  // Slanting sides mix more of the depth into what is rounded.
+  const double slant = 1 + std::max(std::abs(left), std::abs(right));
+  const double reach = std::max(extent, back * radius);
+  const double grown = radius + rounding.plane * slant * reach;
+  const Vector3d eye = -bisector * back * grown;
+  const double near = -view.dot(eye) - grown;
+  const double end_of_capsule = view.dot(ends.tip_start - eye) + grown;
+  if (near < kMinNearShare * end_of_capsule) return std::nullopt;
+
+  const double far = end_of_capsule + rounding.division * reach * end_of_capsule / near;
+  ViewingVolume volume = ViewingVolume::perspective(
+      {ends.origin, eye, axes, left * near, right * near, -grown, grown, near, far});
+  volume.add_user_plane({axes.col(1), grown});
+  volume.add_user_plane({-axes.col(1), grown});
+  return volume;
+}
+
+// Camera axes of the box: z along the longer axis, x along the largest motion across it, so that
+// the hull of a resting trocar and both tips is flat in y.
+Eigen::Matrix3d box_axes(const Ends& ends) {
+  const Vector3d later = ends.tip_end - ends.trocar_end;
+  Vector3d view = later.stableNorm() > ends.tip_start.stableNorm() ? later : ends.tip_start;
+  if (view.isZero(0)) view = ends.trocar_end;
+  if (view.isZero(0)) view = Vector3d::UnitZ();
+  const Vector3d z = view.stableNormalized();
+  const Vector3d tip_step = ends.tip_end - ends.tip_start;
+  const bool tip_moves_more = (tip_step - z * z.dot(tip_step)).stableNorm() >
+                              (ends.trocar_end - z * z.dot(ends.trocar_end)).stableNorm();
+  return camera_axes(view, tip_moves_more ? tip_step : ends.trocar_end);
+}
+
+// A box around all positions of the axis, grown by the radius, and cut along the edges that their
+// hull shows from the side, each moved out by the radius.
+ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Rounding& rounding) {
+  const double grown = radius + rounding.plane * extent;
+  const Eigen::Matrix3d axes = box_axes(ends);
+  Eigen::Matrix<double, 3, 4> points;
+  points << Vector3d::Zero(), ends.trocar_end, ends.tip_start, ends.tip_end;
+  points = (axes.transpose() * points).eval();
+  const Vector3d low = points.rowwise().minCoeff().array() - grown;
+  const Vector3d high = points.rowwise().maxCoeff().array() + grown;
+  ViewingVolume volume =
+      ViewingVolume::orthographic({ends.origin, Vector3d::Zero(), axes, low.x(), high.x(), low.y(),
+                                   high.y(), low.z(), high.z()});
+
+  std::array<Vector2d, 4> outline;
+  for (int i = 0; i < 4; ++i) outline[i] = {points(0, i), points(2, i)};
+  const ConvexHull hull = convex_hull(outline);
+  for (std::size_t i = 0; i < hull.count && hull.count > 1; ++i) {
+    const Vector2d edge = hull.corners[(i + 1) % hull.count] - hull.corners[i];
+    const Vector3d normal = Vector3d(edge.y(), 0, -edge.x()).stableNormalized();
+    const double offset = (normal.transpose() * points).maxCoeff() + grown;
+    const double box_offset = normal.cwiseProduct(low).cwiseMax(normal.cwiseProduct(high)).sum();
+    if (box_offset - offset > kWorthCutting * radius) {
+      volume.add_user_plane({axes * normal, offset});
+    }
+  }
+  return volume;
+}
+
+ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double extent,
+                           const Rounding& rounding) {
+  const Ends ends(motion);
+  const double reach = std::max(extent, ends.extent() + radius);
+  if (const auto volume = wedge(ends, radius, reach, rounding)) return *volume;
+  return cut_box(ends, radius, reach, rounding);
+}
+
+}  // namespace
+
+ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
+                                  const VolumeMargin& margin) {
+  return swept_volume(motion, radius + margin.motion, margin.extent, kCovered);
+}
+
+ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
+  return swept_volume(motion, radius, 0.0, kIgnored);
+}
+
+}  // namespace organ_collision

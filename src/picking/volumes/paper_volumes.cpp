@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <optional>
+#include <sstream>
+
+#include "camera_axes.hpp"
+#include "viewing_volume.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+// [1] A step shorter than this share of the axis or of the radius is no motion; a trocar nearer
+// than this to the line of the tips lies on it. Beyond it the hexahedron has no shape that could be
+// computed.
+constexpr double kFlat = 1e-9;
+
+// [m], [1] Shafts that are shorter, or thinner, or thinner than this share of their length leave
+// nothing of their volume but the rounding of 32-bit clipping.
+constexpr double kLeastSize = 1e-9;
+constexpr double kThinnest = 1e-6;
+
+void check_size(double length, double radius) {
+  std::ostringstream message;
+  const double thinnest = std::max(kThinnest * length, kLeastSize);
+  if (!(length >= kLeastSize)) {
+    message << "trocar and tip are " << length << " m apart; the paper's volumes need at least "
+            << kLeastSize << " m";
+  } else if (!(radius >= thinnest)) {
+    message << "radius is " << radius << " m; the paper's volumes of a shaft of " << length
+            << " m need at least " << thinnest << " m";
+  } else {
+    return;
+  }
+  throw VolumeError(message.str());
+}
+
+// The hexahedron of figure 4, seen from the trocar along z, with x along the tip's motion.
+struct Hexahedron {
+  Eigen::Matrix3d axes;
+  double height;      // [m] from the trocar to the line of the tips, along z
+  double start, end;  // [m] the previous and current tip along x
+  double travel() const { return end - start; }
+};
+
+// Follows section 4 of the paper; none without motion, or with the trocar on the line of the tips.
+std::optional<Hexahedron> hexahedron(const ShaftMotion& motion, double radius) {
+  const Vector3d previous = motion.start.tip - motion.start.trocar;
+  const Vector3d current = motion.end.tip - motion.start.trocar;
+  const double length = std::max(previous.norm(), current.norm());
+  check_size(length, radius);
+  const double flat = kFlat * std::max(length, radius);
+  const Vector3d step = current - previous;
+  if (step.norm() <= flat) return std::nullopt;
+  const Vector3d along = step.normalized();
+  const Vector3d away = previous - along * along.dot(previous);
+  if (away.norm() <= flat) return std::nullopt;
+  const Eigen::Matrix3d axes = camera_axes(away, along);
+  return Hexahedron{axes, axes.col(2).dot(previous), axes.col(0).dot(previous),
+                    axes.col(0).dot(current)};
+}
+
+ViewingVolume static_to_farther_tip(const ShaftMotion& motion, double radius) {
+  const Vector3d& trocar = motion.start.trocar;
+  const bool went_back = (motion.start.tip - trocar).norm() > (motion.end.tip - trocar).norm();
+  return paper_static_volume({trocar, went_back ? motion.start.tip : motion.end.tip}, radius);
+}
+
+}  // namespace
+
+ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius) {
+  const Vector3d view = axis.tip - axis.trocar;
+  check_size(view.norm(), radius);
+  return ViewingVolume::orthographic({axis.trocar, Vector3d::Zero(), camera_axes(view), -radius,
+                                      radius, -radius, radius, 0, view.norm()});
+}
+
+ViewingVolume paper_swept_volume(const ShaftMotion& motion, double radius) {
+  const auto solid = hexahedron(motion, radius);
+  if (!solid) return static_to_farther_tip(motion, radius);
+  // Thales: the sides meet behind the trocar at this share of the distance to the tips.
+  const double share = 2 * radius / solid->travel();
+  const double near = share * solid->height;
+  const double left = share * solid->start;
+  const Vector3d eye = solid->axes * Vector3d(-radius - left, 0, -near);
+  ViewingVolume volume =
+      ViewingVolume::perspective({motion.start.trocar, eye, solid->axes, left, left + 2 * radius,
+                                  -radius, radius, near, near + solid->height});
+  const Vector3d y = solid->axes.col(1);
+  volume.add_user_plane({y, radius});
+  volume.add_user_plane({-y, radius});
+  return volume;
+}
+
+ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius) {
+  const auto solid = hexahedron(motion, radius);
+  if (!solid) return static_to_farther_tip(motion, radius);
+  ViewingVolume volume = ViewingVolume::orthographic(
+      {motion.start.trocar, Vector3d::Zero(), solid->axes, std::min(0.0, solid->start) - radius,
+       std::max(0.0, solid->end) + radius, -radius, radius, 0, solid->height});
+  // A side runs from (-+radius, 0) to (tip -+ radius, height) in x and z.
+  const auto add_side = [&](double tip, double outward) {
+    const Vector3d normal = solid->axes * (outward * Vector3d(solid->height, 0, -tip)).normalized();
+    volume.add_user_plane({normal, outward * radius * normal.dot(solid->axes.col(0))});
+  };
+  add_side(solid->start, -1);
+  add_side(solid->end, 1);
+  return volume;
+}
+
+}  // namespace organ_collision

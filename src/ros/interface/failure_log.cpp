@@ -1,0 +1,29 @@
+#include "failure_log.hpp"
+
+#include <ros/console.h>
+
+#include "plain_text.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr std::chrono::seconds kLogPeriod(1);
+
+}  // namespace
+
+void FailureLog::add(const std::string& reason, const std::string& message, Time now) {
+  Entry& entry = entries_[reason];
+  ++entry.count;
+  ++entry.not_yet_reported;
+  entry.latest = plain_text(message, kLongestMessage);
+  if (entry.count > 1 && now - entry.logged < kLogPeriod) return;
+  entry.logged = now;
+  ROS_WARN("%s: %s (%lu so far)", reason.c_str(), entry.latest.c_str(),
+           static_cast<unsigned long>(entry.count));
+}
+
+void FailureLog::reported() {
+  for (auto& [reason, entry] : entries_) entry.not_yet_reported = 0;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,87 @@
+#include "plain_text.hpp"
+
+#include <string_view>
+
+namespace organ_collision {
+namespace {
+
+/// [bytes] Room for the note at the end of a text that is cut.
+constexpr std::size_t kNote = 40;
+
+struct ByteRange {
+  unsigned char first, last;
+
+  bool contains(unsigned char byte) const { return first <= byte && byte <= last; }
+};
+
+/// The third and the fourth byte of a character, and mostly the second.
+constexpr ByteRange kContinuation{0x80, 0xBF};
+
+/// What may follow a character's first byte: the Unicode Standard's table 3-7. It leaves out forms
+/// that are longer than they need be, surrogates, and what is beyond U+10FFFF.
+ByteRange second_bytes(unsigned char first) {
+  switch (first) {
+    case 0xE0:
+      return {0xA0, 0xBF};
+    case 0xED:
+      return {0x80, 0x9F};
+    case 0xF0:
+      return {0x90, 0xBF};
+    case 0xF4:
+      return {0x80, 0x8F};
+    default:
+      return kContinuation;
+  }
+}
+
+/// [bytes] Of the character that the text, not empty, begins with; 0: it is no UTF-8.
+std::size_t first_character(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  if (first < 0xC2 || first > 0xF4) return 0;
+  const std::size_t size = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
+  if (text.size() < size || !second_bytes(first).contains(byte(1))) return 0;
+  for (std::size_t i = 2; i < size; ++i) {
+    if (!kContinuation.contains(byte(i))) return 0;
+  }
+  return size;
+}
+
+/// C0, C1 or DEL.
+bool is_control(std::string_view character) {
+  const auto last = static_cast<unsigned char>(character.back());
+  if (character.size() == 1) return last < 0x20 || last == 0x7F;
+  return character.size() == 2 && character.front() == '\xC2' && last < 0xA0;
+}
+
+}  // namespace
+
+std::string plain_text(const std::string& text, std::size_t most) {
+  const std::size_t room = text.size() <= most ? most : most - kNote;
+  std::string plain;
+  std::string_view rest = text;
+  while (!rest.empty()) {
+    const std::size_t size = first_character(rest);
+    const std::string_view character = rest.substr(0, size);
+    const std::string_view shown = size == 0 ? "?" : is_control(character) ? " " : character;
+    if (plain.size() + shown.size() > room) break;
+    plain += shown;
+    rest.remove_prefix(size == 0 ? 1 : size);
+  }
+  if (!rest.empty()) plain += "... (" + std::to_string(rest.size()) + " more bytes)";
+  return plain;
+}
+
+std::string name_fault(const std::string& name) {
+  const std::string shown = plain_text(name, kLongestName);
+  if (shown == name) return {};
+  const std::string legal = "; a name must be UTF-8 without control characters, of at most " +
+                            std::to_string(kLongestName) + " bytes";
+  const std::string fault = name.size() > kLongestName
+                                ? "has " + std::to_string(name.size()) + " bytes"
+                                : "has control characters, or bytes that are no UTF-8";
+  return "'" + shown + "' " + fault + legal;
+}
+
+}  // namespace organ_collision

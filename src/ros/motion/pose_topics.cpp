@@ -1,0 +1,140 @@
+#include "pose_topics.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+#include "organ_collision/geometry/tolerances.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
+
+namespace organ_collision {
+namespace {
+
+using geometry_msgs::PoseStamped;
+
+/// Poses that wait; what is older is dropped, and the sweep goes straight across.
+constexpr std::uint32_t kQueue = 1000;
+/// [1] Quaternions are normalised if they are this near to length 1.
+constexpr double kUnit = 1e-3;
+/// [s] As long as TF keeps transforms: one from farther ahead would drop all others.
+constexpr double kAhead = 10.0;
+
+/// What is wrong with a pose; empty: nothing.
+std::string fault(const PoseStamped& pose) {
+  const auto& p = pose.pose.position;
+  const auto& q = pose.pose.orientation;
+  std::ostringstream text;
+  if (tf_frame(pose.header.frame_id).empty()) {
+    text << "has no frame: header.frame_id is empty";
+  } else if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
+    text << "is in the frame " << wrong;
+  } else if (!((Eigen::Array3d(p.x, p.y, p.z).abs() <= tolerance::kFarthest).all())) {
+    text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite and within "
+         << tolerance::kFarthest << " m";
+  } else if (pose.header.stamp.toSec() > ros::Time::now().toSec() + kAhead) {
+    text << "is of " << pose.header.stamp << ", more than " << kAhead
+         << " s from now; the sender needs the same clock";
+  } else if (const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
+             !(std::abs(length - 1.0) <= kUnit)) {
+    text << "has the orientation (" << q.x << ", " << q.y << ", " << q.z << ", " << q.w
+         << "); must be a quaternion of length 1";
+  }
+  return text.str();
+}
+
+geometry_msgs::TransformStamped to_transform(const PoseStamped& pose, const std::string& frame) {
+  const auto& q = pose.pose.orientation;
+  const Eigen::Quaterniond rotation = Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+  geometry_msgs::TransformStamped transform;
+  transform.header.stamp = pose.header.stamp;
+  transform.header.frame_id = tf_frame(pose.header.frame_id);
+  transform.child_frame_id = frame;
+  transform.transform.translation.x = pose.pose.position.x;
+  transform.transform.translation.y = pose.pose.position.y;
+  transform.transform.translation.z = pose.pose.position.z;
+  transform.transform.rotation.x = rotation.x();
+  transform.transform.rotation.y = rotation.y();
+  transform.transform.rotation.z = rotation.z();
+  transform.transform.rotation.w = rotation.w();
+  return transform;
+}
+
+ros::Time after(ros::Time time) {
+  ros::Time next;
+  return time.isZero() ? time : next.fromNSec(time.toNSec() + 1);
+}
+
+}  // namespace
+
+PoseTopics::PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks)
+    : sinks_(sinks) {
+  for (const ToolParameters& tool : tools) streams_.push_back({tool, {}, {}, {}});
+}
+
+void PoseTopics::subscribe(ros::NodeHandle node) {
+  const auto subscribe_to = [&](const std::string& topic, auto take, std::size_t tool) {
+    if (topic.empty()) return;
+    subscribers_.push_back(node.subscribe<PoseStamped>(
+        topic, kQueue,
+        [=](const geometry_msgs::PoseStampedConstPtr& pose) { (this->*take)(tool, *pose); }, {},
+        ros::TransportHints().tcpNoDelay()));
+  };
+  for (std::size_t tool = 0; tool < streams_.size(); ++tool) {
+    subscribe_to(streams_[tool].tool.tip_pose_topic, &PoseTopics::take_tip, tool);
+    subscribe_to(streams_[tool].tool.base_pose_topic, &PoseTopics::take_base, tool);
+  }
+}
+
+void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
+  Stream& stream = streams_[tool];
+  if (!check(pose, stream.tool.tip_frame)) return;
+  PoseStamped stamped = pose;
+  ros::Time& stamp = stamped.header.stamp;
+  // Several may come within a tick of simulated time; the last one counts as well.
+  if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
+  if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {
+    return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
+  }
+  stream.latest = std::max(stream.latest, stamp);
+  if (const std::string frame = tf_frame(pose.header.frame_id); frame != stream.frame) {
+    stream.frame = frame;
+    place_base(stream);
+  }
+  sinks_.arrived(tool);
+}
+
+void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {
+  Stream& stream = streams_[tool];
+  if (!check(pose, stream.frame)) return;
+  stream.base = pose;
+  place_base(stream);
+}
+
+/// Bases are sent once, or seldom: they rest until they are sent again.
+void PoseTopics::place_base(const Stream& stream) {
+  if (!stream.base || stream.frame.empty() || !check(*stream.base, stream.frame)) return;
+  sinks_.transforms.add(to_transform(*stream.base, stream.frame), "pose", true);
+}
+
+void PoseTopics::forget_stamps() {
+  for (Stream& stream : streams_) stream.latest = ros::Time();
+}
+
+/// False: it cannot be the pose of `frame`, and is counted.
+bool PoseTopics::check(const PoseStamped& pose, const std::string& frame) {
+  const std::string wrong = tf_frame(pose.header.frame_id) == frame && !frame.empty()
+                                ? "is in its own frame"
+                                : fault(pose);
+  if (!wrong.empty()) reject(frame, wrong);
+  return wrong.empty();
+}
+
+void PoseTopics::reject(const std::string& frame, const std::string& wrong) {
+  const std::string of = frame.empty() ? "a base" : "'" + frame + "'";
+  sinks_.rejected.add("pose", "pose of " + of + " " + wrong, std::chrono::steady_clock::now());
+}
+
+}  // namespace organ_collision

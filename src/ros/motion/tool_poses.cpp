@@ -1,0 +1,173 @@
+#include "tool_poses.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include "organ_collision/geometry/tolerances.hpp"
+#include "path_builder.hpp"
+#include "path_simplification.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// For each pose that is read, TF looks through all that it was told since: a step of many seconds
+/// would take most of one.
+constexpr std::size_t kMostRead = 1000;
+
+/// The times that some transforms are of, without those of any time.
+struct StampRange {
+  ros::Time earliest, latest;  ///< zero: all are of any time
+
+  void add(ros::Time stamp) {
+    if (stamp.isZero()) return;
+    earliest = earliest.isZero() ? stamp : std::min(earliest, stamp);
+    latest = std::max(latest, stamp);
+  }
+};
+
+std::string without_link(const Tool& tool, std::size_t link, const std::string& why_not) {
+  const std::string& joint = tool.joints[link];
+  return "link '" + tool.links[link].name + "' of tool '" + tool.parameters.name + "'" +
+         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": " + why_not;
+}
+
+bool is_near(const Eigen::Vector3d& point) {
+  return (point.array().abs() <= tolerance::kFarthest).all();
+}
+
+bool is_near(const ToolPose& pose) {
+  return is_near(pose.axis.trocar) && is_near(pose.axis.tip) &&
+         std::all_of(pose.links.begin(), pose.links.end(),
+                     [](const auto& link) { return is_near(link.translation()); });
+}
+
+/// Whole nanoseconds: ros::Duration would overflow at absurd stamps.
+std::int64_t elapsed(ros::Time from, ros::Time to) {
+  return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
+}
+double nanoseconds(ros::Time from, ros::Time to) { return static_cast<double>(elapsed(from, to)); }
+
+double seconds(ros::Time from, ros::Time to) { return 1e-9 * nanoseconds(from, to); }
+
+/// How many samples at this distance lie between two times.
+double samples_between(double gap_sec, double spacing_sec) {
+  return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
+}
+
+/// Leaves at most `most` of them, spread evenly. How many it took away.
+std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
+  const std::size_t size = times.size();
+  if (size <= most) return 0;
+  for (std::size_t i = 0; i < most; ++i) times[i] = times[i * size / most];
+  times.resize(most);
+  return size - most;
+}
+
+/// Adds so many times, evenly spaced between two.
+void add_even_times(ros::Time from, ros::Time to, std::size_t count,
+                    std::vector<ros::Time>& times) {
+  const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
+  std::uint64_t time = from.toNSec();
+  for (std::size_t i = 0; i < count; ++i) {
+    times.emplace_back().fromNSec(time += static_cast<std::uint64_t>(step));
+  }
+}
+
+/// The frames that say where a tool is.
+TransformBuffer::Frames frames_of(const Tool& tool) {
+  const ToolParameters& parameters = tool.parameters;
+  TransformBuffer::Frames frames;
+  if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
+  for (const Link& link : tool.links) frames.push_back(parameters.link_frame(link.name));
+  return frames;
+}
+
+}  // namespace
+
+void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time) {
+  buffer_.set_answered(organ_frame, frames_of(tool), time);
+}
+
+/// All times that TF was told of, and samples in between where those are farther apart than
+/// sample_sec. `cut`: how many samples there would be more without samples_max.
+std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
+                                               ros::Time from, ros::Time to,
+                                               std::size_t& cut) const {
+  std::vector<ros::Time> told = buffer_.stamps_between(organ_frame, frames_of(tool), from, to);
+  const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
+  cut = thin_out(told, std::max(kMostRead, samples_max));
+  if (cut > 0) return told;
+  told.push_back(to);
+  const double spacing = std::max(sampling_.sample_sec, seconds(from, to) / sampling_.samples_max);
+  std::vector<ros::Time> times;
+  double wanted = 0.0, sampled = 0.0;
+  for (const ros::Time stamp : told) {
+    const double gap = seconds(from, stamp);
+    const double count = samples_between(gap, spacing);
+    add_even_times(from, stamp, static_cast<std::size_t>(count), times);
+    times.push_back(stamp);
+    wanted += samples_between(gap, sampling_.sample_sec);
+    sampled += count;
+    from = stamp;
+  }
+  times.pop_back();
+  cut = static_cast<std::size_t>(wanted - sampled);
+  return times;
+}
+
+Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame,
+                                 ros::Time time) const {
+  const ToolParameters& parameters = tool.parameters;
+  ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+  StampRange stamps;
+  const auto look_up_frame = [&](const std::string& frame) {
+    auto lookup = look_up(buffer_, organ_frame, frame, time);
+    if (lookup.found) stamps.add(lookup.found->stamp);
+    return lookup;
+  };
+  if (parameters.has_shaft()) {
+    const auto trocar = look_up_frame(parameters.trocar_frame);
+    if (!trocar.found) return {std::nullopt, trocar.why_not};
+    const auto tip = look_up_frame(parameters.tip_frame);
+    if (!tip.found) return {std::nullopt, unless_silent(parameters, tip.why_not)};
+    pose.axis = {trocar.found->value.translation(), tip.found->value.translation()};
+  }
+  pose.links.reserve(tool.links.size());
+  for (std::size_t i = 0; i < tool.links.size(); ++i) {
+    const auto link = look_up_frame(parameters.link_frame(tool.links[i].name));
+    if (!link.found) {
+      return {std::nullopt, unless_silent(parameters, without_link(tool, i, link.why_not))};
+    }
+    pose.links.push_back(link.found->value);
+  }
+  // Each was the latest of its own; a tool is made of parts at the same time.
+  if (stamps.earliest != stamps.latest) return this->pose(tool, organ_frame, stamps.earliest);
+  return {{{std::move(pose), stamps.earliest}}, ""};
+}
+
+std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::string& why_not) const {
+  const bool silent = !tool.tip_pose_topic.empty() && !buffer_.has_heard(tool.tip_frame);
+  return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
+}
+
+SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
+                            const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
+  const double duration = nanoseconds(from.stamp, to.stamp);
+  const PathDeviation deviation(tool.links);
+  PathBuilder path(deviation, from.value);
+  std::size_t samples_cut = 0;
+  for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, samples_cut)) {
+    // One that cannot be evaluated is no reason to refuse all others.
+    if (const auto between = pose(tool, organ_frame, time);
+        between.found && is_near(between.found->value)) {
+      path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
+    }
+  }
+  path.add(1.0, to.value);
+  CutPath cut = cut_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
+  return {std::move(cut.path), samples_cut + cut.cut, cut.deviation};
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,117 @@
+#include "transform_buffer.hpp"
+
+#include <algorithm>
+
+#include "ros/interface/conversions.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// Frames change their parents seldom: an instrument that is handed over, a tree that is mended.
+constexpr std::size_t kMostParents = 8;
+
+bool contains(const std::vector<std::size_t>& frames, std::size_t frame) {
+  return std::find(frames.begin(), frames.end(), frame) != frames.end();
+}
+
+void insert(std::vector<std::size_t>& frames, std::size_t frame) {
+  if (!contains(frames, frame)) frames.push_back(frame);
+}
+
+}  // namespace
+
+bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
+                          const std::string& authority, bool resting) {
+  const ros::Time stamp = transform.header.stamp;
+  const bool taken = setTransform(transform, authority, resting);
+  const auto known = indices_.find(tf_frame(transform.child_frame_id));
+  if (!resting && known != indices_.end()) {
+    const Frame& frame = frames_[known->second];
+    // Sent again, it says nothing new.
+    if (stamp <= frame.answered && !frame.stamps.contains(stamp)) ++late_;
+  }
+  if (!taken) return false;
+  const std::size_t parent = index_of(tf_frame(transform.header.frame_id));
+  Frame& frame = frames_[index_of(tf_frame(transform.child_frame_id))];
+  if (!resting) frame.stamps.add(stamp);
+  insert(frame.parents, parent);
+  if (frame.parents.size() > kMostParents) frame.parents.erase(frame.parents.begin());
+  return true;
+}
+
+void TransformBuffer::clear() {
+  BufferCore::clear();
+  for (Frame& frame : frames_) {
+    frame.stamps.clear();
+    frame.answered = ros::Time();
+  }
+}
+
+bool TransformBuffer::has_heard(const std::string& frame) const {
+  const auto known = indices_.find(frame);
+  return known != indices_.end() && !frames_[known->second].stamps.empty();
+}
+
+std::vector<ros::Time> TransformBuffer::stamps_between(const std::string& target,
+                                                       const Frames& sources, ros::Time from,
+                                                       ros::Time to) const {
+  std::vector<ros::Time> stamps;
+  if (to <= from) return stamps;
+  for (const std::size_t frame : chain(target, sources)) {
+    frames_[frame].stamps.append_between(from, to, stamps);
+  }
+  std::sort(stamps.begin(), stamps.end());
+  stamps.erase(std::unique(stamps.begin(), stamps.end()), stamps.end());
+  return stamps;
+}
+
+void TransformBuffer::set_answered(const std::string& target, const Frames& sources,
+                                   ros::Time stamp) {
+  for (const std::size_t frame : chain(target, sources)) {
+    frames_[frame].answered = std::max(frames_[frame].answered, stamp);
+  }
+}
+
+std::size_t TransformBuffer::index_of(const std::string& frame) {
+  const auto [known, is_new] = indices_.try_emplace(frame, frames_.size());
+  if (is_new) frames_.push_back({StampRecord(getCacheLength()), {}, {}});
+  return known->second;
+}
+
+/// The frames whose transforms place any of `sources` in the target frame. Where one of them
+/// changed its parent lately, others above it may be among them.
+TransformBuffer::Indices TransformBuffer::chain(const std::string& target,
+                                                const Frames& sources) const {
+  const Indices above_target = upward(target);
+  Indices found;
+  for (const std::string& source : sources) {
+    const Indices above_source = upward(source);
+    const bool is_tree = is_line(above_target) && is_line(above_source);
+    for (const std::size_t frame : above_source) {
+      if (!is_tree || !contains(above_target, frame)) insert(found, frame);
+    }
+    for (const std::size_t frame : above_target) {
+      if (!is_tree || !contains(above_source, frame)) insert(found, frame);
+    }
+  }
+  return found;
+}
+
+/// The frame and all above it, each once, by any parent that they had lately.
+TransformBuffer::Indices TransformBuffer::upward(const std::string& frame) const {
+  Indices found;
+  if (const auto known = indices_.find(frame); known != indices_.end())
+    insert(found, known->second);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    for (const std::size_t parent : frames_[found[i]].parents) insert(found, parent);
+  }
+  return found;
+}
+
+/// Whether each of these frames has had one parent only.
+bool TransformBuffer::is_line(const Indices& frames) const {
+  return std::all_of(frames.begin(), frames.end(),
+                     [&](std::size_t frame) { return frames_[frame].parents.size() <= 1; });
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,34 @@
+#include "deformable_organ.hpp"
+
+#include <algorithm>
+
+namespace organ_collision {
+
+DeformableOrgan::DeformableOrgan(std::string name, std::string frame, TriangleMesh mesh,
+                                 ros::Time stamp, ros::Time received)
+    : name_(std::move(name)), frame_(std::move(frame)) {
+  replace(std::move(mesh), stamp, received);
+}
+
+void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time received) {
+  const std::shared_ptr<TriangleMesh> shape = unused_shape();
+  shape->move_vertices(std::move(vertices));
+  previous_ = std::move(latest_);
+  latest_ = {shape, stamp, received};
+}
+
+void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time received) {
+  shapes_ = {std::make_shared<TriangleMesh>(std::move(mesh))};
+  previous_ = {};
+  latest_ = {shapes_.front(), stamp, received};
+}
+
+std::shared_ptr<TriangleMesh> DeformableOrgan::unused_shape() {
+  const auto unused = std::find_if(shapes_.begin(), shapes_.end(),
+                                   [](const auto& shape) { return shape.use_count() == 1; });
+  if (unused != shapes_.end()) return *unused;
+  shapes_.push_back(std::make_shared<TriangleMesh>(*latest_.mesh));
+  return shapes_.back();
+}
+
+}  // namespace organ_collision

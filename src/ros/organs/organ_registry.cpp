@@ -1,0 +1,202 @@
+#include "organ_registry.hpp"
+
+#include <organ_collision/ContactArray.h>
+
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/spelling.hpp"
+
+namespace organ_collision {
+namespace {
+
+std::string quoted(const std::string& name) { return "'" + name + "'"; }
+
+[[noreturn]] void refuse(const std::string& reason, const std::string& message) {
+  throw Rejection(ContactArray::INVALID_REQUEST, reason, message);
+}
+
+std::string reason_of(const MeshError& error) {
+  switch (error.reason()) {
+    case MeshError::Reason::kSize:
+      return "wrong size";
+    case MeshError::Reason::kIndex:
+      return "index out of range";
+    case MeshError::Reason::kNotFinite:
+      return "not finite";
+    case MeshError::Reason::kTooFar:
+      return "too far";
+    case MeshError::Reason::kNoTriangles:
+      return "no triangles";
+    case MeshError::Reason::kTooManyFaces:
+      return "too many faces";
+    case MeshError::Reason::kTooManyVertices:
+      return "too many vertices";
+  }
+  return "invalid mesh";
+}
+
+/// Of what is being thrown, the Rejection. `named`: which message it is about.
+[[noreturn]] void reject_thrown(const std::string& named) {
+  try {
+    throw;
+  } catch (const Rejection&) {
+    throw;
+  } catch (const MeshError& error) {
+    refuse(reason_of(error), named + ": " + error.what());
+  } catch (const std::exception& error) {  // Above all, that memory is short.
+    refuse("not made", named + " could not be made: " + error.what());
+  }
+}
+
+template <typename Message>
+SharedVertices vertices_of(const boost::shared_ptr<const Message>& message) {
+  return {&message->vertices, [message](const void*) {}};
+}
+
+bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
+  if (triangles.size() != 3 * mesh.face_count()) return false;
+  const std::uint32_t* next = triangles.data();
+  for (const FaceIndices& face : mesh.faces()) {
+    if (face[0] != next[0] || face[1] != next[1] || face[2] != next[2]) return false;
+    next += 3;
+  }
+  return true;
+}
+
+bool has_new_topology(const DeformableOrgan& organ, const OrganMesh& message) {
+  return message.topology != organ.latest().mesh->topology();
+}
+
+}  // namespace
+
+TriangleMesh OrganRegistry::make(const OrganMeshConstPtr& message) const {
+  return {vertices_of(message), message->triangles, message->topology, limits_};
+}
+
+bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connection) const {
+  const auto known = organs_.find(message.organ);
+  return known == organs_.end() || has_new_topology(known->second, message) ||
+         is_another_organ(known->second, message, connection);
+}
+
+/// Under the number that the organ has.
+bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
+                                     const Connection& connection) const {
+  const auto known = connections_.find(organ.name());
+  if (known != connections_.end() && known->second.contains(connection)) return false;
+  const TriangleMesh& latest = *organ.latest().mesh;
+  return message.vertices.size() != latest.vertices().size() ||
+         !has_triangles(latest, message.triangles);
+}
+
+OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connection& connection,
+                                 ros::Time now, const std::function<TriangleMesh()>& made) {
+  const OrganMesh& message = *pointer;
+  if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
+  check_name("organ", message.organ);
+  if (message.vertices.empty() && message.triangles.empty()) {
+    organs_.erase(message.organ);
+    connections_.erase(message.organ);
+    without_mesh_.insert(message.organ);
+    return OrganChange::kRemoved;
+  }
+  try {
+    const std::string frame = tf_frame(message.header.frame_id);
+    if (frame.empty()) {
+      refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
+    }
+    check_name("header.frame_id", frame);
+    const OrganChange change = apply_checked(pointer, connection, frame, now, made);
+    connections_[message.organ].add(connection);
+    without_mesh_.erase(message.organ);
+    return change;
+  } catch (...) {
+    if (organs_.count(message.organ) == 0) without_mesh_.insert(message.organ);
+    throw;
+  }
+}
+
+OrganChange OrganRegistry::apply_checked(const OrganMeshConstPtr& pointer,
+                                         const Connection& connection, const std::string& frame,
+                                         ros::Time now, const std::function<TriangleMesh()>& made) {
+  const OrganMesh& message = *pointer;
+  const ros::Time stamp = message.header.stamp;
+  const auto known = organs_.find(message.organ);
+  try {
+    if (known == organs_.end()) {
+      organs_.emplace(message.organ, DeformableOrgan(message.organ, frame, made(), stamp, now));
+      return OrganChange::kShape;
+    }
+    DeformableOrgan& organ = known->second;
+    OrganChange change = OrganChange::kShape;
+    if (has_new_topology(organ, message)) {
+      organ.replace(made(), stamp, now);
+    } else if (is_another_organ(organ, message, connection)) {
+      organ.replace(made(), stamp, now);
+      change = OrganChange::kOrgan;
+    } else if (has_triangles(*organ.latest().mesh, message.triangles)) {
+      organ.move(vertices_of(pointer), stamp, now);
+    } else {
+      refuse("same topology, other triangles",
+             "organ " + quoted(message.organ) + " already has other triangles of topology " +
+                 std::to_string(message.topology) +
+                 "; for new triangles raise `topology`, or call the service reset first");
+    }
+    if (frame == organ.frame()) return change;
+    organ.set_frame(frame);
+    organ.forget_previous();
+    return change == OrganChange::kShape ? OrganChange::kFrame : change;
+  } catch (...) {
+    reject_thrown("mesh of organ " + quoted(message.organ));
+  }
+}
+
+OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time now) {
+  const OrganVertices& message = *pointer;
+  if (message.organ.empty()) refuse("empty name", "organ vertices without a name in `organ`");
+  check_name("organ", message.organ);
+  at(message.organ);
+  DeformableOrgan& organ = organs_.at(message.organ);
+  const std::string named = "vertices of organ " + quoted(message.organ);
+  const std::string frame = tf_frame(message.header.frame_id);
+  check_name("header.frame_id", frame);
+  if (frame != organ.frame()) {
+    refuse(frame.empty() ? "empty frame" : "other frame",
+           named + ": header.frame_id is " + quoted(frame) + "; must be that of its mesh, " +
+               quoted(organ.frame()));
+  }
+  const std::uint32_t topology = organ.latest().mesh->topology();
+  if (message.topology != topology) {
+    refuse("other topology", named + ": topology is " + std::to_string(message.topology) +
+                                 "; the mesh has " + std::to_string(topology));
+  }
+  try {
+    organ.move(vertices_of(pointer), message.header.stamp, now);
+  } catch (...) {
+    reject_thrown(named);
+  }
+  return OrganChange::kShape;
+}
+
+const DeformableOrgan& OrganRegistry::at(const std::string& name) const {
+  const auto organ = organs_.find(name);
+  if (organ != organs_.end()) return organ->second;
+  if (without_mesh_.count(name) > 0) {
+    throw Rejection(ContactArray::NO_MESH, "organ without mesh",
+                    "organ " + quoted(name) + " has no valid mesh; send one on organ_mesh");
+  }
+  throw Rejection(ContactArray::UNKNOWN_ORGAN, "unknown organ",
+                  "organ " + quoted(name) + " is unknown; " + known_organs());
+}
+
+void OrganRegistry::forget_previous_shapes() {
+  for (auto& [name, organ] : organs_) organ.forget_previous();
+}
+
+std::string OrganRegistry::known_organs() const {
+  if (organs_.empty()) return "no organ is known yet";
+  std::vector<std::string> names;
+  for (const auto& [name, organ] : organs_) names.push_back(quoted(name));
+  return "known are " + listed(names);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,179 @@
+#include "node_parameters.hpp"
+
+#include <ros/names.h>
+
+#include <initializer_list>
+#include <limits>
+
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/conversions.hpp"
+
+namespace organ_collision {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+/// Face numbers travel through GL as 32-bit floats, exact up to here.
+constexpr double kMostFaces = 1 << 24;
+
+/// [bytes] roscpp gives up on larger messages.
+constexpr double kMostMessageBytes = 1e9;
+
+const NumberRange kNotNegative{0.0, kUnlimited};
+const NumberRange kPositive{0.0, kUnlimited, false};
+
+const std::string kShaft = "trocar_frame, tip_frame and radius";
+
+std::string frame(const ParameterGroup& tool, const char* name) {
+  std::string frame = tf_frame(tool.text(name));
+  if (frame.empty()) tool.refuse(name, "must be the name of a TF frame");
+  tool.check_name(name, frame);
+  return frame;
+}
+
+/// The name of a topic; empty where there is none.
+std::string topic(const ParameterGroup& tool, const char* name) {
+  if (!tool.has(name)) return {};
+  std::string topic = tool.text(name), error;
+  if (!ros::names::validate(topic, error)) tool.refuse(name, "must be the name of a topic");
+  return topic;
+}
+
+std::string parameter_name(const ParameterGroup& tool, const char* name) {
+  std::string parameter = tool.text(name), error;
+  if (!ros::names::validate(parameter, error)) tool.refuse(name, "must be a parameter's name");
+  return parameter;
+}
+
+std::string tf_prefix(const ParameterGroup& tool) {
+  std::string prefix = tf_frame(tool.text(names::kTfPrefix));
+  if (prefix.empty() || prefix.back() == '/') {
+    tool.refuse(names::kTfPrefix, "must be without a slash at its end");
+  }
+  return prefix;
+}
+
+void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> names,
+                const std::string& why) {
+  for (const char* name : names) {
+    if (tool.has(name)) tool.refuse(name, why);
+  }
+}
+
+/// What places the tip, or a tool without shaft: a frame on TF, or poses as messages.
+void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParameters& parsed) {
+  parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
+  parsed.base_pose_topic = topic(tool, names::kBasePoseTopic);
+  if (!parsed.base_pose_topic.empty() && parsed.tip_pose_topic.empty()) {
+    tool.refuse(names::kBasePoseTopic, "goes with tip_pose_topic, in whose frame its poses are");
+  }
+  const bool is_named = tool.has(names::kTipFrame) || parsed.tip_pose_topic.empty();
+  parsed.tip_frame = is_named ? frame(tool, names::kTipFrame) : unnamed;
+}
+
+void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
+  parsed.trocar_frame = frame(tool, names::kTrocarFrame);
+  parsed.radius = tool.number(names::kRadius, {}, kPositive);
+  parse_tip(tool, parsed.name + "_tip", parsed);
+  if (parsed.tip_frame == parsed.trocar_frame) {
+    tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
+  }
+}
+
+void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
+  parsed.links = tool.texts(names::kLinks);
+  for (const std::string& link : parsed.links) tool.check_name(names::kLinks, link);
+  if (!tool.has(names::kUrdf)) {
+    parsed.robot_description = tool.has(names::kRobotDescription)
+                                   ? parameter_name(tool, names::kRobotDescription)
+                                   : names::kRobotDescription;
+  } else {
+    refuse_any(tool, {names::kRobotDescription}, "is not needed beside urdf; give one of them");
+    parsed.urdf = tool.text(names::kUrdf);
+  }
+  if (tool.has(names::kTfPrefix)) parsed.tf_prefix = tf_prefix(tool);
+}
+
+ToolParameters parse_tool(const ParameterGroup& tool) {
+  ToolParameters parsed;
+  parsed.name = tool.text(names::kToolName);
+  tool.check_name(names::kToolName, parsed.name);
+  const bool has_links = tool.has(names::kLinks);
+  const bool has_poses = tool.has(names::kTipPoseTopic) || tool.has(names::kBasePoseTopic);
+  const bool has_shaft = tool.has(names::kTrocarFrame) || tool.has(names::kRadius) ||
+                         (tool.has(names::kTipFrame) && !has_poses);
+  if (!has_links && !has_shaft) {
+    tool.refuse_missing(names::kLinks, "a tool needs links, or " + kShaft + ", or all of them");
+  }
+  if (has_links) {
+    parse_links(tool, parsed);
+  } else {
+    refuse_any(tool, {names::kRobotDescription, names::kUrdf, names::kTfPrefix},
+               "goes with links, which are missing");
+  }
+  if (has_shaft) {
+    parse_shaft(tool, parsed);
+  } else if (has_poses) {
+    parse_tip(tool, parsed.link_frame(parsed.links.front()), parsed);
+  }
+  return parsed;
+}
+
+void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
+  const XmlRpcValue& list =
+      all.list(names::kTools, "groups of name and links, or name, " + kShaft + " [m]");
+  for (int i = 0; i < list.size(); ++i) {
+    const ParameterGroup group(
+        all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
+        {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kTipPoseTopic,
+         names::kBasePoseTopic, names::kRadius, names::kLinks, names::kRobotDescription,
+         names::kUrdf, names::kTfPrefix});
+    const ToolParameters tool = parse_tool(group);
+    for (const ToolParameters& other : loaded.parameters.tools) {
+      if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
+    }
+    loaded.parameters.tools.push_back(tool);
+    for (std::string& sentence : group.misspelt()) loaded.misspelt.push_back(std::move(sentence));
+  }
+}
+
+}  // namespace
+
+std::string ToolParameters::link_frame(const std::string& link) const {
+  return tf_frame(tf_prefix.empty() ? link : tf_prefix + "/" + link);
+}
+
+LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
+  const ParameterGroup all(
+      "~", private_namespace,
+      {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
+       names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
+       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod});
+  LoadedParameters loaded;
+  loaded.misspelt = all.misspelt();
+  parse_tools(all, loaded);
+  NodeParameters& p = loaded.parameters;
+  p.picker = picker_kind(all.choice(names::kPicker, "feedback", {"feedback", "select"}));
+  p.rate_hz = all.number(names::kRate, p.rate_hz, {0.0, 10'000.0});
+  p.organ_motion = all.flag(names::kOrganMotion, p.organ_motion);
+  p.motion_sample_sec = all.number(names::kMotionSampleSec, p.motion_sample_sec, kPositive);
+  p.motion_samples_max =
+      all.whole_number(names::kMotionSamplesMax, p.motion_samples_max, {1, 100'000});
+  p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, {0.0, 60.0});
+  p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative);
+  p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, {1, kMostFaces});
+  p.max_batch = all.whole_number(names::kMaxBatch, p.max_batch, {1, 1'000'000});
+  p.max_batch_bytes =
+      all.whole_number(names::kMaxBatchBytes, p.max_batch_bytes, {1, kMostMessageBytes});
+  p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
+  p.diagnostic_period_sec =
+      all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, {0.01, 3600.0});
+  return loaded;
+}
+
+LoadedParameters load_parameters(const ros::NodeHandle& private_node) {
+  return parse_parameters(all_parameters(private_node));
+}
+
+}  // namespace organ_collision

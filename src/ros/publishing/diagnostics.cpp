@@ -1,0 +1,85 @@
+#include "diagnostics.hpp"
+
+#include "ros/steps/contact_array.hpp"
+
+namespace organ_collision {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+constexpr double kMicroseconds = 1e6;
+
+}  // namespace
+
+void show_failures(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
+  for (const auto& [reason, entry] : log.by_reason()) {
+    std::string key = what;
+    key.append(", ").append(reason);
+    status.add(key, entry.count);
+    if (entry.not_yet_reported == 0) continue;
+    const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
+    status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                        reason + ": " + entry.latest);
+  }
+  log.reported();
+}
+
+void Diagnostics::add_to(diagnostic_updater::Updater& updater) {
+  updater.setHardwareID("none");
+  updater.add("queries", this, &Diagnostics::queries);
+  updater.add("tools", this, &Diagnostics::tools);
+  updater.add("organs", this, &Diagnostics::organs);
+  updater.add("messages", this, &Diagnostics::messages);
+}
+
+void Diagnostics::queries(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "answering");
+  const auto times = sources_.contact_query.query_times().summary();
+  status.add("GL version", sources_.contact_query.gl_version());
+  status.add("contacts rate [1/s]",
+             sources_.counters.contacts.take(std::chrono::steady_clock::now()));
+  status.add("queries", times.count);
+  status.add("query time, median [us]", times.median * kMicroseconds);
+  status.add("query time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
+  status.add("query time, worst [us]", times.worst * kMicroseconds);
+  status.add("motion samples cut", sources_.steps.samples_cut());
+  status.add("motion samples cut, farthest from the swept way [m]", sources_.steps.deviation_cut());
+  status.add("transforms after their step", sources_.transforms.late());
+  status.add("poses merged into later ones", sources_.counters.poses_merged);
+  for (const std::string& sentence : sources_.misspelt) {
+    status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  show_failures("unanswered", sources_.counters.failed, status);
+  show_failures("refused", sources_.counters.refused, status);
+}
+
+void Diagnostics::tools(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, std::to_string(sources_.tools.size()) + " tools");
+  for (const Tool& tool : sources_.tools) {
+    status.add(tool.parameters.name + ", links", tool.links.size());
+    if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);
+  }
+}
+
+void Diagnostics::organs(DiagnosticStatusWrapper& status) {
+  const ros::Time now = ros::Time::now();
+  const double timeout = sources_.parameters.mesh_timeout_sec;
+  status.summary(DiagnosticStatus::OK, std::to_string(sources_.organs.organs().size()) + " organs");
+  for (const auto& [name, organ] : sources_.organs.organs()) {
+    const OrganShape& shape = organ.latest();
+    status.add(name + ", age of mesh [s]", shape.age(now));
+    status.add(name + ", faces", shape.mesh->face_count());
+    if (is_stale(shape, now, timeout)) {
+      status.mergeSummary(DiagnosticStatus::WARN, stale_message(organ, now, timeout));
+    }
+  }
+}
+
+void Diagnostics::messages(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "none rejected");
+  status.add("mesh rate [1/s]", sources_.counters.meshes.take(std::chrono::steady_clock::now()));
+  show_failures("rejected", sources_.counters.rejected, status);
+}
+
+}  // namespace organ_collision

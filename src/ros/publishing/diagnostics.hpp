@@ -1,0 +1,61 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <string>
+#include <vector>
+
+#include "ros/interface/failure_log.hpp"
+#include "ros/motion/transform_buffer.hpp"
+#include "ros/organs/organ_registry.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "ros/steps/contact_query.hpp"
+#include "ros/steps/statistics.hpp"
+#include "ros/steps/step_scheduler.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+/// What the node counts for /diagnostics.
+struct NodeCounters {
+  EventRate meshes{std::chrono::steady_clock::now()};
+  EventRate contacts{std::chrono::steady_clock::now()};
+  std::size_t poses_merged = 0;  ///< evaluated together with later ones, in one step
+  FailureLog rejected;           ///< messages that were refused
+  FailureLog failed;             ///< steps without answer
+  FailureLog refused;            ///< service calls without answer
+};
+
+/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new,
+/// an error where picking failed.
+void show_failures(const std::string& what, FailureLog& log,
+                   diagnostic_updater::DiagnosticStatusWrapper& status);
+
+/// Says how the node is, for /diagnostics.
+class Diagnostics {
+ public:
+  /// All must outlive it.
+  struct Sources {
+    const NodeParameters& parameters;
+    const std::vector<Tool>& tools;
+    const std::vector<std::string>& misspelt;
+    const OrganRegistry& organs;
+    const ContactQuery& contact_query;
+    const StepScheduler& steps;
+    const TransformBuffer& transforms;
+    NodeCounters& counters;
+  };
+
+  explicit Diagnostics(const Sources& sources) : sources_(sources) {}
+  void add_to(diagnostic_updater::Updater& updater);
+
+  void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void tools(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void organs(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void messages(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  Sources sources_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,73 @@
+#include "contact_array.hpp"
+
+#include <sstream>
+
+#include "ros/interface/plain_text.hpp"
+
+namespace organ_collision {
+
+ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
+                          ros::Time stamp) {
+  ContactArray answer;
+  answer.header.stamp = stamp;
+  answer.step_start = stamp;
+  answer.organ = plain_text(organ, kLongestName);
+  answer.tool = plain_text(tool, kLongestName);
+  answer.links = {""};
+  answer.mode = mode;
+  return answer;
+}
+
+void set_links(ContactArray& answer, const ToolParameters& tool) {
+  answer.links.assign(tool.has_shaft() ? 1 : 0, "");
+  answer.links.insert(answer.links.end(), tool.links.begin(), tool.links.end());
+}
+
+void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape) {
+  answer.header.frame_id = organ.frame();
+  answer.topology = shape.mesh->topology();
+  answer.mesh_stamp = shape.stamp;
+}
+
+void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message) {
+  answer.status = status;
+  answer.message = plain_text(message, kLongestMessage);
+  answer.contacts.clear();
+  answer.regions.clear();
+}
+
+std::string reason_of(std::uint8_t status) {
+  switch (status) {
+    case ContactArray::OK:
+      return "ok";
+    case ContactArray::NO_MESH:
+      return "no mesh";
+    case ContactArray::NO_TRANSFORM:
+      return "no transform";
+    case ContactArray::STALE_MESH:
+      return "stale mesh";
+    case ContactArray::UNKNOWN_ORGAN:
+      return "unknown organ";
+    case ContactArray::UNKNOWN_TOOL:
+      return "unknown tool";
+    case ContactArray::PICKER_FAILED:
+      return "picker failed";
+    case ContactArray::INVALID_TOOL:
+      return "invalid tool";
+    default:
+      return "invalid request";
+  }
+}
+
+bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
+  return timeout_sec > 0.0 && shape.age(now) > timeout_sec;
+}
+
+std::string stale_message(const DeformableOrgan& organ, ros::Time now, double timeout_sec) {
+  std::ostringstream message;
+  message << "mesh of organ '" << organ.name() << "' is " << organ.latest().age(now)
+          << " s old; at most " << timeout_sec << " s are allowed (mesh_timeout_sec)";
+  return message.str();
+}
+
+}  // namespace organ_collision

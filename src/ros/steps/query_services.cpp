@@ -1,0 +1,282 @@
+#include "query_services.hpp"
+
+#include <ros/serialization.h>
+
+#include <cmath>
+#include <exception>
+#include <sstream>
+
+#include "contact_array.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/spelling.hpp"
+#include "ros/motion/transform_lookup.hpp"
+
+namespace organ_collision {
+namespace {
+
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  std::ostringstream message;
+  (message << ... << parts);
+  throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", message.str());
+}
+
+void refuse_unless(bool is_default, const char* field) {
+  if (!is_default) refuse(field, " is set, which this version of the node does not serve");
+}
+
+template <typename Request>
+void check_served_by_all(const Request& request) {
+  refuse_unless(request.margin == 0.0, "margin");
+  refuse_unless(!request.clearance, "clearance");
+  refuse_unless(!request.placement, "placement");
+}
+
+void check_served(const QueryCollision::Request& request) {
+  check_served_by_all(request);
+  refuse_unless(request.link_motion.previous.empty() && request.link_motion.links.empty(),
+                "link_motion");
+  refuse_unless(request.max_near == 0, "max_near");
+}
+
+void check_served(const QueryCollisionBatch::Request& request) {
+  check_served_by_all(request);
+  refuse_unless(request.tool.empty(), "tool");
+  refuse_unless(request.link_motions.empty(), "link_motions");
+  refuse_unless(!request.stop_at_first_contact, "stop_at_first_contact");
+}
+
+bool looks_at_end_only(std::uint8_t mode) {
+  return mode == ContactArray::STATIC || mode == ContactArray::PAPER_STATIC;
+}
+
+void check_mode(std::uint8_t mode) {
+  if (mode <= ContactArray::PAPER_NAIVE) return;
+  refuse("mode is ", static_cast<int>(mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
+}
+
+void check_point(const char* name, const geometry_msgs::Point& point) {
+  if (to_eigen(point).allFinite()) return;
+  refuse("motion.", name, " is (", point.x, ", ", point.y, ", ", point.z, "); must be finite");
+}
+
+void check_motion(const ToolMotion& motion, std::uint8_t mode) {
+  if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
+    refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
+  }
+  check_point("trocar", motion.trocar);
+  check_point("tip", motion.tip);
+  if (looks_at_end_only(mode)) return;
+  check_point("previous_trocar", motion.previous_trocar);
+  check_point("previous_tip", motion.previous_tip);
+}
+
+bool is_paper_mode(std::uint8_t mode) {
+  return mode != ContactArray::STATIC && mode != ContactArray::SWEPT;
+}
+
+void check_tool(const Tool& tool, std::uint8_t mode) {
+  if (!tool.fault.empty()) {
+    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
+  }
+  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
+    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
+           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
+           "(SWEPT)");
+  }
+}
+
+/// The results give their memory back, which may be what was short.
+void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
+                 const std::string& message) {
+  response.results = {};
+  response.status = status;
+  response.message = plain_text(message, kLongestMessage);
+}
+
+ros::Time stamp_or_now(const std_msgs::Header& header) {
+  return header.stamp.isZero() ? ros::Time::now() : header.stamp;
+}
+
+CollisionRequest collision_with(const DeformableOrgan& organ, std::uint8_t mode,
+                                bool organ_motion) {
+  CollisionRequest collision;
+  collision.organ = organ.latest().mesh.get();
+  const bool moves = organ_motion && mode == ContactArray::SWEPT;
+  if (moves) collision.organ_before = organ.previous().mesh.get();
+  collision.mode = static_cast<QueryMode>(mode);
+  return collision;
+}
+
+/// A motion as the request has it, moved into the organ's frame.
+void set_motion(const ToolMotion& motion, const Timed<Eigen::Isometry3d>& T_organ_motion,
+                CollisionRequest& collision, ContactArray& answer) {
+  collision.path = to_path(motion, looks_at_end_only(answer.mode), T_organ_motion.value);
+  collision.radius = motion.radius;
+  if (!T_organ_motion.stamp.isZero()) answer.header.stamp = T_organ_motion.stamp;
+  answer.step_start = answer.header.stamp;
+}
+
+}  // namespace
+
+ContactArray QueryServices::query(const QueryCollision::Request& request) const {
+  ContactArray result =
+      answer_about(request.organ, request.tool, request.mode, stamp_or_now(request.header));
+  result.header.frame_id = plain_text(request.header.frame_id, kLongestName);
+  try {
+    answer(request, result);
+  } catch (const Rejection& rejection) {
+    set_failure(result, rejection.status(), rejection.what());
+  } catch (const std::exception& error) {
+    set_failure(result, ContactArray::PICKER_FAILED, error.what());
+  }
+  return result;
+}
+
+QueryCollisionBatch::Response QueryServices::query_batch(
+    const QueryCollisionBatch::Request& request) const {
+  QueryCollisionBatch::Response response;
+  try {
+    answer(request, response);
+  } catch (const Rejection& rejection) {
+    set_failure(response, rejection.status(), rejection.what());
+  } catch (const std::exception& error) {
+    set_failure(response, ContactArray::PICKER_FAILED, error.what());
+  }
+  return response;
+}
+
+void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) const {
+  check_name("tool", request.tool);
+  const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(request.tool);
+  if (tool) set_links(answer, tool->parameters);
+  check_served(request);
+  check_mode(request.mode);
+  if (tool) check_tool(*tool, request.mode);
+  const DeformableOrgan& organ = find_organ(request.organ);
+  set_organ(answer, organ, organ.latest());
+  check_age(organ);
+
+  CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
+  collision.regions = request.regions;
+  if (tool) {
+    set_tool_motion(request, organ, *tool, collision, answer);
+  } else {
+    check_motion(request.motion, request.mode);
+    set_motion(request.motion, motion_frame(request.header, organ), collision, answer);
+  }
+  sources_.contact_query.evaluate(collision, answer);
+}
+
+/// All motions are of one frame and one time, so that one transform serves them all.
+void QueryServices::answer(const QueryCollisionBatch::Request& request,
+                           QueryCollisionBatch::Response& response) const {
+  check_served(request);
+  check_mode(request.mode);
+  check_size(request.motions.size());
+  const DeformableOrgan& organ = find_organ(request.organ);
+  check_age(organ);
+  const Timed<Eigen::Isometry3d> T_organ_motion = motion_frame(request.header, organ);
+  ContactArray unanswered =
+      answer_about(request.organ, "", request.mode, stamp_or_now(request.header));
+  set_organ(unanswered, organ, organ.latest());
+
+  CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
+  std::size_t bytes = ros::serialization::serializationLength(response);
+  response.results.reserve(request.motions.size());
+  for (const ToolMotion& motion : request.motions) {
+    ContactArray& result = response.results.emplace_back(unanswered);
+    try {
+      check_motion(motion, request.mode);
+      set_motion(motion, T_organ_motion, collision, result);
+      sources_.contact_query.evaluate(collision, result);
+    } catch (const Rejection& rejection) {
+      set_failure(result, rejection.status(), rejection.what());
+    }
+    bytes += ros::serialization::serializationLength(result);
+    check_bytes(bytes, response.results.size(), request.motions.size());
+  }
+}
+
+void QueryServices::check_size(std::size_t motions) const {
+  const auto most = static_cast<std::size_t>(sources_.parameters.max_batch);
+  if (motions <= most) return;
+  refuse("the batch has ", motions, " motions; must be at most ", most,
+         " (max_batch): ask in several batches");
+}
+
+void QueryServices::check_bytes(std::size_t bytes, std::size_t answered,
+                                std::size_t motions) const {
+  const auto most = static_cast<std::size_t>(sources_.parameters.max_batch_bytes);
+  if (bytes <= most) return;
+  refuse("the answers to the first ", answered, " of ", motions, " motions have ", bytes,
+         " bytes; a batch's must have at most ", most,
+         " (max_batch_bytes): ask for fewer motions at once");
+}
+
+const DeformableOrgan& QueryServices::find_organ(const std::string& name) const {
+  if (name.empty()) refuse("organ is empty; must be an organ's name");
+  check_name("organ", name);
+  return sources_.organs.at(name);
+}
+
+void QueryServices::check_age(const DeformableOrgan& organ) const {
+  const ros::Time now = ros::Time::now();
+  const double timeout_sec = sources_.parameters.mesh_timeout_sec;
+  if (!is_stale(organ.latest(), now, timeout_sec)) return;
+  throw Rejection(ContactArray::STALE_MESH, "stale mesh", stale_message(organ, now, timeout_sec));
+}
+
+Timed<Eigen::Isometry3d> QueryServices::motion_frame(const std_msgs::Header& header,
+                                                     const DeformableOrgan& organ) const {
+  const std::string frame = tf_frame(header.frame_id);
+  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of `motion`");
+  check_name("header.frame_id", frame);
+  const auto T_organ_motion = look_up(sources_.transforms, organ.frame(), frame, header.stamp);
+  if (!T_organ_motion.found) {
+    throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
+  }
+  return *T_organ_motion.found;
+}
+
+void QueryServices::set_tool_motion(const QueryCollision::Request& request,
+                                    const DeformableOrgan& organ, const Tool& tool,
+                                    CollisionRequest& collision, ContactArray& answer) const {
+  const auto end = sources_.poses.pose(tool, organ.frame(), request.header.stamp);
+  if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
+  collision.radius = tool.parameters.radius;
+  collision.links = &tool.links;
+  if (!end.found->stamp.isZero()) answer.header.stamp = end.found->stamp;
+  answer.step_start = answer.header.stamp;
+
+  const auto index = static_cast<std::size_t>(&tool - sources_.tools.data());
+  const LastStep* last = sources_.history.last(organ.name(), index);
+  if (!last || looks_at_end_only(request.mode)) {
+    collision.path = resting_path(end.found->value);
+    return;
+  }
+  if (answer.header.stamp < last->stamp) {
+    refuse("the step would end at ", answer.header.stamp,
+           " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
+           last->stamp, " s; header.stamp must not be earlier");
+  }
+  collision.path = sources_.poses
+                       .path(tool, organ.frame(), {last->pose, last->stamp},
+                             {end.found->value, answer.header.stamp})
+                       .path;
+  answer.step_start = last->stamp;
+}
+
+const Tool& QueryServices::find_tool(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Tool& tool : sources_.tools) {
+    if (tool.parameters.name == name) return tool;
+    names.push_back("'" + tool.parameters.name + "'");
+  }
+  throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
+                  "tool '" + name + "' is unknown; " +
+                      (names.empty() ? "the node has none" : "known are " + listed(names)));
+}
+
+}  // namespace organ_collision

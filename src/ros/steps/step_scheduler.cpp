@@ -1,0 +1,198 @@
+#include "step_scheduler.hpp"
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <utility>
+
+#include "contact_array.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// The shape that the organ moves from during a step; null: it rests.
+const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
+  const bool moved = last.mesh.get() != &now && last.mesh->topology() == now.topology() &&
+                     last.mesh->same_faces(now);
+  return moved ? last.mesh.get() : nullptr;
+}
+
+std::uint8_t mode_of(const OrganToolPair& pair) {
+  return pair.last ? ContactArray::SWEPT : ContactArray::STATIC;
+}
+
+/// Whether the last step went up to this pose, against this shape.
+bool is_answered(const OrganToolPair& pair, ros::Time pose) {
+  return pair.last && pair.last->mesh == pair.current.mesh && !pose.isZero() &&
+         pose <= pair.last->stamp;
+}
+
+}  // namespace
+
+void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    history_.of(organ.name(), tool).queue.push({organ.latest(), now});
+  }
+}
+
+void StepScheduler::evaluate_waiting(const OrganRegistry& organs, SteadyTime now) {
+  for (auto& [key, pair] : history_.pairs()) {
+    while (pair.queue.front() && evaluate_front(organs.at(key.first), key.second, pair, now)) {
+    }
+  }
+}
+
+/// False: its transform is still waited for.
+bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t tool,
+                                   OrganToolPair& pair, SteadyTime now) {
+  const ShapeQueue::Entry entry = *pair.queue.front();
+  const ros::Time stamp = entry.shape.stamp;
+  const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
+  const bool faulty = !tools_[tool].fault.empty();
+  Lookup<ToolPose> end;
+  if (!late && !faulty) {
+    end = poses_.pose(tools_[tool], organ.frame(), stamp);
+    if (!end.found && now < deadline(entry)) return false;
+  }
+  pair.current = entry.shape;
+  pair.queue.pop();
+  const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
+  if (faulty) {
+    fail(organ, tool, pair, failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
+  } else if (late) {
+    evaluate_held(organ, tool, pair);
+  } else if (end.found) {
+    evaluate_step(organ, tool, pair, *end.found);
+  } else {
+    fail(organ, tool, pair, failure, ContactArray::NO_TRANSFORM, end.why_not);
+  }
+  return true;
+}
+
+void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
+  const ros::Time now = ros::Time::now();
+  for (const auto& [name, organ] : organs.organs()) {
+    for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+      evaluate_latest(organ, tool, now, false);
+    }
+  }
+}
+
+void StepScheduler::evaluate_latest(const OrganRegistry& organs, std::size_t tool) {
+  const ros::Time now = ros::Time::now();
+  for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now, true);
+}
+
+void StepScheduler::evaluate_latest(const DeformableOrgan& organ, std::size_t tool, ros::Time now,
+                                    bool only_new) {
+  OrganToolPair& pair = history_.of(organ.name(), tool);
+  if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
+    return fail(organ, tool, pair, now, ContactArray::INVALID_TOOL, fault);
+  }
+  if (is_stale(organ.latest(), now, parameters_.mesh_timeout_sec)) {
+    return fail(organ, tool, pair, now, ContactArray::STALE_MESH,
+                stale_message(organ, now, parameters_.mesh_timeout_sec));
+  }
+  const auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+  if (end.found) {
+    if (only_new && is_answered(pair, end.found->stamp)) return;
+    evaluate_step(organ, tool, pair, *end.found);
+  } else {
+    fail(organ, tool, pair, now, ContactArray::NO_TRANSFORM, end.why_not);
+  }
+}
+
+void StepScheduler::reset() {
+  for (auto& [key, pair] : history_.pairs()) pair.last.reset();
+}
+
+void StepScheduler::start_anew(const OrganRegistry& organs) {
+  history_.clear();
+  for (const auto& [name, organ] : organs.organs()) {
+    for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+      history_.of(name, tool).current = organ.latest();
+    }
+  }
+}
+
+std::optional<SteadyTime> StepScheduler::next_deadline() const {
+  std::optional<SteadyTime> next;
+  for (const auto& [key, pair] : history_.pairs()) {
+    if (!pair.queue.front()) continue;
+    const SteadyTime time = deadline(*pair.queue.front());
+    if (!next || time < *next) next = time;
+  }
+  return next;
+}
+
+void StepScheduler::evaluate_step(const DeformableOrgan& organ, std::size_t tool,
+                                  OrganToolPair& pair, const Timed<ToolPose>& end) {
+  if (!pair.last) return run(organ, tool, pair, end, resting_path(end.value));
+  const LastStep& last = *pair.last;
+  Timed<ToolPose> stamped = end;
+  if (end.stamp.isZero()) {
+    stamped.stamp = std::max(ros::Time::now(), last.stamp);
+  } else if (end.stamp <= last.stamp) {
+    return evaluate_held(organ, tool, pair);
+  }
+  SampledPath sampled = poses_.path(tools_[tool], organ.frame(), {last.pose, last.stamp}, stamped);
+  samples_cut_ += sampled.samples_cut;
+  deviation_cut_ = std::max(deviation_cut_, sampled.deviation_cut);
+  run(organ, tool, pair, std::move(stamped), std::move(sampled.path));
+}
+
+/// With the tool at rest where it was: time does not run backwards.
+void StepScheduler::evaluate_held(const DeformableOrgan& organ, std::size_t tool,
+                                  OrganToolPair& pair) {
+  const LastStep& last = *pair.last;
+  run(organ, tool, pair, {last.pose, last.stamp}, resting_path(last.pose));
+}
+
+void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
+                        Timed<ToolPose> end, ToolPath path) {
+  if (end.stamp.isZero()) end.stamp = ros::Time::now();
+  const TriangleMesh& mesh = *pair.current.mesh;
+
+  CollisionRequest request;
+  request.organ = &mesh;
+  if (pair.last && parameters_.organ_motion) request.organ_before = shape_before(*pair.last, mesh);
+  request.path = std::move(path);
+  request.radius = tools_[tool].parameters.radius;
+  request.links = &tools_[tool].links;
+  request.mode = static_cast<QueryMode>(mode_of(pair));
+  request.regions = parameters_.publish_regions;
+
+  const auto answer = answer_about_step(organ, tool, pair, end.stamp);
+  contact_query_.evaluate(request, *answer);
+  if (answer->status == ContactArray::OK) {
+    poses_.set_answered(tools_[tool], organ.frame(), end.stamp);
+    pair.last = LastStep{std::move(end.value), end.stamp, pair.current.mesh};
+  }
+  publish_({answer, tools_[tool], mesh, request.path});
+}
+
+void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, const OrganToolPair& pair,
+                         ros::Time stamp, std::uint8_t status, const std::string& message) {
+  const auto answer = answer_about_step(organ, tool, pair, stamp);
+  set_failure(*answer, status, message);
+  publish_({answer, tools_[tool], *pair.current.mesh, {}});
+}
+
+ContactArrayPtr StepScheduler::answer_about_step(const DeformableOrgan& organ, std::size_t tool,
+                                                 const OrganToolPair& pair, ros::Time end) const {
+  const ToolParameters& parameters = tools_[tool].parameters;
+  auto answer = boost::make_shared<ContactArray>(
+      answer_about(organ.name(), parameters.name, mode_of(pair), end));
+  set_links(*answer, parameters);
+  set_organ(*answer, organ, pair.current);
+  if (pair.last) answer->step_start = pair.last->stamp;
+  return answer;
+}
+
+SteadyTime StepScheduler::deadline(const ShapeQueue::Entry& entry) const {
+  return entry.arrival + std::chrono::duration_cast<SteadyTime::duration>(
+                             std::chrono::duration<double>(parameters_.tf_timeout_sec));
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "link_description.hpp"
+#include "organ_collision/geometry/tool/link.hpp"
+
+namespace organ_collision {
+
+/// The link as the node collides with it. Throws ToolError, which names the link and the value: an
+/// illegal size, pose or mesh.
+Link build_link(const std::string& name, LinkDescription description);
+
+}  // namespace organ_collision

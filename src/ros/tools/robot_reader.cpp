@@ -1,0 +1,80 @@
+#include "robot_reader.hpp"
+
+#include <dlfcn.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "child_process.hpp"
+#include "reader_limits.hpp"
+#include "robot_reply.hpp"
+#include "tool_error.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr char kProgram[] = "robot_reader";
+
+bool can_run(const std::filesystem::path& program) { return access(program.c_str(), X_OK) == 0; }
+
+/// Of this library or, where it is linked into a program, of the program.
+std::filesystem::path folder_of_this_code() {
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&folder_of_this_code), &library);
+  std::filesystem::path file = library.dli_fname ? library.dli_fname : "";
+  if (!file.has_parent_path()) {  // A program that the shell found in PATH is known by its bare
+                                  // name.
+    std::error_code ignored;
+    file = std::filesystem::read_symlink("/proc/self/exe", ignored);
+  }
+  return file.parent_path();
+}
+
+/// Below the folder of this library or, where it is linked into a program, beside the program: in
+/// a build folder, an install space and a nodelet manager alike.
+std::string find_program() {
+  const std::filesystem::path folder = folder_of_this_code();
+  const std::filesystem::path below = folder / "organ_collision" / kProgram;
+  const std::filesystem::path beside = folder / kProgram;
+  return !can_run(below) && can_run(beside) ? beside : below;
+}
+
+ProcessResult run_reader(std::vector<std::string> arguments, const std::string& input) {
+  arguments.insert(arguments.begin(), find_program());
+  try {
+    return run_process(arguments, input, {reader_limits::kTime, reader_limits::kReplyBytes});
+  } catch (const std::system_error& error) {
+    throw ToolError("cannot run " + arguments[0] + ", which reads it: " + error.code().message());
+  }
+}
+
+std::vector<LinkDescription> read(const std::string& urdf, const std::string& input,
+                                  const std::vector<std::string>& links) {
+  std::vector<std::string> arguments = {urdf};
+  arguments.insert(arguments.end(), links.begin(), links.end());
+  const ProcessResult result = run_reader(std::move(arguments), input);
+  RobotReply reply = parse_reply(result.output);
+  if (reply.refusal) throw ToolError(*reply.refusal);
+  if (result.failure.empty() && reply.links && reply.links->size() == links.size()) {
+    return *std::move(reply.links);
+  }
+  throw ToolError((reply.reading.empty() ? "" : reply.reading + ": ") + kProgram + " " +
+                  (result.failure.empty() ? "gave a malformed answer" : result.failure) +
+                  " while it read it; the file may be broken, or too large");
+}
+
+}  // namespace
+
+std::vector<LinkDescription> read_robot_file(const std::string& urdf,
+                                             const std::vector<std::string>& links) {
+  return read(urdf, "", links);
+}
+
+std::vector<LinkDescription> read_robot_text(const std::string& urdf,
+                                             const std::vector<std::string>& links) {
+  return read("-", urdf, links);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,155 @@
+#include "geometry/distance/swept_box.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/distance/closest_points.hpp"
+#include "geometry/distance/first_touch.hpp"
+#include "organ_collision/geometry/tool/link.hpp"
+#include "test/proof/link_trials.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+using oracle::LinkTrial;
+using oracle::Random;
+
+constexpr std::size_t kBox = 2;  // of the kinds of cores
+
+/// The box of which a trial has the core.
+OrientedBox box_of(const ConvexCore& core) {
+  const auto& p = core.points;
+  OrientedBox box{0.5 * (p[0] + p[7]), {}, {}};
+  const std::array<Vector3d, 3> edges = {p[4] - p[0], p[2] - p[0], p[1] - p[0]};
+  for (int i = 0; i < 3; ++i) {
+    box.half_size[i] = 0.5 * edges[i].norm();
+    box.axes.col(i) = edges[i].normalized();
+  }
+  return box;
+}
+
+class SweptBoxTrials : public testing::TestWithParam<std::size_t> {
+ protected:
+  template <typename Check>
+  void for_each_trial(int count, Check check) {
+    Random random(50 + GetParam());
+    for (int i = 0; i < count && !HasFailure(); ++i) {
+      const LinkTrial trial = oracle::make_link_trial(GetParam(), kBox, random);
+      check(trial, random);
+      if (HasFailure()) ADD_FAILURE() << trial;
+    }
+  }
+};
+
+TEST_P(SweptBoxTrials, HoldsTheGrownBoxAllTheTime) {
+  for_each_trial(300, [](const LinkTrial& trial, Random& random) {
+    const RigidMotion motion = trial.motion();
+    const SweptBox swept(box_of(trial.core), motion, trial.radius);
+    EXPECT_LE((swept.axes() * swept.axes().transpose() - Eigen::Matrix3d::Identity()).norm(),
+              1e-12);
+    EXPECT_GT(swept.axes().determinant(), 0.0);
+    EXPECT_LE((swept.origin() - motion.start() * box_of(trial.core).center).norm(),
+              oracle::rounding(trial));
+    for (int i = 0; i < 50; ++i) {
+      const double time = i < 2 ? i : random.uniform(0.0, 1.0);
+      const ConvexCore core = motion.at(time) * trial.core;
+      for (int axis = 0; axis < 3; ++axis) {
+        const Vector3d along = swept.axes().col(axis);
+        const double slack = oracle::rounding(trial);
+        EXPECT_LE(core.height(along) + trial.radius, swept.high()[axis] + slack);
+        EXPECT_GE(-core.height(-along) - trial.radius, swept.low()[axis] - slack);
+      }
+    }
+  });
+}
+
+// A link at rest, or one that does not turn: the bounds are reached.
+TEST_P(SweptBoxTrials, IsTightWithoutTurning) {
+  for_each_trial(300, [](LinkTrial trial, Random& /*random*/) {
+    trial.end.linear() = trial.start.linear();
+    const SweptBox swept(box_of(trial.core), trial.motion(), trial.radius);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector3d along = swept.axes().col(axis);
+      const double high = std::max((trial.start * trial.core).height(along),
+                                   (trial.end * trial.core).height(along));
+      EXPECT_NEAR(swept.high()[axis], high + trial.radius, 2.0 * oracle::rounding(trial));
+    }
+  });
+}
+
+TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
+  int clear = 0;
+  for_each_trial(2000, [&](const LinkTrial& trial, Random& random) {
+    FaceMotion face{trial.face, trial.face};
+    const double away = random.scale(1e-4, 0.3);
+    const Vector3d by = away * random.direction();
+    for (int i = 0; i < 3; ++i) {
+      face.start[i] += by;
+      face.end[i] = face.start[i];
+      if (random.chance(0.5)) face.end[i] += random.scale(1e-5, 0.1) * random.direction();
+    }
+    const RigidMotion motion = trial.motion();
+    const double until = SweptBox(box_of(trial.core), motion, trial.radius).clear_until(face);
+    if (until == 0.0) return;
+    ++clear;
+    for (int i = 0; i < 100; ++i) {
+      // A share of rounding less than the time itself, when something may touch.
+      const double time = std::min(until, 1.0) * (i < 2 ? i : random.uniform(0.0, 1.0));
+      EXPECT_GT(closest_points(motion.at(time) * trial.core, face.at(time)).distance,
+                trial.radius - oracle::rounding(trial))
+          << "at " << time;
+    }
+  });
+  EXPECT_GT(clear, 200);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, SweptBoxTrials,
+                         testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()));
+
+// What it is for: of far faces hardly any is kept.
+TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
+  Random random(7);
+  int far = 0, clear = 0;
+  for (int i = 0; i < 3000; ++i) {
+    LinkTrial trial = oracle::make_link_trial(0, kBox, random);
+    trial.end.linear() = trial.start.linear() * oracle::random_turn(0.01, random);
+    trial.end.translation() = trial.start.translation() + 1e-3 * random.direction();
+    for (Vector3d& corner : trial.face) corner += 0.03 * random.direction();
+    const RigidMotion motion = trial.motion();
+    if (first_touch(CoreMotion(trial.core, motion), {trial.face, trial.face}, 0.01)) continue;
+    ++far;
+    clear += SweptBox(box_of(trial.core), motion, 1e-3).clear_until({trial.face, trial.face}) > 1.0;
+  }
+  EXPECT_GT(clear, far * 8 / 10) << "of " << far;
+}
+
+// Seen along the box's axes they overlap; the face's own plane parts them.
+TEST(SweptBox, StaysClearOfAFaceOverACorner) {
+  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const RigidMotion motion(pose, pose);
+  const auto face = [](double x) {
+    const Triangle corners = {Vector3d(x, 0, 0), Vector3d(0, x, 0), Vector3d(0, 0, x)};
+    return FaceMotion{corners, {corners[0], corners[2], corners[1]}};
+  };
+  const double touching = 0.3 + 0.01 * std::sqrt(3.0);
+  EXPECT_GT(SweptBox(box, motion, 0.01).clear_until(face(touching + 1e-9)), 1.0);
+  EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until(face(touching - 1e-9)), 0.0);
+}
+
+// A face without a plane has only the box's axes.
+TEST(SweptBox, NeedsNoPlane) {
+  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const RigidMotion motion(pose, pose);
+  const Vector3d far(0.0, 0.2, 0.0), near(0.0, 0.105, 0.0);
+  EXPECT_GT(SweptBox(box, motion, 0.01).clear_until({{far, far, far}, {far, far, far}}), 1.0);
+  EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until({{near, far, far}, {far, far, far}}), 0.0);
+}
+
+}  // namespace
+}  // namespace organ_collision

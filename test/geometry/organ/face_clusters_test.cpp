@@ -1,0 +1,101 @@
+#include "organ_collision/geometry/organ/face_clusters.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "test/grid_surface.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr std::size_t kRun = FaceClusters::kRun;
+
+std::vector<std::uint32_t> blocks_of_vertices(const FaceClusters& clusters, std::size_t count) {
+  std::vector<std::uint32_t> block_of(count, ~0U);
+  for (std::uint32_t block = 0; block < clusters.block_count(); ++block) {
+    for (std::size_t i = 0; i < kRun; ++i) {
+      const std::uint32_t vertex = clusters.vertices(block)[i];
+      EXPECT_TRUE(block_of[vertex] == ~0U || block_of[vertex] == block) << "in two blocks";
+      block_of[vertex] = block;
+    }
+  }
+  for (const std::uint32_t block : block_of) EXPECT_NE(block, ~0U) << "in no block";
+  return block_of;
+}
+
+/// Each number once.
+std::set<std::uint32_t> set_of(const FaceClusters::Range<std::uint32_t>& range) {
+  const std::set<std::uint32_t> set(range.begin(), range.end());
+  EXPECT_EQ(set.size(), static_cast<std::size_t>(range.end() - range.begin()));
+  return set;
+}
+
+/// Every face is in one cluster, by rising numbers, and all its vertices are in the cluster's
+/// blocks, and these in the section's sections.
+void expect_covering(const FaceClusters& clusters, const std::vector<FaceIndices>& faces,
+                     std::size_t vertex_count) {
+  const std::vector<std::uint32_t> block_of = blocks_of_vertices(clusters, vertex_count);
+  std::vector<int> seen(faces.size(), 0);
+  for (std::size_t block = 0; block < clusters.block_count(); ++block) {
+    const std::set<std::uint32_t> blocks = set_of(clusters.blocks(block));
+    const std::set<std::uint32_t> sections = set_of(clusters.sections(block / kRun));
+    for (const std::uint32_t part : blocks) EXPECT_TRUE(sections.count(part / kRun));
+    std::uint32_t last = 0;
+    for (const FaceClusters::Face& face : clusters.faces(block)) {
+      EXPECT_EQ(face.corners, faces[face.number]);
+      EXPECT_LE(last, face.number);
+      last = face.number;
+      ++seen[face.number];
+      for (const std::uint32_t vertex : face.corners) EXPECT_TRUE(blocks.count(block_of[vertex]));
+    }
+  }
+  EXPECT_EQ(seen, std::vector<int>(faces.size(), 1));
+}
+
+std::size_t blocks_of_all_clusters(const FaceClusters& clusters) {
+  std::size_t blocks = 0;
+  for (std::size_t i = 0; i < clusters.block_count(); ++i)
+    blocks += set_of(clusters.blocks(i)).size();
+  return blocks;
+}
+
+TEST(FaceClusters, TakeRunsOfACoherentSurface) {
+  for (const int side : {1, 2, 9, 40, 101}) {
+    const GridSurface grid = grid_surface(side);
+    const FaceClusters clusters(grid.faces, grid.vertices);
+    const std::size_t vertex_count = grid.vertices.size() / 3;
+    expect_covering(clusters, grid.faces, vertex_count);
+    EXPECT_LT(blocks_of_all_clusters(clusters), 7 * clusters.block_count());
+    ASSERT_EQ(clusters.block_of_run().size(), (vertex_count + kRun - 1) / kRun);
+    EXPECT_TRUE(clusters.block_of_vertex().empty());
+    for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
+      const std::uint32_t block = clusters.block_of_run()[vertex / kRun];
+      EXPECT_EQ(clusters.vertices(block)[vertex % kRun], vertex);
+    }
+  }
+}
+
+TEST(FaceClusters, ReorderAShuffledSurfaceIntoCompactBlocks) {
+  const GridSurface grid = shuffled(grid_surface(101), 5);
+  const FaceClusters clusters(grid.faces, grid.vertices);
+  const std::size_t vertex_count = grid.vertices.size() / 3;
+  expect_covering(clusters, grid.faces, vertex_count);
+  EXPECT_TRUE(clusters.block_of_run().empty());
+  EXPECT_EQ(clusters.block_of_vertex(), blocks_of_vertices(clusters, vertex_count));
+  EXPECT_LT(blocks_of_all_clusters(clusters), 7 * clusters.block_count());
+}
+
+TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
+  std::vector<float> vertices(3 * 300, 0.25F);
+  std::vector<FaceIndices> fan;
+  for (std::uint32_t i = 1; i + 1 < 300; ++i) fan.push_back({0, i, i + 1});
+  expect_covering(FaceClusters(fan, vertices), fan, 300);
+  const std::vector<FaceIndices> one = {{299, 150, 299}};
+  expect_covering(FaceClusters(one, vertices), one, 300);
+  vertices[0] = 1e6F;  // one vertex far from all others
+  expect_covering(FaceClusters(fan, vertices), fan, 300);
+}
+
+}  // namespace
+}  // namespace organ_collision

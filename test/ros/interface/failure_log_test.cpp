@@ -1,0 +1,48 @@
+#include "ros/interface/failure_log.hpp"
+
+#include <gtest/gtest.h>
+
+#include "ros/interface/plain_text.hpp"
+
+using namespace organ_collision;
+
+TEST(FailureLog, CountsByReason) {
+  FailureLog log;
+  const FailureLog::Time now{std::chrono::hours(3)};
+  log.add("wrong size", "7 numbers", now);
+  log.add("wrong size", "8 numbers", now);
+  log.add("not finite", "vertex 3", now);
+  ASSERT_EQ(log.by_reason().size(), 2u);
+  EXPECT_EQ(log.by_reason().at("wrong size").count, 2u);
+  EXPECT_EQ(log.by_reason().at("wrong size").latest, "8 numbers");
+  EXPECT_EQ(log.by_reason().at("not finite").not_yet_reported, 1u);
+}
+
+TEST(FailureLog, MessagesArePlainAndShort) {
+  FailureLog log;
+  log.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
+  const std::string& latest = log.by_reason().at("wrong size").latest;
+  EXPECT_LE(latest.size(), kLongestMessage);
+  EXPECT_EQ(latest.rfind("a xxx", 0), 0u) << latest;
+}
+
+TEST(FailureLog, ReportedOnce) {
+  FailureLog log;
+  log.add("wrong size", "7 numbers", {});
+  log.reported();
+  EXPECT_EQ(log.by_reason().at("wrong size").count, 1u);
+  EXPECT_EQ(log.by_reason().at("wrong size").not_yet_reported, 0u);
+  log.add("wrong size", "8 numbers", {});
+  EXPECT_EQ(log.by_reason().at("wrong size").not_yet_reported, 1u);
+}
+
+TEST(FailureLog, LogsEachReasonOnceASecond) {
+  FailureLog log;
+  const FailureLog::Time start{std::chrono::hours(3)};
+  log.add("wrong size", "a", start);
+  log.add("wrong size", "b", start + std::chrono::milliseconds(999));
+  EXPECT_EQ(log.by_reason().at("wrong size").logged, start);
+  const FailureLog::Time later = start + std::chrono::milliseconds(1000);
+  log.add("wrong size", "c", later);
+  EXPECT_EQ(log.by_reason().at("wrong size").logged, later);
+}

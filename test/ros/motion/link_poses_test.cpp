@@ -1,0 +1,171 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "geometry/tool/rigid_motion.hpp"
+#include "hand_filled_transforms.hpp"
+#include "ros/motion/tool_poses.hpp"
+#include "test/ros/tools/hand_made_tools.hpp"
+
+using namespace organ_collision;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+const Isometry3d kWorldLiver = Eigen::Translation3d(0.3, 0.1, -0.4) *
+                               Eigen::AngleAxisd(0.8, Vector3d(1.0, 2.0, -0.5).normalized());
+
+Isometry3d turn(double angle, const Vector3d& axis) {
+  return Isometry3d(Eigen::AngleAxisd(angle, axis.normalized()));
+}
+
+/// A liver that rests in the world, a wrist that turns, and a jaw that turns on it.
+class LinkPosesTest : public testing::Test {
+ protected:
+  LinkPosesTest() { set_transform(buffer_, "world", "liver", 0.0, kWorldLiver, true); }
+
+  static Isometry3d wrist(double time) {
+    return Eigen::Translation3d(0.1, 0.2, 0.5) * turn(std::sin(time), {0.2, 1.0, -0.3});
+  }
+  static Isometry3d jaw_on_wrist(double time) {
+    return Eigen::Translation3d(0.0, 0.01, 0.05) * turn(2.0 * time, {1.0, 0.1, 0.2});
+  }
+  static Isometry3d in_liver(const Isometry3d& T_world_link) {
+    return kWorldLiver.inverse() * T_world_link;
+  }
+  static ToolPose pose_at(double time) {
+    return {{Vector3d::Zero(), Vector3d::Zero()},
+            {in_liver(wrist(time)), in_liver(wrist(time) * jaw_on_wrist(time))}};
+  }
+
+  void send_wrist(double time) { set_transform(buffer_, "world", "arm/wrist", time, wrist(time)); }
+  void send_jaw(double time) {
+    set_transform(buffer_, "arm/wrist", "arm/jaw", time, jaw_on_wrist(time));
+  }
+  void send(double time) {
+    send_wrist(time);
+    send_jaw(time);
+  }
+  static void expect_links(const std::vector<Isometry3d>& links,
+                           const std::vector<Isometry3d>& expected, double tolerance = 1e-9) {
+    ASSERT_EQ(links.size(), expected.size());
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      EXPECT_LT((links[i].matrix() - expected[i].matrix()).norm(), tolerance) << "link " << i;
+    }
+  }
+
+  const Tool grasper_ = grasper();
+  TransformBuffer buffer_;
+  ToolPoses poses_{buffer_, {0.001, 100}};
+};
+
+}  // namespace
+
+TEST_F(LinkPosesTest, EachLinkInTheOrgansFrame) {
+  for (const double time : {1.0, 2.0}) send(time);
+  const auto lookup = poses_.pose(grasper_, "liver", ros::Time(2.0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  EXPECT_EQ(lookup.found->stamp, ros::Time(2.0));
+  expect_links(lookup.found->value.links, pose_at(2.0).links);
+}
+
+TEST_F(LinkPosesTest, ShaftAndLinks) {
+  const Tool tool = with_links(shaft_tool("hook", 0.005));
+  const Vector3d trocar(0.1, -0.2, 0.7), tip(0.2, 0.1, 0.3);
+  set_point(buffer_, "world", "hook_trocar", 0.0, trocar, true);
+  set_point(buffer_, "world", "hook_tip", 1.0, tip);
+  EXPECT_FALSE(poses_.pose(tool, "liver", ros::Time(1.0)).found);
+  send(1.0);
+  const auto lookup = poses_.pose(tool, "liver", ros::Time(1.0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  EXPECT_LT((lookup.found->value.axis.trocar - kWorldLiver.inverse() * trocar).norm(), 1e-9);
+  EXPECT_LT((lookup.found->value.axis.tip - kWorldLiver.inverse() * tip).norm(), 1e-9);
+  expect_links(lookup.found->value.links, pose_at(1.0).links);
+}
+
+TEST_F(LinkPosesTest, LatestIsTheLatestThatAllFramesHave) {
+  Tool tool = with_links(shaft_tool("hook", 0.005));
+  set_point(buffer_, "world", "hook_trocar", 0.0, {0.1, -0.2, 0.7}, true);
+  for (const double time : {1.0, 1.25, 1.5, 2.0, 2.5}) {
+    set_point(buffer_, "world", "hook_tip", time, {0.2, 0.1, 0.1 * time});
+    if (time <= 2.0) send_wrist(time);
+    if (time <= 1.5) send_jaw(time);
+  }
+  const auto lookup = poses_.pose(tool, "liver", ros::Time(0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
+  expect_links(lookup.found->value.links, pose_at(1.5).links);
+  const Vector3d tip = kWorldLiver.inverse() * Vector3d(0.2, 0.1, 0.15);
+  EXPECT_LT((lookup.found->value.axis.tip - tip).norm(), 1e-9);
+}
+
+TEST_F(LinkPosesTest, RestingLinksTakeTheTimeOfTheOthers) {
+  set_transform(buffer_, "world", "arm/wrist", 0.0, wrist(1.5), true);
+  send_jaw(1.5);
+  const auto lookup = poses_.pose(grasper_, "liver", ros::Time(0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
+  expect_links(lookup.found->value.links, pose_at(1.5).links);
+}
+
+TEST_F(LinkPosesTest, LinksThatOnlyRestAreOfAnyTime) {
+  set_transform(buffer_, "world", "arm/wrist", 0.0, wrist(0.7), true);
+  set_transform(buffer_, "arm/wrist", "arm/jaw", 0.0, jaw_on_wrist(0.7), true);
+  const auto lookup = poses_.pose(grasper_, "liver", ros::Time(0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  EXPECT_TRUE(lookup.found->stamp.isZero());
+  expect_links(lookup.found->value.links, pose_at(0.7).links);
+}
+
+TEST_F(LinkPosesTest, NoneIfTheLinksNeverShareATime) {
+  send_wrist(1.0);
+  set_transform(buffer_, "world", "arm/jaw", 2.0, wrist(2.0));
+  EXPECT_FALSE(poses_.pose(grasper_, "liver", ros::Time(0)).found);
+}
+
+TEST_F(LinkPosesTest, AMissingFrameIsNamedWithItsLinkAndItsJoint) {
+  std::string why = poses_.pose(grasper_, "liver", ros::Time(1.0)).why_not;
+  for (const char* word : {"link 'wrist'", "tool 'grasper'", "arm/wrist", "liver"}) {
+    EXPECT_NE(why.find(word), std::string::npos) << "'" << word << "' in: " << why;
+  }
+  EXPECT_EQ(why.find("joint"), std::string::npos) << why;
+  send_wrist(1.0);
+  why = poses_.pose(grasper_, "liver", ros::Time(1.0)).why_not;
+  for (const char* word :
+       {"link 'jaw'", "tool 'grasper'", "arm/jaw", "is joint 'jaw_joint' published?"}) {
+    EXPECT_NE(why.find(word), std::string::npos) << "'" << word << "' in: " << why;
+  }
+}
+
+TEST_F(LinkPosesTest, PathFollowsTheJoints) {
+  // TF knows every joint exactly at each sample.
+  for (int i = 0; i <= 100; ++i) send(1.0 + 0.001 * i);
+  const SampledPath sampled = poses_.path(grasper_, "liver", {pose_at(1.0), ros::Time(1.0)},
+                                          {pose_at(1.1), ros::Time(1.1)});
+  EXPECT_EQ(sampled.samples_cut, 0u);
+  EXPECT_GT(sampled.path.size(), 2u);
+  EXPECT_LT(sampled.path.size(), 30u);
+  for (std::size_t leg = 1; leg < sampled.path.size(); ++leg) {
+    const ToolWaypoint &from = sampled.path[leg - 1], &to = sampled.path[leg];
+    expect_links(to.links, pose_at(1.0 + 0.1 * to.fraction).links, 1e-7);
+    const double middle = 1.0 + 0.05 * (from.fraction + to.fraction);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const Isometry3d found = RigidMotion(from.links[i], to.links[i]).at(0.5);
+      const Isometry3d right = pose_at(middle).links[i];
+      EXPECT_LT((found.translation() - right.translation()).norm(), 1.1e-6);
+    }
+  }
+}
+
+TEST_F(LinkPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
+  for (const double time : {1.0, 1.25, 1.75, 2.0}) send(time);
+  send_wrist(1.5);
+  set_point(buffer_, "arm/wrist", "arm/jaw", 1.5, {0.0, 1e9, 0.0});
+  const SampledPath sampled =
+      ToolPoses(buffer_, {0.25, 100})
+          .path(grasper_, "liver", {pose_at(1.0), ros::Time(1)}, {pose_at(2.0), ros::Time(2)});
+  ASSERT_EQ(sampled.path.size(), 4u);
+  EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.25);
+  EXPECT_DOUBLE_EQ(sampled.path[2].fraction, 0.75);
+}

@@ -1,0 +1,157 @@
+#include "ros/motion/path_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "geometry/tool/rigid_motion.hpp"
+
+using namespace organ_collision;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+const ShaftAxis kNowhere{Vector3d::Zero(), Vector3d::Zero()};
+const Vector3d kBallCenter{0.02, -0.03, 0.06};
+constexpr double kBallRadius = 0.01;
+
+/// A ball beside its link's origin: no point is farther from it than 80 mm.
+std::vector<Link> one_ball() { return {{"jaw", {LinkPart::sphere(kBallCenter, kBallRadius)}}}; }
+
+Isometry3d pose(const Vector3d& origin, double angle, const Vector3d& axis) {
+  return Eigen::Translation3d(origin) * Eigen::AngleAxisd(angle, axis.normalized());
+}
+
+/// The ball turns on an arm that turns itself: two joints, `time` in seconds.
+Isometry3d on_an_arm(double time) {
+  return pose({0.1, 0.2, 0.3}, 1.1 * time, {1.0, 0.3, -0.4}) *
+         pose({0.0, 0.0, 0.25}, -2.3 * time, {0.2, 1.0, 0.5});
+}
+
+template <typename PoseAt>
+ToolPath path_of(const std::vector<Link>& links, int steps, double duration, PoseAt pose_at) {
+  const PathDeviation deviation(links);
+  PathBuilder path(deviation, {kNowhere, {pose_at(0.0)}});
+  for (int i = 1; i <= steps; ++i) {
+    const double fraction = i == steps ? 1.0 : double(i) / steps;
+    path.add(fraction, {kNowhere, {pose_at(fraction * duration)}});
+  }
+  return path.take();
+}
+
+/// The link's pose on the path.
+Isometry3d at(const ToolPath& path, double fraction) {
+  std::size_t leg = 1;
+  while (path[leg].fraction < fraction) ++leg;
+  const ToolWaypoint &a = path[leg - 1], &b = path[leg];
+  return RigidMotion(a.links[0], b.links[0])
+      .at((fraction - a.fraction) / (b.fraction - a.fraction));
+}
+
+}  // namespace
+
+TEST(PathBuilder, ALinkThatTurnsSteadilyIsOneLeg) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> number(0.0, 1.0);
+  const auto vector = [&] { return Vector3d(number(random), number(random), number(random)); };
+  for (int i = 0; i < 50; ++i) {
+    const RigidMotion motion(pose(vector(), number(random), vector()),
+                             pose(vector(), number(random), vector()));
+    const ToolPath path =
+        path_of(one_ball(), 20, 1.0, [&](double time) { return motion.at(time); });
+    ASSERT_EQ(path.size(), 2u);
+    EXPECT_EQ(path[0].links[0].matrix(), motion.start().matrix());
+    EXPECT_EQ(path[1].links[0].matrix(), motion.end().matrix());
+    EXPECT_EQ(path[1].fraction, 1.0);
+  }
+}
+
+TEST(PathBuilder, AChainOfJointsIsFollowedToAMicrometre) {
+  constexpr int kSteps = 2000;
+  constexpr double kDuration = 0.4;
+  const ToolPath path = path_of(one_ball(), kSteps, kDuration, on_an_arm);
+  EXPECT_LT(path.size(), kSteps / 4u);
+  std::mt19937 random(5);
+  std::normal_distribution<double> number(0.0, 1.0);
+  for (int i = 0; i <= kSteps; ++i) {
+    const double fraction = double(i) / kSteps;
+    const Isometry3d found = at(path, fraction), right = on_an_arm(fraction * kDuration);
+    for (int k = 0; k < 20; ++k) {
+      const Vector3d direction = Vector3d(number(random), number(random), number(random));
+      const Vector3d point = kBallCenter + kBallRadius * direction.normalized();
+      EXPECT_LE((found * point - right * point).norm(), 1e-6) << "at " << fraction;
+    }
+  }
+}
+
+TEST(PathBuilder, WhatReachesFartherBendsMore) {
+  const auto turn = [](double time) {
+    return pose({0.0, 0.0, 0.0}, std::sin(3.0 * time), {0.3, -1.0, 0.2});
+  };
+  const auto legs = [&](const Vector3d& center, double radius) {
+    return path_of({{"jaw", {LinkPart::sphere(center, radius)}}}, 200, 0.2, turn).size();
+  };
+  const std::size_t near = legs({0.0, 0.0, 0.0}, 0.01);
+  EXPECT_LT(near, legs({0.0, 0.3, 0.0}, 0.01));
+  EXPECT_LT(near, legs({0.0, 0.0, 0.0}, 0.3));
+  const Isometry3d aside = pose({0.1, -0.2, 0.2}, 0.7, {1.0, 1.0, -0.3});
+  EXPECT_LT(near,
+            path_of({{"jaw", {LinkPart::box(aside, {0.01, 0.02, 0.2})}}}, 200, 0.2, turn).size());
+}
+
+TEST(PathBuilder, EveryLinkCounts) {
+  const Isometry3d rest = pose({0.3, 0.1, 0.2}, 0.4, {1.0, 0.0, 2.0});
+  std::vector<Link> links = one_ball();
+  links.push_back(links.front());
+  const PathDeviation deviation(links);
+  for (const std::size_t moving : {0u, 1u}) {
+    PathBuilder path(deviation, {kNowhere, {on_an_arm(0.0), on_an_arm(0.0)}});
+    for (const double fraction : {0.5, 1.0}) {
+      ToolPose next{kNowhere, {rest, rest}};
+      next.links[moving] = on_an_arm(fraction);
+      path.add(fraction, next);
+    }
+    EXPECT_EQ(path.take().size(), 3u);
+  }
+}
+
+TEST(PathBuilder, MoreThanHalfATurnIsNoStraightWay) {
+  const auto turn = [](double time) { return pose({0.1, 0.0, 0.0}, time, {0.0, 0.5, 1.0}); };
+  const ToolPath path = path_of(one_ball(), 50, 6.0, turn);
+  ASSERT_GE(path.size(), 3u);
+  for (int i = 0; i <= 50; ++i) {
+    EXPECT_TRUE(at(path, i / 50.0).isApprox(turn(6.0 * i / 50.0), 1e-6)) << i;
+  }
+}
+
+TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
+  // 10 nm off the straight way.
+  const Isometry3d still = on_an_arm(0.0);
+  const PathDeviation deviation(one_ball());
+  const auto waypoints = [&](double axis_bend, double link_bend) {
+    const ShaftAxis bent{Vector3d(0.0, axis_bend, 0.0), Vector3d(0.0, axis_bend, 0.3)};
+    const ShaftAxis straight{Vector3d(0.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.3)};
+    PathBuilder path(deviation, {straight, {still}});
+    path.add(0.3, {bent, {Eigen::Translation3d(0.0, link_bend, 0.0) * still}});
+    path.add(1.0, {straight, {still}});
+    return path.take().size();
+  };
+  EXPECT_EQ(waypoints(0.0, 0.0), 2u);
+  EXPECT_EQ(waypoints(0.0, 1e-8), 2u);
+  EXPECT_EQ(waypoints(1e-8, 0.0), 3u);
+  EXPECT_EQ(waypoints(0.0, 2e-6), 3u);
+}
+
+TEST(PathBuilder, ATrocarThatMovesByRoundingRests) {
+  const ShaftAxis from{Vector3d(0.1, 0.2, 0.3), Vector3d(0.1, 0.2, 0.0)};
+  const ShaftAxis to{Vector3d(0.1, 0.2 + 1e-12, 0.3), Vector3d(0.2, 0.2, 0.0)};
+  const PathDeviation deviation({});
+  PathBuilder path(deviation, {from});
+  path.add(1.0, {to});
+  const ToolPath taken = path.take();
+  ASSERT_EQ(taken.size(), 2u);
+  EXPECT_EQ(taken[0].axis.trocar, to.trocar);
+  EXPECT_EQ(taken[0].axis.tip, from.tip);
+}

@@ -1,0 +1,86 @@
+#include "ros/motion/transform_lookup.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hand_filled_transforms.hpp"
+#include "ros/interface/plain_text.hpp"
+
+using namespace organ_collision;
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+namespace {
+
+Isometry3d pose(double x, double angle) {
+  return Eigen::Translation3d(x, -0.2, 0.7) *
+         Eigen::AngleAxisd(angle, Vector3d(0.3, -1.0, 0.4).normalized());
+}
+
+}  // namespace
+
+TEST(LookUp, FollowsTheChain) {
+  TransformBuffer buffer;
+  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "world", "tip", 3.0, pose(0.4, -1.1));
+  const auto found = look_up(buffer, "liver", "tip", ros::Time(3.0)).found;
+  ASSERT_TRUE(found);
+  const Isometry3d expected = pose(0.1, 0.5).inverse() * pose(0.4, -1.1);
+  EXPECT_TRUE(found->value.isApprox(expected, 1e-9));
+  EXPECT_EQ(found->stamp, ros::Time(3.0));
+}
+
+TEST(LookUp, LatestSaysItsTime) {
+  TransformBuffer buffer;
+  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
+  const auto found = look_up(buffer, "a", "b", ros::Time(0)).found;
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->stamp, ros::Time(3.5));
+  EXPECT_NEAR(found->value.translation().x(), 3.5, 1e-12);
+}
+
+TEST(LookUp, RestingTransformsAreOfAnyTime) {
+  TransformBuffer buffer;
+  set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.2), true);
+  EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(0)).found->stamp.isZero());
+  EXPECT_EQ(look_up(buffer, "a", "b", ros::Time(99)).found->stamp, ros::Time(99));
+}
+
+TEST(LookUp, AFrameInItselfNeedsNoTransform) {
+  const auto found = look_up(TransformBuffer(), "liver", "liver", ros::Time(4)).found;
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->value.isApprox(Isometry3d::Identity()));
+}
+
+TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
+  TransformBuffer buffer;
+  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "elsewhere", "tip", 3.0, pose(0.1, 0.5));
+  for (const char* frame : {"tip", "never_heard_of", "", "/world"}) {
+    const auto lookup = look_up(buffer, "liver", frame, ros::Time(3));
+    EXPECT_FALSE(lookup.found) << frame;
+    EXPECT_NE(lookup.why_not.find(std::string("from ") + frame + " to liver"), std::string::npos)
+        << lookup.why_not;
+  }
+}
+
+TEST(LookUp, ALoopAmongManyFramesIsToldInAShortMessage) {
+  TransformBuffer buffer;
+  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.5));
+  set_transform(buffer, "b", "a", 3.0, pose(0.1, 0.5));
+  for (int i = 0; i < 1000; ++i) {
+    set_transform(buffer, "b", std::string(1000, 'x') + std::to_string(i), 3.0, pose(0.1, 0.5));
+  }
+  const auto lookup = look_up(buffer, "liver", "a", ros::Time(3.0));
+  EXPECT_FALSE(lookup.found);
+  EXPECT_LE(lookup.why_not.size(), 2 * kLongestMessage);
+  EXPECT_NE(lookup.why_not.find("from a to liver"), std::string::npos) << lookup.why_not;
+}
+
+TEST(LookUp, NothingOutsideTheKnownTimes) {
+  TransformBuffer buffer;
+  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
+  EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(2.9)).found);
+  EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(3.6)).found);
+  EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(3.2)).found);
+}

@@ -1,0 +1,282 @@
+#include "ros/steps/step_scheduler.hpp"
+
+#include <gtest/gtest.h>
+
+#include "node_parts.hpp"
+
+using namespace organ_collision;
+using std::chrono::milliseconds;
+
+namespace {
+
+const Eigen::Vector3d kAbove{0.1, 0.2, 0.3};
+const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
+const Eigen::Vector3d kBelowToo{0.12, 0.2, -0.3};
+
+class StepSchedulerTest : public testing::Test, protected NodeParts {};
+
+std::vector<std::uint32_t> faces(const ContactArray& answer) {
+  std::vector<std::uint32_t> faces;
+  for (const Contact& contact : answer.contacts) faces.push_back(contact.face);
+  return faces;
+}
+
+void expect_step(const std::vector<ContactArray>& published, std::uint8_t mode, double begin,
+                 double end, std::size_t contacts) {
+  ASSERT_EQ(published.size(), 1u);
+  EXPECT_EQ(published[0].status, ContactArray::OK) << published[0].message;
+  EXPECT_EQ(published[0].mode, mode);
+  EXPECT_EQ(published[0].step_start, ros::Time(begin));
+  EXPECT_EQ(published[0].header.stamp, ros::Time(end));
+  EXPECT_EQ(published[0].contacts.size(), contacts);
+}
+
+constexpr auto kStatic = ContactArray::STATIC;
+constexpr auto kSwept = ContactArray::SWEPT;
+
+}  // namespace
+
+TEST_F(StepSchedulerTest, FirstIsStaticThenSwept) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  send_tip(1.1, kBelow);
+  send_vertices(1.1, 0.0);
+  const auto published = evaluate();
+  expect_step(published, kSwept, 1.0, 1.1, 1);
+  EXPECT_EQ(faces(published[0]), std::vector<std::uint32_t>{1});
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
+  EXPECT_TRUE(evaluate().empty());
+}
+
+TEST_F(StepSchedulerTest, APoseIsAnsweredOnce) {
+  send_tip(1.0, kAbove);
+  EXPECT_TRUE(pose().empty());
+  send_mesh(1.0, 0.0);
+  EXPECT_TRUE(pose().empty());  // the first shape is answered as such
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  EXPECT_TRUE(pose().empty());
+  send_tip(1.1, kBelow);
+  expect_step(pose(), kSwept, 1.0, 1.1, 1);
+  EXPECT_TRUE(pose().empty());
+  send_tip(1.2, kAbove);
+  send_vertices(1.2, 0.0);
+  expect_step(evaluate(), kSwept, 1.1, 1.2, 1);
+  EXPECT_TRUE(pose().empty());
+}
+
+TEST_F(StepSchedulerTest, OrganThatMovesThroughARestingTool) {
+  send_tip(1.0, kAbove);
+  send_tip(1.1, kAbove);
+  send_mesh(1.0, -0.1f);
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  send_vertices(1.1, 1.5f);
+  expect_step(evaluate(), kSwept, 1.0, 1.1, 2);
+}
+
+TEST_F(StepSchedulerTest, OrganJumpsWhereItsMotionIsNotWanted) {
+  parameters.organ_motion = false;
+  send_tip(1.0, kAbove);
+  send_tip(1.1, kAbove);
+  send_mesh(1.0, -0.1f);
+  evaluate();
+  send_vertices(1.1, 1.5f);
+  expect_step(evaluate(), kSwept, 1.0, 1.1, 0);
+}
+
+TEST_F(StepSchedulerTest, NewTopologyRestsWhileTheToolIsSwept) {
+  send_tip(1.0, kAbove);
+  send_tip(1.1, kAbove);
+  send_mesh(1.0, -0.1f);
+  evaluate();
+  send_mesh(1.1, 1.5f, 2);
+  expect_step(evaluate(), kSwept, 1.0, 1.1, 0);
+  send_tip(1.2, {0.1, 0.2, 2.0});
+  send_mesh(1.2, 1.5f, 3);
+  expect_step(evaluate(), kSwept, 1.1, 1.2, 1);
+}
+
+TEST_F(StepSchedulerTest, WaitsForTheTransform) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.05, 0.0);
+  EXPECT_TRUE(evaluate(milliseconds(10)).empty());
+  ASSERT_TRUE(steps.next_deadline());
+  EXPECT_EQ(*steps.next_deadline(), now + milliseconds(10));
+  send_tip(1.1, kAbove);
+  expect_step(evaluate(milliseconds(5)), kStatic, 1.05, 1.05, 0);
+  EXPECT_FALSE(steps.next_deadline());
+}
+
+TEST_F(StepSchedulerTest, SweepsAcrossAGapInTheTransforms) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, -2.0f);
+  evaluate();
+  send_vertices(1.1, 0.0f);
+  EXPECT_TRUE(evaluate(milliseconds(19)).empty());
+  const auto failed = evaluate(milliseconds(1));
+  ASSERT_EQ(failed.size(), 1u);
+  EXPECT_EQ(failed[0].status, ContactArray::NO_TRANSFORM);
+  EXPECT_NE(failed[0].message.find("hook_tip"), std::string::npos);
+  EXPECT_EQ(failed[0].header.stamp, ros::Time(1.1));
+  EXPECT_EQ(failed[0].step_start, ros::Time(1.0));
+  send_tip(1.2, kAbove);
+  send_vertices(1.2, 2.0f);
+  expect_step(evaluate(), kSwept, 1.0, 1.2, 2);  // From the shape before the gap, too.
+}
+
+TEST_F(StepSchedulerTest, WaitingShapeIsNotReplacedByNewerOnes) {
+  send_mesh(1.0, 0.0);
+  evaluate(milliseconds(5));
+  send_vertices(1.1, 0.1f);
+  evaluate(milliseconds(5));
+  send_vertices(1.2, 0.2f);
+  send_tip(1.0, kAbove);
+  send_tip(1.3, kAbove);
+  const auto published = evaluate();
+  ASSERT_EQ(published.size(), 2u);
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.0));
+  EXPECT_EQ(published[1].mesh_stamp, ros::Time(1.2));
+}
+
+TEST_F(StepSchedulerTest, OneToolWithoutTransformDoesNotHoldUpTheOther) {
+  tools.push_back(shaft_tool("lost", 0.01));
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  auto published = evaluate();
+  ASSERT_EQ(published.size(), 1u);
+  EXPECT_EQ(published[0].tool, "hook");
+  published = evaluate(milliseconds(20));
+  ASSERT_EQ(published.size(), 1u);
+  EXPECT_EQ(published[0].tool, "lost");
+  EXPECT_EQ(published[0].status, ContactArray::NO_TRANSFORM);
+}
+
+TEST_F(StepSchedulerTest, LateMeshFindsTheToolHeld) {
+  send_tip(1.0, kAbove);
+  send_tip(1.5, kBelow);
+  send_mesh(1.5, -2.0f);
+  expect_step(evaluate(), kStatic, 1.5, 1.5, 0);
+  send_vertices(1.2, 0.0f);
+  const auto published = evaluate();
+  expect_step(published, kSwept, 1.5, 1.5, 1);
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.2));
+  send_tip(1.6, kBelow);
+  send_vertices(1.6, 0.0f);
+  expect_step(evaluate(), kSwept, 1.5, 1.6, 1);
+}
+
+TEST_F(StepSchedulerTest, MeshWithoutStampTakesTheLatestTransforms) {
+  send_tip(1.0, kAbove);
+  send_mesh(0.0, 0.0);
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  send_tip(1.1, kBelow);
+  send_vertices(0.0, 0.0);
+  expect_step(evaluate(), kSwept, 1.0, 1.1, 1);
+}
+
+TEST_F(StepSchedulerTest, TicksSweepTheToolAndHoldTheOrgan) {
+  EXPECT_TRUE(tick().empty());
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, -2.0f);
+  EXPECT_TRUE(tick().empty());  // The first shape is not evaluated yet.
+  evaluate();
+  expect_step(tick(), kSwept, 1.0, 1.0, 0);  // No newer transform: the tool rests.
+  send_tip(1.1, kBelow);
+  send_vertices(1.2, 0.0f);
+  EXPECT_TRUE(evaluate().empty());
+  expect_step(tick(), kSwept, 1.0, 1.1, 0);  // The new shape waits: the organ is as it was.
+  send_tip(1.2, kBelow);
+  expect_step(evaluate(), kSwept, 1.1, 1.2, 1);
+  expect_step(tick(), kSwept, 1.2, 1.2, 1);  // The change of shape counted once.
+}
+
+TEST_F(StepSchedulerTest, TickSweepsAcrossAGap) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, -2.0f);
+  evaluate();
+  send_vertices(1.1, 0.0f);
+  ASSERT_EQ(evaluate(milliseconds(20))[0].status, ContactArray::NO_TRANSFORM);
+  send_tip(1.2, kBelow);
+  const auto published = tick();
+  expect_step(published, kSwept, 1.0, 1.2, 1);
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
+}
+
+TEST_F(StepSchedulerTest, TicksSayWhenTheMeshIsStale) {
+  parameters.mesh_timeout_sec = 2.0;
+  send_tip(49.0, kAbove);
+  send_mesh(49.0, 0.0);
+  evaluate();
+  EXPECT_EQ(tick().at(0).status, ContactArray::OK);
+  ros::Time::setNow(ros::Time(51.5));
+  EXPECT_EQ(tick().at(0).status, ContactArray::STALE_MESH);
+  EXPECT_EQ(tick().at(0).step_start, ros::Time(49.0));
+}
+
+TEST_F(StepSchedulerTest, ResetMakesTheNextStepStatic) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  send_vertices(1.1, 0.0);
+  steps.reset();
+  EXPECT_EQ(steps.history().last("liver", 0), nullptr);
+  send_tip(1.1, kBelow);
+  const auto published = evaluate();  // The shape that waited is no history.
+  expect_step(published, kStatic, 1.1, 1.1, 1);
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
+}
+
+TEST_F(StepSchedulerTest, StartingAnewDropsWaitingShapes) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  send_vertices(1.1, 0.0);
+  steps.start_anew(organs);
+  EXPECT_TRUE(evaluate(milliseconds(50)).empty());
+  EXPECT_FALSE(steps.next_deadline());
+  send_tip(1.1, kBelow);
+  const auto published = tick();
+  expect_step(published, kStatic, 1.1, 1.1, 1);
+  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
+}
+
+TEST_F(StepSchedulerTest, RestingTransformsAreOfNow) {
+  set_point(transforms, "liver_frame", "hook_tip", 0.0, kBelow, true);
+  send_mesh(0.0, 0.0);
+  expect_step(evaluate(), kStatic, 50.0, 50.0, 1);
+  ros::Time::setNow(ros::Time(51.0));
+  send_vertices(0.0, 0.0);
+  expect_step(evaluate(), kSwept, 50.0, 51.0, 1);
+}
+
+TEST_F(StepSchedulerTest, SweepsThroughEverySampleOfTheWay) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  send_tip(1.05, kBelow);
+  send_tip(1.1, kAbove);
+  send_vertices(1.1, 0.0);
+  const auto published = evaluate();
+  expect_step(published, kSwept, 1.0, 1.1, 1);
+  EXPECT_NEAR(published[0].contacts[0].fraction, 0.5 * (0.3 - 0.01) / 0.6, 1e-3);
+}
+
+TEST_F(StepSchedulerTest, CountsTheSamplesThatWereCut) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  send_tip(1.3, kBelowToo);
+  send_vertices(1.3, 0.0);
+  evaluate();
+  EXPECT_EQ(steps.samples_cut(), 200u);
+}
+
+TEST_F(StepSchedulerTest, RegionsOnRequest) {
+  parameters.publish_regions = true;
+  send_tip(1.0, kBelow);
+  send_mesh(1.0, 0.0);
+  const auto published = evaluate();
+  ASSERT_EQ(published[0].contacts.size(), 1u);
+  ASSERT_EQ(published[0].regions.size(), 1u);
+  EXPECT_GE(published[0].regions[0].points.size(), 3u);
+}

@@ -1,0 +1,77 @@
+#include "ros/tools/robot_reader.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+
+#include "ros/tools/tool_error.hpp"
+#include "tool_files.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+std::string robot_of(const std::string& mesh) {
+  return "<robot name='probe'><link name='tip'><collision><geometry><mesh filename='" + mesh +
+         "'/></geometry></collision></link></robot>";
+}
+
+std::string refusal(const std::string& urdf, const std::vector<std::string>& links = {"tip"}) {
+  return tool_error([&] { read_robot_text(urdf, links); });
+}
+
+}  // namespace
+
+TEST(RobotReader, ReadsFilesAndTexts) {
+  const std::vector<std::string> names = {"jaw", "shaft"};
+  for (const auto& links : {read_robot_file(tool_file("gripper.urdf"), names),
+                            read_robot_text(tool_text("gripper.urdf"), names)}) {
+    ASSERT_EQ(links.size(), 2u);
+    EXPECT_EQ(links[0].joint, "jaw_joint");
+    EXPECT_EQ(std::get<MeshDescription>(links[0].shapes.at(0)).triangles.size(), 4u);
+    EXPECT_EQ(links[1].joint, "insertion");
+    EXPECT_EQ(links[1].shapes.size(), 2u);
+  }
+}
+
+TEST(RobotReader, NamesOfLinksMayBeAnything) {
+  for (const std::string name : {"", "-", "--help", "a b", "\xff"}) {
+    expect_words(refusal(tool_text("gripper.urdf"), {name}), {"link '" + name + "' is unknown"});
+  }
+}
+
+TEST(RobotReader, RefusalsAreTheReaders) {
+  expect_words(refusal(""), {"no legal URDF"});
+  expect_words(refusal(robot_of("/no/such.stl")), {"link 'tip'", "/no/such.stl", "no such file"});
+  expect_words(tool_error([] { read_robot_file("/no/such.urdf", {"tip"}); }), {"no such file"});
+  expect_words(tool_error([] { read_robot_file("-", {"tip"}); }), {"no legal URDF"});
+}
+
+// Some versions of the parsers crash on them, and others say what is wrong.
+TEST(RobotReader, FilesThatMayCrashTheReaderAreRefusedByName) {
+  for (const std::string name : {"crashing.obj", "crashing.dae"}) {
+    expect_words(refusal(robot_of(tool_file(name))),
+                 {"link 'tip': mesh '" + tool_file(name) + "'"});
+  }
+  EXPECT_FALSE(refusal(tool_text("crashing.urdf")).empty());
+}
+
+TEST(RobotReader, TooMuchMemoryNamesTheFile) {
+  expect_words(refusal(robot_of(tool_file("huge.ply"))),
+               {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
+}
+
+// Some versions of the parser hang on it. A lower limit of this process holds for the reader too,
+// and ends it sooner; here it is only noticed.
+TEST(RobotReader, FilesThatMayHangTheReaderAreRefusedByName) {
+  const auto former_action = std::signal(SIGXCPU, SIG_IGN);
+  rlimit former{};
+  getrlimit(RLIMIT_CPU, &former);
+  const rlimit lower{1, former.rlim_max};
+  setrlimit(RLIMIT_CPU, &lower);
+  expect_words(refusal(robot_of(tool_file("endless.ply"))),
+               {"link 'tip': mesh '" + tool_file("endless.ply") + "'"});
+  setrlimit(RLIMIT_CPU, &former);
+  std::signal(SIGXCPU, former_action);
+}

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "ros/tools/tool_error.hpp"
+
+namespace organ_collision {
+
+/// The URL of a file of test/data/tools.
+inline std::string tool_file(const std::string& name) {
+  return "package://organ_collision/test/data/tools/" + name;
+}
+
+/// Its content.
+inline std::string tool_text(const std::string& name) {
+  std::ifstream file(ORGAN_COLLISION_TEST_DATA "/tools/" + name, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// What the ToolError says that `action` throws; a failure where it throws none.
+template <typename Action>
+std::string tool_error(const Action& action) {
+  try {
+    action();
+  } catch (const ToolError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << "nothing was refused";
+  return {};
+}
+
+inline void expect_words(const std::string& message, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
+  }
+}
+
+}  // namespace organ_collision
