@@ -17,7 +17,7 @@
 #include <vector>
 
 #include "resource.hpp"
-#include "ros/tools/tool_error.hpp"
+#include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
 namespace {

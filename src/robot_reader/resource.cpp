@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "ros/tools/reader_limits.hpp"
-#include "ros/tools/tool_error.hpp"
+#include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
 namespace {

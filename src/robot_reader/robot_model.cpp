@@ -5,7 +5,7 @@
 
 #include "mesh_file.hpp"
 #include "ros/interface/spelling.hpp"
-#include "ros/tools/tool_error.hpp"
+#include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
 namespace {

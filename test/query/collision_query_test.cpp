@@ -1,4 +1,5 @@
 #include "organ_collision/query/collision_query.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
-#include "ros/tools/tool_loader.hpp"
+#include "ros/tools/tool.hpp"
 #include "test/ros/tools/tool_files.hpp"
 
 namespace organ_collision {

@@ -6,12 +6,12 @@
 namespace organ_collision {
 namespace {
 
-/// [m] A bend of an axis, or a way of a trocar, by less is none.
+/// [m] A smaller deviation of an axis, or motion of a trocar, is taken for rounding.
 constexpr double kStraight = 1e-9;
 /// [m] The same for points of links.
 constexpr double kStraightLink = 1e-6;
 
-/// A trocar that moves by rounding alone is at rest, for which viewing volumes are tighter.
+/// A trocar that moves by no more than rounding is made to rest: its viewing volumes are tighter.
 void rest_trocar(ToolPath& path) {
   const Eigen::Vector3d trocar = path.back().axis.trocar;
   const auto is_there = [&](const ToolWaypoint& waypoint) {
@@ -26,13 +26,13 @@ void rest_trocar(ToolPath& path) {
 void PathBuilder::add(double fraction, const ToolPose& pose) {
   ToolWaypoint next{fraction, pose.axis, pose.links};
   const std::size_t size = path_.size();
-  const double added = size > 1 ? bend(path_[size - 2], path_[size - 1], next) : 0.0;
-  // Each waypoint left out turns the leg by no more than its own bend: the sum bounds them all.
-  if (size > 1 && bends_left_out_ + added <= 1.0) {
-    bends_left_out_ += added;
+  const double added = size > 1 ? relative_deviation(path_[size - 2], path_[size - 1], next) : 0.0;
+  // Each dropped sample changes the leg by at most its own deviation, so the sum bounds the change.
+  if (size > 1 && dropped_deviation_ + added <= 1.0) {
+    dropped_deviation_ += added;
     path_.back() = std::move(next);
   } else {
-    bends_left_out_ = 0.0;
+    dropped_deviation_ = 0.0;
     path_.push_back(std::move(next));
   }
 }
@@ -42,11 +42,11 @@ ToolPath PathBuilder::take() {
   return std::move(path_);
 }
 
-/// How far `b` is from the straight way from `a` to `c`, at its time, as a share of what counts as
-/// straight.
-double PathBuilder::bend(const ToolWaypoint& a, const ToolWaypoint& b,
-                         const ToolWaypoint& c) const {
-  const Deviation deviation = deviation_(b, StraightWay(a, c));
+/// The deviation of `b` from the straight motion from `a` to `c` at its time, as a share of the
+/// tolerance.
+double PathBuilder::relative_deviation(const ToolWaypoint& a, const ToolWaypoint& b,
+                                       const ToolWaypoint& c) const {
+  const Deviation deviation = deviation_(b, StraightMotion(a, c));
   return std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
 }
 

@@ -5,29 +5,31 @@
 
 namespace organ_collision {
 
-/// Builds a path without the waypoints that add nothing: every leg costs a query of its own, and
-/// between two transforms TF interpolates, mostly in a straight line. What lies on the straight way
-/// between its neighbours is left out: ends of an axis to 1e-9 m, the points of links, whose
-/// straight way is that of RigidMotion, to 1e-6 m. Joints in a chain follow that way only roughly.
+/// Builds a path from samples of a tool's motion, without redundant waypoints: each leg of a path
+/// costs a query. TF interpolates between transforms, so that many samples lie on the straight
+/// motion between their neighbours. A sample is dropped if the path changes by less than 1e-9 m at
+/// the ends of the axis, and by less than 1e-6 m at any point of the links, without it. The straight
+/// motion of a link is RigidMotion; chains of joints follow it only roughly.
 class PathBuilder {
  public:
-  /// At fraction 0. `deviation` must outlive it.
+  /// Starts at fraction 0. `deviation` must outlive this.
   PathBuilder(const PathDeviation& deviation, const ToolPose& begin)
       : deviation_(deviation), path_(resting_path(begin)) {}
 
-  /// Fractions rise, up to 1.
+  /// Fractions rise from call to call, up to 1.
   void add(double fraction, const ToolPose& pose);
 
-  /// The path through all that was added: it begins and ends as given, but for 1e-9 m of a trocar
-  /// at rest.
+  /// The path through all samples. Its ends are as given, except that a trocar that moved by less
+  /// than 1e-9 m is made to rest.
   ToolPath take();
 
  private:
-  double bend(const ToolWaypoint& a, const ToolWaypoint& b, const ToolWaypoint& c) const;
+  double relative_deviation(const ToolWaypoint& a, const ToolWaypoint& b,
+                            const ToolWaypoint& c) const;
 
   const PathDeviation& deviation_;
   ToolPath path_;
-  double bends_left_out_ = 0.0;  ///< of the last leg, as `bend` has them
+  double dropped_deviation_ = 0.0;  ///< sum over the samples dropped from the last leg
 };
 
 }  // namespace organ_collision

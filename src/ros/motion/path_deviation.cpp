@@ -6,7 +6,7 @@
 namespace organ_collision {
 namespace {
 
-/// [m] The farthest that any point of the link lies from its origin, or farther.
+/// [m] An upper bound for the distance of the link's points from its origin.
 double reach(const Link& link) {
   double farthest = 0.0;
   for (const LinkPart& part : link.parts) {
@@ -17,14 +17,15 @@ double reach(const Link& link) {
   return farthest;
 }
 
-/// [m] How far two axes are apart, end by end.
+/// [m] The larger of the distances between corresponding ends of two axes.
 double distance(const ShaftAxis& a, const ShaftAxis& b) {
   return std::max((a.trocar - b.trocar).norm(), (a.tip - b.tip).norm());
 }
 
-/// [m] How far any point within `reach` of the origin is from where it would be in another pose, or
-/// farther. Turning by an angle moves it by 2 reach sin(angle / 2), and the turns' matrices differ
-/// by sqrt(8) sin(angle / 2).
+/// [m] An upper bound for the distance between the places of a point in two poses, for all points
+/// within `reach` of the origin. A rotation by an angle moves such a point by at most
+/// 2 reach sin(angle / 2), and the Frobenius norm of the difference of the rotation matrices is
+/// sqrt(8) sin(angle / 2).
 double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double reach) {
   return (a.translation() - b.translation()).norm() +
          reach * std::sqrt(0.5) * (a.linear() - b.linear()).norm();
@@ -32,7 +33,7 @@ double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double r
 
 }  // namespace
 
-StraightWay::StraightWay(const ToolWaypoint& from, const ToolWaypoint& to)
+StraightMotion::StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to)
     : begin(from.fraction), duration(to.fraction - from.fraction), axis{from.axis, to.axis} {
   links.reserve(from.links.size());
   for (std::size_t i = 0; i < from.links.size(); ++i) {
@@ -45,12 +46,12 @@ PathDeviation::PathDeviation(const std::vector<Link>& links) {
   for (const Link& link : links) reaches_.push_back(reach(link));
 }
 
-Deviation PathDeviation::operator()(const ToolWaypoint& waypoint, const StraightWay& way) const {
-  const double time = (waypoint.fraction - way.begin) / way.duration;
-  Deviation deviation{distance(way.axis.at(time), waypoint.axis), 0.0};
+Deviation PathDeviation::operator()(const ToolWaypoint& waypoint, const StraightMotion& motion) const {
+  const double time = (waypoint.fraction - motion.begin) / motion.duration;
+  Deviation deviation{distance(motion.axis.at(time), waypoint.axis), 0.0};
   for (std::size_t i = 0; i < reaches_.size(); ++i) {
     deviation.links =
-        std::max(deviation.links, distance(way.links[i].at(time), waypoint.links[i], reaches_[i]));
+        std::max(deviation.links, distance(motion.links[i].at(time), waypoint.links[i], reaches_[i]));
   }
   return deviation;
 }

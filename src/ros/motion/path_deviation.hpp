@@ -8,34 +8,34 @@
 
 namespace organ_collision {
 
-/// The straight way from one waypoint to another: ends of the axis linearly, links as RigidMotion
-/// says.
-struct StraightWay {
-  /// Their fractions rise.
-  StraightWay(const ToolWaypoint& from, const ToolWaypoint& to);
+/// The straight motion from one waypoint to another: the ends of the axis move linearly, links as
+/// RigidMotion defines it.
+struct StraightMotion {
+  /// `to` has a larger fraction than `from`.
+  StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to);
 
   double begin, duration;  ///< fractions of the step
   ShaftMotion axis;
   std::vector<RigidMotion> links;
 };
 
-/// How far a waypoint is from a straight way, at its time [m].
+/// The distance of a waypoint from a straight motion at the same time [m].
 struct Deviation {
-  double axis;   ///< of either end of the axis
-  double links;  ///< of any point of the links, or more
+  double axis;   ///< the larger one of both ends of the axis
+  double links;  ///< an upper bound for all points of the links
 
   double most() const { return axis > links ? axis : links; }
 };
 
-/// Measures the waypoints of one tool.
+/// Measures deviations of one tool.
 class PathDeviation {
  public:
   explicit PathDeviation(const std::vector<Link>& links);
 
-  Deviation operator()(const ToolWaypoint& waypoint, const StraightWay& way) const;
+  Deviation operator()(const ToolWaypoint& waypoint, const StraightMotion& motion) const;
 
  private:
-  std::vector<double> reaches_;  ///< [m] of each link, from its origin
+  std::vector<double> reaches_;  ///< [m] largest distance of each link's points from its origin
 };
 
 }  // namespace organ_collision

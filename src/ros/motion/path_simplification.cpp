@@ -8,7 +8,7 @@
 namespace organ_collision {
 namespace {
 
-/// The way between two waypoints, straight, and the one in between that is farthest from it.
+/// The straight motion between two waypoints, and the waypoint in between that deviates most.
 struct Leg {
   std::size_t begin, end, farthest;
   double deviation = 0.0;  ///< [m]
@@ -19,9 +19,9 @@ struct Leg {
 Leg straight_leg(const ToolPath& path, const PathDeviation& deviation, std::size_t begin,
                  std::size_t end) {
   Leg leg{begin, end, begin};
-  const StraightWay way(path[begin], path[end]);
+  const StraightMotion motion(path[begin], path[end]);
   for (std::size_t i = begin + 1; i < end; ++i) {
-    const double most = deviation(path[i], way).most();
+    const double most = deviation(path[i], motion).most();
     if (most > leg.deviation) {
       leg.deviation = most;
       leg.farthest = i;
@@ -32,7 +32,7 @@ Leg straight_leg(const ToolPath& path, const PathDeviation& deviation, std::size
 
 }  // namespace
 
-CutPath cut_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max) {
+SimplifiedPath simplify_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max) {
   if (path.size() <= legs_max + 1) return {std::move(path)};
   std::priority_queue<Leg> legs;
   legs.push(straight_leg(path, deviation, 0, path.size() - 1));
@@ -45,7 +45,7 @@ CutPath cut_path(ToolPath path, const PathDeviation& deviation, std::size_t legs
     kept.push_back(leg.farthest);
   }
   std::sort(kept.begin(), kept.end());
-  CutPath result{{}, path.size() - kept.size(), legs.top().deviation};
+  SimplifiedPath result{{}, path.size() - kept.size(), legs.top().deviation};
   for (const std::size_t waypoint : kept) result.path.push_back(std::move(path[waypoint]));
   return result;
 }

@@ -7,15 +7,15 @@
 
 namespace organ_collision {
 
-/// A path with the waypoints that fit into so many legs, and what the others were.
-struct CutPath {
+/// A path with fewer waypoints.
+struct SimplifiedPath {
   ToolPath path;
-  std::size_t cut = 0;     ///< waypoints left out
-  double deviation = 0.0;  ///< [m] the farthest that any of them is from the path
+  std::size_t dropped = 0;  ///< waypoints
+  double deviation = 0.0;   ///< [m] the largest distance of a dropped waypoint from the path
 };
 
-/// Leaves out waypoints until there are at most `legs_max` legs, at least 1: those that change the
-/// way least, as Douglas and Peucker (1973) find them.
-CutPath cut_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max);
+/// Simplifies a path to at most `legs_max` legs, at least 1. Follows Douglas and Peucker (1973),
+/// with the deviation in space and time: the waypoint with the largest deviation is kept first.
+SimplifiedPath simplify_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max);
 
 }  // namespace organ_collision

@@ -15,14 +15,14 @@ namespace {
 
 using geometry_msgs::PoseStamped;
 
-/// Poses that wait; what is older is dropped, and the sweep goes straight across.
+/// [messages] Older poses that wait are dropped; the sweep then goes straight across them.
 constexpr std::uint32_t kQueue = 1000;
-/// [1] Quaternions are normalised if they are this near to length 1.
+/// [1] A quaternion's length may differ from 1 by this much; it is then normalised.
 constexpr double kUnit = 1e-3;
-/// [s] As long as TF keeps transforms: one from farther ahead would drop all others.
+/// [s] TF keeps transforms for this long: a pose further in the future would drop all others.
 constexpr double kAhead = 10.0;
 
-/// What is wrong with a pose; empty: nothing.
+/// Why a pose is illegal; empty: it is legal.
 std::string fault(const PoseStamped& pose) {
   const auto& p = pose.pose.position;
   const auto& q = pose.pose.orientation;
@@ -93,7 +93,7 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
-  // Several may come within a tick of simulated time; the last one counts as well.
+  // Several poses may come within one tick of simulated time: each gets a stamp of its own.
   if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
   if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {
     return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
@@ -113,7 +113,7 @@ void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {
   place_base(stream);
 }
 
-/// Bases are sent once, or seldom: they rest until they are sent again.
+/// Base poses are sent once, or rarely: each is valid until the next one.
 void PoseTopics::place_base(const Stream& stream) {
   if (!stream.base || stream.frame.empty() || !check(*stream.base, stream.frame)) return;
   sinks_.transforms.add(to_transform(*stream.base, stream.frame), "pose", true);
@@ -123,7 +123,7 @@ void PoseTopics::forget_stamps() {
   for (Stream& stream : streams_) stream.latest = ros::Time();
 }
 
-/// False: it cannot be the pose of `frame`, and is counted.
+/// Returns false, and counts the pose as rejected, if it cannot be the pose of `frame`.
 bool PoseTopics::check(const PoseStamped& pose, const std::string& frame) {
   const std::string wrong = tf_frame(pose.header.frame_id) == frame && !frame.empty()
                                 ? "is in its own frame"

@@ -14,13 +14,13 @@
 
 namespace organ_collision {
 
-/// Tips whose poses come as PoseStamped, as CRTK's measured_cp: in the frame of their header,
-/// without a name of their own. They become transforms to the tool's tip frame in the node's
-/// buffer, so that all else is as for tools on TF.
+/// Tool tips whose poses come as PoseStamped, for example CRTK's measured_cp: in the frame of their
+/// header, and without a frame name of their own. Each pose becomes a transform to the tool's tip
+/// frame in the node's buffer, so that the rest of the node treats such tools like those on TF.
 class PoseTopics {
  public:
-  /// Where poses go; all must outlive it. `arrived` gets the tool's index, after each pose of a
-  /// tip.
+  /// Where poses go; all must outlive this. `arrived` is called with the tool's index after each
+  /// pose of its tip.
   struct Sinks {
     TransformBuffer& transforms;
     FailureLog& rejected;
@@ -28,29 +28,29 @@ class PoseTopics {
   };
   PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks);
 
-  /// To the topics that the tools name; `node` resolves their names.
+  /// Subscribes to the topics that the tools name; `node` resolves their names.
   void subscribe(ros::NodeHandle node);
 
-  /// A pose of the tool's tip, or of the frame that those are in. A pose that cannot be is counted
-  /// as rejected, and the last one stays.
+  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are. An illegal pose is
+  /// counted as rejected, and the last pose stays.
   void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
   void take_base(std::size_t tool, const geometry_msgs::PoseStamped& pose);
 
-  /// The clock jumped back.
+  /// For a clock that jumped back: earlier stamps are legal again.
   void forget_stamps();
 
  private:
   struct Stream {
     ToolParameters tool;
-    std::string frame;  ///< in which the tip's poses are; empty: none came
-    ros::Time latest;   ///< stamp of the tip's poses; zero: none came
-    std::optional<geometry_msgs::PoseStamped> base;  ///< of that frame
+    std::string frame;  ///< in which the tip's poses are; empty: no pose came yet
+    ros::Time latest;   ///< stamp of the tip's poses; zero: no pose came yet
+    std::optional<geometry_msgs::PoseStamped> base;  ///< pose of that frame, once it came
   };
   void place_base(const Stream& stream);
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
   void reject(const std::string& frame, const std::string& wrong);
 
-  std::vector<Stream> streams_;  ///< one for each tool
+  std::vector<Stream> streams_;  ///< by tool
   Sinks sinks_;
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -7,7 +7,7 @@ namespace organ_collision {
 
 void StampRecord::add(ros::Time stamp) {
   rising_.insert(std::upper_bound(rising_.begin(), rising_.end(), stamp), stamp);
-  // Whole nanoseconds: ros::Time's arithmetic throws at absurd stamps.
+  // In whole nanoseconds, because the arithmetic of ros::Time throws for extreme stamps.
   const std::uint64_t latest = rising_.back().toNSec();
   const auto kept = static_cast<std::uint64_t>(kept_.toNSec());
   while (rising_.size() > kMost || latest - rising_.front().toNSec() > kept) rising_.pop_front();

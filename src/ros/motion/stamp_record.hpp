@@ -7,21 +7,21 @@
 
 namespace organ_collision {
 
-/// The stamps that the transforms of one frame had lately. It forgets those that TF forgets, and
-/// the oldest of too many.
+/// The stamps of the recent transforms of one frame. It forgets a stamp when TF forgets the
+/// transform, or when there are too many.
 class StampRecord {
  public:
-  /// As many as TF keeps at 1 kHz.
+  /// As many transforms as TF keeps at 1 kHz.
   static constexpr std::size_t kMost = 10'000;
 
-  /// `kept`: as long before the latest one TF keeps transforms.
+  /// `kept`: how long TF keeps a transform, counted back from the latest one.
   explicit StampRecord(ros::Duration kept) : kept_(kept) {}
 
   void add(ros::Time stamp);
   bool contains(ros::Time stamp) const;
   bool empty() const { return rising_.empty(); }
   void clear() { rising_.clear(); }
-  /// Appends those after `from` and before `to`, rising.
+  /// Appends the stamps after `from` and before `to`, in rising order.
   void append_between(ros::Time from, ros::Time to, std::vector<ros::Time>& stamps) const;
 
  private:

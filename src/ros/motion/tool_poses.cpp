@@ -12,13 +12,13 @@
 namespace organ_collision {
 namespace {
 
-/// For each pose that is read, TF looks through all that it was told since: a step of many seconds
-/// would take most of one.
+/// [poses] For each pose, TF searches through all later transforms: without this limit, a step of
+/// many seconds would take up to a second.
 constexpr std::size_t kMostRead = 1000;
 
-/// The times that some transforms are of, without those of any time.
+/// The range of the times of some transforms. Static ones, at any time, do not count.
 struct StampRange {
-  ros::Time earliest, latest;  ///< zero: all are of any time
+  ros::Time earliest, latest;  ///< zero: all transforms are static
 
   void add(ros::Time stamp) {
     if (stamp.isZero()) return;
@@ -43,7 +43,7 @@ bool is_near(const ToolPose& pose) {
                      [](const auto& link) { return is_near(link.translation()); });
 }
 
-/// Whole nanoseconds: ros::Duration would overflow at absurd stamps.
+/// [ns] In whole nanoseconds, because ros::Duration overflows for extreme stamps.
 std::int64_t elapsed(ros::Time from, ros::Time to) {
   return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
 }
@@ -51,12 +51,12 @@ double nanoseconds(ros::Time from, ros::Time to) { return static_cast<double>(el
 
 double seconds(ros::Time from, ros::Time to) { return 1e-9 * nanoseconds(from, to); }
 
-/// How many samples at this distance lie between two times.
+/// How many samples with this spacing lie strictly between two times.
 double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
 
-/// Leaves at most `most` of them, spread evenly. How many it took away.
+/// Keeps at most `most` of the times, evenly spread. Returns how many it dropped.
 std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
   const std::size_t size = times.size();
   if (size <= most) return 0;
@@ -65,7 +65,7 @@ std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
   return size - most;
 }
 
-/// Adds so many times, evenly spaced between two.
+/// Adds `count` evenly spaced times between two.
 void add_even_times(ros::Time from, ros::Time to, std::size_t count,
                     std::vector<ros::Time>& times) {
   const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
@@ -75,7 +75,7 @@ void add_even_times(ros::Time from, ros::Time to, std::size_t count,
   }
 }
 
-/// The frames that say where a tool is.
+/// The frames that determine the pose of a tool.
 TransformBuffer::Frames frames_of(const Tool& tool) {
   const ToolParameters& parameters = tool.parameters;
   TransformBuffer::Frames frames;
@@ -142,7 +142,7 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
     }
     pose.links.push_back(link.found->value);
   }
-  // Each was the latest of its own; a tool is made of parts at the same time.
+  // Each frame was looked up at its own latest time, but all must be of the same time.
   if (stamps.earliest != stamps.latest) return this->pose(tool, organ_frame, stamps.earliest);
   return {{{std::move(pose), stamps.earliest}}, ""};
 }
@@ -159,15 +159,15 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   PathBuilder path(deviation, from.value);
   std::size_t samples_cut = 0;
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, samples_cut)) {
-    // One that cannot be evaluated is no reason to refuse all others.
+    // A sample that is too far away to be evaluated must not make the whole step fail.
     if (const auto between = pose(tool, organ_frame, time);
         between.found && is_near(between.found->value)) {
       path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
     }
   }
   path.add(1.0, to.value);
-  CutPath cut = cut_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
-  return {std::move(cut.path), samples_cut + cut.cut, cut.deviation};
+  SimplifiedPath simplified = simplify_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
+  return {std::move(simplified.path), samples_cut + simplified.dropped, simplified.deviation};
 }
 
 }  // namespace organ_collision

@@ -12,42 +12,43 @@
 
 namespace organ_collision {
 
-/// How finely motion is read from TF.
+/// How densely motion is sampled from TF.
 struct PathSampling {
   double sample_sec;
-  int samples_max;  ///< for each step, its end among them
+  int samples_max;  ///< of one step, including its end
 };
 
-/// A tool's way, and what it would have more without `samples_max`.
+/// A tool's path, and what `samples_max` cost.
 struct SampledPath {
   ToolPath path;
   std::size_t samples_cut = 0;
-  double deviation_cut = 0.0;  ///< [m] the farthest that a pose read and left out is from the path
+  double deviation_cut = 0.0;  ///< [m] the largest distance of a dropped pose from the path
 };
 
-/// Where tools are, in the frame of an organ, from TF.
+/// The poses of tools in the frame of an organ, from TF.
 class ToolPoses {
  public:
-  /// `buffer` must outlive it.
+  /// `buffer` must outlive this.
   ToolPoses(TransformBuffer& buffer, const PathSampling& sampling)
       : buffer_(buffer), sampling_(sampling) {}
 
-  /// The pose at a time; zero: at the latest time for which all its frames are known.
+  /// The pose at a time; zero: at the latest time at which all its frames are known.
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
 
-  /// The way from one known pose to another, through all that TF was told in between, and through
-  /// samples where that is seldom. A sample that TF does not have is left out; of the others,
-  /// PathBuilder keeps those that add something and, if they are too many, cut_path those that add
-  /// most. Of more than a thousand, and than samples_max, those read are spread evenly.
+  /// The path from one known pose to another. It is sampled at each stamp that TF received in
+  /// between, and at times in between if these are further apart than sample_sec. Samples that TF
+  /// cannot give are dropped, PathBuilder drops redundant ones, and simplify_path reduces the rest to
+  /// samples_max. If there are more stamps than samples_max and than a thousand, only so many of
+  /// them are read, evenly spread.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
-  /// A step of the tool up to `time` was answered: transforms that it should have gone through and
-  /// that are still to come are late.
+  /// Notes that a step of the tool up to `time` was answered. Transforms that come later but belong
+  /// to that step are counted as late.
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// Why a tool's pose is not known: no message came that would have placed it, or as given.
+  /// Why a tool's pose is not known: no message came on its pose topic, or `why_not`.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
                                       ros::Time from, ros::Time to, std::size_t& cut) const;

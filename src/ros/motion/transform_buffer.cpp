@@ -7,7 +7,7 @@
 namespace organ_collision {
 namespace {
 
-/// Frames change their parents seldom: an instrument that is handed over, a tree that is mended.
+/// A frame rarely changes its parent: when an instrument is handed over, or a tree is corrected.
 constexpr std::size_t kMostParents = 8;
 
 bool contains(const std::vector<std::size_t>& frames, std::size_t frame) {
@@ -27,7 +27,7 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   const auto known = indices_.find(tf_frame(transform.child_frame_id));
   if (!resting && known != indices_.end()) {
     const Frame& frame = frames_[known->second];
-    // Sent again, it says nothing new.
+    // A repeated transform is not late.
     if (stamp <= frame.answered && !frame.stamps.contains(stamp)) ++late_;
   }
   if (!taken) return false;
@@ -78,8 +78,8 @@ std::size_t TransformBuffer::index_of(const std::string& frame) {
   return known->second;
 }
 
-/// The frames whose transforms place any of `sources` in the target frame. Where one of them
-/// changed its parent lately, others above it may be among them.
+/// The frames whose transforms determine the poses of `sources` in the target frame. If one of them
+/// changed its parent recently, further frames above it may be included.
 TransformBuffer::Indices TransformBuffer::chain(const std::string& target,
                                                 const Frames& sources) const {
   const Indices above_target = upward(target);
@@ -97,7 +97,7 @@ TransformBuffer::Indices TransformBuffer::chain(const std::string& target,
   return found;
 }
 
-/// The frame and all above it, each once, by any parent that they had lately.
+/// The frame and all its ancestors through recent parents, each once.
 TransformBuffer::Indices TransformBuffer::upward(const std::string& frame) const {
   Indices found;
   if (const auto known = indices_.find(frame); known != indices_.end())
@@ -108,7 +108,7 @@ TransformBuffer::Indices TransformBuffer::upward(const std::string& frame) const
   return found;
 }
 
-/// Whether each of these frames has had one parent only.
+/// Whether each of these frames has at most one recent parent.
 bool TransformBuffer::is_line(const Indices& frames) const {
   return std::all_of(frames.begin(), frames.end(),
                      [&](std::size_t frame) { return frames_[frame].parents.size() <= 1; });

@@ -13,36 +13,36 @@
 
 namespace organ_collision {
 
-/// TF's buffer, with a record of what it keeps to itself: at which stamps it was told where each
-/// frame is. What is set by its setTransform alone is read as ever, but is not in the record.
+/// TF's buffer with a record of the stamps at which each frame's transform was received, which tf2
+/// does not tell. Transforms that are set with setTransform instead of add are not in the record.
 class TransformBuffer : public tf2::BufferCore {
  public:
   using Frames = std::vector<std::string>;
 
-  /// Takes a transform; `resting`: of all times, as on /tf_static. False: TF refused it. Throws
-  /// std::runtime_error at absurd stamps, as TF does.
+  /// Adds a transform; `resting`: it is static, as on /tf_static. Returns false if tf2 refuses it.
+  /// Throws std::runtime_error for extreme stamps, as tf2 does.
   bool add(const geometry_msgs::TransformStamped& transform, const std::string& authority,
            bool resting = false);
-  /// Forgets all that moves, as TF does: what rests is not sent again.
+  /// Forgets all transforms but the static ones, which are not sent again.
   void clear();
 
-  /// Whether a transform moved the frame lately.
+  /// Whether the record has a transform of the frame.
   bool has_heard(const std::string& frame) const;
-  /// The stamps after `from` and before `to` of all transforms between a frame and any of
-  /// `sources`. Rising, each once.
+  /// The stamps, after `from` and before `to`, of all transforms between `target` and any of
+  /// `sources`: in rising order, each once.
   std::vector<ros::Time> stamps_between(const std::string& target, const Frames& sources,
                                         ros::Time from, ros::Time to) const;
 
-  /// Where `sources` are in the target frame has been answered for, up to `stamp`.
+  /// Notes that the poses of `sources` in the target frame have been used, up to `stamp`.
   void set_answered(const std::string& target, const Frames& sources, ros::Time stamp);
-  /// How many transforms came after what they belong to had been answered for.
+  /// How many transforms came late: with a stamp up to which poses had already been used.
   std::size_t late() const { return late_; }
 
  private:
   struct Frame {
     StampRecord stamps;
-    ros::Time answered;                ///< zero: never
-    std::vector<std::size_t> parents;  ///< that it had lately
+    ros::Time answered;                ///< poses were used up to this stamp; zero: never
+    std::vector<std::size_t> parents;  ///< recent ones, as indices
   };
   using Indices = std::vector<std::size_t>;
 

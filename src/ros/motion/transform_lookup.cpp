@@ -17,8 +17,8 @@ Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::stri
       return {std::nullopt, "transform from " + source + " to " + target + " is not finite"};
     }
     return {{{T_target_source, time.isZero() ? found.header.stamp : time}}, ""};
-  } catch (const std::runtime_error& error) {  // tf2's own, and ros::Time's at absurd stamps.
-    // Of a loop, tf2 lists all frames that there are.
+  } catch (const std::runtime_error& error) {  // Of tf2, and of ros::Time for extreme stamps.
+    // The text may be long: for a loop, tf2 lists all frames.
     return {std::nullopt, "no transform from " + source + " to " + target + ": " +
                               plain_text(error.what(), kLongestMessage)};
   }

@@ -9,21 +9,21 @@
 
 namespace organ_collision {
 
-/// A value with the time it is of; zero: of any time (static transforms alone).
+/// A value and its time; zero: valid at any time, because all its transforms are static.
 template <typename T>
 struct Timed {
   T value;
   ros::Time stamp;
 };
 
-/// A value that TF may not have; then `why_not` says why. Never a stand-in.
+/// A value, or why TF does not have it. There is never a stand-in value.
 template <typename T>
 struct Lookup {
   std::optional<Timed<T>> found;
   std::string why_not;
 };
 
-/// T_target_source at a time; zero: the latest. Frames without leading slash.
+/// T_target_source at a time; zero: the latest common time. Frame names without a leading slash.
 Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
                                   const std::string& source, ros::Time time);
 

@@ -6,7 +6,7 @@
 namespace organ_collision {
 namespace {
 
-/// Messages that wait; what is older is dropped, and the sweep goes straight across.
+/// [messages] Older messages that wait are dropped; the sweep then goes straight across them.
 constexpr std::uint32_t kQueue = 1000;
 
 }  // namespace

@@ -11,16 +11,17 @@
 
 namespace organ_collision {
 
-/// Transforms as they come on /tf and /tf_static, into the node's buffer with their stamps.
+/// Receives /tf and /tf_static into the node's buffer.
 class TransformTopics {
  public:
-  /// Both must outlive it.
+  /// Both must outlive this.
   TransformTopics(TransformBuffer& buffer, FailureLog& rejected)
       : buffer_(buffer), rejected_(rejected) {}
 
   void subscribe(ros::NodeHandle node);
 
-  /// A transform that TF throws at is counted as rejected; the others of the message count.
+  /// Adds the transforms of a message. A transform for which tf2 throws is counted as rejected; the
+  /// others are added.
   void take(const tf2_msgs::TFMessage& message, const std::string& authority, bool resting);
 
  private:

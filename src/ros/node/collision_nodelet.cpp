@@ -14,11 +14,11 @@
 namespace organ_collision {
 namespace {
 
-/// Between starts, or it might do nothing but break down. The pause doubles while the node cannot
-/// be made.
+/// The pause before a restart, so that a node that breaks down at once does not use up a processor.
+/// It doubles each time the node cannot be constructed.
 constexpr double kShortestPauseSec = 0.2;
 constexpr double kLongestPauseSec = 5.0;
-/// Stopping is noticed so soon within a pause.
+/// How soon a request to stop is noticed within a pause.
 const ros::WallDuration kPauseStep(0.05);
 
 }  // namespace
@@ -32,11 +32,11 @@ class CollisionNodelet : public nodelet::Nodelet {
   }
 
  private:
-  /// Returns when the node works; throws what stopped it, so that loading fails.
+  /// Returns when the node works. Throws what prevented that, so that loading the nodelet fails.
   void onInit() override {
     std::promise<void> ready;
     std::future<void> outcome = ready.get_future();
-    // The worker may still be at work on it when this has returned.
+    // The promise moves to the worker, which may still use it when this function has returned.
     worker_ = std::thread([this, ready = std::move(ready)]() mutable { work(ready); });
     outcome.get();
   }
@@ -57,7 +57,7 @@ class CollisionNodelet : public nodelet::Nodelet {
     return std::make_unique<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
   }
 
-  /// A node that breaks down starts anew. Its manager and the nodelets beside it live on.
+  /// A node that breaks down is started again. The manager and its other nodelets keep running.
   void run(std::unique_ptr<CollisionNode> node) {
     double pause_sec = kShortestPauseSec;
     while (!is_to_stop()) {

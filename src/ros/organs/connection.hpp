@@ -7,17 +7,17 @@
 
 namespace organ_collision {
 
-/// The connection that a message came over, from one publisher to this node. Its header stands for
-/// it: roscpp makes one for each connection, also for one within a process, and keeps it while the
-/// connection is open. A publisher that is restarted connects anew, whatever its name.
+/// The connection over which a message came from a publisher to this node, identified by its
+/// header: roscpp makes one header for each connection, also within a process, and keeps it while
+/// the connection is open. A restarted publisher has a new connection, even under the same name.
 using Connection = boost::weak_ptr<const ros::M_string>;
 
-/// Connections that are known. A closed one is never taken for a new one, though its header's
-/// address may be used again: the set is ordered by owner.
+/// A set of connections, ordered by the owner of the header. So a new connection is never mistaken
+/// for a closed one whose header had the same address.
 class ConnectionSet {
  public:
   bool contains(const Connection& connection) const { return connections_.count(connection) > 0; }
-  /// Forgets those that are closed.
+  /// Also drops the connections that are closed.
   void add(const Connection& connection);
 
  private:

@@ -10,13 +10,14 @@
 
 namespace organ_collision {
 
-/// An organ's surface at one time. Shared by all who still need it, and never changed meanwhile.
+/// An organ's surface at one time. Its users share it; it does not change while they do.
 struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
   ros::Time stamp;                           ///< as sent; zero: unstamped
   ros::Time received;
 
-  /// [s] Since its stamp, or since it came if it has none; negative: from the future.
+  /// [s] The time since the stamp, or since the message came if it has no stamp. Negative if the
+  /// stamp is in the future.
   double age(ros::Time now) const {
     return now.toSec() - (stamp.isZero() ? received : stamp).toSec();
   }
@@ -31,13 +32,13 @@ class DeformableOrgan {
   const std::string& name() const { return name_; }
   const std::string& frame() const { return frame_; }
   const OrganShape& latest() const { return latest_; }
-  /// Has no mesh where the latest shape is the first of its topology.
+  /// The shape before the latest one; without a mesh if the latest is the first of its topology.
   const OrganShape& previous() const { return previous_; }
 
-  /// New positions for the same triangles. Throws MeshError and changes nothing if they don't fit.
-  /// Without allocation once the shapes that nobody needs any more are enough.
+  /// New positions for the same triangles. Throws MeshError, and changes nothing, if they do not
+  /// fit. Reuses released shapes, and allocates only if there is none.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
-  /// Other triangles.
+  /// A new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
 
   void set_frame(std::string frame) { frame_ = std::move(frame); }
@@ -50,7 +51,8 @@ class DeformableOrgan {
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
-  std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< of the present topology
+  std::vector<std::shared_ptr<TriangleMesh>>
+      shapes_;  ///< of the present topology, in use or released
 };
 
 }  // namespace organ_collision

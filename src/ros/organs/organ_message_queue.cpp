@@ -6,9 +6,24 @@
 #include <utility>
 
 namespace organ_collision {
+namespace {
 
-OrganMessageQueue::OrganMessageQueue(Callbacks callbacks)
-    : callbacks_(std::move(callbacks)), thread_([this] { make_meshes(); }) {}
+bool is_ready(const OrganMessage& message) {
+  return !message.built.valid() ||
+         message.built.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
+template <typename Messages>
+OrganMessage take_front(Messages& messages) {
+  OrganMessage message = std::move(messages.front());
+  messages.pop_front();
+  return message;
+}
+
+}  // namespace
+
+OrganMessageQueue::OrganMessageQueue(Functions functions)
+    : functions_(std::move(functions)), thread_([this] { build_meshes(); }) {}
 
 OrganMessageQueue::~OrganMessageQueue() {
   {
@@ -20,71 +35,56 @@ OrganMessageQueue::~OrganMessageQueue() {
 }
 
 void OrganMessageQueue::add(const OrganMeshConstPtr& message, const Connection& connection) {
-  Entry entry;
-  entry.mesh = message;
-  entry.connection = connection;
+  OrganMessage entry{message, connection};
   const bool is_large = message->triangles.size() > 3 * kLarge;
   const bool waits = waiting_.count(message->organ) > 0;
-  if (is_large && (waits || !callbacks_.is_known(*message, connection)))
-    entry.made = start_making(message);
-  add(message->organ, std::move(entry));
+  if (is_large && (waits || functions_.is_new(*message, connection))) {
+    entry.built = start_building(message);
+  }
+  add(std::move(entry));
 }
 
 void OrganMessageQueue::add(const OrganVerticesConstPtr& message) {
-  Entry entry;
+  OrganMessage entry;
   entry.vertices = message;
-  add(message->organ, std::move(entry));
+  add(std::move(entry));
 }
 
-void OrganMessageQueue::add(const std::string& organ, Entry entry) {
-  const auto waiting = waiting_.find(organ);
-  if (waiting == waiting_.end() && entry.is_ready()) return hand_on(entry);
-  Entries& entries = waiting_[organ];
-  entries.push_back(std::move(entry));
-  if (entries.size() <= kMostWaiting) return;
-  const auto oldest = std::find_if(entries.begin(), entries.end(),
-                                   [](const Entry& waits) { return waits.vertices != nullptr; });
-  if (oldest != entries.end()) entries.erase(oldest);
-}
-
-void OrganMessageQueue::hand_on() {
-  for (auto organ = waiting_.begin(); organ != waiting_.end();) {
-    hand_on(organ->second);
-    organ = organ->second.empty() ? waiting_.erase(organ) : std::next(organ);
-  }
-}
-
-void OrganMessageQueue::hand_on(Entries& entries) {
-  while (!entries.empty() && entries.front().is_ready()) {
-    Entry entry = std::move(entries.front());
-    entries.pop_front();
-    hand_on(entry);
-  }
-}
-
-void OrganMessageQueue::hand_on(Entry& entry) const {
-  if (entry.vertices) return callbacks_.take_vertices(entry.vertices);
-  callbacks_.take(entry.mesh, entry.connection, [&] {
-    return entry.made.valid() ? entry.made.get() : callbacks_.make(entry.mesh);
+void OrganMessageQueue::add(OrganMessage message) {
+  const auto waiting = waiting_.find(message.organ());
+  if (waiting == waiting_.end() && is_ready(message)) return ready_.push_back(std::move(message));
+  Messages& messages = waiting_[message.organ()];
+  messages.push_back(std::move(message));
+  if (messages.size() <= kMostWaiting) return;
+  const auto oldest = std::find_if(messages.begin(), messages.end(), [](const OrganMessage& waits) {
+    return waits.vertices != nullptr;
   });
+  if (oldest != messages.end()) messages.erase(oldest);
 }
 
-bool OrganMessageQueue::Entry::is_ready() const {
-  return !made.valid() || made.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+std::optional<OrganMessage> OrganMessageQueue::next() {
+  if (!ready_.empty()) return take_front(ready_);
+  for (auto organ = waiting_.begin(); organ != waiting_.end(); ++organ) {
+    if (!is_ready(organ->second.front())) continue;
+    OrganMessage message = take_front(organ->second);
+    if (organ->second.empty()) waiting_.erase(organ);
+    return message;
+  }
+  return std::nullopt;
 }
 
-std::future<TriangleMesh> OrganMessageQueue::start_making(const OrganMeshConstPtr& message) {
-  std::packaged_task<TriangleMesh()> task([this, message] { return callbacks_.make(message); });
-  std::future<TriangleMesh> made = task.get_future();
+std::future<TriangleMesh> OrganMessageQueue::start_building(const OrganMeshConstPtr& message) {
+  std::packaged_task<TriangleMesh()> task([this, message] { return functions_.build(message); });
+  std::future<TriangleMesh> built = task.get_future();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     tasks_.push_back(std::move(task));
   }
   has_work_.notify_one();
-  return made;
+  return built;
 }
 
-void OrganMessageQueue::make_meshes() {
+void OrganMessageQueue::build_meshes() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
     has_work_.wait(lock, [this] { return stop_ || !tasks_.empty(); });
@@ -100,8 +100,8 @@ void OrganMessageQueue::make_meshes() {
 
 void OrganMessageQueue::wake() const {
   try {
-    callbacks_.wake();
-  } catch (const std::bad_alloc&) {  // hand_on is called all the same, somewhat later.
+    functions_.wake();
+  } catch (const std::bad_alloc&) {  // next() is called all the same, somewhat later.
   }
 }
 

@@ -4,11 +4,13 @@
 #include <organ_collision/OrganVertices.h>
 
 #include <condition_variable>
+#include <cstddef>
 #include <deque>
 #include <functional>
 #include <future>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -17,66 +19,64 @@
 
 namespace organ_collision {
 
-/// Hands on organ messages, those of each organ in the order in which they came. Large meshes with
-/// new triangles are made in a thread of their own first: what comes for that organ meanwhile
-/// waits, messages of other organs do not.
+/// A message about one organ: a mesh or vertices; the other of the two pointers is null.
+struct OrganMessage {
+  OrganMeshConstPtr mesh = {};
+  Connection connection = {};            ///< over which the mesh came
+  std::future<TriangleMesh> built = {};  ///< valid only where the queue's thread builds the mesh
+  OrganVerticesConstPtr vertices = {};
+
+  const std::string& organ() const { return mesh ? mesh->organ : vertices->organ; }
+  const std_msgs::Header& header() const { return mesh ? mesh->header : vertices->header; }
+};
+
+/// Holds organ messages until they can be applied without delay. A large mesh with new triangles is
+/// built in the queue's own thread first. Later messages of that organ wait behind it, so that the
+/// messages of each organ keep their order; messages of other organs do not wait.
 class OrganMessageQueue {
  public:
-  /// Up to so many faces are made where they are needed; it takes less than a millisecond.
+  /// [faces] Meshes up to this size are built by whoever applies them, in less than a millisecond.
   static constexpr std::size_t kLarge = 10'000;
-  /// Of the messages that wait for one organ's mesh, the oldest vertices beyond these are dropped.
+  /// At most this many messages of one organ wait for its mesh. Beyond that, the oldest vertices
+  /// are dropped.
   static constexpr std::size_t kMostWaiting = 100;
 
-  struct Callbacks {
-    /// Throws MeshError. Called in the inbox's own thread.
-    std::function<TriangleMesh(const OrganMeshConstPtr&)> make;
-    /// Whether the organ already has the message's triangles, or will refuse them: there is
-    /// nothing to make then.
-    std::function<bool(const OrganMesh&, const Connection&)> is_known;
-    /// Takes a message. `made` gives the mesh, or throws what making it threw; at most once.
-    std::function<void(const OrganMeshConstPtr&, const Connection&,
-                       const std::function<TriangleMesh()>& made)>
-        take;
-    std::function<void(const OrganVerticesConstPtr&)> take_vertices;
-    /// Called in the inbox's own thread: hand_on has something to do. It may throw bad_alloc.
+  /// What the queue asks others for.
+  struct Functions {
+    /// Builds a mesh; throws MeshError. Called in the queue's thread.
+    std::function<TriangleMesh(const OrganMeshConstPtr&)> build;
+    /// Whether the message's triangles are new to the organ, so that a mesh has to be built.
+    std::function<bool(const OrganMesh&, const Connection&)> is_new;
+    /// Tells the thread that calls next() that there is something for it. Called in the queue's
+    /// thread; may throw std::bad_alloc.
     std::function<void()> wake;
   };
-  explicit OrganMessageQueue(Callbacks callbacks);
-  /// Waits for the mesh that is being made; the others are not.
+  explicit OrganMessageQueue(Functions functions);
+  /// Waits for the mesh that is being built. Meshes behind it are dropped.
   ~OrganMessageQueue();
   OrganMessageQueue(const OrganMessageQueue&) = delete;
   OrganMessageQueue& operator=(const OrganMessageQueue&) = delete;
 
   void add(const OrganMeshConstPtr& message, const Connection& connection = {});
   void add(const OrganVerticesConstPtr& message);
-  /// Everything that waits for nothing any more. To be called now and then even without a wake.
-  /// What a callback throws comes out; what stood behind that message is handed on by the next
-  /// call.
-  void hand_on();
+
+  /// The next message that waits for no mesh; none if there is none now. To be called from time to
+  /// time even without a wake.
+  std::optional<OrganMessage> next();
 
  private:
-  /// One of the two.
-  struct Entry {
-    OrganMeshConstPtr mesh;
-    Connection connection;  ///< of the mesh
-    OrganVerticesConstPtr vertices;
-    std::future<TriangleMesh> made;  ///< of a large mesh only
+  using Messages = std::deque<OrganMessage>;
 
-    bool is_ready() const;
-  };
-  using Entries = std::deque<Entry>;
-
-  void add(const std::string& organ, Entry entry);
-  void hand_on(Entries& entries);
-  void hand_on(Entry& entry) const;
-  std::future<TriangleMesh> start_making(const OrganMeshConstPtr& message);
-  void make_meshes();
+  void add(OrganMessage message);
+  std::future<TriangleMesh> start_building(const OrganMeshConstPtr& message);
+  void build_meshes();
   void wake() const;
 
-  Callbacks callbacks_;
-  std::map<std::string, Entries> waiting_;  ///< by organ; only those for which something waits
+  Functions functions_;
+  Messages ready_;
+  std::map<std::string, Messages> waiting_;  ///< by organ: a mesh that is being built, and the rest
 
-  std::mutex mutex_;  ///< of the following two
+  std::mutex mutex_;  ///< guards the next two members
   std::deque<std::packaged_task<TriangleMesh()>> tasks_;
   bool stop_ = false;
   std::condition_variable has_work_;

@@ -34,7 +34,7 @@ std::string reason_of(const MeshError& error) {
   return "invalid mesh";
 }
 
-/// Of what is being thrown, the Rejection. `named`: which message it is about.
+/// Rethrows the exception that is being handled as a Rejection. `named`: the message's name.
 [[noreturn]] void reject_thrown(const std::string& named) {
   try {
     throw;
@@ -42,7 +42,7 @@ std::string reason_of(const MeshError& error) {
     throw;
   } catch (const MeshError& error) {
     refuse(reason_of(error), named + ": " + error.what());
-  } catch (const std::exception& error) {  // Above all, that memory is short.
+  } catch (const std::exception& error) {  // Usually std::bad_alloc.
     refuse("not made", named + " could not be made: " + error.what());
   }
 }
@@ -68,7 +68,7 @@ bool has_new_topology(const DeformableOrgan& organ, const OrganMesh& message) {
 
 }  // namespace
 
-TriangleMesh OrganRegistry::make(const OrganMeshConstPtr& message) const {
+TriangleMesh OrganRegistry::build(const OrganMeshConstPtr& message) const {
   return {vertices_of(message), message->triangles, message->topology, limits_};
 }
 
@@ -78,7 +78,7 @@ bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connectio
          is_another_organ(known->second, message, connection);
 }
 
-/// Under the number that the organ has.
+/// For a message with the organ's present topology number.
 bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                                      const Connection& connection) const {
   const auto known = connections_.find(organ.name());
@@ -89,7 +89,7 @@ bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMe
 }
 
 OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connection& connection,
-                                 ros::Time now, const std::function<TriangleMesh()>& made) {
+                                 ros::Time now, const std::function<TriangleMesh()>& built) {
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
   check_name("organ", message.organ);
@@ -105,7 +105,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
     check_name("header.frame_id", frame);
-    const OrganChange change = apply_checked(pointer, connection, frame, now, made);
+    const OrganChange change = apply_checked(pointer, connection, frame, now, built);
     connections_[message.organ].add(connection);
     without_mesh_.erase(message.organ);
     return change;
@@ -117,21 +117,22 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
 
 OrganChange OrganRegistry::apply_checked(const OrganMeshConstPtr& pointer,
                                          const Connection& connection, const std::string& frame,
-                                         ros::Time now, const std::function<TriangleMesh()>& made) {
+                                         ros::Time now,
+                                         const std::function<TriangleMesh()>& built) {
   const OrganMesh& message = *pointer;
   const ros::Time stamp = message.header.stamp;
   const auto known = organs_.find(message.organ);
   try {
     if (known == organs_.end()) {
-      organs_.emplace(message.organ, DeformableOrgan(message.organ, frame, made(), stamp, now));
+      organs_.emplace(message.organ, DeformableOrgan(message.organ, frame, built(), stamp, now));
       return OrganChange::kShape;
     }
     DeformableOrgan& organ = known->second;
     OrganChange change = OrganChange::kShape;
     if (has_new_topology(organ, message)) {
-      organ.replace(made(), stamp, now);
+      organ.replace(built(), stamp, now);
     } else if (is_another_organ(organ, message, connection)) {
-      organ.replace(made(), stamp, now);
+      organ.replace(built(), stamp, now);
       change = OrganChange::kOrgan;
     } else if (has_triangles(*organ.latest().mesh, message.triangles)) {
       organ.move(vertices_of(pointer), stamp, now);

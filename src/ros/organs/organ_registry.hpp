@@ -16,57 +16,59 @@
 
 namespace organ_collision {
 
-/// What a message did to an organ.
+/// What a message changed. After kFrame and kOrgan, no earlier shape of the organ is comparable.
 enum class OrganChange {
-  kShape,   ///< it has a new shape
-  kFrame,   ///< it has a new shape, in another frame: nothing known before compares to it
-  kOrgan,   ///< it is another organ of that name: nothing known before compares to it
-  kRemoved  ///< it is gone
+  kShape,   ///< the organ has a new shape
+  kFrame,   ///< the organ has a new shape in another frame
+  kOrgan,   ///< another organ has taken the name
+  kRemoved  ///< the organ is gone
 };
 
-/// All organs by name, as the accepted messages made them. A refused message changes nothing.
+/// All known organs by name. A message that is refused changes nothing.
 class OrganRegistry {
  public:
   explicit OrganRegistry(const MeshLimits& limits) : limits_(limits) {}
 
-  /// The surface of a mesh message. Throws MeshError. May be called from any thread.
-  TriangleMesh make(const OrganMeshConstPtr& message) const;
+  /// The surface that a mesh message describes. Throws MeshError. May be called from any thread.
+  TriangleMesh build(const OrganMeshConstPtr& message) const;
 
-  /// Throw Rejection. The message's vertices become the organ's shape as they are, without a copy;
-  /// the message lives as long as that shape is needed. `made` gives what `make` would, asked only
-  /// where the triangles are new. New triangles under the number that the organ has are another
-  /// organ where they come over a connection that is new to it, as from a simulator that was
-  /// restarted, and are refused over any other.
+  /// Both throw Rejection. The vertices become the organ's shape without a copy: the message lives
+  /// as long as that shape is used. `built` is called only if the triangles are new, and returns
+  /// what `build` would return.
+  /// A mesh may have other triangles under the topology number that the organ already has. If it
+  /// came over a connection that is new to this organ, for example from a restarted simulator, it
+  /// is another organ. Over a known connection it is refused.
   OrganChange apply(const OrganMeshConstPtr& message, const Connection& connection, ros::Time now,
-                    const std::function<TriangleMesh()>& made);
+                    const std::function<TriangleMesh()>& built);
   OrganChange apply(const OrganMeshConstPtr& message, ros::Time now) {
-    return apply(message, {}, now, [&] { return make(message); });
+    return apply(message, {}, now, [&] { return build(message); });
   }
   OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now);
-  /// Whether `apply` would ask for `made`.
+  /// Whether `apply` would call `built`.
   bool is_new(const OrganMesh& message, const Connection& connection) const;
-  /// All connections are new again: the next mesh of each organ may be another organ.
+  /// Treats all connections as new: the next mesh of each organ may be another organ.
   void forget_connections() { connections_.clear(); }
 
-  /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for one that was removed or never sent validly.
+  /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for an organ that was removed or whose meshes were
+  /// all refused.
   const DeformableOrgan& at(const std::string& name) const;
   const std::map<std::string, DeformableOrgan>& organs() const { return organs_; }
 
-  /// Each organ keeps its latest shape only.
+  /// Each organ keeps only its latest shape.
   void forget_previous_shapes();
 
  private:
   OrganChange apply_checked(const OrganMeshConstPtr& message, const Connection& connection,
                             const std::string& frame, ros::Time now,
-                            const std::function<TriangleMesh()>& made);
+                            const std::function<TriangleMesh()>& built);
   bool is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                         const Connection& connection) const;
   std::string known_organs() const;
 
   MeshLimits limits_;
   std::map<std::string, DeformableOrgan> organs_;
-  std::map<std::string, ConnectionSet> connections_;  ///< by organ: over which its meshes came
-  std::set<std::string> without_mesh_;                ///< heard of, but removed or never valid
+  std::map<std::string, ConnectionSet> connections_;  ///< by organ: its meshes' connections
+  std::set<std::string> without_mesh_;                ///< known names: removed, or never valid
 };
 
 }  // namespace organ_collision

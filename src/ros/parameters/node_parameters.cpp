@@ -14,10 +14,11 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-/// Face numbers travel through GL as 32-bit floats, exact up to here.
-constexpr double kMostFaces = 1 << 24;
+/// The corners of so many faces still have 32-bit numbers. An organ of this size takes about ten
+/// gigabytes and a tenth of a second a step: the limit is a guard against nonsense.
+constexpr double kMostFaces = 1e8;
 
-/// [bytes] roscpp gives up on larger messages.
+/// [bytes] roscpp refuses larger messages.
 constexpr double kMostMessageBytes = 1e9;
 
 const NumberRange kNotNegative{0.0, kUnlimited};
@@ -32,7 +33,7 @@ std::string frame(const ParameterGroup& tool, const char* name) {
   return frame;
 }
 
-/// The name of a topic; empty where there is none.
+/// The name of a topic; empty if the parameter is not set.
 std::string topic(const ParameterGroup& tool, const char* name) {
   if (!tool.has(name)) return {};
   std::string topic = tool.text(name), error;
@@ -61,7 +62,8 @@ void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> n
   }
 }
 
-/// What places the tip, or a tool without shaft: a frame on TF, or poses as messages.
+/// Where the pose of the tip comes from: a frame on TF, or a topic. A tool without a shaft may have
+/// such a topic, too.
 void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParameters& parsed) {
   parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
   parsed.base_pose_topic = topic(tool, names::kBasePoseTopic);

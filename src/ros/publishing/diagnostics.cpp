@@ -46,7 +46,7 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
   status.add("motion samples cut", sources_.steps.samples_cut());
   status.add("motion samples cut, farthest from the swept way [m]", sources_.steps.deviation_cut());
   status.add("transforms after their step", sources_.transforms.late());
-  status.add("poses merged into later ones", sources_.counters.poses_merged);
+  status.add("poses merged into later ones", sources_.steps.poses_merged());
   for (const std::string& sentence : sources_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }

@@ -5,36 +5,26 @@
 #include <string>
 #include <vector>
 
+#include "node_counters.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "ros/motion/transform_buffer.hpp"
 #include "ros/organs/organ_registry.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/contact_query.hpp"
-#include "ros/steps/statistics.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {
 
-/// What the node counts for /diagnostics.
-struct NodeCounters {
-  EventRate meshes{std::chrono::steady_clock::now()};
-  EventRate contacts{std::chrono::steady_clock::now()};
-  std::size_t poses_merged = 0;  ///< evaluated together with later ones, in one step
-  FailureLog rejected;           ///< messages that were refused
-  FailureLog failed;             ///< steps without answer
-  FailureLog refused;            ///< service calls without answer
-};
-
-/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new,
-/// an error where picking failed.
+/// Shows the counts as "WHAT, REASON". A reason with new failures is a warning with the latest
+/// message, or an error if picking failed.
 void show_failures(const std::string& what, FailureLog& log,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 
-/// Says how the node is, for /diagnostics.
+/// The node's tasks for /diagnostics.
 class Diagnostics {
  public:
-  /// All must outlive it.
+  /// All must outlive this.
   struct Sources {
     const NodeParameters& parameters;
     const std::vector<Tool>& tools;

@@ -10,9 +10,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
-/// [s] Without a new step, what is shown disappears.
+/// [s] The markers disappear if no new step comes.
 constexpr double kLifetimeSec = 2.0;
-/// [m] Touched faces are drawn this far off the organ, on both sides, so as not to flicker.
+/// [m] Touched faces are drawn at this distance from the organ, on both sides, to avoid flicker.
 constexpr double kFaceLift = 2e-4;
 /// [m]
 constexpr double kRegionLineWidth = 5e-4;
@@ -40,7 +40,7 @@ Marker marker(const EvaluatedStep& step, const std::string& what, int type, cons
   return marker;
 }
 
-/// RViz takes no list without points.
+/// RViz reports an error for a list without points, so such a marker is deleted instead.
 Marker deleted_if_empty(Marker marker) {
   if (marker.points.empty()) marker.action = Marker::DELETE;
   return marker;

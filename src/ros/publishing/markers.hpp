@@ -6,9 +6,9 @@
 
 namespace organ_collision {
 
-/// What RViz shows of a step, in the organ's frame: the tool's shaft, if it has one, the surface
-/// that its axis swept, the faces that the tool touched, and their regions where the answer has
-/// them. Each is replaced by the next step's. Links are left to RViz's RobotModel.
+/// What RViz shows of a step, in the organ's frame: the tool's shaft, the surface that its axis
+/// swept, the faces that the tool touched, and their regions if the answer has them. The markers of
+/// the next step replace them. RViz's RobotModel shows the links.
 visualization_msgs::MarkerArray step_markers(const EvaluatedStep& step);
 
 }  // namespace organ_collision

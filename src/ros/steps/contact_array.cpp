@@ -1,5 +1,6 @@
 #include "contact_array.hpp"
 
+#include <chrono>
 #include <sstream>
 
 #include "ros/interface/plain_text.hpp"
@@ -57,6 +58,11 @@ std::string reason_of(std::uint8_t status) {
     default:
       return "invalid request";
   }
+}
+
+void count_failure(FailureLog& log, std::uint8_t status, const std::string& message) {
+  if (status == ContactArray::OK) return;
+  log.add(reason_of(status), message, std::chrono::steady_clock::now());
 }
 
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {

@@ -6,32 +6,36 @@
 #include <cstdint>
 #include <string>
 
+#include "ros/interface/failure_log.hpp"
 #include "ros/organs/deformable_organ.hpp"
 #include "ros/parameters/node_parameters.hpp"
 
 namespace organ_collision {
 
-/// An answer about one organ and one tool, a shaft alone, still without contacts; header.stamp and
-/// step_start are `stamp`. The names are those of a message and need not be legal: the answer has
-/// them as plain text of at most kLongestName bytes (plain_text.hpp).
+/// An answer about one organ and one tool with a shaft alone, still without contacts. header.stamp
+/// and step_start are `stamp`. The names may come from a message and be illegal: the answer has them
+/// as plain text of at most kLongestName bytes (plain_text.hpp).
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
 
-/// The names of the tool's parts, as ContactArray has them.
+/// Sets `links`: the names of the tool's shaft and links.
 void set_links(ContactArray& answer, const ToolParameters& tool);
 
-/// Frame, topology and mesh stamp of the shape that the answer is about.
+/// Sets frame, topology and mesh stamp: the shape that the answer is about.
 void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape);
 
-/// The message is cut to kLongestMessage bytes of plain text.
+/// Sets status and message, and drops contacts and regions. The message becomes plain text of at
+/// most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
-/// The short name of a status, as failures are counted by.
+/// The short name of a status, under which failures are counted.
 std::string reason_of(std::uint8_t status);
+/// Counts an answer that failed. An answer with the status OK is not counted.
+void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);
 
-/// Whether the shape is older than `timeout_sec`; 0: never.
+/// Whether the shape is older than `timeout_sec`; false if that is 0.
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
-/// Says so, with the age and the limit.
+/// The message of STALE_MESH, with the age and the limit.
 std::string stale_message(const DeformableOrgan& organ, ros::Time now, double timeout_sec);
 
 }  // namespace organ_collision

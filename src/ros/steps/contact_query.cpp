@@ -8,7 +8,6 @@
 
 namespace organ_collision {
 
-/// GL compiles at the first draw of each kind; better now than within the first steps.
 ContactQuery::ContactQuery(PickerKind picker) : query_(picker) {
   const TriangleMesh face({-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f}, {0, 1, 2});
   const ShaftAxis above{{0.0, 0.0, 1.0}, {0.1, 0.0, 0.5}},

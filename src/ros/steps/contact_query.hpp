@@ -4,18 +4,20 @@
 
 #include <string>
 
+#include "duration_statistics.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "statistics.hpp"
 
 namespace organ_collision {
 
-/// Runs collision queries for messages: whatever goes wrong becomes a status.
+/// Runs collision queries whose answers are ContactArray messages. Errors become statuses. Measures
+/// how long queries take.
 class ContactQuery {
  public:
-  /// Throws GlError where GL picking does not work here.
+  /// Runs each kind of query once, so that GL compiles its programs now and not within the first
+  /// steps. Throws GlError if GL picking does not work on this machine.
   explicit ContactQuery(PickerKind picker);
 
-  /// Sets contacts, regions, status and message of `answer`.
+  /// Sets contacts, regions, unresolved, status and message of `answer`.
   void evaluate(const CollisionRequest& request, ContactArray& answer);
 
   const std::string& gl_version() const { return query_.gl_version(); }

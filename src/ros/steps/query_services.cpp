@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "contact_array.hpp"
+#include "organ_collision/ros/names.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/spelling.hpp"
@@ -87,7 +88,7 @@ void check_tool(const Tool& tool, std::uint8_t mode) {
   }
 }
 
-/// The results give their memory back, which may be what was short.
+/// Releases the memory of the results, because it may be what was short.
 void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
                  const std::string& message) {
   response.results = {};
@@ -109,7 +110,7 @@ CollisionRequest collision_with(const DeformableOrgan& organ, std::uint8_t mode,
   return collision;
 }
 
-/// A motion as the request has it, moved into the organ's frame.
+/// Sets the path to the request's motion, transformed into the organ's frame.
 void set_motion(const ToolMotion& motion, const Timed<Eigen::Isometry3d>& T_organ_motion,
                 CollisionRequest& collision, ContactArray& answer) {
   collision.path = to_path(motion, looks_at_end_only(answer.mode), T_organ_motion.value);
@@ -119,6 +120,28 @@ void set_motion(const ToolMotion& motion, const Timed<Eigen::Isometry3d>& T_orga
 }
 
 }  // namespace
+
+void QueryServices::advertise(ros::NodeHandle private_node) {
+  servers_ = {
+      private_node.advertiseService(names::kQuery, &QueryServices::on_query, this),
+      private_node.advertiseService(names::kQueryBatch, &QueryServices::on_query_batch, this)};
+}
+
+bool QueryServices::on_query(QueryCollision::Request& request, QueryCollision::Response& response) {
+  response.result = query(request);
+  count_failure(sources_.refused, response.result.status, response.result.message);
+  return true;
+}
+
+bool QueryServices::on_query_batch(QueryCollisionBatch::Request& request,
+                                   QueryCollisionBatch::Response& response) {
+  response = query_batch(request);
+  count_failure(sources_.refused, response.status, response.message);
+  for (const ContactArray& result : response.results) {
+    count_failure(sources_.refused, result.status, result.message);
+  }
+  return true;
+}
 
 ContactArray QueryServices::query(const QueryCollision::Request& request) const {
   ContactArray result =
@@ -169,7 +192,7 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   sources_.contact_query.evaluate(collision, answer);
 }
 
-/// All motions are of one frame and one time, so that one transform serves them all.
+/// All motions of a batch are in one frame at one time, so that one transform serves them all.
 void QueryServices::answer(const QueryCollisionBatch::Request& request,
                            QueryCollisionBatch::Response& response) const {
   check_served(request);

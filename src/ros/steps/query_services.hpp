@@ -2,6 +2,7 @@
 
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
+#include <ros/node_handle.h>
 #include <std_msgs/Header.h>
 #include <tf2/buffer_core.h>
 
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "contact_query.hpp"
+#include "ros/interface/failure_log.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/motion/transform_lookup.hpp"
 #include "ros/organs/organ_registry.hpp"
@@ -20,11 +22,12 @@
 
 namespace organ_collision {
 
-/// Answers what a tool would touch, or touches. Changes no organ and no history. Never throws: what
-/// goes wrong is the answer's status, and PICKER_FAILED where it is no fault of the request.
+/// Serves `query` and `query_batch`: what a tool touches, or would touch. Changes no organ and no
+/// history. Never throws: an error becomes the answer's status, PICKER_FAILED if the request is not
+/// to blame.
 class QueryServices {
  public:
-  /// All must outlive it.
+  /// All must outlive this.
   struct Sources {
     const NodeParameters& parameters;
     const std::vector<Tool>& tools;
@@ -33,18 +36,25 @@ class QueryServices {
     const ToolPoses& poses;
     const StepHistory& history;
     ContactQuery& contact_query;
+    FailureLog& refused;  ///< counts the calls that failed
   };
 
   explicit QueryServices(const Sources& sources) : sources_(sources) {}
 
+  void advertise(ros::NodeHandle private_node);
+
   ContactArray query(const QueryCollision::Request& request) const;
-  /// One look-up in TF serves the whole batch. A batch that fails as a whole has no results, only a
-  /// status and a message: where it is larger than max_batch, or where its results grow larger than
-  /// max_batch_bytes, too.
+  /// One look-up in TF serves the whole batch. A batch that fails as a whole has a status and a
+  /// message but no results. It fails as a whole, among other reasons, if it has more motions than
+  /// max_batch or if its results exceed max_batch_bytes.
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request) const;
 
  private:
-  // All throw Rejection, or what else goes wrong, such as std::bad_alloc.
+  bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
+  bool on_query_batch(QueryCollisionBatch::Request& request,
+                      QueryCollisionBatch::Response& response);
+
+  // These throw Rejection, or other exceptions such as std::bad_alloc.
   void answer(const QueryCollision::Request& request, ContactArray& answer) const;
   void answer(const QueryCollisionBatch::Request& request,
               QueryCollisionBatch::Response& response) const;
@@ -53,13 +63,14 @@ class QueryServices {
   const Tool& find_tool(const std::string& name) const;
   const DeformableOrgan& find_organ(const std::string& name) const;
   void check_age(const DeformableOrgan& organ) const;
-  /// The transform from the frame of a request's motions to the organ's.
+  /// T_organ_motion: from the frame of the request's motions to the organ's frame.
   Timed<Eigen::Isometry3d> motion_frame(const std_msgs::Header& header,
                                         const DeformableOrgan& organ) const;
   void set_tool_motion(const QueryCollision::Request& request, const DeformableOrgan& organ,
                        const Tool& tool, CollisionRequest& collision, ContactArray& answer) const;
 
   Sources sources_;
+  std::vector<ros::ServiceServer> servers_;
 };
 
 }  // namespace organ_collision

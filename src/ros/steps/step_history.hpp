@@ -15,19 +15,19 @@
 
 namespace organ_collision {
 
-/// Does not stand still with simulated time.
+/// Wall time that never jumps. It goes on while simulated time stands still.
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// Where the last evaluation that succeeded ended; the next step begins there.
+/// The end of the last successful step, where the next one begins.
 struct LastStep {
   ToolPose pose;
   ros::Time stamp;
   std::shared_ptr<const TriangleMesh> mesh;
 };
 
-/// Shapes of an organ that one tool has yet to be evaluated against: the one that waits for its
-/// transform, and the newest behind it. The first is not replaced by newer ones: else it would
-/// never be evaluated where transforms lag by more than the time between two shapes.
+/// The shapes of an organ against which one tool is still to be evaluated: the shape that waits for
+/// its transform, and the newest one behind it. A newer shape does not replace the one that waits.
+/// Otherwise no shape would ever be evaluated if transforms lag by more than the time between two.
 class ShapeQueue {
  public:
   struct Entry {
@@ -36,7 +36,7 @@ class ShapeQueue {
   };
 
   void push(Entry entry) { (waiting_ ? newest_ : waiting_) = std::move(entry); }
-  /// The shape to evaluate next; null: none.
+  /// The shape to evaluate next; null if there is none.
   const Entry* front() const { return waiting_ ? &*waiting_ : nullptr; }
   void pop();
   void clear();
@@ -46,10 +46,10 @@ class ShapeQueue {
   std::optional<Entry> newest_;
 };
 
-/// What is known of one organ and one tool.
+/// The state of one pair of organ and tool.
 struct OrganToolPair {
   std::optional<LastStep> last;
-  /// The organ as this tool sees it: its shape at the last evaluation, failed or not.
+  /// The organ's shape at the last step of this tool, whether that succeeded or failed.
   OrganShape current;
   ShapeQueue queue;
 };
@@ -60,7 +60,7 @@ class StepHistory {
   using Pairs = std::map<std::pair<std::string, std::size_t>, OrganToolPair>;
 
   OrganToolPair& of(const std::string& organ, std::size_t tool) { return pairs_[{organ, tool}]; }
-  /// Null: never evaluated.
+  /// The end of the last successful step; null if there was none.
   const LastStep* last(const std::string& organ, std::size_t tool) const;
 
   void forget(const std::string& organ);

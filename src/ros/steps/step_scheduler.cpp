@@ -10,7 +10,7 @@
 namespace organ_collision {
 namespace {
 
-/// The shape that the organ moves from during a step; null: it rests.
+/// The shape from which the organ moves during a step; null if it rests.
 const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
   const bool moved = last.mesh.get() != &now && last.mesh->topology() == now.topology() &&
                      last.mesh->same_faces(now);
@@ -21,13 +21,32 @@ std::uint8_t mode_of(const OrganToolPair& pair) {
   return pair.last ? ContactArray::SWEPT : ContactArray::STATIC;
 }
 
-/// Whether the last step went up to this pose, against this shape.
+/// Whether the last step already ended at this pose, against this shape.
 bool is_answered(const OrganToolPair& pair, ros::Time pose) {
   return pair.last && pair.last->mesh == pair.current.mesh && !pose.isZero() &&
          pose <= pair.last->stamp;
 }
 
 }  // namespace
+
+void StepScheduler::add(const OrganRegistry& organs, const OrganUpdate& update, SteadyTime now) {
+  if (!update.change) return;
+  const std::string& organ = update.message.organ();
+  if (update.change != OrganChange::kShape) history_.forget(organ);
+  if (update.change != OrganChange::kRemoved) add_shape(organs.at(organ), now);
+}
+
+void StepScheduler::add_pose(std::size_t tool) {
+  if (std::exchange(tool_is_due_[tool], true)) ++poses_merged_;
+}
+
+void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
+  evaluate_waiting(organs, now);
+  for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
+    if (std::exchange(tool_is_due_[tool], false)) evaluate_latest(organs, tool);
+  }
+  if (std::exchange(tick_is_due_, false)) evaluate_tick(organs);
+}
 
 void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
@@ -42,7 +61,7 @@ void StepScheduler::evaluate_waiting(const OrganRegistry& organs, SteadyTime now
   }
 }
 
-/// False: its transform is still waited for.
+/// Returns false if the shape still waits for its transform.
 bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t tool,
                                    OrganToolPair& pair, SteadyTime now) {
   const ShapeQueue::Entry entry = *pair.queue.front();
@@ -69,6 +88,7 @@ bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t too
   return true;
 }
 
+/// All organs and tools with the latest poses.
 void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
   const ros::Time now = ros::Time::now();
   for (const auto& [name, organ] : organs.organs()) {
@@ -78,6 +98,7 @@ void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
   }
 }
 
+/// All organs with the latest pose of one tool, unless that pose is answered already.
 void StepScheduler::evaluate_latest(const OrganRegistry& organs, std::size_t tool) {
   const ros::Time now = ros::Time::now();
   for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now, true);
@@ -142,7 +163,7 @@ void StepScheduler::evaluate_step(const DeformableOrgan& organ, std::size_t tool
   run(organ, tool, pair, std::move(stamped), std::move(sampled.path));
 }
 
-/// With the tool at rest where it was: time does not run backwards.
+/// The tool rests at its last pose, because the shape is older than that pose.
 void StepScheduler::evaluate_held(const DeformableOrgan& organ, std::size_t tool,
                                   OrganToolPair& pair) {
   const LastStep& last = *pair.last;

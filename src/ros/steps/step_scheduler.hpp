@@ -12,62 +12,75 @@
 #include "contact_query.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_topics.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
 #include "step_history.hpp"
 
 namespace organ_collision {
 
-/// What one tool touched of one organ in one step, and how it moved.
+/// The answer to one step of one tool against one organ, and the tool's path in that step.
 struct EvaluatedStep {
   ContactArrayPtr answer;
   const Tool& tool;
   const TriangleMesh& mesh;
-  const ToolPath& path;  ///< empty when the evaluation failed before it was known
+  const ToolPath& path;  ///< empty if the step failed before the path was known
 };
 
-/// Evaluates every tool against every organ: at each new shape, at each tick. Each step begins
-/// where the last one that succeeded ended. A tool with a fault is never evaluated: its answers say
-/// INVALID_TOOL.
+/// Decides which tool is evaluated against which organ, when, and from which pose: at each new
+/// shape of the organ, at each new pose of a tip, and at each tick. A step begins where the last
+/// successful one of that tool and organ ended. A tool with a fault is never evaluated: its answers
+/// say INVALID_TOOL.
 class StepScheduler {
  public:
   using Publish = std::function<void(const EvaluatedStep&)>;
 
-  /// The references must outlive it.
+  /// The references must outlive this. `publish` gets each step as soon as it is evaluated.
   StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools, ToolPoses& poses,
                 ContactQuery& contact_query, Publish publish)
       : parameters_(parameters),
         tools_(tools),
         poses_(poses),
         contact_query_(contact_query),
-        publish_(std::move(publish)) {}
+        publish_(std::move(publish)),
+        tool_is_due_(tools.size(), false) {}
 
-  /// The organ's latest shape is to be evaluated with every tool.
-  void add_shape(const DeformableOrgan& organ, SteadyTime now);
-  /// All shapes whose transforms are there, or have been waited for long enough.
-  void evaluate_waiting(const OrganRegistry& organs, SteadyTime now);
-  /// All organs with the latest poses.
-  void evaluate_tick(const OrganRegistry& organs);
-  /// All organs with the latest pose of one tool, where that is not answered yet.
-  void evaluate_latest(const OrganRegistry& organs, std::size_t tool);
+  /// Notes what a message did to an organ. A new shape becomes due for every tool. History that is
+  /// not comparable to the organ any more is forgotten.
+  void add(const OrganRegistry& organs, const OrganUpdate& update, SteadyTime now);
+  /// Notes that a tool's tip has a new pose: the tool becomes due.
+  void add_pose(std::size_t tool);
+  /// Makes every tool due.
+  void add_tick() { tick_is_due_ = true; }
 
-  void forget(const std::string& organ) { history_.forget(organ); }
+  /// Evaluates what is due: shapes whose transforms have come or have been waited for long enough,
+  /// then the tools whose tips moved, then all at a tick. Tools and ticks use the latest poses.
+  void evaluate(const OrganRegistry& organs, SteadyTime now);
+
   /// Forgets all history: the next step of every tool is static. Shapes that wait still wait.
   void reset();
-  /// The same, and what waits for transforms of a time that is over is dropped: every organ is as
-  /// its latest shape shows it.
+  /// For a clock that jumped back: forgets all history, and drops the shapes that wait, since their
+  /// transforms will not come. Every organ has its latest shape.
   void start_anew(const OrganRegistry& organs);
 
-  /// When evaluate_waiting has something to do even if no transform comes; none: never.
+  /// When evaluate() has something to do even if no transform comes; none: never.
   std::optional<SteadyTime> next_deadline() const;
   const StepHistory& history() const { return history_; }
-  /// Samples of motion that motion_samples_max cut, since the start.
+
+  // Counted since the start, for /diagnostics.
+
+  /// Samples of motion that were dropped because of motion_samples_max.
   std::size_t samples_cut() const { return samples_cut_; }
-  /// [m] The farthest that any of them was from the way that the tool was swept along, since the
-  /// start.
+  /// [m] The largest distance of a dropped sample from the path that was swept instead.
   double deviation_cut() const { return deviation_cut_; }
+  /// Poses of tips that came while an earlier one was still due: one step covers both.
+  std::size_t poses_merged() const { return poses_merged_; }
 
  private:
+  void add_shape(const DeformableOrgan& organ, SteadyTime now);
+  void evaluate_waiting(const OrganRegistry& organs, SteadyTime now);
+  void evaluate_tick(const OrganRegistry& organs);
+  void evaluate_latest(const OrganRegistry& organs, std::size_t tool);
   bool evaluate_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                       SteadyTime now);
   void evaluate_latest(const DeformableOrgan& organ, std::size_t tool, ros::Time now,
@@ -89,6 +102,9 @@ class StepScheduler {
   ContactQuery& contact_query_;
   Publish publish_;
   StepHistory history_;
+  std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
+  bool tick_is_due_ = false;
+  std::size_t poses_merged_ = 0;
   std::size_t samples_cut_ = 0;
   double deviation_cut_ = 0.0;
 };

@@ -32,7 +32,8 @@ class Descriptor {
   Descriptor& operator=(const Descriptor&) = delete;
 
   int get() const { return number_; }
-  /// Takes it over, at a number beyond the standard streams': those of the child are made first.
+  /// Takes over a descriptor and gives it a number above those of the standard streams, which the
+  /// child's redirection replaces.
   void take(int number, const char* what) {
     if (number < 0) fail(errno, what);
     number_ = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
@@ -49,7 +50,7 @@ class Descriptor {
   int number_ = -1;
 };
 
-/// A file in memory, not a pipe: the parent need not wait for who reads it.
+/// A file in memory instead of a pipe, so that the parent need not wait for the reader.
 void open_input(const std::string& input, Descriptor& descriptor) {
   descriptor.take(memfd_create("input", MFD_CLOEXEC), "memfd_create");
   for (std::size_t done = 0; done < input.size();) {
@@ -60,7 +61,7 @@ void open_input(const std::string& input, Descriptor& descriptor) {
   if (lseek(descriptor.get(), 0, SEEK_SET) != 0) fail(errno, "lseek");
 }
 
-/// What a new process is to have: the three standard streams, no signal blocked, none ignored.
+/// The new process has the three standard streams, and no signal blocked or ignored.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output) {
@@ -100,7 +101,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
-/// Killed and waited for at the latest when this is destroyed.
+/// Kills the process and waits for it on destruction, if that has not happened before.
 class Child {
  public:
   explicit Child(pid_t process) : process_(process) {}
@@ -110,8 +111,8 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Ends it; one that has begun to end by itself does so. Returns what waitpid knows of it, and 0
-  /// where the host process keeps that from us: it ignores SIGCHLD, or waits for all children.
+  /// Kills the process, unless it is already ending by itself. Returns waitpid's status, or 0 if the
+  /// host process took that status: it ignores SIGCHLD, or waits for all children.
   int end() {
     kill(process_, SIGKILL);
     int status = 0;
@@ -138,7 +139,7 @@ std::string describe(int status) {
   return failure.str();
 }
 
-/// Reads until the other end is closed; returns why it stopped before that, or nothing.
+/// Reads until the other end is closed. Returns why it stopped before that; else an empty text.
 std::string read_all(int descriptor, const ProcessLimits& limits, std::string& output) {
   const Clock::time_point end = Clock::now() + limits.time;
   std::array<char, 65536> block;
@@ -174,7 +175,7 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::st
   write_end.take(pipe_ends[1], "pipe");
 
   Child child(SpawnSettings(given.get(), write_end.get()).start(command));
-  write_end.close();  // So that the child alone holds it.
+  write_end.close();  // Only the child holds this end now.
   ProcessResult result;
   result.failure = read_all(read_end.get(), limits, result.output);
   const int status = child.end();

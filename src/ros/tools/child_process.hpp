@@ -8,7 +8,7 @@
 namespace organ_collision {
 
 struct ProcessLimits {
-  std::chrono::milliseconds time;  ///< real time; then the process is killed
+  std::chrono::milliseconds time;  ///< of real time, after which the process is killed
   std::size_t output_bytes;        ///< a process that writes more is killed
 };
 
@@ -18,11 +18,12 @@ struct ProcessResult {
   std::string failure;  ///< "was ended by signal 11 (Segmentation fault)"; empty: exit code 0
 };
 
-/// Runs a program and waits for its end. `command`: its path, then its arguments. `input`: what it
-/// reads on standard input.
-/// Safe in a process with many threads, whatever they do with signals and other children: the
-/// process is never copied, no handler of a fork runs. Throws std::system_error where the program
-/// cannot be started.
+/// Runs a program and waits for its end. `command`: its path and its arguments. `input`: what it
+/// reads on standard input. Throws std::system_error if the program cannot be started.
+///
+/// Own code, because Boost.Process forks: in a nodelet manager, other threads may hold locks at that
+/// moment, and fork handlers of other libraries would run. posix_spawn does neither. Other threads
+/// may also change signal handlers and wait for children.
 ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
                           const ProcessLimits& limits);
 

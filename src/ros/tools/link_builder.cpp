@@ -4,8 +4,8 @@
 #include <sstream>
 #include <utility>
 
+#include "link_description.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "tool_error.hpp"
 
 namespace organ_collision {
 namespace {

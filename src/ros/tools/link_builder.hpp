@@ -7,8 +7,8 @@
 
 namespace organ_collision {
 
-/// The link as the node collides with it. Throws ToolError, which names the link and the value: an
-/// illegal size, pose or mesh.
+/// The link with its collision geometry. Throws ToolError, which names the link and the illegal
+/// size, pose or mesh.
 Link build_link(const std::string& name, LinkDescription description);
 
 }  // namespace organ_collision

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,10 +10,16 @@
 
 namespace organ_collision {
 
-// A link as a robot's files describe it, in the link's frame. Lengths are metres. Nothing in it is
-// checked: build_link does that.
+/// The links of a tool cannot be made from a robot's description. what() names the file, link or
+/// value, and what is legal.
+class ToolError : public std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
 
-/// Of a shape in the link's frame.
+// A link as the robot's files describe it, in the link's frame. Lengths are in metres. The values
+// are not checked yet: build_link does that.
+
+/// The pose of a shape in the link's frame.
 struct ShapePose {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
@@ -23,19 +30,19 @@ struct SphereDescription {
   double radius = 0.0;
 };
 
-/// Along z, centred.
+/// Its axis is z; the origin is its centre.
 struct CylinderDescription {
   ShapePose pose;
   double radius = 0.0, length = 0.0;
 };
 
-/// Centred; `size` along x, y and z.
+/// `size` along x, y and z [m]; the origin is its centre.
 struct BoxDescription {
   ShapePose pose;
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
 };
 
-/// Scaled and placed in the link's frame.
+/// Already scaled, and in the link's frame.
 struct MeshDescription {
   std::string file;  ///< as the URDF names it
   std::vector<Eigen::Vector3d> vertices;
@@ -46,7 +53,7 @@ using ShapeDescription =
     std::variant<SphereDescription, CylinderDescription, BoxDescription, MeshDescription>;
 
 struct LinkDescription {
-  std::string joint;  ///< that moves the link relative to its parent; empty: fixed, or the root
+  std::string joint;  ///< that moves the link against its parent; empty: fixed, or the root
   std::vector<ShapeDescription> shapes;
 };
 

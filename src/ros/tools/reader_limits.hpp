@@ -3,18 +3,18 @@
 #include <chrono>
 #include <cstddef>
 
-/// What reading a robot's description may take. The first three bind robot_reader, which sets them
-/// itself; the others are the node's, for what it gets from there.
+/// What reading a robot's description may cost. The program robot_reader sets the first three limits
+/// for itself. The node enforces the others on the program.
 namespace organ_collision::reader_limits {
 
-/// Of the URDF, and of each mesh file. A mesh of two million triangles, as STL.
+/// [bytes] Of the URDF, and of each mesh file: an STL file of two million triangles.
 inline constexpr std::size_t kFileBytes = 100'000'000;
-/// Of address space: a file, what its reader makes of it, and what is sent to the node.
+/// [bytes] Of address space: a file, its parsed form, and the reply to the node.
 inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;
-/// Of processor time: files at the limit above take a few seconds.
+/// Of processor time: files of the largest legal size take a few seconds.
 inline constexpr std::chrono::seconds kProcessorTime{10};
 
-/// Of real time: on a busy machine, processor time comes slowly.
+/// Of real time, which is longer than processor time on a busy machine.
 inline constexpr std::chrono::seconds kTime{30};
 inline constexpr std::size_t kReplyBytes = 500'000'000;
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "child_process.hpp"
+#include "link_description.hpp"
 #include "reader_limits.hpp"
 #include "robot_reply.hpp"
-#include "tool_error.hpp"
 
 namespace organ_collision {
 namespace {
@@ -19,21 +19,21 @@ constexpr char kProgram[] = "robot_reader";
 
 bool can_run(const std::filesystem::path& program) { return access(program.c_str(), X_OK) == 0; }
 
-/// Of this library or, where it is linked into a program, of the program.
+/// The folder of this library or, if the library is linked into a program, of the program.
 std::filesystem::path folder_of_this_code() {
   Dl_info library{};
   dladdr(reinterpret_cast<const void*>(&folder_of_this_code), &library);
   std::filesystem::path file = library.dli_fname ? library.dli_fname : "";
-  if (!file.has_parent_path()) {  // A program that the shell found in PATH is known by its bare
-                                  // name.
+  if (!file.has_parent_path()) {  // The shell found the program in PATH: only its name is known.
     std::error_code ignored;
     file = std::filesystem::read_symlink("/proc/self/exe", ignored);
   }
   return file.parent_path();
 }
 
-/// Below the folder of this library or, where it is linked into a program, beside the program: in
-/// a build folder, an install space and a nodelet manager alike.
+/// The program is in the folder organ_collision below this library or, if the library is linked
+/// into a program, beside that program. This holds in a build folder, in an install space and in a
+/// nodelet manager.
 std::string find_program() {
   const std::filesystem::path folder = folder_of_this_code();
   const std::filesystem::path below = folder / "organ_collision" / kProgram;

@@ -22,7 +22,7 @@ class ReplyWriter {
   void value(const Value& value) {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
   }
-  /// A text, or numbers one behind the other.
+  /// A text, or an array of numbers.
   template <typename List>
   void list(const List& list) {
     value<std::uint64_t>(list.size());
@@ -46,7 +46,7 @@ class ReplyReader {
   void list(List& list) {
     std::uint64_t size = 0;
     value(size);
-    // Nothing is allocated for what is not there.
+    // Checked before the allocation: a malformed size must not exhaust the memory.
     if (size > left() / sizeof(list[0])) throw Malformed();
     list.resize(size);
     copy(list.data(), size * sizeof(list[0]));
@@ -64,7 +64,7 @@ class ReplyReader {
   std::size_t next_ = 0;
 };
 
-// What a description is made of, in order: once, for writer and reader alike.
+// The members of each description in their order, the same for writer and reader.
 
 template <typename Archive>
 void transfer(Archive& archive, ShapePose& pose) {
@@ -147,7 +147,7 @@ std::string text_record(Record record, const std::string& text) {
   return std::move(writer).bytes();
 }
 
-/// All but what was taken before it found the reply malformed.
+/// Throws Malformed; what was read before that stays in `reply`.
 void take(ReplyReader& reader, RobotReply& reply) {
   Record record{};
   for (reader.value(record); record == Record::kReading; reader.value(record)) {
@@ -190,7 +190,7 @@ RobotReply parse_reply(const std::string& bytes) {
   try {
     take(reader, reply);
   } catch (const Malformed&) {
-    // It says so by having neither links nor a refusal.
+    // The reply has neither links nor a refusal.
   }
   return reply;
 }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <ros/node_handle.h>
+
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -12,8 +15,17 @@ namespace organ_collision {
 struct Tool {
   ToolParameters parameters;
   std::vector<Link> links;          ///< in the order of parameters.links
-  std::vector<std::string> joints;  ///< that move them, for each link; empty: fixed, or the root
-  std::string fault;  ///< why its links could not be loaded; empty: they were, or it has none
+  std::vector<std::string> joints;  ///< of each link: the joint that moves it; empty: none does
+  std::string fault;  ///< why the links could not be loaded; empty: they were, or there are none
 };
+
+/// The tool with its links from its URDF: a file, or a parameter that is searched in the node's
+/// private namespace and upwards from there. A bad description throws nothing: the tool has a
+/// `fault`, a sentence that begins with the tool's name.
+Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node);
+
+/// The same without ROS. `find_text` returns the value of a parameter, or throws ToolError.
+Tool load_tool(const ToolParameters& parameters,
+               const std::function<std::string(const std::string& parameter)>& find_text);
 
 }  // namespace organ_collision

@@ -33,169 +33,174 @@ OrganVerticesConstPtr vertices(const std::string& organ, std::uint32_t topology)
   return message;
 }
 
-/// Notes what the inbox hands on. A mesh of topology n is made when `let(n)` allows it.
+/// Notes what the queue hands on. A mesh of topology n is built once `let(n)` allows it.
 class OrganMessageQueueTest : public testing::Test {
  protected:
   void let(std::uint32_t topology) { allowed_[topology].set_value(); }
-  /// Until the inbox's thread has called so often.
+  /// Waits until the queue's thread has called wake() so often.
   void wait_for_wakes(int wakes) {
     while (wakes_ < wakes) std::this_thread::yield();
   }
 
-  /// Whether it was called or not.
-  void hand_on_until_taken(std::size_t messages) {
+  /// Takes all messages that are ready, in the calling thread.
+  void take_all() {
+    while (auto message = queue_.next()) taken_.push_back(text(*message));
+  }
+  /// The same, until so many have been taken, whether the queue's thread calls wake() or not.
+  void take_until(std::size_t messages) {
     while (taken_.size() < messages) {
       std::this_thread::yield();
-      inbox_.hand_on();
+      take_all();
     }
   }
 
-  bool memory_is_short_ = false;  ///< for making, and for waking
+  bool memory_is_short_ = false;  ///< for building, and for waking
   std::vector<std::string> taken_;
-  std::thread::id made_in_;
+  std::thread::id built_in_;
   Connection connection_;  ///< of the last mesh taken
   std::uint32_t known_ = 0;
 
  private:
-  OrganMessageQueue::Callbacks callbacks() {
-    OrganMessageQueue::Callbacks callbacks;
-    callbacks.make = [this](const OrganMeshConstPtr& message) {
+  std::string text(OrganMessage& message) {
+    if (message.vertices) {
+      return message.organ() + " vertices " + std::to_string(message.vertices->topology);
+    }
+    connection_ = message.connection;
+    const std::string text = message.organ() + " mesh " + std::to_string(message.mesh->topology);
+    if (!message.built.valid()) return text;
+    try {
+      return text + ", " + std::to_string(message.built.get().face_count());
+    } catch (const MeshError&) {
+      return text + ", refused";
+    } catch (const std::bad_alloc&) {
+      return text + ", no memory";
+    }
+  }
+
+  OrganMessageQueue::Functions functions() {
+    OrganMessageQueue::Functions functions;
+    functions.build = [this](const OrganMeshConstPtr& message) {
       allowed_.at(message->topology).get_future().wait();
-      made_in_ = std::this_thread::get_id();
+      built_in_ = std::this_thread::get_id();
       if (memory_is_short_) throw std::bad_alloc();
       return TriangleMesh(message->vertices, message->triangles, message->topology);
     };
-    callbacks.is_known = [this](const OrganMesh& message, const Connection&) {
-      return message.topology == known_;
+    functions.is_new = [this](const OrganMesh& message, const Connection&) {
+      return message.topology != known_;
     };
-    callbacks.take = [this](const OrganMeshConstPtr& message, const Connection& connection,
-                            const auto& made) {
-      connection_ = connection;
-      std::string text = message->organ + " mesh " + std::to_string(message->topology);
-      if (message->topology != known_) {
-        try {
-          text += ", " + std::to_string(made().face_count());
-        } catch (const MeshError&) {
-          text += ", refused";
-        }
-      }
-      taken_.push_back(text);
-    };
-    callbacks.take_vertices = [this](const OrganVerticesConstPtr& message) {
-      taken_.push_back(message->organ + " vertices " + std::to_string(message->topology));
-    };
-    callbacks.wake = [this] {
+    functions.wake = [this] {
       if (memory_is_short_) throw std::bad_alloc();
       ++wakes_;
     };
-    return callbacks;
+    return functions;
   }
 
   std::vector<std::promise<void>> allowed_ = std::vector<std::promise<void>>(300);
   std::atomic<int> wakes_{0};
 
  protected:
-  OrganMessageQueue inbox_{callbacks()};
+  OrganMessageQueue queue_{functions()};
 };
 
 using Texts = std::vector<std::string>;
 
 TEST_F(OrganMessageQueueTest, SmallMeshesAndVerticesPassAtOnce) {
-  let(1);
-  inbox_.add(mesh("liver", 1, OrganMessageQueue::kLarge));
-  EXPECT_EQ(made_in_, std::this_thread::get_id());
-  inbox_.add(vertices("liver", 1));
-  EXPECT_EQ(taken_, (Texts{"liver mesh 1, 10000", "liver vertices 1"}));
+  queue_.add(mesh("liver", 1, OrganMessageQueue::kLarge));
+  queue_.add(vertices("liver", 1));
+  take_all();
+  EXPECT_EQ(taken_, (Texts{"liver mesh 1", "liver vertices 1"}));
 }
 
-TEST_F(OrganMessageQueueTest, LargeMeshesAreMadeElsewhereAndOtherOrgansDoNotWait) {
-  inbox_.add(mesh("liver", 1, kFaces));
-  inbox_.add(vertices("liver", 1));
-  inbox_.add(vertices("spleen", 7));
-  inbox_.hand_on();
+TEST_F(OrganMessageQueueTest, LargeMeshesAreBuiltElsewhereAndOtherOrgansDoNotWait) {
+  queue_.add(mesh("liver", 1, kFaces));
+  queue_.add(vertices("liver", 1));
+  queue_.add(vertices("spleen", 7));
+  take_all();
   EXPECT_EQ(taken_, Texts{"spleen vertices 7"});
   let(1);
   wait_for_wakes(1);
-  EXPECT_EQ(taken_.size(), 1U) << "handed on in the wrong thread";
-  inbox_.hand_on();
+  EXPECT_EQ(taken_.size(), 1U) << "taken in the wrong thread";
+  take_all();
   EXPECT_EQ(taken_, (Texts{"spleen vertices 7", "liver mesh 1, 10001", "liver vertices 1"}));
-  EXPECT_NE(made_in_, std::this_thread::get_id());
-  inbox_.add(vertices("liver", 1));
+  EXPECT_NE(built_in_, std::this_thread::get_id());
+  queue_.add(vertices("liver", 1));
+  take_all();
   EXPECT_EQ(taken_.back(), "liver vertices 1");
   EXPECT_EQ(taken_.size(), 4U);
 }
 
 TEST_F(OrganMessageQueueTest, TheOrderOfEachOrganStays) {
-  inbox_.add(mesh("liver", 1, kFaces));
-  inbox_.add(mesh("liver", 2, 1));
-  inbox_.add(vertices("liver", 2));
-  inbox_.add(mesh("liver", 3, kFaces));
-  inbox_.add(mesh("spleen", 4, kFaces));
+  queue_.add(mesh("liver", 1, kFaces));
+  queue_.add(mesh("liver", 2, 1));
+  queue_.add(vertices("liver", 2));
+  queue_.add(mesh("liver", 3, kFaces));
+  queue_.add(mesh("spleen", 4, kFaces));
   let(2);
   let(1);
   wait_for_wakes(1);
-  inbox_.hand_on();
+  take_all();
   EXPECT_EQ(taken_, (Texts{"liver mesh 1, 10001", "liver mesh 2, 1", "liver vertices 2"}));
   let(3);
   let(4);
   wait_for_wakes(3);
-  inbox_.hand_on();
+  take_all();
   EXPECT_EQ(Texts(taken_.begin() + 3, taken_.end()),
             (Texts{"liver mesh 3, 10001", "spleen mesh 4, 10001"}));
 }
 
 TEST_F(OrganMessageQueueTest, AMeshIsTakenWithItsConnection) {
   const auto header = boost::make_shared<const ros::M_string>();
-  inbox_.add(mesh("liver", 1, kFaces), header);
+  queue_.add(mesh("liver", 1, kFaces), header);
   let(1);
   wait_for_wakes(1);
-  inbox_.hand_on();
+  take_all();
   EXPECT_EQ(connection_.lock(), header);
 }
 
-TEST_F(OrganMessageQueueTest, AKnownTopologyIsNotMadeAgain) {
+TEST_F(OrganMessageQueueTest, AKnownTopologyIsNotBuiltAgain) {
   known_ = 1;
-  inbox_.add(mesh("liver", 1, kFaces));
+  queue_.add(mesh("liver", 1, kFaces));
+  take_all();
   EXPECT_EQ(taken_, Texts{"liver mesh 1"});
 }
 
-TEST_F(OrganMessageQueueTest, WhatIsWrongWithAMeshComesWithIt) {
+TEST_F(OrganMessageQueueTest, AFaultOfAMeshComesWithIt) {
   const auto bad = boost::make_shared<OrganMesh>(*mesh("liver", 1, kFaces));
   bad->triangles.back() = 3;
-  inbox_.add(bad);
+  queue_.add(bad);
   let(1);
   wait_for_wakes(1);
-  inbox_.hand_on();
+  take_all();
   EXPECT_EQ(taken_, Texts{"liver mesh 1, refused"});
 }
 
-TEST_F(OrganMessageQueueTest, WhatCannotBeMadeHoldsNothingUp) {
+TEST_F(OrganMessageQueueTest, AMeshThatCannotBeBuiltHoldsNothingUp) {
   memory_is_short_ = true;
-  inbox_.add(mesh("liver", 1, kFaces));
-  inbox_.add(vertices("liver", 1));
+  queue_.add(mesh("liver", 1, kFaces));
+  queue_.add(vertices("liver", 1));
   let(1);
-  EXPECT_THROW(hand_on_until_taken(1), std::bad_alloc);
-  inbox_.hand_on();
-  EXPECT_EQ(taken_, Texts{"liver vertices 1"});
-  inbox_.add(vertices("liver", 2));
+  take_until(2);
+  EXPECT_EQ(taken_, (Texts{"liver mesh 1, no memory", "liver vertices 1"}));
+  queue_.add(vertices("liver", 2));
+  take_all();
   EXPECT_EQ(taken_.back(), "liver vertices 2");
 }
 
 TEST_F(OrganMessageQueueTest, TheOldestVerticesGoWhereTooManyWait) {
-  inbox_.add(mesh("liver", 1, kFaces));
-  for (std::uint32_t i = 0; i < 250; ++i) inbox_.add(vertices("liver", i));
+  queue_.add(mesh("liver", 1, kFaces));
+  for (std::uint32_t i = 0; i < 250; ++i) queue_.add(vertices("liver", i));
   let(1);
   wait_for_wakes(1);
-  inbox_.hand_on();
+  take_all();
   ASSERT_EQ(taken_.size(), OrganMessageQueue::kMostWaiting);
   EXPECT_EQ(taken_[0], "liver mesh 1, 10001");
   EXPECT_EQ(taken_[1], "liver vertices 151");
   EXPECT_EQ(taken_.back(), "liver vertices 249");
 }
 
-TEST_F(OrganMessageQueueTest, EndsWhileMeshesAreStillToBeMade) {
-  inbox_.add(mesh("liver", 1, kFaces));
-  inbox_.add(mesh("liver", 2, kFaces));
+TEST_F(OrganMessageQueueTest, EndsWhileMeshesAreStillToBeBuilt) {
+  queue_.add(mesh("liver", 1, kFaces));
+  queue_.add(mesh("liver", 2, kFaces));
   let(1);
   let(2);
 }

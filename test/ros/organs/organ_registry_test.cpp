@@ -37,7 +37,7 @@ class OrganRegistryTest : public testing::Test {
  protected:
   OrganChange apply(const OrganMesh& message, ros::Time now, const Connection& connection = {}) {
     const auto pointer = boost::make_shared<const OrganMesh>(message);
-    return store_.apply(pointer, connection, now, [&] { return store_.make(pointer); });
+    return store_.apply(pointer, connection, now, [&] { return store_.build(pointer); });
   }
   OrganChange apply(const OrganVertices& message, ros::Time now, const Connection& = {}) {
     return store_.apply(boost::make_shared<const OrganVertices>(message), now);

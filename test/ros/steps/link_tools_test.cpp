@@ -57,11 +57,8 @@ class LinkToolsTest : public testing::Test, protected NodeParts {
     EXPECT_TRUE(answer.contacts.empty());
   }
 
-  /// The ways of the first tool.
+  /// The paths of the first tool.
   std::vector<ToolPath> paths;
-  StepScheduler watched{parameters, tools, poses, contact_query, [this](const EvaluatedStep& step) {
-                          if (step.tool.parameters.name == "hook") paths.push_back(step.path);
-                        }};
 };
 
 }  // namespace
@@ -78,25 +75,25 @@ TEST_F(LinkToolsTest, AnswersNameTheLinks) {
 }
 
 TEST_F(LinkToolsTest, StepsSweepTheLinksAcrossAGap) {
+  watch = [this](const EvaluatedStep& step) {
+    if (step.tool.parameters.name == "hook") paths.push_back(step.path);
+  };
   send_jaw(1.0, kAbove);
   send_mesh(1.0, 0.0);
-  watched.add_shape(organs.at("liver"), now);
-  watched.evaluate_waiting(organs, now);
+  evaluate();
   ASSERT_EQ(paths.size(), 1u);
   ASSERT_EQ(paths[0].size(), 1u);
   ASSERT_EQ(paths[0][0].links.size(), 2u);
   EXPECT_EQ(paths[0][0].links[1].translation(), kAbove);
 
   send_vertices(1.1, 0.0);
-  watched.add_shape(organs.at("liver"), now);
-  watched.evaluate_waiting(organs, now + milliseconds(20));  // Without the jaw.
+  evaluate(milliseconds(20));  // Without the jaw.
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_TRUE(paths[1].empty());
 
   send_jaw(1.2, kBelow);
   send_vertices(1.2, 0.0);
-  watched.add_shape(organs.at("liver"), now);
-  watched.evaluate_waiting(organs, now);
+  evaluate();
   ASSERT_EQ(paths.size(), 3u);
   ASSERT_EQ(paths[2].size(), 2u);
   EXPECT_EQ(paths[2][0].links[1].translation(), kAbove);

@@ -2,12 +2,15 @@
 
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
+#include <ros/callback_queue.h>
 
 #include <boost/make_shared.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_topics.hpp"
 #include "ros/steps/query_services.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "test/ros/motion/hand_filled_transforms.hpp"
@@ -15,8 +18,8 @@
 
 namespace organ_collision {
 
-/// All of the node but ROS: fed by hand, with a clock that stands still. The organ is a sheet of
-/// two faces, 2 m wide, at a height; the tool hangs from (0, 0, 1).
+/// The node without ROS's topics: messages are given by hand, and the clock stands still. The organ
+/// is a horizontal sheet of two faces, 2 m wide; the tool hangs from (0, 0, 1).
 struct NodeParts {
   NodeParts() {
     ros::Time::init();
@@ -39,8 +42,8 @@ struct NodeParts {
     message.topology = topology;
     message.vertices = heights(z);
     message.triangles = {0, 1, 2, 0, 2, 3};
-    organs.apply(boost::make_shared<OrganMesh>(message), ros::Time::now());
-    steps.add_shape(organs.at("liver"), now);
+    organ_topics.take_mesh(boost::make_shared<OrganMesh>(message));
+    apply_organ_messages();
   }
 
   void send_vertices(double stamp, float z) {
@@ -50,43 +53,53 @@ struct NodeParts {
     message.organ = "liver";
     message.topology = 1;
     message.vertices = heights(z);
-    organs.apply(boost::make_shared<OrganVertices>(message), ros::Time::now());
-    steps.add_shape(organs.at("liver"), now);
+    organ_topics.take_vertices(boost::make_shared<OrganVertices>(message));
+    apply_organ_messages();
   }
 
-  /// What is published when everything that can be is evaluated, `later` after the last call.
+  void apply_organ_messages() {
+    while (const auto update = organ_topics.next()) steps.add(organs, *update, now);
+  }
+
+  /// What is published when everything that is due is evaluated, `later` after the last call.
   std::vector<ContactArray> evaluate(std::chrono::milliseconds later = {}) {
     now += later;
     published.clear();
-    steps.evaluate_waiting(organs, now);
+    steps.evaluate(organs, now);
     return published;
   }
 
   std::vector<ContactArray> tick() {
-    published.clear();
-    steps.evaluate_tick(organs);
-    return published;
+    steps.add_tick();
+    return evaluate();
   }
 
-  /// What is published when a pose of the tool comes.
+  /// What is published when a pose of the first tool comes.
   std::vector<ContactArray> pose() {
-    published.clear();
-    steps.evaluate_latest(organs, 0);
-    return published;
+    steps.add_pose(0);
+    return evaluate();
   }
 
   NodeParameters parameters;
   std::vector<Tool> tools = {shaft_tool("hook", 0.01)};
   TransformBuffer transforms;
   OrganRegistry organs{MeshLimits{}};
+  FailureLog rejected;
+  FailureLog refused;
+  ros::CallbackQueue callbacks;
+  OrganTopics organ_topics{organs, rejected, callbacks};
   ToolPoses poses{transforms, {0.001, 100}};
   ContactQuery contact_query{PickerKind::kFeedback};
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
-  StepScheduler steps{parameters, tools, poses, contact_query,
-                      [this](const EvaluatedStep& step) { published.push_back(*step.answer); }};
+  /// Also called with each step, if set.
+  std::function<void(const EvaluatedStep&)> watch;
+  StepScheduler steps{parameters, tools, poses, contact_query, [this](const EvaluatedStep& step) {
+                        published.push_back(*step.answer);
+                        if (watch) watch(step);
+                      }};
   QueryServices services{
-      {parameters, tools, organs, transforms, poses, steps.history(), contact_query}};
+      {parameters, tools, organs, transforms, poses, steps.history(), contact_query, refused}};
 };
 
 }  // namespace organ_collision

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/tools/tool_loader.hpp"
+#include "ros/tools/tool.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <csignal>
 
-#include "ros/tools/tool_error.hpp"
+#include "ros/tools/link_description.hpp"
 #include "tool_files.hpp"
 
 using namespace organ_collision;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/tools/tool_error.hpp"
+#include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
 

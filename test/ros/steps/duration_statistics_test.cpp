@@ -1,4 +1,4 @@
-#include "ros/steps/statistics.hpp"
+#include "ros/steps/duration_statistics.hpp"
 
 #include <gtest/gtest.h>
 
@@ -54,15 +54,4 @@ TEST(DurationStatistics, ForgetsTheOldest) {
   statistics.add(2.0);
   EXPECT_EQ(statistics.summary().worst, 2.0);
   EXPECT_EQ(statistics.summary().count, DurationStatistics::kCapacity + 1);
-}
-
-TEST(EventRate, CountsSinceTheLastLook) {
-  using std::chrono::milliseconds;
-  const EventRate::Time start{milliseconds(7000)};
-  EventRate rate(start);
-  for (int i = 0; i < 30; ++i) rate.count();
-  EXPECT_EQ(rate.take(start), 0.0);
-  for (int i = 0; i < 30; ++i) rate.count();
-  EXPECT_DOUBLE_EQ(rate.take(start + milliseconds(250)), 120.0);
-  EXPECT_DOUBLE_EQ(rate.take(start + milliseconds(500)), 0.0);
 }

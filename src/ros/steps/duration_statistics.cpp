@@ -1,4 +1,4 @@
-#include "statistics.hpp"
+#include "duration_statistics.hpp"
 
 #include <algorithm>
 #include <vector>
@@ -14,14 +14,6 @@ DurationStatistics::Summary DurationStatistics::summary() const {
     return sorted[(kept * percent + 99) / 100 - 1];
   };
   return {count_, percentile(50), percentile(99), sorted.back()};
-}
-
-double EventRate::take(Time now) {
-  const double seconds = std::chrono::duration<double>(now - since_).count();
-  const double rate = seconds > 0.0 ? static_cast<double>(count_) / seconds : 0.0;
-  since_ = now;
-  count_ = 0;
-  return rate;
 }
 
 }  // namespace organ_collision

@@ -1,8 +1,8 @@
-#include "ros/tools/tool_loader.hpp"
+#include "ros/tools/tool.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ros/tools/tool_error.hpp"
+#include "ros/tools/link_description.hpp"
 #include "tool_files.hpp"
 
 using namespace organ_collision;

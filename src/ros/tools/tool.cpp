@@ -1,18 +1,18 @@
-#include "tool_loader.hpp"
+#include "tool.hpp"
 
 #include <utility>
 
 #include "link_builder.hpp"
+#include "link_description.hpp"
 #include "robot_reader.hpp"
 #include "ros/interface/plain_text.hpp"
-#include "tool_error.hpp"
 
 namespace organ_collision {
 namespace {
 
 std::string find_text(const std::string& parameter, const ros::NodeHandle& private_node) {
   std::string resolved, text;
-  // searchParam finds a/b wherever an a is, though it be without b.
+  // For a/b, searchParam looks only for a: a/b may be missing there.
   if (!private_node.searchParam(parameter, resolved) || !private_node.hasParam(resolved)) {
     throw ToolError("is set neither in " + private_node.getNamespace() +
                     " nor in a namespace above; load the robot's URDF there, name the parameter "

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <ros/callback_queue_interface.h>
+#include <ros/node_handle.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "organ_message_queue.hpp"
+#include "organ_registry.hpp"
+#include "ros/interface/failure_log.hpp"
+
+namespace organ_collision {
+
+/// A message about an organ, and what it did.
+struct OrganUpdate {
+  OrganMessage message;
+  std::optional<OrganChange> change = {};  ///< none: the message was refused, and changed nothing
+  /// Why the organ has no new shape, as ContactArray's status and message; OK: it has one.
+  std::uint8_t status = 0;
+  std::string why_not = {};
+};
+
+/// Meshes and vertices of organs as they come on the node's topics, applied to the known organs in
+/// the order in which they came.
+class OrganTopics {
+ public:
+  /// All must outlive it. `callbacks`: of the thread that calls next(), to wake it.
+  OrganTopics(OrganRegistry& organs, FailureLog& rejected, ros::CallbackQueueInterface& callbacks);
+
+  void subscribe(ros::NodeHandle private_node);
+
+  /// Take a message of a topic. `connection`: over which the mesh came.
+  void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {}) {
+    queue_.add(message, connection);
+  }
+  void take_vertices(const OrganVerticesConstPtr& message) { queue_.add(message); }
+  /// Applies the next message that can be applied now; none if there is none. A message that is
+  /// refused is counted as rejected.
+  std::optional<OrganUpdate> next();
+
+ private:
+  OrganChange apply(OrganMessage& message);
+
+  OrganRegistry& organs_;
+  FailureLog& rejected_;
+  OrganMessageQueue queue_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+}  // namespace organ_collision

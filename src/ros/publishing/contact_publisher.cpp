@@ -1,0 +1,86 @@
+#include "contact_publisher.hpp"
+
+#include <organ_collision/ContactArray.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <exception>
+
+#include "markers.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/steps/contact_array.hpp"
+
+namespace organ_collision {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// [messages] For each subscriber that reads more slowly than the node publishes.
+constexpr std::uint32_t kQueue = 100;
+
+/// Does one part of a report, and goes on to the next if it fails.
+template <typename Action>
+void attempt(const Action& action) {
+  try {
+    action();
+  } catch (const std::exception&) {  // Usually std::bad_alloc. There is nowhere left to report it.
+  }
+}
+
+}  // namespace
+
+ContactPublisher::ContactPublisher(ros::NodeHandle private_node, const std::vector<Tool>& tools,
+                                   NodeCounters& counters)
+    : tools_(tools),
+      counters_(counters),
+      contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)),
+      markers_(private_node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, kQueue)) {}
+
+void ContactPublisher::publish(const EvaluatedStep& step) {
+  count_failure(counters_.failed, step.answer->status, step.answer->message);
+  contacts_.publish(step.answer);
+  counters_.contacts.count();
+  if (markers_.getNumSubscribers() > 0) markers_.publish(step_markers(step));
+}
+
+void ContactPublisher::report(const OrganUpdate& update) {
+  if (update.status == ContactArray::OK) return counters_.meshes.count();
+  for (const Tool& tool : tools_) {
+    publish_failure(tool, update.message.organ(), update.message.header(), update.status,
+                    update.why_not);
+  }
+}
+
+void ContactPublisher::report_breakdown(const OrganRegistry& organs, const std::string& why) {
+  std::string message;
+  attempt([&] {
+    message = "the node broke down: " + why + "; once it is back, send the organs again";
+    count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
+  });
+  for (const auto& [name, organ] : organs.organs()) {
+    for (const Tool& tool : tools_) {
+      attempt([&, &name = name, &organ = organ] {
+        std_msgs::Header header;
+        header.frame_id = organ.frame();
+        publish_failure(tool, name, header, ContactArray::PICKER_FAILED, message);
+      });
+    }
+  }
+}
+
+void ContactPublisher::publish_failure(const Tool& tool, const std::string& organ,
+                                       const std_msgs::Header& header, std::uint8_t status,
+                                       const std::string& message) {
+  const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
+  const auto answer = boost::make_shared<ContactArray>(
+      answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
+  set_links(*answer, tool.parameters);
+  answer->header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
+  set_failure(*answer, status, message);
+  contacts_.publish(answer);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <std_msgs/Header.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "node_counters.hpp"
+#include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_topics.hpp"
+#include "ros/steps/step_scheduler.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+/// Publishes the answers of steps on `contacts`, and what RViz shows of them on `markers`. Counts
+/// what it publishes.
+class ContactPublisher {
+ public:
+  /// `tools` and `counters` must outlive this.
+  ContactPublisher(ros::NodeHandle private_node, const std::vector<Tool>& tools,
+                   NodeCounters& counters);
+
+  void publish(const EvaluatedStep& step);
+  /// If the message brought no shape, publishes an answer that says why, for each tool.
+  void report(const OrganUpdate& update);
+  /// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a
+  /// node that broke down for the absence of contacts. Never throws, even if memory is short.
+  void report_breakdown(const OrganRegistry& organs, const std::string& why);
+
+ private:
+  void publish_failure(const Tool& tool, const std::string& organ, const std_msgs::Header& header,
+                       std::uint8_t status, const std::string& message);
+
+  const std::vector<Tool>& tools_;
+  NodeCounters& counters_;
+  ros::Publisher contacts_;
+  ros::Publisher markers_;
+};
+
+}  // namespace organ_collision

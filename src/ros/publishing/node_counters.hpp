@@ -1,0 +1,19 @@
+#pragma once
+
+#include <chrono>
+
+#include "event_rate.hpp"
+#include "ros/interface/failure_log.hpp"
+
+namespace organ_collision {
+
+/// What the node counts for /diagnostics.
+struct NodeCounters {
+  EventRate meshes{std::chrono::steady_clock::now()};    ///< accepted shapes of organs
+  EventRate contacts{std::chrono::steady_clock::now()};  ///< answers to steps
+  FailureLog rejected;                                   ///< messages that were refused
+  FailureLog failed;                                     ///< steps without an answer
+  FailureLog refused;                                    ///< service calls without an answer
+};
+
+}  // namespace organ_collision
