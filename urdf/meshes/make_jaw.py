@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes the jaw of a grasper to standard output: a closed mesh of 500 faces in metres, as binary STL.
+"""Writes the jaw of a grasper to standard output, as binary STL: a closed mesh of 500 faces [m].
 
 The joint is at the origin and its axis is y. The jaw points along z. Its toothed side faces -x.
 
