@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""roslaunch for the demo: shows what the nodes print and what goes wrong, and nothing else; its exit
-code is 1 if a required node failed, else 0.
+"""A quiet roslaunch for the demo: shows only errors and what the nodes print. The exit code is 1 if
+a required node failed, and 0 otherwise.
 
 Usage: launch_demo.py LAUNCH_FILE [ARGUMENT:=VALUE]...
 """
@@ -14,18 +14,18 @@ import rospkg
 
 
 class ExitCodes(roslaunch.pmon.ProcessListener):
-    """Of the nodes that ended by themselves, by name."""
+    """The exit codes of the nodes that ended by themselves, by name of the node."""
 
     def __init__(self):
         self.by_name = {}
 
     def process_died(self, process_name, exit_code):
-        name = process_name.rsplit('-', 1)[0]  # without the number that roslaunch adds
+        name = process_name.rsplit('-', 1)[0]  # removes the number that roslaunch appends
         self.by_name[name] = exit_code
 
 
 class ErrorsOnly:
-    """A stream that leaves out roslaunch's alarm about a required node that ended well."""
+    """A stream that drops roslaunch's message about a required node that ended without error."""
 
     def __init__(self, stream):
         self.stream = stream
@@ -39,7 +39,7 @@ class ErrorsOnly:
 
 
 def run(launch_file, arguments):
-    """The names of the required nodes that failed."""
+    """Runs the launch file and returns the names of the required nodes that failed."""
     run_id = roslaunch.rlutil.get_or_generate_uuid(None, False)
     roslaunch.configure_logging(run_id)
     ended = ExitCodes()

@@ -1,13 +1,14 @@
 # shellcheck shell=bash
-# What run_demo and run_tests share: system packages, the build, the ROS environment. Sourced by both.
+# Functions that run_demo, run_tests and run_benchmarks share: system packages, the build, the ROS
+# environment.
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=$repository/build
-devel=$repository/devel # rosrun finds nothing below build/
+devel=$repository/devel # not inside build/: rosrun finds no programs there
 
 say() { printf '\n==> %s\n' "$*"; }
 
-# fail [-c EXIT_CODE] MESSAGE: one line on stderr, and the end.
+# fail [-c EXIT_CODE] MESSAGE: prints one line on stderr and exits.
 fail() {
   local code=1
   if [ "$1" = -c ]; then
@@ -20,7 +21,7 @@ fail() {
 
 on_noetic() { [ -f /opt/ros/noetic/setup.bash ] || grep -qs '^VERSION_CODENAME=focal' /etc/os-release; }
 
-# packages_for PURPOSE...: their names on this system, from packages.txt.
+# packages_for PURPOSE...: prints the names of the packages on this system, from packages.txt.
 packages_for() {
   local column=2
   if on_noetic; then column=3; fi
@@ -37,7 +38,7 @@ apt_get() {
   "${as_root[@]}" DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 "$@"
 }
 
-# install_packages PURPOSE...: those of packages.txt that are missing.
+# install_packages PURPOSE...: installs the missing packages of packages.txt.
 install_packages() {
   local package missing=()
   command -v dpkg-query >/dev/null || fail "this is no Debian or Ubuntu: there is no dpkg"
@@ -56,8 +57,9 @@ install_packages() {
   apt_get install --yes --no-install-recommends "${missing[@]}"
 }
 
-# continue_as_owner ARGUMENTS...: under sudo, what follows is done by the user who typed it, if the
-# repository is theirs: else root's files in build/ and devel/ would stand in their way later.
+# continue_as_owner ARGUMENTS...: if the script runs under sudo, restarts it as the user who called
+# sudo, provided that the user owns the repository. Otherwise the user could not change root's files
+# in build/ and devel/ later.
 continue_as_owner() {
   if [ "$(id -u)" = 0 ] && [ -n "${SUDO_USER:-}" ] && [ "$SUDO_USER" != root ] &&
     [ "$(stat -c %U "$repository")" = "$SUDO_USER" ]; then
@@ -65,7 +67,8 @@ continue_as_owner() {
   fi
 }
 
-# One job for each core, but no more than the memory holds.
+# Prints the number of parallel jobs: one for each core, but at most one for each
+# 1.5 GB of available memory.
 build_jobs() {
   local cores room
   cores=$(nproc)
@@ -75,7 +78,7 @@ build_jobs() {
   echo "$cores"
 }
 
-# build_package CMAKE_OPTIONS...: in Release, into build/ and devel/.
+# build_package CMAKE_OPTIONS...: builds in Release, into build/ and devel/.
 build_package() {
   local folder stranger
   for folder in "$build" "$devel"; do
@@ -89,7 +92,7 @@ build_package() {
   cmake --build "$build" --parallel "$(build_jobs)"
 }
 
-# ROS from /opt/ros where it is there; Debian's own needs nothing.
+# Loads the ROS of /opt/ros if there is one. Debian's own ROS packages need no setup.
 use_ros() {
   if [ -f /opt/ros/noetic/setup.bash ]; then
     set +u
@@ -99,20 +102,20 @@ use_ros() {
   fi
 }
 
-# ROS asks by name even for this host. (The package netbase writes /etc/hosts where there is none.)
+# ROS resolves this host by name. If /etc/hosts is missing, the package netbase writes it.
 check_localhost() {
   getent hosts localhost >/dev/null ||
     fail "the name 'localhost' does not resolve; add the line '127.0.0.1 localhost' to /etc/hosts"
 }
 
-# The ROS programs and packages as built.
+# Makes the programs and packages of this build available to ROS.
 use_built_package() {
   set +u
   # shellcheck disable=SC1091
   . "$devel/setup.bash"
   set -u
   check_localhost
-  # ROS nodes find each other by the host's name, which not every host can resolve.
+  # ROS nodes find each other by the name of the host, which not every host can resolve.
   if [ -z "${ROS_HOSTNAME:-}${ROS_IP:-}" ] && ! getent hosts "$(uname -n)" >/dev/null; then
     export ROS_HOSTNAME=localhost
   fi

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Writes jaw.stl to its output: a grasper's jaw [m], closed, 500 faces, as binary STL.
+"""Writes the jaw of a grasper to standard output, as binary STL: a closed mesh of 500 faces [m].
 
-The joint is at the origin, its axis is y; the jaw points along z, its toothed side faces -x.
+The joint is at the origin and its axis is y. The jaw points along z. Its toothed side faces -x.
 
 Usage: make_jaw.py > jaw.stl
 """
@@ -11,17 +11,17 @@ import struct
 import sys
 
 LENGTH = 0.020
-HALF_WIDTH = 0.002  # at the joint; the tip has half of it
-THICKNESS = 0.0022  # the same
-BOW = 0.0005  # the middle bends away from the other jaw
-GAP = 0.0001  # to the middle plane, when closed
+HALF_WIDTH = 0.002  # at the joint; half of it at the tip
+THICKNESS = 0.0022  # at the joint; half of it at the tip
+BOW = 0.0005  # by which the middle bends away from the other jaw
+GAP = 0.0001  # between a closed jaw and the middle plane
 TOOTH = 0.0004
 SECTIONS = 21
 
 
 def section(i):
-    """The 12 corners of a section, anticlockwise seen from the tip: a half ellipse, and the toothed
-    side. The first one sees all others: the ends are fans around it."""
+    """The 12 corners of a section, anticlockwise seen from the tip: a half ellipse and the toothed
+    side. A fan around the first corner covers the section without overlap."""
     share = i / (SECTIONS - 1)
     taper = 1 - 0.5 * share**2
     toothed = i % 2 == 1
@@ -41,7 +41,7 @@ def section(i):
 
 
 def triangles():
-    """Anticlockwise from outside."""
+    """All triangles, anticlockwise seen from outside."""
     sections = [section(i) for i in range(SECTIONS)]
     for low, high in zip(sections, sections[1:]):
         for k, a in enumerate(low):
@@ -62,7 +62,7 @@ def normal(a, b, c):
 
 
 def main():
-    # Rounded, so that every machine writes the same bytes.
+    # Coordinates are rounded so that every machine writes the same bytes.
     rounded = [[[round(x, 7) for x in corner] for corner in face] for face in triangles()]
     out = sys.stdout.buffer
     out.write(struct.pack('<80sI', b'jaw of a grasper, made by make_jaw.py', len(rounded)))
