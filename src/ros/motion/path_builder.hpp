@@ -8,8 +8,8 @@ namespace organ_collision {
 /// Builds a path from samples of a tool's motion, without redundant waypoints: each leg of a path
 /// costs a query. TF interpolates between transforms, so that many samples lie on the straight
 /// motion between their neighbours. A sample is dropped if the path changes by less than 1e-9 m at
-/// the ends of the axis, and by less than 1e-6 m at any point of the links, without it. The straight
-/// motion of a link is RigidMotion; chains of joints follow it only roughly.
+/// the ends of the axis, and by less than 1e-6 m at any point of the links, without it. The
+/// straight motion of a link is RigidMotion; chains of joints follow it only roughly.
 class PathBuilder {
  public:
   /// Starts at fraction 0. `deviation` must outlive this.

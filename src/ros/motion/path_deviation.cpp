@@ -46,12 +46,13 @@ PathDeviation::PathDeviation(const std::vector<Link>& links) {
   for (const Link& link : links) reaches_.push_back(reach(link));
 }
 
-Deviation PathDeviation::operator()(const ToolWaypoint& waypoint, const StraightMotion& motion) const {
+Deviation PathDeviation::operator()(const ToolWaypoint& waypoint,
+                                    const StraightMotion& motion) const {
   const double time = (waypoint.fraction - motion.begin) / motion.duration;
   Deviation deviation{distance(motion.axis.at(time), waypoint.axis), 0.0};
   for (std::size_t i = 0; i < reaches_.size(); ++i) {
-    deviation.links =
-        std::max(deviation.links, distance(motion.links[i].at(time), waypoint.links[i], reaches_[i]));
+    deviation.links = std::max(deviation.links,
+                               distance(motion.links[i].at(time), waypoint.links[i], reaches_[i]));
   }
   return deviation;
 }

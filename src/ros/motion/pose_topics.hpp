@@ -31,8 +31,8 @@ class PoseTopics {
   /// Subscribes to the topics that the tools name; `node` resolves their names.
   void subscribe(ros::NodeHandle node);
 
-  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are. An illegal pose is
-  /// counted as rejected, and the last pose stays.
+  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are. An illegal pose
+  /// is counted as rejected, and the last pose stays.
   void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
   void take_base(std::size_t tool, const geometry_msgs::PoseStamped& pose);
 

@@ -166,7 +166,8 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
     }
   }
   path.add(1.0, to.value);
-  SimplifiedPath simplified = simplify_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
+  SimplifiedPath simplified =
+      simplify_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
   return {std::move(simplified.path), samples_cut + simplified.dropped, simplified.deviation};
 }
 

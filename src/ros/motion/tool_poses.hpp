@@ -37,8 +37,8 @@ class ToolPoses {
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received in
   /// between, and at times in between if these are further apart than sample_sec. Samples that TF
-  /// cannot give are dropped, PathBuilder drops redundant ones, and simplify_path reduces the rest to
-  /// samples_max. If there are more stamps than samples_max and than a thousand, only so many of
+  /// cannot give are dropped, PathBuilder drops redundant ones, and simplify_path reduces the rest
+  /// to samples_max. If there are more stamps than samples_max and than a thousand, only so many of
   /// them are read, evenly spread.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;

@@ -14,12 +14,10 @@ namespace {
 using XmlRpc::XmlRpcValue;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-/// The corners of so many faces still have 32-bit numbers. An organ of this size takes about ten
-/// gigabytes and a tenth of a second a step: the limit is a guard against nonsense.
-constexpr double kMostFaces = 1e8;
-
 /// [bytes] roscpp refuses larger messages.
 constexpr double kMostMessageBytes = 1e9;
+/// Messages with more faces would be too large: three indices of four bytes for each.
+constexpr double kMostFaces = 83'333'333;
 
 const NumberRange kNotNegative{0.0, kUnlimited};
 const NumberRange kPositive{0.0, kUnlimited, false};

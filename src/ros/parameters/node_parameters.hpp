@@ -18,8 +18,8 @@ struct ToolParameters {
   std::string trocar_frame;  ///< empty: no shaft
   std::string tip_frame;     ///< without a shaft: the frame that tip_pose_topic places, or empty
   double radius = 0.0;       ///< [m] of the shaft; 0: no shaft
-  std::string tip_pose_topic = {};      ///< PoseStamped of tip_frame; empty: TF has its pose
-  std::string base_pose_topic = {};     ///< PoseStamped of the frame in which tip poses are; or empty
+  std::string tip_pose_topic = {};   ///< PoseStamped of tip_frame; empty: TF has its pose
+  std::string base_pose_topic = {};  ///< PoseStamped of the frame in which tip poses are; or empty
   std::vector<std::string> links = {};  ///< links of the robot's URDF, each once; empty: no links
   std::string robot_description = {};   ///< parameter that holds the URDF, if `urdf` is empty
   std::string urdf = {};                ///< file or URL of the URDF, or empty

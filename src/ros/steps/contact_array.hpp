@@ -13,8 +13,8 @@
 namespace organ_collision {
 
 /// An answer about one organ and one tool with a shaft alone, still without contacts. header.stamp
-/// and step_start are `stamp`. The names may come from a message and be illegal: the answer has them
-/// as plain text of at most kLongestName bytes (plain_text.hpp).
+/// and step_start are `stamp`. The names may come from a message and be illegal: the answer has
+/// them as plain text of at most kLongestName bytes (plain_text.hpp).
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
 

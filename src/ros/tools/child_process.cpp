@@ -111,8 +111,8 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Kills the process, unless it is already ending by itself. Returns waitpid's status, or 0 if the
-  /// host process took that status: it ignores SIGCHLD, or waits for all children.
+  /// Kills the process, unless it is already ending by itself. Returns waitpid's status, or 0 if
+  /// the host process took that status: it ignores SIGCHLD, or waits for all children.
   int end() {
     kill(process_, SIGKILL);
     int status = 0;

@@ -126,7 +126,7 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   expect_words(refusal("motion_samples_max", 0), {"~motion_samples_max", "at least 1"});
   expect_words(refusal("tf_timeout_sec", -0.1), {"~tf_timeout_sec", "-0.1", "at least 0"});
   expect_words(refusal("mesh_timeout_sec", -2), {"~mesh_timeout_sec", "-2", "at least 0"});
-  expect_words(refusal("max_faces", 0), {"~max_faces", "at least 1", "16777216"});
+  expect_words(refusal("max_faces", 0), {"~max_faces", "at least 1", "83333333"});
   expect_words(refusal("max_batch", 0), {"~max_batch", "at least 1", "1000000"});
   expect_words(refusal("max_batch_bytes", 0), {"~max_batch_bytes", "at least 1", "1000000000"});
   expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
