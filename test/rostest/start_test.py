@@ -44,7 +44,7 @@ ILLEGAL = [
     ({'mesh_timeout_sec': -2}, ['mesh_timeout_sec', '-2', '0']),
     ({'max_faces': 0}, ['max_faces', '0', '1']),
     ({'max_faces': -7}, ['max_faces', '-7', '1']),
-    ({'max_faces': 2147483647}, ['max_faces', '2147483647', '16777216']),
+    ({'max_faces': 2147483647}, ['max_faces', '2147483647', '83333333']),
     ({'max_batch': 0}, ['max_batch', '0', '1']),
     ({'max_batch_bytes': 2147483647}, ['max_batch_bytes', '2147483647', '1000000000']),
     ({'publish_regions': 'often'}, ['publish_regions', 'often', 'true', 'false']),
