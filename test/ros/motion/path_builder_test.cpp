@@ -117,7 +117,7 @@ TEST(PathBuilder, EveryLinkCounts) {
   }
 }
 
-TEST(PathBuilder, MoreThanHalfATurnIsNoStraightWay) {
+TEST(PathBuilder, MoreThanHalfATurnIsNoStraightMotion) {
   const auto turn = [](double time) { return pose({0.1, 0.0, 0.0}, time, {0.0, 0.5, 1.0}); };
   const ToolPath path = path_of(one_ball(), 50, 6.0, turn);
   ASSERT_GE(path.size(), 3u);

@@ -23,7 +23,7 @@ Isometry3d pose(const Vector3d& origin, double angle = 0.0) {
 TEST(PathDeviation, EitherEndOfTheAxisCounts) {
   const PathDeviation deviation({});
   const Vector3d trocar(0.1, 0.2, 0.3), tip(0.4, 0.1, -0.2), moved(0.04, -0.08, 0.02);
-  const StraightWay way(at(0.2, trocar, tip), at(0.6, trocar + moved, tip - moved));
+  const StraightMotion way(at(0.2, trocar, tip), at(0.6, trocar + moved, tip - moved));
   const ToolWaypoint straight = at(0.3, trocar + 0.25 * moved, tip - 0.25 * moved);
   EXPECT_NEAR(deviation(straight, way).most(), 0.0, 1e-15);
   ToolWaypoint bent = straight;
@@ -42,7 +42,7 @@ TEST(PathDeviation, LinksCountWithAllThatTheyReach) {
     return at(fraction, rest, rest, {wrist, jaw});
   };
   const Isometry3d still = pose({0.1, 0.2, 0.3}, 0.4);
-  const StraightWay way(poses(0.0, still, still), poses(1.0, still, still));
+  const StraightMotion way(poses(0.0, still, still), poses(1.0, still, still));
   EXPECT_NEAR(deviation(poses(0.5, still, still), way).most(), 0.0, 1e-15);
   const Isometry3d aside = Eigen::Translation3d(0.0, 0.02, 0.0) * still;
   EXPECT_NEAR(deviation(poses(0.5, aside, still), way).links, 0.02, 1e-12);

@@ -27,7 +27,7 @@ ToolPath heights(const std::vector<double>& heights) {
 double distance(const ToolPath& path, const ToolWaypoint& waypoint) {
   std::size_t leg = 1;
   while (path[leg].fraction < waypoint.fraction) ++leg;
-  return kOfAShaft(waypoint, StraightWay(path[leg - 1], path[leg])).most();
+  return kOfAShaft(waypoint, StraightMotion(path[leg - 1], path[leg])).most();
 }
 
 std::vector<double> fractions(const ToolPath& path) {
@@ -38,38 +38,39 @@ std::vector<double> fractions(const ToolPath& path) {
 
 }  // namespace
 
-TEST(CutPath, WhatFitsStays) {
+TEST(SimplifiedPath, WhatFitsStays) {
   const ToolPath path = heights({0.0, 0.3, 0.1, 0.2, 0.5});
   for (const std::size_t legs : {4u, 5u, 100u}) {
-    const CutPath cut = cut_path(path, kOfAShaft, legs);
-    EXPECT_EQ(fractions(cut.path), fractions(path));
-    EXPECT_EQ(cut.cut, 0u);
-    EXPECT_EQ(cut.deviation, 0.0);
+    const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
+    EXPECT_EQ(fractions(simplified.path), fractions(path));
+    EXPECT_EQ(simplified.dropped, 0u);
+    EXPECT_EQ(simplified.deviation, 0.0);
   }
-  EXPECT_EQ(cut_path(resting_path({{kTrocar, kTrocar}}), kOfAShaft, 1).path.size(), 1u);
+  EXPECT_EQ(simplify_path(resting_path({{kTrocar, kTrocar}}), kOfAShaft, 1).path.size(), 1u);
 }
 
-TEST(CutPath, WhatMattersMostStays) {
+TEST(SimplifiedPath, WhatMattersMostStays) {
   const ToolPath path = heights({0.0, 0.001, -0.002, 0.4, 0.0, 0.02, 0.0, 0.001, 0.0});
-  CutPath cut = cut_path(path, kOfAShaft, 2);
-  EXPECT_EQ(fractions(cut.path), (std::vector<double>{0.0, 0.375, 1.0}));
-  EXPECT_EQ(cut.cut, 6u);
-  cut = cut_path(path, kOfAShaft, 4);
-  EXPECT_EQ(cut.path.size(), 5u);
-  EXPECT_EQ(cut.path[2].axis.tip.z(), 0.4);
-  EXPECT_LT(cut.deviation, 0.021);
-  cut = cut_path(path, kOfAShaft, 1);
-  EXPECT_EQ(fractions(cut.path), (std::vector<double>{0.0, 1.0}));
-  EXPECT_NEAR(cut.deviation, 0.4, 1e-12);
+  SimplifiedPath simplified = simplify_path(path, kOfAShaft, 2);
+  EXPECT_EQ(fractions(simplified.path), (std::vector<double>{0.0, 0.375, 1.0}));
+  EXPECT_EQ(simplified.dropped, 6u);
+  simplified = simplify_path(path, kOfAShaft, 4);
+  EXPECT_EQ(simplified.path.size(), 5u);
+  EXPECT_EQ(simplified.path[2].axis.tip.z(), 0.4);
+  EXPECT_LT(simplified.deviation, 0.021);
+  simplified = simplify_path(path, kOfAShaft, 1);
+  EXPECT_EQ(fractions(simplified.path), (std::vector<double>{0.0, 1.0}));
+  EXPECT_NEAR(simplified.deviation, 0.4, 1e-12);
 }
 
-TEST(CutPath, OnAStraightWayNothingMatters) {
-  const CutPath cut = cut_path(heights({0.0, 0.25, 0.5, 0.75, 1.0}), kOfAShaft, 3);
-  EXPECT_EQ(cut.deviation, 0.0);
-  EXPECT_EQ(cut.path.size() + cut.cut, 5u);
+TEST(SimplifiedPath, OnAStraightMotionNothingMatters) {
+  const SimplifiedPath simplified =
+      simplify_path(heights({0.0, 0.25, 0.5, 0.75, 1.0}), kOfAShaft, 3);
+  EXPECT_EQ(simplified.deviation, 0.0);
+  EXPECT_EQ(simplified.path.size() + simplified.dropped, 5u);
 }
 
-TEST(CutPath, NothingIsFartherFromTheWayThanItSays) {
+TEST(SimplifiedPath, NothingIsFartherFromTheWayThanItSays) {
   std::mt19937 random(11);
   std::normal_distribution<double> number(0.0, 0.05);
   for (int trial = 0; trial < 200; ++trial) {
@@ -77,14 +78,14 @@ TEST(CutPath, NothingIsFartherFromTheWayThanItSays) {
     while (way.size() < 60) way.push_back(way.back() + number(random));
     const ToolPath path = heights(way);
     for (const std::size_t legs : {1u, 3u, 10u, 40u}) {
-      const CutPath cut = cut_path(path, kOfAShaft, legs);
-      ASSERT_EQ(cut.path.size(), legs + 1);
-      EXPECT_EQ(cut.cut, path.size() - cut.path.size());
+      const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
+      ASSERT_EQ(simplified.path.size(), legs + 1);
+      EXPECT_EQ(simplified.dropped, path.size() - simplified.path.size());
       double farthest = 0.0;
       for (const ToolWaypoint& waypoint : path) {
-        farthest = std::max(farthest, distance(cut.path, waypoint));
+        farthest = std::max(farthest, distance(simplified.path, waypoint));
       }
-      EXPECT_NEAR(cut.deviation, farthest, 1e-12);
+      EXPECT_NEAR(simplified.deviation, farthest, 1e-12);
     }
   }
 }

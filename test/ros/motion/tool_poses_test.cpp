@@ -242,7 +242,7 @@ TEST_F(ToolPosesTest, PathWithinOneSampleIsStraight) {
   EXPECT_EQ(path(1.0, 1.0015, {0.001, 100}).path.size(), 3u);
 }
 
-TEST_F(ToolPosesTest, WaypointsOnAStraightWayAreLeftOut) {
+TEST_F(ToolPosesTest, WaypointsOnAStraightMotionAreLeftOut) {
   // TF interpolates between the two that it has: one straight leg, then one more.
   for (const double time : {1.0, 1.04, 1.1}) send(time);
   const SampledPath sampled = path(1.0, 1.1, {0.01, 100});

@@ -12,7 +12,10 @@ namespace {
 
 class OrganTopicsTest : public testing::Test {
  protected:
-  OrganTopicsTest() { ros::Time::setNow(ros::Time(50.0)); }
+  OrganTopicsTest() {
+    ros::Time::init();
+    ros::Time::setNow(ros::Time(50.0));
+  }
 
   static boost::shared_ptr<OrganMesh> mesh(std::size_t faces = 1) {
     const auto message = boost::make_shared<OrganMesh>();
