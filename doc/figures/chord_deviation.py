@@ -63,7 +63,8 @@ def draw_rim(axes):
     axes.axhline(centre[1], 0.3, 0.95, color=style.GUIDE, ls=':')
     place = 1.05
     style.arrow(axes, (place, centre[1]), (place, top[1]), style.BOUND, '<->')
-    style.label(axes, (place + 0.05, 0.5 * (centre[1] + top[1])), '|Rᵀn|', style.BOUND, va='center')
+    middle = 0.5 * (centre[1] + top[1])
+    style.label(axes, (place + 0.05, middle), '|Rᵀn|', style.BOUND, va='center')
     style.label(axes, centre + [0.06, -0.1], 'c', style.TOOL)
     style.arrow(axes, (-0.85, top[1] - 0.5), (-0.85, top[1] - 0.15), style.TEXT)
     style.label(axes, (-0.8, top[1] - 0.4), 'n')

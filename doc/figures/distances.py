@@ -26,7 +26,7 @@ def draw_pairs(axes):
 
 
 def nearest_on_hull(points):
-    """Point of the hull of up to three points nearest to the origin, and the points that it needs."""
+    """The hull's point nearest to the origin, of up to three points, and the points it needs."""
     best = min(([point, [point]] for point in points), key=lambda pair: np.linalg.norm(pair[0]))
     for i, a in enumerate(points):
         for b in points[i + 1:]:

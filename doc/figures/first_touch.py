@@ -50,7 +50,7 @@ def bernstein(row, s):
 
 
 def advances():
-    """Intervals that the search looks at: their begin and end, and the time until which it is clear."""
+    """Intervals that the search looks at: begin, end, and the time until which it is clear."""
     now, ahead, found = 0.0, 1.0, []
     for _ in range(20):
         s = np.linspace(0, 1, 20001)
@@ -78,13 +78,14 @@ def draw_shapes(axes, found):
                        (end, 'end')):
         axes.plot(*np.stack([TROCAR, tip(time)]).T, color=style.TOOL, lw=1.8)
         style.label(axes, tip(time) + [-0.1, 0.0], text, style.TOOL, ha='right', va='bottom')
-    for s, anchor, name, line in ((0, closest(begin)[2], '$n_0$', '-'), (1, closest(end)[2], '$n_1$', '--')):
-        normal = normals[s]
+    for s, (time, line) in enumerate(((begin, '-'), (end, '--'))):
+        normal, anchor = normals[s], closest(time)[2]
         along = np.array([-normal[1], normal[0]])
-        axes.plot(*np.stack([anchor - 0.5 * along, anchor + 0.5 * along]).T, line, color=style.BOUND)
+        axes.plot(*np.stack([anchor - 0.5 * along, anchor + 0.5 * along]).T, line,
+                  color=style.BOUND)
         foot = anchor + 0.45 * along
         style.arrow(axes, foot, foot + 0.25 * normal, style.BOUND)
-        style.label(axes, foot + 0.3 * normal, name, style.BOUND, ha='center', va='center')
+        style.label(axes, foot + 0.3 * normal, f'$n_{s}$', style.BOUND, ha='center', va='center')
     axes.set_ylim(-0.1, 2.35)
 
 
@@ -96,8 +97,7 @@ def draw_times(axes, found):
     for i, (begin, end, clear) in enumerate(found[:3]):
         rows = coefficients(begin, end, RADIUS)
         s = np.linspace(0, 1, 200)
-        row = min(rows, key=lambda r: np.argmax(bernstein(r, s) <= 0) if np.any(bernstein(r, s) <= 0)
-                  else len(s))
+        row = min(rows, key=lambda r: np.argmax(np.append(bernstein(r, s), 0) <= 0))
         at = begin + s * (end - begin)
         axes.plot(at, RADIUS + bernstein(row, s), '-', color=style.BOUND, lw=1.5,
                   label='bound of an interval (+ radius)' if i == 0 else None)

@@ -13,8 +13,8 @@ TIP = np.array([0.9, 0.0])
 
 def capsule(radius):
     turn = np.linspace(-np.pi / 2, np.pi / 2, 50)
-    return np.concatenate([[[-0.6, -radius]], TIP + radius * np.stack([np.cos(turn), np.sin(turn)], 1),
-                           [[-0.6, radius]]])
+    cap = TIP + radius * np.stack([np.cos(turn), np.sin(turn)], 1)
+    return np.concatenate([[[-0.6, -radius]], cap, [[-0.6, radius]]])
 
 
 def draw():
@@ -25,14 +25,15 @@ def draw():
     axes.add_patch(plt.Polygon(capsule(RADIUS), fc=style.TOOL, alpha=0.25, lw=0))
     axes.plot([-0.6, TIP[0]], [0, 0], color=style.TOOL, lw=1.6)
     axes.plot(*capsule(RADIUS + move).T, '--', color=style.BOUND, lw=1.5)
-    for face, text, line in ((BEFORE, 'start', 1.0), (half_way, 'half way (drawn)', 2.4),
+    for face, name, line in ((BEFORE, 'start', 1.0), (half_way, 'half way (drawn)', 2.4),
                              (AFTER, 'end', 1.0)):
         axes.plot(*face.T, '-o', color=style.FACE, ms=3, lw=line)
-        style.label(axes, face[1] + [0.05, 0.0], text, style.FACE)
+        style.label(axes, face[1] + [0.05, 0.0], name, style.FACE)
     for corner in range(2):
         style.arrow(axes, BEFORE[corner], AFTER[corner], style.GUIDE, width=0.8)
     style.label(axes, (-0.55, 0.04), 's', style.TOOL)
-    style.label(axes, (-0.55, RADIUS + move + 0.05), 'grown by m, half of the\nlongest way of a corner', style.BOUND)
+    text = 'grown by m, half of the\nlongest way of a corner'
+    style.label(axes, (-0.55, RADIUS + move + 0.05), text, style.BOUND)
     axes.set_xlim(-0.65, 2.05)
 
     boxes.set_title('Growth for rounding', color=style.TEXT)

@@ -1,7 +1,7 @@
 """How far 32-bit arithmetic misplaces planes: the budgets that are derived, and what was measured.
 
-The measurement repeats the arithmetic of outcodes.cpp and of GL's vertex transform in numpy's 32-bit
-floats, for points that lie on a plane exactly.
+The measurement repeats the arithmetic of outcodes.cpp and of GL's vertex transform in numpy's
+32-bit floats, for points that lie on a plane exactly.
 """
 
 import numpy as np
@@ -39,7 +39,7 @@ def outcode_error(random, moving):
 
 def random_wedge(random):
     """Clip matrix, user planes, radius, near, far, reach and slant, as conservative_volume.cpp."""
-    half, skew = np.radians(random.uniform(2, 72)), 0.0
+    half = np.radians(random.uniform(2, 72))
     skew = np.radians(random.uniform(-1, 1) * (72 - np.degrees(half)))
     turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
     x, y, z = turn
@@ -88,7 +88,8 @@ def clip_errors(random):
 def draw():
     random = np.random.default_rng(1)
     figure, (codes, clip) = style.panels(2, 10, 3.6, [1, 1.5])
-    measured = [max(outcode_error(random, moving) for _ in range(TRIALS)) for moving in (False, True)]
+    measured = [max(outcode_error(random, moving) for _ in range(TRIALS))
+                for moving in (False, True)]
     draw_bars(codes, ['at rest', 'moving'], [8, 16], [4, 11], measured)
     codes.set_title('Outcodes', color=style.TEXT)
     codes.set_ylabel('2⁻²⁴ times the sum of |coordinates|')

@@ -47,7 +47,8 @@ def draw_piercing(axes):
     foot = tip[1] - RADIUS
     style.arrow(axes, (1.15, 0), (1.15, foot), style.BOUND, '<->')
     axes.plot([0.3, 1.25], [foot, foot], '--', color=style.GUIDE, lw=0.8)
-    style.label(axes, (1.22, 0.5 * foot), 'depth =\nn·(tip − point) + s', style.BOUND, va='center')
+    style.label(axes, (1.22, 0.5 * foot), 'depth =\nn·(tip − point) + s', style.BOUND,
+                va='center')
     style.label(axes, tip + [0.06, 0.05], 'tip', style.TOOL)
     axes.set_xlim(-1.5, 2.9)
 

@@ -54,7 +54,8 @@ def gap(time, axis):
 def draw_gap(axes):
     axis = turn(0.5 * (START[1] + END[1]))[:, 1]
     times = np.linspace(0, 1, 200)
-    axes.plot(times, [gap(time, axis) for time in times], color=style.TOOL, label='true gap − radius')
+    axes.plot(times, [gap(time, axis) for time in times], color=style.TOOL,
+              label='true gap − radius')
     ends = [gap(0, axis) - DEVIATION, gap(1, axis) - DEVIATION]
     axes.plot([0, 1], ends, 'o--', color=style.BOUND, ms=4,
               label='straight line between the ends,\nless the chord deviation')

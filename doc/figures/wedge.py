@@ -56,8 +56,8 @@ def draw_top(axes):
                                (END, "P'", (-0.13, -0.13)), (eye, 'eye E', (0.05, -0.03))):
         axes.plot(*place, 'o', color=style.TEXT, ms=4)
         style.label(axes, place + np.array(shift), text)
-    style.label(axes, (-1.12, 0.1), 'dashed: the 1999 volume.\nIts sides are moved by\ns along PP\', and it '
-                'ends\nflat at PP\'.', style.FACE)
+    style.label(axes, (-1.12, 0.1), 'dashed: the 1999 volume.\nIts sides are moved by\n'
+                "s along PP', and it ends\nflat at PP'.", style.FACE)
     style.label(axes, (0.55, 0.15), 'solid: the conservative\nwedge, moved by s\nat right angles',
                 style.BOUND)
     style.label(axes, (0.1, START[1] + RADIUS + 0.04), 'far', style.BOUND)

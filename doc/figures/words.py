@@ -37,9 +37,10 @@ def draw_organ(axes):
         axes.add_patch(plt.Rectangle(np.array(corner) - 0.48, 15.96, 15.96, fill=False,
                                      ec=style.BOUND, lw=1.8))
     style.label(axes, (32.6, 26), 'section:\n16 blocks', style.BOUND)
-    style.label(axes, (32.6, 16), 'block: 16 vertices\n(blue: the blocks that\nhold the vertices of\n'
-                'the red cluster)', style.TOOL)
-    style.label(axes, (32.6, 8), 'cluster: the faces\nwhose first vertex\nis in one block', style.FACE)
+    style.label(axes, (32.6, 16), 'block: 16 vertices\n(blue: the blocks that\nhold the '
+                'vertices of\nthe red cluster)', style.TOOL)
+    style.label(axes, (32.6, 8), 'cluster: the faces\nwhose first vertex\nis in one block',
+                style.FACE)
     axes.set_xlim(-1, 46)
 
 
@@ -68,7 +69,8 @@ def draw_tool(axes):
     for i in range(4):
         style.label(axes, 0.5 * (way[i] + way[i + 1]) + [0, 0.13], f'leg {i + 1}', ha='center')
     style.arrow(axes, way[0] - [0, 0.75], [way[3][0], -0.75], style.BOUND, '|-|')
-    style.label(axes, (2.2, -1.1), 'span: legs 1 to 3 stay near one chord', style.BOUND, ha='center')
+    style.label(axes, (2.2, -1.1), 'span: legs 1 to 3 stay near one chord', style.BOUND,
+                ha='center')
     style.arrow(axes, way[0] - [0, 1.5], [way[-1][0], -1.5], style.TEXT, '|-|')
     style.label(axes, (3.1, -1.9), 'step: fraction 0 to 1; dots are waypoints', ha='center')
     axes.set_xlim(-0.8, 7.4)
