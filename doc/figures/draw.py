@@ -1,0 +1,28 @@
+#!/usr/bin/python3
+"""Draws the figures of doc/geometry.md from the formulas that the page derives.
+
+Usage: doc/figures/draw.py [FOLDER]
+
+Writes one SVG for each figure into FOLDER (default: the folder of this script). The same version of
+matplotlib writes the same bytes. Needs python3-matplotlib (scripts/packages.txt, column benchmark).
+"""
+
+import importlib
+import os
+import sys
+
+import style
+
+FIGURES = ['words', 'wedge', 'margins', 'outcodes', 'first_touch', 'chord_deviation', 'swept_box',
+           'spans', 'distances', 'piercing', 'winding', 'work']
+
+
+def main():
+    folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
+    for name in FIGURES:
+        figure = importlib.import_module(name).draw()
+        style.save(figure, os.path.join(folder, name))
+
+
+if __name__ == '__main__':
+    main()
