@@ -90,20 +90,20 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
   buffer_.set_answered(organ_frame, frames_of(tool), time);
 }
 
-/// All times that TF was told of, and samples in between where those are farther apart than
-/// sample_sec. `cut`: how many samples there would be more without samples_max.
+/// The stamps that TF received, and even times in between if they are further apart than
+/// sample_sec. `cut`: how many more there would be without samples_max.
 std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
                                                ros::Time from, ros::Time to,
                                                std::size_t& cut) const {
-  std::vector<ros::Time> told = buffer_.stamps_between(organ_frame, frames_of(tool), from, to);
+  std::vector<ros::Time> stamps = buffer_.stamps_between(organ_frame, frames_of(tool), from, to);
   const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
-  cut = thin_out(told, std::max(kMostRead, samples_max));
-  if (cut > 0) return told;
-  told.push_back(to);
+  cut = thin_out(stamps, std::max(kMostRead, samples_max));
+  if (cut > 0) return stamps;
+  stamps.push_back(to);
   const double spacing = std::max(sampling_.sample_sec, seconds(from, to) / sampling_.samples_max);
   std::vector<ros::Time> times;
   double wanted = 0.0, sampled = 0.0;
-  for (const ros::Time stamp : told) {
+  for (const ros::Time stamp : stamps) {
     const double gap = seconds(from, stamp);
     const double count = samples_between(gap, spacing);
     add_even_times(from, stamp, static_cast<std::size_t>(count), times);

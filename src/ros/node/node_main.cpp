@@ -5,7 +5,7 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, organ_collision::names::kNode);
-  const ros::NodeHandle node;  // Outlives the try: without any, nothing is logged.
+  const ros::NodeHandle node;  // While one exists, ROS_FATAL below still reaches /rosout.
   try {
     organ_collision::CollisionNode(node, ros::NodeHandle("~")).run();
   } catch (const std::exception& error) {

@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] Of all organs together, between two calls of the node's thread.
+/// [messages] Of all organs together. roscpp drops older ones while the node's thread is busy.
 constexpr std::uint32_t kQueue = 100;
 
 /// Ends the wait for a callback, and does nothing else.

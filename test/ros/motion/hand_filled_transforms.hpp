@@ -9,7 +9,7 @@
 
 namespace organ_collision {
 
-/// Gives a TF buffer a transform, as a listener would.
+/// Adds a transform to a TF buffer, as a listener would.
 inline void set_transform(TransformBuffer& buffer, const std::string& parent,
                           const std::string& child, double time,
                           const Eigen::Isometry3d& T_parent_child, bool resting = false) {

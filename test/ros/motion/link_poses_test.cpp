@@ -139,7 +139,7 @@ TEST_F(LinkPosesTest, AMissingFrameIsNamedWithItsLinkAndItsJoint) {
 }
 
 TEST_F(LinkPosesTest, PathFollowsTheJoints) {
-  // TF knows every joint exactly at each sample.
+  // The poses at the samples are exact, because TF has each joint at these times.
   for (int i = 0; i <= 100; ++i) send(1.0 + 0.001 * i);
   const SampledPath sampled = poses_.path(grasper_, "liver", {pose_at(1.0), ros::Time(1.0)},
                                           {pose_at(1.1), ros::Time(1.1)});

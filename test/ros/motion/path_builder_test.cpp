@@ -17,14 +17,15 @@ const ShaftAxis kNowhere{Vector3d::Zero(), Vector3d::Zero()};
 const Vector3d kBallCenter{0.02, -0.03, 0.06};
 constexpr double kBallRadius = 0.01;
 
-/// A ball beside its link's origin: no point is farther from it than 80 mm.
+/// A ball beside its link's origin. All its points are within 80 mm of the origin.
 std::vector<Link> one_ball() { return {{"jaw", {LinkPart::sphere(kBallCenter, kBallRadius)}}}; }
 
 Isometry3d pose(const Vector3d& origin, double angle, const Vector3d& axis) {
   return Eigen::Translation3d(origin) * Eigen::AngleAxisd(angle, axis.normalized());
 }
 
-/// The ball turns on an arm that turns itself: two joints, `time` in seconds.
+/// The pose of the ball behind two joints: an arm that rotates, and the ball that rotates on it.
+/// `time` in seconds.
 Isometry3d on_an_arm(double time) {
   return pose({0.1, 0.2, 0.3}, 1.1 * time, {1.0, 0.3, -0.4}) *
          pose({0.0, 0.0, 0.25}, -2.3 * time, {0.2, 1.0, 0.5});
@@ -41,7 +42,7 @@ ToolPath path_of(const std::vector<Link>& links, int steps, double duration, Pos
   return path.take();
 }
 
-/// The link's pose on the path.
+/// The pose of the link on the path at a fraction of the step.
 Isometry3d at(const ToolPath& path, double fraction) {
   std::size_t leg = 1;
   while (path[leg].fraction < fraction) ++leg;
@@ -127,7 +128,7 @@ TEST(PathBuilder, MoreThanHalfATurnIsNoStraightMotion) {
 }
 
 TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
-  // 10 nm off the straight way.
+  // 10 nm from the straight motion.
   const Isometry3d still = on_an_arm(0.0);
   const PathDeviation deviation(one_ball());
   const auto waypoints = [&](double axis_bend, double link_bend) {

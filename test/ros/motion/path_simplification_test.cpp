@@ -13,7 +13,7 @@ namespace {
 const PathDeviation kOfAShaft({});
 const Vector3d kTrocar(0.1, 0.2, 0.5);
 
-/// A waypoint for each height of the tip, evenly spaced.
+/// A path whose waypoints are evenly spaced in time, with these heights of the tip.
 ToolPath heights(const std::vector<double>& heights) {
   ToolPath path;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -23,7 +23,7 @@ ToolPath heights(const std::vector<double>& heights) {
   return path;
 }
 
-/// [m] How far the waypoint is from the path.
+/// [m] The distance of the waypoint from the path at the same time.
 double distance(const ToolPath& path, const ToolWaypoint& waypoint) {
   std::size_t leg = 1;
   while (path[leg].fraction < waypoint.fraction) ++leg;
@@ -74,9 +74,9 @@ TEST(SimplifiedPath, NothingIsFartherFromTheWayThanItSays) {
   std::mt19937 random(11);
   std::normal_distribution<double> number(0.0, 0.05);
   for (int trial = 0; trial < 200; ++trial) {
-    std::vector<double> way = {0.0};
-    while (way.size() < 60) way.push_back(way.back() + number(random));
-    const ToolPath path = heights(way);
+    std::vector<double> tips = {0.0};
+    while (tips.size() < 60) tips.push_back(tips.back() + number(random));
+    const ToolPath path = heights(tips);
     for (const std::size_t legs : {1u, 3u, 10u, 40u}) {
       const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
       ASSERT_EQ(simplified.path.size(), legs + 1);

@@ -32,7 +32,7 @@ class PoseTopicsTest : public testing::Test {
  protected:
   PoseTopicsTest() { ros::Time::init(); }
 
-  /// The tip in a frame; NaN where the buffer does not have it.
+  /// The position of the tip in a frame; NaN if the buffer does not have it.
   Vector3d tip(const std::string& frame, double time, const std::string& tool = "left") const {
     const auto found = look_up(buffer_, frame, tool + "_tip", ros::Time(time)).found;
     return found ? Vector3d(found->value.translation())

@@ -19,7 +19,7 @@ class TransformBufferTest : public testing::Test {
   void rest(const std::string& parent, const std::string& child) {
     set_point(buffer_, parent, child, 0.0, {0.1, 0.2, 0.3}, true);
   }
-  /// Between the liver and the frames, from 0 s to 100 s.
+  /// The stamps of transforms between the liver and the frames, from 0 s to 100 s.
   std::vector<double> stamps(const TransformBuffer::Frames& frames) const {
     std::vector<double> seconds;
     for (const ros::Time stamp :
@@ -97,7 +97,7 @@ TEST_F(TransformBufferTest, LoopsAndCrowdsOfParentsEnd) {
 TEST_F(TransformBufferTest, WhatTfRefusesIsNotInTheRecord) {
   send("world", "tip", 20.0);
   send("world", "tip", 21.0);
-  send("world", "tip", 5.0);  // too old to be kept
+  send("world", "tip", 5.0);  // Too old to be kept.
   set_point(buffer_, "world", "tip", 22.0, {0.1, std::nan(""), 0.3});
   EXPECT_EQ(stamps({"tip"}), (Seconds{20.0, 21.0}));
   EXPECT_TRUE(buffer_.has_heard("tip"));
@@ -113,7 +113,7 @@ TEST_F(TransformBufferTest, CountsWhatComesAfterItsStep) {
   send("arm", "tip", 3.0);
   send("world", "arm", 3.0);
   buffer_.set_answered("liver", {"tip"}, ros::Time(2.0));
-  send("arm", "tip", 1.0);  // again
+  send("arm", "tip", 1.0);  // The same transform again.
   send("arm", "tip", 2.5);
   send("world", "somewhere", 1.5);
   EXPECT_EQ(buffer_.late(), 0u);

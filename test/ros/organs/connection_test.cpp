@@ -8,7 +8,7 @@ using namespace organ_collision;
 
 namespace {
 
-/// As roscpp makes it for a connection.
+/// A header such as roscpp makes for each connection.
 ros::M_stringPtr header() {
   return ros::M_stringPtr(new ros::M_string{{"callerid", "/simulator"}});
 }

@@ -46,7 +46,7 @@ class OrganMessageQueueTest : public testing::Test {
   void take_all() {
     while (auto message = queue_.next()) taken_.push_back(text(*message));
   }
-  /// The same, until so many have been taken, whether the queue's thread calls wake() or not.
+  /// Takes messages until so many have been taken. Does not wait for wake().
   void take_until(std::size_t messages) {
     while (taken_.size() < messages) {
       std::this_thread::yield();
@@ -54,7 +54,7 @@ class OrganMessageQueueTest : public testing::Test {
     }
   }
 
-  bool memory_is_short_ = false;  ///< for building, and for waking
+  bool memory_is_short_ = false;  ///< building and waking throw std::bad_alloc
   std::vector<std::string> taken_;
   std::thread::id built_in_;
   Connection connection_;  ///< of the last mesh taken

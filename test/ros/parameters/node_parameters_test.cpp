@@ -25,7 +25,7 @@ XmlRpcValue one_tool() {
   return all;
 }
 
-/// Of the node with one good tool, where `name` is set to `value`.
+/// The error for a node with one legal tool and `name` set to `value`.
 std::string refusal(const char* name, const XmlRpcValue& value) {
   XmlRpcValue all = one_tool();
   all[name] = value;
@@ -44,7 +44,7 @@ std::string refusal_of_tool(const char* name, const XmlRpcValue& value) {
   return refusal("tools", tools);
 }
 
-/// Of a tool that is one link.
+/// The error for a tool that is one link.
 std::string refusal_of_links(const char* name, const XmlRpcValue& value) {
   XmlRpcValue tools;
   tools[0]["name"] = "PSM1";

@@ -68,7 +68,7 @@ TEST_F(DiagnosticsTest, RejectedMessagesByReason) {
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
   EXPECT_NE(status.message.find("wrong size: 8 numbers"), std::string::npos) << status.message;
   EXPECT_EQ(values(&Diagnostics::messages).at("rejected, wrong size"), "2");
-  EXPECT_EQ(status.level, DiagnosticStatus::OK);  // Nothing new.
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);  // No new failure.
 }
 
 TEST_F(DiagnosticsTest, FailedEvaluationsAndMisspeltNamesWarn) {

@@ -23,7 +23,7 @@ class Markers : public testing::Test {
     answer_->header.frame_id = "liver_frame";
   }
 
-  /// By the last part of their namespace.
+  /// The markers by the last part of their namespace.
   std::map<std::string, Marker> markers(const ToolPath& path, const Tool& tool = kHook) {
     std::map<std::string, Marker> by_name;
     for (const Marker& marker : step_markers({answer_, tool, kMesh, path}).markers) {

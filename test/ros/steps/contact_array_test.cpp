@@ -81,7 +81,7 @@ TEST(Answers, StaleIsOlderThanTheLimit) {
   EXPECT_FALSE(is_stale(shape, ros::Time(99), 0.0));
   EXPECT_FALSE(is_stale(shape, ros::Time(12), 2.0));
   EXPECT_TRUE(is_stale(shape, ros::Time(12.1), 2.0));
-  EXPECT_FALSE(is_stale(shape, ros::Time(3), 2.0));  // After a jump back of the clock.
+  EXPECT_FALSE(is_stale(shape, ros::Time(3), 2.0));  // The clock has jumped back.
 }
 
 TEST(Answers, StaleSaysHowOldAndWhatIsAllowed) {

@@ -47,7 +47,7 @@ TEST_P(ContactQueryTest, RequestWithoutAnswerBecomesAStatus) {
   EXPECT_TRUE(answer_.contacts.empty());
 }
 
-// A long tool turns about among faces that fly through each other, a mistake of units.
+// A long tool rotates among faces that move through each other, as after a mistake of units.
 TEST_P(ContactQueryTest, CountsWhatIsNotResolved) {
   std::vector<float> before, now;
   std::vector<std::uint32_t> triangles;

@@ -10,7 +10,7 @@ using namespace organ_collision;
 
 namespace {
 
-/// The smallest value that at least `share` of all do not exceed, by counting.
+/// The smallest value that at least `percent` percent of all values do not exceed, by counting.
 double percentile_oracle(const std::vector<double>& values, double percent) {
   double best = *std::max_element(values.begin(), values.end());
   for (const double value : values) {

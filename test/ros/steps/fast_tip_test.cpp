@@ -10,15 +10,15 @@ using namespace organ_collision;
 
 namespace {
 
-constexpr double kRadius = 0.01;  // [m] of NodeParts' tool
-constexpr double kTouch = 1e-6;   // [1] of a step: the same touch
+constexpr double kRadius = 0.01;  // [m] the radius of the tool of NodeParts
+constexpr double kTouch = 1e-6;   // [1] tolerance of the fraction of a step
 
 struct Waypoint {
   double time;    // [s]
   double height;  // [m] of the tip above the sheet
 };
 
-/// A tip that hovers over the sheet and, again and again, goes through it and back within 1 ms.
+/// A tip hovers over the sheet and, again and again, moves through it and back within 1 ms.
 class FastTipTest : public testing::Test, protected NodeParts {
  protected:
   FastTipTest() { go_to(1.0, 0.05); }
@@ -27,7 +27,7 @@ class FastTipTest : public testing::Test, protected NodeParts {
     return std::uniform_real_distribution<double>(least, most)(random_);
   }
 
-  /// TF says so at this very time.
+  /// Sends the tip's transform at this time.
   void go_to(double time, double height) {
     way_.push_back({time, height});
     send_tip(time, {0.1, 0.2, height});
@@ -41,8 +41,8 @@ class FastTipTest : public testing::Test, protected NodeParts {
     go_to(start + duration, uniform(0.02, 0.06));
   }
 
-  /// When within the step, as a fraction of it, the tip first is as near to the sheet as its
-  /// radius, by the way that TF was told; none: never.
+  /// The fraction of the step at which the tip's distance from the sheet first equals its radius,
+  /// on the path that TF was given; none if it never does.
   std::optional<double> first_touch(double begin, double end) const {
     for (std::size_t i = 1; i < way_.size(); ++i) {
       const Waypoint &a = way_[i - 1], &b = way_[i];

@@ -12,8 +12,8 @@ const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
 const std::string kFault = "grasper: parameter 'robot_description' is not set";
 const std::vector<std::string> kAllLinks = {"", "wrist", "jaw"};
 
-/// The first tool has a shaft and links, the second links alone; they share the links. Wrist and
-/// shaft rest above the sheet unless told otherwise.
+/// Two tools share two links; the first one has a shaft, too. Wrist and shaft rest above the sheet
+/// unless a test moves them.
 class LinkToolsTest : public testing::Test, protected NodeParts {
  protected:
   LinkToolsTest() {
@@ -26,7 +26,7 @@ class LinkToolsTest : public testing::Test, protected NodeParts {
     set_point(transforms, "liver_frame", "arm/jaw", time, origin);
   }
 
-  /// Of one tool.
+  /// The answer of one tool.
   static ContactArray of(const std::string& tool, const std::vector<ContactArray>& published) {
     for (const ContactArray& answer : published) {
       if (answer.tool == tool) return answer;
@@ -87,7 +87,7 @@ TEST_F(LinkToolsTest, StepsSweepTheLinksAcrossAGap) {
   EXPECT_EQ(paths[0][0].links[1].translation(), kAbove);
 
   send_vertices(1.1, 0.0);
-  evaluate(milliseconds(20));  // Without the jaw.
+  evaluate(milliseconds(20));  // The jaw has no transform.
   ASSERT_EQ(paths.size(), 2u);
   EXPECT_TRUE(paths[1].empty());
 
@@ -112,7 +112,7 @@ TEST_F(LinkToolsTest, AMissingLinkSaysWhichJoint) {
 TEST_F(LinkToolsTest, AToolWithAFaultIsNeverEvaluated) {
   break_grasper();
   send_mesh(1.0, 0.0);
-  auto published = evaluate();  // The other one waits for its jaw.
+  auto published = evaluate();  // The other tool waits for its jaw.
   ASSERT_EQ(published.size(), 1u);
   expect_fault(published[0]);
   EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.0));
@@ -178,7 +178,7 @@ TEST_F(LinkToolsTest, ContactsSayWhichLink) {
     EXPECT_EQ(answer.links.at(answer.contacts[0].link), "jaw");
     EXPECT_NEAR(answer.contacts[0].fraction, (0.3 - 0.01) / 0.6, 1e-7);
   }
-  EXPECT_TRUE(of("grasper", tick()).contacts.empty());  // It rests below.
+  EXPECT_TRUE(of("grasper", tick()).contacts.empty());  // The grasper rests below the sheet.
 }
 
 TEST_F(LinkToolsTest, OneFaceMayBeTouchedByEachLink) {

@@ -120,7 +120,8 @@ TEST_F(StepSchedulerTest, SweepsAcrossAGapInTheTransforms) {
   EXPECT_EQ(failed[0].step_start, ros::Time(1.0));
   send_tip(1.2, kAbove);
   send_vertices(1.2, 2.0f);
-  expect_step(evaluate(), kSwept, 1.0, 1.2, 2);  // From the shape before the gap, too.
+  expect_step(evaluate(), kSwept, 1.0, 1.2,
+              2);  // The organ moves from the shape before the gap, too.
 }
 
 TEST_F(StepSchedulerTest, WaitingShapeIsNotReplacedByNewerOnes) {
@@ -183,10 +184,10 @@ TEST_F(StepSchedulerTest, TicksSweepTheToolAndHoldTheOrgan) {
   send_tip(1.1, kBelow);
   send_vertices(1.2, 0.0f);
   EXPECT_TRUE(evaluate().empty());
-  expect_step(tick(), kSwept, 1.0, 1.1, 0);  // The new shape waits: the organ is as it was.
+  expect_step(tick(), kSwept, 1.0, 1.1, 0);  // The new shape waits: the organ keeps its old shape.
   send_tip(1.2, kBelow);
   expect_step(evaluate(), kSwept, 1.1, 1.2, 1);
-  expect_step(tick(), kSwept, 1.2, 1.2, 1);  // The change of shape counted once.
+  expect_step(tick(), kSwept, 1.2, 1.2, 1);  // The change of shape counts only once.
 }
 
 TEST_F(StepSchedulerTest, TickSweepsAcrossAGap) {
@@ -220,7 +221,7 @@ TEST_F(StepSchedulerTest, ResetMakesTheNextStepStatic) {
   steps.reset();
   EXPECT_EQ(steps.history().last("liver", 0), nullptr);
   send_tip(1.1, kBelow);
-  const auto published = evaluate();  // The shape that waited is no history.
+  const auto published = evaluate();  // The shape that waited has no history.
   expect_step(published, kStatic, 1.1, 1.1, 1);
   EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
 }

@@ -20,7 +20,7 @@ ProcessResult run_shell(const std::string& script, const std::string& input = ""
   return run_process({"/bin/sh", "-c", script}, input, limits);
 }
 
-/// What is true of the caller again at its end.
+/// Replaces a signal handler and restores it at its end.
 class ScopedSignalAction {
  public:
   ScopedSignalAction(int signal, void (*action)(int))
@@ -56,7 +56,7 @@ TEST(ChildProcess, SaysHowTheProgramEnded) {
 }
 
 TEST(ChildProcess, WhatTakesTooLongIsKilled) {
-  // It ends by itself only after the test's own time limit.
+  // Without being killed, it would run longer than the test may take.
   EXPECT_EQ(run_shell("exec sleep 1000", "", {milliseconds(50), 100}).failure,
             "took more than 0.05 s");
   EXPECT_EQ(run_shell("trap '' TERM INT; while :; do :; done", "", {milliseconds(50), 100}).failure,
@@ -80,7 +80,7 @@ TEST(ChildProcess, WhatCannotBeStartedThrows) {
                std::system_error);
 }
 
-// Nodelet managers and simulators do such things.
+// Nodelet managers and simulators may ignore SIGCHLD or wait for all children.
 TEST(ChildProcess, SignalsOfTheHostProcessDoNotMatter) {
   const ScopedSignalAction no_pipe(SIGPIPE, SIG_IGN), no_cpu(SIGXCPU, SIG_IGN);
   sigset_t all, former;

@@ -13,8 +13,8 @@ inline Tool shaft_tool(const std::string& name, double radius) {
   return tool;
 }
 
-/// Adds balls, 20 mm wide, as links, each around the origin of its frame: arm/wrist, and arm/jaw,
-/// which jaw_joint moves.
+/// Adds two links, arm/wrist and arm/jaw: balls with a diameter of 20 mm around the origins of
+/// their frames. The joint jaw_joint moves the jaw.
 inline Tool with_links(Tool tool) {
   tool.parameters.links = {"wrist", "jaw"};
   tool.parameters.tf_prefix = "arm";
@@ -24,7 +24,7 @@ inline Tool with_links(Tool tool) {
   return tool;
 }
 
-/// Those links alone.
+/// A tool with these links and no shaft.
 inline Tool grasper() {
   Tool tool;
   tool.parameters.name = "grasper";

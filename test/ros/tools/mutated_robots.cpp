@@ -1,6 +1,6 @@
-// Loads tools from descriptions that are broken at random: the node's side neither crashes nor
-// hangs, and each tool is either whole or has a fault. Ends with 1 if one is neither, or if none of
-// a file is whole.
+// Loads tools from randomly broken descriptions. The code of the node must neither crash nor hang,
+// and each tool must be either complete or have a fault. The exit code is 1 if a tool is neither,
+// or if no version of a file gives a complete tool.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -26,7 +26,7 @@ const std::string kFolder = ORGAN_COLLISION_TEST_DATA "/tools/";
 const std::array<std::string, 7> kFiles = {"gripper.urdf",  "jaw_ascii.stl", "jaw_binary.stl",
                                            "jaw.obj",       "jaw.dae",       "jaw_ascii.ply",
                                            "jaw_binary.ply"};
-/// What parsers stumble over.
+/// Texts that are difficult for parsers.
 const std::vector<std::string> kTokens = {
     "-1", "0",  "4294967295", "99999999999", "1e999", "nan", "-inf", "%s%n",   "<",    "</",
     "/>", "\"", "\n",         "//",          " ",     "a",   "v",    "1e-320", "#jaw", "&#0;"};
@@ -75,7 +75,7 @@ std::string read(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// The same for the same file and number, whatever was made before.
+/// A broken version of a file. It depends only on the file and the number.
 std::string mutation(std::size_t file, std::size_t number) {
   std::seed_seq seed{file, number};
   Random random(seed);
@@ -132,7 +132,7 @@ void count(const Tool& tool, Tally& tally) {
   }
 }
 
-/// Those with numbers first, first + step ... below `end`.
+/// Loads the versions with the numbers first, first + step, ... below `end`.
 Tally load_some(std::size_t file, std::size_t first, std::size_t step, std::size_t end) {
   std::string folder = std::filesystem::temp_directory_path() / "mutated_robots.XXXXXX";
   if (!mkdtemp(folder.data())) throw std::runtime_error("no temporary folder: " + folder);
@@ -148,7 +148,7 @@ Tally load_some(std::size_t file, std::size_t first, std::size_t step, std::size
   return tally;
 }
 
-/// In two threads at once, as nodelets are loaded.
+/// Loads in two threads at once, as nodelets are loaded.
 Tally load_all(std::size_t file, std::size_t mutations) {
   auto odd = std::async(std::launch::async, load_some, file, 1, 2, mutations);
   Tally tally = load_some(file, 0, 2, mutations);
@@ -161,7 +161,8 @@ Tally load_all(std::size_t file, std::size_t mutations) {
   return tally;
 }
 
-/// Prints a table; whether each tool was whole or had a fault, and some of each file were whole.
+/// Prints a table. Returns whether each tool was complete or had a fault, and at least one of each
+/// file was complete.
 bool load_mutations(std::size_t mutations) {
   std::cout << "file              loaded  refused  reader ended  longest [s]  wrong\n";
   bool all_well = true;

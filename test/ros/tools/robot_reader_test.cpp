@@ -48,7 +48,7 @@ TEST(RobotReader, RefusalsAreTheReaders) {
   expect_words(tool_error([] { read_robot_file("-", {"tip"}); }), {"no legal URDF"});
 }
 
-// Some versions of the parsers crash on them, and others say what is wrong.
+// Some versions of the parsers crash on these files; others report the error.
 TEST(RobotReader, FilesThatMayCrashTheReaderAreRefusedByName) {
   for (const std::string name : {"crashing.obj", "crashing.dae"}) {
     expect_words(refusal(robot_of(tool_file(name))),
@@ -62,8 +62,8 @@ TEST(RobotReader, TooMuchMemoryNamesTheFile) {
                {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
-// Some versions of the parser hang on it. A lower limit of this process holds for the reader too,
-// and ends it sooner; here it is only noticed.
+// Some versions of the parser hang on this file. This process sets itself a lower limit, which the
+// reader inherits, so that it ends sooner.
 TEST(RobotReader, FilesThatMayHangTheReaderAreRefusedByName) {
   const auto former_action = std::signal(SIGXCPU, SIG_IGN);
   rlimit former{};

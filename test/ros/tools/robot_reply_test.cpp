@@ -88,8 +88,8 @@ TEST(RobotReply, NothingButAWholeReplyIsTaken) {
   }
 }
 
-// Every word of eight bytes is a count, a kind or a number: whatever it becomes, no more is
-// allocated than the reply could hold.
+// Each word of eight bytes is a count, a kind or a number. Whatever value it gets, the parser
+// allocates no more than the reply could hold.
 TEST(RobotReply, AnyBytesDoNoHarm) {
   const std::string whole = links_record(links());
   for (std::size_t at = 0; at + 8 <= whole.size(); ++at) {

@@ -16,13 +16,13 @@ inline std::string tool_file(const std::string& name) {
   return "package://organ_collision/test/data/tools/" + name;
 }
 
-/// Its content.
+/// The content of such a file.
 inline std::string tool_text(const std::string& name) {
   std::ifstream file(ORGAN_COLLISION_TEST_DATA "/tools/" + name, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-/// What the ToolError says that `action` throws; a failure where it throws none.
+/// The message of the ToolError that `action` throws. The test fails if it throws none.
 template <typename Action>
 std::string tool_error(const Action& action) {
   try {

@@ -18,18 +18,18 @@ ToolParameters gripper(const std::vector<std::string>& links) {
   return parameters;
 }
 
-/// A parameter server that holds only the gripper.
+/// Stands for a parameter server with a single parameter, the gripper.
 std::string find_text(const std::string& parameter) {
   if (parameter != "robot_description") throw ToolError("is not set");
   return tool_text("gripper.urdf");
 }
 
-/// How far a part reaches along an axis, with its radius.
+/// The support value of a part along an axis, with its radius.
 double reach(const LinkPart& part, const Vector3d& direction) {
   return part.height(direction) + part.radius;
 }
 
-/// The box around a part, along the link's axes.
+/// The box around a part, aligned with the link's axes.
 void expect_extent(const LinkPart& part, const Vector3d& lowest, const Vector3d& highest) {
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     EXPECT_NEAR(reach(part, Vector3d::Unit(axis)), highest[axis], 2e-8) << axis;
