@@ -4,10 +4,10 @@
 
 namespace organ_collision::bench {
 
-/// Time from one lap to the next.
+/// Measures the time from one lap to the next.
 class Stopwatch {
  public:
-  /// Seconds since the last lap, or since it was made.
+  /// Seconds since the last lap, or since construction.
   double lap() {
     const auto now = std::chrono::steady_clock::now();
     const std::chrono::duration<double> passed = now - last_;

@@ -1,4 +1,4 @@
-#include "grasper_fcl.hpp"
+#include "fcl_grasper.hpp"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -50,7 +50,7 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry(const LinkPart& part) {
 
 }  // namespace
 
-struct GrasperFcl::Objects {
+struct FclGrasper::Objects {
   struct Part {
     std::size_t link;
     std::shared_ptr<fcl::CollisionGeometryd> geometry;
@@ -60,7 +60,7 @@ struct GrasperFcl::Objects {
   std::vector<Part> parts;
 };
 
-GrasperFcl::GrasperFcl(const OrganSurface& organ, const std::vector<Link>& links)
+FclGrasper::FclGrasper(const OrganSurface& organ, const std::vector<Link>& links)
     : objects_(new Objects{model(organ), {}}) {
   for (std::size_t link = 0; link < links.size(); ++link) {
     for (const LinkPart& part : links[link].parts) {
@@ -74,13 +74,13 @@ GrasperFcl::GrasperFcl(const OrganSurface& organ, const std::vector<Link>& links
   }
 }
 
-GrasperFcl::~GrasperFcl() = default;
+FclGrasper::~FclGrasper() = default;
 
-void GrasperFcl::query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces) {
+void FclGrasper::query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces) {
   faces.clear();
   fcl::CollisionRequestd request;
   request.num_max_contacts = 100'000;
-  request.enable_contact = true;  // Without, the faces' numbers are not told.
+  request.enable_contact = true;  // FCL tells the numbers of the faces only with contacts.
   const auto collide = [&](const fcl::CollisionGeometryd& part, const Eigen::Isometry3d& pose) {
     fcl::CollisionResultd result;
     fcl::collide(objects_->organ.get(), Eigen::Isometry3d::Identity(), &part, pose, request,

@@ -1,8 +1,9 @@
-#include "grasper_rig.hpp"
+#include "grasper_measurement.hpp"
 
 #include <algorithm>
 
-#include "benchmark/scenes/surgeon.hpp"
+#include "benchmark/scenes/scene.hpp"
+#include "benchmark/scenes/tool_motions.hpp"
 #include "geometry/distance/surface_touch.hpp"
 #include "stopwatch.hpp"
 
@@ -10,10 +11,11 @@ namespace organ_collision::bench {
 namespace {
 
 constexpr std::size_t kFaces = 1224;
-constexpr double kTipStep = 0.001;   // [m] in a step: 1 m/s at 1 kHz
-constexpr double kJawStep = 0.02;    // [rad] in a step, of each jaw
+constexpr double kTipStep = 0.001;   // [m] of the tip in a step: 1 m/s at 1 kHz
+constexpr double kJawStep = 0.02;    // [rad] of each jaw in a step
 constexpr double kJawOpening = 0.3;  // [rad] at the start of a step
-constexpr double kReach = 0.024;     // [m] from the end of the shaft to where the surgeon aims
+constexpr double kReach =
+    0.024;  // [m] from the end of the shaft to the point that the motions aim at
 
 ShaftAxis drawn_back(ShaftAxis axis) {
   axis.tip -= kReach * (axis.tip - axis.trocar).normalized();
@@ -21,12 +23,12 @@ ShaftAxis drawn_back(ShaftAxis axis) {
 }
 
 std::vector<ToolPath> make_paths(const OrganSurface& surface) {
-  Sizes sizes(kFaces);
-  sizes.tip_step = kTipStep;
-  Surgeon surgeon(surface, sizes);
+  SceneScale scale(kFaces);
+  scale.tip_step = kTipStep;
+  ToolMotions motions(surface, scale);
   std::vector<ToolPath> paths;
   for (std::size_t i = 0; i < step_count(kFaces); ++i) {
-    const ShaftMotion motion = surgeon.motion(surface.vertices);
+    const ShaftMotion motion = motions.next(surface.vertices);
     paths.push_back({Grasper::place(0.0, drawn_back(motion.start), kJawOpening),
                      Grasper::place(1.0, drawn_back(motion.end), kJawOpening - kJawStep)});
   }
@@ -48,7 +50,7 @@ bool touches(const LinkPart& part, const RigidMotion& motion, const Triangle& fa
 
 }  // namespace
 
-GrasperRig::GrasperRig()
+GrasperMeasurement::GrasperMeasurement()
     : surface_(make_organ(kFaces)),
       organ_(surface_.vertices, surface_.triangles),
       links_(Grasper::make_links()),
@@ -57,7 +59,7 @@ GrasperRig::GrasperRig()
   check();
 }
 
-CollisionRequest GrasperRig::request(const ToolPath& path, QueryMode mode) const {
+CollisionRequest GrasperMeasurement::request(const ToolPath& path, QueryMode mode) const {
   CollisionRequest request;
   request.organ = &organ_;
   request.path = path;
@@ -67,8 +69,8 @@ CollisionRequest GrasperRig::request(const ToolPath& path, QueryMode mode) const
   return request;
 }
 
-/// Every face against every part.
-Answer GrasperRig::brute_force(const ToolPath& path, QueryMode mode) const {
+/// Tests every face against every part.
+Answer GrasperMeasurement::brute_force(const ToolPath& path, QueryMode mode) const {
   const ToolWaypoint& to = path.back();
   const ToolWaypoint& from = mode == QueryMode::kSwept ? path.front() : to;
   Answer answer;
@@ -88,14 +90,12 @@ Answer GrasperRig::brute_force(const ToolPath& path, QueryMode mode) const {
   return answer;
 }
 
-void GrasperRig::check() {
+void GrasperMeasurement::check() {
   constexpr std::size_t kChecked = 16;
-  const auto add = [](Findings& findings, const std::vector<std::uint32_t>& found,
+  const auto add = [](CheckSummary& summary, const std::vector<std::uint32_t>& found,
                       const Answer& answer, double share) {
-    const Errors errors = compare(found, answer);
-    findings.errors.missed += errors.missed;
-    findings.errors.wrong += errors.wrong;
-    findings.hits += share * static_cast<double>(answer.faces.size());
+    summary.add(compare(found, answer));
+    summary.hits += share * static_cast<double>(answer.faces.size());
   };
   for (std::size_t i = 0; i < kChecked; ++i) {
     for (const QueryMode mode : {QueryMode::kStatic, QueryMode::kSwept}) {
@@ -104,23 +104,23 @@ void GrasperRig::check() {
       faces_.clear();
       for (const FaceContact& contact : result_.contacts) faces_.push_back(contact.face);
       faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
-      add(findings_, faces_, answer, 0.5 / kChecked);
+      add(summary_, faces_, answer, 0.5 / kChecked);
       if (mode == QueryMode::kStatic) {
         fcl_.query(paths_[i].back(), faces_);
-        add(fcl_findings_, faces_, answer, 1.0 / kChecked);
+        add(fcl_summary_, faces_, answer, 1.0 / kChecked);
       }
     }
   }
 }
 
-double GrasperRig::query(QueryMode mode) {
+double GrasperMeasurement::query(QueryMode mode) {
   const CollisionRequest next = request(paths_[next_++ % paths_.size()], mode);
   Stopwatch watch;
   query_.evaluate(next, result_);
   return watch.lap();
 }
 
-double GrasperRig::fcl_static_query() {
+double GrasperMeasurement::fcl_static_query() {
   const ToolPath& path = paths_[next_++ % paths_.size()];
   Stopwatch watch;
   fcl_.query(path.back(), faces_);

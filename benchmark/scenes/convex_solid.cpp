@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kSame = 1e-9;  // [m] points and planes nearer than this coincide
+constexpr double kSame = 1e-9;  // [m] points or planes that are closer than this count as one
 
 bool is_inside(const Vector3d& point, const std::vector<HalfSpace>& half_spaces) {
   return std::all_of(half_spaces.begin(), half_spaces.end(), [&](const HalfSpace& half_space) {
@@ -19,7 +19,7 @@ bool is_inside(const Vector3d& point, const std::vector<HalfSpace>& half_spaces)
   });
 }
 
-// The corner is where three planes meet, if all others leave it.
+// Three planes meet in a corner of the solid if their common point is inside all half-spaces.
 void add_corner(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c,
                 const std::vector<HalfSpace>& half_spaces, std::vector<Vector3d>& corners) {
   Eigen::Matrix3d normals;
@@ -31,6 +31,7 @@ void add_corner(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c,
   if (std::none_of(corners.begin(), corners.end(), is_same)) corners.push_back(point);
 }
 
+// The corners on one plane, sorted by angle around their centre. Empty if they bound no area.
 std::vector<int> side_of(const HalfSpace& half_space, const std::vector<Vector3d>& corners) {
   std::vector<int> side;
   Vector3d centre = Vector3d::Zero();

@@ -2,26 +2,26 @@
 
 #include <vector>
 
+#include "benchmark/engines/fcl_grasper.hpp"
 #include "benchmark/scenes/grasper.hpp"
 #include "benchmark/scenes/organ_surface.hpp"
-#include "grasper_fcl.hpp"
+#include "check_summary.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "rig.hpp"
 
 namespace organ_collision::bench {
 
-/// A grasper of four links, pushed into an organ of 1224 faces at a hand's greatest speed while its
-/// jaws close: the package's whole query, and FCL's of the same shapes.
-class GrasperRig {
+/// Times the package's whole query, and FCL's query of the same shapes. A grasper, a shaft with
+/// three links, is pushed into an organ of 1224 faces at a hand's highest speed while its jaws
+/// close.
+class GrasperMeasurement {
  public:
-  /// Checks all answers against brute force before anything is timed.
-  GrasperRig();
+  /// Checks the answers to the first steps against brute force before anything is timed.
+  GrasperMeasurement();
 
-  /// Of the package.
-  const Findings& findings() const { return findings_; }
-  const Findings& fcl_findings() const { return fcl_findings_; }
+  const CheckSummary& summary() const { return summary_; }
+  const CheckSummary& fcl_summary() const { return fcl_summary_; }
 
-  /// What the next query took [s].
+  /// How long the next query took [s].
   double static_query() { return query(QueryMode::kStatic); }
   double swept_query() { return query(QueryMode::kSwept); }
   double fcl_static_query();
@@ -38,9 +38,9 @@ class GrasperRig {
   std::vector<ToolPath> paths_;
   CollisionQuery query_;
   CollisionResult result_;
-  GrasperFcl fcl_;
+  FclGrasper fcl_;
   std::vector<std::uint32_t> faces_;
-  Findings findings_, fcl_findings_;
+  CheckSummary summary_, fcl_summary_;
   std::size_t next_ = 0;
 };
 

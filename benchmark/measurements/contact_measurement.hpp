@@ -3,28 +3,29 @@
 #include <vector>
 
 #include "benchmark/scenes/scene.hpp"
+#include "check_summary.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "picking/pickers/picker.hpp"
-#include "rig.hpp"
 
 namespace organ_collision::bench {
 
-/// What contacts with full geometry cost: the package's whole query on a scene, step after step.
-class ContactRig {
+/// Times contacts with full geometry: the package's whole query on the steps of a scene.
+class ContactMeasurement {
  public:
-  /// Checks the faces of contacts against brute force before anything is timed.
-  explicit ContactRig(const Scene& scene);
+  /// Checks the faces of the contacts against brute force before anything is timed. `scene` must
+  /// outlive this object.
+  explicit ContactMeasurement(const Scene& scene);
 
-  const Findings& findings() const { return findings_; }
+  const CheckSummary& summary() const { return summary_; }
 
   struct Timed {
     double seconds;
     std::size_t contacts;  ///< of the static and the swept query together
   };
-  /// Refinement alone of the candidates of the next step, the organ at rest in its new shape or
-  /// moving to it.
+  /// Times only the refinement of the next step's candidates. If `organ_moves`, the organ moves to
+  /// its new shape in the swept query; if not, it rests in it.
   Timed contacts(bool organ_moves);
-  /// The whole next step: update, static and swept query, refined.
+  /// Times the whole next step: update, static query and swept query.
   Timed step(bool organ_moves);
 
  private:
@@ -38,7 +39,7 @@ class ContactRig {
   std::unique_ptr<Picker> picker_;
   std::vector<Candidate> candidates_;
   CollisionResult result_;
-  Findings findings_;
+  CheckSummary summary_;
   std::size_t next_ = 0;
 };
 

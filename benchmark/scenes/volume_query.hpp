@@ -9,18 +9,18 @@
 
 namespace organ_collision::bench {
 
-/// The question that every engine answers: which faces meet this convex volume? In the forms that
-/// engines take it; making these is not timed, for none of them.
+/// The question that every engine answers: which faces meet this convex volume? It holds the volume
+/// in every form that an engine takes. Making these forms is not timed for any engine.
 struct VolumeQuery {
-  /// `organ`: a box that holds the organ in all its shapes [m].
+  /// `radius`: of the tool [m]. `organ`: a box around the organ in all its shapes [m].
   VolumeQuery(const ShaftMotion& motion, double radius, const Eigen::AlignedBox3d& organ);
 
   ShaftMotion motion;
   double radius;                       ///< [m]
   double extent;                       ///< [m] largest coordinate of the organ from the trocar
-  ViewingVolume volume;                ///< the conservative one
-  std::vector<HalfSpace> half_spaces;  ///< the same, in the organ's frame
-  ConvexSolid solid;                   ///< the same again
+  ViewingVolume volume;                ///< the conservative volume of the motion
+  std::vector<HalfSpace> half_spaces;  ///< the same volume, in the organ's frame
+  ConvexSolid solid;                   ///< the same volume, by its corners
   Eigen::AlignedBox3d organ;
 };
 

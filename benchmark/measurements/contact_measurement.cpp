@@ -1,4 +1,4 @@
-#include "contact_rig.hpp"
+#include "contact_measurement.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -10,9 +10,9 @@
 namespace organ_collision::bench {
 namespace {
 
-constexpr QueryMode kBoth[] = {QueryMode::kStatic, QueryMode::kSwept};
+constexpr QueryMode kModes[] = {QueryMode::kStatic, QueryMode::kSwept};
 
-/// Of a step of one leg, for one face.
+/// The contact of one face in a step with a single leg.
 std::optional<FaceContact> refine_whole(const VolumeQuery& tool, const Triangle& before,
                                         const Triangle& now) {
   return refine({tool.motion, tool.radius, {tool.motion.end}}, {{before, now}, 0.0, 1.0, now});
@@ -20,7 +20,7 @@ std::optional<FaceContact> refine_whole(const VolumeQuery& tool, const Triangle&
 
 }  // namespace
 
-ContactRig::ContactRig(const Scene& scene)
+ContactMeasurement::ContactMeasurement(const Scene& scene)
     : scene_(scene),
       organ_(scene.shapes.back(), scene.organ.triangles),
       before_(organ_),
@@ -29,17 +29,17 @@ ContactRig::ContactRig(const Scene& scene)
   const std::size_t steps = std::min(scene.steps.size(), affordable);
   check(steps, false);
   check(steps, true);
-  findings_.hits /= 4.0 * static_cast<double>(steps);
+  summary_.hits /= 4.0 * static_cast<double>(steps);
 }
 
-void ContactRig::move_organ(const SceneStep& step) {
+void ContactMeasurement::move_organ(const SceneStep& step) {
   std::swap(organ_, before_);
   organ_.move_vertices(scene_.shapes[step.shape]);
 }
 
-CollisionRequest ContactRig::request(const SceneStep& step, QueryMode mode,
-                                     bool organ_moves) const {
-  const VolumeQuery& tool = step.swept.query;
+CollisionRequest ContactMeasurement::request(const SceneStep& step, QueryMode mode,
+                                             bool organ_moves) const {
+  const VolumeQuery& tool = step.swept_query.query;
   CollisionRequest request;
   request.organ = &organ_;
   if (organ_moves && mode == QueryMode::kSwept) request.organ_before = &before_;
@@ -49,13 +49,13 @@ CollisionRequest ContactRig::request(const SceneStep& step, QueryMode mode,
   return request;
 }
 
-void ContactRig::check(std::size_t steps, bool organ_moves) {
+void ContactMeasurement::check(std::size_t steps, bool organ_moves) {
   for (std::size_t i = 0; i < steps; ++i) {
     const SceneStep& step = scene_.steps[i];
     move_organ(step);
-    for (const QueryMode mode : kBoth) {
+    for (const QueryMode mode : kModes) {
       const bool swept = mode == QueryMode::kSwept;
-      const VolumeQuery& tool = swept ? step.swept.query : step.fixed.query;
+      const VolumeQuery& tool = swept ? step.swept_query.query : step.static_query.query;
       Answer answer;
       for (std::uint32_t face = 0; face < organ_.face_count(); ++face) {
         const Triangle now = organ_.triangle(face);
@@ -65,20 +65,18 @@ void ContactRig::check(std::size_t steps, bool organ_moves) {
       query_.evaluate(request(step, mode, organ_moves), result_);
       std::vector<std::uint32_t> found;
       for (const FaceContact& contact : result_.contacts) found.push_back(contact.face);
-      const Errors errors = compare(found, answer);
-      findings_.errors.missed += errors.missed;
-      findings_.errors.wrong += errors.wrong;
-      findings_.hits += static_cast<double>(answer.faces.size());
+      summary_.add(compare(found, answer));
+      summary_.hits += static_cast<double>(answer.faces.size());
     }
   }
 }
 
-ContactRig::Timed ContactRig::contacts(bool organ_moves) {
+ContactMeasurement::Timed ContactMeasurement::contacts(bool organ_moves) {
   const SceneStep& step = scene_.steps[next_++ % scene_.steps.size()];
   move_organ(step);
   Timed timed{0.0, 0};
-  for (const CheckedQuery* checked : {&step.fixed, &step.swept}) {
-    const bool moves = organ_moves && checked == &step.swept;
+  for (const CheckedQuery* checked : {&step.static_query, &step.swept_query}) {
+    const bool moves = organ_moves && checked == &step.swept_query;
     const VolumeQuery& tool = checked->query;
     const OrganMotion organ =
         moves ? OrganMotion(before_, before_.block_boxes(), organ_, 0.0, 1.0) : OrganMotion(organ_);
@@ -94,14 +92,14 @@ ContactRig::Timed ContactRig::contacts(bool organ_moves) {
   return timed;
 }
 
-ContactRig::Timed ContactRig::step(bool organ_moves) {
+ContactMeasurement::Timed ContactMeasurement::step(bool organ_moves) {
   const SceneStep& step = scene_.steps[next_++ % scene_.steps.size()];
-  CollisionRequest fixed = request(step, QueryMode::kStatic, organ_moves);
-  CollisionRequest swept = request(step, QueryMode::kSwept, organ_moves);
+  const CollisionRequest static_request = request(step, QueryMode::kStatic, organ_moves);
+  const CollisionRequest swept_request = request(step, QueryMode::kSwept, organ_moves);
   Timed timed{0.0, 0};
   Stopwatch watch;
   move_organ(step);
-  for (const CollisionRequest* request : {&fixed, &swept}) {
+  for (const CollisionRequest* request : {&static_request, &swept_request}) {
     query_.evaluate(*request, result_);
     timed.contacts += result_.contacts.size();
   }

@@ -5,15 +5,16 @@
 
 namespace organ_collision::bench {
 
-/// The least that anything can do that reads new vertices: boxes of runs of 16.
+/// A lower bound for any engine that reads all new vertices: one pass that computes the box of each
+/// block of 16 vertices.
 class VertexPass {
  public:
   static constexpr std::size_t kBlock = 16;
 
-  /// `vertices`: x y z x y z ... [m]; a last run of fewer vertices has a box as well.
+  /// `vertices`: x y z x y z ... [m]. A last block with fewer vertices has a box, too.
   void fit(const std::vector<float>& vertices);
 
-  /// Corners of each run's box.
+  /// The corners of each block's box [m].
   const std::vector<Eigen::Array3f>& low() const { return low_; }
   const std::vector<Eigen::Array3f>& high() const { return high_; }
 

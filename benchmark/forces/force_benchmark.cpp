@@ -1,4 +1,4 @@
-// The contact adapter's forces: from an answer to a wrench, of as many contacts on a half sphere.
+// How long the contact adapter takes from an answer to a wrench, by the number of contacts.
 
 #include <benchmark/benchmark.h>
 #include <organ_collision/ContactArray.h>
@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kRadius = 0.005;  // [m]
 
-/// Contacts spread evenly over the lower half of a ball. In a dent of its own shape the ball is
-/// pressed down, and is as deep as each normal points down; in tight tissue it is equally deep.
+/// `count` contacts, spread evenly over the lower half of a ball. In tight tissue all have the same
+/// depth. Otherwise the ball is pressed down into a dent of its own shape, so a contact is the
+/// deeper the more its normal points down.
 ContactArray half_sphere(std::uint32_t count, bool is_tight) {
   constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
   ContactArray answer;

@@ -7,19 +7,19 @@
 
 namespace organ_collision::bench {
 
-/// Swept queries of steps that are not smooth: a simulator that glitches, a hand that trembles.
-class RoughSteps {
+/// Times a swept query when the motion is not smooth: the simulator glitches or the hand trembles.
+class RoughMotionMeasurement {
  public:
   enum class Organ {
     kRests,
     kGlitches,  ///< one vertex, far from the tool, jumps by 0.1 m
-    kJumps      ///< all of it jumps by 0.1 m
+    kJumps      ///< all vertices jump by 0.1 m
   };
   enum class Tool { kShaft, kGrasper };
 
-  /// The tool rests in contact with an organ of so many faces but for a tremor of 0.05 mm at each
-  /// sample of its way, `samples` of them.
-  RoughSteps(std::size_t faces, Organ organ, Tool tool, std::size_t samples);
+  /// The tool is in contact with an organ of `faces` faces. It rests, apart from a tremor of
+  /// 0.05 mm at each of the `samples` poses of its path.
+  RoughMotionMeasurement(std::size_t faces, Organ organ, Tool tool, std::size_t samples);
 
   struct Timed {
     double seconds;

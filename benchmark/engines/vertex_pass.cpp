@@ -9,9 +9,10 @@ using Eigen::Array3f;
 using Eigen::Array4f;
 using Vector = Eigen::Map<const Array4f>;
 
-constexpr std::size_t kAhead = 128;  // vertices: processors fetch ahead, but not beyond a page
+constexpr std::size_t kAhead =
+    128;  // vertices. The processor prefetches by itself only up to the end of a page.
 
-// Three vectors of four floats hold x y z x, y z x y and z x y z.
+// Reduces four points to one. The three vectors hold x y z x, y z x y and z x y z.
 template <typename Pick>
 Array3f fold(const Array4f& a, const Array4f& b, const Array4f& c, const Pick& pick) {
   const Array3f first(a[0], a[1], a[2]), second(a[3], b[0], b[1]);

@@ -1,4 +1,4 @@
-#include "surgeon.hpp"
+#include "tool_motions.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,16 +9,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDepth = 0.012;  // [m] from where the axis enters the organ to the tip
+constexpr double kDepth = 0.012;  // [m] from the point where the axis enters the organ to the tip
 
 }  // namespace
 
-Sizes::Sizes(std::size_t faces)
+SceneScale::SceneScale(std::size_t faces)
     : radius(0.005 * std::sqrt(1224.0 / static_cast<double>(std::max<std::size_t>(faces, 1224)))),
       tip_step(2.0 * radius),
       organ_step(0.4 * radius) {}
 
-ShaftMotion Surgeon::motion(const std::vector<float>& vertices) {
+ShaftMotion ToolMotions::next(const std::vector<float>& vertices) {
   while (true) {
     const Vector3d trocar(either_side(0.1), either_side(0.06), 0.15);
     const Triangle face = corners(organ_, vertices, random_() % organ_.face_count());
@@ -28,11 +28,11 @@ ShaftMotion Surgeon::motion(const std::vector<float>& vertices) {
     if (outward.dot(inward) > -0.5) continue;
     const Vector3d tip = entry + kDepth * inward;
     const Vector3d side = inward.cross(any_vector()).normalized();
-    return {{trocar, tip - sizes_.tip_step * side}, {trocar, tip}};
+    return {{trocar, tip - scale_.tip_step * side}, {trocar, tip}};
   }
 }
 
-Vector3d Surgeon::any_vector() {
+Vector3d ToolMotions::any_vector() {
   std::uniform_real_distribution<double> symmetric(-1.0, 1.0);
   const double x = symmetric(random_), y = symmetric(random_), z = symmetric(random_);
   return {x, y, z};

@@ -10,13 +10,14 @@
 
 namespace organ_collision::bench {
 
-/// The grasper at rest against the organ at rest by FCL, whose trees of both are built once.
-class GrasperFcl {
+/// FCL's static query of the grasper against the organ at rest. The trees of the organ and of the
+/// jaws are built once.
+class FclGrasper {
  public:
-  GrasperFcl(const OrganSurface& organ, const std::vector<Link>& links);
-  ~GrasperFcl();
+  FclGrasper(const OrganSurface& organ, const std::vector<Link>& links);
+  ~FclGrasper();
 
-  /// The faces that it touches, by rising number.
+  /// Replaces `faces` by the sorted numbers of the faces that `tool` touches.
   void query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces);
 
  private:

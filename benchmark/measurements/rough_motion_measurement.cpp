@@ -1,9 +1,9 @@
-#include "rough_steps.hpp"
+#include "rough_motion_measurement.hpp"
 
 #include <random>
 
 #include "benchmark/scenes/grasper.hpp"
-#include "benchmark/scenes/surgeon.hpp"
+#include "benchmark/scenes/tool_motions.hpp"
 #include "stopwatch.hpp"
 
 namespace organ_collision::bench {
@@ -14,14 +14,16 @@ using Eigen::Vector3d;
 constexpr double kJump = 0.1;            // [m]
 constexpr double kTremor = 5e-5;         // [m] standard deviation along each axis
 constexpr double kJawOpening = 0.3;      // [rad]
-constexpr std::size_t kGlitching = 700;  // a vertex of large organs, far from the tools
-/// Where the organ's faces are smallest: of 1224 a grasper touches some 100 there.
-const ShaftAxis kOntoTheEnd{{-0.0361, 0.1536, -0.0694}, {-0.0832, 0.0, 0.0}};
+constexpr std::size_t kGlitching = 700;  // a vertex of large organs that is far from the tools
+/// Points at the end of the organ, where its faces are smallest: a grasper touches some 100 of the
+/// 1224 faces there.
+const ShaftAxis kTowardsEnd{{-0.0361, 0.1536, -0.0694}, {-0.0832, 0.0, 0.0}};
 
-std::vector<float> shape_before(const OrganSurface& organ, RoughSteps::Organ how) {
+std::vector<float> shape_before(const OrganSurface& organ, RoughMotionMeasurement::Organ how) {
   std::vector<float> vertices = organ.vertices;
-  if (how == RoughSteps::Organ::kGlitches) vertices.at(3 * kGlitching) -= static_cast<float>(kJump);
-  if (how == RoughSteps::Organ::kJumps) {
+  if (how == RoughMotionMeasurement::Organ::kGlitches)
+    vertices.at(3 * kGlitching) -= static_cast<float>(kJump);
+  if (how == RoughMotionMeasurement::Organ::kJumps) {
     for (std::size_t i = 2; i < vertices.size(); i += 3) vertices[i] -= static_cast<float>(kJump);
   }
   return vertices;
@@ -43,7 +45,8 @@ ToolPath trembling_path(const ShaftAxis& axis, std::size_t samples) {
 
 }  // namespace
 
-RoughSteps::RoughSteps(std::size_t faces, Organ organ, Tool tool, std::size_t samples)
+RoughMotionMeasurement::RoughMotionMeasurement(std::size_t faces, Organ organ, Tool tool,
+                                               std::size_t samples)
     : organ_([&] {
         const OrganSurface surface = make_organ(faces);
         return TriangleMesh(surface.vertices, surface.triangles);
@@ -58,12 +61,12 @@ RoughSteps::RoughSteps(std::size_t faces, Organ organ, Tool tool, std::size_t sa
   request_.radius = Grasper::kRadius;
   if (tool == Tool::kGrasper) request_.links = &links_;
   const ShaftAxis axis = tool == Tool::kGrasper
-                             ? kOntoTheEnd
-                             : Surgeon(surface, Sizes(1224)).motion(surface.vertices).end;
+                             ? kTowardsEnd
+                             : ToolMotions(surface, SceneScale(1224)).next(surface.vertices).end;
   request_.path = trembling_path(axis, samples);
 }
 
-RoughSteps::Timed RoughSteps::run() {
+RoughMotionMeasurement::Timed RoughMotionMeasurement::run() {
   Stopwatch watch;
   query_.evaluate(request_, result_);
   return {watch.lap(), result_.contacts.size()};
