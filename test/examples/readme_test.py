@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What README.md shows is what the tested files say.
+"""The excerpts in README.md agree with the tested files.
 
 Usage: readme_test.py SOURCE_FOLDER
 """

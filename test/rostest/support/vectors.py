@@ -1,4 +1,4 @@
-"""Vectors of three, as plain tuples: the tests need no numpy."""
+"""Three-dimensional vectors as plain tuples, so that the tests need no numpy."""
 
 import math
 

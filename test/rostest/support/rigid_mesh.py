@@ -1,24 +1,25 @@
-"""A mesh of a robot's link, read from its STL file, and what it touches, worked out naively."""
+"""The mesh of a robot's link, read from its STL file, and a naive search for the faces it
+pierces."""
 
 import struct
 
-import oracle
+from . import oracle
 
 
 def overlap(a, b):
-    """Whether the boxes around two lists of points do."""
+    """Whether the bounding boxes of two lists of points overlap."""
     return all(min(p) <= max(q) and min(q) <= max(p) for p, q in zip(zip(*a), zip(*b)))
 
 
 class RigidMesh:
-    """Its triangles: three corners each [m]."""
+    """A list of triangles with three corners each [m]."""
 
     def __init__(self, triangles):
         self.triangles = triangles
 
     @classmethod
     def from_stl(cls, path, unit=1.0):
-        """A binary one, with its unit [m]."""
+        """Reads a binary STL file. `unit`: the file's unit of length [m]."""
         with open(path, 'rb') as file:
             data = file.read()
         count = struct.unpack_from('<I', data, 80)[0]
@@ -33,15 +34,15 @@ class RigidMesh:
         return RigidMesh([tuple(pose.apply(corner) for corner in t) for t in self.triangles])
 
     def edges(self):
-        """Each once, of whatever triangles it is part of."""
+        """All edges; an edge that several triangles share appears once."""
         return {tuple(sorted((t[i], t[i - 1]))) for t in self.triangles for i in range(3)}
 
     def distance(self, point):
-        """From its surface [m]."""
+        """The distance of a point from the surface [m]."""
         return min(oracle.nearest((point, point), t).distance for t in self.triangles)
 
     def faces_pierced(self, organ):
-        """Numbers of the organ's faces that an edge of this mesh goes through."""
+        """The numbers of the organ's faces that an edge of this mesh pierces."""
         edges = self.edges()
         corners = [corner for triangle in self.triangles for corner in triangle]
         near = [i for i in range(len(organ.faces)) if overlap(organ.face(i), corners)]

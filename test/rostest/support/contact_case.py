@@ -1,10 +1,10 @@
-"""What the tests of contacts share: comparison with the oracle, face by face, field by field."""
+"""A test case that compares contacts with the oracle, face by face and field by field."""
 
 import unittest
 
 from organ_collision.msg import ContactArray
 
-from vectors import cross, dot, length, sub
+from .vectors import cross, dot, length, sub
 
 
 def xyz(message):
@@ -27,14 +27,14 @@ class ContactCase(unittest.TestCase):
         self.assertEqual(result.message, '')
 
     def assert_contacts(self, result, expected, tolerance=1e-7):
-        """The result is `expected`, contacts of the oracle with the tool's first link, and none is
-        with another."""
+        """Checks that the contacts are the oracle's, `expected`, all with the tool's first link."""
         self.assertEqual([c.face for c in result.contacts if c.link > 0], [])
         self.assert_contacts_of_link(result, 0, expected, tolerance)
 
     def assert_contacts_of_link(self, result, link, expected, tolerance):
-        """The contacts with one link are `expected`: the same faces, in order, and lengths,
-        fractions and directions within `tolerance`."""
+        """Checks that the contacts with one link are `expected`: the same faces in the same order,
+        lengths [m] and fractions within `tolerance`, and directions, barycentric coordinates and
+        places on the shaft within 100 times that."""
         self.assert_ok(result)
         contacts = [c for c in result.contacts if c.link == link]
         self.assertEqual([c.face for c in contacts], [c.face for c in expected])
@@ -53,7 +53,8 @@ class ContactCase(unittest.TestCase):
                 self.assertEqual(found.behind, right.behind, what)
 
     def assert_regions_lie_on_faces(self, result, mesh, margin=1e-5):
-        """One region a contact, its corners on the contact's face, to float precision."""
+        """Checks that there is one region for each contact, with its corners on the contact's face
+        to float precision."""
         self.assertEqual(len(result.regions), len(result.contacts))
         for contact, region in zip(result.contacts, result.regions):
             a, b, c = mesh.face(contact.face)

@@ -1,10 +1,10 @@
-"""The faces in the 1999 paper's own viewing volumes, by clipping each face in double precision.
+"""The faces in the 1999 paper's own viewing volumes, found by clipping each face in double
+precision.
 
-A volume is a list of half-spaces (n, d): all x with n . x <= d; the first is the near plane, from
-which the depth range along the view is measured.
-"""
+A volume is a list of half-spaces (n, d), each the set of all x with n . x <= d. The first one is
+the near plane, from which the depth range along the view is measured."""
 
-from vectors import add, cross, dot, lerp, scaled, sub, unit
+from .vectors import add, cross, dot, lerp, scaled, sub, unit
 
 
 def half_space(normal, through):
@@ -12,8 +12,8 @@ def half_space(normal, through):
 
 
 def static_volume(axis, radius):
-    """Section 3: a box of half-width `radius` around the axis, flat at both ends. Its up vector is
-    the frame axis least aligned with the view."""
+    """The volume of section 3: a box of half-width `radius` around the axis, flat at both ends. Its
+    up vector is the frame axis that is least aligned with the view."""
     trocar, tip = axis
     view = unit(sub(tip, trocar))
     least = min(range(3), key=lambda i: abs(view[i]))
@@ -28,8 +28,8 @@ def static_volume(axis, radius):
 
 
 def swept_volume(trocar, previous, tip, radius):
-    """Section 4, figure 7: the hexahedron between P0 and PP', its sides from P0 -+ s u to
-    P - s u and P' + s u, s high to either side of the plane of the motion."""
+    """The hexahedron of section 4, figure 7, between P0 and PP'. Its sides go from P0 - s u to P -
+    s u and from P0 + s u to P' + s u. It extends by s to either side of the plane of the motion."""
     along = unit(sub(tip, previous))
     across = unit(cross(sub(previous, trocar), sub(tip, trocar)))
     view = unit(cross(across, along))
@@ -49,7 +49,7 @@ def swept_volume(trocar, previous, tip, radius):
 
 
 def clipped(face, volume):
-    """Corners of the part of the face in the volume; empty if there is none."""
+    """The corners of the part of the face in the volume; empty if there is no such part."""
     polygon = list(face)
     for normal, offset in volume:
         beyond = [dot(normal, p) - offset for p in polygon]
@@ -64,7 +64,8 @@ def clipped(face, volume):
 
 
 def picked(mesh, volume):
-    """{face: (view_min, view_max)}, in metres behind the near plane."""
+    """{face: (view_min, view_max)}: the faces in the volume and their depths behind the near plane
+    [m]."""
     normal, offset = volume[0]
     found = {}
     for number in range(len(mesh.faces)):

@@ -1,8 +1,7 @@
-"""Meshes and rigid poses for the tests. Lengths in metres, right-handed frames.
+"""Meshes and rigid poses for the tests. Lengths are in metres, and frames are right-handed.
 
-Vertices are rounded to the 32-bit floats of the messages where a mesh is made, so that what the
-node gets and what the oracle works with are the same numbers.
-"""
+A mesh rounds its vertices to 32-bit floats, as in the messages, so that the node and the oracle
+work with the same numbers."""
 
 import math
 import struct
@@ -13,19 +12,19 @@ def float32(value):
 
 
 class Mesh:
-    """Any triangle soup: `vertices` as (x, y, z), `faces` as three vertex indices, outward by the
-    right-hand rule."""
+    """Any set of triangles: `vertices` as (x, y, z), `faces` as three vertex indices whose normal
+    by the right-hand rule points outward."""
 
     def __init__(self, vertices, faces):
         self.vertices = [tuple(float32(c) for c in v) for v in vertices]
         self.faces = [tuple(f) for f in faces]
 
     def moved(self, move):
-        """The same faces with every vertex v at move(v)."""
+        """The same faces, with every vertex v moved to move(v)."""
         return Mesh([move(v) for v in self.vertices], self.faces)
 
     def face(self, number):
-        """Its three corners."""
+        """The three corners of a face."""
         return [self.vertices[i] for i in self.faces[number]]
 
     def flat_vertices(self):
@@ -36,7 +35,7 @@ class Mesh:
 
 
 def sheet(size=0.1, cells=4, z=0.0):
-    """A thin square sheet around (0, 0, z), normal along +z, of 2 * cells * cells faces."""
+    """A square sheet around (0, 0, z) with 2 * cells * cells faces and its normal along +z."""
     n = cells + 1
     vertices = [
         (size * (i / cells - 0.5), size * (j / cells - 0.5), z) for j in range(n) for i in range(n)
@@ -50,12 +49,12 @@ def sheet(size=0.1, cells=4, z=0.0):
 
 
 def one_face(z=0.0):
-    """One large face around the z axis, normal along +z."""
+    """One large face around the z axis, with its normal along +z."""
     return Mesh([(-0.06, -0.05, z), (0.07, -0.04, z), (0.01, 0.08, z)], [(0, 1, 2)])
 
 
 def tetrahedron(size=0.1):
-    """Regular, around the origin, slightly turned so that nothing is aligned with an axis."""
+    """A regular tetrahedron around the origin, rotated so that nothing is aligned with an axis."""
     corners = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
     turn = Pose((0.1, 0.25, -0.15, 0.95), (0.0, 0.0, 0.0))
     scale = size / (2 * math.sqrt(2))
@@ -80,7 +79,8 @@ def box(size=(0.06, 0.05, 0.04)):
 
 
 def liver():
-    """A closed, lobed surface of 1224 faces, some 0.2 m long: 36 meridians, 17 rings, two poles."""
+    """A closed, lobed surface of 1224 faces, about 0.2 m long: 36 meridians, 17 rings, two
+    poles."""
     meridians, rings = 36, 17
 
     def point(polar, azimuth):
@@ -115,7 +115,7 @@ def liver():
 
 
 class Pose:
-    """A rigid transform T_target_source: rotation as a quaternion (x, y, z, w) of any length, and
+    """A rigid transform T_target_source, from a quaternion (x, y, z, w) of any length and a
     translation."""
 
     def __init__(self, rotation, translation):

@@ -1,5 +1,5 @@
 """The node as its users see it: its topics, its services, TF and /diagnostics. Nothing here sleeps
-for a fixed time; whatever has to happen is waited for, at most LIMIT seconds."""
+for a fixed time. Instead, functions wait for an event, at most LIMIT seconds."""
 
 import threading
 import time
@@ -17,14 +17,14 @@ import rospy
 from std_srvs.srv import Empty
 from tf2_msgs.msg import TFMessage
 
-import scenes
+from . import scenes
 
 LIMIT = 20.0  # [s]
 
 
 def wait_until(condition, what, limit=LIMIT):
-    """The first true value of condition(); AssertionError after `limit` seconds, naming `what`: a
-    text, or a function that makes one then."""
+    """Waits until condition() is true and returns its value. Raises AssertionError after `limit`
+    seconds. `what`: the awaited event for the error's text, or a function that returns it."""
     end = time.monotonic() + limit
     while True:
         value = condition()
@@ -32,19 +32,19 @@ def wait_until(condition, what, limit=LIMIT):
             return value
         if time.monotonic() > end:
             raise AssertionError(
-                'waited %g s in vain: %s' % (limit, what() if callable(what) else what)
+                'waited %g s without success: %s' % (limit, what() if callable(what) else what)
             )
         time.sleep(0.005)
 
 
 def is_heard(topic, process):
-    """Whether a node listens to a publisher of this one. Others may as well: their number says
-    nothing."""
+    """Whether the node `process` listens to this publisher. Counting the listeners is not enough,
+    because other nodes may listen, too."""
     return process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
 
 
 class TfSender:
-    """Sends transforms as a robot would: on /tf and, once and for all, on /tf_static."""
+    """Sends transforms as a robot would: moving ones on /tf, and resting ones on /tf_static."""
 
     def __init__(self):
         self.moving = rospy.Publisher('/tf', TFMessage, queue_size=1000)
@@ -52,18 +52,20 @@ class TfSender:
         self.resting_transforms = []
 
     def wait_for(self, node):
-        """Until the node of this NodeClient listens: what is sent on /tf before is lost to it."""
+        """Waits until the node of this NodeClient listens. It never gets what is sent on /tf
+        before."""
         wait_until(
             lambda: is_heard(self.moving, node.process) and is_heard(self.resting, node.process),
             'connections from TF to ' + node.process,
         )
 
     def send(self, *transforms):
-        """Each a (parent, child, pose, stamp); all in one message, as queues are short."""
+        """Sends transforms (parent, child, pose, stamp) in one message, because queues are
+        short."""
         self.moving.publish([self._message(*transform) for transform in transforms])
 
     def send_resting(self, *transforms):
-        """Each a (parent, child, pose), for all times."""
+        """Sends transforms (parent, child, pose) that hold for all times."""
         now = rospy.Time.now()
         self.resting_transforms += [self._message(*transform, now) for transform in transforms]
         self.resting.publish(self.resting_transforms)
@@ -79,7 +81,7 @@ class TfSender:
 
 
 class ContactLog:
-    """All ContactArrays that came, in order."""
+    """All ContactArrays received so far, in order."""
 
     def __init__(self, topic):
         self.messages = []
@@ -91,7 +93,7 @@ class ContactLog:
             self.messages.append(message)
 
     def of(self, organ, tool=None, stamp=None, **fields):
-        """Those of one organ (and tool, and stamp) whose fields have these values."""
+        """The messages about one organ (and tool, and stamp) whose fields have these values."""
 
         def wanted(message):
             return (
@@ -105,7 +107,7 @@ class ContactLog:
             return [message for message in self.messages if wanted(message)]
 
     def wait_for(self, organ, tool, **fields):
-        """The first such message."""
+        """Waits for the first such message."""
         return wait_until(
             lambda: self.of(organ, tool, **fields),
             'contacts of %s and %s with %s' % (organ, tool, fields),
@@ -126,8 +128,8 @@ FAR_AWAY = shaft((9.0, 9.0, 9.0), (9.0, 9.0, 9.1), 0.001)
 
 
 class NodeClient:
-    """Publishers, subscribers and services of one running node. `process` is its name where that is
-    another: a nodelet's manager."""
+    """Publishers, subscribers and services of one running node. `process`: the name of the ROS node
+    that runs it, if it is another one: the manager of a nodelet."""
 
     def __init__(self, node='/organ_collision', frame='liver_frame', process=None):
         self.node, self.frame, self.process = node, frame, process or node
@@ -135,7 +137,7 @@ class NodeClient:
         self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
         self.contacts = ContactLog(node + '/contacts')
         self.diagnostics, self.summaries = {}, {}
-        self.past_summaries = {}  # Of each name all that came, in order.
+        self.past_summaries = {}  # For each name, all summaries so far, in order.
         self.diagnostics_subscriber = rospy.Subscriber(
             '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep_diagnostics
         )
@@ -152,7 +154,7 @@ class NodeClient:
         )
 
     def close(self):
-        """Before another node of the same name is met: no connection of this one is left."""
+        """Closes all connections. Call this before connecting to another node of the same name."""
         for end in (
             self.meshes,
             self.shapes,
@@ -201,7 +203,7 @@ class NodeClient:
         )
 
     def wait_for_shape(self, organ, stamp, topology=1):
-        """Until queries are answered with the organ's shape of `stamp`."""
+        """Waits until queries are answered with the organ's shape of `stamp`."""
 
         def has_it():
             result = self.query(organ, FAR_AWAY)
@@ -244,7 +246,7 @@ class NodeClient:
         return self.batch_service(request)
 
     def query_batch(self, *args, **named):
-        """The results of a batch that can be answered."""
+        """The results of a batch. Raises AssertionError if the batch is refused."""
         answer = self.answer_batch(*args, **named)
         if answer.status != ContactArray.OK:
             raise AssertionError('batch refused: %d, %s' % (answer.status, answer.message))

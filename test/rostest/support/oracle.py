@@ -1,25 +1,27 @@
-"""What a contact is, worked out naively: every face by itself, in double precision.
+"""The definition of a contact, computed naively for each face in double precision.
 
-An axis is a pair (trocar, tip), a face three corners; metres throughout. First touch is found by
-plain advancement: while the distance exceeds the radius by g, nothing can touch before g has been
-covered at the greatest speed of any corner or end.
+An axis is a pair (trocar, tip), a face has three corners, and lengths are in metres. First touch is
+found by conservative advancement: while the distance exceeds the radius by a gap, nothing can touch
+before the fastest corner and the fastest end together have covered that gap.
 """
 
 from collections import namedtuple
 
-from vectors import add, cross, dot, length, lerp, scaled, sub, unit
+from .vectors import add, cross, dot, length, lerp, scaled, sub, unit
 
-TIE = 1e-12  # [m] nearest pairs this close are tied: the one nearest the tip counts
-PIERCED = 1e-9  # [m] the axis pierces the face
-TOUCH = 1e-11  # [m] first touch stops advancing here
+# [m] Nearest pairs are tied if their distances differ by at most this; the one nearest the tip
+# counts.
+TIE = 1e-12
+PIERCED = 1e-9  # [m] up to this distance, the axis counts as piercing the face
+TOUCH = 1e-11  # [m] first touch stops at this gap
 
-# `behind` is None where the place on the axis is in the face, and either answer will do.
+# `behind` is None if the nearest point of the axis lies in the face: then either answer is right.
 Contact = namedtuple('Contact', 'face fraction point normal barycentric shaft depth behind')
 Nearest = namedtuple('Nearest', 'distance shaft barycentric')
 
 
 def weighted(face, weights):
-    """The face's point with these barycentric coordinates."""
+    """The point of the face with these barycentric coordinates."""
     return add(
         add(scaled(face[0], weights[0]), scaled(face[1], weights[1])), scaled(face[2], weights[2])
     )
@@ -30,7 +32,8 @@ def face_normal(face):
 
 
 def barycentric(p, face):
-    """Of p's projection onto the face's plane; none for a degenerate face."""
+    """The barycentric coordinates of p's projection onto the face's plane. None for a degenerate
+    face."""
     n = cross(sub(face[1], face[0]), sub(face[2], face[0]))
     if dot(n, n) == 0.0:
         return None
@@ -40,13 +43,13 @@ def barycentric(p, face):
 
 
 def place_on_segment(p, a, b):
-    """Of the segment's point nearest p, in [0, 1]."""
+    """The place in [0, 1] of the segment's point that is nearest to p."""
     ab = sub(b, a)
     return min(1.0, max(0.0, dot(sub(p, a), ab) / dot(ab, ab))) if dot(ab, ab) > 0 else 0.0
 
 
 def nearest_pairs(axis, face):
-    """All (shaft, barycentric) at which axis and face may be nearest."""
+    """Yields all candidates (shaft, barycentric) for the nearest points of axis and face."""
     trocar, tip = axis
     edges = [(0, 1), (1, 2), (2, 0)]
 
@@ -105,8 +108,8 @@ def first_touch(axis_at, face_at, radius):
 
 
 def contact_of_face(number, axis_at, face_at, radius):
-    """The contact of one face in a step, or None. `axis_at` and `face_at` map [0, 1] to where the
-    axis and the face are."""
+    """The contact of one face in a step, or None. `axis_at` and `face_at` map a time in [0, 1] to
+    the axis and to the face."""
     time = first_touch(axis_at, face_at, radius)
     if time is None:
         return None
@@ -130,13 +133,13 @@ def contact_of_face(number, axis_at, face_at, radius):
 
 
 def contacts(mesh, before, motion, radius, faces=None):
-    """All contacts of a step in which the mesh moves from `before` to `mesh`, and the axis from
-    motion[0] to motion[1], by rising face. Equal ends: static."""
+    """All contacts of a step, sorted by face. The mesh moves from `before` to `mesh`, and the axis
+    from motion[0] to motion[1]. The step is static if both are equal."""
 
     def axis_at(t):
         return tuple(lerp(a, b, t) for a, b in zip(*motion))
 
-    # A ball around all places of the axis: faces outside it need no closer look.
+    # A ball around the whole motion of the axis. Faces outside of it cannot touch.
     ends = motion[0] + motion[1]
     centre = scaled(add(add(ends[0], ends[1]), add(ends[2], ends[3])), 0.25)
     reach = radius + max(length(sub(e, centre)) for e in ends)

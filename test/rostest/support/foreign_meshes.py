@@ -1,4 +1,4 @@
-"""Meshes in other packages' messages, as simulators publish them."""
+"""Meshes in the messages of other packages, as simulators publish them."""
 
 import struct
 
@@ -9,7 +9,7 @@ from sensor_msgs.msg import PointCloud2, PointField
 from shape_msgs.msg import Mesh, MeshTriangle
 from visualization_msgs.msg import Marker
 
-import scenes
+from . import scenes
 
 FORMATS = {PointField.FLOAT32: 'f', PointField.FLOAT64: 'd'}
 
@@ -29,7 +29,7 @@ def marker(
     pose=scenes.IDENTITY,
     scale=(1, 1, 1),
 ):
-    """A TRIANGLE_LIST that shows `mesh` where `pose` and `scale` have been applied to it."""
+    """A TRIANGLE_LIST that shows `mesh` after its `pose` and `scale` are applied."""
     message = Marker(ns=name[0], id=name[1], type=Marker.TRIANGLE_LIST, action=Marker.ADD)
     message.header.frame_id, message.header.stamp = frame, stamp
     message.scale.x, message.scale.y, message.scale.z = scale
@@ -54,7 +54,7 @@ def cloud(
     padding=0,
     big_endian=False,
 ):
-    """One row of points; each its coordinates in that order, then so many bytes of padding."""
+    """A cloud of one row. Each point has its coordinates in this order, then `padding` bytes."""
     number = ('>' if big_endian else '<') + FORMATS[datatype]
     size = struct.calcsize(number)
     message = PointCloud2(height=1, width=len(vertices), is_bigendian=big_endian, is_dense=True)

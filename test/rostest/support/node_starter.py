@@ -1,4 +1,4 @@
-"""Nodes that a test starts and stops itself, as roslaunch does."""
+"""Starts and stops nodes within a test, as roslaunch does."""
 
 import signal
 import subprocess
@@ -10,7 +10,8 @@ import rospy
 
 class NodeStarter(unittest.TestCase):
     def start(self, name, parameters, program='organ_collision_node'):
-        """A node with these private parameters; it ends with the test at the latest."""
+        """Starts a node with these private parameters. It is killed at the end of the test at the
+        latest."""
         if parameters:
             rospy.set_param(name, parameters)
         path = roslib.packages.find_node('organ_collision', program)[0]
@@ -25,14 +26,14 @@ class NodeStarter(unittest.TestCase):
         return process
 
     def stop(self, process):
-        """Returns all that it printed."""
+        """Stops the node with SIGINT, checks that it exits with 0, and returns its output."""
         process.send_signal(signal.SIGINT)
         printed, _ = process.communicate(timeout=15)
         self.assertEqual(process.returncode, 0, printed)
         return printed
 
     def assert_refused(self, process, words):
-        """It stops by itself, and prints all these words."""
+        """Checks that the node exits with an error by itself, and that it prints all `words`."""
         printed, _ = process.communicate(timeout=30)
         what = '%r: %s' % (words, printed)
         self.assertGreater(process.returncode, 0, what)  # negative: killed by a signal

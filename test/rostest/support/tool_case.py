@@ -1,12 +1,12 @@
-"""A test with tools that move by TF. Its points are in the organ's frame, which is turned and far
-off in the world; trocars and tips are sent in the world's."""
+"""A test case with tools that move by TF. Its points are in the organ's frame, which is rotated and
+shifted in the world. Trocars and tips are sent in the world frame."""
 
 from organ_collision.msg import ContactArray
 import rospy
 
-from contact_case import ContactCase
-from node_client import NodeClient, TfSender, wait_until
-import scenes
+from . import scenes
+from .contact_case import ContactCase
+from .node_client import NodeClient, TfSender, wait_until
 
 WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
 STEP = rospy.Duration(0, 10**7)
@@ -30,17 +30,17 @@ class ToolCase(ContactCase):
 
     @classmethod
     def next_stamp(cls, step=STEP):
-        """Stamps only rise, from test to test, by one step of 10 ms."""
+        """The next stamp, one step of 10 ms later. Stamps rise from test to test, too."""
         cls.stamp += step
         return cls.stamp
 
     def frames(self, tool):
-        """Whose origins say where the tool is."""
+        """The frames whose origins place the tool."""
         return (tool + '_trocar', tool + '_tip')
 
     def place(self, tool, *way):
-        """The tool's frames, in the organ's frame: a way of (axis, stamp), or of as many other
-        points as it has frames."""
+        """Sends the tool's frames along `way`, pairs of (axis, stamp). The axis is (trocar, tip) in
+        the organ's frame, or one point for each of the tool's frames."""
         turn = (0.1, 0.2, 0.3, 0.9)
         self.tf.send(
             *[
@@ -51,7 +51,7 @@ class ToolCase(ContactCase):
         )
 
     def place_and_wait(self, tool, axis, stamp):
-        """The same at one time; returns when the node has heard of it."""
+        """Sends the tool's frames at one time, and waits until the node has received them."""
 
         def is_there():
             result = self.node.query(OUT_OF_REACH, tool=tool, stamp=stamp)
@@ -64,12 +64,12 @@ class ToolCase(ContactCase):
 
     def step(self, shape, tools, topology=1, vertices=False, step=STEP):
         """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns
-        {name: what the node published of it}. The node knows where the tools are before it hears of
-        the shape: it waits for no transform, however busy the machine is."""
+        {name: the ContactArray about this tool}. The poses are sent first, so that the node never
+        has to wait for a transform, even on a busy machine."""
         return self.step_of_organs({self.organ: shape}, tools, topology, vertices, step)[self.organ]
 
     def step_of_organs(self, shapes, tools, topology=1, vertices=False, step=STEP):
-        """The same for many organs at one time, {organ: shape}. Returns {organ: {tool: result}}."""
+        """One step of several organs, {organ: shape}. Returns {organ: {tool: ContactArray}}."""
         stamp = self.next_stamp(step)
         for tool, axis in tools.items():
             self.place_and_wait(tool, axis, stamp)

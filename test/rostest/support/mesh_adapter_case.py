@@ -1,20 +1,21 @@
-"""What the tests of organ_mesh_adapter share: simulators, and the organs that the node has."""
+"""A test case for organ_mesh_adapter. It publishes meshes as a simulator does, and asks the
+collision node about the organs."""
 
 import threading
 
 from organ_collision.msg import ContactArray
 import rospy
 
-from contact_case import ContactCase
-from node_client import FAR_AWAY, NodeClient, shaft, wait_until
-import oracle
+from . import oracle
+from .contact_case import ContactCase
+from .node_client import FAR_AWAY, NodeClient, shaft, wait_until
 
 AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
 RADIUS = 0.005
 
 
 class MessageLog:
-    """All messages of a topic that came, in order."""
+    """All messages received on a topic so far, in order."""
 
     def __init__(self, topic, message_type):
         self.messages, self.lock = [], threading.Lock()
@@ -30,7 +31,7 @@ class MessageLog:
             return [message for message in self.messages if message.organ == organ]
 
 
-class AdapterCase(ContactCase):
+class MeshAdapterCase(ContactCase):
     adapter = '/organ_mesh_adapter'
 
     @classmethod
@@ -40,7 +41,7 @@ class AdapterCase(ContactCase):
 
     @classmethod
     def publish(cls, topic, message, adapter=None):
-        """On a topic that the adapter listens to by now."""
+        """Publishes once the adapter listens to the topic."""
         adapter = adapter or cls.adapter
         if topic not in cls.publishers:
             cls.publishers[topic] = rospy.Publisher(topic, type(message), queue_size=100)
@@ -56,7 +57,8 @@ class AdapterCase(ContactCase):
         publisher.publish(message)
 
     def wait_for_contacts(self, organ, mesh, node=None):
-        """Until the node's answer about the organ is what touches `mesh`, and something does."""
+        """Waits until the node's answer about the organ has the contacts of `mesh`, at least
+        one."""
         expected = oracle.static_contacts(mesh, AXIS, RADIUS)
         self.assertGreater(len(expected), 0)
 
