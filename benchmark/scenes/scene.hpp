@@ -34,9 +34,8 @@ struct Scene {
   /// The same scene with vertices and faces in random order.
   Scene shuffled() const;
 
-  OrganSurface organ;  ///< at rest
-  std::vector<SharedVertices>
-      shapes;  ///< the organ's vertices [m]; the last shape precedes the first
+  OrganSurface organ;                  ///< at rest
+  std::vector<SharedVertices> shapes;  ///< vertices [m] of all shapes, which follow each other
   std::vector<SceneStep> steps;
   std::vector<SceneStep> rigid_steps;  ///< the same motions, all against the first shape
 };
