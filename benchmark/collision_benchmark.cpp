@@ -2,32 +2,35 @@
 
 #include <cstring>
 #include <iostream>
-#include <vector>
 
-#include "benchmarks.hpp"
+#include "cases/cases.hpp"
 #include "reporters.hpp"
 
 // collision_benchmark --benchmark_out=FILE [--small] [Google Benchmark's options]
-// --small: nothing above 100 000 faces.
+// --small: no organ of more than 100 000 faces. Exits with 1 if the package's own answers are
+// wrong.
 int main(int argc, char** argv) {
   using namespace organ_collision::bench;
   benchmark::Initialize(&argc, argv);
   const bool small = argc == 2 && std::strcmp(argv[1], "--small") == 0;
   if (!small && benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
 
-  Lab lab;
+  MeasurementCache cache;
   for (const bool shuffled : {false, true}) {
     for (const std::size_t faces : {4, 1224, 10'000, 100'000, 1'000'000}) {
       if (small && faces > 100'000) continue;
-      add_benchmarks(lab, {faces, shuffled});
+      const SceneKey key{faces, shuffled};
+      add_engine_cases(cache, key);
+      add_contact_cases(cache, key);
+      add_vertex_pass_cases(cache, key);
     }
   }
-  add_grasper(lab);
-  add_rough_steps();
+  add_grasper_cases(cache);
+  add_rough_motion_cases();
   SilentReporter display;
   PlainJsonReporter file;
   benchmark::RunSpecifiedBenchmarks(&display, &file);
-  if (lab.own_errors() == 0) return 0;
+  if (cache.own_errors() == 0) return 0;
   std::cerr << "the package's own pickers gave wrong answers" << std::endl;
   return 1;
 }

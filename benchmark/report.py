@@ -1,5 +1,7 @@
 #!/usr/bin/python3
-"""Table and plot of benchmarks.json: report.py FOLDER, which holds it and gets both."""
+"""Writes tables and a plot of collision_benchmark's results.
+
+Usage: report.py FOLDER. Reads FOLDER/benchmarks.json, writes FOLDER/benchmarks.md and FOLDER/benchmarks.png."""
 
 import json
 import pathlib
@@ -17,7 +19,7 @@ CONTACT_PARTS = ['contacts', 'step_contacts', 'contacts_moving', 'step_moving']
 
 
 class Results:
-    """Medians in microseconds, and counters, by (part, engine, faces, shuffled)."""
+    """Medians in microseconds and counters, both by (part, engine, faces, shuffled): see cases/registration.hpp."""
 
     def __init__(self, path):
         self.median, self.counters = {}, {}
@@ -87,7 +89,7 @@ def contact_table(results):
 
 
 def grasper_table(results):
-    """Shaft, wrist and two jaws of 500 faces, against the organ of 1224 faces at rest."""
+    """A shaft, a wrist and two jaws of 500 faces each, against the resting organ of 1224 faces."""
     static = {engine: results.median.get(('grasper_static', engine, 1224, False)) for engine in ('ours', 'fcl')}
     swept = results.median.get(('grasper_swept', 'ours', 1224, False))
     rows = [['ours', microseconds(static['ours']), microseconds(swept)], ['fcl', microseconds(static['fcl']), ''],
@@ -112,7 +114,7 @@ def error_table(results):
 
 
 def paper_table(results):
-    """Figures 11 and 12 of the paper, for its liver of 1224 faces."""
+    """The comparison of the paper's figures 11 and 12, on an organ with as many faces as its liver (1224)."""
     def of(part, engine):
         return results.median.get((part, engine, 1224, False), 0.0)
 

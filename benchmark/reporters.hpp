@@ -6,9 +6,8 @@
 
 namespace organ_collision::bench {
 
-/// Google Benchmark's JSON with plain names: without "/iterations:64/manual_time" at their ends.
-/// All times are those of the timed part; what an iteration does besides would count in its CPU
-/// time.
+/// Google Benchmark's JSON with plain names: without "/iterations:64/manual_time" at the end. The
+/// CPU time is replaced by the measured time, because it includes work outside of the timed part.
 class PlainJsonReporter : public benchmark::JSONReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {
@@ -22,7 +21,7 @@ class PlainJsonReporter : public benchmark::JSONReporter {
   }
 };
 
-/// Says nothing: the table is made from the file.
+/// Prints nothing: report.py makes the tables from the JSON file.
 class SilentReporter : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context& /*context*/) override { return true; }

@@ -1,4 +1,4 @@
-// Asks which faces of `tissue` a shaft would go through, and prints their numbers.
+// Asks which faces of `tissue` a moving shaft would touch. Prints the status and their numbers.
 #include <organ_collision/QueryCollision.h>
 #include <ros/ros.h>
 

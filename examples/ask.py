@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Asks which faces of `tissue` a shaft would go through, and prints their numbers."""
+"""Asks which faces of `tissue` a moving shaft would touch. Prints the status and their numbers."""
 
 from geometry_msgs.msg import Point
 from organ_collision.msg import ContactArray, ToolMotion

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Moves the grasper of grasper.launch: it dips into the liver, opens and closes."""
+"""Moves the grasper of grasper.launch: it dips into the liver, and its jaws open and close."""
 
 import math
 
@@ -9,11 +9,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Header
 import tf2_ros
 
-# The trocar's z axis points into the liver, at its right lobe.
+# The z axis of the trocar points at the right lobe of the liver.
 TROCAR = Transform(Vector3(-0.042, -0.075, 0.130), Quaternion(math.sin(-1.25), 0, 0, math.cos(-1.25)))
 
-# Of each joint: centre and swing [rad, or m for the insertion], period [s]. The right jaw mimics
-# the left one: robot_state_publisher knows that from the URDF.
+# For each joint: centre and amplitude [rad, or m for the insertion], and period [s]. The right jaw
+# is missing: robot_state_publisher knows from the URDF that it mimics the left one.
 MOTION = {
     'grasper_yaw': (0.0, 0.12, 11.0),
     'grasper_pitch': (0.0, 0.10, 7.0),
@@ -23,7 +23,7 @@ MOTION = {
     'grasper_jaw': (0.3, 0.3, 2.0),
 }
 
-# Ctrl-C in the midst of a publish can lock rospy's own signal handler up; an exception cannot.
+# If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
 rospy.init_node('grasper', disable_signals=True)
 trocar = tf2_ros.StaticTransformBroadcaster()
 trocar.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'liver'), 'grasper_trocar', TROCAR))
@@ -34,8 +34,8 @@ try:
     while not rospy.is_shutdown():
         now = rospy.Time.now()
         turns = 2 * math.pi * (now - start).to_sec()
-        positions = [centre + swing * math.sin(turns / period)
-                     for centre, swing, period in MOTION.values()]
+        positions = [centre + amplitude * math.sin(turns / period)
+                     for centre, amplitude, period in MOTION.values()]
         joints.publish(JointState(header=Header(stamp=now), name=list(MOTION), position=positions))
         rate.sleep()
 except KeyboardInterrupt:

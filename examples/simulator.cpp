@@ -1,4 +1,4 @@
-// The least simulator: a sheet of tissue that waves, and a probe that is waved through it.
+// A minimal simulator: a sheet of tissue moves up and down, and a probe moves through it.
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>

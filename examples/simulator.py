@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The least simulator: a sheet of tissue that waves, and a probe that is waved through it."""
+"""A minimal simulator: a sheet of tissue moves up and down, and a probe moves through it."""
 
 import math
 

@@ -10,8 +10,8 @@
 
 namespace organ_collision::bench {
 
-/// Stands in for the node and answers each shape at once, with nothing found, once for each tool:
-/// what the messages alone take. Answers in a thread of its own, as the nodelet does.
+/// Stands in for the node, to measure how long the messages alone take. It answers each shape at
+/// once with one empty ContactArray for each tool. Like the nodelet, it answers in its own thread.
 class Echo {
  public:
   explicit Echo(std::size_t tools);

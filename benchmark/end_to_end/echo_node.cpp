@@ -5,7 +5,7 @@
 
 #include "echo.hpp"
 
-// echo_node TOOLS: an Echo in a process of its own.
+// echo_node TOOLS: runs an Echo in its own process.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "organ_collision");
   if (argc != 2) return std::cerr << "echo_node TOOLS" << std::endl, 2;

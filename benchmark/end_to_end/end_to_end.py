@@ -1,8 +1,10 @@
 #!/usr/bin/python3
-"""Latencies of the running node and nodelet, and of roscpp alone: end_to_end.py PROGRAM FOLDER SECONDS [SIZES].
+"""Measures the latencies of the running node and nodelet, and of roscpp alone.
 
-PROGRAM is end_to_end as built, whose package's setup.bash is sourced. Starts a ROS master of its own. Writes
-end_to_end.json and end_to_end.md into FOLDER; each of the measurements takes SECONDS."""
+Usage: end_to_end.py PROGRAM FOLDER SECONDS [FACES ...]
+
+PROGRAM is the built end_to_end; the setup.bash of its workspace must be sourced. The script starts its own ROS master
+and writes end_to_end.json and end_to_end.md into FOLDER. Each measurement takes SECONDS."""
 
 import contextlib
 import json
@@ -16,7 +18,7 @@ import time
 import xmlrpc.client
 
 TOOLS = (1, 4)
-RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # as surgeon.cpp has them
+RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # [m]; the same as SceneScale in tool_motions.cpp
 
 
 def free_port():
@@ -26,7 +28,7 @@ def free_port():
 
 
 class Master:
-    """A roscore; ends with the block that it was made in."""
+    """A roscore that runs until its `with` block ends."""
 
     def __enter__(self):
         os.environ['ROS_MASTER_URI'] = f'http://localhost:{free_port()}'
@@ -68,7 +70,7 @@ def resident_bytes(process):
 
 
 def measure(kind, program, answerer, faces, tools, seconds, settled=lambda: None):
-    """Calls settled() when the node has got some shapes, at a rate that it surely holds."""
+    """Runs PROGRAM and returns its reports. Calls settled() when the node has got some shapes at a low rate."""
     reports = []
     arguments = [program, answerer, str(faces), str(tools), str(seconds)]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, universal_newlines=True) as process:

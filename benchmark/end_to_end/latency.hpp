@@ -4,12 +4,12 @@
 
 namespace organ_collision::bench {
 
-/// Durations of many calls [s].
+/// A collection of durations [s].
 class Latencies {
  public:
   void add(double seconds) { seconds_.push_back(seconds); }
   std::size_t count() const { return seconds_.size(); }
-  /// The duration that `share` of them, in [0, 1], do not exceed; 0 if there is none.
+  /// The duration that a `share` of all durations, in [0, 1], does not exceed. 0 if there are none.
   double quantile(double share) const;
 
  private:

@@ -11,9 +11,10 @@
 namespace organ_collision::bench {
 namespace {
 
-// At 1224 faces and 1 kHz, the tip moves at 1 m/s and the organ at 0.2 m/s: as fast as a hand is.
+// Chosen so that at 1224 faces and 1 kHz the tip moves at 1 m/s and the organ at 0.2 m/s, which is
+// as fast as a hand moves.
 constexpr std::size_t kStepsAcross = 10;
-constexpr double kOrganShare = 0.125;  // [1] of a step's organ motion in the comparison
+constexpr double kOrganShare = 0.125;  // [1] share of SceneScale::organ_step
 constexpr std::size_t kShapes = 8;
 constexpr double kTwoPi = 6.283185307179586;
 constexpr char kOrgan[] = "organ";
@@ -46,14 +47,14 @@ geometry_msgs::Point point_message(const Eigen::Vector3d& point) {
 }  // namespace
 
 Simulator::Simulator(std::size_t faces, std::size_t tools) : organ_(make_organ(faces)) {
-  const Sizes sizes(faces);
-  radius_ = sizes.radius;
+  const SceneScale scale(faces);
+  radius_ = scale.radius;
   for (std::size_t i = 0; i < kShapes; ++i) {
     shapes_.push_back(
-        deformed(organ_.vertices, kTwoPi * i / kShapes, kOrganShare * sizes.organ_step));
+        deformed(organ_.vertices, kTwoPi * i / kShapes, kOrganShare * scale.organ_step));
   }
-  Surgeon surgeon(organ_, sizes);
-  for (std::size_t i = 0; i < tools; ++i) tools_.push_back(surgeon.motion(shapes_.front()));
+  ToolMotions motions(organ_, scale);
+  for (std::size_t i = 0; i < tools; ++i) tools_.push_back(motions.next(shapes_.front()));
 
   node_.setCallbackQueue(&queue_);
   const auto name = [](const char* topic) { return std::string("/organ_collision/") + topic; };
@@ -104,8 +105,9 @@ LatencyReport Simulator::run(double rate, double seconds) {
   const auto count = static_cast<std::size_t>(seconds * rate);
   ros::Time tick = ros::Time::now() + period;
   for (; report.sent < count && ros::ok(); ++report.sent, tick += period) {
-    // Half a period for the answer to the last shape; then, as a tool's pose is known before the
-    // shape that it makes, poses and the next shape are made.
+    // The answer to the last shape has half a period to arrive. Then come the poses and the next
+    // shape, in this order, because a simulator knows a tool's pose before the shape that the tool
+    // causes.
     answer_until(tick - period * 0.5);
     send_poses(tick);
     const auto message = next_shape(tick);
@@ -142,7 +144,7 @@ LatencyReport Simulator::ask(double seconds) {
   return report;
 }
 
-/// Tips go to and fro.
+/// The tips move back and forth.
 void Simulator::send_poses(ros::Time stamp) {
   ++step_;
   const std::size_t phase = step_ % (2 * kStepsAcross);
@@ -155,7 +157,7 @@ void Simulator::send_poses(ros::Time stamp) {
   transforms_.sendTransform(tips);
 }
 
-/// In a message that nobody holds any more.
+/// Reuses a message that roscpp has released.
 boost::shared_ptr<OrganVertices> Simulator::next_shape(ros::Time stamp) {
   auto free = std::find_if(messages_.begin(), messages_.end(),
                            [](const auto& message) { return message.use_count() == 1; });
@@ -180,7 +182,7 @@ void Simulator::on_contacts(const ContactArrayConstPtr& contacts) {
   waiting_.erase(sent);
 }
 
-/// Takes contacts as they come.
+/// Handles contacts as they arrive, until `time`.
 void Simulator::answer_until(ros::Time time) {
   for (ros::Time now = ros::Time::now(); now < time && ros::ok(); now = ros::Time::now()) {
     queue_.callOne(ros::WallDuration((time - now).toSec()));

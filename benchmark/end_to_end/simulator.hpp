@@ -14,33 +14,33 @@
 #include <vector>
 
 #include "benchmark/scenes/organ_surface.hpp"
-#include "benchmark/scenes/surgeon.hpp"
+#include "benchmark/scenes/tool_motions.hpp"
 #include "latency.hpp"
 
 namespace organ_collision::bench {
 
-/// How long an answer took, and how many never came.
+/// The latencies of a run, and how many answers were missing or wrong.
 struct LatencyReport {
-  double rate;  ///< [Hz] at which shapes were published; 0: one after the other
+  double rate;  ///< [Hz] of published shapes; 0 for service calls, which follow each other
   std::size_t sent = 0;
-  std::size_t skipped = 0;  ///< shapes without contacts of all tools
-  std::size_t failed = 0;   ///< answers with another status than OK
-  bool late = false;        ///< shapes could not even be sent at that rate
-  Latencies latencies;      ///< from publishing a shape to the contacts of the last tool
+  std::size_t skipped = 0;  ///< shapes for which not all tools' contacts arrived
+  std::size_t failed = 0;   ///< answers whose status is not OK
+  bool late = false;        ///< whether the simulator failed to publish at that rate
+  Latencies latencies;      ///< from publishing a shape to receiving the contacts of the last tool
 };
 
-/// A simulator that does nothing but publish: a deforming organ, and tools that pierce it. The node
-/// that it talks to is `/organ_collision`, with tools `tool0`, `tool1` ...
+/// A simulator without physics. It publishes a deforming organ and the poses of tools that pierce
+/// it to the node `/organ_collision`, which has the tools `tool0`, `tool1` ...
 class Simulator {
  public:
   Simulator(std::size_t faces, std::size_t tools);
 
-  /// Returns when the node has evaluated the organ's first shape with every tool. Throws
-  /// std::runtime_error when it does not within half a minute.
+  /// Returns when the node has evaluated a shape of the organ with every tool. Throws
+  /// std::runtime_error if that takes more than half a minute.
   void start();
-  /// Publishes shapes at `rate` for `seconds`, whether or not answers come.
+  /// Publishes shapes at `rate` [Hz] for `seconds`, whether or not answers arrive.
   LatencyReport run(double rate, double seconds);
-  /// Asks static queries over one connection, one after the other.
+  /// Asks static queries for `seconds`, one after the other, over one persistent connection.
   LatencyReport ask(double seconds);
 
  private:

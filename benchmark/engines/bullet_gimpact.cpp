@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "box_candidates.hpp"
 #include "bullet_mesh.hpp"
 #include "engine.hpp"
+#include "exact_clip.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -34,7 +34,7 @@ class BulletGimpact : public Engine {
     shape_->getBoxSet()->boxQuery(box, found_);
     faces.clear();
     for (int i = 0; i < found_.size(); ++i) faces.push_back(static_cast<std::uint32_t>(found_[i]));
-    clip_exactly(query, *organ_, *vertices_, faces);
+    keep_faces_that_meet(query, *organ_, *vertices_, faces);
   }
 
  private:

@@ -10,7 +10,7 @@ inline btVector3 bullet_vector(const Eigen::Vector3d& v) {
   return {static_cast<btScalar>(v.x()), static_cast<btScalar>(v.y()), static_cast<btScalar>(v.z())};
 }
 
-/// A view of an organ for Bullet: no vertex is copied.
+/// Shows an organ to Bullet without copying its vertices.
 class BulletMesh {
  public:
   BulletMesh(const OrganSurface& organ, const std::vector<float>& vertices) {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "box_candidates.hpp"
 #include "bullet_mesh.hpp"
 #include "engine.hpp"
+#include "exact_clip.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -26,7 +26,7 @@ class BulletQuantized : public Engine {
     organ_ = &organ;
     mesh_.emplace(organ, rest);
     mesh_->view().calculateAabbBruteForce(low_, high_);
-    // Boxes are stored as shares of this one: it must hold the organ in all its shapes.
+    // Bullet stores each box as fractions of this one, so it must hold the organ in all its shapes.
     const btVector3 air(kAir, kAir, kAir);
     low_ -= air;
     high_ += air;
@@ -45,7 +45,7 @@ class BulletQuantized : public Engine {
     Collector collector(faces);
     tree_.reportAabbOverlappingNodex(&collector, bullet_vector(tool.min()),
                                      bullet_vector(tool.max()));
-    clip_exactly(query, *organ_, *vertices_, faces);
+    keep_faces_that_meet(query, *organ_, *vertices_, faces);
   }
 
  private:

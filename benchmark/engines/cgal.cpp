@@ -4,15 +4,15 @@
 
 #include <iterator>
 
-#include "box_candidates.hpp"
 #include "engine.hpp"
+#include "exact_clip.hpp"
 
 namespace organ_collision::bench {
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-/// A face by its number; its corners are looked up where they are now.
+/// A face, identified by its number. Its corners are looked up in the organ's present shape.
 class Face {
  public:
   using Id = std::uint32_t;
@@ -62,7 +62,7 @@ class Cgal : public Engine {
     const Kernel::Iso_cuboid_3 box({low.x(), low.y(), low.z()}, {high.x(), high.y(), high.z()});
     faces.clear();
     tree_.all_intersected_primitives(box, std::back_inserter(faces));
-    clip_exactly(query, *organ_, *vertices_, faces);
+    keep_faces_that_meet(query, *organ_, *vertices_, faces);
   }
 
  private:

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "box_candidates.hpp"
 #include "engine.hpp"
+#include "exact_clip.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -23,13 +23,13 @@ class Device {
   RTCDevice device_;
 };
 
-/// A scene of one geometry whose primitives have boxes. rtcCollide takes no other kind.
+/// A scene with one user geometry, whose primitives are boxes: rtcCollide accepts no other kind.
 class BoxScene {
  public:
   BoxScene(RTCDevice device, RTCBuildQuality quality)
       : geometry_(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER)), scene_(rtcNewScene(device)) {
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_DYNAMIC);
-    // Only scenes of low quality keep a tree for each geometry, which can then be refitted.
+    // Embree refits only in scenes of low quality, which keep a tree for each geometry.
     rtcSetSceneBuildQuality(scene_, RTC_BUILD_QUALITY_LOW);
     rtcSetGeometryBuildQuality(geometry_, quality);
     rtcAttachGeometry(scene_, geometry_);
@@ -82,7 +82,7 @@ class Embree : public Engine {
     tool_scene_.commit();
     faces.clear();
     rtcCollide(organ_scene_.scene(), tool_scene_.scene(), &Embree::on_collisions, &faces);
-    clip_exactly(query, *organ_, *vertices_, faces);
+    keep_faces_that_meet(query, *organ_, *vertices_, faces);
   }
 
  private:

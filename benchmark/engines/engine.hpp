@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "benchmark/scenes/organ_surface.hpp"
-#include "volume_query.hpp"
+#include "benchmark/scenes/volume_query.hpp"
 
 namespace organ_collision::bench {
 
@@ -14,22 +14,24 @@ class Engine {
  public:
   virtual ~Engine() = default;
 
-  /// The triangles, and the surface at rest as x y z x y z ... [m]: what may be prepared before the
-  /// first shape comes. `organ` outlives the engine.
+  /// Prepares for the organ's triangles, before the first shape arrives. `rest`: its vertices at
+  /// rest, x y z x y z ... [m]. `organ` must outlive the engine.
   virtual void set_topology(const OrganSurface& organ, const std::vector<float>& rest) = 0;
-  /// A new shape, as a message brings it; `vertices` live on until the next.
+  /// Takes a new shape, in the form in which a message delivers it. `vertices` stay valid until the
+  /// next update.
   virtual void update(const SharedVertices& vertices) = 0;
-  /// Replaces `faces` by those that meet the volume, by rising number.
+  /// Replaces `faces` by the sorted numbers of the faces that meet the volume.
   virtual void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) = 0;
 };
 
-/// GL_FEEDBACK behind cluster boxes: what the node does.
+/// The package's `feedback` picker, which the node uses: cluster boxes, outcodes, GL_FEEDBACK.
 std::unique_ptr<Engine> make_ours();
-/// GL_FEEDBACK behind outcodes of all vertices.
+/// GL_FEEDBACK without clusters: outcodes of all vertices choose the faces that are drawn.
 std::unique_ptr<Engine> make_ours_no_clusters();
-/// GL_SELECT, a name and a glBegin for each face: what the paper does.
+/// The package's `select` picker, as in the paper: GL_SELECT, one name and one glBegin for each
+/// face.
 std::unique_ptr<Engine> make_select_paper();
-/// FCL's AABB tree, refitted; the volume as a Convex.
+/// FCL's AABB tree, refitted; the volume is a Convex.
 std::unique_ptr<Engine> make_fcl();
 /// Bullet's GImpact tree, refitted; box query and exact clip.
 std::unique_ptr<Engine> make_bullet_gimpact();
@@ -39,7 +41,7 @@ std::unique_ptr<Engine> make_bullet_quantized();
 std::unique_ptr<Engine> make_embree();
 /// CGAL's AABB tree, rebuilt; box query and exact clip.
 std::unique_ptr<Engine> make_cgal();
-/// Outcodes of all vertices and faces; exact clip of what they leave.
+/// No tree: outcodes of all vertices, then an exact clip of the faces that they do not reject.
 std::unique_ptr<Engine> make_scan();
 
 }  // namespace organ_collision::bench

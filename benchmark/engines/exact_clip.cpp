@@ -14,7 +14,7 @@ double excess(const HalfSpace& half_space, const Vector3d& point) {
   return half_space.normal.dot(point) - half_space.offset;
 }
 
-/// A convex polygon of few corners; each half-space that it is clipped to adds at most one.
+/// A convex polygon with few corners. Clipping to a half-space adds at most one corner.
 class Polygon {
  public:
   void add(const Vector3d& point) { now_[size_++] = point; }
@@ -93,6 +93,15 @@ bool meets(const Triangle& face, const std::vector<HalfSpace>& half_spaces) {
     if (crossed >> k & 1U) polygon.clip(half_spaces[k]);
   }
   return !polygon.is_empty();
+}
+
+void keep_faces_that_meet(const VolumeQuery& query, const OrganSurface& organ,
+                          const std::vector<float>& vertices, std::vector<std::uint32_t>& faces) {
+  const auto misses = [&](std::uint32_t face) {
+    return !meets(corners(organ, vertices, face), query.half_spaces);
+  };
+  faces.erase(std::remove_if(faces.begin(), faces.end(), misses), faces.end());
+  std::sort(faces.begin(), faces.end());
 }
 
 }  // namespace organ_collision::bench

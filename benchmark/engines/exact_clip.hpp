@@ -1,19 +1,25 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "benchmark/scenes/organ_surface.hpp"
+#include "benchmark/scenes/volume_query.hpp"
 #include "geometry/half_space.hpp"
-#include "organ_collision/geometry/organ/triangle_mesh.hpp"
-#include "volume_query.hpp"
 
 namespace organ_collision::bench {
 
-/// The box around what the volume and the organ's box have in common: what is worth asking a tree
-/// of boxes about, as a tool is mostly outside of the organ.
+/// The bounding box of the part of the volume inside the organ's box. Engines with a tree of boxes
+/// are asked about this box: most of a tool's volume is outside of the organ.
 Eigen::AlignedBox3d box_within_organ(const VolumeQuery& query);
 
-/// Whether a face meets the intersection of at most 32 half-spaces: clipped to each in turn, in
-/// double precision. What engines that only know boxes do with the faces in the volume's box.
+/// Whether a face meets the intersection of at most 32 half-spaces. It is clipped to each in turn,
+/// in double precision.
 bool meets(const Triangle& face, const std::vector<HalfSpace>& half_spaces);
+
+/// Sorts `faces`, those that a tree found in the volume's box, and removes those that do not meet
+/// the volume.
+void keep_faces_that_meet(const VolumeQuery& query, const OrganSurface& organ,
+                          const std::vector<float>& vertices, std::vector<std::uint32_t>& faces);
 
 }  // namespace organ_collision::bench

@@ -36,8 +36,8 @@ fcl::Convex<double> convex(const ConvexSolid& solid) {
           static_cast<int>(solid.sides.size()), sides};
 }
 
-/// fcl::collide copies a whole model of axis-aligned boxes before it begins: its parts are called
-/// instead, which do not.
+/// Calls the parts of fcl::collide instead of fcl::collide itself, which first copies the whole
+/// model if its boxes are axis-aligned.
 class Fcl : public Engine {
  public:
   void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {

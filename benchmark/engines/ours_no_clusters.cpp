@@ -8,8 +8,8 @@
 namespace organ_collision::bench {
 namespace {
 
-/// The feedback picker where nothing is known of where faces are: all vertices' outcodes tell which
-/// faces GL has to clip.
+/// The feedback picker without its clusters. The outcodes of all vertices tell which faces GL has
+/// to clip.
 class OursNoClusters : public Engine {
  public:
   void set_topology(const OrganSurface& organ, const std::vector<float>&) override {

@@ -10,13 +10,14 @@
 namespace organ_collision::bench {
 namespace {
 
-constexpr double kRounding = 1e-6;  // [m] more than 32 bits misplace a plane by, at an organ's size
+constexpr double kRounding =
+    1e-6;  // [m] more than the rounding to 32 bits moves a plane, at an organ's size
 
 struct Plane {
   float x, y, z, offset;
 };
 
-/// As many of the eight as there are half-spaces.
+/// The first eight half-spaces at most.
 struct Planes {
   std::array<Plane, 8> plane;
   std::size_t count = 0;
@@ -47,13 +48,13 @@ void plain_outcodes(const float* xyz, std::size_t count, const Planes& planes,
 
 #if defined(__x86_64__)
 
-constexpr std::size_t kGroup = 32;  // vertices whose codes fill a register
+constexpr std::size_t kGroup = 32;  // number of vertices whose codes fill a register
 
 struct Points {
   __m256 x, y, z;
 };
 
-// Four vertices from `low` and four from `high`.
+// Loads four vertices from `low` and four from `high`.
 __attribute__((target("avx2,fma"), always_inline)) inline Points load(const float* low,
                                                                       const float* high) {
   const auto both = [&](int i) __attribute__((target("avx2,fma"), always_inline)) {
@@ -68,7 +69,7 @@ __attribute__((target("avx2,fma"), always_inline)) inline Points load(const floa
           _mm256_shuffle_ps(lower_yz, c, _MM_SHUFFLE(3, 0, 3, 1))};
 }
 
-// Negative where the point is outside.
+// For each point the distance to the plane, negative if the point is outside.
 __attribute__((target("avx2,fma"), always_inline)) inline __m256i room(const Plane& plane,
                                                                        const Points& points) {
   __m256 room = _mm256_set1_ps(plane.offset);
@@ -77,8 +78,8 @@ __attribute__((target("avx2,fma"), always_inline)) inline __m256i room(const Pla
   return _mm256_castps_si256(_mm256_fnmadd_ps(_mm256_set1_ps(plane.z), points.z, room));
 }
 
-// Packing with saturation keeps the sign of a float's bits. It works on halves of registers, hence
-// the order in which the vertices are loaded.
+// Packing with saturation keeps the sign of a float. It works on each half of a register
+// separately, which is why load() interleaves two groups of vertices.
 __attribute__((target("avx2,fma"))) void avx2_outcodes(const float* xyz, std::size_t groups,
                                                        const Planes& planes, std::uint8_t* codes) {
   for (std::size_t group = 0; group < groups; ++group, xyz += 3 * kGroup, codes += kGroup) {

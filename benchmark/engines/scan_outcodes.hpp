@@ -8,12 +8,13 @@
 
 namespace organ_collision::bench {
 
-/// For each of the vertices (x y z x y z ... [m]) a bit for each of the first eight half-spaces
-/// that it is certainly outside of. Eight vertices at a time where the processor has AVX2.
+/// Computes the outcode of each vertex (x y z x y z ... [m]): one bit for each of the first eight
+/// half-spaces, set if the vertex is certainly outside. Uses AVX2 if the processor has it.
 void find_outcodes(const std::vector<float>& vertices, const std::vector<HalfSpace>& half_spaces,
                    std::vector<std::uint8_t>& outcodes);
 
-/// Replaces `faces` by those whose three corners are not all outside of one half-space.
+/// Replaces `faces` by the faces that their outcodes do not reject: no half-space has all three
+/// corners outside.
 void find_survivors(const std::vector<std::uint32_t>& triangles,
                     const std::vector<std::uint8_t>& outcodes, std::vector<std::uint32_t>& faces);
 

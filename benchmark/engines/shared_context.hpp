@@ -4,7 +4,8 @@
 
 namespace organ_collision::bench {
 
-/// One context for all engines that draw: making another current would be timed as well.
+/// The GL context of all engines that draw. With one context each, switching between them would be
+/// part of the measured time.
 inline GlContext& shared_context() {
   static GlContext context;
   return context;

@@ -10,10 +10,10 @@ using Eigen::Vector3d;
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kWristLength = 0.008;         // [m]
-constexpr int kSides = 10, kRings = 25;        // 2 · 10 · 25 faces
+constexpr int kSides = 10, kRings = 25;        // of a jaw: 2 · 10 · 25 faces
 const Vector3d kJawHalf(0.002, 0.0015, 0.01);  // [m]
 
-// Half an ellipsoid's thickness, from the joint outward along z.
+// An ellipsoid that begins at the joint and extends along z.
 LinkPart jaw() {
   std::vector<Vector3d> vertices;
   std::vector<FaceIndices> faces;

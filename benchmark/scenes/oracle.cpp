@@ -7,10 +7,10 @@
 namespace organ_collision::bench {
 namespace {
 
-constexpr double kBand =
-    2e-6;  // [m] around the boundary, where clipping at 32 bits may go either way
+// [m] Within this distance of the boundary, clipping in 32 bits may go either way.
+constexpr double kBand = 2e-6;
 
-/// For each vertex a bit for each half-space that it is beyond by more than the band.
+/// One bit for each half-space that the vertex is outside of by more than the band.
 std::vector<std::uint32_t> outcodes(const VolumeQuery& query, const std::vector<float>& vertices) {
   std::vector<std::uint32_t> codes(vertices.size() / 3, 0U);
   for (std::size_t i = 0; i < codes.size(); ++i) {
@@ -30,8 +30,8 @@ bool contains(const std::vector<std::uint32_t>& sorted, std::uint32_t face) {
 
 }  // namespace
 
-Answer oracle(const VolumeQuery& query, const OrganSurface& organ,
-              const std::vector<float>& vertices) {
+Answer brute_force_answer(const VolumeQuery& query, const OrganSurface& organ,
+                          const std::vector<float>& vertices) {
   const std::vector<std::uint32_t> codes = outcodes(query, vertices);
   Answer answer;
   for (std::uint32_t face = 0; face < organ.face_count(); ++face) {

@@ -3,27 +3,28 @@
 #include <cstdint>
 #include <vector>
 
-#include "benchmark/engines/volume_query.hpp"
 #include "organ_surface.hpp"
+#include "volume_query.hpp"
 
 namespace organ_collision::bench {
 
-/// The faces that meet a volume, by brute force in double precision.
+/// The reference answer to a query. Both lists are sorted.
 struct Answer {
-  std::vector<std::uint32_t> faces;  ///< that certainly do, by rising number
-  std::vector<std::uint32_t> close;  ///< too near its boundary to say for 32-bit clipping
+  std::vector<std::uint32_t> faces;  ///< faces that certainly meet the volume
+  std::vector<std::uint32_t> close;  ///< too close to the boundary for 32 bits: either is right
 };
 
-Answer oracle(const VolumeQuery& query, const OrganSurface& organ,
-              const std::vector<float>& vertices);
+/// Clips every face in double precision.
+Answer brute_force_answer(const VolumeQuery& query, const OrganSurface& organ,
+                          const std::vector<float>& vertices);
 
-/// What an engine got wrong.
+/// The errors in an engine's answer.
 struct Errors {
   std::size_t missed = 0;  ///< faces that meet the volume and were not found
-  std::size_t wrong = 0;   ///< faces found that do not meet it, or found twice
+  std::size_t wrong = 0;   ///< faces found that do not meet the volume, or were found before
 };
 
-/// `found`: by rising number.
+/// `found` must be sorted.
 Errors compare(const std::vector<std::uint32_t>& found, const Answer& answer);
 
 }  // namespace organ_collision::bench

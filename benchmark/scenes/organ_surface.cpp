@@ -16,12 +16,12 @@ void append(OrganSurface& organ, const Eigen::Vector3d& point) {
   for (int k = 0; k < 3; ++k) organ.vertices.push_back(static_cast<float>(point[k]));
 }
 
-/// Rings of vertices between two poles, which are vertices as well.
+/// Rings of vertices between two poles. Each pole is a vertex, too.
 struct Grid {
-  std::uint32_t rings, columns;  // 2 * rings * columns faces
+  std::uint32_t rings, columns;  // the organ has 2 * rings * columns faces
 };
 
-/// `along` in [0, 1] from pole to pole, `around` in [0, 1) once around.
+/// `along`: from pole to pole in [0, 1]. `around`: around the axis in [0, 1).
 Eigen::Vector3d organ_point(double along, double around) {
   const double theta = kPi * along, phi = 2.0 * kPi * around;
   const Eigen::Vector3d direction(std::cos(theta), std::sin(theta) * std::cos(phi),

@@ -6,14 +6,15 @@
 #include <random>
 #include <utility>
 
-#include "surgeon.hpp"
+#include "tool_motions.hpp"
 
 namespace organ_collision::bench {
 namespace {
 
 using Eigen::Vector3d;
 
-// So few that a shape is in the third-level cache, as it is when a message has just brought it.
+// With so few shapes, each is in the third-level cache when it is used, as a shape is that a
+// message has just delivered.
 constexpr std::size_t kShapes = 4;
 constexpr double kPi = 3.14159265358979323846;
 
@@ -31,7 +32,7 @@ Eigen::AlignedBox3d box_of(const std::vector<SharedVertices>& shapes) {
 SceneStep make_step(const Scene& scene, std::size_t shape, const ShaftMotion& motion, double radius,
                     const Eigen::AlignedBox3d& box) {
   const auto checked = [&](const VolumeQuery& query) {
-    return CheckedQuery{query, oracle(query, scene.organ, *scene.shapes[shape])};
+    return CheckedQuery{query, brute_force_answer(query, scene.organ, *scene.shapes[shape])};
   };
   return {shape, checked({{motion.end, motion.end}, radius, box}), checked({motion, radius, box})};
 }
@@ -41,7 +42,7 @@ bool has_usual_hits(const SceneStep& step, std::size_t faces) {
   const auto usual = [&](const CheckedQuery& query) {
     return query.answer.faces.size() >= low && query.answer.faces.size() <= high;
   };
-  return usual(step.fixed) && usual(step.swept);
+  return usual(step.static_query) && usual(step.swept_query);
 }
 
 Answer renumbered(Answer answer, const Shuffle& shuffle) {
@@ -57,20 +58,20 @@ Answer renumbered(Answer answer, const Shuffle& shuffle) {
 std::size_t step_count(std::size_t faces) { return faces < 100'000 ? 64 : 8; }
 
 Scene::Scene(std::size_t faces) : organ(make_organ(faces)) {
-  const Sizes sizes(faces);
+  const SceneScale scale(faces);
   for (std::size_t i = 0; i < kShapes; ++i) {
     shapes.push_back(std::make_shared<std::vector<float>>(
-        deformed(organ.vertices, 2.0 * kPi * i / kShapes, sizes.organ_step)));
+        deformed(organ.vertices, 2.0 * kPi * i / kShapes, scale.organ_step)));
   }
   const Eigen::AlignedBox3d box = box_of(shapes);
-  Surgeon surgeon(organ, sizes);
+  ToolMotions motions(organ, scale);
   while (steps.size() < step_count(faces)) {
     const std::size_t shape = steps.size() % kShapes;
-    const ShaftMotion motion = surgeon.motion(*shapes[shape]);
-    SceneStep step = make_step(*this, shape, motion, sizes.radius, box);
+    const ShaftMotion motion = motions.next(*shapes[shape]);
+    SceneStep step = make_step(*this, shape, motion, scale.radius, box);
     if (!has_usual_hits(step, faces)) continue;
     steps.push_back(std::move(step));
-    rigid_steps.push_back(make_step(*this, 0, motion, sizes.radius, box));
+    rigid_steps.push_back(make_step(*this, 0, motion, scale.radius, box));
   }
 }
 
@@ -84,8 +85,8 @@ Scene Scene::shuffled() const {
   }
   for (std::vector<SceneStep>* all : {&scene.steps, &scene.rigid_steps}) {
     for (SceneStep& step : *all) {
-      step.fixed.answer = renumbered(std::move(step.fixed.answer), shuffle);
-      step.swept.answer = renumbered(std::move(step.swept.answer), shuffle);
+      step.static_query.answer = renumbered(std::move(step.static_query.answer), shuffle);
+      step.swept_query.answer = renumbered(std::move(step.swept_query.answer), shuffle);
     }
   }
   return scene;

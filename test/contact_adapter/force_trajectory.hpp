@@ -18,8 +18,9 @@ namespace organ_collision {
 constexpr double kRadius = 0.005;      // [m]
 constexpr double kStiffness = 1000.0;  // [N/m]
 
-/// A surface over a grid of n by m cells, each of two faces, at `place(u, v)`, u and v in [0, 1];
-/// the faces look along the cross product of the directions of growing u and v.
+/// A surface over a grid of n by m cells with two faces each. Its points are `place(u, v)` [m],
+/// with u and v in [0, 1]. The face normals point along the cross product of the u and v
+/// directions.
 template <typename Place>
 TriangleMesh grid_mesh(int n, int m, const Place& place) {
   std::vector<float> vertices;
@@ -39,8 +40,9 @@ TriangleMesh grid_mesh(int n, int m, const Place& place) {
   return {vertices, triangles};
 }
 
-/// Two plane sheets of 40 mm that meet along the y axis, 160 mm long; their directions away from it
-/// are `left` and `right` [rad] above the x axis' negative and positive half. Cells of `cell` [m].
+/// Two plane sheets that meet along the y axis, each 40 mm wide and 160 mm long. The left one rises
+/// by the angle `left` [rad] above the negative x axis, the right one by `right` above the positive
+/// x axis. `cell`: size of the grid's cells [m].
 inline TriangleMesh folded_sheet(double left, double right, double cell) {
   const int half = static_cast<int>(std::lround(0.04 / cell));
   const int along = static_cast<int>(std::lround(0.16 / cell));
@@ -51,18 +53,18 @@ inline TriangleMesh folded_sheet(double left, double right, double cell) {
   });
 }
 
-/// The force [N] that a law makes of each answer, one after the other.
+/// A force law: maps each answer of a sequence to a force [N]. It may remember earlier answers.
 using ForceLaw = std::function<Eigen::Vector3d(const ContactArray&)>;
 
 struct ForceStep {
   ShaftAxis axis;
   Eigen::Vector3d force;
-  double change;  ///< [N] since the last step
-  double way;     ///< [m] of the end of the axis that moved farther
+  double change;  ///< [N] of the force since the last step
+  double way;     ///< [m] that the axis has moved since then: the larger way of its two ends
 };
 
-/// A shaft that goes through `poses`, against an organ at rest: queried step by step as the node
-/// does, the first static, the others swept.
+/// The forces on a shaft that moves through `poses`, with the organ at rest. The queries are those
+/// of the node: the first is static, the others are swept.
 inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
                                            const TriangleMesh& organ, const ForceLaw& law) {
   CollisionQuery query;
@@ -92,7 +94,8 @@ inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
   return steps;
 }
 
-/// Poses from one to the next in steps of at most `most` [m] of either end.
+/// Interpolates poses between `corners`, so that neither end of the axis moves by more than `most`
+/// [m] from one pose to the next.
 inline std::vector<ShaftAxis> way_through(const std::vector<ShaftAxis>& corners, double most) {
   std::vector<ShaftAxis> poses = {corners.front()};
   for (std::size_t i = 1; i < corners.size(); ++i) {

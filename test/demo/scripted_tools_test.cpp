@@ -76,7 +76,7 @@ TEST(ScriptedTools, StabberPassesThroughTheLobeWithinOneStepAndRestsOutside) {
 }
 
 TEST(ScriptedTools, StabFitsBetweenTwoStepsOfTheSimulator) {
-  EXPECT_LE(kStabDuration, kPeriod);
+  static_assert(kStabDuration <= kPeriod);
   const auto& tip = tool("stabber").tip;
   for (int step = 0; step < 125 * 6; ++step) {
     const double moved = (tip((step + 1) / 125.0) - tip(step / 125.0)).norm();

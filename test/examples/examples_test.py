@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Both least simulators are touched by their probe, and both askers get their answer."""
+"""In both minimal simulators the probe touches the tissue, and both ask programs get an answer."""
 
 import signal
 import subprocess
@@ -16,7 +16,7 @@ LIMIT = 20.0  # [s]
 
 
 def example(name):
-    """The path of examples/NAME.py, or of the program made from examples/NAME.cpp."""
+    """The path of examples/NAME.py, or of the program built from examples/NAME.cpp."""
     return roslib.packages.find_node('organ_collision', name)[0]
 
 
@@ -39,7 +39,7 @@ class ExamplesTest(unittest.TestCase):
     def check(self, simulator, asker, answer):
         simulation = subprocess.Popen([example(simulator)])
         try:
-            self.assertTrue(self.all_seen.wait(LIMIT), 'waited in vain for %s' % self.awaited)
+            self.assertTrue(self.all_seen.wait(LIMIT), 'waited without success for %s' % self.awaited)
             printed = subprocess.check_output([example(asker)], text=True, timeout=LIMIT)
             self.assertEqual(printed.strip(), answer)
         finally:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The grasper's files come from their sources: jaw.stl from its script and, where xacro is installed, grasper.urdf from
-grasper.urdf.xacro. The jaw is closed.
+"""The grasper's files are up to date: jaw.stl with its script and, if xacro is installed, grasper.urdf with
+grasper.urdf.xacro. The surface of the jaw is closed.
 
 Usage: grasper_files_test.py SOURCE_FOLDER XACRO
 """
@@ -23,7 +23,7 @@ def read(*path):
 
 
 def elements(urdf):
-    """Without comments and layout."""
+    """The XML elements of a file, without comments and layout."""
     return ElementTree.canonicalize(urdf, strip_text=True)
 
 

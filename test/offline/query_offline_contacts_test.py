@@ -4,11 +4,9 @@
 import random
 import unittest
 
-import oracle
-import paper_oracle
-import scenes
 from program import ProgramCase, motion_line, motions_text, obj_text
-from vectors import length, lerp, sub
+from support import oracle, paper_oracle, scenes
+from support.vectors import length, lerp, sub
 
 FILES = ('--mesh', 'organ.obj', '--motions', 'motions.csv')
 TOLERANCE = 1e-7  # [m], and as a share of the step

@@ -6,8 +6,8 @@ import subprocess
 import time
 import unittest
 
-import scenes
 from program import CONTACTS_HEADER, PROGRAM, ProgramCase, motion_line, motions_text, obj_text
+from support import scenes
 
 FILES = ('--mesh', 'organ.obj', '--motions', 'motions.csv')
 TROCAR, BEFORE, TIP = (0.01, 0.02, 0.2), (0.0, 0.03, 0.01), (0.02, 0.01, -0.01)

@@ -22,7 +22,7 @@ TriangleMesh mesh_of(const Triangle& face) {
   return {vertices, {0, 1, 2}};
 }
 
-/// [m] Largest coordinate of the face relative to `origin`.
+/// The largest coordinate of the face relative to `origin` [m].
 double extent(const Triangle& face, const Vector3d& origin) {
   double largest = 0.0;
   for (const Vector3d& corner : face)

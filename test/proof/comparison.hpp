@@ -11,24 +11,24 @@
 
 namespace organ_collision::oracle {
 
-/// [m] Farthest that an answer may be from the exact one.
+/// The largest difference between an answer and the exact one that rounding may explain [m].
 inline constexpr double kBand = 1e-9;
 
-/// Puts the same questions to the library and to the oracles. Prints every trial on which they
-/// differ by more than the band.
+/// Asks the library and the oracles the same questions. Prints every trial in which they differ by
+/// more than the tolerance.
 class Comparison {
  public:
   Comparison();
 
-  /// The tool at rest at the end of its motion, or swept, against exact distances; and whether both
-  /// pickers find the face if either says that it touches.
+  /// Compares with exact distances: the tool at rest at the end of its motion, or swept. If the
+  /// library or the oracle says that the face touches, both pickers must find it.
   Tally at_rest(const Trial& trial);
   Tally swept(const Trial& trial);
 
-  /// What both pickers find against the exact half-spaces of a volume.
+  /// Compares what both pickers find with the exact half-spaces of a volume.
   Tally volume(const ViewingVolume& volume, const Trial& trial);
 
-  /// Face and trocar move as well: the whole query against search.
+  /// Compares the whole query with a search, while the face and the trocar move, too.
   Tally moving(const Trial& trial, Random& random);
 
  private:

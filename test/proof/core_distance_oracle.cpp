@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The least value of a convex function on [0, 1] (Kiefer 1953).
+/// The minimum of a convex function on [0, 1], by golden section search (Kiefer 1953).
 double least_value(const std::function<double(double)>& function) {
   constexpr double kGolden = 0.61803398874989484820;
   double low = 0.0, high = 1.0;
@@ -47,7 +47,7 @@ double distance_of_cylinder(const ConvexCore& core, const Vector3d& point) {
                     std::max(0.0, beside - core.rim.col(0).norm()));
 }
 
-/// A box's core has its corners as LinkPart::box has them: the last axis is the fastest.
+/// The sides of a box, by its corners in the order of LinkPart::box: z changes first, x last.
 constexpr std::array<std::array<int, 4>, 6> kSides = {
     {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}}};
 
@@ -75,7 +75,7 @@ double distance_of_box(const ConvexCore& core, const Triangle& face) {
 
 double distance(const ConvexCore& core, const Triangle& face) {
   if (core.is_cylinder()) {
-    // Convex in the place on the first side, since the places on the second are in proportion.
+    // The inner minimum is a convex function of u, because `across` is linear in u.
     return least_value([&](double u) {
       const Vector3d from = face[0] + u * (face[1] - face[0]);
       const Vector3d across = (1.0 - u) * (face[2] - face[0]);

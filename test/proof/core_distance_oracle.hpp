@@ -5,12 +5,12 @@
 
 namespace organ_collision::oracle {
 
-/// [m] Distance of a link's core and a face: of a ball's, a triangle's or a box's core exactly,
-/// from exact distances of triangles; of a cylinder's to 1e-11 m or so, by golden sections over the
-/// face of the distance from a point.
+/// Distance between a link's core and a face [m]. For the core of a ball, a triangle or a box it is
+/// exact, computed from exact distances between triangles. For a cylinder it is accurate to about
+/// 1e-11 m, found by golden section search over the points of the face.
 double distance(const ConvexCore& core, const Triangle& face);
 
-/// [m] Of a point; 0 in the core. Of a triangle's core: from the triangle.
+/// Distance between a link's core and a point [m], 0 inside the core.
 double distance(const ConvexCore& core, const Eigen::Vector3d& point);
 
 }  // namespace organ_collision::oracle

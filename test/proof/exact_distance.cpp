@@ -7,9 +7,10 @@
 #include <optional>
 #include <utility>
 
-// Two triangles are nearest at two corners, a corner and an edge, two edges, a corner and the
-// inside of the other, or where an edge pierces the other. Each of these distances is one between
-// real points, so that the least of them is the distance. No number is ever divided or rounded.
+// The closest points of two triangles are at two corners, at a corner and an edge, at two edges, at
+// a corner of one and in the interior of the other, or where an edge of one pierces the other. Each
+// of these cases gives the distance of two points of the triangles, so the smallest is the distance
+// of the triangles. No number is ever divided or rounded.
 
 namespace organ_collision::oracle {
 namespace {
@@ -45,8 +46,8 @@ Corners<N> corners(const Triangle& t) {
   return {vector(t[0]), vector(t[1]), vector(t[2])};
 }
 
-/// Calls `visit(numerator, denominator)` with the squared distance of every pair of features that
-/// may be the nearest, until it returns true.
+/// Calls `visit(numerator, denominator)` with the squared distance of each pair of features that
+/// may contain the closest points, until it returns true.
 template <class N, class Visit>
 class Features {
  public:
@@ -82,7 +83,7 @@ class Features {
     return visit_(height * height, across2);
   }
 
-  /// Corners and edges of `other` over and through the inside of `face`.
+  /// Visits the corners of `other` above the interior of `face`, and its edges that pierce it.
   bool inside(const Corners<N>& face, const Corners<N>& other) {
     const Vector<N> normal = cross(face[1] - face[0], face[2] - face[0]);
     const N normal2 = square(normal);
@@ -130,7 +131,7 @@ bool within_as(const Triangle& a, const Triangle& b, double radius) {
   return Features<N, decltype(near)>(first, second, near).any();
 }
 
-/// The same with intervals: no answer where rounding could change it.
+/// The same by interval arithmetic. Returns nothing if rounding could change the answer.
 std::optional<bool> within_by_intervals(const Triangle& a, const Triangle& b, double radius) {
   const CGAL::Protect_FPU_rounding<true> protect;
   try {

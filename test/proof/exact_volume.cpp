@@ -17,7 +17,7 @@ struct Point {
   Number x, y, z;
 };
 
-/// Sutherland and Hodgman's clip of the face by one half-space after the other.
+/// Clips the face by one half-space after the other (Sutherland and Hodgman 1974).
 template <class N>
 bool meets_as(const Triangle& face, const Eigen::Vector3d& origin,
               const std::vector<HalfSpace>& half_spaces) {
@@ -29,16 +29,16 @@ bool meets_as(const Triangle& face, const Eigen::Vector3d& origin,
   for (const HalfSpace& half_space : half_spaces) {
     const N a(half_space.normal.x()), b(half_space.normal.y()), c(half_space.normal.z());
     const N offset(half_space.offset);
-    std::vector<N> heights;
-    for (const Point<N>& p : polygon) heights.push_back(a * p.x + b * p.y + c * p.z - offset);
+    std::vector<N> excess;
+    for (const Point<N>& p : polygon) excess.push_back(a * p.x + b * p.y + c * p.z - offset);
     std::vector<Point<N>> inside;
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const std::size_t next = (i + 1) % polygon.size();
-      const bool here = heights[i] <= N(0), there = heights[next] <= N(0);
+      const bool here = excess[i] <= N(0), there = excess[next] <= N(0);
       const Point<N>&p = polygon[i], &q = polygon[next];
       if (here) inside.push_back(p);
       if (here == there) continue;
-      const N t = heights[i] / (heights[i] - heights[next]);
+      const N t = excess[i] / (excess[i] - excess[next]);
       inside.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)});
     }
     polygon = std::move(inside);
@@ -47,7 +47,7 @@ bool meets_as(const Triangle& face, const Eigen::Vector3d& origin,
   return true;
 }
 
-/// The same with intervals: no answer where rounding could change it.
+/// The same by interval arithmetic. Returns nothing if rounding could change the answer.
 std::optional<bool> meets_by_intervals(const Triangle& face, const Eigen::Vector3d& origin,
                                        const std::vector<HalfSpace>& half_spaces) {
   const CGAL::Protect_FPU_rounding<true> protect;
@@ -58,7 +58,7 @@ std::optional<bool> meets_by_intervals(const Triangle& face, const Eigen::Vector
   }
 }
 
-/// Where a perspective camera stands: x, y and w are zero there.
+/// The eye of a perspective camera: the point where x, y and w are zero in clip coordinates.
 Eigen::Vector3d eye(const Eigen::Matrix4d& clip) {
   Eigen::Matrix<double, 3, 4> rows;
   rows << clip.row(0), clip.row(1), clip.row(3);
@@ -79,7 +79,7 @@ std::vector<HalfSpace> half_spaces(const ViewingVolume& volume, double extent, d
   for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
     planes.push_back(volume.half_space(i));
   }
-  // w is proportional to the depth before the eye in perspective, 1 otherwise.
+  // In a perspective view, w is proportional to the depth in front of the eye. Otherwise, it is 1.
   const auto w = [&](const HalfSpace& plane) {
     return volume.clip().row(3).dot((plane.offset * plane.normal).homogeneous());
   };

@@ -7,13 +7,14 @@
 
 namespace organ_collision::oracle {
 
-/// Whether a face, in coordinates shifted to `origin`, has a point in all half-spaces, exactly.
+/// Whether a face has a point in all half-spaces, by exact arithmetic. The half-spaces are relative
+/// to `origin` [m].
 bool meets(const Triangle& face, const Eigen::Vector3d& origin,
            const std::vector<HalfSpace>& half_spaces);
 
-/// The half-spaces of a volume, each moved outward by `share` of what 32-bit clipping may misplace
-/// it for coordinates up to `extent` [m]: 16 roundings of the largest coordinate, seen from a
-/// perspective camera's eye, which at its far plane count far / near times.
+/// The half-spaces of a volume, each moved outward by `share` times the error of 32-bit clipping.
+/// For coordinates up to `extent` [m], this error is 16 roundings of the largest coordinate,
+/// measured from the eye of a perspective camera, and far / near times as much at its far plane.
 std::vector<HalfSpace> half_spaces(const ViewingVolume& volume, double extent, double share);
 
 }  // namespace organ_collision::oracle

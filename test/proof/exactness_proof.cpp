@@ -1,6 +1,6 @@
-// Measures the library against exact arithmetic: capsules at rest and swept, the pickers, the
-// half-spaces of the viewing volumes; and moving organs against search. Ends with 1 if anything
-// differs by more than the stated band, or if a picker misses a face.
+// Measures the library against oracles. Capsules at rest and swept, the pickers and the half-spaces
+// of the viewing volumes are compared with exact arithmetic, and moving organs with a search. Exits
+// with 1 if anything differs by more than the stated tolerance, or if a picker misses a face.
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
@@ -14,7 +14,7 @@
 namespace organ_collision::oracle {
 namespace {
 
-/// A line on stderr about once a second.
+/// Prints a line on stderr about once a second.
 class Progress {
  public:
   void show(const std::string& what, long done, long all) {
@@ -30,7 +30,7 @@ class Progress {
 
 using Tallies = std::map<std::string, Tally>;
 
-/// Our volume, and the paper's, where they exist for the motion.
+/// Compares our volume and those of the paper's volumes that exist for the motion.
 void compare_volumes(const Trial& trial, Comparison& comparison, Tallies& tallies) {
   const ShaftMotion& motion = trial.motion;
   const auto compare = [&](const char* name, const ViewingVolume& volume) {
@@ -44,7 +44,7 @@ void compare_volumes(const Trial& trial, Comparison& comparison, Tallies& tallie
   compare("paper's naive", paper_naive_volume(motion, trial.radius));
 }
 
-/// Prints the tables; whether there was nothing but agreement.
+/// Prints the tables. Returns whether the library and the oracles agreed on everything.
 bool prove(long pairs, unsigned long seed) {
   const std::vector<std::string>& kinds = trial_kinds();
   const long each = (pairs + static_cast<long>(kinds.size()) - 1) / static_cast<long>(kinds.size());

@@ -12,11 +12,13 @@ using Eigen::Vector3d;
 
 class Search {
  public:
-  /// `distance` at a time of the leg [m], and how much it changes at most in the whole leg [m].
+  /// `distance`: the distance at a time of the leg [m]. `speed`: the most that it changes in the
+  /// whole leg [m].
   Search(std::function<double(double)> distance, double speed, double radius, double slack)
       : distance_(std::move(distance)), speed_(speed), radius_(radius), slack_(slack) {}
 
-  /// Looks at the interval, earlier half first, until it knows when they surely meet.
+  /// Searches the interval, its earlier half first, until a time is found at which they certainly
+  /// meet.
   void look(double from, double to) {
     const double half = 0.5 * (to - from), middle = from + half;
     const double gap = distance_(middle) - radius_;
@@ -36,7 +38,7 @@ class Search {
   }
 
  private:
-  /// Where face and core slide along each other, it then no longer says for certain.
+  /// Ends the search when face and core slide along each other. `certainly` may then be missing.
   static constexpr int kMostLooks = 200'000;
 
   const std::function<double(double)> distance_;
@@ -54,14 +56,14 @@ Triangle at(const FaceMotion& face, double time) {
           between(face.start[2], face.end[2], time)};
 }
 
-/// [m] In the whole leg, of the fastest corner.
+/// How far the fastest corner moves in the whole leg [m].
 double speed(const FaceMotion& face) {
   double corner = 0.0;
   for (int i = 0; i < 3; ++i) corner = std::max(corner, (face.end[i] - face.start[i]).norm());
   return corner;
 }
 
-/// [m] Of the core's point that is farthest from the link's origin.
+/// An upper bound on how far any point of the core moves in the whole leg [m].
 double speed(const LinkTrial& trial) {
   double reach = 0.0;
   for (std::size_t i = 0; i < trial.core.count; ++i) {

@@ -8,22 +8,23 @@
 
 namespace organ_collision::oracle {
 
-/// The first times of a leg at which a face is surely and may be within a radius of the core.
+/// Bounds on the first time of a leg, in [0, 1], at which a face is within a radius of the core.
 struct FirstTime {
-  std::optional<double> certainly;  ///< the distance is at most the radius - slack here
-  std::optional<double> possibly;   ///< before this, it is more than the radius + slack
+  std::optional<double> certainly;  ///< at this time, the distance is at most radius - slack
+  std::optional<double> possibly;   ///< before this time, it is more than radius + slack
 };
 
-/// By halving: nothing moves faster than its fastest corner, so that the distance amid an interval
-/// bounds those in it. `slack` [m] is where it stops.
+/// Searches by bisection. Nothing moves faster than the fastest corner, so the distance in the
+/// middle of an interval bounds the distances in the whole interval. `slack`: where the bisection
+/// stops [m].
 FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, double radius,
                             double slack);
 
-/// The same of a trial's core and a face, with the library's distances, which have their own test,
-/// between poses by quaternions.
+/// The same for the core of a trial. It uses the library's distances, which have their own test,
+/// and interpolates poses by quaternions.
 FirstTime first_time_within(const LinkTrial& trial, const FaceMotion& face, double slack);
 
-/// T_organ_link of a trial at a time of the leg, by quaternions.
+/// T_organ_link of a trial at a time of the leg in [0, 1], interpolated by quaternions.
 Eigen::Isometry3d pose_at(const LinkTrial& trial, double time);
 
 }  // namespace organ_collision::oracle

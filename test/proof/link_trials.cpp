@@ -18,15 +18,15 @@ Vector3d random_size(Random& random) {
   return {random.scale(1e-4, 0.1), random.scale(1e-4, 0.1), random.scale(1e-4, 0.1)};
 }
 
-/// A point of the core.
+/// A random point of the core.
 Vector3d point_of(const ConvexCore& core, Random& random) {
   const double share = random.uniform(0.0, 1.0);
   return share * core.support(random.direction()) +
          (1.0 - share) * core.support(random.direction());
 }
 
-/// The core at some time of the trial.
-ConvexCore core_amid(const LinkTrial& trial, Random& random) {
+/// The core at a random time of the trial.
+ConvexCore core_at_random_time(const LinkTrial& trial, Random& random) {
   return trial.motion().at(random.chance(0.3) ? 0.0 : random.uniform(0.0, 1.0)) * trial.core;
 }
 
@@ -35,11 +35,12 @@ Triangle face_near(const Vector3d& point, double size, Random& random) {
           point + size * random.direction()};
 }
 
-/// A face of `size` within some radii of the core's surface.
+/// A face of this size, within a few radii of the core's surface.
 Triangle face_beside(const LinkTrial& trial, double size, Random& random) {
   const Vector3d outward = random.direction();
   const double gap = std::max(trial.radius, 1e-3) * random.uniform(0.0, 2.0);
-  return face_near(core_amid(trial, random).support(outward) + gap * outward, size, random);
+  return face_near(core_at_random_time(trial, random).support(outward) + gap * outward, size,
+                   random);
 }
 
 void random_face(LinkTrial& trial, Random& random) {
@@ -48,7 +49,7 @@ void random_face(LinkTrial& trial, Random& random) {
 
 Vector3d on_lattice(const Vector3d& point) { return (point * 2048.0).array().round() / 2048.0; }
 
-/// Axes, corners and edges along and on each other, exactly; the link moves without turning.
+/// Axes, corners and edges that are exactly parallel or coincide. The link does not rotate.
 void lattice(LinkTrial& trial, Random& random) {
   const auto steps = [&](int low, int high) {
     return Vector3d(random.integer(low, high), random.integer(low, high),
@@ -64,7 +65,7 @@ void lattice(LinkTrial& trial, Random& random) {
   } else {
     for (Vector3d& point : trial.core.points) point = steps(-16, 16) / 256.0;
   }
-  Eigen::Matrix3d turn;  // about (1, 1, 1): exact
+  Eigen::Matrix3d turn;  // rotates about (1, 1, 1) by 120 degrees, without rounding
   turn << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   trial.start = Isometry3d::Identity();
   if (random.chance(0.5)) trial.start.linear() = turn;
@@ -93,12 +94,12 @@ void segment_or_point(LinkTrial& trial, Random& random) {
   if (random.chance(0.3)) trial.face[0] = trial.face[1] = trial.face[2];
 }
 
-/// The core is beside its inside, not its corners.
+/// The face's interior is closest to the core, not a corner or an edge.
 void huge_face(LinkTrial& trial, Random& random) {
   const double size = random.scale(0.2, 10.0);
   const Triangle small = face_beside(trial, 1e-3, random);
-  const Vector3d amid = (small[0] + small[1] + small[2]) / 3.0;
-  for (int i = 0; i < 3; ++i) trial.face[i] = amid + size * (small[i] - amid).normalized();
+  const Vector3d centre = (small[0] + small[1] + small[2]) / 3.0;
+  for (int i = 0; i < 3; ++i) trial.face[i] = centre + size * (small[i] - centre).normalized();
 }
 
 void tiny_face(LinkTrial& trial, Random& random) {
@@ -110,15 +111,15 @@ void at_rest(LinkTrial& trial, Random& random) {
   random_face(trial, random);
 }
 
-/// Through the core, or wholly in it.
+/// The face passes through the core, or lies wholly in it.
 void pierced(LinkTrial& trial, Random& random) {
-  const Vector3d inside = point_of(core_amid(trial, random), random);
+  const Vector3d inside = point_of(core_at_random_time(trial, random), random);
   trial.face = face_near(inside, random.scale(1e-6, 0.05), random);
 }
 
-/// A face along a side that the core has, or nearly.
+/// A face that is parallel, or nearly so, to a side of the core.
 void along_a_side(LinkTrial& trial, Random& random) {
-  const ConvexCore core = core_amid(trial, random);
+  const ConvexCore core = core_at_random_time(trial, random);
   const Vector3d u = core.points[core.count - 1] - core.points[0];
   const Vector3d v = core.is_cylinder() ? Vector3d(core.rim.col(0))
                                         : Vector3d(core.points[core.count / 2] - core.points[0]);
@@ -128,7 +129,7 @@ void along_a_side(LinkTrial& trial, Random& random) {
   }
 }
 
-/// The organ a kilometre from the frame's origin.
+/// The organ is a kilometre away from the frame's origin.
 void far_away(LinkTrial& trial, Random& random) {
   const Vector3d shift = 1e3 * random.direction();
   trial.start.pretranslate(shift);

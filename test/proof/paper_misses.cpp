@@ -1,6 +1,6 @@
-// Prints how many faces that the swept capsule touches the paper's viewing volume misses, and how
-// many ours does: random small faces near a 5 mm tool that moves one step. Ends with 1 if ours
-// misses any.
+// Prints how many of the faces that a swept capsule touches are missed by the paper's viewing
+// volume, and how many by ours. The faces are small, random, and near a 5 mm tool that moves by one
+// step. Exits with 1 if ours misses any.
 #include <algorithm>
 #include <iomanip>
 #include <iostream>
@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 
 constexpr double kRadius = 5e-3;  // [m]
 constexpr int kMotions = 40;
-constexpr int kFaces = 500;  // near each motion
+constexpr int kFaces = 500;  // number of faces near each motion
 
-/// Unit, of the tip's motion, for a tool along `axis`.
+/// A unit vector: the direction of the tip's motion, for a tool along `axis`.
 Vector3d step_direction(const std::string& name, const Vector3d& axis, Random& random) {
   const Vector3d along = axis.normalized();
   const Vector3d any = random.direction();
@@ -48,10 +48,10 @@ TriangleMesh faces_near(const ShaftMotion& motion, Random& random) {
 
 struct Misses {
   int touched = 0, by_paper = 0, by_us = 0;
-  double deepest = 0.0;  ///< [m] penetration of the face that the paper misses
+  double deepest = 0.0;  ///< [m] largest penetration of a face that the paper's volume misses
 };
 
-class Count {
+class MissCounter {
  public:
   Misses count(const std::string& direction, double step, Random& random) {
     Misses misses;
@@ -96,18 +96,18 @@ class Count {
   CollisionResult result_;
 };
 
-/// Prints the table; whether ours misses none.
+/// Prints the table. Returns whether our volume misses no face.
 bool print_table() {
   std::cout
       << "| motion | step [mm] | touched faces | missed by the paper's volume | of it, deepest "
          "[mm] | missed by ours |\n|---|---|---|---|---|---|\n"
       << std::fixed;
-  Count count;
+  MissCounter counter;
   Random random(1);
   bool none = true;
   for (const char* direction : {"sideways", "random", "along the axis", "oblique"}) {
     for (const double step : {0.0, 0.001, 0.005, 0.02, 0.05, 0.1, 0.2}) {
-      const Misses misses = count.count(direction, step, random);
+      const Misses misses = counter.count(direction, step, random);
       none = none && misses.by_us == 0;
       std::cout << "| " << direction << " | " << std::setprecision(0) << 1e3 * step << " | "
                 << misses.touched << " | " << misses.by_paper << " (" << std::setprecision(1)

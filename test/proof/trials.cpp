@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Tools of an organ's size: trocar some 0.2 m away, steps from nothing to a stab.
+/// Tools at the scale of an organ: the trocar is about 0.2 m away, and a step is anything from no
+/// motion to a stab.
 ShaftMotion random_motion(Random& random) {
   const Vector3d trocar = random.point(0.15);
   const Vector3d previous = random.point(0.15);
@@ -25,7 +26,7 @@ ShaftMotion random_motion(Random& random) {
   return {{trocar, previous}, {trocar, previous + step * along}};
 }
 
-/// A place in the swept triangle.
+/// A random point of the swept triangle.
 Vector3d swept_point(const ShaftMotion& motion, Random& random) {
   return motion.at(random.uniform(0.0, 1.0)).at(random.uniform(0.0, 1.0));
 }
@@ -35,7 +36,7 @@ Triangle face_near(const Vector3d& point, double size, Random& random) {
           point + size * random.direction()};
 }
 
-/// A face of `size` within some radii of the swept axis.
+/// A face of this size, within a few radii of the swept axis.
 Triangle face_beside(const Trial& trial, double size, Random& random) {
   const double gap = trial.radius * random.uniform(0.0, 2.0);
   return face_near(swept_point(trial.motion, random) + gap * random.direction(), size, random);
@@ -45,7 +46,7 @@ void random_face(Trial& trial, Random& random) {
   trial.face = face_beside(trial, random.scale(1e-4, 0.05), random);
 }
 
-/// Points of a lattice in a plane, so that all that lie in the plane do so exactly.
+/// Points of a lattice in a plane, so that they lie in the plane without rounding.
 class LatticePlane {
  public:
   explicit LatticePlane(Random& random) {
@@ -80,13 +81,13 @@ void parallel(Trial& trial, Random& random) {
   const Vector3d shift =
       Vector3d(random.integer(-8, 8), random.integer(-8, 8), random.integer(-8, 8)) / 2048.0;
   for (Vector3d& corner : trial.face) corner += shift;
-  if (random.chance(0.5)) {  // an edge along the axis
+  if (random.chance(0.5)) {  // an edge lies along the axis
     const ShaftAxis& axis = random.chance(0.5) ? trial.motion.start : trial.motion.end;
     trial.face[1] = trial.face[0] + 0.5 * random.integer(-4, 4) * (axis.tip - axis.trocar);
   }
 }
 
-/// Tool points that are also corners of the face, or lie on its edges.
+/// Points of the tool are also corners of the face, or lie on its edges.
 void shared_corner(Trial& trial, Random& random) {
   random_face(trial, random);
   trial.face = rounded(trial.face);
@@ -101,7 +102,7 @@ void shared_corner(Trial& trial, Random& random) {
     case 2:
       trial.motion.end.tip = corner;
       break;
-    default: {  // in the middle of the axis
+    default: {  // a corner is in the middle of the axis
       const ShaftAxis& axis = random.chance(0.5) ? trial.motion.start : trial.motion.end;
       const Vector3d half = axis.tip - corner;
       trial.motion.start.trocar = trial.motion.end.trocar = corner - half;
@@ -133,12 +134,12 @@ void segment_or_point(Trial& trial, Random& random) {
   if (random.chance(0.3)) trial.face[0] = trial.face[1] = trial.face[2];
 }
 
-/// The tool is beside its inside, not its corners.
+/// The face's interior is closest to the tool, not a corner or an edge.
 void huge_face(Trial& trial, Random& random) {
   const double size = random.scale(0.2, 10.0);
   const Triangle small = face_beside(trial, trial.radius, random);
-  const Vector3d amid = (small[0] + small[1] + small[2]) / 3.0;
-  for (int i = 0; i < 3; ++i) trial.face[i] = amid + size * (small[i] - amid).normalized();
+  const Vector3d centre = (small[0] + small[1] + small[2]) / 3.0;
+  for (int i = 0; i < 3; ++i) trial.face[i] = centre + size * (small[i] - centre).normalized();
 }
 
 void tiny_face(Trial& trial, Random& random) {
@@ -156,7 +157,7 @@ void at_rest(Trial& trial, Random& random) {
   random_face(trial, random);
 }
 
-/// Trocar and both tips on a line, through the trocar too.
+/// The trocar and both tips are on one line. The tip may pass the trocar.
 void along_axis(Trial& trial, Random& random) {
   const Vector3d trocar = trial.motion.start.trocar;
   trial.motion.end.tip = trocar + random.uniform(-1.5, 2.0) * (trial.motion.start.tip - trocar);
@@ -169,7 +170,7 @@ void pierced(Trial& trial, Random& random) {
   trial.face = face_near(axis.at(random.uniform(0.0, 1.0)), random.scale(1e-4, 0.05), random);
 }
 
-/// The organ a kilometre from the frame's origin.
+/// The organ is a kilometre away from the frame's origin.
 void far_away(Trial& trial, Random& random) {
   const Vector3d shift = 1e3 * random.direction();
   for (ShaftAxis* axis : {&trial.motion.start, &trial.motion.end}) {

@@ -20,7 +20,7 @@ class Random {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  /// As many of each order of magnitude.
+  /// Logarithmically uniform: every order of magnitude is equally likely.
   double scale(double low, double high);
   int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
   bool chance(double probability) { return uniform(0.0, 1.0) < probability; }
@@ -32,28 +32,29 @@ class Random {
   std::mt19937_64 engine_;
 };
 
-/// A face and a tool that passes it; the trocar rests, the face's corners are 32-bit floats [m].
+/// A tool that moves past a face. The trocar rests, and the corners of the face are 32-bit floats
+/// [m].
 struct Trial {
   ShaftMotion motion;
   Triangle face;
   double radius;
 };
 
-/// The kinds of trials: how face and tool lie to each other.
+/// Names of the kinds of trials, by the relative position of face and tool.
 const std::vector<std::string>& trial_kinds();
 
-/// A trial of a kind; about half of them with a radius that differs from the distance between face
-/// and swept axis by only 1e-3 to 1e-12 of it.
+/// A trial of this kind. In about half of the trials, the radius differs from the distance between
+/// the face and the swept axis by only 1e-3 to 1e-12 of that distance.
 Trial make_trial(std::size_t kind, Random& random);
 
-/// Corners rounded to 32-bit floats, as in a mesh.
+/// The face with its corners rounded to 32-bit floats, as in a mesh.
 Triangle rounded(const Triangle& face);
 
-/// A motion, a face and a radius with 17 digits, so that it can be repeated: trocar, previous tip,
-/// tip, corners, radius; as one line of the files in test/data.
+/// One line of a file in test/data: trocar, previous tip, tip, corners and radius. It has 17
+/// digits, so the trial can be repeated exactly.
 std::string to_line(const Trial& trial);
 Trial from_line(const std::string& line);
-/// The trials of a file in test/data; lines that begin with # are remarks.
+/// Reads the trials of a file in test/data. Lines that begin with # are comments.
 std::vector<Trial> read_trials(const std::string& file);
 
 }  // namespace organ_collision::oracle

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Bad meshes and vertices: each is refused with its reason, counted, and leaves the last
-good state as it was."""
+"""Bad meshes and vertices. Each is refused with a reason and counted, and the last good state stays
+as it was."""
 
 import sys
 
@@ -9,10 +9,9 @@ import rospy
 from rosgraph_msgs.msg import Log
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, shaft, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, shaft, wait_until
 
 NAN, INFINITY = float('nan'), float('inf')
 SHEET = scenes.sheet(0.1, 4)
@@ -37,7 +36,7 @@ class BadMeshesTest(ContactCase):
         return rospy.Time(cls.seconds)
 
     def assert_good_state(self):
-        """The good organ answers exactly as ever."""
+        """Checks that queries about the good organ are answered as before."""
         result = self.node.query('good', shaft(*AXIS, 0.005))
         self.assertEqual((result.mesh_stamp, result.topology), (GOOD, 1))
         expected = oracle.static_contacts(SHEET, AXIS, 0.005)
@@ -45,7 +44,7 @@ class BadMeshesTest(ContactCase):
         self.assert_contacts(result, expected)
 
     def rejected(self):
-        """How many messages /diagnostics says were refused, for any reason."""
+        """The number of refused messages in /diagnostics, for all reasons together."""
         return sum(
             int(value)
             for key, value in self.node.diagnostics.items()
@@ -53,8 +52,9 @@ class BadMeshesTest(ContactCase):
         )
 
     def refuse(self, messages, *words, status=ContactArray.INVALID_REQUEST):
-        """Each message is refused by `contacts` with this status and a text that holds `words` (the
-        value, what is legal), all are counted, and the good organ is as before."""
+        """Sends each message and checks three things: `contacts` refuses it with this status and a
+        text that contains `words` (the value and what is legal), /diagnostics counts it, and the
+        good organ stays as it was."""
         wait_until(lambda: self.node.diagnostics, 'diagnostics')
         before = self.rejected()
         for publisher, message in messages:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Bad requests: each is answered by its status and a message that names the value, and leaves the
-last good state as it was."""
+"""Bad requests. Each is answered with a status and a message that names the value, and the last
+good state stays as it was."""
 
 import sys
 
@@ -9,10 +9,9 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, shaft
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, shaft
 
 NAN, INFINITY = float('nan'), float('inf')
 SHEET = scenes.sheet(0.1, 4)
@@ -28,7 +27,7 @@ class BadRequestsTest(ContactCase):
         cls.node.wait_for_shape('good', rospy.Time(5))
 
     def assert_good_state(self):
-        """The good organ answers exactly as ever."""
+        """Checks that queries about the good organ are answered as before."""
         expected = oracle.static_contacts(SHEET, AXIS, 0.005)
         self.assertGreater(len(expected), 0)
         self.assert_contacts(self.node.query('good', shaft(*AXIS, 0.005)), expected)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tools that cannot be loaded say so in every answer, and take nothing from the others."""
+"""Tools that cannot be loaded. Every answer about them says so, and the other tools still work."""
 
 import sys
 
@@ -7,14 +7,13 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from link_case import LinkCase, ball_contacts
-from node_client import wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.link_case import LinkCase, ball_contacts
+from support.node_client import wait_until
 
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
 SHAFT, BALL = 0.005, 0.006  # [m] radii
-# Words of each bad tool's message: what is wrong, and where.
+# The words that each bad tool's message must contain: what is wrong, and where.
 FAULTS = {
     'unknown_link': ["'robots/ball'", "'bal' is unknown", "nearest is 'ball'"],
     'no_geometry': ["'robots/ball'", "'base'", 'no collision or visual geometry'],
@@ -48,11 +47,12 @@ class BadToolsTest(LinkCase):
             self.assertIn(word, result.message)
 
     def published(self, tool):
-        """Of the shape of the last step."""
+        """The messages that the node published about the last step's shape."""
         return self.node.contacts.wait_for(self.organ, tool, mesh_stamp=self.stamp)
 
     def check_step(self, before, after):
-        """From one height to the next: the good tools touch, all bad ones say what is wrong."""
+        """Moves the tools from one height to the next. Checks that the good tools touch, and that
+        all bad ones say what is wrong."""
         tools = {'hook': shaft_at(after), 'ball': ball_at(after)}
         results = self.step(SHEET, tools, vertices=True)
         shaft = oracle.swept_contacts(SHEET, shaft_at(before), shaft_at(after), SHAFT)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Hundreds of random messages and requests, mostly malformed, by a fixed seed: the node lives, and
-a good organ among them answers as before."""
+"""Sends hundreds of random messages and requests with a fixed seed, most of them malformed. The
+node must survive, and answers about a good organ must stay the same."""
 
 import random
 import sys
@@ -10,10 +10,9 @@ from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ToolMoti
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, TfSender, shaft, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, TfSender, shaft, wait_until
 
 SHEET = scenes.sheet(0.1, 4)
 AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
@@ -137,7 +136,7 @@ class FuzzTest(ContactCase):
             },
             statuses,
         )
-        # A new organ is taken in behind all of them.
+        # After all of them, a new organ is still accepted.
         self.node.send_mesh('after', SHEET, rospy.Time(6))
         self.node.wait_for_shape('after', rospy.Time(6))
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The example of a grasper: all its links are answered about, and its jaws touch what a naive look
-at their meshes says."""
+"""The grasper example. Answers are about all of its links, and its jaws touch the faces that a
+naive check of their meshes finds."""
 
 import os
 import sys
@@ -12,12 +12,11 @@ import rostest
 from tf2_msgs.msg import TFMessage
 import tf2_ros
 
-from contact_case import ContactCase, xyz
-from node_client import ContactLog, wait_until
-from rigid_mesh import RigidMesh
-import oracle
-import scenes
-from vectors import lerp
+from support import oracle, scenes
+from support.contact_case import ContactCase, xyz
+from support.node_client import ContactLog, wait_until
+from support.rigid_mesh import RigidMesh
+from support.vectors import lerp
 
 LINKS = ['grasper_shaft', 'grasper_wrist', 'grasper_left_jaw', 'grasper_right_jaw']
 JAWS = LINKS[2:]
@@ -25,13 +24,13 @@ JAW_MESH = RigidMesh.from_stl(
     os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'urdf/meshes/jaw.stl')
 )
 JAW_TIP = (0.0, 0.0, 0.02)
-ANSWERS_WANTED = 20  # in which a jaw touches, of each jaw
-ANSWERS_CHECKED = 10  # of these
-ON_SURFACE = 1e-4  # [m] what the node and TF may differ by, between two transforms
+ANSWERS_WANTED = 20  # for each jaw: answers in which it touches
+ANSWERS_CHECKED = 10  # how many of these are checked
+ON_SURFACE = 1e-4  # [m] tolerance, as the node and TF interpolate differently between transforms
 
 
 class ShapeLog:
-    """All shapes of the one organ, by stamp."""
+    """All shapes of the organ, by stamp."""
 
     def __init__(self):
         self.triangles, self.vertices = [], {}
@@ -56,7 +55,7 @@ class GrasperTest(ContactCase):
     def setUpClass(cls):
         """Records until both jaws have touched often enough."""
         cls.transforms = tf2_ros.Buffer(rospy.Duration(100.0))
-        # A tf2_ros.TransformListener drops what comes faster than a busy machine takes it.
+        # On a busy machine, a tf2_ros.TransformListener would drop messages.
         listeners = [
             rospy.Subscriber('/tf', TFMessage, cls.add_transforms),
             rospy.Subscriber('/tf_static', TFMessage, cls.add_transforms, True),
@@ -92,8 +91,8 @@ class GrasperTest(ContactCase):
 
     @classmethod
     def is_recorded(cls, answer):
-        """Whether the shapes and poses of its step came here: the first ones may have been sent
-        before this test listened, the last ones may still be on their way."""
+        """Whether this test has received the shapes and poses of the answer's step. The first ones
+        may have been sent before this test listened; the last ones may still be on their way."""
         return {answer.step_start, answer.mesh_stamp} <= cls.shapes.vertices.keys() and all(
             cls.transforms.can_transform('liver', link, time)
             for link in LINKS

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Names and batches of any size: what is too large is refused in a small answer, which says what is
-legal."""
+"""Names and batches of any size. If one is too large, it is refused, and the answer is small and
+says what is legal."""
 
 import io
 import sys
@@ -10,10 +10,9 @@ import rospy
 from rosgraph_msgs.msg import Log
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, TfSender, shaft, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, TfSender, shaft, wait_until
 
 SHEET = scenes.sheet(0.1, 4)
 AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
@@ -108,7 +107,7 @@ class LimitsTest(ContactCase):
         answer = self.node.answer_batch('good', [motion] * 31)
         self.assert_refused(answer, '31 motions', '30', 'max_batch')
         self.assertEqual(answer.results, [])
-        # The log and /diagnostics count it.
+        # The log reports it.
         wait_until(
             lambda: [m for m in self.log if '31 motions' in m.msg], 'a warning in the log'
         )

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Links that move between two shapes: on an arc, by all poses that TF has of it; told apart by
-tf_prefix; beside a shaft; and without history after a reset."""
+"""Links that move between two shapes of the organ: along the arc of all poses in TF, with a
+tf_prefix, together with a shaft, and after a reset."""
 
 import math
 import sys
@@ -10,31 +10,31 @@ import roslib.packages
 import rospy
 import rostest
 
-from contact_case import xyz
-from link_case import LinkCase, ball_contacts
-import oracle
-from rigid_mesh import RigidMesh
-import scenes
-from tool_case import WORLD_LIVER
-from vectors import length, sub
+from support import oracle, scenes
+from support.contact_case import xyz
+from support.link_case import LinkCase, ball_contacts
+from support.rigid_mesh import RigidMesh
+from support.tool_case import WORLD_LIVER
+from support.vectors import length, sub
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 6)
 ARM = (0.05, 0.0, 0.0)  # [m] from the joint to the ball's centre and the jaw's origin
-SMALL, LARGE, SHAFT = 0.003, 0.006, 0.005  # [m] radii: the pendulum's ball, the hook's, its shaft
-SHARES = [i / 300 for i in range(301)]  # of a step, at which arcs are looked at
-CLOSE = 3e-4  # [m] more than half of what the ball moves from one of them to the next
+SMALL, LARGE, SHAFT = 0.003, 0.006, 0.005  # [m] radii: pendulum's ball, hook's ball and shaft
+SHARES = [i / 300 for i in range(301)]  # shares of a step at which the test samples an arc
+CLOSE = 3e-4  # [m] more than half of the ball's way between two samples
 JAW_MESH = RigidMesh.from_stl(
     roslib.packages.get_pkg_dir('organ_collision') + '/test/data/tools/jaw_binary.stl', unit=0.001
 )
-ABOVE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.05), (-0.013, 0.017, 0.04))  # of the hook
+# The hook's trocar, tip and ball [m].
+ABOVE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.05), (-0.013, 0.017, 0.04))
 BELOW = ((0.05, -0.01, 0.28), (0.004, -0.003, -0.04), (-0.003, -0.011, -0.03))
 INSIDE = BELOW[:2] + ((-0.003, -0.011, 0.004),)
 
 
 class Swing:
-    """A pendulum's way: its joint, in the organ's frame, and at shares of a step its angle [deg],
-    which is 0 along x and rises towards z."""
+    """The motion of a pendulum: its joint in the organ's frame, and its angle [deg] at shares of a
+    step. The angle is 0 along x and rises towards z."""
 
     def __init__(self, joint, *way):
         self.joint, self.way = joint, way
@@ -45,13 +45,13 @@ class Swing:
         return (0.0, math.sin(half), 0.0, math.cos(half))
 
     def angle(self, share):
-        """As TF has it: evenly from one to the next."""
+        """The angle at a share of the step, interpolated linearly as in TF."""
         pieces = zip(self.way, self.way[1:])
         (start, first), (stop, last) = next(p for p in pieces if share <= p[1][0])
         return first + (last - first) * (share - start) / (stop - start)
 
     def pose(self, share):
-        """Of the links in the organ's frame."""
+        """The pose of the links in the organ's frame."""
         return scenes.Pose(self.turn(self.angle(share)), self.joint)
 
     def ball(self, share):
@@ -62,7 +62,7 @@ class Swing:
         return JAW_MESH.at(scenes.Pose(pose.rotation, pose.apply(ARM)))
 
     def chord(self):
-        """What the ball would touch on the straight way."""
+        """The contacts that the ball would have on the straight line from start to end."""
         return ball_contacts(SHEET, (self.ball(0),), (self.ball(1),), SMALL)
 
     def ball_touches(self):
@@ -77,13 +77,13 @@ class Swing:
         return touches
 
     def jaw_pierces(self):
-        """Faces that an edge of the jaw goes through."""
+        """The faces that an edge of the jaw pierces."""
         return set().union(*[self.jaw(share).faces_pierced(SHEET) for share in SHARES])
 
 
-# Up through the sheet, over it and down again; the straight way is below it.
+# Up through the sheet, over it and down again. The straight line stays below it.
 OVER = Swing((0.003, 0.007, -0.035), (0, 150), (0.2, 140), (0.45, 95), (0.7, 60), (1, 25))
-# Up through the sheet once, elsewhere than the straight way.
+# Up through the sheet once, at another place than the straight line.
 UP = Swing((-0.02, 0.007, 0.002), (0, -65), (0.3, -40), (0.6, 5), (0.8, 30), (1, 60))
 
 
@@ -91,7 +91,7 @@ class LinkSweepsTest(LinkCase):
     link_frames = {'hook': ('hook_trocar', 'hook_tip', 'hook/ball')}
 
     def send(self, tool, swing, begin, end):
-        """A pendulum's way between two times."""
+        """Sends the transforms of a pendulum's motion between two times."""
         mount = scenes.Pose(WORLD_LIVER.rotation, WORLD_LIVER.apply(swing.joint))
         self.tf.send_resting(
             ('world', tool + '/mount', mount), (tool + '/ball', tool + '/jaw', scenes.IDENTITY)
@@ -102,7 +102,8 @@ class LinkSweepsTest(LinkCase):
             self.tf.send((tool + '/mount', tool + '/ball', pose, stamp))
 
     def swept(self, **swings):
-        """{tool: answer} about a step in which each swings; at both its ends nothing is touched."""
+        """{tool: answer} about a step in which each pendulum swings. At both ends of the step, none
+        touches anything."""
         begin = self.next_stamp()
         end = self.next_stamp(rospy.Duration(0, 10**8))
         for tool, swing in swings.items():
@@ -121,7 +122,8 @@ class LinkSweepsTest(LinkCase):
         return results
 
     def check_ball(self, contacts, swing):
-        """Each face that the ball touches is found, and no other, and when and where it does."""
+        """Checks that exactly the faces that the ball touches are found, at the right time and
+        place."""
         touches = swing.ball_touches()
         self.assertGreater(len(touches), 0)
         self.assertEqual([c.face for c in contacts], sorted(touches))
@@ -136,7 +138,8 @@ class LinkSweepsTest(LinkCase):
             self.assertAlmostEqual(distance, SMALL, delta=1e-5, msg=what)
 
     def check_jaw(self, contacts, swing):
-        """Each face that its edges go through is found; all that are found, it touches."""
+        """Checks that each face which the jaw's edges pierce is found, and that the jaw touches
+        each face that is found."""
         pierced = swing.jaw_pierces()
         self.assertGreater(len(pierced), 0)
         self.assertEqual(pierced - {c.face for c in contacts}, set())
@@ -161,13 +164,13 @@ class LinkSweepsTest(LinkCase):
         self.check_swing(self.swept(right=UP)['right'], UP)
 
     def test_two_robots_of_one_description(self):
-        """Each is where the frames with its prefix are."""
+        """Each robot is where the frames with its prefix are."""
         results = self.swept(left=OVER, right=UP)
         self.check_swing(results['left'], OVER)
         self.check_swing(results['right'], UP)
 
     def check_hook(self, result, before, after):
-        """Both its shaft, whose trocar moves as well, and its ball touch."""
+        """Checks that both the ball and the shaft touch; the shaft's trocar moves, too."""
         self.assertEqual(result.links, ['', 'ball'])
         shaft = oracle.swept_contacts(SHEET, before[:2], after[:2], SHAFT)
         ball = ball_contacts(SHEET, before[2:], after[2:], LARGE)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Bad messages to organ_mesh_adapter: the log says what is wrong with each, or the collision node's
-status does, and the organ stays as it was."""
+"""Bad messages to organ_mesh_adapter. The log or the collision node's status says what is wrong
+with each, and the organ stays as it was."""
 
 import sys
 
@@ -12,10 +12,10 @@ from sensor_msgs.msg import PointField
 from std_msgs.msg import String
 from visualization_msgs.msg import Marker
 
-from adapter_case import AXIS, RADIUS, AdapterCase
-from foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
-from node_client import FAR_AWAY, shaft, wait_until
-import scenes
+from support import scenes
+from support.foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
+from support.mesh_adapter_case import AXIS, RADIUS, MeshAdapterCase
+from support.node_client import FAR_AWAY, shaft, wait_until
 
 NAN = float('nan')
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
@@ -35,7 +35,7 @@ def changed_cloud(layout=(), **fields):
     return message
 
 
-class MeshAdapterInputTest(AdapterCase):
+class MeshAdapterInputTest(MeshAdapterCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -44,7 +44,7 @@ class MeshAdapterInputTest(AdapterCase):
         wait_until(lambda: cls.log_subscriber.get_num_connections() > 0, 'the log')
 
     def publish_until_logged(self, topic, message, words):
-        """The log names each reason once a second: the message is sent until it is its turn."""
+        """Sends the message until the log names its reason, which it does at most once a second."""
 
         def logged():
             if rospy.get_time() - sent[0] > 0.1:
@@ -72,8 +72,8 @@ class MeshAdapterInputTest(AdapterCase):
         )
 
     def refuse(self, organ, topic, *cases, send_good):
-        """Cases (message, words of the log): each leaves the organ as send_good made it, and after
-        all of them it can still be moved."""
+        """Sends each of the cases (message, words that the log must contain). Checks that the organ
+        stays as send_good made it, and that it can still be moved after all of them."""
         before = self.node.query(organ, FAR_AWAY).mesh_stamp
         send_good(SHEET)
         wait_until(
@@ -138,7 +138,7 @@ class MeshAdapterInputTest(AdapterCase):
         )
 
     def test_other_types(self):
-        """Nothing comes of them, and the other organs go on."""
+        """Messages of another type have no effect, and the other organs still work."""
         text = String('solid liver')
         self.publish_until_logged('/sim/odd', text, ['std_msgs/String'] + LEGAL_TYPES)
         self.publish_until_logged(
@@ -159,7 +159,8 @@ class MeshAdapterInputTest(AdapterCase):
         self.assertEqual(self.node.query('unmeshed', FAR_AWAY).status, ContactArray.UNKNOWN_ORGAN)
 
     def test_illegal_arrays_are_for_the_collision_node_to_refuse(self):
-        """Its status says so on `contacts`; the organ stays, also for what comes next."""
+        """The status in `contacts` says so. The organ stays as it was, and later messages still
+        work."""
         self.publish('/sim/polygons', polygon_mesh(SHEET))
         good = self.wait_for_contacts('polygons', SHEET)
         broken = polygon_mesh(scenes.sheet(0.1, 3))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A collision node that comes after the organs gets each of them in its present shape."""
+"""A collision node that starts after the organs gets each of them in its present shape."""
 
 import sys
 
@@ -8,11 +8,11 @@ import rospy
 import rostest
 from visualization_msgs.msg import Marker
 
-from adapter_case import RADIUS, AdapterCase, MessageLog
-from foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
-from node_client import FAR_AWAY, NodeClient, wait_until
-from node_starter import NodeStarter
-import scenes
+from support import scenes
+from support.foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
+from support.mesh_adapter_case import RADIUS, MeshAdapterCase, MessageLog
+from support.node_client import FAR_AWAY, NodeClient, wait_until
+from support.node_starter import NodeStarter
 
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
 LOWER = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.03 * v[1] - 0.002))
@@ -21,11 +21,12 @@ FINE = scenes.sheet(0.1, 7)
 TOOL = {'name': 'grasper', 'trocar_frame': 'trocar', 'tip_frame': 'tip', 'radius': RADIUS}
 
 
-class MeshAdapterLateTest(AdapterCase, NodeStarter):
+class MeshAdapterLateTest(MeshAdapterCase, NodeStarter):
     adapter = '/early_adapter'
 
     def send_organs(self, stamp):
-        """Four organs; two are moved, in both ways, and one is removed: all is done on return."""
+        """Sends four organs, moves two of them, one in each way, and removes one. All of this is
+        done when the function returns."""
         meshes = MessageLog('/late/organ_mesh', OrganMesh)
         shapes = MessageLog('/late/organ_vertices', OrganVertices)
         self.publish('/early/first', shape_mesh(FINE))

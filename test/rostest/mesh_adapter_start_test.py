@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""How organ_mesh_adapter starts: illegal parameters stop it and say why, misspelt ones are reported,
-and it can take over from another adapter."""
+"""How organ_mesh_adapter starts. Illegal parameters stop it with a message, misspelt ones are
+reported, and it can take over from another adapter."""
 
 import sys
 
@@ -8,14 +8,14 @@ from organ_collision.msg import OrganMesh
 import rospy
 import rostest
 
-from adapter_case import AdapterCase, MessageLog
-from foreign_meshes import shape_mesh
-from node_client import wait_until
-from node_starter import NodeStarter
-import scenes
+from support import scenes
+from support.foreign_meshes import shape_mesh
+from support.mesh_adapter_case import MeshAdapterCase, MessageLog
+from support.node_client import wait_until
+from support.node_starter import NodeStarter
 
 ORGAN = {'name': 'liver', 'topic': '/restart/liver', 'frame': 'liver_frame'}
-# Words that the message must hold: the parameter, the value, what is legal.
+# Words that the message must contain: the parameter, the value, what is legal.
 ILLEGAL = [
     ({}, ['organs', 'missing', 'list']),
     ({'organ': [ORGAN]}, ['organs', 'missing', "'organs'"]),
@@ -34,7 +34,7 @@ SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
 FINE = scenes.sheet(0.1, 7)
 
 
-class MeshAdapterStartTest(AdapterCase, NodeStarter):
+class MeshAdapterStartTest(MeshAdapterCase, NodeStarter):
     def start_adapter(self, name, parameters):
         return self.start(name, parameters, 'organ_mesh_adapter')
 
@@ -55,7 +55,7 @@ class MeshAdapterStartTest(AdapterCase, NodeStarter):
             self.assertIn(words, printed)
 
     def test_a_restarted_adapter_is_not_taken_for_the_old_one(self):
-        """The collision node still has the old one's triangles and their topology."""
+        """The collision node still has the old adapter's triangles and topology number."""
         for name, mesh in (('/first', SHEET), ('/second', FINE), ('/third', SHEET)):
             process = self.start_adapter(name, {'organs': [ORGAN]})
             self.publish('/restart/liver', shape_mesh(mesh), name)

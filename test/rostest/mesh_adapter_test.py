@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Meshes in each type that organ_mesh_adapter takes: contacts are those of the same mesh sent as
-OrganMesh, shapes and triangles may change, and organs may go."""
+"""Meshes in each message type that organ_mesh_adapter accepts. The contacts are those of the same
+mesh in an OrganMesh. Shapes and triangles may change, and organs may be removed."""
 
 import sys
 
@@ -10,12 +10,11 @@ import rostest
 from sensor_msgs.msg import PointField
 from visualization_msgs.msg import Marker
 
-from adapter_case import AXIS, RADIUS, AdapterCase, MessageLog
-from contact_case import faces_of
-from foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
-from node_client import TfSender, shaft, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import faces_of
+from support.foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
+from support.mesh_adapter_case import AXIS, RADIUS, MeshAdapterCase, MessageLog
+from support.node_client import TfSender, shaft, wait_until
 
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
 LOWER = SHEET.moved(lambda v: (v[0], v[1], v[2] + 0.03 * v[1] - 0.002))
@@ -25,7 +24,7 @@ POSE = scenes.Pose((0.1, 0.25, -0.15, 0.95), (0.3, -0.2, 0.1))
 BIG_DOUBLES = {'order': 'zxy', 'datatype': PointField.FLOAT64, 'padding': 5, 'big_endian': True}
 
 
-class MeshAdapterTest(AdapterCase):
+class MeshAdapterTest(MeshAdapterCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -40,7 +39,8 @@ class MeshAdapterTest(AdapterCase):
         )
 
     def kinds(self):
-        """{organ: function that publishes a mesh as its type}; those with stamps take one."""
+        """{organ: function that publishes a mesh in the organ's message type}. It takes a stamp if
+        the type has one."""
         return {
             'shape': lambda mesh, stamp=None: self.publish('/sim/shape', shape_mesh(mesh)),
             'marker': lambda mesh, stamp=rospy.Time(): self.publish(

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What a nodelet cannot go on from ends neither its manager nor the nodelets beside it: it says so
-for each tool, starts anew, and answers again."""
+"""A fatal error in a nodelet stops neither its manager nor the other nodelets. The nodelet reports
+the error for each tool, restarts, and answers again."""
 
 import sys
 
@@ -8,12 +8,13 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, TfSender, wait_until
-import scenes
+from support import scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, TfSender, wait_until
 
 SMALL = scenes.sheet(0.02, 4)
-# The probe touches all of its faces, and the hook none: their contacts need more than a mebibyte.
+# The probe touches all of its faces, and their contacts need more than a mebibyte. The hook touches
+# none.
 LARGE = scenes.sheet(0.02, 70)
 
 
@@ -33,7 +34,8 @@ class NodeletRestartTest(ContactCase):
             )
 
     def send(self, client, mesh, topology):
-        """A new shape; returns the probe's answer, which may come only once the node is back."""
+        """Sends a new shape and returns the probe's answer, which may arrive only after the
+        restart."""
 
         def answers():
             client.send_mesh('liver', mesh, stamp, topology)
@@ -60,7 +62,7 @@ class NodeletRestartTest(ContactCase):
             self.assertIn('send the organs again', failure.message)
             self.assertEqual(failure.contacts, [])
             self.assertEqual(failure.header.frame_id, 'liver_frame')
-        # The node that is back soon says that all is well.
+        # Soon after the restart, the node reports that all is well.
         wait_until(
             lambda: any('bad_alloc' in s for s in self.left.past_summaries.get('queries', [])),
             lambda: self.left.past_summaries,

@@ -1,4 +1,4 @@
-// The nodelet, in one process with what publishes the organ.
+// The nodelet, in one process with the publisher of the organ.
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <organ_collision/ContactArray.h>
@@ -27,7 +27,7 @@ geometry_msgs::TransformStamped frame(const std::string& name, double z) {
   return transform;
 }
 
-/// Two faces around the origin, at a height; the probe's tip is at the origin.
+/// Two faces around the origin, at this height [m]. The tip of the probe is at the origin.
 std::vector<float> sheet(float z) { return {-1, -1, z, 1, -1, z, 1, 1, z, -1, 1, z}; }
 
 template <typename Message>
@@ -59,14 +59,14 @@ class NodeletTest : public testing::Test {
     return condition();
   }
 
-  /// Publishes the shape until it is answered.
+  /// Publishes the shape until an answer arrives.
   void send(const boost::shared_ptr<OrganVertices>& shape) {
     vertices_.publish(shape);
     ASSERT_TRUE(
         wait_for([&] { return received_ && received_->mesh_stamp == shape->header.stamp; }));
   }
 
-  /// Publishes a mesh, of topology 0, until it is answered.
+  /// Publishes a mesh with topology 0 until an answer arrives.
   void send_mesh(const std::vector<std::uint32_t>& triangles) {
     const auto mesh = sheet_message<OrganMesh>(0.005F);
     mesh->triangles = triangles;
@@ -98,7 +98,7 @@ TEST_F(NodeletTest, KeepsShapesOfTheSameProcessWithoutACopy) {
   EXPECT_EQ(received_->contacts.size(), 2U);
   EXPECT_GT(shape.use_count(), 1) << "the organ's shape is not this message itself";
 
-  // Two shapes on, nobody needs it any more.
+  // Two shapes later, it is released.
   send(sheet_message<OrganVertices>(-0.1F));
   send(sheet_message<OrganVertices>(-0.2F));
   EXPECT_TRUE(received_->contacts.empty());

@@ -1,15 +1,14 @@
 #!/usr/bin/python3
-"""A simulator that publishes one organ's mesh, latched, and lives until it is stopped.
+"""A simulator that publishes one organ's mesh, latched, and runs until it is stopped.
 
-Usage: organ_simulator.py CELLS STAMP: a sheet of CELLS x CELLS squares, topology 0, stamped STAMP [s]
+Usage: organ_simulator.py CELLS STAMP. The mesh is a sheet of CELLS x CELLS squares with topology 0
+and the stamp STAMP [s].
 """
-
-import sys
 
 from organ_collision.msg import OrganMesh
 import rospy
 
-import scenes
+from support import scenes
 
 cells, stamp = (int(argument) for argument in rospy.myargv()[1:])
 rospy.init_node('organ_simulator')

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""The 1999 paper's scenes: a liver of 1224 faces of which a tool touches 5 to 25, a tetrahedron of
-which it touches 0 to 3; exact contacts and the paper's own modes, by both pickers."""
+"""The scenes of the 1999 paper: a liver of 1224 faces, of which a tool touches 5 to 25, and a
+tetrahedron, of which it touches 0 to 3. Both pickers give exact contacts and the faces of the
+paper's own modes."""
 
 import random
 import sys
@@ -9,12 +10,10 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, shaft
-import oracle
-import paper_oracle
-import scenes
-from vectors import lerp, scaled, unit
+from support import oracle, paper_oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, shaft
+from support.vectors import lerp, scaled, unit
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 PAPER_STATIC, PAPER_SWEPT = ContactArray.PAPER_STATIC, ContactArray.PAPER_SWEPT
@@ -32,7 +31,8 @@ class PaperScenesTest(ContactCase):
                 node.wait_for_shape(organ, rospy.Time(1))
 
     def check(self, organ, motions, radius, mode=SWEPT):
-        """Every motion (previous axis, axis) by both pickers; how many faces each touches."""
+        """Checks every motion (previous axis, axis) with both pickers. Returns how many faces each
+        motion touches."""
         counts = []
         expected = [
             oracle.contacts(self.meshes[organ], self.meshes[organ], motion, radius)
@@ -47,7 +47,7 @@ class PaperScenesTest(ContactCase):
         return counts
 
     def test_the_liver_is_palpated(self):
-        """Static: the tip just in or on the surface."""
+        """Static queries with the tip just in or on the surface."""
         rng, trocar = random.Random(31), (0.05, 0.02, 0.25)
         liver = self.meshes['liver']
         tips = [
@@ -92,8 +92,8 @@ class PaperScenesTest(ContactCase):
         self.assertLessEqual({0, 1, 2}, set(static))
 
     def check_paper(self, organ, message, mode, volume):
-        """The faces of the paper's volume and their depth ranges. Faces that only meet a volume
-        grown by 1e-5 m, or no longer one shrunk by that, are left to 32-bit clipping."""
+        """Checks the faces of the paper's volume and their depth ranges. A face may go either way,
+        because of 32-bit clipping, if growing or shrinking the volume by 1e-5 m decides it."""
         mesh = self.meshes[organ]
         grown, shrunk = ([(n, d + margin) for n, d in volume] for margin in (1e-5, -1e-5))
         certain, possible = set(paper_oracle.picked(mesh, shrunk)), set(
@@ -136,7 +136,7 @@ class PaperScenesTest(ContactCase):
         self.assertGreater(faces, 500)
 
     def test_every_face_at_once(self):
-        """No buffer is too small for all 1224 faces, in any mode."""
+        """In every mode, the buffers are large enough for all 1224 faces."""
         trocar, previous, tip = (0.05, 0.02, 0.3), (0.02, 0.0, -0.1), (0.08, 0.01, -0.12)
         for node in self.nodes:
             for mode in range(5):

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Tools whose tips come as PoseStamped: evaluated when a pose comes, at the organ's last shape."""
+"""Tools whose tip poses arrive as PoseStamped. Each pose is evaluated on arrival, against the
+organ's last shape."""
 
 import sys
 
@@ -8,17 +9,16 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase, faces_of
-from node_client import NodeClient, TfSender, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase, faces_of
+from support.node_client import NodeClient, TfSender, wait_until
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
 RADIUS = 0.004
-BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), (0.013, 0.007, 0.4))  # of the arm, in the organ's frame
+BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), (0.013, 0.007, 0.4))  # of the arm in the organ's frame
 TROCAR = BASE.translation
-SOON = 1e-6  # [m] of contact geometry that went through quaternions
+SOON = 1e-6  # [m] tolerance of contacts computed from quaternions
 
 
 def pose(frame, point, stamp=rospy.Time(), rotation=(0, 0, 0, 1)):
@@ -63,11 +63,12 @@ class PosesTest(ContactCase):
         return cls.stamp
 
     def move_arm(self, tip, stamp):
-        """The tip, in the organ's frame; the arm says it in that of its base."""
+        """Moves the tip to a point in the organ's frame. The arm publishes it in its base frame."""
         self.arm.publish(pose('PSM1_base', BASE.inverse().apply(tip), stamp))
 
     def start(self, tip):
-        """The organ and the arm, whose first step is done. Returns the stamp."""
+        """Sends the organ and the arm's first pose, and waits for their first step. Returns the
+        stamp."""
         stamp = self.next_stamp()
         self.move_arm(tip, stamp)
         self.node.send_mesh(self.organ, SHEET, stamp)
@@ -76,7 +77,7 @@ class PosesTest(ContactCase):
         return stamp
 
     def swept(self, *tips):
-        """What the arm touches on the way through these tips."""
+        """The contacts of the arm on its way through these tip positions."""
         faces = set()
         for before, after in zip(tips, tips[1:]):
             contacts = oracle.swept_contacts(SHEET, (TROCAR, before), (TROCAR, after), RADIUS)
@@ -84,7 +85,7 @@ class PosesTest(ContactCase):
         return sorted(faces)
 
     def test_a_pose_is_answered_when_it_comes(self):
-        """Without a new shape of the organ, for the way since the last pose."""
+        """The answer needs no new shape of the organ. It covers the motion since the last pose."""
         begin = self.start(tip_at(-0.05, 0.1))
         end = self.next_stamp()
         self.move_arm(tip_at(0.05, -0.1), end)
@@ -98,7 +99,8 @@ class PosesTest(ContactCase):
         self.assert_contacts(answer, expected, SOON)
 
     def test_poses_faster_than_the_node_are_all_swept(self):
-        """Tips jump from side to side, thousands a second, and each way crosses the sheet."""
+        """The tip jumps from side to side thousands of times a second, each time through the
+        sheet."""
         start = self.start(tip_at(-0.09, 0.05))
         tips, last = [tip_at(-0.09, 0.05)], None
         for i in range(100):
@@ -108,7 +110,7 @@ class PosesTest(ContactCase):
         self.node.contacts.wait_for(self.organ, 'PSM1', stamp=last)
         answers = [a for a in self.node.contacts.of(self.organ, 'PSM1') if a.mode == SWEPT and a.step_start >= start]
         self.assertEqual({answer.status for answer in answers}, {ContactArray.OK})
-        # One step begins where the last one ended.
+        # Each step begins where the previous one ended.
         ends = [start] + [answer.header.stamp for answer in answers]
         self.assertEqual([answer.step_start for answer in answers], ends[:-1])
         found = sorted({face for answer in answers for face in faces_of(answer)})

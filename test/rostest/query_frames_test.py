@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Queries in other frames, at other times, of tissue that moves, and of the node's own tools."""
+"""Queries in other frames and at other times, about moving tissue, and about the node's own
+tools."""
 
 import sys
 
@@ -7,10 +8,9 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, TfSender, shaft, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, TfSender, shaft, wait_until
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 CAMERA_IN_LIVER = scenes.Pose((0.3, -0.2, 0.5, 0.8), (0.4, -0.3, 0.9))
@@ -32,7 +32,7 @@ class QueryFramesTest(ContactCase):
         cls.node.wait_for_shape('framed', rospy.Time(7, 5))
 
     def test_another_frame(self):
-        """The same motions, given in a camera's frame that is turned and far off."""
+        """The same motions, given in the frame of a camera that is rotated and far away."""
         to_camera = CAMERA_IN_LIVER.inverse().apply
         previous, now = ((0.1, 0.02, 0.3), (0.01, 0.002, 0.05)), (
             (0.1, 0.02, 0.31),
@@ -52,7 +52,7 @@ class QueryFramesTest(ContactCase):
         self.assert_contacts(result, expected)
 
     def test_stamp_says_when_to_transform(self):
-        """A carrier that sinks by 0.1 m in 0.1 s takes the tip to the sheet at a known time."""
+        """A carrier sinks by 0.1 m in 0.1 s, and takes the tip to the sheet at a known time."""
         begin = rospy.Time.now()
         self.tf.send(
             *[
@@ -90,7 +90,8 @@ class QueryFramesTest(ContactCase):
         self.assertEqual(early.status, ContactArray.NO_TRANSFORM)
 
     def test_tissue_swings_through_a_resting_tool(self):
-        """With organ_motion the step takes the tissue from its previous shape to its latest."""
+        """With organ_motion, the tissue moves during the step from its previous to its latest
+        shape."""
         high, low = scenes.sheet(0.1, 3, 0.031), scenes.sheet(0.1, 3, -0.02)
         low = low.moved(lambda v: (v[0], v[1] + 0.004, v[2] + 0.2 * v[0]))
         self.node.send_mesh('swing', high, rospy.Time(1))
@@ -113,7 +114,8 @@ class QueryFramesTest(ContactCase):
         self.assert_contacts(result, oracle.contacts(low, high, (axis, moved), 0.003))
 
     def test_a_tool_of_the_node_by_name(self):
-        """STATIC: where it is by TF now. SWEPT: from its last published pose to there."""
+        """STATIC uses the tool's present pose in TF. SWEPT moves it there from its last published
+        pose."""
         first, second = rospy.Time.now(), rospy.Time.now() + rospy.Duration(0, 10**7)
         self.tf.send_resting(('liver_frame', 'grasper_trocar', at((0.1, 0.02, 0.3))))
         above, below = (0.01, 0.003, 0.05), (0.013, 0.001, -0.05)
@@ -130,7 +132,7 @@ class QueryFramesTest(ContactCase):
         static = self.node.query('named', tool='grasper')
         self.assert_contacts(static, expected)
         self.assertEqual((static.tool, static.links), ('grasper', ['']))
-        for _ in range(2):  # queries change no history
+        for _ in range(2):  # twice, because queries change no history
             swept = self.node.query('named', mode=SWEPT, tool='grasper')
             self.assert_contacts(swept, oracle.swept_contacts(SHEET, *axes, 0.005), 1e-6)
         self.assertEqual(len(self.node.contacts.of('named')), 1)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The services `query` and `query_batch` on geometry where every contact is known."""
+"""The services `query` and `query_batch`, on geometry whose contacts are known."""
 
 import random
 import sys
@@ -8,11 +8,10 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase, faces_of, xyz
-from node_client import NodeClient, shaft
-import oracle
-import scenes
-from vectors import add, length, scaled, sub
+from support import oracle, scenes
+from support.contact_case import ContactCase, faces_of, xyz
+from support.node_client import NodeClient, shaft
+from support.vectors import add, length, scaled, sub
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 
@@ -28,7 +27,7 @@ class QueryTest(ContactCase):
         cls.node.wait_for_shape('sheet', rospy.Time(7, 5))
 
     def test_one_face_every_field_by_hand(self):
-        """A tip 4 mm above a horizontal face, and 5 mm thick: 1 mm deep."""
+        """The tip is 4 mm above a horizontal face and its radius is 5 mm, so it is 1 mm deep."""
         self.node.send_mesh('plate', scenes.one_face(0.25), rospy.Time(3, 4), topology=17)
         self.node.wait_for_shape('plate', rospy.Time(3, 4), topology=17)
         result = self.node.query('plate', shaft((0.01, 0.02, 0.5), (0.01, 0.02, 0.254), 0.005))
@@ -97,7 +96,7 @@ class QueryTest(ContactCase):
         self.assertGreater(touched, 200)
 
     def test_degenerate_motions(self):
-        """None, along the axis, tiny, and a tip that swings through the trocar's far side."""
+        """No motion, along the axis, tiny, and a tip that swings to the far side of the trocar."""
         trocar, tip = (0.01, 0.013, 0.11), (0.012, 0.004, 0.003)
         axis = sub(tip, trocar)
         for now in (
@@ -113,7 +112,8 @@ class QueryTest(ContactCase):
             self.assert_contacts(result, oracle.swept_contacts(self.sheet, *motion, 0.005))
 
     def test_a_ball(self):
-        """Tip at the trocar: resting, and thrown through the sheet."""
+        """With the tip at the trocar, the tool is a ball. It rests, or is thrown through the
+        sheet."""
         above, inside, below = (0.012, 0.003, 0.03), (0.012, 0.003, 0.004), (0.02, -0.01, -0.03)
         result = self.node.query('sheet', shaft(inside, inside, 0.006))
         self.assert_contacts(result, oracle.static_contacts(self.sheet, (inside, inside), 0.006))
@@ -127,7 +127,7 @@ class QueryTest(ContactCase):
         self.assertGreater(len(result.contacts), 0)
 
     def test_degenerate_faces_are_touched_like_others(self):
-        """A needle and a point in the mesh, each touched by the side of a shaft."""
+        """The side of a shaft touches two degenerate faces: a needle and a point."""
         mesh = scenes.Mesh(
             [(0.0, 0.0, 0.0), (0.03, 0.0, 0.0), (0.01, 0.0, 0.0), (0.05, 0.02, 0.0)],
             [(0, 1, 2), (3, 3, 3), (0, 1, 3)],
@@ -139,7 +139,7 @@ class QueryTest(ContactCase):
         self.assertAlmostEqual(result.contacts[0].depth, 0.001, delta=1e-8)
         result = self.node.query('needle', shaft((0.05, 0.0, -0.003), (0.05, 0.1, -0.003), 0.004))
         self.assertEqual(faces_of(result), [1, 2])
-        # Pierced: the normal is at right angles to the axis and the longest edge.
+        # The axis pierces it, so the normal is perpendicular to the axis and to the longest edge.
         result = self.node.query('needle', shaft((0.02, -0.1, 0.0), (0.02, -0.001, 0.0), 0.004))
         for contact in result.contacts:
             self.assertAlmostEqual(length(xyz(contact.normal)), 1.0, delta=1e-9)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The tool is evaluated at `rate`, also while no mesh comes."""
+"""The tool is evaluated at `rate`, even if no mesh arrives."""
 
 import sys
 
@@ -7,11 +7,10 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import faces_of
-from node_client import NodeClient, wait_until
-import oracle
-import scenes
-from tool_case import ToolCase
+from support import oracle, scenes
+from support.contact_case import faces_of
+from support.node_client import NodeClient, wait_until
+from support.tool_case import ToolCase
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
@@ -32,7 +31,8 @@ class RateTest(ToolCase):
         return (node or self.node).contacts.of(self.organ, 'grasper')[number:]
 
     def test_a_tool_moves_while_the_organ_rests(self):
-        """The tick that sees the tip jump across the sheet finds the faces; those after it not."""
+        """The tick in which the tip jumps across the sheet finds the faces, and later ticks do
+        not."""
         self.step(SHEET, {'grasper': at_height(0.05)})
         wait_until(lambda: len(self.messages_after(0)) > 5, 'ticks')
         self.assertEqual([faces_of(m) for m in self.messages_after(0) if m.contacts], [])
@@ -59,7 +59,7 @@ class RateTest(ToolCase):
             self.assert_ok(message)
 
     def test_a_change_of_shape_counts_once(self):
-        """The tissue swings through the tool in one step; ticks after it hold the tissue still."""
+        """The tissue swings through the tool in one step. In later ticks it rests."""
         level = ((0.4, 0.007, 0.02), (0.013, 0.007, 0.02))
         low = SHEET.moved(lambda v: (v[0], v[1], v[2] - 0.05))
         self.assert_ok(self.step(low, {'grasper': level})['grasper'])
@@ -77,7 +77,7 @@ class RateTest(ToolCase):
         self.assertEqual([bool(m.contacts) for m in after], [True] + [False] * (len(after) - 1))
 
     def test_organ_motion_off_lets_organs_jump(self):
-        """Shapes count as they are at the end of the step: the swing itself touches nothing."""
+        """Only the shape at the end of the step counts, so the swing itself touches nothing."""
         node = self.impatient()
         aside = ((0.4, 0.007, 0.02), (0.013, 0.007, 0.02))
         for height in (-0.05, 0.05, 0.022):
@@ -88,7 +88,8 @@ class RateTest(ToolCase):
             self.assertEqual(bool(result.contacts), height == 0.022)
 
     def test_a_mesh_that_stopped_coming_is_stale(self):
-        """No answer rather than one about tissue that has moved on; a new shape mends it."""
+        """Instead of an answer about old tissue, the status says that the mesh is stale. A new
+        shape ends this state."""
         node = self.impatient()
         stamp = self.next_stamp(max(rospy.Time.now() - self.stamp, rospy.Duration(0, 10**7)))
         self.place('grasper', (at_height(0.003), stamp))

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""New triangles under the topology number that the organ has: whose they are decides."""
+"""Other triangles with the organ's present topology number. From a new connection they are a new
+organ; from a known one they are an error."""
 
 import os
 import subprocess
@@ -9,9 +10,9 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, TfSender, wait_until
-import scenes
+from support import scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, TfSender
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SIMULATOR = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'organ_simulator.py')
@@ -36,7 +37,7 @@ class RestartTest(ContactCase):
         return cls.seconds
 
     def simulator(self, cells):
-        """Starts a simulator, always under the same name; returns it and what the node answers."""
+        """Starts a simulator, always with the same name. Returns it and the node's answer."""
         stamp = self.next_second()
         process = subprocess.Popen(
             [SIMULATOR, str(cells), str(stamp), '__name:=simulator'],
@@ -52,7 +53,7 @@ class RestartTest(ContactCase):
         process.wait()
 
     def send(self, organ, cells):
-        """Over this test's own connection, which lasts; returns what the node answers."""
+        """Sends over this test's own permanent connection. Returns the node's answer."""
         stamp = rospy.Time(self.next_second())
         self.node.send_mesh(organ, scenes.sheet(0.1, cells), stamp)
         return self.node.contacts.wait_for(organ, 'grasper', stamp=stamp)
@@ -70,8 +71,8 @@ class RestartTest(ContactCase):
         self.assert_step(answer, STATIC)
         self.node.wait_for_shape('tissue', rospy.Time(self.seconds), topology=0)
         self.stop(simulator)
-        # The same mesh again, as the latched one that a reconnecting simulator sends: a new shape,
-        # and the step goes on from the last one.
+        # A reconnecting simulator sends its latched mesh again. It is a new shape, and its step
+        # begins at the last one.
         simulator, answer = self.simulator(5)
         self.assert_step(answer, SWEPT)
         self.stop(simulator)

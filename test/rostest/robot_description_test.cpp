@@ -1,4 +1,4 @@
-// Where load_tool finds a robot's description on the parameter server.
+// How load_tool finds the description of a robot on the parameter server.
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 
@@ -8,7 +8,7 @@
 namespace organ_collision {
 namespace {
 
-/// A robot of one link that is a ball.
+/// A robot with one link, a ball.
 std::string ball(const std::string& radius) {
   return "<robot name='ball'><link name='ball'><collision><geometry><sphere radius='" + radius +
          "'/></geometry></collision></link></robot>";
@@ -22,7 +22,7 @@ Tool load(const std::string& robot_description, const std::string& node) {
   return load_tool(parameters, ros::NodeHandle(node));
 }
 
-/// [m] Of the ball that is found.
+/// Radius [m] of the ball in the description that is found.
 double radius(const std::string& robot_description, const std::string& node) {
   const Tool tool = load(robot_description, node);
   EXPECT_EQ(tool.fault, "");

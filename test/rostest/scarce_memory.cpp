@@ -1,4 +1,4 @@
-// Preloaded into a process: no block of more than a mebibyte can be had by `new`.
+// Preloaded into a process, this makes `new` fail for blocks of more than a mebibyte.
 #include <cstdlib>
 #include <new>
 

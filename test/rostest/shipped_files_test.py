@@ -1,19 +1,14 @@
 #!/usr/bin/python3
-"""Every launch file starts all its nodes and stops without a remainder, every configuration file
-loads, robots are known to TF as their URDF describes them, and the rviz files show topics and
-frames that exist."""
+"""Every launch file starts all its nodes and stops cleanly, every configuration file loads, TF
+knows the robots of the URDF files, and the rviz files show topics and frames that exist."""
 
 import os
 import re
-import signal
-import subprocess
 import sys
-import tempfile
 from xml.etree import ElementTree
 
 from geometry_msgs.msg import WrenchStamped
 from organ_collision.msg import Contact, ContactArray, OrganMesh
-import rosgraph
 import roslib.packages
 import rospy
 import rostest
@@ -21,13 +16,13 @@ from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
 import yaml
 
-from adapter_case import MessageLog
-from contact_case import ContactCase
-from foreign_meshes import shape_mesh
-from node_client import NodeClient, shaft, wait_until
-from node_starter import NodeStarter
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.foreign_meshes import shape_mesh
+from support.launched import Launched, nodes_online
+from support.mesh_adapter_case import MessageLog
+from support.node_client import NodeClient, shaft, wait_until
+from support.node_starter import NodeStarter
 
 PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
 SHEET = scenes.sheet(0.1, 4)
@@ -42,18 +37,8 @@ def files(folder, ending):
     )
 
 
-def nodes_online():
-    publishers, subscribers, services = rosgraph.Master(rospy.get_name()).getSystemState()
-    return {
-        node
-        for group in (publishers, subscribers, services)
-        for _, nodes in group
-        for node in nodes
-    }
-
-
 def named_in(path, folder, ending):
-    """The files of a folder of the package that the text of a launch file names."""
+    """The files of a folder of the package that a launch file mentions."""
     with open(path) as text:
         names = re.findall(r'find organ_collision\)/%s/(\w+\%s)"' % (folder, ending), text.read())
     return [os.path.join(PACKAGE, folder, name) for name in names]
@@ -77,37 +62,9 @@ class FrameLog:
             subscriber.unregister()
 
 
-class Launched:
-    """roslaunch with one file, and its nodes, until the end of a `with` block; `printed` is then all
-    that came on its terminal."""
-
-    def __init__(self, path):
-        self.path, self.output = path, tempfile.TemporaryFile(mode='w+')
-        listed = subprocess.check_output(['roslaunch', '--nodes', path], universal_newlines=True)
-        self.nodes = listed.split()
-
-    def __enter__(self):
-        self.process = subprocess.Popen(
-            ['roslaunch', self.path], stdout=self.output, stderr=subprocess.STDOUT
-        )
-        return self
-
-    def wait_for_nodes(self):
-        wait_until(
-            lambda: self.process.poll() is not None or set(self.nodes) <= nodes_online(),
-            'the nodes %s' % self.nodes,
-        )
-
-    def __exit__(self, *error):
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait(timeout=40)
-        self.output.seek(0)
-        self.printed = self.output.read()
-
-
 class ShippedFilesTest(ContactCase, NodeStarter):
     def check_collision_node(self, name, process=None):
-        """It answers about an organ of its own."""
+        """Checks that the collision node answers about an organ that only it has."""
         node = NodeClient(name, process=process)
         node.send_mesh('sheet', SHEET, rospy.Time(1))
         node.wait_for_shape('sheet', rospy.Time(1))
@@ -117,7 +74,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         node.close()
 
     def check_mesh_adapter(self, organs, collision_node='/organ_collision'):
-        """A mesh on each organ's topic becomes that organ's."""
+        """Checks that a mesh on each organ's topic reaches the collision node."""
         meshes = MessageLog(collision_node + '/organ_mesh', OrganMesh)
         for organ in organs:
             publisher = rospy.Publisher(organ['topic'], Mesh, queue_size=1)
@@ -169,7 +126,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         self.assertEqual(robots, {path[: -len('.xacro')] for path in files('urdf', '.xacro')})
 
     def check_contact_adapter(self):
-        """It turns a contact of 1 mm depth into its default stiffness's 0.3 N."""
+        """Checks that a contact of 1 mm depth gives 0.3 N, with the default stiffness."""
         contacts = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
         wrenches = []
         subscriber = rospy.Subscriber(
@@ -179,7 +136,8 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         message.header.frame_id, message.contacts[0].normal.z = 'world', -1.0
 
         def wrench_comes():
-            """Its topic is there only after the first contacts."""
+            """Sends contacts until a wrench arrives: its topic appears only after the first
+            ones."""
             contacts.publish(message)
             return wrenches
 
@@ -189,7 +147,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         contacts.unregister()
 
     def check_robot(self, urdf_file):
-        """TF knows all its links, and its meshes are there."""
+        """Checks that TF knows all links of the robot, and that its mesh files exist."""
         with open(urdf_file) as text:
             robot = ElementTree.fromstring(text.read())
         frames = FrameLog()
@@ -203,7 +161,8 @@ class ShippedFilesTest(ContactCase, NodeStarter):
             self.assertTrue(os.path.exists(path), path)
 
     def check_scene(self, rviz_file):
-        """Organ and tools move and meet; the rviz file shows only what is there."""
+        """Checks that the organ and the tools move and touch, and that the rviz file shows only
+        existing topics and frames."""
         node = NodeClient()
         touched = wait_until(
             lambda: [m for m in list(node.contacts.messages) if m.contacts],
@@ -226,7 +185,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         node.close()
 
     def shown_topics(self, displays):
-        """The topics of all displays, those in groups too."""
+        """The topics of all displays, including those in groups."""
         found = set()
         for display in displays:
             found |= self.shown_topics(display.get('Displays', []))
@@ -238,8 +197,8 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         return found
 
     def test_every_configuration_file(self):
-        """Each yaml file parses; those with tools start a node that answers, those with organs an
-        adapter that takes their meshes, and neither reports a name."""
+        """Each yaml file parses. A file with tools starts a collision node that answers, and a file
+        with organs a mesh adapter that accepts their meshes. Neither reports an unknown name."""
         yaml_files = files('config', '.yaml') + files('examples', '.yaml')
         started = set()
         for path in yaml_files:

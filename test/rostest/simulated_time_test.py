@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Simulated time: steps by the simulator's clock, and a jump back that forgets all history."""
+"""Simulated time. Steps follow the simulator's clock, and a jump back clears all history."""
 
 import sys
 import threading
@@ -9,10 +9,9 @@ import rospy
 from rosgraph_msgs.msg import Clock
 import rostest
 
-from link_case import LinkCase, ball_contacts
-from node_client import FAR_AWAY, NodeClient, wait_until
-import oracle
-import scenes
+from support import oracle, scenes
+from support.link_case import LinkCase, ball_contacts
+from support.node_client import FAR_AWAY, NodeClient, wait_until
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
@@ -22,7 +21,7 @@ RADIUS, BALL_RADIUS = 0.005, 0.006
 
 
 class SimulatedClock:
-    """Sends /clock a hundred times a second, until it is stopped."""
+    """Publishes /clock a hundred times a second until it is stopped."""
 
     def __init__(self, seconds):
         self.publisher = rospy.Publisher('/clock', Clock, queue_size=100)
@@ -38,12 +37,12 @@ class SimulatedClock:
                 self.tick()
 
     def jump(self, seconds):
-        """From now on it is `seconds`."""
+        """Sets the time to `seconds`."""
         with self.lock:
             self.now = rospy.Time(seconds)
 
     def tick(self):
-        """While it stands still, its lock held: 10 ms go by."""
+        """Advances the time by 10 ms. The caller must hold the lock."""
         self.now += rospy.Duration(0, 10**7)
         self.publisher.publish(self.now)
 
@@ -66,7 +65,8 @@ class SimulatedTimeTest(LinkCase):
         cls.clock.stop()
 
     def jump(self, seconds):
-        """Returns when the node has the new time, which a query's answer says."""
+        """Sets the clock. Returns when the stamp of an answer shows that the node has the new
+        time."""
 
         def is_there():
             now = self.node.query('nobody', FAR_AWAY).header.stamp
@@ -77,7 +77,7 @@ class SimulatedTimeTest(LinkCase):
         type(self).stamp = rospy.Time(seconds)
 
     def stab(self):
-        """From above the sheet to below it; returns both results."""
+        """Moves the tool from above the sheet to below it. Returns the results of both steps."""
         return (
             self.step(SHEET, {'grasper': ABOVE})['grasper'],
             self.step(SHEET, {'grasper': BELOW}, vertices=True)['grasper'],
@@ -120,7 +120,8 @@ class SimulatedTimeTest(LinkCase):
         self.assert_contacts(result, expected, 1e-6)
 
     def test_a_jump_back_while_a_transform_is_awaited(self):
-        """What waited for the old time's transforms is not mixed up with the new time's."""
+        """A shape that awaits a transform of the old time is not evaluated with one of the new
+        time."""
         self.jump(800)
         self.step(SHEET, {'grasper': ABOVE})
         self.node.send_vertices(self.organ, SHEET, self.next_stamp())
@@ -144,7 +145,7 @@ class SimulatedTimeTest(LinkCase):
         wait_until(lambda: self.node.diagnostics, 'diagnostics after the jump')
 
     def test_a_transform_is_awaited_no_longer_than_its_limit_when_the_clock_stands_still(self):
-        """tf_timeout_sec passes on the wall clock: a paused simulator does not hang the node."""
+        """tf_timeout_sec runs on the wall clock, so a paused simulator does not block the node."""
         self.jump(600)
         self.step(SHEET, {'grasper': ABOVE})
         with self.clock.lock:
@@ -154,7 +155,7 @@ class SimulatedTimeTest(LinkCase):
             self.assertEqual(result.status, ContactArray.NO_TRANSFORM)
 
     def test_ticks_are_as_many_as_the_rate_says(self):
-        """By the simulator's clock, which waits for a busy machine."""
+        """The rate counts in the simulator's time. The simulator waits if the machine is busy."""
         node = NodeClient('/ticking')
         with self.clock.lock:
             node.send_mesh(self.organ, SHEET)
@@ -165,7 +166,7 @@ class SimulatedTimeTest(LinkCase):
                 before = len(node.contacts.of(self.organ))
                 self.clock.tick()
                 wait_until(lambda: len(node.contacts.of(self.organ)) > before, 'one more tick')
-            # The few others are of the new shape, and of ticks just before the clock stood still.
+            # The few other answers are about the new shape, or from ticks before the clock stopped.
             self.assertLessEqual(len(node.contacts.of(self.organ)) - start, 55)
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""How the node starts: illegal parameters stop it and say why, misspelt ones are reported, and a
-latched mesh that is older than the node is taken in."""
+"""How the node starts. Illegal parameters stop it with a message, misspelt ones are reported, and
+it accepts a latched mesh that is older than itself."""
 
 import copy
 import sys
@@ -9,11 +9,10 @@ from organ_collision.msg import ContactArray, OrganMesh
 import rospy
 import rostest
 
-from contact_case import ContactCase
-from node_client import NodeClient, shaft
-from node_starter import NodeStarter
-import oracle
-import scenes
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import NodeClient, shaft
+from support.node_starter import NodeStarter
 
 TOOL = {
     'name': 'grasper',
@@ -23,8 +22,8 @@ TOOL = {
 }
 SHEET = scenes.sheet(0.1, 4)
 
-# What is set on top of one good tool; words that the message must hold: the parameter, the value,
-# what is legal.
+# Parameters that are set in addition to one good tool, and the words that the message must contain:
+# the parameter, the value, what is legal.
 ILLEGAL = [
     ({'tools': 'grasper'}, ['tools', 'grasper', 'list']),
     ({'tools': 3}, ['tools', '3', 'list']),
@@ -70,7 +69,8 @@ class StartTest(ContactCase, NodeStarter):
         self.name = '/' + self.id().split('.')[-1]
 
     def refused(self, cases):
-        """[(parameters, words)]: all started at once, each must stop with its words printed."""
+        """`cases`: [(parameters, words)]. Starts a node for each at once. Each must stop and print
+        its words."""
         started = [
             (self.start('%s_%d' % (self.name, i), parameters), words)
             for i, (parameters, words) in enumerate(cases)
@@ -126,7 +126,8 @@ class StartTest(ContactCase, NodeStarter):
         self.stop(process)
 
     def test_a_latched_mesh_waits_for_the_node(self):
-        """The organ is sent once, before the node is there; it comes, dies, and comes again."""
+        """The organ is sent once, before the node starts. The node starts, is killed, and starts
+        again."""
         latched = rospy.Publisher(self.name + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
         message = OrganMesh(
             organ='sheet', topology=3, vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces()

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What is published from step to step: `contacts` of organs and tools that move."""
+"""The `contacts` that the node publishes step by step, for organs and tools that move."""
 
 import sys
 
@@ -8,11 +8,10 @@ import rospy
 import rostest
 from visualization_msgs.msg import MarkerArray
 
-from contact_case import faces_of
-from node_client import wait_until
-import oracle
-import scenes
-from tool_case import ToolCase
+from support import oracle, scenes
+from support.contact_case import faces_of
+from support.node_client import wait_until
+from support.tool_case import ToolCase
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
@@ -24,7 +23,8 @@ GRASPER, HOOK = 0.005, 0.003
 
 class StepsTest(ToolCase):
     def test_a_stab_through_a_sheet(self):
-        """Static first; then one swept step through; then past it and clear of it."""
+        """The first step is static, the second is swept through the sheet, and the later ones are
+        past it and clear of it."""
         first = self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})['grasper']
         self.assert_contacts(first, [])
         self.assertEqual(
@@ -56,7 +56,8 @@ class StepsTest(ToolCase):
         self.assert_contacts(first, oracle.static_contacts(SHEET, BELOW, GRASPER))
 
     def test_a_large_mesh_and_what_follows_at_once_come_in_order(self):
-        """Its clusters are made aside; what overtakes them waits, other organs don't."""
+        """The mesh is prepared in another thread. Later messages about the same organ wait for it;
+        other organs do not."""
         large = scenes.sheet(0.1, 80)
         other = self.organ + '_other'
         self.step_of_organs({other: SHEET}, {'grasper': ABOVE, 'hook': ASIDE})
@@ -79,7 +80,7 @@ class StepsTest(ToolCase):
             self.assertLessEqual(touched, set(faces_of(result)))
 
     def test_two_organs_and_two_tools(self):
-        """Each pair has its own step; only the organ that changed is evaluated."""
+        """Each pair has its own steps, and only the organ that changed is evaluated."""
         shapes = {self.organ + '_sheet': SHEET, self.organ + '_plate': scenes.one_face(-0.02)}
         before = {'grasper': ABOVE, 'hook': ((0.1, 0.01, 0.2), (0.01, 0.01, 0.03))}
         after = {'grasper': BELOW, 'hook': ((0.1, 0.01, 0.2), (0.0, 0.03, -0.06))}
@@ -104,7 +105,8 @@ class StepsTest(ToolCase):
             self.assertEqual(counts, [3, 2])
 
     def test_tissue_swings_through_a_resting_tool(self):
-        """Shape after shape, each by the oracle; also one by OrganMesh with the same triangles."""
+        """Compares the answers about several shapes with the oracle. One shape arrives as an
+        OrganMesh with the same triangles."""
         axis = ((-0.3, 0.02, 0.021), (0.013, 0.011, 0.014))
         heights = [0.05, -0.03, 0.012, 0.06]
         shapes = [SHEET.moved(lambda v: (v[0], v[1], v[2] + h + h * v[1])) for h in heights]
@@ -128,7 +130,7 @@ class StepsTest(ToolCase):
         self.assert_contacts(result, expected, 1e-6)
 
     def test_cut_tissue_rests_while_the_tool_is_swept(self):
-        """A new topology has no earlier shape; the tool keeps its earlier pose."""
+        """A new topology has no previous shape, but the tool keeps its previous pose."""
         cut = scenes.Mesh(scenes.sheet(0.1, 3, -0.005).vertices, scenes.sheet(0.1, 3).faces[2:])
         self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
         result = self.step(cut, {'grasper': BELOW, 'hook': ASIDE}, topology=2)['grasper']
@@ -144,7 +146,8 @@ class StepsTest(ToolCase):
         self.assert_contacts(result, expected, 1e-6)
 
     def test_only_the_newest_of_many_shapes_counts(self):
-        """Hundreds of shapes at once, and one of another organ: the last of each is evaluated."""
+        """Sends hundreds of shapes at once, and one of another organ. The last shape of each organ
+        is evaluated."""
         self.step(SHEET, {'grasper': ABOVE, 'hook': ASIDE})
         for _ in range(300):
             self.node.send_vertices(self.organ, SHEET, self.next_stamp(rospy.Duration(0, 10**5)))
@@ -193,7 +196,8 @@ class StepsTest(ToolCase):
         inside = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.002))
 
         def touched_faces_are_shown():
-            """Step by step: markers are made only once the node knows of the subscriber."""
+            """Moves step by step until markers arrive: the node makes them only once it knows of
+            the subscriber."""
             self.step(SHEET, {'grasper': inside, 'hook': ASIDE})
             return any(m.points for array in markers for m in array.markers)
 

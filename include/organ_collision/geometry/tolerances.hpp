@@ -33,4 +33,7 @@ inline constexpr double kParallel = 1e-12;
 /// floats would over-report within a metre of the tool.
 inline constexpr double kFarthest = 1e6;
 
+// The guarantee for contacts, 1e-9 m, depends on this order.
+static_assert(kTie < kTouch && kTouch < kPierced && kPierced <= 1e-9);
+
 }  // namespace organ_collision::tolerance

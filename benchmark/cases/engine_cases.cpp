@@ -1,0 +1,77 @@
+#include <algorithm>
+
+#include "cases.hpp"
+#include "registration.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+struct EngineEntry {
+  const char* name;
+  std::unique_ptr<Engine> (*make)();
+  std::size_t max_faces;  ///< with more faces, a step takes seconds
+  double face_seconds;    ///< rough time of a step for each face
+};
+
+constexpr std::size_t kAll = 1'000'000;
+constexpr EngineEntry kEngines[] = {
+    {"ours", make_ours, kAll, 1e-9},
+    {"ours_no_clusters", make_ours_no_clusters, kAll, 2e-9},
+    {"select_paper", make_select_paper, 100'000, 3e-6},
+    {"fcl", make_fcl, kAll, 1e-7},
+    {"bullet", make_bullet_quantized, kAll, 1e-7},
+    {"bullet_gimpact", make_bullet_gimpact, kAll, 1e-7},
+    {"embree", make_embree, kAll, 5e-8},
+    {"cgal", make_cgal, kAll, 1e-6},
+    {"scan", make_scan, kAll, 2e-9},
+};
+
+struct PartEntry {
+  const char* name;
+  bool rigid;
+  double (*share)(const StepTimes&);
+};
+
+constexpr PartEntry kParts[] = {
+    {"update", false, [](const StepTimes& t) { return t.update; }},
+    {"static", false, [](const StepTimes& t) { return t.static_query; }},
+    {"swept", false, [](const StepTimes& t) { return t.swept_query; }},
+    {"step", false, [](const StepTimes& t) { return t.update + t.static_query + t.swept_query; }},
+    {"static_rigid", true, [](const StepTimes& t) { return t.static_query; }},
+    {"swept_rigid", true, [](const StepTimes& t) { return t.swept_query; }},
+};
+
+// A repetition is one round through the scene's steps, or fewer steps if the engine is slow. Google
+// Benchmark must not choose the number: an update may take almost no time (it may only keep a
+// pointer), and would be repeated, each time with the rest of its step, until enough time adds up.
+std::size_t steps_per_repetition(std::size_t faces, double face_seconds) {
+  constexpr double kSeconds = 0.05;
+  const double affordable = kSeconds / (face_seconds * static_cast<double>(faces));
+  const double round = static_cast<double>(step_count(faces));
+  return static_cast<std::size_t>(std::clamp(affordable, 1.0, round));
+}
+
+void add_engine(MeasurementCache& cache, const EngineEntry& engine, const SceneKey& key) {
+  for (const PartEntry& part : kParts) {
+    const auto run = [&cache, engine, part, key,
+                      next = std::size_t{0}](benchmark::State& state) mutable {
+      EngineMeasurement& measurement = cache.engine(engine.name, engine.make, key, part.rigid);
+      for ([[maybe_unused]] const auto _ : state) {
+        state.SetIterationTime(part.share(measurement.times(next++)));
+      }
+      count_errors(measurement.summary(), state);
+    };
+    add_case(case_name(part.name, engine.name, key),
+             steps_per_repetition(key.faces, engine.face_seconds), run);
+  }
+}
+
+}  // namespace
+
+void add_engine_cases(MeasurementCache& cache, const SceneKey& key) {
+  for (const EngineEntry& engine : kEngines) {
+    if (key.faces <= engine.max_faces) add_engine(cache, engine, key);
+  }
+}
+
+}  // namespace organ_collision::bench

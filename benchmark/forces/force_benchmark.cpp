@@ -1,0 +1,64 @@
+// How long the contact adapter takes from an answer to a wrench, by the number of contacts.
+
+#include <benchmark/benchmark.h>
+#include <organ_collision/ContactArray.h>
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+
+#include "contact_adapter/wrench_law.hpp"
+#include "ros/interface/conversions.hpp"
+
+namespace organ_collision::bench {
+namespace {
+
+constexpr double kRadius = 0.005;  // [m]
+
+/// `count` contacts, spread evenly over the lower half of a ball. In tight tissue all have the same
+/// depth. Otherwise the ball is pressed down into a dent of its own shape, so a contact is the
+/// deeper the more its normal points down.
+ContactArray half_sphere(std::uint32_t count, bool is_tight) {
+  constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
+  ContactArray answer;
+  answer.links = {""};
+  answer.mode = ContactArray::SWEPT;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double down = (i + 0.5) / count, across = std::sqrt(1.0 - down * down);
+    const Eigen::Vector3d normal(across * std::cos(kGoldenAngle * i),
+                                 across * std::sin(kGoldenAngle * i), -down);
+    Contact contact;
+    contact.face = i;
+    contact.vertices = {3 * i, 3 * i + 1, 3 * i + 2};
+    contact.barycentric = {0.2, 0.3, 0.5};
+    contact.normal = to_vector(normal);
+    contact.depth = is_tight ? 0.001 : 0.001 * down;
+    contact.point = contact.end_point = to_point((kRadius - contact.depth) * normal);
+    answer.contacts.push_back(contact);
+  }
+  return answer;
+}
+
+void run(benchmark::State& state, bool is_tight) {
+  const ContactArray answer = half_sphere(static_cast<std::uint32_t>(state.range(0)), is_tight);
+  WrenchLaw law;
+  for ([[maybe_unused]] const auto _ : state) {
+    benchmark::DoNotOptimize(law.follow(answer, 0.001, 300.0, kRadius));
+  }
+}
+
+BENCHMARK_CAPTURE(run, dent, false)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(30'000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(run, tight, true)
+    ->Arg(1000)
+    ->Arg(10'000)
+    ->Arg(30'000)
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace organ_collision::bench
+
+BENCHMARK_MAIN();

@@ -1,0 +1,98 @@
+#!/usr/bin/python3
+"""contact_adapter and messages without forces: failures, malformed contacts, the paper's modes,
+names that ROS does not allow."""
+
+import math
+import sys
+
+from organ_collision.msg import Contact, ContactArray
+import rospy
+import rostest
+
+from support.contact_adapter_case import CLEAR, PRESSED, SHEET, ContactAdapterCase, Diagnostics
+from support.node_client import wait_until
+
+
+class ContactAdapterInputTest(ContactAdapterCase):
+    def test_nothing_comes_while_a_transform_is_missing(self):
+        """Nothing is published about the gap. Outputs before and after it are waited for, so that
+        nothing can arrive later."""
+        outputs, diagnostics = self.connect(), Diagnostics()
+        self.step(SHEET, PRESSED, vertices=True)
+        outputs.wait_for(self.stamp)
+        wait_until(lambda: outputs.faces[-1].data, 'the faces before the gap')
+        counts = len(outputs.wrenches), len(outputs.faces)
+        missing = self.next_stamp()
+        self.node.send_vertices(self.organ, SHEET, missing)
+        failed = self.node.contacts.wait_for(self.organ, 'probe', mesh_stamp=missing)
+        self.assertEqual(failed.status, ContactArray.NO_TRANSFORM)
+        for _ in range(2):  # out, and clear
+            self.step(SHEET, CLEAR, vertices=True)
+        outputs.wait_for(self.stamp)
+        wait_until(lambda: not outputs.faces[-1].data, 'an empty list of faces')
+        self.assertEqual(outputs.of(missing), [])
+        self.assertEqual((len(outputs.wrenches), len(outputs.faces)), tuple(n + 2 for n in counts))
+        diagnostics.wait_for_count('unpublished, no transform', 1)
+
+    def test_malformed_contacts_publish_nothing(self):
+        """Another sender publishes them on the same topic. The adapter continues to work."""
+        outputs, diagnostics = self.connect(), Diagnostics()
+        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wait_until(
+            lambda: '/contact_adapter' in [info[1] for info in sender.impl.get_stats_info()],
+            'the adapter to listen',
+        )
+        good = self.node.contacts.of(self.organ, 'probe')[-1]
+        stamp = rospy.Time(7)
+        for depth, normal_z, mode in (
+            (float('nan'), 1.0, ContactArray.STATIC),
+            (0.001, float('nan'), ContactArray.SWEPT),
+            (float('inf'), 1.0, ContactArray.STATIC),
+            (0.001, 0.0, ContactArray.STATIC),
+            (0.001, 1.0, 9),
+        ):
+            bad = ContactArray(organ=self.organ, tool='probe', mode=mode, links=[''])
+            bad.header.frame_id, bad.header.stamp = good.header.frame_id, stamp
+            bad.contacts = [Contact(depth=depth)]
+            bad.contacts[0].normal.z = normal_z
+            sender.publish(bad)
+        diagnostics.wait_for_count('unpublished, malformed contacts', 5)
+        self.step(SHEET, PRESSED, vertices=True)
+        found = outputs.wait_for(self.stamp)
+        self.assertGreater(found.wrench.force.z, 0.0)
+        self.assertEqual(outputs.of(stamp), [])
+        self.assertTrue(all(math.isfinite(w.wrench.force.z) for w in outputs.wrenches))
+        sender.unregister()
+
+    def test_the_papers_modes_have_faces_alone(self):
+        outputs = self.connect()
+        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wait_until(
+            lambda: '/contact_adapter' in [info[1] for info in sender.impl.get_stats_info()],
+            'the adapter to listen',
+        )
+        count = len(outputs.wrenches)
+        unrefined = ContactArray(organ=self.organ, tool='probe', mode=ContactArray.PAPER_SWEPT)
+        unrefined.header.frame_id = 'liver_frame'
+        unrefined.contacts = [Contact(face=3), Contact(face=17)]
+        sender.publish(unrefined)
+        wait_until(lambda: list(outputs.faces[-1].data) == [3, 17], 'the faces')
+        self.step(SHEET, CLEAR, vertices=True)
+        outputs.wait_for(self.stamp)
+        self.assertEqual(len(outputs.wrenches), count + 1)
+        sender.unregister()
+
+    def test_names_that_ros_does_not_allow(self):
+        """Illegal characters become `_`. A second organ that would get the same topics is
+        refused."""
+        self.organ, diagnostics = 'left lobe', Diagnostics()
+        outputs = self.connect(pair='left_lobe/probe')
+        self.organ = 'left_lobe'
+        self.step(SHEET, CLEAR)
+        diagnostics.wait_for_count('unpublished, name taken', 1)
+        self.assertEqual(outputs.of(self.stamp), [])
+
+
+if __name__ == '__main__':
+    rospy.init_node('contact_adapter_input_test')
+    rostest.rosrun('organ_collision', 'forces_input', ContactAdapterInputTest, sys.argv)

@@ -1,0 +1,253 @@
+"""The node as its users see it: its topics, its services, TF and /diagnostics. Nothing here sleeps
+for a fixed time. Instead, functions wait for an event, at most LIMIT seconds."""
+
+import threading
+import time
+
+import diagnostic_msgs.msg
+import geometry_msgs.msg
+from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ToolMotion
+from organ_collision.srv import (
+    QueryCollision,
+    QueryCollisionBatch,
+    QueryCollisionBatchRequest,
+    QueryCollisionRequest,
+)
+import rospy
+from std_srvs.srv import Empty
+from tf2_msgs.msg import TFMessage
+
+from . import scenes
+
+LIMIT = 20.0  # [s]
+
+
+def wait_until(condition, what, limit=LIMIT):
+    """Waits until condition() is true and returns its value. Raises AssertionError after `limit`
+    seconds. `what`: the awaited event for the error's text, or a function that returns it."""
+    end = time.monotonic() + limit
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError(
+                'waited %g s without success: %s' % (limit, what() if callable(what) else what)
+            )
+        time.sleep(0.005)
+
+
+def is_heard(topic, process):
+    """Whether the node `process` listens to this publisher. Counting the listeners is not enough,
+    because other nodes may listen, too."""
+    return process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
+
+
+class TfSender:
+    """Sends transforms as a robot would: moving ones on /tf, and resting ones on /tf_static."""
+
+    def __init__(self):
+        self.moving = rospy.Publisher('/tf', TFMessage, queue_size=1000)
+        self.resting = rospy.Publisher('/tf_static', TFMessage, queue_size=10, latch=True)
+        self.resting_transforms = []
+
+    def wait_for(self, node):
+        """Waits until the node of this NodeClient listens. It never gets what is sent on /tf
+        before."""
+        wait_until(
+            lambda: is_heard(self.moving, node.process) and is_heard(self.resting, node.process),
+            'connections from TF to ' + node.process,
+        )
+
+    def send(self, *transforms):
+        """Sends transforms (parent, child, pose, stamp) in one message, because queues are
+        short."""
+        self.moving.publish([self._message(*transform) for transform in transforms])
+
+    def send_resting(self, *transforms):
+        """Sends transforms (parent, child, pose) that hold for all times."""
+        now = rospy.Time.now()
+        self.resting_transforms += [self._message(*transform, now) for transform in transforms]
+        self.resting.publish(self.resting_transforms)
+
+    @staticmethod
+    def _message(parent, child, pose, stamp):
+        message = geometry_msgs.msg.TransformStamped()
+        message.header.frame_id, message.child_frame_id = parent, child
+        message.header.stamp = stamp
+        message.transform.translation = geometry_msgs.msg.Vector3(*pose.translation)
+        message.transform.rotation = geometry_msgs.msg.Quaternion(*pose.rotation)
+        return message
+
+
+class ContactLog:
+    """All ContactArrays received so far, in order."""
+
+    def __init__(self, topic):
+        self.messages = []
+        self.lock = threading.Lock()
+        self.subscriber = rospy.Subscriber(topic, ContactArray, self._add, queue_size=1000)
+
+    def _add(self, message):
+        with self.lock:
+            self.messages.append(message)
+
+    def of(self, organ, tool=None, stamp=None, **fields):
+        """The messages about one organ (and tool, and stamp) whose fields have these values."""
+
+        def wanted(message):
+            return (
+                message.organ == organ
+                and tool in (None, message.tool)
+                and stamp in (None, message.header.stamp)
+                and all(getattr(message, name) == value for name, value in fields.items())
+            )
+
+        with self.lock:
+            return [message for message in self.messages if wanted(message)]
+
+    def wait_for(self, organ, tool, **fields):
+        """Waits for the first such message."""
+        return wait_until(
+            lambda: self.of(organ, tool, **fields),
+            'contacts of %s and %s with %s' % (organ, tool, fields),
+        )[0]
+
+
+def shaft(trocar, tip, radius, previous=None):
+    """A ToolMotion; `previous` is the axis (trocar, tip) at the start of the step."""
+    motion = ToolMotion(radius=radius)
+    motion.trocar, motion.tip = geometry_msgs.msg.Point(*trocar), geometry_msgs.msg.Point(*tip)
+    if previous:
+        motion.previous_trocar = geometry_msgs.msg.Point(*previous[0])
+        motion.previous_tip = geometry_msgs.msg.Point(*previous[1])
+    return motion
+
+
+FAR_AWAY = shaft((9.0, 9.0, 9.0), (9.0, 9.0, 9.1), 0.001)
+
+
+class NodeClient:
+    """Publishers, subscribers and services of one running node. `process`: the name of the ROS node
+    that runs it, if it is another one: the manager of a nodelet."""
+
+    def __init__(self, node='/organ_collision', frame='liver_frame', process=None):
+        self.node, self.frame, self.process = node, frame, process or node
+        self.meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, queue_size=100)
+        self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
+        self.contacts = ContactLog(node + '/contacts')
+        self.diagnostics, self.summaries = {}, {}
+        self.past_summaries = {}  # For each name, all summaries so far, in order.
+        self.diagnostics_subscriber = rospy.Subscriber(
+            '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep_diagnostics
+        )
+        for service in ('query', 'query_batch', 'reset'):
+            rospy.wait_for_service(node + '/' + service, LIMIT)
+        self.query_service = rospy.ServiceProxy(node + '/query', QueryCollision, persistent=True)
+        self.batch_service = rospy.ServiceProxy(node + '/query_batch', QueryCollisionBatch)
+        self.reset = rospy.ServiceProxy(node + '/reset', Empty)
+        wait_until(self.connected, 'connections to ' + node)
+
+    def connected(self):
+        return self.contacts.subscriber.get_num_connections() > 0 and all(
+            is_heard(topic, self.process) for topic in (self.meshes, self.shapes)
+        )
+
+    def close(self):
+        """Closes all connections. Call this before connecting to another node of the same name."""
+        for end in (
+            self.meshes,
+            self.shapes,
+            self.contacts.subscriber,
+            self.diagnostics_subscriber,
+        ):
+            end.unregister()
+        self.query_service.close()
+
+    def _keep_diagnostics(self, message):
+        for status in message.status:
+            if status.name.lstrip('/').startswith(self.node.lstrip('/') + ':'):
+                name = status.name.split(': ')[-1]
+                self.summaries[name] = status.message
+                self.past_summaries.setdefault(name, []).append(status.message)
+                for pair in status.values:
+                    self.diagnostics[pair.key] = pair.value
+
+    def mesh_message(self, organ, mesh, stamp=rospy.Time(), topology=1):
+        message = OrganMesh(
+            organ=organ,
+            topology=topology,
+            vertices=mesh.flat_vertices(),
+            triangles=mesh.flat_faces(),
+        )
+        message.header.frame_id, message.header.stamp = self.frame, stamp
+        return message
+
+    def vertices_message(self, organ, mesh, stamp=rospy.Time(), topology=1):
+        message = OrganVertices(organ=organ, topology=topology, vertices=mesh.flat_vertices())
+        message.header.frame_id, message.header.stamp = self.frame, stamp
+        return message
+
+    def send_mesh(self, *args, **named):
+        self.meshes.publish(self.mesh_message(*args, **named))
+
+    def send_vertices(self, *args, **named):
+        self.shapes.publish(self.vertices_message(*args, **named))
+
+    def remove(self, organ):
+        self.send_mesh(organ, scenes.Mesh([], []))
+        wait_until(
+            lambda: self.query(organ, FAR_AWAY).status
+            in (ContactArray.UNKNOWN_ORGAN, ContactArray.NO_MESH),
+            'removal of ' + organ,
+        )
+
+    def wait_for_shape(self, organ, stamp, topology=1):
+        """Waits until queries are answered with the organ's shape of `stamp`."""
+
+        def has_it():
+            result = self.query(organ, FAR_AWAY)
+            seen[:] = [result.status, result.message, result.mesh_stamp, result.topology]
+            return seen == [ContactArray.OK, '', stamp, topology]
+
+        seen = []
+        wait_until(has_it, lambda: 'shape of %s of %s; there is %s' % (organ, stamp, seen))
+
+    def query(
+        self,
+        organ,
+        motion=None,
+        mode=ContactArray.STATIC,
+        tool='',
+        frame=None,
+        stamp=rospy.Time(),
+        organ_motion=False,
+        regions=False,
+    ):
+        request = QueryCollisionRequest(
+            organ=organ,
+            tool=tool,
+            motion=motion or ToolMotion(),
+            mode=mode,
+            organ_motion=organ_motion,
+            regions=regions,
+        )
+        request.header.frame_id = self.frame if frame is None else frame
+        request.header.stamp = stamp
+        return self.query_service(request).result
+
+    def answer_batch(
+        self, organ, motions, mode=ContactArray.STATIC, frame=None, organ_motion=False
+    ):
+        request = QueryCollisionBatchRequest(
+            organ=organ, motions=motions, mode=mode, organ_motion=organ_motion
+        )
+        request.header.frame_id = self.frame if frame is None else frame
+        return self.batch_service(request)
+
+    def query_batch(self, *args, **named):
+        """The results of a batch. Raises AssertionError if the batch is refused."""
+        answer = self.answer_batch(*args, **named)
+        if answer.status != ContactArray.OK:
+            raise AssertionError('batch refused: %d, %s' % (answer.status, answer.message))
+        return answer.results

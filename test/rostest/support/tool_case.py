@@ -1,0 +1,84 @@
+"""A test case with tools that move by TF. Its points are in the organ's frame, which is rotated and
+shifted in the world. Trocars and tips are sent in the world frame."""
+
+from organ_collision.msg import ContactArray
+import rospy
+
+from . import scenes
+from .contact_case import ContactCase
+from .node_client import NodeClient, TfSender, wait_until
+
+WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
+STEP = rospy.Duration(0, 10**7)
+OUT_OF_REACH = 'out_of_reach'  # an organ that no tool touches
+
+
+class ToolCase(ContactCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.node = NodeClient()
+        cls.tf = TfSender()
+        cls.tf.wait_for(cls.node)
+        cls.tf.send_resting(('world', 'liver_frame', WORLD_LIVER))
+        cls.stamp = rospy.Time.now()
+        far_away = scenes.one_face().moved(lambda v: (v[0] + 100.0, v[1], v[2]))
+        cls.node.send_mesh(OUT_OF_REACH, far_away)
+        cls.node.wait_for_shape(OUT_OF_REACH, rospy.Time())
+
+    def setUp(self):
+        self.organ = self.id().split('.')[-1]
+
+    @classmethod
+    def next_stamp(cls, step=STEP):
+        """The next stamp, one step of 10 ms later. Stamps rise from test to test, too."""
+        cls.stamp += step
+        return cls.stamp
+
+    def frames(self, tool):
+        """The frames whose origins place the tool."""
+        return (tool + '_trocar', tool + '_tip')
+
+    def place(self, tool, *way):
+        """Sends the tool's frames along `way`, pairs of (axis, stamp). The axis is (trocar, tip) in
+        the organ's frame, or one point for each of the tool's frames."""
+        turn = (0.1, 0.2, 0.3, 0.9)
+        self.tf.send(
+            *[
+                ('world', frame, scenes.Pose(turn, WORLD_LIVER.apply(point)), stamp)
+                for axis, stamp in way
+                for frame, point in zip(self.frames(tool), axis)
+            ]
+        )
+
+    def place_and_wait(self, tool, axis, stamp):
+        """Sends the tool's frames at one time, and waits until the node has received them."""
+
+        def is_there():
+            result = self.node.query(OUT_OF_REACH, tool=tool, stamp=stamp)
+            seen[:] = [result.status, result.message]
+            return result.status == ContactArray.OK
+
+        seen = []
+        self.place(tool, (axis, stamp))
+        wait_until(is_there, lambda: 'the pose of %s at %s: %s' % (tool, stamp, seen))
+
+    def step(self, shape, tools, topology=1, vertices=False, step=STEP):
+        """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns
+        {name: the ContactArray about this tool}. The poses are sent first, so that the node never
+        has to wait for a transform, even on a busy machine."""
+        return self.step_of_organs({self.organ: shape}, tools, topology, vertices, step)[self.organ]
+
+    def step_of_organs(self, shapes, tools, topology=1, vertices=False, step=STEP):
+        """One step of several organs, {organ: shape}. Returns {organ: {tool: ContactArray}}."""
+        stamp = self.next_stamp(step)
+        for tool, axis in tools.items():
+            self.place_and_wait(tool, axis, stamp)
+        send = self.node.send_vertices if vertices else self.node.send_mesh
+        for organ, shape in shapes.items():
+            send(organ, shape, stamp, topology)
+        return {
+            organ: {
+                tool: self.node.contacts.wait_for(organ, tool, mesh_stamp=stamp) for tool in tools
+            }
+            for organ in shapes
+        }
