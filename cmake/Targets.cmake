@@ -1,13 +1,15 @@
-# Installed libraries and programs find our libraries beside or above themselves, from any prefix.
+# Installed libraries and programs find our libraries in their own folder or the one above it, so the
+# prefix may be moved.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
 
-# organ_collision_target(TARGET): what every target of the package is built with.
+# organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
 function(organ_collision_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror)
 endfunction()
 
-# organ_collision_layer(NAME SOURCES...): one of the package's libraries, organ_collision_NAME. Headers
-# in include/ are installed; those beside the sources are found by their path from src/, and are not.
+# organ_collision_layer(NAME [STATIC] SOURCES...): a library of the package, organ_collision_NAME. The
+# headers in include/ are installed. Those beside the sources are not; they are included by their
+# path from src/.
 function(organ_collision_layer name)
   add_library(organ_collision_${name} ${ARGN})
   add_library(organ_collision::${name} ALIAS organ_collision_${name})

@@ -5,7 +5,8 @@
 
 namespace organ_collision {
 
-/// The numbers of the touched faces, rising, each once; one dimension, "faces".
+/// The numbers of the touched faces in rising order, each once. The array has one dimension,
+/// "faces".
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
 
 }  // namespace organ_collision

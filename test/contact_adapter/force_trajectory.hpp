@@ -11,15 +11,15 @@
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "ros/interface/conversions.hpp"
+#include "ros/steps/query_conversions.hpp"
 
 namespace organ_collision {
 
 constexpr double kRadius = 0.005;      // [m]
 constexpr double kStiffness = 1000.0;  // [N/m]
 
-/// A surface over a grid of n by m cells, each of two faces, at `place(u, v)`, u and v in [0, 1];
-/// the faces look along the cross product of the directions of growing u and v.
+/// A surface over a grid of n by m cells of two faces each, with the vertices at `place(u, v)` for
+/// u and v in [0, 1]. The face normals are the cross product of the directions of u and v.
 template <typename Place>
 TriangleMesh grid_mesh(int n, int m, const Place& place) {
   std::vector<float> vertices;
@@ -39,8 +39,9 @@ TriangleMesh grid_mesh(int n, int m, const Place& place) {
   return {vertices, triangles};
 }
 
-/// Two plane sheets of 40 mm that meet along the y axis, 160 mm long; their directions away from it
-/// are `left` and `right` [rad] above the x axis' negative and positive half. Cells of `cell` [m].
+/// Two plane sheets that meet along the y axis, 40 mm wide and 160 mm long. They rise from it by
+/// the angles `left` and `right` [rad], towards negative and positive x. The grid has cells of
+/// `cell` [m].
 inline TriangleMesh folded_sheet(double left, double right, double cell) {
   const int half = static_cast<int>(std::lround(0.04 / cell));
   const int along = static_cast<int>(std::lround(0.16 / cell));
@@ -51,18 +52,18 @@ inline TriangleMesh folded_sheet(double left, double right, double cell) {
   });
 }
 
-/// The force [N] that a law makes of each answer, one after the other.
+/// Turns each of successive answers into a force [N].
 using ForceLaw = std::function<Eigen::Vector3d(const ContactArray&)>;
 
 struct ForceStep {
   ShaftAxis axis;
   Eigen::Vector3d force;
   double change;  ///< [N] since the last step
-  double way;     ///< [m] of the end of the axis that moved farther
+  double way;     ///< [m] motion since the last step, of the end that moved farther
 };
 
-/// A shaft that goes through `poses`, against an organ at rest: queried step by step as the node
-/// does, the first static, the others swept.
+/// The forces on a shaft that moves through `poses` against an organ at rest. The first step is a
+/// static query and the others are swept, as in the node.
 inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
                                            const TriangleMesh& organ, const ForceLaw& law) {
   CollisionQuery query;
@@ -92,7 +93,7 @@ inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
   return steps;
 }
 
-/// Poses from one to the next in steps of at most `most` [m] of either end.
+/// Poses on straight lines through `corners`. Neither end moves by more than `most` [m] in a step.
 inline std::vector<ShaftAxis> way_through(const std::vector<ShaftAxis>& corners, double most) {
   std::vector<ShaftAxis> poses = {corners.front()};
   for (std::size_t i = 1; i < corners.size(); ++i) {

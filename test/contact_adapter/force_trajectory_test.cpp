@@ -1,5 +1,5 @@
-// What contacts of real queries push with, step by step along trajectories: over flat tissue, a
-// wall, creases, edges, saddles, hills and through a sheet, coarse and fine.
+// The forces from contacts of real queries, step by step along trajectories: over flat tissue, a
+// wall, creases, edges, saddles and hills, and through a sheet, with coarse and with fine meshes.
 
 #include "force_trajectory.hpp"
 
@@ -18,10 +18,10 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kStep = 1e-4;     // [m]
-constexpr double kSeconds = 1e-3;  // [s] a step takes
+constexpr double kSeconds = 1e-3;  // [s] duration of a step
 constexpr double kCells[] = {0.02, 0.005, 0.00125};
 
-/// A law that begins anew.
+/// A new WrenchLaw.
 ForceLaw remembering_law(const KeptSides::Radius& radius = kRadius) {
   return [radius, law = WrenchLaw()](const ContactArray& answer) mutable {
     const auto force = law.follow(answer, kSeconds, kStiffness, radius).force;
@@ -40,13 +40,13 @@ std::vector<ForceStep> expect_no_jump(const std::string& what, const TriangleMes
   return steps;
 }
 
-/// Along the y axis, through (x, 0.003, z), its tip lower by `tilt` [rad].
+/// A shaft along the y axis through (x, 0.003, z), with the tip tilted down by `tilt` [rad].
 ShaftAxis lying(double x, double z, double tilt) {
   const Vector3d middle(x, 0.003, z), along(0.0, 1.0, -tilt);
   return {middle - 0.05 * along, middle + 0.04 * along};
 }
 
-/// At these distances from the two sides of a crease of 90 degrees.
+/// A shaft at these distances from the two sides of a crease of 90 degrees.
 ShaftAxis in_crease(double from_left, double from_right) {
   return lying(std::sqrt(0.5) * (from_left - from_right), std::sqrt(0.5) * (from_left + from_right),
                0.0);
@@ -56,7 +56,7 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-/// A block: its top is the plane z = 0 where x > 0, its wall the plane x = 0 below.
+/// A block: its top is the plane z = 0 for x > 0, and its wall the plane x = 0 below.
 TriangleMesh block(double cell) {
   const int across = static_cast<int>(std::lround(0.08 / cell));
   return grid_mesh(across, 2 * across, [](double u, double v) -> Vector3d {
@@ -65,7 +65,8 @@ TriangleMesh block(double cell) {
   });
 }
 
-/// Of the curvatures 1 / radius and -1 / radius; it rises along the x axis.
+/// A saddle with the curvatures 1 / radius along the x axis, where it rises, and -1 / radius along
+/// y.
 TriangleMesh saddle(double radius, double cell) {
   const int cells = static_cast<int>(std::lround(0.06 / cell));
   return grid_mesh(cells, cells, [&](double u, double v) -> Vector3d {
@@ -87,7 +88,7 @@ TEST(ForceTrajectory, LyingOnTissueItGrowsOnPastTheRadius) {
         const double lowest = std::min(step.axis.tip.z(), step.axis.trocar.z());
         const double depth = std::max(0.0, kRadius - lowest);
         EXPECT_LE(angle_between(step.force, Vector3d::UnitZ()), step.force.z() > 0.1 ? 1e-3 : 4.0);
-        // How deep the trocar's end is once it has sunk, no contact says.
+        // No contact tells how deep the end at the trocar is after it has sunk in.
         if (tilt < 0.0 && step.axis.trocar.z() < 0.0) continue;
         EXPECT_NEAR(step.force.z(), kStiffness * depth, 2.0 * kStiffness * kStep);
       }
@@ -164,7 +165,8 @@ TEST(ForceTrajectory, AnEdgeIsNotSlippedOffPastTheRadius) {
         const auto steps = expect_no_jump(
             "cell " + std::to_string(cell), edge,
             {lying(beside, 0.007, tilt), lying(beside, -0.004, tilt), lying(beside, 0.007, tilt)});
-        // Straight away from the edge, down to half the radius from it; then it turns no more.
+        // The force points straight away from the edge. Closer than half the radius, it keeps its
+        // direction.
         const double half = std::sqrt(0.25 * kRadius * kRadius - beside * beside);
         for (const ForceStep& step : steps) {
           const double lowest = std::min(step.axis.tip.z(), step.axis.trocar.z());
@@ -194,7 +196,7 @@ TEST(ForceTrajectory, AcrossAnEdgeItPushesUp) {
 }
 
 TEST(ForceTrajectory, OnASaddle) {
-  // Also with the tip in the rising wall of the valley, and with the axis past the saddle.
+  // Some poses have the tip in the rising wall of the valley, or the axis past the saddle.
   for (const double radius : {0.03, 0.012}) {
     for (const double cell : {0.02, 0.005, 0.0025, 0.00125}) {
       const TriangleMesh organ = saddle(radius, cell);
@@ -212,7 +214,7 @@ TEST(ForceTrajectory, OnASaddle) {
 }
 
 TEST(ForceTrajectory, AtRestItComesToThePushes) {
-  // The tip's facet changes at 1.7 mm, and with it the depth, by 1.3 mm.
+  // At a height of 1.7 mm the tip comes over another facet, and the depth changes by 1.3 mm.
   const TriangleMesh organ = saddle(0.03, 0.005);
   const auto at = [](double z) {
     const Vector3d along(std::sin(1.5), std::cos(1.5), -0.02), middle(0.0, 0.001, z);

@@ -9,6 +9,7 @@
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
 #include "ros/publishing/markers.hpp"
 #include "ros/steps/contact_array.hpp"
 #include "ros/tools/tool_loader.hpp"

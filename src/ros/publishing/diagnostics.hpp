@@ -26,11 +26,6 @@ struct NodeCounters {
   FailureLog refused;            ///< service calls without answer
 };
 
-/// Counts by reason, as "WHAT, REASON"; a warning with the latest message where something is new,
-/// an error where picking failed.
-void show_failures(const std::string& what, FailureLog& log,
-                   diagnostic_updater::DiagnosticStatusWrapper& status);
-
 /// Says how the node is, for /diagnostics.
 class Diagnostics {
  public:

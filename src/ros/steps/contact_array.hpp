@@ -26,9 +26,6 @@ void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganSh
 /// The message is cut to kLongestMessage bytes of plain text.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
-/// The short name of a status, as failures are counted by.
-std::string reason_of(std::uint8_t status);
-
 /// Whether the shape is older than `timeout_sec`; 0: never.
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
 /// Says so, with the age and the limit.

@@ -1,6 +1,7 @@
 #include "ros/steps/query_services.hpp"
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -40,9 +41,9 @@ const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
 /// Across the sheet at height 0, in the organ's frame.
 ToolMotion through() {
   ToolMotion motion;
-  motion.previous_trocar = motion.trocar = to_point({0.0, 0.0, 1.0});
-  motion.previous_tip = to_point(kAbove);
-  motion.tip = to_point(kBelow);
+  motion.previous_trocar = motion.trocar = tf2::toMsg(Eigen::Vector3d(0.0, 0.0, 1.0));
+  motion.previous_tip = tf2::toMsg(kAbove);
+  motion.tip = tf2::toMsg(kBelow);
   motion.radius = 0.01;
   return motion;
 }
@@ -80,8 +81,8 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_EQ(answer.header.frame_id, "liver_frame");
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
   request.mode = ContactArray::STATIC;
-  request.motion.tip = to_point(kAbove);
-  request.motion.previous_tip = to_point(kBelow);
+  request.motion.tip = tf2::toMsg(kAbove);
+  request.motion.previous_tip = tf2::toMsg(kBelow);
   answer = services.query(request);
   EXPECT_EQ(answer.status, ContactArray::OK);
   EXPECT_TRUE(answer.contacts.empty());
@@ -95,7 +96,7 @@ TEST_F(QueryServicesTest, MotionInAnotherFrame) {
   const ContactArray here = services.query(request);
   for (geometry_msgs::Point* point : {&request.motion.previous_trocar, &request.motion.previous_tip,
                                       &request.motion.trocar, &request.motion.tip}) {
-    *point = to_point(T_liver_table.inverse() * to_eigen(*point));
+    *point = tf2::toMsg(T_liver_table.inverse() * to_eigen(*point));
   }
   request.header.frame_id = "/table";
   const ContactArray there = services.query(request);
@@ -111,7 +112,7 @@ TEST_F(QueryServicesTest, MotionInAnotherFrame) {
 
 TEST_F(QueryServicesTest, OrganMovesOnRequest) {
   send_vertices(1.1, 2.0f);
-  request.motion.previous_tip = request.motion.tip = to_point(kAbove);
+  request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAbove);
   EXPECT_TRUE(services.query(request).contacts.empty());
   request.organ_motion = true;
   EXPECT_EQ(services.query(request).contacts.size(), 2u);
