@@ -18,8 +18,7 @@ using Eigen::Vector3d;
 
 /// [1] A barycentric coordinate up to this counts as zero: the point does not depend on the corner.
 constexpr double kOnEdge = 1e-9;
-/// [m] A face is nearer to the tool if it is so by more than this. A smaller difference is
-/// rounding.
+/// [m] Smaller differences between the distances of two faces are rounding.
 constexpr double kNearer = 1e-9;
 
 /// The corners that the contact's point depends on: one, two (the point is on an edge), or three.

@@ -4,17 +4,15 @@
 
 namespace organ_collision {
 
-/// Whether the contacts have points, normals and depths. In the paper's modes they have only face
-/// numbers.
+/// Whether the contacts have points, normals and depths. In the paper's modes, they do not.
 bool has_geometry(const ContactArray& contacts);
 
 /// Checks an answer whose status is OK. Throws Rejection, with the illegal value, for
 /// - unresolved contacts;
 /// - an unknown mode, an empty frame, or an illegal name;
 /// - a number of regions other than zero or the number of contacts;
-/// - contacts with geometry: a depth, point or end point that is not finite, or a normal that is
-/// not
-///   unit (to 1e-6).
+/// - contacts with geometry: a depth, point or end point that is not finite, or a normal whose
+///   length is not 1 (to 1e-6).
 /// The collision node sends only the first of these.
 void check_contacts(const ContactArray& contacts);
 

@@ -54,8 +54,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
     if (!last_) continue;
     const auto before = last_->find({contact.face, contact.link});
     if (before == last_->end()) {
-      // If the tool did not touch the face when the step began, all of its depth arose in this
-      // step.
+      // A face that was not touched when the step began got its whole depth in this step.
       way = std::max(way, contact.fraction > 0.0 ? contact.depth : now.depth);
     } else {
       way = std::max(way, way_between(before->second, now));

@@ -42,10 +42,9 @@ class ContactMotion {
     double push;             ///< [m] Push.depth: at most the radius if the axis came from the side
   };
   struct Place {
-    double depth;  ///< [m] Contact.depth, for a shaft at most its radius
-    std::optional<Eigen::Vector3d>
-        offset;  ///< [m] from the axis to the face; none if the radius is unknown
-    std::optional<Pierced> pierced;  ///< if the axis is past the face and the push counts
+    double depth;                           ///< [m] Contact.depth, for a shaft at most its radius
+    std::optional<Eigen::Vector3d> offset;  ///< [m] axis to face; none: the radius is unknown
+    std::optional<Pierced> pierced;         ///< if the axis is past the face and the push counts
   };
   using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
   using Places = std::map<FaceAndLink, Place>;

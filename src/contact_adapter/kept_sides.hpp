@@ -33,9 +33,7 @@ struct Push {
 /// - A face that the axis pierces has the contact's depth if the tip pierced it and the two normals
 ///   agree. If the axis moved into the face from the side, the depth is s: the distance of the tip
 ///   beyond the face does not matter.
-/// - For links, and for a shaft of unknown radius, the depth does not change while they are past
-/// the
-///   face.
+/// - For links, and for a shaft of unknown radius, the depth does not change past the face.
 class KeptSides {
  public:
   using Radius = std::optional<double>;  ///< [m]

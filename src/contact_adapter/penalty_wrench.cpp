@@ -38,8 +38,8 @@ std::vector<Spring> springs_of(const std::vector<Push>& pushes) {
 }
 
 /// Repeatedly lengthens the spring that lacks most, until none lacks more than `enough` or the
-/// limit of springs is reached. Adds the lengthened springs to `used`. Returns whether it
-/// lengthened any.
+/// limit of springs is reached. Adds the lengthened springs to `used`. Returns whether there
+/// were any.
 bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, double enough) {
   for (int count = 0; count < kSpringsARound; ++count) {
     const auto most =

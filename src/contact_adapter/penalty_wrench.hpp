@@ -19,8 +19,8 @@ namespace organ_collision {
 ///   force = -stiffness * sum_i l_i n_i.
 /// Two walls at right angles, opposite walls, and closing jaws have a spring each. Links side by
 /// side on flat tissue share one spring. In a crease the force is that of the smallest displacement
-/// of the tool that leaves both sides. The depths are covered up to a millionth of the greatest
-/// one.
+/// of the tool that leaves both sides. Up to a millionth of the greatest depth may stay
+/// uncovered.
 ///
 /// A spring acts at the mean place of all pushes, weighted by d_j max(0, n_j . n_i). For a shaft
 /// that lies on the tissue, this is the middle of the touching part. Takes O(n) time for n pushes.

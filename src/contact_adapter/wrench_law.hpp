@@ -16,8 +16,7 @@ namespace organ_collision {
 /// the last one towards that of the penalty law, and its force changes in a step by at most
 ///   stiffness * (4 * motion + 0.05 m/s * seconds),
 /// with the motion that ContactMotion finds. The second term lets the force arrive while the tool
-/// rests: a lag of stiffness * 1 mm ends within 20 ms. If nothing is touched, the wrench is zero
-/// immediately.
+/// rests: a lag of stiffness * 1 mm ends within 20 ms. Without contacts the wrench is zero at once.
 class WrenchLaw {
  public:
   /// `answer`: the next one about the same organ and tool. `seconds`: time since the last call. The

@@ -14,8 +14,7 @@ namespace organ_collision {
 class MarkerReader {
  public:
   /// Replaces the content of `surface`; DELETE and DELETEALL make it empty. An orientation of four
-  /// zeros means no rotation, as in RViz. Throws MessageError, also if the marker is not the
-  /// organ's.
+  /// zeros means no rotation, as in RViz. Throws MessageError, also for another marker.
   void read(const visualization_msgs::Marker& marker, ReceivedSurface& surface);
   /// Accepts the marker that was read last as the organ's. If it deleted the organ's marker, the
   /// next marker may become the organ's.

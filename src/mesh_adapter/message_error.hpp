@@ -6,8 +6,7 @@
 
 namespace organ_collision {
 
-/// A message that cannot be turned into a surface. what() names the illegal value and what is
-/// legal.
+/// A message that cannot be read as a surface. what() names the illegal value and what is legal.
 class MessageError : public std::runtime_error {
  public:
   /// `reason`: short, and the same for all errors of its kind, which are counted by it.

@@ -10,8 +10,7 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] Meshes are rare. Another marker on the topic must not displace the organ's in the
-/// queue.
+/// [messages] Meshes are rare, but another marker must not displace the organ's one in the queue.
 constexpr std::uint32_t kSurfaceQueue = 10;
 /// [messages] Only the newest vertices count.
 constexpr std::uint32_t kVerticesQueue = 1;

@@ -8,8 +8,7 @@
 
 namespace organ_collision {
 
-/// An organ's surface as a message described it. It may be illegal: only the collision node checks
-/// it.
+/// An organ's surface as a message described it. It may be illegal: the collision node checks it.
 struct ReceivedSurface {
   std::string frame;                     ///< empty: the message has none
   ros::Time stamp;                       ///< zero: the message has none

@@ -40,7 +40,7 @@ TriangleMesh grid_mesh(int n, int m, const Place& place) {
 }
 
 /// Two plane sheets that meet along the y axis, 40 mm wide and 160 mm long. They rise from it by
-/// the angles `left` and `right` [rad], towards negative and positive x. The grid has cells of
+/// the angles `left` and `right` [rad], towards negative and positive x. The cells have edges of
 /// `cell` [m].
 inline TriangleMesh folded_sheet(double left, double right, double cell) {
   const int half = static_cast<int>(std::lround(0.04 / cell));

@@ -65,7 +65,7 @@ TriangleMesh block(double cell) {
   });
 }
 
-/// A saddle with the curvatures 1 / radius along the x axis, where it rises, and -1 / radius along
+/// A saddle with the curvature 1 / radius along the x axis, where it rises, and -1 / radius along
 /// y.
 TriangleMesh saddle(double radius, double cell) {
   const int cells = static_cast<int>(std::lround(0.06 / cell));
@@ -165,8 +165,7 @@ TEST(ForceTrajectory, AnEdgeIsNotSlippedOffPastTheRadius) {
         const auto steps = expect_no_jump(
             "cell " + std::to_string(cell), edge,
             {lying(beside, 0.007, tilt), lying(beside, -0.004, tilt), lying(beside, 0.007, tilt)});
-        // The force points straight away from the edge. Closer than half the radius, it keeps its
-        // direction.
+        // The force points straight away from the edge, and turns no further below half the radius.
         const double half = std::sqrt(0.25 * kRadius * kRadius - beside * beside);
         for (const ForceStep& step : steps) {
           const double lowest = std::min(step.axis.tip.z(), step.axis.trocar.z());

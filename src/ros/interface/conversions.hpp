@@ -10,8 +10,7 @@
 
 namespace organ_collision {
 
-// Between messages and Eigen, in the messages' units. For points to messages, use tf2::toMsg() of
-// tf2_eigen.
+// Between messages and Eigen, in the same units. From points to messages: tf2::toMsg().
 
 /// tf2::fromMsg() writes into an argument. These return the value, so that formulas can use it.
 Eigen::Vector3d to_eigen(const geometry_msgs::Point& point);

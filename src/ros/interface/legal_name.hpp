@@ -10,8 +10,7 @@ namespace organ_collision {
 std::string name_fault(const std::string& name);
 
 /// The name of `legal` that needs the fewest insertions, deletions and replacements of a letter to
-/// become `name` (Levenshtein distance). The first one if several need as few. `legal` must not be
-/// empty.
+/// become `name` (Levenshtein distance). The first of several such. `legal` must not be empty.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& legal);
 
 }  // namespace organ_collision
