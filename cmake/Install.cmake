@@ -1,6 +1,6 @@
-# Installs the libraries, headers and data. The programs and the nodelet are installed by their own
-# CMakeLists.txt. ROS packages find this package as `organ_collision` (catkin's configuration).
-# Programs without ROS find the first three layers as `organ_collision_core`.
+# Installs everything except the programs and the nodelet, which their own CMakeLists.txt install.
+# ROS packages find the package as `organ_collision` (catkin's configuration). Programs without ROS
+# find the first three layers as `organ_collision_core`.
 include(CMakePackageConfigHelpers)
 set(CORE_CMAKE_DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}/cmake/organ_collision_core)
 

@@ -1,15 +1,15 @@
-# Installed libraries and programs find this package's libraries in their own folder or the one
-# above, under any install prefix.
+# Installed libraries and programs find our libraries in their own folder or the one above it, so the
+# prefix may be moved.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
 
-# organ_collision_target(TARGET): sets the compiler warnings of this package.
+# organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
 function(organ_collision_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror)
 endfunction()
 
-# organ_collision_layer(NAME SOURCES...): adds the library organ_collision_NAME. Headers in include/
-# are installed. Headers beside the sources are included by their path from src/ and are not
-# installed.
+# organ_collision_layer(NAME [STATIC] SOURCES...): a library of the package, organ_collision_NAME. The
+# headers in include/ are installed. Those beside the sources are not; they are included by their
+# path from src/.
 function(organ_collision_layer name)
   add_library(organ_collision_${name} ${ARGN})
   add_library(organ_collision::${name} ALIAS organ_collision_${name})

@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 #include <organ_collision/ContactArray.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <Eigen/Core>
 #include <cmath>
@@ -33,7 +34,8 @@ ContactArray half_sphere(std::uint32_t count, bool is_tight) {
     contact.barycentric = {0.2, 0.3, 0.5};
     contact.normal = to_vector(normal);
     contact.depth = is_tight ? 0.001 : 0.001 * down;
-    contact.point = contact.end_point = to_point((kRadius - contact.depth) * normal);
+    contact.point = contact.end_point =
+        tf2::toMsg(Eigen::Vector3d((kRadius - contact.depth) * normal));
     answer.contacts.push_back(contact);
   }
   return answer;

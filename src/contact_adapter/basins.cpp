@@ -16,14 +16,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [1] A corner whose barycentric is at most this has no part in the point.
+/// [1] A barycentric coordinate up to this counts as zero: the point does not depend on the corner.
 constexpr double kOnEdge = 1e-9;
-/// [m] A face comes nearer if it does by more than this; less is rounding.
+/// [m] Smaller differences between the distances of two faces are rounding.
 constexpr double kNearer = 1e-9;
 
-/// The corners that the contact's point lies between: one, two (an edge), or three.
+/// The corners that the contact's point depends on: one, two (the point is on an edge), or three.
 struct Support {
-  std::array<std::uint32_t, 3> vertices{};  ///< of an edge: rising
+  std::array<std::uint32_t, 3> vertices{};  ///< the two of an edge in rising order
   std::size_t count = 0;
 };
 
@@ -46,7 +46,7 @@ bool holds(const Contact& face, const Support& support) {
                      });
 }
 
-/// The contacts at each vertex, of each link.
+/// Finds the contacts of a link whose faces have a given vertex.
 class ContactsAtVertices {
  public:
   explicit ContactsAtVertices(const std::vector<Contact>& contacts) {
@@ -57,7 +57,7 @@ class ContactsAtVertices {
     }
   }
 
-  /// Those at the corner of the support that has the fewest.
+  /// The contacts at one corner of the support: the corner with the fewest contacts.
   const std::vector<std::size_t>& around(std::uint32_t link, const Support& support) const {
     const std::vector<std::size_t>* fewest = &at_.at(key(link, support.vertices[0]));
     if (support.count > 1) {
@@ -75,11 +75,12 @@ class ContactsAtVertices {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> at_;
 };
 
-/// The face that holds the point of contact i and comes nearest the tool from there, or i itself.
+/// The face that contains the point of contact i and extends nearest to the tool, or i itself if
+/// none is nearer.
 std::size_t nearer_face(std::size_t i, const Support& support, const std::vector<Contact>& contacts,
                         const std::vector<std::size_t>& around) {
   const Vector3d point = to_eigen(contacts[i].point);
-  const Vector3d normal(contacts[i].normal.x, contacts[i].normal.y, contacts[i].normal.z);
+  const Vector3d normal = to_eigen(contacts[i].normal);
   std::size_t nearest = i;
   double most = kNearer;
   for (const std::size_t j : around) {
@@ -92,8 +93,9 @@ std::size_t nearer_face(std::size_t i, const Support& support, const std::vector
   return nearest;
 }
 
-/// Follows each way to its end. One that leads back to itself, as none does but by rounding or
-/// among faces first touched at different times, ends where it was entered.
+/// Replaces each entry of `next` by the end of the path that starts there. A path that returns to
+/// itself ends where the loop was entered. Loops can arise only from rounding, or among faces that
+/// were first touched at different times.
 void follow_to_the_end(std::vector<std::size_t>& next) {
   enum class Visit : std::uint8_t { kNone, kUnderWay, kDone };
   std::vector<Visit> visits(next.size(), Visit::kNone);
@@ -120,8 +122,8 @@ void follow_to_the_end(std::vector<std::size_t>& next) {
 
 std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts) {
   const ContactsAtVertices at_vertices(contacts);
-  // Contacts between the same corners have the same point. One look around is enough for them, or
-  // all faces around a vertex would be compared with each other.
+  // Contacts with the same support have the same point, and so the same nearer face. It is searched
+  // for once: otherwise each face around a vertex would be compared with each other face.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t> seen;
   std::vector<std::size_t> next(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {

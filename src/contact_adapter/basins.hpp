@@ -7,12 +7,15 @@
 
 namespace organ_collision {
 
-/// For each contact, the index of the contact of the same link that is nearest the tool in its
-/// surroundings: the way there leads from each face to one that holds its point and comes nearer. A
-/// contact that is nearest itself has its own index. Those are the local minima of the distance
-/// between the tool and the surface, the same ones however finely the surface is divided; the
-/// normals of all others say where on their faces the nearest point is, not how the surface lies.
-/// Of n contacts it takes O(n log n) time.
+/// Finds the local minima of the distance between the tool and the surface, and the basin of each.
+///
+/// Returns for each contact the index of the contact at the bottom of its basin, which is of the
+/// same link. A path leads there: from each face to a face that contains its contact point and
+/// extends nearer to the tool. A contact that is itself a local minimum has its own index.
+///
+/// The local minima do not depend on how finely the surface is divided. The normals of the other
+/// contacts show where on its face the nearest point is, not how the surface is oriented.
+/// Takes O(n log n) time for n contacts.
 std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts);
 
 }  // namespace organ_collision

@@ -10,14 +10,12 @@
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
-#include "ros/publishing/diagnostics.hpp"
-#include "ros/steps/contact_array.hpp"
 #include "shaft_radius.hpp"
 
 namespace organ_collision {
 namespace {
 
-// Messages. Forces that come late push wrongly: few may wait, of as many organs and tools.
+// [messages] Late forces would be wrong, so only a few messages may wait, for all organs and tools.
 constexpr std::uint32_t kQueue = 20;
 
 }  // namespace
@@ -29,7 +27,7 @@ ContactAdapter::ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& priv
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
   updater_.setHardwareID("none");
   updater_.add("contacts", this, &ContactAdapter::diagnose);
-  // Of wall time: the updater's own period stands still with simulated time.
+  // A timer of wall time, because the updater's own period stops when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(parameters_.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
@@ -77,7 +75,8 @@ geometry_msgs::WrenchStamped ContactAdapter::wrench_of(const ContactArray& conta
   return stamped;
 }
 
-/// From the node that publishes the contacts; cached, so that it follows changes and costs little.
+/// Reads the parameters of the node that publishes the contacts. The cached look-up follows changes
+/// of the parameter without a call of the parameter server each time.
 KeptSides::Radius ContactAdapter::radius_of(const std::string& tool) const {
   XmlRpc::XmlRpcValue tools;
   const std::string node = ros::names::parentNamespace(subscriber_.getTopic());

@@ -18,9 +18,10 @@
 
 namespace organ_collision {
 
-/// The node: turns the collision node's contacts into a wrench and a list of faces for each organ
-/// and tool. Of a failure it publishes nothing, as nothing is known of the contacts then: it logs
-/// and counts it. Works in the callbacks of the node's queue, from one thread.
+/// The node: turns the collision node's contacts into a wrench and a list of faces for each pair of
+/// organ and tool. It logs and counts an answer that reports a failure, but publishes nothing for
+/// it, because the contacts are unknown then. All its work is done in the callbacks of the node's
+/// queue, which must be called from one thread.
 class ContactAdapter {
  public:
   /// Throws ParameterError.
@@ -31,7 +32,8 @@ class ContactAdapter {
     ros::Publisher faces;
     ros::Publisher wrench;
     WrenchLaw law = {};
-    /// When the law was last asked. No stamp: those of a tool that is not sent at rest stand still.
+    /// When the law was last evaluated. Steady time, because the stamps of a tool stop advancing if
+    /// its poses are not published while it rests.
     std::chrono::steady_clock::time_point evaluated = {};
   };
 
@@ -46,9 +48,9 @@ class ContactAdapter {
   ContactAdapterParameters parameters_;
   PairNames names_;
   std::map<std::pair<std::string, std::string>, Pair> pairs_;  ///< by organ and tool
-  std::uint64_t received_ = 0;                                 ///< messages, failed ones too
+  std::uint64_t received_ = 0;  ///< messages, including those that report a failure
   FailureLog failures_;
-  FailureLog clipped_;  ///< wrenches that were published with less force than the law says
+  FailureLog clipped_;  ///< wrenches whose force was reduced to max_force
   diagnostic_updater::Updater updater_;
   ros::WallTimer diagnostic_timer_;
   ros::Subscriber subscriber_;

@@ -4,7 +4,7 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_adapter");
-  const ros::NodeHandle node;  // Outlives the try: without any, nothing is logged.
+  const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
   try {
     organ_collision::ContactAdapter adapter(node, ros::NodeHandle("~"));
     ros::spin();

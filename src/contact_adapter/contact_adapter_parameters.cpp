@@ -12,7 +12,7 @@ namespace {
 constexpr char kStiffness[] = "stiffness";
 constexpr char kMaxForce[] = "max_force";
 const NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), false};
-/// Longer ones, which timers do not take, are as good as never.
+/// [s] ROS timers do not accept much longer periods.
 const NumberRange kPeriod{0.0, 1e6, false};
 
 }  // namespace

@@ -9,18 +9,19 @@
 
 namespace organ_collision {
 
-/// As validated; the defaults are the documented ones.
+/// The validated parameters of the node, with the documented defaults.
 struct ContactAdapterParameters {
-  double stiffness = 300.0;                                    ///< [N/m] of the penalty law
-  double max_force = std::numeric_limits<double>::infinity();  ///< [N] larger ones are clipped
-  double diagnostic_period_sec = 1.0;                          ///< of wall time
-  std::vector<std::string> misspelt{};  ///< a sentence for each name that the adapter does not know
+  double stiffness = 300.0;  ///< [N/m] of the penalty law
+  double max_force =
+      std::numeric_limits<double>::infinity();  ///< [N] larger forces are scaled down to it
+  double diagnostic_period_sec = 1.0;           ///< in wall time
+  std::vector<std::string> misspelt{};          ///< a sentence for each unknown name
 };
 
-/// Reads the members of the adapter's private namespace. Throws ParameterError.
+/// Reads them from the members of the adapter's private namespace. Throws ParameterError.
 ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all);
 
-/// The same from the parameter server.
+/// Reads them from the parameter server. Throws ParameterError.
 ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/interface/legal_name.hpp"
 #include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
@@ -27,7 +27,7 @@ void refuse_illegal_name(const char* what, const std::string& name) {
 
 void check_geometry(const Contact& contact) {
   const Eigen::Vector3d point = to_eigen(contact.point);
-  const Eigen::Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
+  const Eigen::Vector3d normal = to_eigen(contact.normal);
   if (!point.allFinite()) {
     refuse("point of face ", contact.face, " is ", point.transpose(), "; must be finite");
   }

@@ -4,14 +4,16 @@
 
 namespace organ_collision {
 
-/// Whether the contacts have more than face numbers: those of the paper's modes have not.
+/// Whether the contacts have points, normals and depths. In the paper's modes, they do not.
 bool has_geometry(const ContactArray& contacts);
 
-/// Of an answer that says OK. Throws Rejection, with the value, for contacts that are not resolved,
-/// and for what no collision node sends:
-/// an unknown mode, no frame, illegal names, regions whose number is neither zero nor that of the
-/// contacts; and of contacts with geometry, a depth, point or end point that is not finite, or a
-/// normal that is not unit (to 1e-6).
+/// Checks an answer whose status is OK. Throws Rejection, with the illegal value, for
+/// - unresolved contacts;
+/// - an unknown mode, an empty frame, or an illegal name;
+/// - a number of regions other than zero or the number of contacts;
+/// - contacts with geometry: a depth, point or end point that is not finite, or a normal whose
+///   length is not 1 (to 1e-6).
+/// The collision node sends only the first of these.
 void check_contacts(const ContactArray& contacts);
 
 }  // namespace organ_collision

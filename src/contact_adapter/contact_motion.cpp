@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ros/interface/conversions.hpp"
 #include "shaft_radius.hpp"
 
 namespace organ_collision {
 namespace {
 
-/// [1] Cosine of the angle by which a pierced face's normal may turn in a step. If it turned more,
-/// one of the two normals, and its depth, is of the time before the axis pierced the face.
+/// [1] Cosine of the largest angle by which the normal of a pierced face turns in a step. If it
+/// turned more, one of the two contacts, with its depth, is from before the axis pierced the face.
 constexpr double kSame = 0.999;
 
 }  // namespace
@@ -18,7 +19,7 @@ ContactMotion::Place ContactMotion::place_of(const Contact& contact, const Push&
                                              const KeptSides::Radius& radius) {
   Place place{contact.depth, std::nullopt, std::nullopt};
   if (!radius) return place;
-  const Eigen::Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
+  const Eigen::Vector3d normal = to_eigen(contact.normal);
   place.depth = std::min(contact.depth, *radius);
   place.offset = (*radius - place.depth) * normal;
   if (contact.depth >= *radius && push.counts)
@@ -53,7 +54,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
     if (!last_) continue;
     const auto before = last_->find({contact.face, contact.link});
     if (before == last_->end()) {
-      // The whole depth of a face that was apart when the step began is of this step.
+      // A face that was not touched when the step began got its whole depth in this step.
       way = std::max(way, contact.fraction > 0.0 ? contact.depth : now.depth);
     } else {
       way = std::max(way, way_between(before->second, now));

@@ -13,23 +13,25 @@
 
 namespace organ_collision {
 
-/// Finds how far a tool moved against an organ between two answers, from their contacts alone.
+/// Finds from the contacts of two successive answers how far the tool moved relative to the organ.
 ///
-/// The vector from the axis to the nearest point of a face changes by no more than the way of the
-/// tool against the face: a projection on a convex set does not expand distances. So each face
-/// gives a lower bound of the way, and the greatest is taken. Sliding along a plane does not show.
+/// The vector from the axis to the nearest point of a face changes by at most the motion of the
+/// tool relative to the face, because a projection onto a convex set does not expand distances. So
+/// each face gives a lower bound of the motion, and the result is the greatest of them. Sliding
+/// along a plane has no such effect and is not found.
 ///
-/// - A contact's normal is of the begin of its step, its depth of the end. So the change of that
-///   vector is of up to two steps, and half of it is taken. Its part along the normal is of one.
-/// - A face that comes to be touched shows its depth, and so does a face that is left.
-/// - A face that the axis pierces in both answers shows how much deeper the tip is. How far the tip
-///   is beyond a face that the axis pierces in one of them does not show.
-/// - Of links, and of a shaft of unknown radius, only the change of depth shows.
+/// - A contact's normal is from first touch in its step and its depth from the end of the step. So
+///   the change of the vector may come from two steps, and only half of it counts. The change along
+///   the normal comes from one step and counts in full.
+/// - A face that is newly touched counts with its depth, and so does a face that is left.
+/// - A face that the axis pierces in both answers counts with the change of depth of the tip. For a
+///   face that is pierced in only one answer, the distance of the tip beyond it does not count.
+/// - For links, and for a shaft of unknown radius, only the change of depth counts.
 class ContactMotion {
  public:
-  /// [m] A lower bound of the way since the last call's answer; none where this one is the first,
-  /// static, or of another topology. `pushes`: of the answer's contacts; `shaft_radius`: as in
-  /// KeptSides.
+  /// [m] A lower bound of the motion since the answer of the last call. None if this answer is the
+  /// first one, is static, or has another topology. `pushes`: one for each contact of the answer.
+  /// `shaft_radius`: as for KeptSides::follow().
   std::optional<double> follow(const ContactArray& answer, const std::vector<Push>& pushes,
                                const KeptSides::Radius& shaft_radius);
 
@@ -37,12 +39,12 @@ class ContactMotion {
   struct Pierced {
     Eigen::Vector3d normal;  ///< Contact.normal
     double depth;            ///< [m] Contact.depth
-    double push;  ///< [m] Push.depth: no more than the radius where the axis came from the side
+    double push;             ///< [m] Push.depth: at most the radius if the axis came from the side
   };
   struct Place {
-    double depth;                           ///< [m] Contact.depth, of a shaft at most its radius
-    std::optional<Eigen::Vector3d> offset;  ///< [m] from the axis of known radius to the face
-    std::optional<Pierced> pierced;         ///< where the axis is past the face, and it counts
+    double depth;                           ///< [m] Contact.depth, for a shaft at most its radius
+    std::optional<Eigen::Vector3d> offset;  ///< [m] axis to face; none: the radius is unknown
+    std::optional<Pierced> pierced;         ///< if the axis is past the face and the push counts
   };
   using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
   using Places = std::map<FaceAndLink, Place>;

@@ -5,7 +5,7 @@
 
 namespace organ_collision {
 
-/// The numbers of the touched faces, rising, each once; one dimension, "faces".
+/// The numbers of the touched faces in rising order, each once, in one dimension called "faces".
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
 
 }  // namespace organ_collision

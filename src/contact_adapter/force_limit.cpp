@@ -7,8 +7,8 @@
 namespace organ_collision {
 
 bool limit_force(geometry_msgs::Wrench& wrench, double max_force) {
-  const Eigen::Vector3d force(wrench.force.x, wrench.force.y, wrench.force.z);
-  const Eigen::Vector3d torque(wrench.torque.x, wrench.torque.y, wrench.torque.z);
+  const Eigen::Vector3d force = to_eigen(wrench.force);
+  const Eigen::Vector3d torque = to_eigen(wrench.torque);
   const double magnitude = force.stableNorm();
   if (magnitude <= max_force) return false;
   wrench.force = to_vector(max_force / magnitude * force);

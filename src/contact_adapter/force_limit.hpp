@@ -4,8 +4,8 @@
 
 namespace organ_collision {
 
-/// Scales a wrench whose force exceeds `max_force` [N] down to it, its torque with it. Returns
-/// whether it did.
+/// If the force exceeds `max_force` [N], scales force and torque so that the force has this
+/// magnitude. Returns whether it scaled them.
 bool limit_force(geometry_msgs::Wrench& wrench, double max_force);
 
 }  // namespace organ_collision

@@ -13,34 +13,34 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d normal_of(const Contact& contact) {
-  return {contact.normal.x, contact.normal.y, contact.normal.z};
-}
-
-/// [1] Cosine of the angle above which two kept normals are of two sides, as those of a crease.
+/// [1] Cosine of the largest angle between kept normals of the same side. Normals that differ more
+/// belong to two sides, as in a crease.
 constexpr double kSameSide = 0.9;
 
-/// How far a kept normal may be from the contact's own [rad], with the axis `distance` [m] from the
-/// face. The nearer the axis is to an edge, the faster the direction to it turns. From half the
-/// radius on, the kept normal follows it less and less, and so turns no faster than the tool moves.
+/// [rad] The largest angle allowed between the kept normal and the contact's own one, when the axis
+/// is at `distance` [m] from the face. The nearer the axis comes to an edge, the faster the
+/// direction to the edge turns. Below half the radius, the kept normal follows this direction less
+/// and less, so that the force turns no faster than the tool moves.
 double greatest_angle(double distance, double radius) {
   return M_PI * std::max(0.0, 1.0 - 2.0 * distance / radius);
 }
 
-/// `kept`, turned towards `now` until they are within the angle [rad]; both unit.
+/// `kept`, rotated towards `now` until the angle between them is at most `angle` [rad]. Both are
+/// unit vectors.
 Vector3d turned(const Vector3d& kept, const Vector3d& now, double angle) {
-  const double apart = std::atan2(kept.cross(now).norm(), kept.dot(now));
-  if (apart <= angle) return kept;
+  const double between = std::atan2(kept.cross(now).norm(), kept.dot(now));
+  if (between <= angle) return kept;
   const Vector3d across = kept - kept.dot(now) * now;
   if (angle == 0.0 || across.isZero(0.0)) return now;
   return std::cos(angle) * now + std::sin(angle) * across.normalized();
 }
 
-/// [m] What a side that is not nearest any more still pushes: its contact's own depth, the less the
-/// more the contact's normal has turned away from the side and the farther the axis is.
+/// [m] The depth with which a side pushes after it has stopped being the nearest one. It starts at
+/// the contact's own depth. It decreases as the contact's normal turns away from the side, and
+/// decreases faster the farther the axis is from the face.
 double depth_of_side(const Contact& contact, const Vector3d& side, double radius) {
   const double distance = std::clamp(radius - contact.depth, 0.0, radius);
-  const double turned_away = 1.0 - side.dot(normal_of(contact));
+  const double turned_away = 1.0 - side.dot(to_eigen(contact.normal));
   return (radius - distance) * std::max(0.0, 1.0 - distance / radius * turned_away);
 }
 
@@ -53,10 +53,10 @@ const KeptSides::Kept* KeptSides::find(const Contact& contact) const {
 
 KeptSides::Kept KeptSides::first_touch(const Contact& contact, const Radius& radius) {
   Kept kept;
-  kept.normal = normal_of(contact);
+  kept.normal = to_eigen(contact.normal);
   kept.depth = contact.depth;
   kept.depth_in_plane = radius.value_or(contact.depth);
-  // A face that is pierced from the start was pierced by the tip, for all that is known.
+  // If the face was pierced before this step, assume that the tip pierced it.
   kept.by_tip = contact.shaft >= 1.0 || contact.fraction == 0.0;
   if (!radius) return kept;
   kept.is_past = contact.depth >= *radius;
@@ -65,7 +65,7 @@ KeptSides::Kept KeptSides::first_touch(const Contact& contact, const Radius& rad
 }
 
 void KeptSides::move_on(const Contact& contact, Kept& kept) {
-  const Vector3d now = normal_of(contact);
+  const Vector3d now = to_eigen(contact.normal);
   kept.is_past = now.dot(kept.normal) < 0.0;
   if (kept.is_past) return;
   kept.normal = now;
@@ -73,7 +73,7 @@ void KeptSides::move_on(const Contact& contact, Kept& kept) {
 }
 
 void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
-  const Vector3d now = normal_of(contact);
+  const Vector3d now = to_eigen(contact.normal);
   const double distance = radius - contact.depth;
   if (distance <= 0.0) {  // The axis pierces the face, or passed it during the step.
     kept.is_past = true;
@@ -89,7 +89,8 @@ void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
     kept.by_tip = contact.shaft >= 1.0;
     kept.depth_in_plane = radius;
   } else if (!kept.is_nearest) {
-    // The face comes to be nearest past the surface, as beside an edge: it adds nothing at once.
+    // The face becomes nearest when the axis is already past the surface, as beside an edge. The
+    // depth continues from its last value, so that the force does not jump.
     kept.depth_in_plane =
         std::min(kept.depth_in_plane, kept.depth + distance * kept.normal.dot(now));
   }
@@ -115,7 +116,7 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
   const std::vector<Contact>& contacts = answer.contacts;
   const std::vector<std::size_t> basins = basins_of(contacts);
   std::vector<Kept> nearest(contacts.size());
-  std::vector<bool> passed(contacts.size());  // at the begin or the end of the step
+  std::vector<bool> passed(contacts.size());  // at the start or at the end of the step
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (basins[i] != i) continue;
     const Kept* before = find(contacts[i]);
@@ -131,8 +132,8 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
     const Kept& there = nearest[basins[i]];
     Push push{to_eigen(contact.end_point), there.normal, there.depth, basins[i] == i};
     if (!push.counts) push.depth = std::min(there.depth, contact.depth);
-    // Faces around the nearest one share what is known of it. Those of another side keep their own:
-    // past a crease, where its edge is nearest, both sides push on.
+    // Faces around the nearest one share its side. Faces of another side keep their own one: past a
+    // crease, where its edge is nearest, both sides keep pushing.
     const Kept* own = push.counts ? nullptr : find(contact);
     if (own && own->normal.dot(there.normal) >= kSameSide) own = nullptr;
     if (own) {

@@ -9,7 +9,7 @@
 namespace organ_collision {
 namespace {
 
-// The standard's own follow the locale.
+// Not std::isalpha() and std::isalnum(): they depend on the locale.
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_legal(char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; }
 

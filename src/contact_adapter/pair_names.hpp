@@ -6,12 +6,12 @@
 
 namespace organ_collision {
 
-/// The names that pairs of organ and tool have in the ROS graph.
+/// Gives each pair of organ and tool its name in the ROS graph.
 class PairNames {
  public:
-  /// "ORGAN/TOOL", relative: each name with `_` for all but ASCII letters, digits and `_`, and with
-  /// "organ_" or "tool_" before it if it begins with no letter. Throws Rejection if another pair
-  /// has that name already.
+  /// "ORGAN/TOOL", a relative name. In both parts `_` replaces each character other than ASCII
+  /// letters, digits and `_`. A part that does not begin with a letter is prefixed with "organ_" or
+  /// "tool_". Throws Rejection if another pair already has the name.
   std::string of(const std::string& organ, const std::string& tool);
 
  private:

@@ -13,18 +13,18 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [1] A shift that lacks at most this share of the greatest depth is enough.
+/// [1] The search ends when no depth is uncovered by more than this share of the greatest depth.
 constexpr double kEnough = 1e-6;
-// Bounds of the search. Ordinary contacts need one to three springs.
+// Limits of the search. Ordinary contacts need one to three springs.
 constexpr int kRounds = 8;
 constexpr int kSpringsARound = 16;
 constexpr int kSweeps = 200;
 
 struct Spring {
   Vector3d normal;
-  double depth;         ///< [m] d in the law
-  double length = 0.0;  ///< [m] l in the law
-  double lack = 0.0;    ///< [m] what the lengths of all leave of the depth
+  double depth;         ///< [m] d in penalty_wrench()
+  double length = 0.0;  ///< [m] l in penalty_wrench()
+  double lack = 0.0;    ///< [m] the part of the depth that the springs do not cover
 };
 
 double agreement(const Vector3d& a, const Vector3d& b) { return std::max(0.0, a.dot(b)); }
@@ -37,8 +37,9 @@ std::vector<Spring> springs_of(const std::vector<Push>& pushes) {
   return springs;
 }
 
-/// Lengthens the one that lacks most, again and again, until none lacks more than `enough`, some
-/// times at most. Adds them to `used`. Returns whether there was any.
+/// Repeatedly lengthens the spring that lacks most, until none lacks more than `enough` or the
+/// limit of springs is reached. Adds the lengthened springs to `used`. Returns whether there
+/// were any.
 bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, double enough) {
   for (int count = 0; count < kSpringsARound; ++count) {
     const auto most =
@@ -55,8 +56,8 @@ bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, doub
   return true;
 }
 
-/// Balances the used springs by projected Gauss-Seidel sweeps: each is as long as the others leave
-/// it to be.
+/// Balances the used springs by projected Gauss-Seidel sweeps: each spring gets the length that the
+/// others leave uncovered.
 void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used, double enough) {
   double change = enough;
   for (int sweep = 0; sweep < kSweeps && change >= enough; ++sweep) {
@@ -73,7 +74,7 @@ void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used,
   }
 }
 
-/// What the lengths leave of each depth.
+/// Sets the part of each depth that the springs do not cover.
 void find_lacks(std::vector<Spring>& springs, const std::vector<std::size_t>& used) {
   for (Spring& spring : springs) {
     spring.lack = spring.depth;
@@ -83,7 +84,7 @@ void find_lacks(std::vector<Spring>& springs, const std::vector<std::size_t>& us
   }
 }
 
-/// Finds all lengths; returns which of them may not be zero.
+/// Finds the lengths of all springs. Returns the indices of those whose length may not be zero.
 std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
   double greatest = 0.0;
   for (const Spring& spring : springs) greatest = std::max(greatest, spring.depth);
@@ -98,7 +99,7 @@ std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
   return used;
 }
 
-/// Where a spring acts: the mean place of all that push its way.
+/// Where a spring acts: the weighted mean place of the pushes in its direction.
 Vector3d place_of(const Spring& spring, const std::vector<Push>& pushes) {
   Vector3d sum = Vector3d::Zero();
   double weights = 0.0;

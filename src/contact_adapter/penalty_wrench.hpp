@@ -9,20 +9,21 @@
 namespace organ_collision {
 
 /// The force [N] of the tissue on the tool, and its torque [N m] about the origin of the organ's
-/// frame: a penalty law of `stiffness` [N/m]. It is zero without pushes.
+/// frame, by a penalty law of `stiffness` [N/m]. Both are zero if there are no pushes.
 ///
-/// One push is a spring: its force is -stiffness * depth * normal. Springs for all faces would add
-/// up to more the finer the mesh is. So only the pushes that count have a spring, and with normals
-/// n and depths d their lengths l are such that each depth is made up for, and no length is longer
-/// than needed:
+/// A single push is a spring with the force -stiffness * depth * normal. If each face had a spring,
+/// the force would grow with the number of faces, so with the resolution of the mesh. Therefore
+/// only pushes that count have a spring. With normals n and depths d, the lengths l of the springs
+/// are chosen so that they cover each depth and none is longer than needed:
 ///   sum_j l_j max(0, n_j . n_i) >= d_i and l_i >= 0 for all i, one of the two with equality,
 ///   force = -stiffness * sum_i l_i n_i.
-/// So two walls at right angles, opposite walls, and jaws that close are springs of their own.
-/// Links side by side on flat tissue are one spring. In a crease the force is that of the smallest
-/// shift of the tool that leaves both sides. Depths are made up for to a millionth of the greatest.
+/// Two walls at right angles, opposite walls, and closing jaws have a spring each. Links side by
+/// side on flat tissue share one spring. In a crease the force is that of the smallest displacement
+/// of the tool that leaves both sides. Up to a millionth of the greatest depth may stay
+/// uncovered.
 ///
-/// A spring acts at the mean place of all pushes, weighted by d_j max(0, n_j . n_i): in the middle
-/// of a shaft that lies on the tissue. Of n pushes it takes O(n) time.
+/// A spring acts at the mean place of all pushes, weighted by d_j max(0, n_j . n_i). For a shaft
+/// that lies on the tissue, this is the middle of the touching part. Takes O(n) time for n pushes.
 /// Throws Rejection if the result is not finite.
 geometry_msgs::Wrench penalty_wrench(const std::vector<Push>& pushes, double stiffness);
 

@@ -8,11 +8,11 @@
 
 namespace organ_collision {
 
-/// [m] The radius of a tool's shaft, as the collision node's parameter `tools` has it; none where
-/// the tool is not in it, or has no shaft.
+/// [m] The radius of a tool's shaft by the collision node's parameter `tools`; none if the
+/// parameter does not contain the tool, or the tool has no shaft.
 std::optional<double> shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
 
-/// The shaft's radius where the contact is one of the shaft; none where it is one of a link.
+/// [m] `shaft_radius` if the contact is of the shaft; none if it is of a link.
 std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
                                 const std::optional<double>& shaft_radius);
 

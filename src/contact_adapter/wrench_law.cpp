@@ -11,19 +11,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [1] Change of force for each stiffness * way. A crease asks for twice, a narrow one for more.
+/// [1] The allowed change of force, as a multiple of stiffness * motion. A flat surface needs 1, a
+/// crease 2, a narrow crease more.
 constexpr double kSteepness = 4.0;
-/// [m/s] How fast the wrench comes to be the law's while the tool rests.
+/// [m/s] How fast the wrench approaches that of the penalty law while the tool rests.
 constexpr double kSettling = 0.05;
 
 Vector3d blend(const geometry_msgs::Vector3& from, const geometry_msgs::Vector3& to, double share) {
-  const Vector3d a(from.x, from.y, from.z), b(to.x, to.y, to.z);
-  return (1.0 - share) * a + share * b;
-}
-
-/// [N] Between the forces of two wrenches.
-double apart(const geometry_msgs::Wrench& a, const geometry_msgs::Wrench& b) {
-  return Vector3d(a.force.x - b.force.x, a.force.y - b.force.y, a.force.z - b.force.z).norm();
+  return (1.0 - share) * to_eigen(from) + share * to_eigen(to);
 }
 
 }  // namespace
@@ -35,7 +30,7 @@ geometry_msgs::Wrench WrenchLaw::follow(const ContactArray& answer, double secon
   geometry_msgs::Wrench wrench = penalty_wrench(pushes, stiffness);
   if (way && !pushes.empty()) {
     const double most = stiffness * (kSteepness * *way + kSettling * seconds);
-    const double change = apart(wrench, last_);
+    const double change = (to_eigen(wrench.force) - to_eigen(last_.force)).norm();
     if (change > most) {
       wrench.force = to_vector(blend(last_.force, wrench.force, most / change));
       wrench.torque = to_vector(blend(last_.torque, wrench.torque, most / change));

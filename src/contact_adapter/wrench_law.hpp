@@ -8,18 +8,20 @@
 
 namespace organ_collision {
 
-/// From the answers about one organ and tool to wrenches: the penalty law of the pushes, with a
-/// limit on the force's rate of change.
+/// Turns the answers about one organ and one tool into wrenches: the penalty law of the pushes,
+/// with a limit on the rate of change of the force.
 ///
-/// Springs appear and end at once where facets, creases or valleys do so under the tool. There the
-/// wrench goes straight from the last one towards the law's, and its force changes by at most
-///   stiffness * (4 * way + 0.05 m/s * seconds)
-/// in a step, with the way that ContactMotion finds. So it arrives when the tool rests, too: a
-/// force that lags by stiffness * 1 mm, within 20 ms. Where nothing is touched it is zero at once.
+/// The springs of the penalty law appear and vanish suddenly where facets, creases or valleys begin
+/// and end under the tool. The limit bridges such jumps: the wrench is interpolated linearly from
+/// the last one towards that of the penalty law, and its force changes in a step by at most
+///   stiffness * (4 * motion + 0.05 m/s * seconds),
+/// with the motion that ContactMotion finds. The second term lets the force arrive while the tool
+/// rests: a lag of stiffness * 1 mm ends within 20 ms. Without contacts the wrench is zero at once.
 class WrenchLaw {
  public:
-  /// `answer` follows on that of the last call, `seconds` before. The first answer, a static one,
-  /// and one of a new topology have no limit. `stiffness` [N/m]; `shaft_radius`: as in KeptSides.
+  /// `answer`: the next one about the same organ and tool. `seconds`: time since the last call. The
+  /// limit does not apply to the first answer, to a static one, and to one with a new topology.
+  /// `stiffness` [N/m]. `shaft_radius`: as for KeptSides::follow().
   /// Throws Rejection if the result is not finite.
   geometry_msgs::Wrench follow(const ContactArray& answer, double seconds, double stiffness,
                                const KeptSides::Radius& shaft_radius);

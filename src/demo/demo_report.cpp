@@ -1,4 +1,4 @@
-/// Prints what the collision node finds: a line a second, and a summary at the end.
+/// Prints what the collision node finds: one line each second, and a summary at the end.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <organ_collision/ContactArray.h>
@@ -23,7 +23,7 @@ constexpr double kPatienceSec = 60.0;  // until the collision node answers for t
 constexpr std::size_t kFacesListed = 4;
 constexpr double kMicroseconds = 1e6;
 
-/// [s] The value that `percent` of all do not exceed; 0 without values.
+/// [s] The value that `percent` of all values do not exceed; 0 if there are none.
 double percentile(std::vector<double> values, double percent) {
   if (values.empty()) return 0.0;
   const auto nth = values.begin() + std::lround(percent / 100.0 * (values.size() - 1));
@@ -41,7 +41,7 @@ std::string first_of(const std::set<std::uint32_t>& faces) {
   return text.str();
 }
 
-/// What /diagnostics says of the node's query time [us].
+/// [us] The node's query times, as published on /diagnostics.
 struct QueryTime {
   double median = 0.0, percentile_99 = 0.0, worst = 0.0;
 };
@@ -59,10 +59,10 @@ class DemoReport {
     for (const auto& [tool, tally] : comparison_.tallies()) touched_[tool];
   }
 
-  /// Whether the collision node has said anything yet, be it what is wrong.
+  /// Whether the collision node has answered, if only with a failure.
   bool has_heard_of_node() const { return answers_ > 0 || !failure_.empty(); }
 
-  /// One line about the `seconds` since the last one.
+  /// Prints one line about the last `seconds`. `time` [s]: since the start.
   void print_line(double time, double seconds) {
     std::printf("%4.0f s  %3.0f shapes/s  %3.0f answers/s", time, shapes_ / seconds,
                 answers_ / seconds);
@@ -80,7 +80,7 @@ class DemoReport {
     failure_.clear();
   }
 
-  /// The closing words. False if nothing was found.
+  /// Prints the summary. Returns false if there were no contacts. `time` [s]: since the start.
   bool print_summary(double time) {
     std::size_t contacts = 0, missed = 0;
     for (const auto& [tool, tally] : comparison_.tallies()) {
@@ -152,7 +152,7 @@ class DemoReport {
   std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
   std::vector<double> delays_;                              ///< [s]
   QueryTime query_time_;
-  std::string failure_;  ///< the last since the last line
+  std::string failure_;  ///< the latest one since the last line
 
   std::vector<ros::Subscriber> subscribers_;
 };

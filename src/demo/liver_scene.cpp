@@ -1,5 +1,7 @@
 #include "liver_scene.hpp"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 #include <utility>
@@ -16,21 +18,13 @@ const Vector3d kTissue{0.60, 0.17, 0.14};
 const Vector3d kTouched{1.0, 0.85, 0.15};
 const Vector3d kSwept{0.25, 0.60, 1.0};
 const Vector3d kToLight = Vector3d(0.45, -0.30, 0.85).normalized();
-const Vector3d kHalfway = Vector3d(0.30, -0.55, 0.78).normalized();  // of light and viewer
+const Vector3d kHalfway = Vector3d(0.30, -0.55, 0.78).normalized();  // between light and viewer
 
-/// Lambert's and Blinn's light on tissue.
+/// The colour of lit tissue, by the reflection models of Lambert and Blinn.
 Vector3d lit(const Vector3d& normal) {
   const double diffuse = 0.45 + 0.55 * normal.dot(kToLight);
   const double gloss = std::pow(std::max(0.0, normal.dot(kHalfway)), 40.0);
   return (0.25 + 0.85 * std::max(0.0, diffuse)) * kTissue + 0.30 * gloss * Vector3d::Ones();
-}
-
-geometry_msgs::Point point(const Vector3d& place) {
-  geometry_msgs::Point result;
-  result.x = place.x();
-  result.y = place.y();
-  result.z = place.z();
-  return result;
 }
 
 std_msgs::ColorRGBA colour(const Vector3d& rgb, double alpha = 1.0) {
@@ -81,7 +75,7 @@ visualization_msgs::MarkerArray LiverScene::markers(const ros::Time& stamp,
   for (std::size_t i = 0; i < faces_.size(); ++i) {
     for (const std::uint32_t corner : faces_[i]) {
       const Vector3d tissue = lit(normals[corner].normalized());
-      liver.points.push_back(point(vertex(corner)));
+      liver.points.push_back(tf2::toMsg(vertex(corner)));
       liver.colors.push_back(colour(tissue + glow_[i] * (kTouched - tissue)));
     }
     glow_[i] = std::max(0.0, glow_[i] - seconds / kGlowSec);
@@ -92,7 +86,8 @@ visualization_msgs::MarkerArray LiverScene::markers(const ros::Time& stamp,
     Marker swept = marker(stamp, "swept");
     swept.id = sweeps_shown_++;
     swept.lifetime = ros::Duration(kGlowSec);
-    swept.points = {point(sweep.start.trocar), point(sweep.start.tip), point(sweep.end.tip)};
+    swept.points = {tf2::toMsg(sweep.start.trocar), tf2::toMsg(sweep.start.tip),
+                    tf2::toMsg(sweep.end.tip)};
     swept.colors.assign(3, colour(kSwept, 0.35));
     array.markers.push_back(swept);
   }

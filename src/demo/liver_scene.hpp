@@ -10,17 +10,17 @@
 
 namespace organ_collision {
 
-/// What a viewer sees of the demo, beside the collision node's own markers: the liver, softly lit,
-/// where touched faces glow for a while; and the surfaces that fast tools swept, as long.
+/// What a viewer shows of the demo, besides the collision node's own markers: the lit liver, on
+/// which touched faces glow for a while, and the surfaces swept by fast tools, for the same time.
 class LiverScene {
  public:
-  /// `frame`: of the liver.
+  /// `frame`: the liver's frame.
   LiverScene(std::string frame, std::vector<FaceIndices> faces);
 
   void touch(std::uint32_t face) { glow_.at(face) = 1.0; }
   void move_tool(const ShaftAxis& from, const ShaftAxis& to);
 
-  /// `vertices`: x y z x y z ... [m]; `seconds` since the last call.
+  /// `vertices`: x y z x y z ... [m]. `seconds`: time since the last call.
   visualization_msgs::MarkerArray markers(const ros::Time& stamp,
                                           const std::vector<float>& vertices, double seconds);
 

@@ -1,10 +1,11 @@
-/// A simulator beside the collision node: publishes a liver that breathes, and two instruments, and
-/// lets the contacts that come back push the tissue.
+/// The demo's simulator. Publishes a breathing liver and two instruments for the collision node,
+/// and lets the contacts that it answers push the tissue.
 
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
@@ -20,11 +21,12 @@
 namespace organ_collision {
 namespace {
 
-constexpr char kOrgan[] = "liver";  // its name, and its frame
-constexpr double kYield = 0.5;      // [1] share of the depth by which tissue gives way in one step
+constexpr char kOrgan[] = "liver";    // its name and its frame
+constexpr double kYield = 0.5;        // [1] share of the depth by which tissue yields in one step
 constexpr double kMostYield = 0.008;  // [m] in one step
-constexpr double kTfLeadSec = 0.5;    // TF alone, so that who listens has it before the first shape
-constexpr double kSceneRate = 30.0;   // [Hz]
+constexpr double kTfLeadSec =
+    0.5;  // only TF is sent, so that listeners have it before the first shape
+constexpr double kSceneRate = 30.0;  // [Hz]
 
 geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
                                           const std::string& child,
@@ -34,19 +36,14 @@ geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::str
   result.header.stamp = stamp;
   result.header.frame_id = parent;
   result.child_frame_id = child;
-  result.transform.translation.x = translation.x();
-  result.transform.translation.y = translation.y();
-  result.transform.translation.z = translation.z();
-  result.transform.rotation.x = rotation.x();
-  result.transform.rotation.y = rotation.y();
-  result.transform.rotation.z = rotation.z();
-  result.transform.rotation.w = rotation.w();
+  tf2::toMsg(translation, result.transform.translation);
+  result.transform.rotation = tf2::toMsg(rotation);
   return result;
 }
 
-/// The pushes that a tool's contacts amount to.
-std::vector<Push> pushes_of(const std::vector<Contact>& contacts) {
-  std::vector<Push> pushes;
+/// How a tool's contacts push the tissue.
+std::vector<TissuePush> pushes_of(const std::vector<Contact>& contacts) {
+  std::vector<TissuePush> pushes;
   for (const Contact& contact : contacts) {
     const Eigen::Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
     const double way = std::clamp(kYield * contact.depth, 0.0, kMostYield);
@@ -70,7 +67,7 @@ class LiverSimulator {
     publish_trocars();
   }
 
-  /// The tools are there before the liver is.
+  /// Begins with the tools alone, so that their frames are known before the first shape.
   void step() {
     if (lead_steps_ < kTfLeadSec * rate_) {
       ++lead_steps_;
@@ -81,9 +78,9 @@ class LiverSimulator {
   }
 
  private:
-  /// Moves on by one period. The tools' poses go out before the shape, with the same stamp.
+  /// Simulates one period. Publishes the tools' poses before the shape, with the same stamp.
   void step_liver() {
-    std::vector<Push> pushes;
+    std::vector<TissuePush> pushes;
     for (const auto& [tool, tool_pushes] : pushes_) {
       pushes.insert(pushes.end(), tool_pushes.begin(), tool_pushes.end());
     }
@@ -123,7 +120,7 @@ class LiverSimulator {
     mesh_publisher_.publish(mesh);
   }
 
-  /// A tip's frame has its z axis along the shaft.
+  /// The z axis of a tip's frame points along the shaft.
   void publish_tips(const ros::Time& stamp) {
     std::vector<geometry_msgs::TransformStamped> tips;
     for (const ScriptedTool& tool : scripted_tools()) {
@@ -153,14 +150,14 @@ class LiverSimulator {
     scene_publisher_.publish(scene_.markers(stamp, liver_.vertices(), steps_shown() / rate_));
   }
 
-  /// One step of so many is shown.
+  /// Only one step out of this number is shown.
   int steps_shown() const { return std::max(1, static_cast<int>(rate_ / kSceneRate)); }
 
   double rate_;
-  Surface surface_;
+  ClosedSurface surface_;
   LiverSoftBody liver_;
   LiverScene scene_;
-  std::map<std::string, std::vector<Push>> pushes_;  ///< by tool, since the last step
+  std::map<std::string, std::vector<TissuePush>> pushes_;  ///< by tool, since the last step
   long lead_steps_ = 0;
   long steps_ = 0;
   ros::Publisher mesh_publisher_;

@@ -9,21 +9,22 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMass = 1.5;                // [kg]
-constexpr double kLongestSubstep = 0.004;    // [s]
-constexpr double kBreathPeriod = 4.0;        // [s]
-const Vector3d kBreath{0.0, -0.006, 0.002};  // [m] breathed in: towards the feet and the front
+constexpr double kMass = 1.5;              // [kg]
+constexpr double kLongestSubstep = 0.004;  // [s]
+constexpr double kBreathPeriod = 4.0;      // [s]
+const Vector3d kBreath{0.0, -0.006,
+                       0.002};  // [m] displacement when inhaled: towards the feet and the front
 
 btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
 
-/// Where ligaments hold the liver: the upper part of the back of the right lobe.
+/// Whether a ligament holds this place: on the upper part of the back of the right lobe.
 bool is_held(const Vector3d& rest) { return rest.x() < 0.03 && rest.y() > 0.015 && rest.z() < 0.0; }
 
 }  // namespace
 
-LiverSoftBody::LiverSoftBody(const Surface& surface)
+LiverSoftBody::LiverSoftBody(const ClosedSurface& surface)
     : world_(std::make_unique<btSoftBodyWorldInfo>()) {
-  world_->m_gravity.setZero();  // the shape at rest is the one under gravity
+  world_->m_gravity.setZero();  // the shape at rest already includes gravity
   world_->m_sparsesdf.Initialize();
   btAlignedObjectArray<btVector3> positions;
   for (const Vector3d& vertex : surface.vertices) positions.push_back(to_bullet(vertex));
@@ -35,8 +36,8 @@ LiverSoftBody::LiverSoftBody(const Surface& surface)
   body_->m_materials[0]->m_kLST = 0.2;  // [1] stiffness of the edges
   body_->m_cfg.piterations = 4;
   body_->m_cfg.kDP = 0.04;   // [1] share of the velocity lost in a substep
-  body_->m_cfg.kMT = 0.008;  // [1] share of the way back to its shape, in a substep
-  body_->m_cfg.kVC = 1e6;    // [Pa/m^3] pressure for lost volume
+  body_->m_cfg.kMT = 0.008;  // [1] share of the deformation undone in a substep
+  body_->m_cfg.kVC = 1e6;    // [Pa/m^3] pressure against a loss of volume
   body_->setTotalMass(kMass);
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
     if (!is_held(surface.vertices[i])) continue;
@@ -48,7 +49,7 @@ LiverSoftBody::LiverSoftBody(const Surface& surface)
 
 LiverSoftBody::~LiverSoftBody() = default;
 
-void LiverSoftBody::step(double seconds, const std::vector<Push>& pushes) {
+void LiverSoftBody::step(double seconds, const std::vector<TissuePush>& pushes) {
   give_way(pushes);
   const int substeps = std::ceil(seconds / kLongestSubstep - 1e-9);
   for (int i = 0; i < substeps; ++i) {
@@ -70,12 +71,12 @@ std::vector<float> LiverSoftBody::vertices() const {
   return result;
 }
 
-void LiverSoftBody::give_way(const std::vector<Push>& pushes) {
+void LiverSoftBody::give_way(const std::vector<TissuePush>& pushes) {
   std::vector<Vector3d> sum(body_->m_nodes.size(), Vector3d::Zero());
   std::vector<int> count(body_->m_nodes.size(), 0);
-  for (const Push& push : pushes) {
+  for (const TissuePush& push : pushes) {
     const btSoftBody::Face& face = body_->m_faces[push.face];
-    for (int k = 0; k < 3; ++k) {  // so shared out, the pushed place moves by the displacement
+    for (int k = 0; k < 3; ++k) {  // with these weights, the pushed place moves by the displacement
       const auto node = face.m_n[k] - &body_->m_nodes[0];
       sum[node] += push.barycentric[k] / push.barycentric.squaredNorm() * push.displacement;
       ++count[node];
@@ -86,7 +87,7 @@ void LiverSoftBody::give_way(const std::vector<Push>& pushes) {
     if (count[i] == 0 || node.m_im == 0.0) continue;
     const btVector3 shift = to_bullet(sum[i] / count[i]);
     node.m_x += shift;
-    // The tool is in the way: what comes back against it is stopped.
+    // The tool blocks the tissue: it cannot move back against the displacement.
     const btScalar back = node.m_v.dot(shift);
     if (back < 0.0) node.m_v -= back / shift.length2() * shift;
   }

@@ -12,30 +12,30 @@ struct btSoftBodyWorldInfo;
 
 namespace organ_collision {
 
-/// Where a tool presses on a face, and how far that place should give way.
-struct Push {
+/// A place where a tool presses on a face, and how far the tissue yields there.
+struct TissuePush {
   std::uint32_t face;
   Eigen::Vector3d barycentric;   ///< of the place in the face
   Eigen::Vector3d displacement;  ///< [m]
 };
 
-/// A liver of soft tissue (Bullet's soft body): keeps its volume, returns to its shape, and moves
-/// to and fro with the breath, to which it is tied by the ligaments at its back.
+/// A liver of soft tissue, simulated as a soft body of Bullet. It keeps its volume and returns to
+/// its shape. The ligaments at its back move it with the breath.
 class LiverSoftBody {
  public:
-  /// At rest, breathed out. `surface` is closed [m].
-  explicit LiverSoftBody(const Surface& surface);
+  /// At rest, exhaled.
+  explicit LiverSoftBody(const ClosedSurface& surface);
   ~LiverSoftBody();
 
-  /// Moves on by `seconds` (> 0), giving way to `pushes` first. Where several meet in one vertex,
-  /// their mean counts.
-  void step(double seconds, const std::vector<Push>& pushes);
+  /// Applies `pushes`, then simulates `seconds` (> 0). A vertex that several pushes move is
+  /// displaced by their mean.
+  void step(double seconds, const std::vector<TissuePush>& pushes);
 
   /// x y z x y z ... [m], in the order of the surface.
   std::vector<float> vertices() const;
 
  private:
-  void give_way(const std::vector<Push>& pushes);
+  void give_way(const std::vector<TissuePush>& pushes);
   void breathe();
 
   struct Ligament {

@@ -9,14 +9,15 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// About the distance to an ellipsoid's surface: value over gradient of |offset / radii|.
+/// [m] Approximate signed distance to the surface of an ellipsoid. With f = |offset / radii|, it is
+/// (f - 1) / |grad f|.
 double ellipsoid(const Vector3d& point, const Vector3d& centre, const Vector3d& radii) {
   const Vector3d scaled = (point - centre).cwiseQuotient(radii);
   const double slope = scaled.cwiseQuotient(radii).norm();
   return scaled.norm() * (scaled.norm() - 1.0) / std::max(slope, 1e-9);
 }
 
-/// The smaller of two levels, rounded off where they come within `blend` of each other.
+/// The minimum of two levels, smoothed where they differ by less than about `blend`.
 double smooth_min(double a, double b, double blend) {
   return -blend * std::log(std::exp(-a / blend) + std::exp(-b / blend));
 }
@@ -24,7 +25,7 @@ double smooth_min(double a, double b, double blend) {
 double join(double a, double b, double blend) { return smooth_min(a, b, blend); }
 double carve(double a, double b, double blend) { return -smooth_min(-a, b, blend); }
 
-/// A level function on its way from a plain ellipsoid's (0) to the liver's (1).
+/// Interpolates between the level functions of an ellipsoid (morph 0) and of the liver (morph 1).
 double morphed_level(const Vector3d& point, double morph) {
   const double egg = ellipsoid(point, {0.0, 0.01, 0.002}, {0.11, 0.055, 0.025});
   return (1.0 - morph) * egg + morph * liver_level(point);
@@ -40,7 +41,7 @@ Vector3d gradient(const Vector3d& point, double morph) {
   return result / (2.0 * kStep);
 }
 
-/// The point of the morphed surface that a few of Newton's steps along the gradient reach.
+/// Moves the point onto the morphed surface, by Newton's method along the gradient.
 Vector3d onto_surface(Vector3d point, double morph) {
   for (int i = 0; i < 2; ++i) {
     const Vector3d slope = gradient(point, morph);
@@ -49,9 +50,9 @@ Vector3d onto_surface(Vector3d point, double morph) {
   return point;
 }
 
-/// The surface of a box of lattice cells around the origin, each cell of edge 1.
-Surface make_lattice_box(const std::array<int, 3>& cells) {
-  Surface box;
+/// The surface of a box of cubic cells with edge 1 around the origin.
+ClosedSurface make_lattice_box(const std::array<int, 3>& cells) {
+  ClosedSurface box;
   std::map<std::array<int, 3>, std::uint32_t> index_of;
   const auto index = [&](const std::array<int, 3>& place) {
     const auto [found, is_new] = index_of.try_emplace(place, box.vertices.size());
@@ -67,7 +68,7 @@ Surface make_lattice_box(const std::array<int, 3>& cells) {
       for (int i = 0; i < cells[u]; ++i) {
         for (int j = 0; j < cells[v]; ++j) {
           std::array<std::uint32_t, 4> corner;
-          for (int k = 0; k < 4; ++k) {  // anticlockwise, seen against the axis
+          for (int k = 0; k < 4; ++k) {  // counterclockwise, seen against the axis
             std::array<int, 3> place;
             place[axis] = side;
             place[u] = i + (k == 1 || k == 2);
@@ -84,9 +85,9 @@ Surface make_lattice_box(const std::array<int, 3>& cells) {
   return box;
 }
 
-/// Moves each vertex to the middle of the triangles around it, weighed by their areas, and back
-/// onto the surface, again and again: larger triangles pull harder, so that all become even.
-void even_out(Surface& surface, int rounds) {
+/// Makes the triangles equally large. In each round, moves each vertex to the mean centre of the
+/// triangles around it, weighted by their areas, and back onto the surface.
+void even_out(ClosedSurface& surface, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const double morph = std::min(1.0, 2.0 * round / rounds);
     std::vector<Vector3d> sum(surface.vertices.size(), Vector3d::Zero());
@@ -122,8 +123,8 @@ double liver_level(const Vector3d& point) {
   return carve(level, fissure, 0.006);
 }
 
-Surface make_liver_surface() {
-  Surface surface = make_lattice_box({19, 10, 4});
+ClosedSurface make_liver_surface() {
+  ClosedSurface surface = make_lattice_box({19, 10, 4});
   for (Vector3d& vertex : surface.vertices) vertex *= 0.011;
   even_out(surface, 80);
   return surface;

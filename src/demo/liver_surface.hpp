@@ -7,8 +7,8 @@
 
 namespace organ_collision {
 
-/// A closed, outward oriented surface [m].
-struct Surface {
+/// A closed surface whose faces are oriented outwards. Positions in metres.
+struct ClosedSurface {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<FaceIndices> faces;
 
@@ -18,12 +18,12 @@ struct Surface {
   }
 };
 
-/// Below zero inside the liver, above it outside; about the distance to its surface [m].
-/// x points to the patient's left, y to the head, z to the front; the right lobe is the big one.
+/// [m] Approximate signed distance to the surface of the liver, negative inside.
+/// x points to the patient's left, y to the head, z to the front. The right lobe is the larger one.
 double liver_level(const Eigen::Vector3d& point);
 
 /// The liver's surface at rest: 614 vertices, 1224 faces, 0.2 m from lobe to lobe. A lattice box of
 /// 13 x 12 x 6 cells, 2 triangles to each square, drawn onto liver_level = 0 and evened out there.
-Surface make_liver_surface();
+ClosedSurface make_liver_surface();
 
 }  // namespace organ_collision

@@ -10,10 +10,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// One turn of a sine in `period` seconds.
+/// A sine with a period of `period` seconds.
 double wave(double seconds, double period) { return std::sin(2.0 * M_PI * seconds / period); }
 
-/// [m] Height of the front of the resting liver over (x, y), by bisection.
+/// [m] The z coordinate of the front of the resting liver at (x, y), by bisection.
 double front_of_liver(double x, double y) {
   double inside = 0.0, outside = 0.1;
   for (int i = 0; i < 30; ++i) {
@@ -24,14 +24,14 @@ double front_of_liver(double x, double y) {
 }
 
 Vector3d palpator_tip(double seconds) {
-  constexpr double kLift = 0.003, kPress = 0.009;  // [m] above and below the touch of the surface
+  constexpr double kLift = 0.003, kPress = 0.009;  // [m] from first touch upwards and downwards
   const double x = -0.045 + 0.022 * wave(seconds, 11.0);
   const double y = -0.004 + 0.020 * wave(seconds, 7.0);
   const double press = 0.5 - 0.5 * wave(seconds + 0.75, 3.0);
   return {x, y, front_of_liver(x, y) + kToolRadius + kLift - press * (kLift + kPress)};
 }
 
-/// 0 in front of the lobe, 1 behind it: changes at each whole second.
+/// 0 in front of the lobe, 1 behind it. The tool passes from one to the other at each full second.
 double stab_progress(double seconds) {
   const double second = std::floor(seconds);
   const double share = std::min((seconds - second) / kStabDuration, 1.0);

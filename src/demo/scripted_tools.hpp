@@ -7,23 +7,23 @@
 
 namespace organ_collision {
 
-/// A laparoscopic instrument that moves by itself through a fixed trocar, in the liver's frame.
+/// A laparoscopic instrument with a scripted motion through a fixed trocar, in the liver's frame.
 struct ScriptedTool {
   std::string name;                        ///< its TF frames are NAME_trocar and NAME_tip
   Eigen::Vector3d trocar;                  ///< [m]
-  Eigen::Vector3d (*tip)(double seconds);  ///< where the tip is [m] at a time since the start
+  Eigen::Vector3d (*tip)(double seconds);  ///< [m] at a time since the start
 
   ShaftAxis at(double seconds) const { return {trocar, tip(seconds)}; }
 };
 
-/// [m] of both tools.
+/// [m] Radius of both tools.
 inline constexpr double kToolRadius = 0.005;
 
-/// [s] The stabber passes through the left lobe at every whole second, within this time.
+/// [s] The stabber passes through the left lobe at each full second, within this time.
 inline constexpr double kStabDuration = 0.005;
 
-/// "palpator" feels its way slowly over the front of the right lobe, pressing and lifting;
-/// "stabber" swings through the left lobe, and rests in front of it and behind it in turn.
+/// "palpator" moves slowly over the front of the right lobe, and presses and lifts in turn.
+/// "stabber" stabs through the left lobe, and rests in front of it and behind it in turn.
 const std::vector<ScriptedTool>& scripted_tools();
 
 }  // namespace organ_collision

@@ -38,7 +38,7 @@ void StaticComparison::compare_waiting() {
   waiting_.erase(compared, waiting_.end());
 }
 
-/// False if shape or pose is not there yet.
+/// Returns false if the shape or the pose has not arrived yet.
 bool StaticComparison::compare(const ContactArray& answer) {
   const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) {
     return tool.parameters.name == answer.tool;

@@ -13,9 +13,9 @@
 
 namespace organ_collision {
 
-/// How many of the contacts found a static test at the same instants would have missed: those whose
-/// face is farther than the radius from the axis when the step ends. By exact distances, from the
-/// shapes and transforms on the topics, without the collision node.
+/// Counts the contacts that a static test at the same instants would have missed. These are the
+/// contacts whose face is farther from the axis than the radius when the step ends. Uses exact
+/// distances, from the shapes and transforms on the topics, without the collision node.
 class StaticComparison {
  public:
   struct Tally {
@@ -23,19 +23,19 @@ class StaticComparison {
     std::size_t missed_by_static = 0;
   };
 
-  /// `transforms` must outlive it.
+  /// `transforms` must outlive this object.
   StaticComparison(std::vector<ToolParameters> tools, TransformBuffer& transforms);
 
-  /// `triangles`: three vertex indices a face.
+  /// `triangles`: three vertex indices for each face.
   void set_triangles(std::vector<std::uint32_t> triangles) { triangles_ = std::move(triangles); }
-  /// `vertices`: x y z x y z ... [m], of the shape at `stamp`. The last few seconds are kept.
+  /// `vertices`: x y z x y z ... [m], of the shape at `stamp`. Keeps the shapes of a few seconds.
   void add_shape(const ros::Time& stamp, std::vector<float> vertices);
-  /// An answer with status OK. It waits until its shape and its tool's pose are there.
+  /// Adds an answer with status OK. It waits until its shape and its tool's pose have arrived.
   void add_answer(const ContactArrayConstPtr& answer);
 
-  /// Of each tool by name, of the answers compared so far.
+  /// By name of the tool, for the answers compared so far.
   const std::map<std::string, Tally>& tallies() const { return tallies_; }
-  /// Answers whose shape or pose has not come yet.
+  /// The number of answers whose shape or pose has not arrived yet.
   std::size_t waiting() const { return waiting_.size(); }
 
  private:

@@ -9,14 +9,14 @@
 
 #include "message_error.hpp"
 #include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/interface/legal_name.hpp"
 
 namespace organ_collision {
 namespace {
 
 using visualization_msgs::Marker;
 
-/// [1] An orientation's length may be this far from 1.
+/// [1] The norm of a legal orientation differs from 1 by at most this.
 constexpr double kUnitTolerance = 1e-2;
 
 std::string name_of(const Marker& marker) { return marker.ns + "/" + std::to_string(marker.id); }
@@ -29,9 +29,9 @@ std::string type_name(int type) {
   return std::to_string(type) + " (" + (known ? kNames[type] : "unknown") + ")";
 }
 
-/// Of zero or negative scale, an organ would be flat or inside out.
+/// Refuses zero and negative scales: they would make the organ flat or turn it inside out.
 Eigen::Vector3d scale_of(const Marker& marker) {
-  Eigen::Vector3d scale(marker.scale.x, marker.scale.y, marker.scale.z);
+  const Eigen::Vector3d scale = to_eigen(marker.scale);
   if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
     std::ostringstream message;
     message << "scale is " << scale.transpose() << "; must be finite and more than 0";
@@ -66,7 +66,7 @@ void place_points(const Marker& marker, std::vector<float>& vertices) {
 
 }  // namespace
 
-void MarkerReader::read(const Marker& marker, Surface& surface) {
+void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
   if (const std::string fault = name_fault(marker.ns); !fault.empty()) {
     throw MessageError("illegal name", "the marker's namespace " + fault);
   }

@@ -4,26 +4,27 @@
 
 #include <string>
 
-#include "surface.hpp"
+#include "received_surface.hpp"
 
 namespace organ_collision {
 
-/// Reads the one marker of a topic that is an organ: a TRIANGLE_LIST, three vertices a face, placed
-/// by its scale and pose. The first one that is kept is it, by namespace and id, until it is
-/// deleted.
+/// Reads the organ's marker among the markers of a topic: a TRIANGLE_LIST with three vertices for
+/// each face, placed by its scale and pose. The organ's marker is identified by namespace and id.
+/// It is the first one that is kept, until it is deleted.
 class MarkerReader {
  public:
-  /// Replaces what `surface` held; empty after DELETE or DELETEALL. An orientation of four zeros is
-  /// none, as in RViz. Throws MessageError, also for each other marker.
-  void read(const visualization_msgs::Marker& marker, Surface& surface);
-  /// What was read last is accepted: it was, or is no more, the organ's.
+  /// Replaces the content of `surface`; DELETE and DELETEALL make it empty. An orientation of four
+  /// zeros means no rotation, as in RViz. Throws MessageError, also for another marker.
+  void read(const visualization_msgs::Marker& marker, ReceivedSurface& surface);
+  /// Accepts the marker that was read last as the organ's. If it deleted the organ's marker, the
+  /// next marker may become the organ's.
   void keep() { name_ = read_name_; }
 
  private:
   void check_name(const std::string& name) const;
 
-  std::string name_;  ///< "namespace/id" of the organ's marker; empty: none so far
-  std::string read_name_;
+  std::string name_;       ///< "namespace/id" of the organ's marker; empty: none yet
+  std::string read_name_;  ///< of the marker that was read last; empty: it deleted the organ's
 };
 
 }  // namespace organ_collision

@@ -1,6 +1,6 @@
 #pragma once
 
-/// All names that organ_mesh_adapter has in the ROS graph, beside those of the collision node.
+/// All names of organ_mesh_adapter in the ROS graph, besides those of the collision node.
 namespace organ_collision::names {
 
 inline constexpr char kMeshAdapter[] = "organ_mesh_adapter";
@@ -8,7 +8,7 @@ inline constexpr char kMeshAdapter[] = "organ_mesh_adapter";
 inline constexpr char kCollisionNode[] = "collision_node";
 inline constexpr char kOrgans[] = "organs";
 
-/// Of each entry of `organs`.
+/// Members of each entry of `organs`.
 inline constexpr char kOrganName[] = "name";
 inline constexpr char kTopic[] = "topic";
 inline constexpr char kFrame[] = "frame";

@@ -12,7 +12,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// A name as ROS allows it for topics and nodes; only private ones make no sense here.
+/// A legal ROS name of a topic or node. A private name is refused: it would lie below this adapter.
 std::string graph_name(const ParameterGroup& group, const char* name) {
   std::string text = group.text(name);
   std::string error;

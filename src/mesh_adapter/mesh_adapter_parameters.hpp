@@ -14,21 +14,21 @@ namespace organ_collision {
 struct OrganParameters {
   std::string name;
   std::string topic;
-  std::string frame;           ///< empty: the messages' own
+  std::string frame;           ///< empty: the frame that the messages name
   std::string vertices_topic;  ///< empty: none
 };
 
-/// The adapter's parameters, as validated.
+/// The validated parameters of the node, with the documented defaults.
 struct MeshAdapterParameters {
   std::vector<OrganParameters> organs;
   std::string collision_node = "organ_collision";
-  std::vector<std::string> misspelt;  ///< one sentence for each name that the adapter does not know
+  std::vector<std::string> misspelt;  ///< a sentence for each unknown name
 };
 
-/// Reads the members of the node's private namespace. Throws ParameterError.
+/// Reads them from the members of the adapter's private namespace. Throws ParameterError.
 MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpc::XmlRpcValue& private_namespace);
 
-/// The same from the parameter server.
+/// Reads them from the parameter server. Throws ParameterError.
 MeshAdapterParameters load_mesh_adapter_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

@@ -7,7 +7,7 @@
 
 namespace organ_collision {
 
-void convert(const shape_msgs::Mesh& mesh, Surface& surface) {
+void convert(const shape_msgs::Mesh& mesh, ReceivedSurface& surface) {
   surface.frame.clear();
   surface.stamp = {};
   surface.vertices.resize(3 * mesh.vertices.size());
@@ -25,7 +25,7 @@ void convert(const shape_msgs::Mesh& mesh, Surface& surface) {
   }
 }
 
-void convert(const pcl_msgs::PolygonMesh& mesh, Surface& surface) {
+void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface) {
   const std_msgs::Header &own = mesh.header, &clouds = mesh.cloud.header;
   surface.frame = own.frame_id.empty() ? clouds.frame_id : own.frame_id;
   surface.stamp = own.stamp.isZero() ? clouds.stamp : own.stamp;

@@ -3,18 +3,18 @@
 #include <pcl_msgs/PolygonMesh.h>
 #include <shape_msgs/Mesh.h>
 
-#include "surface.hpp"
+#include "received_surface.hpp"
 
 namespace organ_collision {
 
-// Messages that are meshes, as surfaces. Vertices keep their order and are rounded to 32-bit
-// floats; what `surface` held is replaced, its memory used again.
+// From messages with a mesh to surfaces. Vertices keep their order and are rounded to 32-bit
+// floats. The content of `surface` is replaced, and its memory is used again.
 
-/// Names neither frame nor stamp.
-void convert(const shape_msgs::Mesh& mesh, Surface& surface);
+/// The surface has no frame and no stamp, as the message has none.
+void convert(const shape_msgs::Mesh& mesh, ReceivedSurface& surface);
 
-/// A polygon of n corners is cut into a fan around its first one and counts as n - 2 faces. Where
-/// the mesh's own header names no frame, or no stamp, the cloud's does. Throws MessageError.
-void convert(const pcl_msgs::PolygonMesh& mesh, Surface& surface);
+/// A polygon of n corners is cut into a fan around its first corner and becomes n - 2 faces. If the
+/// mesh's own header has no frame or no stamp, that of the cloud is used. Throws MessageError.
+void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface);
 
 }  // namespace organ_collision

@@ -6,10 +6,10 @@
 
 namespace organ_collision {
 
-/// A message that cannot be turned into arrays. what() names the value and what is legal.
+/// A message that cannot be read as a surface. what() names the illegal value and what is legal.
 class MessageError : public std::runtime_error {
  public:
-  /// `reason`: short, the same for all of its kind, for counting.
+  /// `reason`: short, and the same for all errors of its kind, which are counted by it.
   MessageError(std::string reason, const std::string& message)
       : std::runtime_error(message), reason_(std::move(reason)) {}
 

@@ -9,7 +9,7 @@
 namespace organ_collision {
 namespace {
 
-/// How large an organ may be is for the collision node to say.
+/// The collision node decides how large an organ may be.
 constexpr MeshLimits kNoLimits = {std::numeric_limits<std::uint32_t>::max() / 3};
 
 template <typename Message>
@@ -33,7 +33,7 @@ SharedVertices vertices_of(const boost::shared_ptr<Message>& message) {
 OrganFeed::OrganFeed(std::string organ, std::uint32_t last_topology, Outlet outlet)
     : organ_(std::move(organ)), last_topology_(last_topology), outlet_(std::move(outlet)) {}
 
-void OrganFeed::send(Surface& surface) {
+void OrganFeed::send(ReceivedSurface& surface) {
   if (surface.empty()) {
     mesh_.reset();
     outlet_.mesh(message_of<OrganMesh>(organ_, last_topology_, surface.frame, surface.stamp));
@@ -46,8 +46,8 @@ void OrganFeed::send(Surface& surface) {
   }
 }
 
-/// What is sent comes first: the collision node does not wait until it is known here.
-void OrganFeed::send_mesh(Surface& surface, std::uint32_t topology) {
+/// Sends the message before checking it here, so that the collision node need not wait.
+void OrganFeed::send_mesh(ReceivedSurface& surface, std::uint32_t topology) {
   const auto message = message_of<OrganMesh>(organ_, topology, surface.frame, surface.stamp);
   message->vertices = std::move(surface.vertices);
   message->triangles = surface.triangles;
@@ -56,7 +56,7 @@ void OrganFeed::send_mesh(Surface& surface, std::uint32_t topology) {
     mesh_.emplace(TriangleMesh(vertices_of(message), message->triangles, topology, kNoLimits));
     frame_ = surface.frame;
     stamp_ = surface.stamp;
-  } catch (const MeshError&) {  // The collision node refuses it, and says so.
+  } catch (const MeshError&) {  // The collision node refuses and reports it.
   }
 }
 
@@ -79,11 +79,11 @@ void OrganFeed::move(SharedVertices vertices, ros::Time stamp) {
   try {
     mesh_->move_vertices(std::move(vertices));
     stamp_ = stamp;
-  } catch (const MeshError&) {  // The collision node refuses them, and says so.
+  } catch (const MeshError&) {  // The collision node refuses and reports them.
   }
 }
 
-bool OrganFeed::has_triangles(const Surface& surface) const {
+bool OrganFeed::has_triangles(const ReceivedSurface& surface) const {
   if (!mesh_ || surface.vertices.size() != mesh_->vertices().size() ||
       surface.triangles.size() != 3 * mesh_->face_count()) {
     return false;

@@ -10,12 +10,12 @@
 namespace organ_collision {
 namespace {
 
-/// Meshes are few, and one of another marker must not push out the organ's.
+/// [messages] Meshes are rare, but another marker must not displace the organ's one in the queue.
 constexpr std::uint32_t kSurfaceQueue = 10;
-/// Only the newest vertices count.
+/// [messages] Only the newest vertices count.
 constexpr std::uint32_t kVerticesQueue = 1;
 
-/// A newcomer's queue holds a mesh of each organ at once.
+/// [messages] A new subscriber is sent a mesh of each organ at once.
 std::uint32_t outgoing_queue(const MeshAdapterParameters& parameters) {
   return std::max<std::uint32_t>(100, 2 * parameters.organs.size());
 }
@@ -26,7 +26,7 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
     : node_(node), parameters_(load_mesh_adapter_parameters(private_node)) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
-  // Not latched: that keeps the last message alone, whichever organ it is of, and with the shape
+  // Not latched: a latched topic keeps only the last message, so only one organ, and with the shape
   // that it had then.
   ros::NodeHandle collision_node(node_, parameters_.collision_node);
   meshes_ = collision_node.advertise<OrganMesh>(
@@ -34,7 +34,7 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
       [this](const ros::SingleSubscriberPublisher& newcomer) { welcome(newcomer); });
   vertices_ =
       collision_node.advertise<OrganVertices>(names::kOrganVertices, outgoing_queue(parameters_));
-  // Anywhere: the collision node may have meshes of an adapter that ran before.
+  // Random: the collision node may still have the meshes of an adapter that ran before.
   const std::uint32_t last_topology = std::random_device()();
   for (const OrganParameters& organ : parameters_.organs) add_source(organ, last_topology);
   ROS_INFO("ready: %zu organs, for %s", sources_.size(), collision_node.getNamespace().c_str());
@@ -69,7 +69,7 @@ void OrganMeshAdapter::subscribe(const std::string& topic, std::uint32_t queue_s
                                                   ros::TransportHints().tcpNoDelay()));
 }
 
-/// Who comes late gets every organ as it is now.
+/// Sends a new subscriber all organs in their latest shape.
 void OrganMeshAdapter::welcome(const ros::SingleSubscriberPublisher& newcomer) const {
   for (const OrganSource& source : sources_) {
     if (const OrganMeshPtr mesh = source.mesh()) newcomer.publish(mesh);

@@ -15,8 +15,8 @@
 
 namespace organ_collision {
 
-/// The node: subscribes to surfaces as simulators send them, and publishes the collision node's
-/// organs. All in the thread that spins.
+/// The node: subscribes to surfaces in the messages of other simulators, and publishes them as
+/// organs for the collision node. All its work is done in the thread that spins.
 class OrganMeshAdapter {
  public:
   /// Throws ParameterError.

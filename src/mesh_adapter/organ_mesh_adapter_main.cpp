@@ -5,7 +5,7 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, organ_collision::names::kMeshAdapter);
-  const ros::NodeHandle node;  // Outlives the try: without any, nothing is logged.
+  const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
   try {
     organ_collision::OrganMeshAdapter adapter(node, ros::NodeHandle("~"));
     ros::spin();

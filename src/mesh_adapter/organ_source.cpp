@@ -8,7 +8,7 @@
 #include "message_error.hpp"
 #include "point_cloud_reader.hpp"
 #include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/interface/legal_name.hpp"
 
 namespace organ_collision {
 namespace {
@@ -74,7 +74,7 @@ void OrganSource::read(const ShapeShifter& message) {
   }
 }
 
-/// The parameter is what the user says; a simulator may name any frame. It is said once.
+/// The parameter `frame` overrides the frame that the messages name. The log says so once.
 std::string OrganSource::frame_or_given(const std::string& named) {
   std::string frame = tf_frame(named);
   if (const std::string fault = name_fault(frame); !fault.empty()) {

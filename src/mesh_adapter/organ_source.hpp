@@ -9,20 +9,21 @@
 #include "marker_reader.hpp"
 #include "mesh_adapter_parameters.hpp"
 #include "organ_feed.hpp"
-#include "surface.hpp"
+#include "received_surface.hpp"
 
 namespace organ_collision {
 
-/// One organ, from messages of whatever type to its feed. A refused message changes nothing.
+/// One organ: reads its messages, of any supported type, and passes its surface to its feed. A
+/// message that is refused changes nothing.
 class OrganSource {
  public:
   OrganSource(OrganParameters parameters, std::uint32_t last_topology, OrganFeed::Outlet outlet);
 
   const OrganParameters& parameters() const { return parameters_; }
 
-  /// A message of `topic`. `arrival`: its stamp, where it has none. Throws MessageError.
+  /// Takes a message of `topic`. `arrival` replaces a missing stamp. Throws MessageError.
   void take_surface(const topic_tools::ShapeShifter& message, ros::Time arrival);
-  /// The same of `vertices_topic`.
+  /// Takes a message of `vertices_topic`, in the same way.
   void take_vertices(const topic_tools::ShapeShifter& message, ros::Time arrival);
 
   /// As OrganFeed::mesh().
@@ -35,7 +36,7 @@ class OrganSource {
   OrganParameters parameters_;
   OrganFeed feed_;
   MarkerReader marker_reader_;
-  Surface surface_;  ///< of the last message; only its memory is used again
+  ReceivedSurface surface_;  ///< of the last message; kept only to use its memory again
   bool has_warned_ = false;
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "message_error.hpp"
-#include "ros/interface/spelling.hpp"
+#include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -21,7 +21,7 @@ std::size_t size_of(const PointField& field) {
   return field.datatype == PointField::FLOAT64 ? sizeof(double) : sizeof(float);
 }
 
-/// The field of that name, of a legal type and within a point.
+/// The field with this name. Refuses it if its type is illegal or it lies outside of the point.
 const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
   const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
                                   [&](const PointField& field) { return field.name == name; });
@@ -36,7 +36,7 @@ const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
                                                std::to_string(field->datatype) +
                                                "; must be 7 (float32) or 8 (float64)");
   }
-  if (field->count > 1) {  // 0 is PCL's of old, for 1.
+  if (field->count > 1) {  // Old PCL versions write 0 for 1.
     throw MessageError("wrong field count", "field " + name + " has count " +
                                                 std::to_string(field->count) + "; must be 1");
   }
@@ -50,8 +50,9 @@ const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
   return *field;
 }
 
-/// All points lie within `data`; what follows the last one is nobody's. Bytes of two 32-bit numbers
-/// fit 64 bits, but their sums need not: the rows are compared one condition after the other.
+/// Refuses a cloud whose points do not all lie within `data`. Bytes after the last point are
+/// ignored. The product of two 32-bit numbers fits 64 bits, but a sum of products may not.
+/// Therefore the last row and the earlier rows are compared one after the other.
 void check_sizes(const PointCloud2& cloud) {
   const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
   if (cloud.height > 1 && cloud.row_step < row) {
@@ -80,7 +81,7 @@ Number number_at(const std::uint8_t* address, bool swap) {
   return number;
 }
 
-/// One field of all points, to every third place from `to` on.
+/// Copies one field of all points to to[0], to[3], to[6] ...
 template <typename Number>
 void copy(const PointCloud2& cloud, std::size_t offset, float* to) {
   const bool swap = (cloud.is_bigendian != 0) != kHostIsBigEndian;

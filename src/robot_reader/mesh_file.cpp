@@ -25,7 +25,8 @@ namespace {
 using Eigen::Affine3d;
 using Eigen::Vector3d;
 
-/// Triangles whose corners at the same place are one vertex: STL names each corner anew.
+/// Collects triangles. Corners at the same position become one vertex, because STL files repeat the
+/// position of each corner.
 class TriangleCollector {
  public:
   void add(const aiNode& node, const aiScene& scene, const Affine3d& T_link_parent) {
@@ -68,8 +69,8 @@ class TriangleCollector {
   std::map<std::array<double, 3>, std::uint32_t> index_of_;
 };
 
-/// What a mesh file names, such as its materials, is neither needed nor to be trusted: it may be a
-/// FIFO.
+/// Hides all files that a mesh file names, such as its materials. They are not needed, and reading
+/// them is a risk: they may be FIFOs, for example.
 class NoOtherFiles : public Assimp::IOSystem {
  public:
   bool Exists(const char* /*file*/) const override { return false; }
@@ -85,13 +86,13 @@ void check_scale(const Vector3d& scale) {
   throw ToolError(message.str());
 }
 
-/// By which assimp knows the format.
+/// assimp recognises the format by it.
 std::string extension(const std::string& file) {
   const std::size_t dot = file.find_last_of("./");
   return dot == std::string::npos || file[dot] == '/' ? "" : file.substr(dot + 1);
 }
 
-/// Not every importer of assimp looks at the indices, and its own steps rely on them.
+/// Not all importers of assimp check the vertex indices, but its post-processing relies on them.
 void check_indices(const aiScene& scene) {
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[i];
@@ -109,7 +110,7 @@ void check_indices(const aiScene& scene) {
 
 bool is_space(char character) { return std::isspace(static_cast<unsigned char>(character)) != 0; }
 
-/// Whether there is one with white space around it.
+/// Whether the text contains the word with white space on both sides.
 bool has_word(const std::string& text, const std::string& word) {
   for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
     const std::size_t end = at + word.size();
@@ -118,14 +119,14 @@ bool has_word(const std::string& text, const std::string& word) {
   return false;
 }
 
-/// assimp reads on for ever where a PLY's header has no end, as in a file that was cut off.
+/// If the header of a PLY file has no end, as in a truncated file, assimp never stops reading.
 void check_ply_header(const std::string& content) {
   if (content.compare(0, 3, "ply") == 0 && !has_word(content, "end_header")) {
     throw ToolError("its header has no end_header; the file may be cut off");
   }
 }
 
-/// Of its failure: it passes on what it caught.
+/// Why the importer failed. It reports lack of memory by the text of the exception that it caught.
 std::string reason(const Assimp::Importer& importer) {
   const std::string error = importer.GetErrorString();
   return error == std::bad_alloc().what() ? "there is not enough memory to read it" : error;
@@ -134,9 +135,10 @@ std::string reason(const Assimp::Importer& importer) {
 MeshDescription parse(const std::string& file, const std::string& content,
                       const Affine3d& T_link_mesh) {
   Assimp::Importer importer;
-  importer.SetIOHandler(std::make_unique<NoOtherFiles>().release());  // It takes it over.
+  importer.SetIOHandler(
+      std::make_unique<NoOtherFiles>().release());  // The importer becomes the owner.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // Else a file without triangles would get some, in the shape of its nodes.
+  // Otherwise assimp would add triangles in the shape of the nodes to a file without triangles.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene =
       importer.ReadFileFromMemory(content.data(), content.size(), 0, extension(file).c_str());

@@ -7,12 +7,12 @@
 
 namespace organ_collision {
 
-/// The surface in a mesh file, in its link's frame [m]. STL, DAE, OBJ and whatever else assimp
-/// reads, as RViz does: in the file's own axes, lengths times `scale` and, in DAE, times the file's
-/// unit. Each corner of a triangle becomes a vertex once; points and lines are left out. Files that
-/// the file itself names are not read.
-/// `file`: as in read_resource. `scale`: finite, not 0; negative mirrors.
-/// Throws ToolError, but not for what ToolSurface refuses. A broken file may end the program.
+/// The surface in a mesh file, in the frame of its link [m]. Reads STL, DAE, OBJ and the other
+/// formats of assimp. As in RViz, the axes are those of the file. Lengths are multiplied by
+/// `scale`, and in DAE by the file's unit too. Corners at the same position become one vertex.
+/// Points, lines, and other files that the file names are ignored. `file`: as for read_resource().
+/// `scale`: finite and not 0 along any axis; a negative one mirrors. Throws ToolError, but leaves
+/// to ToolSurface what that refuses. A broken file may end the program.
 MeshDescription read_mesh_file(const std::string& file, const Eigen::Vector3d& scale,
                                const Eigen::Affine3d& T_link_mesh);
 

@@ -9,7 +9,7 @@
 
 #include "ros/tools/reader_limits.hpp"
 
-// GCC has macros that say so, and clang has features.
+// For sanitizers, GCC defines macros, and clang has __has_feature.
 #ifndef __has_feature
 #define __has_feature(feature) 0
 #endif
@@ -17,7 +17,8 @@
 namespace organ_collision {
 namespace {
 
-/// AddressSanitizer and ThreadSanitizer themselves take terabytes of address space.
+/// AddressSanitizer and ThreadSanitizer reserve terabytes of address space, so they need RLIMIT_AS
+/// to stay as it is.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
     __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 constexpr bool kSanitized = true;
@@ -25,7 +26,7 @@ constexpr bool kSanitized = true;
 constexpr bool kSanitized = false;
 #endif
 
-/// Limits that are lower already stay as they are.
+/// Lowers a limit of the process. A limit that is already lower stays as it is.
 template <typename Resource>
 void limit(Resource resource, rlim_t value) {
   rlimit limits{};
@@ -41,7 +42,7 @@ void limit(Resource resource, rlim_t value) {
 void limit_process() {
   limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
   if (!kSanitized) limit(RLIMIT_AS, reader_limits::kMemoryBytes);
-  // Also where cores go to a program, which RLIMIT_CORE does not bind.
+  // Not RLIMIT_CORE: it has no effect where the kernel pipes core dumps to a program.
   prctl(PR_SET_DUMPABLE, 0);
 }
 

@@ -2,7 +2,7 @@
 
 namespace organ_collision {
 
-/// Binds this process to reader_limits, and to leaving no core file. Throws std::system_error.
+/// Applies reader_limits to this process, and stops it from dumping core. Throws std::system_error.
 void limit_process();
 
 }  // namespace organ_collision

@@ -36,7 +36,7 @@ class ScopedFile {
   int descriptor_;
 };
 
-/// The size of a file that may be read.
+/// The size of the file. Refuses a file that must not be read.
 std::size_t checked_size(const std::string& path, const struct stat& status) {
   if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder");
   if (S_ISFIFO(status.st_mode)) refuse(path, "it is a FIFO; must be a regular file");
@@ -50,8 +50,8 @@ std::size_t checked_size(const std::string& path, const struct stat& status) {
   return size;
 }
 
-/// Follows links. Looks before it opens, as opening alone may wait or set a device off, and once
-/// more after, as the file may have been exchanged.
+/// Follows links. Checks the file before opening it, because opening may block or trigger a device.
+/// Checks it again afterwards, because it may have been replaced in between.
 std::string read_file(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
@@ -77,7 +77,8 @@ bool begins_with(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-/// With %41 for A, as URLs have it; a % before anything but a byte's two digits stands for itself.
+/// Replaces the escapes of a URL, as %41 for A. A % that is not followed by two hexadecimal digits
+/// stays, and so does %00.
 std::string decoded(const std::string& url) {
   std::string text;
   for (std::size_t i = 0; i < url.size(); ++i) {
@@ -114,7 +115,7 @@ std::string read_resource(const std::string& name) {
   if (begins_with(name, "/")) return read_file(name);
   if (begins_with(name, kPackage)) return read_file(path_in_package(name));
   if (begins_with(name, kFile)) return read_file(path_of_url(name));
-  // Servers are left out: one that does not answer would hold the node's start up.
+  // URLs of servers are refused: a server that does not answer would delay the start of the node.
   refuse(name, "must be an absolute path, or begin with package:// or file://");
 }
 

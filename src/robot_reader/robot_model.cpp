@@ -4,7 +4,8 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "mesh_file.hpp"
-#include "ros/interface/spelling.hpp"
+#include "ros/interface/legal_name.hpp"
+#include "ros/interface/plain_text.hpp"
 #include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
@@ -19,7 +20,7 @@ ShapePose to_eigen(const urdf::Pose& pose) {
   return {to_eigen(pose.position), {q.w, q.x, q.y, q.z}};
 }
 
-/// Takes what urdfdom says through console_bridge, for as long as it lives.
+/// Collects the errors that urdfdom logs through console_bridge during its own lifetime.
 class ScopedErrorCollector : public console_bridge::OutputHandler {
  public:
   explicit ScopedErrorCollector(std::vector<std::string>& errors)
@@ -44,8 +45,9 @@ class ScopedErrorCollector : public console_bridge::OutputHandler {
   console_bridge::OutputHandler* former_;
 };
 
-/// urdfdom goes on after a shape that it cannot read, but without this and all further ones of the
-/// link; its last error names the link, and the one before says why.
+/// Refuses a link that urdfdom read only in part. When urdfdom cannot read a shape, it skips this
+/// and all further shapes of the link. It then logs an error that names the link; the error before
+/// it, if any, explains why.
 void check_complete(const std::string& link, const std::vector<std::string>& errors) {
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i].find("Link [" + link + "]") == std::string::npos) continue;
@@ -80,7 +82,7 @@ ShapeDescription shape(const urdf::Geometry& geometry, const ShapePose& pose,
   return mesh(static_cast<const urdf::Mesh&>(geometry), pose, about_to_read);
 }
 
-/// Of collision or visual elements.
+/// The shapes of collision or visual elements.
 template <typename Elements>
 std::vector<ShapeDescription> shapes(const Elements& elements, const AboutToRead& about_to_read) {
   std::vector<ShapeDescription> shapes;

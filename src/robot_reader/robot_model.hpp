@@ -13,21 +13,21 @@ class ModelInterface;
 
 namespace organ_collision {
 
-/// A robot, as its URDF describes it. A broken one may end the program.
+/// A robot, as its URDF describes it. A broken URDF may end the program.
 class RobotModel {
  public:
-  /// Throws ToolError if `urdf`, its text, describes none.
+  /// `urdf`: the text of the URDF. Throws ToolError if it does not describe a robot.
   explicit RobotModel(const std::string& urdf);
 
-  /// All collision shapes of a link or, if it has none, all its visual ones; and the joint that
-  /// moves it. `about_to_read` is told of each mesh before it is read: "link 'jaw': mesh
-  /// 'jaw.stl'". Throws ToolError: no such link, a shape or a mesh that cannot be read.
+  /// All collision shapes of a link or, if it has none, all its visual shapes; and the joint that
+  /// moves it. Calls `about_to_read` before reading each mesh, with "link 'jaw': mesh 'jaw.stl'".
+  /// Throws ToolError if there is no such link, or a shape or mesh cannot be read.
   LinkDescription link(const std::string& name,
                        const std::function<void(const std::string&)>& about_to_read) const;
 
  private:
   std::shared_ptr<const urdf::ModelInterface> model_;
-  std::vector<std::string> errors_;  ///< what urdfdom said of links that it did not read to the end
+  std::vector<std::string> errors_;  ///< urdfdom's errors, also about links that it read in part
 };
 
 }  // namespace organ_collision

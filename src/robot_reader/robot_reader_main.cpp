@@ -1,7 +1,7 @@
-// Reads links of a robot for the node: broken files end this program, not the node.
+// Reads links of a robot for the node. A broken file may end this program, but not the node.
 //
 // Usage: robot_reader URDF LINK...
-// URDF: a file or URL; -: it comes on standard input. Standard output: see robot_reply.hpp.
+// URDF: a file or URL, or - for standard input. For standard output, see robot_reply.hpp.
 
 #include <unistd.h>
 
@@ -21,7 +21,8 @@ using namespace organ_collision;
 
 namespace {
 
-/// Where replies go; libraries that print to standard output must not spoil them.
+/// The standard output of the program, for replies only. Libraries that print to standard output
+/// are redirected to standard error.
 class ReplyStream {
  public:
   ReplyStream() : descriptor_(dup(STDOUT_FILENO)) { dup2(STDERR_FILENO, STDOUT_FILENO); }
@@ -29,7 +30,7 @@ class ReplyStream {
   void write(const std::string& record) const {
     for (std::size_t done = 0; done < record.size();) {
       const ssize_t count = ::write(descriptor_, &record[done], record.size() - done);
-      if (count < 0 && errno != EINTR) std::exit(EXIT_FAILURE);  // Nobody listens any more.
+      if (count < 0 && errno != EINTR) std::exit(EXIT_FAILURE);  // The node has closed the pipe.
       if (count > 0) done += static_cast<std::size_t>(count);
     }
   }

@@ -26,7 +26,7 @@ std::vector<Contact> contacts_of(const TriangleMesh& organ, const ShaftAxis& axi
   return contacts;
 }
 
-/// The normals of the contacts that are nearest, each once (to 1e-6).
+/// The different normals (to 1e-6) of the contacts that are local minima.
 std::set<std::vector<long>> nearest_normals(const std::vector<Contact>& contacts) {
   const std::vector<std::size_t> basins = basins_of(contacts);
   std::set<std::vector<long>> normals;
@@ -81,7 +81,8 @@ TEST(Basins, OtherLinksDoNotCount) {
 }
 
 TEST(Basins, AWayThatLeadsBackEnds) {
-  // Two faces that each seem nearer from the other's point, as first touches at two times may.
+  // From the point of each face, the other one seems nearer. This may happen if the faces were
+  // first touched at different times.
   Contact a = contact({0.001, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001), b = a;
   a.vertices = {1, 2, 3};
   b.vertices = {1, 2, 4};

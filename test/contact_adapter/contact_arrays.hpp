@@ -1,6 +1,7 @@
 #pragma once
 
 #include <organ_collision/ContactArray.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <Eigen/Core>
 #include <vector>
@@ -9,16 +10,16 @@
 
 namespace organ_collision {
 
-/// A contact with geometry, of face 0; the normal need not be unit.
+/// A contact of face 0, with geometry. `normal` need not be unit.
 inline Contact contact(const Eigen::Vector3d& point, const Eigen::Vector3d& normal, double depth) {
   Contact contact;
-  contact.point = to_point(point);
+  contact.point = tf2::toMsg(point);
   contact.normal = to_vector(normal.normalized());
   contact.depth = depth;
   return contact;
 }
 
-/// An answer that says OK.
+/// An answer with status OK.
 inline ContactArray touched(const std::vector<Contact>& contacts) {
   ContactArray answer;
   answer.header.frame_id = "liver";

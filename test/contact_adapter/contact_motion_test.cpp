@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Of contacts that push as deep as they are.
+/// Follows an answer whose contacts push with their own normals and depths.
 std::optional<double> follow(ContactMotion& motion, const std::vector<Contact>& contacts,
                              const KeptSides::Radius& radius = kRadius) {
   std::vector<Push> pushes;
@@ -64,7 +64,7 @@ TEST(ContactMotion, AFaceThatTheAxisCameToLieInIsNoWayOfTheTip) {
 }
 
 TEST(ContactMotion, ANormalThatTurnsIsHalfAWay) {
-  // About an edge, 3 mm away.
+  // The normal turns about an edge that is 3 mm away.
   ContactMotion motion;
   follow(motion, {of_depth(0.002, {0.0, 0.0, -1.0})});
   const Vector3d turned(std::sin(0.1), 0.0, -std::cos(0.1));
@@ -112,6 +112,6 @@ TEST(ContactMotion, IsNoMoreThanTheWayOfRealQueries) {
       EXPECT_LE(ways[i], 1.01 * steps[i].way) << "yaw " << yaw << ", step " << i;
       sum += ways[i];
     }
-    EXPECT_GE(sum, 0.01) << "yaw " << yaw;  // [m] of 36 mm
+    EXPECT_GE(sum, 0.01) << "yaw " << yaw;  // [m]; the whole motion is 36 mm
   }
 }

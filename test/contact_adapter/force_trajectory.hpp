@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "ros/interface/conversions.hpp"
+#include "ros/steps/query_conversions.hpp"
 
 namespace organ_collision {
 

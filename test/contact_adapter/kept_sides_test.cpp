@@ -1,6 +1,7 @@
 #include "contact_adapter/kept_sides.hpp"
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include "contact_arrays.hpp"
 
@@ -11,11 +12,11 @@ namespace {
 
 constexpr double kRadius = 0.005;  // [m]
 
-/// A shaft's contact with the face z = 0, which looks up, from above or below.
+/// The contact of a shaft with the face z = 0, from above or below. The face is oriented upwards.
 Contact at_height(double height) {
   const double side = height < 0.0 ? 1.0 : -1.0;
   Contact flat = contact({0.1, 0.2, 0.0}, {0.0, 0.0, side}, kRadius - std::abs(height));
-  flat.end_point = to_point({0.1, 0.2, 0.003});
+  flat.end_point = tf2::toMsg(Eigen::Vector3d(0.1, 0.2, 0.003));
   flat.behind = height < 0.0;
   flat.shaft = 1.0;
   return flat;
@@ -113,7 +114,7 @@ TEST(KeptSides, OnlyWhatTheTipPiercedIsDeeperThanTheRadius) {
     face.shaft = shaft;
     face.fraction = 0.5;
     follow(sides, face);
-    face.depth = 0.06;  // the tip's, far beyond
+    face.depth = 0.06;  // of the tip, far beyond the face
     face.fraction = 0.0;
     expect_push(follow(sides, face), -1.0, shaft == 1.0 ? 0.06 : kRadius);
   }

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kStiffness = 250.0;
-/// [N], [N m] Where several springs are searched for: a few millionths of the deepest one's.
+/// [N], [N m] The tolerance if several springs are searched for: a few millionths of the largest.
 constexpr double kSearched = 1e-4;
 
 struct Wrench {
@@ -41,7 +41,7 @@ void expect_same(const Wrench& found, const Wrench& expected, double tolerance =
   expect_near(found.torque, expected.torque, tolerance);
 }
 
-/// Pushes as they may come: scattered places, normals all around, some left.
+/// Pushes with random places, normals in all directions, and some negative depths.
 std::vector<Push> scattered_pushes(std::mt19937& random, int count) {
   std::normal_distribution<double> number(0.0, 0.01);
   std::vector<Push> pushes;
@@ -75,7 +75,7 @@ TEST(PenaltyWrench, WhatWasLeftDoesNotCount) {
 }
 
 TEST(PenaltyWrench, SplittingSomeFacesMoreThanOthersChangesNoForce) {
-  // Between two walls and a floor, each split in its plane.
+  // Two walls and a floor, each split within its plane.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> way(-0.002, 0.002);
   const std::vector<Push> whole = {push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.0011),
@@ -175,7 +175,7 @@ TEST(PenaltyWrench, WallsAtRightAnglesAreSpringsOfTheirOwn) {
 }
 
 TEST(PenaltyWrench, InACreaseTheForceIsOfTheSmallestShiftThatLeavesBothSides) {
-  // Both sides rise by 30 degrees; the ball has to rise by depth / cos(30 degrees).
+  // Both sides rise by 30 degrees. To leave both, the ball must rise by depth / cos(30 degrees).
   const double radius = 0.005, depth = 0.001, angle = M_PI / 6.0;
   const Vector3d a(std::sin(angle), 0.0, -std::cos(angle)), b(-a.x(), 0.0, a.z());
   const std::vector<Push> sides = {push((radius - depth) * a, a, depth),
@@ -184,7 +184,7 @@ TEST(PenaltyWrench, InACreaseTheForceIsOfTheSmallestShiftThatLeavesBothSides) {
 }
 
 TEST(PenaltyWrench, InADentOfTheToolsShapeTheForceIsOneContacts) {
-  // A half ball pressed down by `shift`: depths are its share along each normal.
+  // A half ball that is pressed down by `shift`. The depths are the components along the normals.
   const double radius = 0.005, shift = 0.0002;
   for (const int rings : {2, 5, 20}) {
     std::vector<Push> pushes = {push({0.0, 0.0, -radius}, {0.0, 0.0, -1.0}, shift)};

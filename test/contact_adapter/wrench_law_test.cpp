@@ -1,6 +1,7 @@
 #include "contact_adapter/wrench_law.hpp"
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include "contact_arrays.hpp"
 
@@ -15,7 +16,7 @@ constexpr double kSeconds = 0.001;     // [s]
 
 Contact floor_at(double depth) { return contact({0.09, 0.0, 0.0}, {0.0, 0.0, -1.0}, depth); }
 
-/// A wall that counts.
+/// A contact with a wall, whose push counts.
 Contact wall_at(double depth) {
   Contact wall = contact({0.1, 0.0, 0.3}, {1.0, 0.0, 0.0}, depth);
   wall.face = 1;
@@ -24,7 +25,8 @@ Contact wall_at(double depth) {
   return wall;
 }
 
-/// It does not count: the floor holds its nearest corner, and comes nearer.
+/// A contact with the wall whose push does not count: the floor contains its nearest corner and
+/// extends nearer to the tool.
 Contact hidden_wall(double depth) {
   Contact wall = wall_at(depth);
   wall.vertices = {2, 4, 5};
@@ -64,7 +66,7 @@ TEST(WrenchLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   expect_near(force(law, answer_of({floor_at(0.003), hidden_wall(0.002)})), up);
   const ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
   for (int step = 1; step <= 40; ++step) {
-    // At rest: by stiffness * 0.05 mm a millisecond.
+    // While the tool rests, by stiffness * 0.05 mm each millisecond.
     expect_near(force(law, appeared), up + std::min(1.0, 0.025 * step) * left);
   }
   expect_near(force(law, answer_of({floor_at(0.003), hidden_wall(0.002)}), 0.0), up + left);
@@ -104,10 +106,10 @@ TEST(WrenchLaw, WithoutContactsItIsZeroAtOnce) {
 }
 
 TEST(WrenchLaw, LinksThatShareAFaceAreOneSpring) {
-  // The deeper one's, at a place between them, as both lie on the face.
+  // The spring of the deeper one, at a place between them, because both lie on the face.
   Contact left = floor_at(0.001), right = floor_at(0.003);
-  left.end_point = to_point({0.0, 0.0, 0.0});
-  right.end_point = to_point({0.04, 0.0, 0.0});
+  left.end_point = tf2::toMsg(Eigen::Vector3d(0.0, 0.0, 0.0));
+  right.end_point = tf2::toMsg(Eigen::Vector3d(0.04, 0.0, 0.0));
   right.link = 1;
   ContactArray answer = touched({left, right});
   answer.links = {"left_jaw", "right_jaw"};

@@ -25,7 +25,7 @@ class LiverSoftBodyTest : public testing::Test {
     return (vertex(f[0]) + vertex(f[1]) + vertex(f[2])) / 3.0;
   }
 
-  /// [m] The farthest that any vertex is from its place in the surface at rest; 1 m if not finite.
+  /// [m] The largest distance of a vertex from its position at rest; 1 m if it is not finite.
   double farthest_from_rest() const {
     const std::vector<float> all = liver_.vertices();
     double farthest = 0.0;
@@ -45,11 +45,11 @@ class LiverSoftBodyTest : public testing::Test {
     return nearest;
   }
 
-  static Push push(std::uint32_t face, const Vector3d& displacement) {
+  static TissuePush push(std::uint32_t face, const Vector3d& displacement) {
     return {face, Vector3d::Constant(1.0 / 3.0), displacement};
   }
 
-  Surface surface_ = make_liver_surface();
+  ClosedSurface surface_ = make_liver_surface();
   LiverSoftBody liver_{surface_};
 };
 
@@ -100,9 +100,9 @@ TEST_F(LiverSoftBodyTest, ReturnsWhenLetGo) {
 }
 
 TEST_F(LiverSoftBodyTest, SurvivesViolence) {
-  // Every face at once, to and fro, as far as the simulator ever lets it: no bounds are broken.
+  // Pushes all faces at once, back and forth, as far as the simulator ever does.
   for (int step = 0; step < 500; ++step) {
-    std::vector<Push> pushes;
+    std::vector<TissuePush> pushes;
     for (std::uint32_t face = 0; face < surface_.faces.size(); ++face) {
       const double side = (face + step) % 3 == 0 ? 0.008 : -0.008;
       pushes.push_back({face, Vector3d(0.98, 0.02, 0.0), Vector3d(side, -side, side)});

@@ -11,8 +11,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-const Surface& liver() {
-  static const Surface surface = make_liver_surface();
+const ClosedSurface& liver() {
+  static const ClosedSurface surface = make_liver_surface();
   return surface;
 }
 
@@ -25,8 +25,8 @@ double quality(const Triangle& t) {
   return 4.0 * std::sqrt(3.0) * area_vector(t).norm() / edges;
 }
 
-/// Whether the segment meets the triangle: its ends on both sides, and seen from it the edges turn
-/// one way.
+/// Whether the segment meets the triangle: its ends are on different sides of the plane, and the
+/// line passes all three edges on the same side.
 bool crosses(const Vector3d& from, const Vector3d& to, const Triangle& t) {
   const Vector3d normal = area_vector(t);
   if (normal.dot(from - t[0]) * normal.dot(to - t[0]) > 0.0) return false;
@@ -92,8 +92,8 @@ TEST(LiverSurface, LiesOnItsLevel) {
 }
 
 TEST(LiverSurface, IsNotConvex) {
-  // Both the fissure and the hollow underneath: a chord between two places of the surface that
-  // runs a centimetre outside of it.
+  // For the fissure and for the hollow underneath: a chord between two points of the surface runs a
+  // centimetre outside of the liver.
   const auto middle_is_outside = [](const Vector3d& a, const Vector3d& b) {
     EXPECT_LE(liver_level(a), 0.0);
     EXPECT_LE(liver_level(b), 0.0);
@@ -112,7 +112,7 @@ TEST(LiverSurface, HasNoSliverTriangles) {
 }
 
 TEST(LiverSurface, DoesNotMeetItself) {
-  const Surface& s = liver();
+  const ClosedSurface& s = liver();
   for (std::size_t i = 0; i < s.faces.size(); ++i) {
     const Triangle face = s.triangle(i);
     for (std::size_t j = 0; j < s.faces.size(); ++j) {

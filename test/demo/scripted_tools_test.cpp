@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr double kPeriod = 0.008;  // [s] of the simulator
+constexpr double kPeriod = 0.008;  // [s] of a step of the simulator
 
 const ScriptedTool& tool(const std::string& name) {
   const auto& tools = scripted_tools();
@@ -19,9 +19,9 @@ const ScriptedTool& tool(const std::string& name) {
                        [&](const ScriptedTool& tool) { return tool.name == name; });
 }
 
-/// [m] From the axis to the liver at rest.
+/// [m] The distance from the axis to the liver at rest.
 double distance_to_liver(const ShaftAxis& axis) {
-  static const Surface liver = make_liver_surface();
+  static const ClosedSurface liver = make_liver_surface();
   double nearest = 1.0;
   for (std::size_t face = 0; face < liver.faces.size(); ++face) {
     nearest = std::min(nearest, closest_points(axis, liver.triangle(face)).distance);
@@ -54,7 +54,7 @@ TEST(ScriptedTools, PalpatorIsSlowAndPressesAndLifts) {
     EXPECT_LT(speed, 0.06) << "[m/s] at " << time << " s";
     const double distance = distance_to_liver(palpator.at(time));
     (distance < kToolRadius ? pressing : lifted) += 1;
-    // No deeper than tissue would give way: only the tip's ball enters.
+    // No deeper than tissue yields: only the ball around the tip enters.
     EXPECT_GT(liver_level(palpator.tip(time)), -0.006) << "at " << time << " s";
   }
   EXPECT_GT(pressing, 100);
@@ -63,7 +63,7 @@ TEST(ScriptedTools, PalpatorIsSlowAndPressesAndLifts) {
 
 TEST(ScriptedTools, StabberPassesThroughTheLobeWithinOneStepAndRestsOutside) {
   const ScriptedTool& stabber = tool("stabber");
-  constexpr double kBreath = 0.007;  // [m] that the liver moves by itself
+  constexpr double kBreath = 0.007;  // [m] motion of the liver by breathing
   for (int second = 0; second < 14; ++second) {
     for (double time = second + kPeriod; time < second + 1.0001; time += 0.031) {
       EXPECT_GT(distance_to_liver(stabber.at(time)), kToolRadius + kBreath)

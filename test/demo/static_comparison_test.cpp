@@ -7,8 +7,8 @@
 namespace organ_collision {
 namespace {
 
-/// A tool from (0.3, 0.2, 0.5) to (0.3, 0.2, 0.1) in the organ's frame, and two faces: one lies
-/// 3 mm below its tip, the other 0.2 m aside.
+/// A tool from (0.3, 0.2, 0.5) to (0.3, 0.2, 0.1) in the organ's frame, and two faces. One lies
+/// 3 mm below the tip, the other 0.2 m to the side.
 class StaticComparisonTest : public testing::Test {
  protected:
   StaticComparisonTest() {

@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Installs the build into an empty folder, and uses what is there as a stranger would.
+"""Installs the build into an empty folder, and uses the installed files as another package would.
 
 Usage: install_test.py BUILD_FOLDER INSTALL_PREFIX CXX_COMPILER
 """
 
+import glob
 import os
 import shutil
 import subprocess
@@ -12,8 +13,15 @@ import tempfile
 import unittest
 
 BUILD, PREFIX, COMPILER = sys.argv[1:4]
-CONSUMER = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'consumer')
+HERE = os.path.dirname(os.path.abspath(__file__))
+SOURCE = os.path.dirname(os.path.dirname(HERE))
+CONSUMER = os.path.join(HERE, 'consumer')
 PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
+
+
+def headers(folder):
+    paths = glob.glob(os.path.join(folder, '**', '*.hpp'), recursive=True)
+    return sorted(os.path.relpath(path, folder) for path in paths)
 
 
 def run(*command, **environment):
@@ -36,7 +44,7 @@ class InstallTest(unittest.TestCase):
     def tearDownClass(cls):
         shutil.rmtree(cls.folder)
 
-    def test_program_without_ros_links_the_core(self):
+    def test_each_public_header_compiles_alone_and_a_program_without_ros_links_the_core(self):
         build = os.path.join(self.folder, 'consumer')
         run('cmake', '-S', CONSUMER, '-B', build, '-DCMAKE_PREFIX_PATH=' + self.prefix,
             '-DCMAKE_CXX_COMPILER=' + COMPILER)
@@ -48,6 +56,11 @@ class InstallTest(unittest.TestCase):
         linked = run('ldd', program)
         self.assertIn(self.prefix + '/lib/liborgan_collision_query', linked)
         self.assertNotRegex(linked, r'lib(ros|tf2|nodelet|xmlrpc)')
+
+    def test_all_public_headers_are_installed_and_no_others(self):
+        installed = headers(os.path.join(self.prefix, 'include', 'organ_collision'))
+        self.assertEqual(installed, headers(os.path.join(SOURCE, 'include', 'organ_collision')))
+        self.assertIn('query/collision_query.hpp', installed)
 
     def test_installed_programs_and_nodelet_find_their_libraries(self):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')

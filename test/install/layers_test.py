@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""geometry <- picking <- query <- ros: what each layer includes and links.
+"""What each layer (geometry <- picking <- query <- ros) and each program includes and links.
 
 Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY ROS_LIBRARY
+                      CONTACT_ADAPTER MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER
 """
 
 import glob
@@ -15,14 +16,19 @@ SOURCE = sys.argv[1]
 LAYERS = ['geometry', 'picking', 'query', 'ros']
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
+CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR, ROBOT_READER = sys.argv[6:10]
 ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_msgs|std_srvs)[_/]')
 GL = re.compile(r'\b(GL|EGL)/')
+GL_LIBRARIES = r'lib(OSMesa|GL|EGL)\.so'
+PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
+# The layers that the adapters do without, and the rooms of the node.
+NODE = re.compile(r'(organ_collision/)?(picking|query)/|ros/(node|motion|organs|parameters|publishing|steps|tools)/')
 
 
-def includes(layer):
-    """All (file, included path) of a layer's headers and sources."""
+def includes(room, files='*'):
+    """All (file, included path) of the headers and sources of a layer or another folder of src/."""
     for folder in ('include/organ_collision', 'src'):
-        for path in glob.glob(os.path.join(SOURCE, folder, layer, '**', '*.?pp'), recursive=True):
+        for path in glob.glob(os.path.join(SOURCE, folder, room, '**', files + '.?pp'), recursive=True):
             with open(path) as text:
                 for included in re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)', text.read(), re.M):
                     yield os.path.relpath(path, SOURCE), included
@@ -56,15 +62,50 @@ class LayersTest(unittest.TestCase):
                 for path, included in includes(layer):
                     self.assertIsNone(GL.match(included), '%s: %s' % (path, included))
 
+    def test_the_adapters_include_nothing_of_picking_query_and_the_node(self):
+        for room in ('ros/interface', 'contact_adapter', 'mesh_adapter'):
+            found = 0
+            for path, included in includes(room):
+                found += 1
+                self.assertIsNone(NODE.match(included), '%s: %s' % (path, included))
+            self.assertGreater(found, 0, room)
+
+    def test_what_robot_reader_shares_with_the_node_includes_no_ros(self):
+        for room, files in (('ros/interface', 'legal_name'), ('ros/interface', 'plain_text'),
+                            ('ros/tools', 'robot_reply')):
+            found = 0
+            for path, included in includes(room, files):
+                found += 1
+                self.assertIsNone(ROS.match(included), '%s: %s' % (path, included))
+            self.assertGreater(found, 0, files)
+
     def test_geometry_links_no_gl(self):
-        self.assertNotRegex(linked(LIBRARIES['geometry']), r'lib(OSMesa|GL|EGL)\.so')
+        self.assertNotRegex(linked(LIBRARIES['geometry']), GL_LIBRARIES)
 
     def test_picking_links_osmesa_and_no_other_gl(self):
         self.assertIn('libOSMesa.so', linked(LIBRARIES['picking']))
         self.assertNotRegex(linked(LIBRARIES['picking']), r'lib(GL|EGL)\.so')
 
-    def test_the_node_links_no_parser_of_robots_files(self):
-        self.assertNotRegex(linked(ROS_LIBRARY), r'lib(assimp|urdfdom\w*|tinyxml2?)\.so')
+    def test_the_node_links_no_parser_of_robot_files(self):
+        self.assertNotRegex(linked(ROS_LIBRARY), PARSERS)
+
+    def test_the_adapters_and_the_simulator_link_no_gl_no_parser_and_no_other_layer(self):
+        for program in (CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR):
+            libraries = linked(program)
+            self.assertIn('libroscpp.so', libraries)
+            self.assertNotRegex(libraries, GL_LIBRARIES, program)
+            self.assertNotRegex(libraries, PARSERS, program)
+            self.assertNotRegex(libraries, r'liborgan_collision_(?!geometry)', program)
+
+    def test_the_adapters_link_no_tf_buffer(self):
+        for program in (CONTACT_ADAPTER, MESH_ADAPTER):
+            self.assertNotRegex(linked(program), r'lib(tf2|nodelet)\w*\.so', program)
+
+    def test_robot_reader_links_no_node(self):
+        libraries = linked(ROBOT_READER)
+        self.assertRegex(libraries, PARSERS)
+        self.assertNotRegex(libraries, GL_LIBRARIES)
+        self.assertNotRegex(libraries, r'lib(roscpp|rosconsole|tf2|nodelet|xmlrpc)')
 
     def test_no_layer_before_ros_links_it(self):
         for library in LIBRARIES.values():

@@ -17,7 +17,7 @@ SCRIPTS = ('ask.py', 'grasper.py', 'simulator.py')
 
 
 def programs(space):
-    """All but those of the unit tests, which ctest runs."""
+    """All programs of a space except the unit tests, which ctest runs."""
     paths = glob.glob(os.path.join(space, 'lib/organ_collision/*'))
     return sorted(p for p in paths if os.path.isfile(p) and not p.endswith('_test'))
 
@@ -33,9 +33,9 @@ class RosrunTest(unittest.TestCase):
         shutil.rmtree(cls.folder)
 
     def rosrun(self, space, *arguments):
-        """Returns what it prints, in a shell that knows this space alone."""
+        """Returns the output of rosrun, in a shell that has loaded only this space."""
         done = subprocess.run(
-            # setup.bash would take the arguments for its own, but in a function that has none.
+            # In a function without arguments, because setup.bash would take ours as its own.
             ['bash', '-c', 'load() { . "$0/setup.bash"; }; load && rosrun "$@"', space, *arguments],
             env={'PATH': '/usr/bin:/bin', 'HOME': self.folder}, stdin=subprocess.DEVNULL,
             text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)

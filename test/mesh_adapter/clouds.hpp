@@ -10,7 +10,7 @@
 
 namespace organ_collision {
 
-/// How a point lies in a cloud's memory: its fields, in this order.
+/// The layout of a cloud's data: the fields of a point, in this order.
 struct CloudLayout {
   struct Field {
     std::string name;  ///< empty: padding
@@ -19,7 +19,7 @@ struct CloudLayout {
   std::vector<Field> fields;
   bool big_endian = false;
   std::uint32_t width = 0;        ///< 0: all points in one row
-  std::uint32_t row_padding = 0;  ///< bytes
+  std::uint32_t row_padding = 0;  ///< [bytes]
 };
 
 inline const CloudLayout kPackedFloats{{{"x"}, {"y"}, {"z"}}};
@@ -38,7 +38,7 @@ void append_number(Number number, bool big_endian, std::vector<std::uint8_t>& da
   data.insert(data.end(), bytes, bytes + sizeof(Number));
 }
 
-/// A cloud of the points x y z x y z ... in that layout. Whatever is no coordinate is noise.
+/// A cloud of the points x y z x y z ... in that layout. The other bytes are noise.
 inline sensor_msgs::PointCloud2 cloud_of(const std::vector<double>& points,
                                          const CloudLayout& layout = kPackedFloats) {
   using sensor_msgs::PointField;

@@ -1,6 +1,7 @@
 #include "mesh_adapter/marker_reader.hpp"
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
 #include <limits>
@@ -28,13 +29,13 @@ class MarkerReaderTest : public testing::Test {
     std::uniform_real_distribution<double> coordinate(-0.2, 0.2);
     for (int i = 0; i < 6; ++i) {
       marker_.points.push_back(
-          to_point({coordinate(random), coordinate(random), coordinate(random)}));
+          tf2::toMsg(Eigen::Vector3d(coordinate(random), coordinate(random), coordinate(random))));
     }
   }
 
-  Surface read() { return read(marker_); }
-  Surface read(const Marker& marker) {
-    Surface surface{"table", ros::Time(3), {1.0f, 2.0f}, {9}};
+  ReceivedSurface read() { return read(marker_); }
+  ReceivedSurface read(const Marker& marker) {
+    ReceivedSurface surface{"table", ros::Time(3), {1.0f, 2.0f}, {9}};
     reader_.read(marker, surface);
     reader_.keep();
     return surface;
@@ -48,7 +49,7 @@ class MarkerReaderTest : public testing::Test {
 };
 
 TEST_F(MarkerReaderTest, ThreePointsAreAFace) {
-  const Surface surface = read();
+  const ReceivedSurface surface = read();
   EXPECT_EQ(surface.frame, "liver");
   EXPECT_EQ(surface.stamp, ros::Time(7.25));
   EXPECT_EQ(surface.triangles, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
@@ -62,9 +63,10 @@ TEST_F(MarkerReaderTest, ThreePointsAreAFace) {
 
 TEST_F(MarkerReaderTest, ScaleComesBeforePose) {
   marker_.scale = to_vector({2.0, 0.5, 3.0});
-  marker_.pose.position = to_point({0.4, -0.3, 0.2});
-  marker_.pose.orientation.w = marker_.pose.orientation.z = std::sqrt(0.5);  // x to y, y to -x
-  const Surface surface = read();
+  marker_.pose.position = tf2::toMsg(Eigen::Vector3d(0.4, -0.3, 0.2));
+  marker_.pose.orientation.w = marker_.pose.orientation.z =
+      std::sqrt(0.5);  // maps x to y, and y to -x
+  const ReceivedSurface surface = read();
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(surface.vertices[3 * i], 0.4 - 0.5 * marker_.points[i].y, 1e-7);
     EXPECT_NEAR(surface.vertices[3 * i + 1], -0.3 + 2.0 * marker_.points[i].x, 1e-7);

@@ -16,7 +16,7 @@ XmlRpcValue organ(const std::string& name) {
   return organ;
 }
 
-/// Of the adapter with two organs, where `name` of the second is set to `value`.
+/// The refusal of two organs when the member `name` of the second one is set to `value`.
 std::string refusal_of_organ(const char* name, const XmlRpcValue& value) {
   XmlRpcValue all;
   all["organs"][0] = organ("liver");

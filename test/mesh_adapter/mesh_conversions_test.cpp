@@ -13,8 +13,10 @@ namespace {
 using Floats = std::vector<float>;
 using Indices = std::vector<std::uint32_t>;
 
-/// What an earlier message left.
-Surface used_surface() { return {"table", ros::Time(3), {1.0f, 2.0f, 3.0f, 4.0f}, {7, 8, 9, 10}}; }
+/// A surface with the content of an earlier message.
+ReceivedSurface used_surface() {
+  return {"table", ros::Time(3), {1.0f, 2.0f, 3.0f, 4.0f}, {7, 8, 9, 10}};
+}
 
 geometry_msgs::Point point(double x, double y, double z) {
   geometry_msgs::Point point;
@@ -40,7 +42,7 @@ TEST(MeshConversions, TakesAShapeMeshAsItIs) {
   shape_msgs::Mesh mesh;
   mesh.vertices = {point(0.1, -0.2, 0.3), point(std::nan(""), 5.5, 1e30), point(0.7, 0.8, 0.9)};
   mesh.triangles = {triangle(2, 0, 1), triangle(1, 1, 4000)};
-  Surface surface = used_surface();
+  ReceivedSurface surface = used_surface();
   convert(mesh, surface);
   EXPECT_EQ(surface.frame, "");
   EXPECT_TRUE(surface.stamp.isZero());
@@ -52,7 +54,7 @@ TEST(MeshConversions, TakesAShapeMeshAsItIs) {
 }
 
 TEST(MeshConversions, AnEmptyMeshIsAnEmptySurface) {
-  Surface surface = used_surface();
+  ReceivedSurface surface = used_surface();
   convert(shape_msgs::Mesh(), surface);
   EXPECT_TRUE(surface.empty());
   surface = used_surface();
@@ -67,8 +69,8 @@ class PolygonMeshTest : public testing::Test {
     mesh_.polygons = {polygon({3, 1, 2})};
   }
 
-  Surface converted() const {
-    Surface surface = used_surface();
+  ReceivedSurface converted() const {
+    ReceivedSurface surface = used_surface();
     convert(mesh_, surface);
     return surface;
   }

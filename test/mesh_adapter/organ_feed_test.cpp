@@ -10,16 +10,16 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::uint32_t kLastTopology = 4294967294;  // The second one wraps.
+constexpr std::uint32_t kLastTopology = 4294967294;  // The second mesh's wraps to 0.
 
-/// Notes what the feed sends: `mesh_` or `vertices_` of the last call, the other null.
+/// Keeps what the feed sent in the last call: `mesh_` or `vertices_`. The other one is null.
 class OrganFeedTest : public testing::Test {
  protected:
   void send(const GridSurface& grid, const std::string& frame = "liver") {
-    Surface surface{frame, stamp_ += ros::Duration(0.01), grid.vertices, grid.triangles()};
+    ReceivedSurface surface{frame, stamp_ += ros::Duration(0.01), grid.vertices, grid.triangles()};
     send(surface);
   }
-  void send(Surface& surface) {
+  void send(ReceivedSurface& surface) {
     mesh_.reset();
     vertices_.reset();
     feed_.send(surface);
@@ -92,7 +92,7 @@ TEST_F(OrganFeedTest, AnotherFrameIsAMeshOfTheSameTopology) {
 
 TEST_F(OrganFeedTest, AnEmptySurfaceRemovesTheOrgan) {
   send(grid_);
-  Surface none{"", ros::Time(7), {}, {}};
+  ReceivedSurface none{"", ros::Time(7), {}, {}};
   send(none);
   EXPECT_TRUE(mesh_->vertices.empty() && mesh_->triangles.empty());
   EXPECT_EQ(mesh_->organ, "organ");
@@ -120,7 +120,7 @@ TEST_F(OrganFeedTest, WhatTheCollisionNodeRefusesIsSentButNotRemembered) {
   const ros::Time good = stamp_;
   std::vector<float> vertices = moved_.vertices;
   vertices[10] = std::nanf("");
-  send_vertices(vertices);  // The outlet got it.
+  send_vertices(vertices);  // It is sent all the same.
   EXPECT_EQ(feed_.mesh()->vertices, grid_.vertices);
   send_vertices(moved_.vertices, "table");
   EXPECT_EQ(vertices_->header.frame_id, "table");
@@ -147,7 +147,7 @@ TEST_F(OrganFeedTest, AMeshThatFollowsARefusedOneIsSentAsAMesh) {
 
 TEST_F(OrganFeedTest, VerticesAreNotCopied) {
   send(grid_);
-  Surface surface{"liver", ros::Time(7), moved_.vertices, moved_.triangles()};
+  ReceivedSurface surface{"liver", ros::Time(7), moved_.vertices, moved_.triangles()};
   const float* address = surface.vertices.data();
   send(surface);
   EXPECT_EQ(vertices_->vertices.data(), address);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <pcl_msgs/PolygonMesh.h>
 #include <shape_msgs/Mesh.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include "clouds.hpp"
 #include "refusal.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 using topic_tools::ShapeShifter;
 
-/// As it comes from the wire; `cut`: without its last bytes.
+/// The message as a subscriber receives it, without its last `cut` bytes.
 template <typename Message>
 ShapeShifter shape_shifter(const Message& message, std::uint32_t cut = 0) {
   namespace traits = ros::message_traits;
@@ -36,7 +37,7 @@ const ros::Time kArrival(50.5);
 template <typename Points>
 void add_points(Points& points) {
   for (std::size_t i = 0; i < kPoints.size(); i += 3) {
-    points.push_back(to_point({kPoints[i], kPoints[i + 1], kPoints[i + 2]}));
+    points.push_back(tf2::toMsg(Eigen::Vector3d(kPoints[i], kPoints[i + 1], kPoints[i + 2])));
   }
 }
 
@@ -74,7 +75,7 @@ sensor_msgs::PointCloud2 cloud(const std::string& frame) {
   return cloud;
 }
 
-/// Notes what the source's feed sends.
+/// A source, with what its feed sent last.
 struct Rig {
   explicit Rig(const std::string& frame = "")
       : source({"organ", "topic", frame, "points"}, 0,

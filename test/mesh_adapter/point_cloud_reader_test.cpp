@@ -17,7 +17,7 @@ using sensor_msgs::PointField;
 
 constexpr std::uint8_t kDouble = PointField::FLOAT64;
 
-/// Multiples of 2^-40, so that doubles are not floats by chance.
+/// Random coordinates as multiples of 2^-40. Most of them are not exact as 32-bit floats.
 std::vector<double> random_points(std::size_t count, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> coordinate(-0.3, 0.3);
@@ -74,7 +74,7 @@ TEST(PointCloudReader, ReadsEveryLayout) {
 TEST(PointCloudReader, TakesWhatIsLooselyFilledIn) {
   const std::vector<double> points = random_points(4, 8);
   PointCloud2 cloud = cloud_of(points);
-  cloud.row_step = 0;  // Means nothing in one row.
+  cloud.row_step = 0;  // Not used if there is only one row.
   for (PointField& field : cloud.fields) field.count = 0;
   cloud.data.resize(cloud.data.size() + 7);
   EXPECT_EQ(read(cloud), floats(points));

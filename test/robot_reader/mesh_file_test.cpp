@@ -29,11 +29,11 @@ ToolSurface read(const std::string& name, const Vector3d& scale = kUnit,
   return {std::move(mesh.vertices), std::move(mesh.triangles)};
 }
 
-/// Corners of the tetrahedron in the mesh files, in their units.
+/// The corners of the tetrahedron in the mesh files, in the units of the files.
 const Vector3d kA(1, 2, 3), kB(9, 2, 4), kC(3, 8, 3.5), kD(2, 3, 10);
 const std::vector<Triangle> kJaw = {{kA, kC, kB}, {kA, kB, kD}, {kB, kC, kD}, {kC, kA, kD}};
 
-/// The same corners in the same order, whichever is first.
+/// Whether the corners are the same in the same cyclic order.
 bool is_same(const Triangle& a, const Triangle& b) {
   for (std::size_t first = 0; first < 3; ++first) {
     const auto is_near = [&](std::size_t i) { return (a[i] - b[(i + first) % 3]).norm() < 1e-8; };
@@ -42,7 +42,7 @@ bool is_same(const Triangle& a, const Triangle& b) {
   return false;
 }
 
-/// These triangles, each moved as `place` says, and no others.
+/// Expects exactly these triangles, with their corners mapped by `place`.
 void expect_triangles(const ToolSurface& surface, const std::vector<Triangle>& triangles,
                       const std::function<Vector3d(const Vector3d&)>& place) {
   EXPECT_EQ(surface.faces().size(), triangles.size());
@@ -92,7 +92,7 @@ TEST(MeshFile, DaeWithItsNodesAndUnitButNotItsUpAxis) {
   const auto place = [](const Vector3d& v) {
     return Vector3d(0.010 - 0.001 * v.y(), 0.020 + 0.001 * v.x(), 0.030 + 0.001 * v.z());
   };
-  // The first triangle, and the quad's halves.
+  // The first triangle, and the two halves of the quadrilateral.
   const std::vector<Triangle> triangles = {{kA, kC, kB}, {kA, kB, kC}, {kA, kC, kD}};
   for (const std::string name : {"jaw.dae", "jaw_z_up.dae"}) {
     expect_triangles(read(name), triangles, place);
@@ -128,13 +128,13 @@ TEST(MeshFile, UnreadableFilesAreNamed) {
   expect_words(refusal("notes.txt"), {tool_file("notes.txt"), "No suitable reader"});
 }
 
-// assimp itself takes this one, and its steps would read beyond the vertices.
+// assimp accepts this file, and its post-processing would read beyond the vertices.
 TEST(MeshFile, WrongIndicesAreNamed) {
   expect_words(refusal("wrong_index.ply"), {tool_file("wrong_index.ply"), "100000000", "of 3"});
 }
 
 TEST(MeshFile, CutOffPlyIsRefused) {
-  // assimp would read it for ever.
+  // assimp would never stop reading it.
   expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
   const std::string whole = tool_text("jaw_ascii.ply"), path = testing::TempDir() + "cut_off.ply";
   const std::size_t end = whole.find("end_header");
@@ -156,7 +156,7 @@ TEST(MeshFile, NoSurfaceIsRefused) {
 }
 
 TEST(MeshFile, OtherFilesThatItNamesAreNotRead) {
-  // Its materials: opening this FIFO would wait for ever.
+  // The file names a FIFO as its materials. Opening it would block forever.
   const std::string fifo = testing::TempDir() + "materials.mtl",
                     path = testing::TempDir() + "a.obj";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);

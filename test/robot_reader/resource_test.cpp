@@ -48,7 +48,7 @@ TEST(Resource, RefusalsNameTheFileAndWhy) {
 }
 
 TEST(Resource, ServersAreNotAsked) {
-  // As this one would never answer.
+  // These addresses would never answer.
   for (const std::string url : {"http://192.0.2.1/jaw.stl", "https://192.0.2.1/jaw.stl",
                                 "HTTP://192.0.2.1/jaw.stl", "ftp://192.0.2.1/jaw.stl"}) {
     expect_words(refusal(url), {"'" + url + "'", "absolute path", "package:// or file://"});
@@ -75,7 +75,7 @@ TEST(Resource, WhatIsNoRegularFileIsRefused) {
     expect_words(refusal(link), words);
     std::remove(path.c_str());
   };
-  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);  // Opening it would wait for ever.
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);  // Opening it would block forever.
   expect_refused({"FIFO", "regular file"});
 
   std::ofstream(path).flush();

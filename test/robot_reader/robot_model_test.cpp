@@ -26,7 +26,7 @@ std::string robot(const std::string& elements) {
   return "<robot name='probe'>" + elements + "</robot>";
 }
 
-/// A robot of one link 'tip' with a collision shape.
+/// The URDF of a robot with one link, 'tip', and its collision shape.
 std::string robot_of(const std::string& shape) {
   return robot("<link name='tip'><collision><geometry>" + shape + "</geometry></collision></link>");
 }
@@ -52,7 +52,7 @@ class SilentHandler : public console_bridge::OutputHandler {
 
 TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
   const LinkDescription shaft = link(gripper(), "shaft");
-  ASSERT_EQ(shaft.shapes.size(), 2u);  // And not the visual box.
+  ASSERT_EQ(shaft.shapes.size(), 2u);  // Without the visual box.
   const auto& cylinder = std::get<CylinderDescription>(shaft.shapes[0]);
   EXPECT_EQ(cylinder.radius, 0.004);
   EXPECT_EQ(cylinder.length, 0.3);
@@ -109,7 +109,7 @@ TEST(RobotModel, UnknownLinksAreNamedWithTheNearest) {
 TEST(RobotModel, LinksMayHaveNoShape) { EXPECT_TRUE(link(gripper(), "mount").shapes.empty()); }
 
 TEST(RobotModel, LinksReadInPartAreRefused) {
-  // urdfdom would leave out the second shape, and all that follow.
+  // urdfdom would skip the second shape and all that follow.
   const std::string first = "<link name='tip'><collision><geometry><sphere radius='1'/>";
   const std::string second = "</geometry></collision><collision><geometry>";
   const std::string end = "</geometry></collision></link>";

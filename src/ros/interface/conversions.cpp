@@ -1,68 +1,30 @@
 #include "conversions.hpp"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 namespace organ_collision {
 
-Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) { return {point.x, point.y, point.z}; }
-
-Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform) {
-  const auto& q = transform.rotation;
-  const auto& t = transform.translation;
-  return Eigen::Translation3d(t.x, t.y, t.z) * Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
+Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) {
+  Eigen::Vector3d result;
+  tf2::fromMsg(point, result);
+  return result;
 }
 
-geometry_msgs::Point to_point(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
+Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector) {
+  Eigen::Vector3d result;
+  tf2::fromMsg(vector, result);
+  return result;
+}
+
+Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform) {
+  Eigen::Quaterniond rotation;
+  tf2::fromMsg(transform.rotation, rotation);
+  return Eigen::Translation3d(to_eigen(transform.translation)) * rotation.normalized();
 }
 
 geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
-  message.x = vector.x();
-  message.y = vector.y();
-  message.z = vector.z();
-  return message;
-}
-
-Contact to_message(const FaceContact& contact) {
-  Contact message;
-  message.face = contact.face;
-  for (std::size_t i = 0; i < 3; ++i) message.vertices[i] = contact.vertices[i];
-  message.link = contact.link;
-  message.fraction = contact.fraction;
-  message.point = to_point(contact.point);
-  message.normal = to_vector(contact.normal);
-  for (std::size_t i = 0; i < 3; ++i) message.barycentric[i] = contact.barycentric[i];
-  message.shaft = contact.shaft;
-  message.depth = contact.depth;
-  message.behind = contact.behind;
-  message.end_point = to_point(contact.end_point);
-  message.view_min = contact.view_min;
-  message.view_max = contact.view_max;
-  return message;
-}
-
-geometry_msgs::Polygon to_message(const Region& region) {
-  geometry_msgs::Polygon message;
-  message.points.resize(region.size());
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    message.points[i].x = static_cast<float>(region[i].x());
-    message.points[i].y = static_cast<float>(region[i].y());
-    message.points[i].z = static_cast<float>(region[i].z());
-  }
-  return message;
-}
-
-ToolPath to_path(const ToolMotion& motion, bool at_end_only,
-                 const Eigen::Isometry3d& T_target_source) {
-  const ShaftAxis end{T_target_source * to_eigen(motion.trocar),
-                      T_target_source * to_eigen(motion.tip)};
-  if (at_end_only) return {{0.0, end}};
-  const ShaftAxis start{T_target_source * to_eigen(motion.previous_trocar),
-                        T_target_source * to_eigen(motion.previous_tip)};
-  return {{0.0, start}, {1.0, end}};
+  return tf2::toMsg(vector, message);
 }
 
 std::string tf_frame(const std::string& frame_id) {

@@ -1,8 +1,10 @@
 #include "failure_log.hpp"
 
+#include <organ_collision/ContactArray.h>
 #include <ros/console.h>
 
 #include "plain_text.hpp"
+#include "rejection.hpp"
 
 namespace organ_collision {
 namespace {
@@ -24,6 +26,21 @@ void FailureLog::add(const std::string& reason, const std::string& message, Time
 
 void FailureLog::reported() {
   for (auto& [reason, entry] : entries_) entry.not_yet_reported = 0;
+}
+
+void show_failures(const std::string& what, FailureLog& log,
+                   diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  for (const auto& [reason, entry] : log.by_reason()) {
+    std::string key = what;
+    key.append(", ").append(reason);
+    status.add(key, entry.count);
+    if (entry.not_yet_reported == 0) continue;
+    const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
+    status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
+                        reason + ": " + entry.latest);
+  }
+  log.reported();
 }
 
 }  // namespace organ_collision

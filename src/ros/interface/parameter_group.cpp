@@ -4,15 +4,16 @@
 #include <cmath>
 #include <sstream>
 
+#include "legal_name.hpp"
 #include "plain_text.hpp"
-#include "spelling.hpp"
 
 namespace organ_collision {
 namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// A whole number beyond every int is shown with exponent, never rounded to look legal.
+/// 12 digits: a number that is illegal because it is too large for an int is not rounded to one
+/// that looks legal.
 std::string written(double number) {
   std::ostringstream text;
   text.precision(12);

@@ -10,50 +10,57 @@
 
 namespace organ_collision {
 
-/// A parameter without legal value. what() names the parameter, its value and what is legal.
+/// A parameter that is missing or has an illegal value. what() names the parameter, its value and
+/// what is legal.
 class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Legal values of a number.
+/// The legal values of a number.
 struct NumberRange {
   double lowest;
   double highest;
   bool lowest_is_legal = true;
 };
 
-/// A group of parameters as the parameter server holds it: reads members, checks type and range.
-/// Numbers may be written without a decimal point.
+/// A group of parameters, as the parameter server holds it. The functions that read a member check
+/// its type and range. A number may be written without a decimal point.
 class ParameterGroup {
  public:
-  /// `path`: the group's name in messages, as "~tools[0]". Throws ParameterError if `value` is no
-  /// group of named parameters.
+  /// `path`: the group's name in messages, as "~tools[0]". Throws ParameterError if `value` is not
+  /// a group of named parameters.
   ParameterGroup(std::string path, const XmlRpc::XmlRpcValue& value,
                  std::vector<std::string> legal_names);
 
   bool has(const std::string& name) const { return value_.hasMember(name); }
 
-  /// The member's value, or `fallback`. Without either, and for each illegal value: ParameterError.
+  /// The value of the member, or `fallback` if there is no such member. Each throws ParameterError
+  /// if the value is illegal, or if there is neither a value nor a fallback.
   bool flag(const std::string& name, bool fallback) const;
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& legal_values) const;
   double number(const std::string& name, std::optional<double> fallback,
                 const NumberRange& range) const;
   int whole_number(const std::string& name, int fallback, const NumberRange& range) const;
-  /// A text that is not empty, and a list: ParameterError if there is none.
+
+  /// Required members. Each throws ParameterError if the member is missing or illegal.
+  /// A text that is not empty.
   std::string text(const std::string& name) const;
+  /// A list of anything; `of_what` is for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
-  /// A list, not empty, of texts that are not empty, each once.
+  /// A non-empty list of different texts, none of them empty.
   std::vector<std::string> texts(const std::string& name) const;
 
-  /// One sentence for each member that has no legal name, with the legal name nearest to it.
+  /// A sentence for each member whose name is not legal. It suggests the nearest legal name.
   std::vector<std::string> misspelt() const;
 
-  /// Throws ParameterError where `text`, of the member, is no legal name (plain_text.hpp).
+  /// Throws ParameterError if `text`, the value of the member `name`, is not a legal name
+  /// (legal_name.hpp).
   void check_name(const std::string& name, const std::string& text) const;
   /// Throws ParameterError: "~path/name is VALUE; LEGAL".
   [[noreturn]] void refuse(const std::string& name, const std::string& legal) const;
-  /// Throws ParameterError: "~path/name is missing; LEGAL", with what may be meant for it.
+  /// Throws ParameterError: "~path/name is missing; LEGAL", with the misspelt members, one of which
+  /// may be meant.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& legal) const;
   std::string path_of(const std::string& name) const;
 
@@ -66,7 +73,7 @@ class ParameterGroup {
   std::vector<std::string> legal_names_;
 };
 
-/// All members of a node's private namespace; an empty group where there are none.
+/// All members of a node's private namespace, as a group; an empty group if there are none.
 XmlRpc::XmlRpcValue all_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 namespace organ_collision {
 namespace {
 
-/// [bytes] Room for the note at the end of a text that is cut.
+/// [bytes] Reserved for the note at the end of a shortened text.
 constexpr std::size_t kNote = 40;
 
 struct ByteRange {
@@ -14,11 +14,11 @@ struct ByteRange {
   bool contains(unsigned char byte) const { return first <= byte && byte <= last; }
 };
 
-/// The third and the fourth byte of a character, and mostly the second.
+/// The third and the fourth byte of a character, and the second after most first bytes.
 constexpr ByteRange kContinuation{0x80, 0xBF};
 
-/// What may follow a character's first byte: the Unicode Standard's table 3-7. It leaves out forms
-/// that are longer than they need be, surrogates, and what is beyond U+10FFFF.
+/// The legal second bytes after a character's first byte, by table 3-7 of the Unicode Standard. The
+/// table excludes overlong forms, surrogates and code points beyond U+10FFFF.
 ByteRange second_bytes(unsigned char first) {
   switch (first) {
     case 0xE0:
@@ -34,7 +34,8 @@ ByteRange second_bytes(unsigned char first) {
   }
 }
 
-/// [bytes] Of the character that the text, not empty, begins with; 0: it is no UTF-8.
+/// [bytes] The size of the first character of `text`, which must not be empty; 0 if its first byte
+/// does not begin a UTF-8 character.
 std::size_t first_character(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char first = byte(0);
@@ -48,7 +49,7 @@ std::size_t first_character(std::string_view text) {
   return size;
 }
 
-/// C0, C1 or DEL.
+/// Whether the character is one of the sets C0 and C1, or DEL.
 bool is_control(std::string_view character) {
   const auto last = static_cast<unsigned char>(character.back());
   if (character.size() == 1) return last < 0x20 || last == 0x7F;
@@ -73,15 +74,10 @@ std::string plain_text(const std::string& text, std::size_t most) {
   return plain;
 }
 
-std::string name_fault(const std::string& name) {
-  const std::string shown = plain_text(name, kLongestName);
-  if (shown == name) return {};
-  const std::string legal = "; a name must be UTF-8 without control characters, of at most " +
-                            std::to_string(kLongestName) + " bytes";
-  const std::string fault = name.size() > kLongestName
-                                ? "has " + std::to_string(name.size()) + " bytes"
-                                : "has control characters, or bytes that are no UTF-8";
-  return "'" + shown + "' " + fault + legal;
+std::string listed(const std::vector<std::string>& texts) {
+  std::string list;
+  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + text;
+  return list;
 }
 
 }  // namespace organ_collision

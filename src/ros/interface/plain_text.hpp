@@ -2,25 +2,25 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace organ_collision {
 
-// Text comes with messages, and from TF, in any size and form. What goes on into answers and logs
-// is plain: UTF-8 without control characters, which Python subscribers can read and which does not
-// steer a terminal.
+// Messages and TF bring text of any length and content. Answers and logs contain only plain text:
+// UTF-8 without control characters. Python subscribers can decode it, and a terminal prints it
+// without obeying it.
 
 /// [bytes] The longest legal name of an organ, a tool, a link or a frame.
 inline constexpr std::size_t kLongestName = 256;
 /// [bytes] The longest message of an answer, and of a failure in the log and on /diagnostics.
 inline constexpr std::size_t kLongestMessage = 2000;
 
-/// The text as plain text of at most `most` bytes, at least 64. A space stands for each control
-/// character, and a question mark for each byte that is no UTF-8. Where the text is cut, its end
-/// says how many bytes are missing.
+/// The text as plain text of at most `most` bytes (64 or more). A space replaces each control
+/// character, and a question mark each byte that is not UTF-8. A shortened text ends with the
+/// number of bytes that were left out.
 std::string plain_text(const std::string& text, std::size_t most);
 
-/// What is wrong with a name, as "'NAME' has 300 bytes; a name must ..."; empty if nothing is. A
-/// legal name is plain and has at most kLongestName bytes. An empty name passes.
-std::string name_fault(const std::string& name);
+/// "a, b, c"
+std::string listed(const std::vector<std::string>& texts);
 
 }  // namespace organ_collision

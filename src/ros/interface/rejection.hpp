@@ -6,10 +6,11 @@
 
 namespace organ_collision {
 
-/// A message or request that was refused. what() names the value and what is legal.
+/// A message or request that was refused. what() names the illegal value and what is legal.
 class Rejection : public std::runtime_error {
  public:
-  /// `status`: as in ContactArray. `reason`: short, the same for all of its kind, for counting.
+  /// `status`: one of ContactArray's. `reason`: short, and the same for all refusals of its kind,
+  /// which are counted by it.
   Rejection(std::uint8_t status, std::string reason, const std::string& message)
       : std::runtime_error(message), status_(status), reason_(std::move(reason)) {}
 
@@ -21,8 +22,11 @@ class Rejection : public std::runtime_error {
   std::string reason_;
 };
 
-/// Throws Rejection where an organ, a tool or a frame has no legal name (plain_text.hpp), as "WHAT
-/// 'NAME' ...". An empty name passes.
+/// The reason by which failures with this status of ContactArray are counted, as "no mesh".
+std::string reason_of(std::uint8_t status);
+
+/// Throws Rejection, with the message "WHAT 'NAME' ...", if `name` is not legal (legal_name.hpp).
+/// `what`: what the name is of, as "organ". An empty name is accepted.
 void check_name(const std::string& what, const std::string& name);
 
 }  // namespace organ_collision

@@ -8,7 +8,7 @@
 
 #include "organ_collision/geometry/tolerances.hpp"
 #include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/interface/legal_name.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,7 +3,7 @@
 #include <organ_collision/ContactArray.h>
 
 #include "ros/interface/conversions.hpp"
-#include "ros/interface/spelling.hpp"
+#include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
 namespace {

@@ -12,19 +12,6 @@ constexpr double kMicroseconds = 1e6;
 
 }  // namespace
 
-void show_failures(const std::string& what, FailureLog& log, DiagnosticStatusWrapper& status) {
-  for (const auto& [reason, entry] : log.by_reason()) {
-    std::string key = what;
-    key.append(", ").append(reason);
-    status.add(key, entry.count);
-    if (entry.not_yet_reported == 0) continue;
-    const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
-    status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-                        reason + ": " + entry.latest);
-  }
-  log.reported();
-}
-
 void Diagnostics::add_to(diagnostic_updater::Updater& updater) {
   updater.setHardwareID("none");
   updater.add("queries", this, &Diagnostics::queries);

@@ -1,9 +1,9 @@
 #include "markers.hpp"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
-
-#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 namespace {
@@ -48,7 +48,7 @@ Marker deleted_if_empty(Marker marker) {
 
 void add_triangle(Marker& list, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                   const Eigen::Vector3d& c) {
-  for (const Eigen::Vector3d& corner : {a, b, c}) list.points.push_back(to_point(corner));
+  for (const Eigen::Vector3d& corner : {a, b, c}) list.points.push_back(tf2::toMsg(corner));
 }
 
 Marker shaft_cylinder(const EvaluatedStep& step) {
@@ -57,7 +57,7 @@ Marker shaft_cylinder(const EvaluatedStep& step) {
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   if (!along.isZero(0.0)) turn.setFromTwoVectors(Eigen::Vector3d::UnitZ(), along);
   Marker shaft = marker(step, "shaft", Marker::CYLINDER, kShaft);
-  shaft.pose.position = to_point(axis.at(0.5));
+  shaft.pose.position = tf2::toMsg(axis.at(0.5));
   shaft.pose.orientation.w = turn.w();
   shaft.pose.orientation.x = turn.x();
   shaft.pose.orientation.y = turn.y();
@@ -69,7 +69,7 @@ Marker shaft_cylinder(const EvaluatedStep& step) {
 
 Marker tip_ball(const EvaluatedStep& step) {
   Marker ball = marker(step, "tip", Marker::SPHERE, kShaft);
-  ball.pose.position = to_point(step.path.back().axis.tip);
+  ball.pose.position = tf2::toMsg(step.path.back().axis.tip);
   ball.scale.x = ball.scale.y = ball.scale.z = 2.0 * step.tool.parameters.radius;
   return ball;
 }
@@ -101,7 +101,7 @@ Marker region_outlines(const EvaluatedStep& step) {
   Marker lines = marker(step, "regions", Marker::LINE_LIST, kRegion);
   lines.scale.x = kRegionLineWidth;
   const auto add = [&](const geometry_msgs::Point32& corner) {
-    lines.points.push_back(to_point(Eigen::Vector3d(corner.x, corner.y, corner.z)));
+    lines.points.push_back(tf2::toMsg(Eigen::Vector3d(corner.x, corner.y, corner.z)));
   };
   for (const geometry_msgs::Polygon& region : step.answer->regions) {
     for (std::size_t i = 0; i < region.points.size(); ++i) {

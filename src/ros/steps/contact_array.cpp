@@ -37,29 +37,6 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.regions.clear();
 }
 
-std::string reason_of(std::uint8_t status) {
-  switch (status) {
-    case ContactArray::OK:
-      return "ok";
-    case ContactArray::NO_MESH:
-      return "no mesh";
-    case ContactArray::NO_TRANSFORM:
-      return "no transform";
-    case ContactArray::STALE_MESH:
-      return "stale mesh";
-    case ContactArray::UNKNOWN_ORGAN:
-      return "unknown organ";
-    case ContactArray::UNKNOWN_TOOL:
-      return "unknown tool";
-    case ContactArray::PICKER_FAILED:
-      return "picker failed";
-    case ContactArray::INVALID_TOOL:
-      return "invalid tool";
-    default:
-      return "invalid request";
-  }
-}
-
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message) {
   if (status == ContactArray::OK) return;
   log.add(reason_of(status), message, std::chrono::steady_clock::now());

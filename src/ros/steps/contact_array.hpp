@@ -28,8 +28,6 @@ void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganSh
 /// most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
-/// The short name of a status, under which failures are counted.
-std::string reason_of(std::uint8_t status);
 /// Counts an answer that failed. An answer with the status OK is not counted.
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);
 

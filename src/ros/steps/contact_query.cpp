@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "contact_array.hpp"
-#include "ros/interface/conversions.hpp"
+#include "query_conversions.hpp"
 
 namespace organ_collision {
 

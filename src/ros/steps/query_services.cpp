@@ -8,9 +8,10 @@
 
 #include "contact_array.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "query_conversions.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
-#include "ros/interface/spelling.hpp"
+#include "ros/interface/rejection.hpp"
 #include "ros/motion/transform_lookup.hpp"
 
 namespace organ_collision {

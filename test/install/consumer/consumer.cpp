@@ -1,4 +1,5 @@
-// A program without ROS, on the installed libraries: the faces that a swept shaft went through.
+// A program without ROS that uses the installed libraries. Prints the faces that a swept shaft went
+// through.
 #include <iostream>
 #include <organ_collision/query/collision_query.hpp>
 
@@ -9,7 +10,7 @@ int main() {
        0.1f,   -0.05f, -0.05f, 0.3f,  0.05f,  -0.05f, 0.3f,  0.00f, 0.05f, 0.3f},
       {0, 1, 2, 0, 2, 3, 4, 5, 6});
 
-  // Within one step the tip goes from the right of the sheet to its left.
+  // Within one step the tip moves from the right of the sheet to its left.
   organ_collision::CollisionRequest request;
   request.organ = &organ;
   request.radius = 0.005;

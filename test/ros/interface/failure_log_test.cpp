@@ -46,3 +46,28 @@ TEST(FailureLog, LogsEachReasonOnceASecond) {
   log.add("wrong size", "c", later);
   EXPECT_EQ(log.by_reason().at("wrong size").logged, later);
 }
+
+TEST(FailureLog, IsShownWithItsCountsAndWarnsOfNewFailuresOnce) {
+  using diagnostic_msgs::DiagnosticStatus;
+  FailureLog log;
+  log.add("wrong size", "7 numbers", {});
+  log.add("wrong size", "8 numbers", {});
+  diagnostic_updater::DiagnosticStatusWrapper status, later;
+  show_failures("rejected", log, status);
+  ASSERT_EQ(status.values.size(), 1u);
+  EXPECT_EQ(status.values[0].key, "rejected, wrong size");
+  EXPECT_EQ(status.values[0].value, "2");
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, "wrong size: 8 numbers");
+  show_failures("rejected", log, later);
+  EXPECT_EQ(later.values[0].value, "2");
+  EXPECT_EQ(later.level, DiagnosticStatus::OK);
+}
+
+TEST(FailureLog, AFailedPickerIsAnError) {
+  FailureLog log;
+  log.add("picker failed", "out of memory", {});
+  diagnostic_updater::DiagnosticStatusWrapper status;
+  show_failures("unanswered", log, status);
+  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::ERROR);
+}

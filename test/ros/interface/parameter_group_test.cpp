@@ -13,7 +13,7 @@ namespace {
 const NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), false};
 const NumberRange kOneToTen{1.0, 10.0};
 
-/// One member "x" in a group "~g" that may also hold "y".
+/// The group "~g" with the member "x". A member "y" is legal too.
 ParameterGroup group_of(const XmlRpcValue& x) {
   XmlRpcValue members;
   members["x"] = x;

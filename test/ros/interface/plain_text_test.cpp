@@ -21,7 +21,6 @@ std::string repeated(const std::string& text, std::size_t times) {
 TEST(PlainText, PlainTextStaysAsItIs) {
   for (const std::string text : {"", "liver", "a b/c", "ø", "肝臓", "🫀", "\u00A0", "\uFFFD"}) {
     EXPECT_EQ(plain_text(text, kMost), text);
-    EXPECT_EQ(name_fault(text), "");
   }
 }
 
@@ -66,13 +65,8 @@ TEST(PlainText, WhateverComesIsPlainAfterwards) {
   }
 }
 
-TEST(PlainText, IllegalNamesAreToldWhatIsLegal) {
-  EXPECT_EQ(name_fault(std::string(kLongestName, 'x')), "");
-  const std::string too_long = name_fault(std::string(kLongestName + 1, 'x'));
-  EXPECT_NE(too_long.find("has 257 bytes; a name must be"), std::string::npos) << too_long;
-  EXPECT_LT(too_long.size(), 2 * kLongestName);
-  EXPECT_EQ(name_fault("a\nb"),
-            "'a b' has control characters, or bytes that are no UTF-8; a name must be UTF-8 "
-            "without control characters, of at most 256 bytes");
-  EXPECT_NE(name_fault("\xFF"), "");
+TEST(PlainText, Listed) {
+  EXPECT_EQ(listed({}), "");
+  EXPECT_EQ(listed({"a"}), "a");
+  EXPECT_EQ(listed({"a", "b", "c"}), "a, b, c");
 }

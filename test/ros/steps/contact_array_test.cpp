@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "ros/interface/plain_text.hpp"
 
 using namespace organ_collision;
@@ -66,14 +64,6 @@ TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
   set_failure(answer, ContactArray::NO_TRANSFORM, "m\n" + huge);
   EXPECT_LE(answer.message.size(), kLongestMessage);
   EXPECT_EQ(answer.message.rfind("m xxx", 0), 0u) << answer.message;
-}
-
-TEST(Answers, EachStatusHasItsOwnName) {
-  std::set<std::string> names;
-  for (std::uint8_t status = 0; status <= ContactArray::INVALID_TOOL; ++status) {
-    names.insert(reason_of(status));
-  }
-  EXPECT_EQ(names.size(), ContactArray::INVALID_TOOL + 1u);
 }
 
 TEST(Answers, StaleIsOlderThanTheLimit) {

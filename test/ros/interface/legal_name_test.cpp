@@ -1,15 +1,17 @@
-#include "ros/interface/spelling.hpp"
+#include "ros/interface/legal_name.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
+#include "ros/interface/plain_text.hpp"
+
 using namespace organ_collision;
 
 namespace {
 
-/// By definition: the least of three recursive ways.
+/// The recursive definition of the Levenshtein distance.
 std::size_t distance_oracle(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return a.size() + b.size();
   const std::string a_rest = a.substr(1), b_rest = b.substr(1);
@@ -25,7 +27,7 @@ std::string random_word(std::mt19937& random) {
 
 }  // namespace
 
-TEST(Spelling, NearestHasTheFewestEdits) {
+TEST(LegalName, NearestHasTheFewestEdits) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 300; ++trial) {
     const std::string name = random_word(random);
@@ -37,7 +39,7 @@ TEST(Spelling, NearestHasTheFewestEdits) {
   }
 }
 
-TEST(Spelling, ParametersAsPeopleMistypeThem) {
+TEST(LegalName, ParametersAsPeopleMistypeThem) {
   const std::vector<std::string> legal{"rate", "tools", "picker", "tf_timeout_sec",
                                        "mesh_timeout_sec"};
   EXPECT_EQ(nearest_name("rates", legal), "rate");
@@ -45,10 +47,19 @@ TEST(Spelling, ParametersAsPeopleMistypeThem) {
   EXPECT_EQ(nearest_name("pciker", legal), "picker");
 }
 
-TEST(Spelling, FirstOfSeveral) { EXPECT_EQ(nearest_name("b", {"a", "c"}), "a"); }
+TEST(LegalName, FirstOfSeveral) { EXPECT_EQ(nearest_name("b", {"a", "c"}), "a"); }
 
-TEST(Spelling, Listed) {
-  EXPECT_EQ(listed({}), "");
-  EXPECT_EQ(listed({"a"}), "a");
-  EXPECT_EQ(listed({"a", "b", "c"}), "a, b, c");
+TEST(LegalName, PlainTextIsLegal) {
+  for (const std::string name : {"", "liver", "a b/c", "肝臓"}) EXPECT_EQ(name_fault(name), "");
+}
+
+TEST(LegalName, AFaultSaysWhatIsWrongAndWhatIsLegal) {
+  EXPECT_EQ(name_fault(std::string(kLongestName, 'x')), "");
+  const std::string too_long = name_fault(std::string(kLongestName + 1, 'x'));
+  EXPECT_NE(too_long.find("has 257 bytes; a name must be"), std::string::npos) << too_long;
+  EXPECT_LT(too_long.size(), 2 * kLongestName);
+  EXPECT_EQ(name_fault("a\nb"),
+            "'a b' has control characters, or bytes that are no UTF-8; a name must be UTF-8 "
+            "without control characters, of at most 256 bytes");
+  EXPECT_NE(name_fault("\xFF"), "");
 }

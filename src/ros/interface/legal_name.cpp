@@ -1,12 +1,14 @@
-#include "spelling.hpp"
+#include "legal_name.hpp"
 
 #include <algorithm>
 #include <numeric>
 
+#include "plain_text.hpp"
+
 namespace organ_collision {
 namespace {
 
-/// Levenshtein's distance, one row of the table at a time.
+/// The Levenshtein distance. Only one row of its table is in memory at a time.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), 0);
@@ -24,16 +26,21 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+std::string name_fault(const std::string& name) {
+  const std::string shown = plain_text(name, kLongestName);
+  if (shown == name) return {};
+  const std::string legal = "; a name must be UTF-8 without control characters, of at most " +
+                            std::to_string(kLongestName) + " bytes";
+  const std::string fault = name.size() > kLongestName
+                                ? "has " + std::to_string(name.size()) + " bytes"
+                                : "has control characters, or bytes that are no UTF-8";
+  return "'" + shown + "' " + fault + legal;
+}
+
 std::string nearest_name(const std::string& name, const std::vector<std::string>& legal) {
   return *std::min_element(legal.begin(), legal.end(), [&](const auto& a, const auto& b) {
     return edit_distance(name, a) < edit_distance(name, b);
   });
-}
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return list;
 }
 
 }  // namespace organ_collision

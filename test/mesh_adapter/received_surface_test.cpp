@@ -1,9 +1,9 @@
-#include "mesh_adapter/surface.hpp"
+#include "mesh_adapter/received_surface.hpp"
 
 #include <gtest/gtest.h>
 
-TEST(Surface, IsEmptyWithoutVerticesAndTriangles) {
-  organ_collision::Surface surface;
+TEST(ReceivedSurface, IsEmptyWithoutVerticesAndTriangles) {
+  organ_collision::ReceivedSurface surface;
   surface.frame = "liver";
   EXPECT_TRUE(surface.empty());
   surface.triangles = {0, 1, 2};

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <geometry_msgs/Polygon.h>
+#include <organ_collision/Contact.h>
+#include <organ_collision/ToolMotion.h>
+
+#include <Eigen/Geometry>
+
+#include "organ_collision/geometry/tool/tool_path.hpp"
+#include "organ_collision/picking/region.hpp"
+#include "organ_collision/query/contact.hpp"
+
+namespace organ_collision {
+
+// Between messages and the requests and results of CollisionQuery; lengths in metres on both sides.
+
+/// All fields as they are, in the same frame.
+Contact to_message(const FaceContact& contact);
+/// The corners in the same order and frame, rounded to 32-bit floats.
+geometry_msgs::Polygon to_message(const Region& region);
+
+/// The straight motion of a message, transformed into the target frame: two waypoints, or only the
+/// last one if `at_end_only`.
+ToolPath to_path(const ToolMotion& motion, bool at_end_only,
+                 const Eigen::Isometry3d& T_target_source);
+
+}  // namespace organ_collision
