@@ -5,7 +5,7 @@
 
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
-#include "picking/volumes/viewing_volume.hpp"
+#include "picking/volumes/paper_volumes.hpp"
 #include "request_check.hpp"
 #include "rotation_subdivision.hpp"
 #include "step.hpp"

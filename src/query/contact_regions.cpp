@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "picking/volumes/box_volume.hpp"
+#include "picking/volumes/conservative_volume.hpp"
+
 namespace organ_collision {
 
 void ContactRegions::find(const Step& step, const std::vector<FaceContact>& contacts,
