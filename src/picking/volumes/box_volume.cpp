@@ -23,9 +23,9 @@ ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
 }  // namespace
 
 ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin) {
-  return box_volume(box, margin, kCovered);
+  return box_volume(box, margin, kClippingRounding);
 }
 
-ViewingVolume tool_volume(const SweptBox& box) { return box_volume(box, {}, kIgnored); }
+ViewingVolume tool_volume(const SweptBox& box) { return box_volume(box, {}, kNoRounding); }
 
 }  // namespace organ_collision

@@ -136,11 +136,11 @@ ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double exte
 
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin) {
-  return swept_volume(motion, radius + margin.motion, margin.extent, kCovered);
+  return swept_volume(motion, radius + margin.motion, margin.extent, kClippingRounding);
 }
 
 ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
-  return swept_volume(motion, radius, 0.0, kIgnored);
+  return swept_volume(motion, radius, 0.0, kNoRounding);
 }
 
 }  // namespace organ_collision

@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// [1] A step counts as no motion if it is shorter than this share of the axis length or of the
-// radius. A trocar within the same distance of the line through the tips counts as on it. In both
-// cases rounding decides the directions of the hexahedron.
+// [1] A step counts as no motion if it is shorter than this share of the axis length or radius,
+// whichever is larger. A trocar within the same distance of the line through the tips counts as on
+// it. In both cases only rounding would decide the directions of the hexahedron.
 constexpr double kFlat = 1e-9;
 
 // [m], [1] The volume of a shaft that is shorter, thinner, or thinner relative to its length is

@@ -11,7 +11,7 @@ struct Rounding {
 
 // Faces aimed at the boundary were missed with a tenth of the first value, and with a sixteenth of
 // the second. The rest is a safety margin.
-inline constexpr Rounding kCovered{1e-6, 16.0 / (1 << 24)};
-inline constexpr Rounding kIgnored{0.0, 0.0};
+inline constexpr Rounding kClippingRounding{1e-6, 16.0 / (1 << 24)};
+inline constexpr Rounding kNoRounding{0.0, 0.0};
 
 }  // namespace organ_collision
