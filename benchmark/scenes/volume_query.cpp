@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "picking/volumes/conservative_volume.hpp"
+
 namespace organ_collision::bench {
 namespace {
 

@@ -2,8 +2,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <sstream>
 
+#include "geometry/concatenate.hpp"
+#include "organ_collision/query/query_mode.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/legal_name.hpp"
 #include "ros/interface/rejection.hpp"
@@ -15,9 +16,7 @@ constexpr double kUnitTolerance = 1e-6;  // [1]
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw Rejection(ContactArray::INVALID_REQUEST, "malformed contacts", message.str());
+  throw Rejection(ContactArray::INVALID_REQUEST, "malformed contacts", concatenate(parts...));
 }
 
 void refuse_illegal_name(const char* what, const std::string& name) {
@@ -46,7 +45,7 @@ void check_geometry(const Contact& contact) {
 }  // namespace
 
 bool has_geometry(const ContactArray& contacts) {
-  return contacts.mode == ContactArray::STATIC || contacts.mode == ContactArray::SWEPT;
+  return !is_paper_mode(static_cast<QueryMode>(contacts.mode));
 }
 
 void check_contacts(const ContactArray& contacts) {

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
+#include "geometry/concatenate.hpp"
 #include "message_error.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/legal_name.hpp"
@@ -33,9 +33,8 @@ std::string type_name(int type) {
 Eigen::Vector3d scale_of(const Marker& marker) {
   const Eigen::Vector3d scale = to_eigen(marker.scale);
   if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
-    std::ostringstream message;
-    message << "scale is " << scale.transpose() << "; must be finite and more than 0";
-    throw MessageError("wrong scale", message.str());
+    throw MessageError("wrong scale", concatenate("scale is ", scale.transpose(),
+                                                  "; must be finite and more than 0"));
   }
   return scale;
 }
@@ -47,9 +46,8 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
   if (length == 0.0) {
     rotation.setIdentity();
   } else if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
-    std::ostringstream message;
-    message << "pose.orientation has length " << length << "; must be 1, or 0 for none";
-    throw MessageError("wrong orientation", message.str());
+    throw MessageError("wrong orientation", concatenate("pose.orientation has length ", length,
+                                                        "; must be 1, or 0 for none"));
   }
   return Eigen::Translation3d(to_eigen(marker.pose.position)) * rotation.normalized();
 }

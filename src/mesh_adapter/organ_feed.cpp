@@ -84,16 +84,8 @@ void OrganFeed::move(SharedVertices vertices, ros::Time stamp) {
 }
 
 bool OrganFeed::has_triangles(const ReceivedSurface& surface) const {
-  if (!mesh_ || surface.vertices.size() != mesh_->vertices().size() ||
-      surface.triangles.size() != 3 * mesh_->face_count()) {
-    return false;
-  }
-  const std::uint32_t* next = surface.triangles.data();
-  for (const FaceIndices& face : mesh_->faces()) {
-    if (face[0] != next[0] || face[1] != next[1] || face[2] != next[2]) return false;
-    next += 3;
-  }
-  return true;
+  return mesh_ && surface.vertices.size() == mesh_->vertices().size() &&
+         mesh_->has_triangles(surface.triangles);
 }
 
 OrganMeshPtr OrganFeed::mesh() const {

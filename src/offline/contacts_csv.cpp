@@ -14,8 +14,6 @@ void append_vector(const Eigen::Vector3d& vector, std::string& csv) {
   for (int axis = 0; axis < 3; ++axis) append_number(vector[axis], csv);
 }
 
-bool is_exact(QueryMode mode) { return mode == QueryMode::kStatic || mode == QueryMode::kSwept; }
-
 }  // namespace
 
 std::string contacts_header() {
@@ -25,13 +23,13 @@ std::string contacts_header() {
 void append_contacts(const Motion& motion, const CollisionResult& result, std::string& csv) {
   for (const FaceContact& contact : result.contacts) {
     csv += motion.query + ',' + std::to_string(contact.face);
-    if (is_exact(motion.mode)) {
+    if (is_paper_mode(motion.mode)) {
+      csv += ",,,,,,,,";
+    } else {
       append_number(contact.fraction, csv);
       append_number(contact.depth, csv);
       append_vector(contact.point, csv);
       append_vector(contact.normal, csv);
-    } else {
-      csv += ",,,,,,,,";
     }
     csv += '\n';
   }

@@ -58,7 +58,7 @@ Motion motion_of(const Cells& cells, const TextReader& text) {
   motion.mode = mode_of(cells, text);
   const Eigen::Vector3d trocar = point(kTrocar, cells, text);
   const ShaftAxis end{trocar, point(kTip, cells, text)};
-  if (motion.mode == QueryMode::kStatic || motion.mode == QueryMode::kPaperStatic) {
+  if (is_static_mode(motion.mode)) {
     motion.path = {{1.0, end}};
   } else {
     motion.path = {{0.0, {trocar, point(kPrevious, cells, text)}}, {1.0, end}};

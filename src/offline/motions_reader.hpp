@@ -9,10 +9,11 @@
 
 namespace organ_collision {
 
-/// One line of a motions file: how a tool with a resting trocar moved, and what is asked about it.
+/// One line of a motions file: the motion of a tool with a resting trocar, and what is asked about
+/// it.
 struct Motion {
-  std::string query;  ///< what the file calls it; printed with its contacts
-  std::size_t line;   ///< in the file, from 1
+  std::string query;  ///< its name in the file; printed with its contacts
+  std::size_t line;   ///< its line in the file, from 1
   QueryMode mode;
   ToolPath path;  ///< in the mesh's frame [m]; one waypoint in the static modes
   double radius;  ///< [m]
@@ -20,10 +21,10 @@ struct Motion {
 
 /// Reads a CSV file with the columns query, mode, trocar_x, trocar_y, trocar_z, previous_x,
 /// previous_y, previous_z, tip_x, tip_y, tip_z, radius, in this order. A header line may come
-/// first; blank lines are skipped. Modes: static, swept, paper_static, paper_swept, paper_naive; in
-/// the static ones nobody looks at the previous tip, so it may be left empty. Returns the motions
-/// sorted by query: by value if all are integers, else as text. Throws InputError for a file that
-/// is missing, without motions or not legal, and where two motions have the same query.
+/// first; blank lines are skipped. Modes: static, swept, paper_static, paper_swept, paper_naive.
+/// The static modes ignore the previous tip, which may be left empty. Returns the motions sorted by
+/// query: by value if all queries are integers, else as text. Throws InputError if the file is
+/// missing, is not legal or has no motion, or if two motions have the same query.
 std::vector<Motion> read_motions(const std::string& file);
 
 }  // namespace organ_collision

@@ -39,7 +39,7 @@ class ObjReader {
     return line.substr(0, line.find('#'));
   }
 
-  /// More than three coordinates are a weight or a colour.
+  /// Coordinates after the third are a weight or a colour, and are ignored.
   void read_vertex(const std::vector<std::string_view>& words) {
     if (words.size() < 4) {
       throw text_.error("a vertex with " + std::to_string(words.size() - 1) +
@@ -71,7 +71,8 @@ class ObjReader {
     }
   }
 
-  /// The vertex, from 0, of "v", "v/vt", "v//vn" or "v/vt/vn". It may still be to come.
+  /// The index, from 0, of the vertex in "v", "v/vt", "v//vn" or "v/vt/vn". The vertex may stand
+  /// later in the file.
   std::uint32_t corner(std::string_view word) const {
     const std::optional<long long> number = parse_integer(word.substr(0, word.find('/')));
     if (!number) {
@@ -106,7 +107,7 @@ class ObjReader {
   std::vector<std::uint32_t> polygon_;
 };
 
-/// Vertices as the file counts them.
+/// The vertices of a face, counted from 1 as in the file.
 std::string describe(const FaceIndices& face) {
   std::ostringstream text;
   text << face[0] + 1 << ' ' << face[1] + 1 << ' ' << face[2] + 1;

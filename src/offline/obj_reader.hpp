@@ -9,7 +9,7 @@
 
 namespace organ_collision {
 
-/// The mesh of a Wavefront OBJ file, and where in the file its faces stand.
+/// The mesh of a Wavefront OBJ file, and the lines of its faces in the file.
 struct ObjMesh {
   TriangleMesh mesh;
   std::string file;
@@ -21,11 +21,11 @@ struct ObjMesh {
 /// file's `f` lines; a polygon of n corners is cut into a fan around its first one and counts as
 /// n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be negative (counted back
 /// from the last vertex so far) and may carry texture and normal indices, which are ignored. Throws
-/// InputError for a file that is missing or no legal mesh.
+/// InputError if the file is missing or not a legal mesh.
 ObjMesh read_obj(const std::string& file);
 
-/// Throws InputError naming the first difference unless `before` has the faces of `mesh`, and as
-/// many vertices: only then can one be the other's earlier shape.
+/// Throws InputError, naming the first difference, if `before` does not have the same faces and the
+/// same number of vertices as `mesh`, and so cannot be its earlier shape.
 void check_same_faces(const ObjMesh& before, const ObjMesh& mesh);
 
 }  // namespace organ_collision

@@ -24,6 +24,8 @@ void check_name(const std::string& name, const Values& values) {
   if (values.count(name) > 0) refuse("option " + name + " is given twice");
 }
 
+/// Written by hand because the messages of boost::program_options do not name a stray argument, and
+/// may have several lines.
 Values split(const std::vector<std::string>& arguments) {
   Values values;
   for (std::size_t i = 0; i < arguments.size(); ++i) {

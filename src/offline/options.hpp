@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "picking/pickers/picker.hpp"
+#include "organ_collision/picking/picker_kind.hpp"
 
 namespace organ_collision {
 
@@ -16,8 +16,9 @@ struct Options {
   bool help = false;
 };
 
-/// `arguments` without the program's name; `--name value` or `--name=value`. Throws InputError for
-/// options that are unknown, repeated, without value or missing. With --help nothing is required.
+/// Reads the command line. `arguments` are those without the program's name, as `--name value` or
+/// `--name=value`. Throws InputError for options that are unknown, repeated, without value or
+/// missing. If --help is among them, the others are not checked.
 Options parse_options(const std::vector<std::string>& arguments);
 
 /// What --help prints.

@@ -5,7 +5,8 @@
 
 namespace organ_collision {
 
-/// Says on stderr, once a second, how many motions are done: nothing in a run of less than that.
+/// Says on stderr, once a second, how many motions are done. A run of less than a second says
+/// nothing.
 class Progress {
  public:
   explicit Progress(std::size_t total) : total_(total) {}

@@ -20,7 +20,7 @@
 namespace organ_collision {
 namespace {
 
-/// All contacts of all motions; nothing is printed before the last input proved good.
+/// The contacts of all motions as CSV. They are printed only after all input has proved legal.
 std::string evaluate(const Options& options) {
   const ObjMesh organ = read_obj(options.mesh);
   std::optional<ObjMesh> before;
@@ -76,6 +76,7 @@ int run(const std::vector<std::string>& arguments) {
 }  // namespace organ_collision
 
 int main(int argc, char** argv) {
-  std::signal(SIGPIPE, SIG_IGN);  // a reader that went away is reported as any failed write
+  // A closed pipe on stdout is then reported like any other failed write.
+  std::signal(SIGPIPE, SIG_IGN);
   return organ_collision::run({argv + 1, argv + argc});
 }

@@ -12,21 +12,22 @@
 
 namespace organ_collision {
 
-/// A text file, line by line, with Unix or Windows line ends.
+/// Reads a text file line by line. Line ends may be those of Unix or Windows.
 class TextReader {
  public:
   /// Throws InputError when the file cannot be opened.
   explicit TextReader(std::string file);
 
-  /// Goes to the next line; false after the last one. Throws InputError when reading fails.
+  /// Goes to the next line. Returns false after the last one. Throws InputError when reading fails.
   bool next();
 
-  /// The present line, without its end and without blanks around it.
+  /// The current line, without its line end and without blanks around it.
   std::string_view line() const { return line_; }
-  /// Its number, from 1; after the end that of the last line, 1 in an empty file.
+  /// The number of the current line, from 1. After the end: of the last line, or 1 in an empty
+  /// file.
   std::size_t number() const { return std::max<std::size_t>(number_, 1); }
 
-  /// An error at the present line.
+  /// An error in the current line.
   InputError error(const std::string& message) const { return {file_, number(), message}; }
 
  private:
@@ -40,16 +41,18 @@ class TextReader {
 /// `text` without the blanks (space, tab, carriage return) around it.
 std::string_view trimmed(std::string_view text);
 
-/// The words of `line`, between blanks.
+/// The words of `line`, which are separated by blanks.
 std::vector<std::string_view> split_words(std::string_view line);
 
-/// The cells of a CSV line, each trimmed; one for an empty line. Quotes have no meaning.
+/// The cells of a CSV line, each trimmed. An empty line has one cell. Quotes have no special
+/// meaning.
 std::vector<std::string_view> split_cells(std::string_view line);
 
-/// The number that `text` is from end to end, possibly infinite or NaN; none if it is no number.
+/// The number that the whole `text` stands for, possibly infinite or NaN. None if it is not a
+/// number.
 std::optional<double> parse_number(std::string_view text);
 
-/// The integer that `text` is from end to end; none if it is no integer of 64 bits.
+/// The integer that the whole `text` stands for. None if it is not an integer of 64 bits.
 std::optional<long long> parse_integer(std::string_view text);
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
-#include "picking/volumes/viewing_volume.hpp"
+#include "picking/volumes/paper_volumes.hpp"
 #include "request_check.hpp"
 #include "rotation_subdivision.hpp"
 #include "step.hpp"
@@ -20,15 +20,15 @@ ViewingVolume paper_volume(const CollisionRequest& request) {
   return paper_static_volume(motion.end, request.radius);
 }
 
-/// Sorts by face, then link; of a face that a link touched in several legs or with several parts,
-/// the first touch stays, of several the deepest. Parts that pierce a face together are as deep:
-/// the point decides, so that other contacts do not.
+/// Sorts the contacts by face, then link, and keeps one for each face and link: the first touch,
+/// and of several touches at that time the deepest. Parts that pierce a face together have the same
+/// depth. The point decides between them, so that the answer does not depend on the order of parts.
 void keep_first_touches(std::vector<FaceContact>& contacts) {
   const auto precedes = [](const FaceContact& a, const FaceContact& b) {
     return std::tie(a.face, a.link, a.fraction, b.depth, a.point.x(), a.point.y(), a.point.z()) <
            std::tie(b.face, b.link, b.fraction, a.depth, b.point.x(), b.point.y(), b.point.z());
   };
-  // A shaft's contacts on one leg come in order.
+  // The contacts of a shaft on one leg are sorted already.
   if (!std::is_sorted(contacts.begin(), contacts.end(), precedes)) {
     std::sort(contacts.begin(), contacts.end(), precedes);
   }
@@ -44,6 +44,7 @@ void clear(CollisionResult& result) {
   result.unresolved = 0;
 }
 
+/// The faces in the paper's volumes, with their depth ranges and nothing else.
 void pick_unrefined(const CollisionRequest& request, Picker& picker,
                     std::vector<Candidate>& candidates, std::vector<FaceContact>& contacts) {
   picker.pick(paper_volume(request), *request.organ, candidates);
@@ -72,7 +73,7 @@ struct CollisionQuery::State {
   ContactRegions regions;
   std::vector<Candidate> candidates;
   BlockBoxes boxes_before;
-  ToolPath finer_path;
+  ToolPath subdivided_path;
 };
 
 CollisionQuery::CollisionQuery(PickerKind kind) : state_(std::make_unique<State>(kind)) {}
@@ -94,11 +95,12 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
   }
 }
 
+/// The pipeline: contacts of all parts and legs, one for each face and link, then their regions.
 void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionResult& result) {
   if (is_paper_mode(request.mode)) {
     return pick_unrefined(request, *picker, candidates, result.contacts);
   }
-  const Step step(request, with_subdivided_rotations(request.path, finer_path), boxes_before);
+  const Step step(request, with_subdivided_rotations(request.path, subdivided_path), boxes_before);
   finder.find(step, result.contacts);
   keep_first_touches(result.contacts);
   for (FaceContact& contact : result.contacts) {

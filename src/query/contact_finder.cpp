@@ -7,13 +7,14 @@
 namespace organ_collision {
 namespace {
 
-/// Calls use(part_leg) with a part on the chord of a span.
+/// Calls use(part_leg) with a part that moves along the chord of a span. The part leg refers to a
+/// motion that lives only during the call.
 template <typename Use>
-void with_part(const Step& step, const LegSpan& span, const LinkPart* shape, std::size_t link,
-               Use use) {
-  if (!shape) return use(PartLeg{step.shaft(span), step.radius(), step.shaft_end(), 0});
+void with_part_leg(const Step& step, const LegSpan& span, const LinkPart* shape, std::size_t link,
+                   Use use) {
+  if (!shape) return use(PartLeg{step.shaft_motion(span), step.radius(), step.shaft_end(), 0});
   const RigidMotion motion = step.link_motion(span, link);
-  use(PartLeg{{shape->core, motion}, shape->radius, step.link_end(link), step.number(link)});
+  use(PartLeg{{shape->core, motion}, shape->radius, step.link_end(link), step.link_number(link)});
 }
 
 }  // namespace
@@ -22,62 +23,70 @@ void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
   budget_ = {};
   touched_leg_.resize(step.organ().face_count());
   try {
-    if (step.has_shaft()) touch_shaft(step, contacts);
-    for (std::size_t link = 0; link < step.link_count(); ++link) touch_link(step, link, contacts);
+    if (step.has_shaft()) find_shaft_contacts(step, contacts);
+    for (std::size_t link = 0; link < step.link_count(); ++link) {
+      find_link_contacts(step, link, contacts);
+    }
   } catch (...) {
     touched_leg_.clear();
     throw;
   }
 }
 
-void ContactFinder::touch_shaft(const Step& step, std::vector<FaceContact>& contacts) {
+void ContactFinder::find_shaft_contacts(const Step& step, std::vector<FaceContact>& contacts) {
   const std::size_t begin = contacts.size();
   for (std::size_t leg = 0; leg < step.leg_count();) {
     const LegSpan span = step.shaft_span(leg);
-    touch_part(step, span, {}, contacts);
+    find_part_contacts(step, span, {}, contacts);
     leg = span.end;
   }
-  open_all(contacts, begin);
+  forget_touched_legs(contacts, begin);
 }
 
-void ContactFinder::touch_link(const Step& step, std::size_t link,
-                               std::vector<FaceContact>& contacts) {
+void ContactFinder::find_link_contacts(const Step& step, std::size_t link,
+                                       std::vector<FaceContact>& contacts) {
   const std::size_t begin = contacts.size();
   const LinkBall ball = ball_around(step.link(link));
   for (std::size_t leg = 0; leg < step.leg_count();) {
     const LegSpan span = step.link_span(leg, link, ball);
     for (const LinkPart& part : step.link(link).parts) {
-      touch_part(step, span, {&part, link}, contacts);
+      find_part_contacts(step, span, {&part, link}, contacts);
     }
     leg = span.end;
   }
-  open_all(contacts, begin);
+  forget_touched_legs(contacts, begin);
 }
 
-/// The method: a camera's viewing volume is given the shape of the space that the part swept, the
-/// organ is drawn in a picking mode, and exact distances decide on what survives clipping.
-void ContactFinder::touch_part(const Step& step, const LegSpan& span, const Part& part,
-                               std::vector<FaceContact>& contacts) {
+/// The method, for one part of the tool. A camera's viewing volume gets the shape of the space that
+/// the part sweeps, GL draws the organ in a picking mode, and exact distances decide on the faces
+/// that survive clipping.
+void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const Part& part,
+                                       std::vector<FaceContact>& contacts) {
   pick(step, span, part);
   budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
-  open_faces_.clear();
+  pending_faces_.clear();
   for (const Candidate& candidate : candidates_) {
-    if (is_open(candidate.face, span.begin)) open_faces_.push_back({candidate.face, span.begin});
+    if (is_pending(candidate.face, span.begin)) {
+      pending_faces_.push_back({candidate.face, span.begin});
+    }
   }
-  for (std::size_t leg = span.begin; leg < span.end && !open_faces_.empty(); ++leg) {
-    touch_on_leg(step, leg, part, contacts);
-    const auto is_closed = [&](const OpenFace& open) { return !is_open(open.face, leg + 1); };
-    open_faces_.erase(std::remove_if(open_faces_.begin(), open_faces_.end(), is_closed),
-                      open_faces_.end());
-    // Most faces of a sustained contact touch on the first leg and need no bound.
-    if (leg == span.begin && span.leg_count() > 1) find_first_legs(step, span, part);
+  for (std::size_t leg = span.begin; leg < span.end && !pending_faces_.empty(); ++leg) {
+    find_contacts_on_leg(step, leg, part, contacts);
+    const auto is_decided = [&](const PendingFace& pending) {
+      return !is_pending(pending.face, leg + 1);
+    };
+    pending_faces_.erase(std::remove_if(pending_faces_.begin(), pending_faces_.end(), is_decided),
+                         pending_faces_.end());
+    // Most faces of a sustained contact touch on the first leg. Only the others are worth a look at
+    // the chord.
+    if (leg == span.begin && span.leg_count() > 1) keep_faces_near_chord(step, span, part);
   }
 }
 
 void ContactFinder::pick(const Step& step, const LegSpan& span, const Part& part) {
   const OrganMotion organ = step.organ_motion(span);
   if (!part.shape) {
-    const ShaftMotion chord = step.shaft(span);
+    const ShaftMotion chord = step.shaft_motion(span);
     picker_.pick(PartSweep(chord, step.radius() + span.deviation), organ, candidates_);
   } else {
     const SweptBox box(part.shape->bounds, step.link_motion(span, part.link),
@@ -86,53 +95,55 @@ void ContactFinder::pick(const Step& step, const LegSpan& span, const Part& part
   }
 }
 
-/// Leaves open only the faces that come near enough to the span's chord to touch on one of its
-/// legs, from that leg on in which they first do.
-void ContactFinder::find_first_legs(const Step& step, const LegSpan& span, const Part& part) {
+/// Drops the faces that stay too far from the part's motion along the span's chord to touch on any
+/// of the span's legs. Finds for each of the others the first leg on which it may touch. See
+/// doc/geometry.md, Spans of legs.
+void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span, const Part& part) {
   const OrganMotion organ = step.organ_motion(span);
   touches_.clear();
-  for (const OpenFace& open : open_faces_) {
-    touches_.push_back({open.face, organ.face(step.organ().faces()[open.face]), {}});
+  for (const PendingFace& pending : pending_faces_) {
+    touches_.push_back({pending.face, organ.face(step.organ().faces()[pending.face]), {}});
   }
-  with_part(step, span, part.shape, part.link, [&](const PartLeg& on_chord) {
+  with_part_leg(step, span, part.shape, part.link, [&](const PartLeg& on_chord) {
     find_touches(on_chord, part.shape, on_chord.radius + span.deviation + tolerance::kTouch);
   });
-  open_faces_.clear();
+  pending_faces_.clear();
   for (const FaceTouch& touch : touches_) {
     if (!touch.first) continue;
     const ClosestPoints& closest = touch.first->closest;
     const bool is_direction = !part.is_surface() && closest.distance > tolerance::kPierced;
-    open_faces_.push_back({touch.face, step.leg_at(span, touch.first->time),
-                           is_direction ? closest.apart.normalized() : Eigen::Vector3d::Zero()});
+    pending_faces_.push_back({touch.face, step.leg_at(span, touch.first->time),
+                              is_direction ? closest.apart.normalized() : Eigen::Vector3d::Zero()});
   }
 }
 
-/// Confirms the open faces that may touch on a leg by exact distances.
-void ContactFinder::touch_on_leg(const Step& step, std::size_t leg, const Part& part,
-                                 std::vector<FaceContact>& contacts) {
-  const auto is_due = [leg](const OpenFace& open) { return open.leg <= leg; };
-  if (std::none_of(open_faces_.begin(), open_faces_.end(), is_due)) return;
+/// Decides by exact distances which pending faces touch on a leg.
+void ContactFinder::find_contacts_on_leg(const Step& step, std::size_t leg, const Part& part,
+                                         std::vector<FaceContact>& contacts) {
+  const auto is_due = [leg](const PendingFace& pending) { return pending.leg <= leg; };
+  if (std::none_of(pending_faces_.begin(), pending_faces_.end(), is_due)) return;
   const OrganMotion organ = step.organ_motion(step.span_of(leg));
-  with_part(step, step.span_of(leg), part.shape, part.link, [&](const PartLeg& on_leg) {
+  with_part_leg(step, step.span_of(leg), part.shape, part.link, [&](const PartLeg& on_leg) {
     touches_.clear();
-    for (const OpenFace& open : open_faces_) {
-      if (!is_due(open)) continue;
-      const FaceMotion face = organ.face(step.organ().faces()[open.face]);
-      // The plane that parted them before does so on most legs of a hand that trembles.
-      if (stays_beyond(open.normal, on_leg.core, face, on_leg.radius + tolerance::kTouch)) continue;
-      touches_.push_back({open.face, face, {}});
+    for (const PendingFace& pending : pending_faces_) {
+      if (!is_due(pending)) continue;
+      const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
+      // If the tool only trembles, the same plane separates part and face on most legs.
+      const double beyond = on_leg.radius + tolerance::kTouch;
+      if (stays_beyond(pending.normal, on_leg.core, face, beyond)) continue;
+      touches_.push_back({pending.face, face, {}});
     }
     find_touches(on_leg, part.shape, on_leg.radius);
     for (const FaceTouch& touch : touches_) {
       if (!touch.first) continue;
-      contacts.push_back(contact_of(*touch.first, on_leg, step.face(leg, touch.face)));
+      contacts.push_back(contact_of(*touch.first, on_leg, step.face_leg(leg, touch.face)));
       contacts.back().face = touch.face;
       touched_leg_[touch.face] = static_cast<std::uint32_t>(leg + 1);
     }
   });
 }
 
-/// When each of `touches_` first comes within `radius` of the part.
+/// Finds for each of `touches_` when it first comes within `radius` of the part.
 void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
   if (touches_.empty()) return;
   if (shape && shape->surface) {
@@ -144,13 +155,14 @@ void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, dou
   }
 }
 
-/// Whether a face is of interest on a leg: touches later than its first are not.
-bool ContactFinder::is_open(std::uint32_t face, std::size_t leg) const {
+/// Whether a touch of a face on a leg would be the first one known.
+bool ContactFinder::is_pending(std::uint32_t face, std::size_t leg) const {
   return touched_leg_[face] == 0 || touched_leg_[face] > leg;
 }
 
-/// For the next link, which has touched none so far.
-void ContactFinder::open_all(const std::vector<FaceContact>& touched, std::size_t begin) {
+/// Clears the memory of touched faces for the next link: contacts from `begin` on are of this one.
+void ContactFinder::forget_touched_legs(const std::vector<FaceContact>& touched,
+                                        std::size_t begin) {
   for (std::size_t i = begin; i < touched.size(); ++i) touched_leg_[touched[i].face] = 0;
 }
 

@@ -12,55 +12,55 @@
 
 namespace organ_collision {
 
-/// Finds the contacts of a step: part by part, and span by span of neighbouring legs, GL picks the
-/// faces that may touch, and exact distances decide leg by leg. Keeps its memory.
+/// Finds the contacts of a step. For each part of the tool and each span of legs, GL picks the
+/// faces that may touch; then exact distances decide leg by leg. Keeps its memory between steps.
 class ContactFinder {
  public:
   /// `picker` must outlive it.
   explicit ContactFinder(Picker& picker) : picker_(picker) {}
 
-  /// Adds the contacts of all parts of the tool. A face may come several times for a link, once for
-  /// each of its parts that touch it in the leg of its first touch, or earlier ones. Throws GlError
-  /// if GL did not work.
+  /// Adds the contacts of all parts of the tool, in no order. If several parts of a link touch a
+  /// face, there may be several contacts of the same face and link, and the first touch is among
+  /// them. Throws GlError if GL did not work.
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
  private:
-  /// A shaft, or a part of a link.
+  /// The shaft, or a part of a link.
   struct Part {
     const LinkPart* shape = nullptr;  ///< null: the shaft
     std::size_t link = 0;
 
     bool is_surface() const { return shape && shape->surface; }
-    /// A surface is as many convex parts as it has triangles.
+    /// A surface counts as one convex part for each of its triangles.
     std::size_t convex_count() const { return is_surface() ? shape->surface->faces().size() : 1; }
   };
-  /// A face that the part may touch, from a leg on.
-  struct OpenFace {
+  /// A candidate face that the part may touch on some leg, but not before `leg`.
+  struct PendingFace {
     std::uint32_t face;
     std::size_t leg;
-    /// Unit, from the part to the face, where they are near; zero: not known.
+    /// Unit, from the part to the face where they come near each other. Zero: not known.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
-  void touch_shaft(const Step& step, std::vector<FaceContact>& contacts);
-  void touch_link(const Step& step, std::size_t link, std::vector<FaceContact>& contacts);
-  void touch_part(const Step& step, const LegSpan& span, const Part& part,
-                  std::vector<FaceContact>& contacts);
+  void find_shaft_contacts(const Step& step, std::vector<FaceContact>& contacts);
+  void find_link_contacts(const Step& step, std::size_t link, std::vector<FaceContact>& contacts);
+  void find_part_contacts(const Step& step, const LegSpan& span, const Part& part,
+                          std::vector<FaceContact>& contacts);
   void pick(const Step& step, const LegSpan& span, const Part& part);
-  void find_first_legs(const Step& step, const LegSpan& span, const Part& part);
-  void touch_on_leg(const Step& step, std::size_t leg, const Part& part,
-                    std::vector<FaceContact>& contacts);
+  void keep_faces_near_chord(const Step& step, const LegSpan& span, const Part& part);
+  void find_contacts_on_leg(const Step& step, std::size_t leg, const Part& part,
+                            std::vector<FaceContact>& contacts);
   void find_touches(const PartLeg& part, const LinkPart* shape, double radius);
-  bool is_open(std::uint32_t face, std::size_t leg) const;
-  void open_all(const std::vector<FaceContact>& touched, std::size_t begin);
+  bool is_pending(std::uint32_t face, std::size_t leg) const;
+  void forget_touched_legs(const std::vector<FaceContact>& touched, std::size_t begin);
 
   Picker& picker_;
   WorkBudget budget_;  ///< of the present step
   std::vector<Candidate> candidates_;
-  std::vector<OpenFace> open_faces_;
+  std::vector<PendingFace> pending_faces_;
   std::vector<FaceTouch> touches_;
-  /// For each face the leg in which the present link first touched it, counted from one; zero: none
-  /// so far.
+  /// For each face, the leg on which the present link first touched it, counted from 1. Zero: it
+  /// has not touched the face so far.
   std::vector<std::uint32_t> touched_leg_;
 };
 

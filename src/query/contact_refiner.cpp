@@ -31,7 +31,8 @@ Vector3d face_normal(const Triangle& face) {
   return normal / length;
 }
 
-/// A unit vector at right angles to both, or to the one that has a direction.
+/// A unit vector perpendicular to both. If they are parallel or one of them is zero, a unit vector
+/// perpendicular to the longer one; if both are zero, any.
 Vector3d perpendicular(const Vector3d& a, const Vector3d& b) {
   const Vector3d across = a.cross(b);
   if (across.norm() > tolerance::kParallel * a.norm() * b.norm()) return across.normalized();
@@ -50,19 +51,22 @@ bool first_nonzero_is_positive(const Vector3d& v) {
   return true;
 }
 
-/// The normal where the axis pierces the face: the face's own, turned the tool's way in.
+/// The normal if the axis pierces the face: the face's own, with the sign for which it points along
+/// the axis from trocar to tip. See doc/geometry.md, Ties and piercing.
 Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
   const Vector3d direction = axis.tip - axis.trocar;
   Vector3d normal = face_normal(face);
   if (normal.isZero(0.0)) normal = perpendicular(direction, longest_edge(face));
   const double along = normal.dot(direction);
   const bool in_plane = std::abs(along) <= tolerance::kParallel * direction.norm();
-  const bool turn = in_plane ? !first_nonzero_is_positive(normal) : along < 0.0;
-  return turn ? Vector3d(-normal) : normal;
+  const bool flip = in_plane ? !first_nonzero_is_positive(normal) : along < 0.0;
+  return flip ? Vector3d(-normal) : normal;
 }
 
-/// [m] How far a link reaches along a unit direction, from the organ frame's origin.
-double height(const Link& link, const Eigen::Isometry3d& T_organ_link, const Vector3d& direction) {
+/// [m] The support value of a link along a unit direction, in the organ's frame: the largest value
+/// of direction · point over its points.
+double support_value(const Link& link, const Eigen::Isometry3d& T_organ_link,
+                     const Vector3d& direction) {
   const Vector3d in_link = T_organ_link.linear().transpose() * direction;
   double highest = -std::numeric_limits<double>::infinity();
   for (const LinkPart& part : link.parts) {
@@ -71,32 +75,33 @@ double height(const Link& link, const Eigen::Isometry3d& T_organ_link, const Vec
   return highest + direction.dot(T_organ_link.translation());
 }
 
-/// The normal where a link pierces the face: the face's own, turned so that the way back out is the
-/// shorter one.
+/// The normal if a link pierces the face: the face's own, with the sign for which the way out,
+/// along -normal, is the shorter one.
 Vector3d piercing_normal(const Link& link, const Eigen::Isometry3d& T_organ_link,
                          const Triangle& face) {
   Vector3d normal = face_normal(face);
   if (normal.isZero(0.0)) normal = perpendicular(longest_edge(face), Vector3d::Zero());
-  const double middle = normal.dot(face[0]);
-  const double forward = height(link, T_organ_link, normal) - middle;
-  const double backward = height(link, T_organ_link, -normal) + middle;
+  const double offset = normal.dot(face[0]);
+  const double forward = support_value(link, T_organ_link, normal) - offset;
+  const double backward = support_value(link, T_organ_link, -normal) + offset;
   const bool is_tie = std::abs(forward - backward) <= tolerance::kTie;
-  const bool turn = is_tie ? !first_nonzero_is_positive(normal) : backward < forward;
-  return turn ? Vector3d(-normal) : normal;
+  const bool flip = is_tie ? !first_nonzero_is_positive(normal) : backward < forward;
+  return flip ? Vector3d(-normal) : normal;
 }
 
-/// Where a point of the part is at the end of the step.
+/// Where the point of the core that touched is at the end of the step.
 Vector3d at_end(const FirstTouch& touch, const PartLeg& part) {
   if (!part.end.link) return part.end.axis.at(touch.closest.shaft);
   const Eigen::Isometry3d pose = part.core.link()->at(touch.time);
   return part.end.pose * (pose.inverse() * touch.closest.on_core);
 }
 
-/// [m] How far the tool reaches along the normal of the face that it pierced, at the end of the
-/// step: its tip, or the foremost point of the link.
-double height_at_end(const PartLeg& part, const Vector3d& normal) {
+/// [m] How far the tool reaches along the normal of a pierced face at the end of the step: the
+/// support value of the link, or of the ball around the tip.
+double support_value_at_end(const PartLeg& part, const Vector3d& normal) {
   const PartEnd& end = part.end;
-  return end.link ? height(*end.link, end.pose, normal) : normal.dot(end.axis.tip) + part.radius;
+  return end.link ? support_value(*end.link, end.pose, normal)
+                  : normal.dot(end.axis.tip) + part.radius;
 }
 
 }  // namespace
@@ -118,7 +123,8 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
     contact.normal =
         part.end.link ? piercing_normal(*part.end.link, part.core.link()->at(touch.time), face_now)
                       : piercing_normal(part.core.at(touch.time).axis(), face_now);
-    contact.depth = height_at_end(part, contact.normal) - contact.normal.dot(contact.end_point);
+    contact.depth =
+        support_value_at_end(part, contact.normal) - contact.normal.dot(contact.end_point);
   } else {
     contact.normal = closest.apart.normalized();
     contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);

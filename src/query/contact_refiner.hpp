@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <optional>
 
 #include "geometry/distance/first_touch.hpp"
@@ -9,9 +10,9 @@
 
 namespace organ_collision {
 
-/// Where a part of a tool is when the whole step ends: on its shaft, or on a link.
+/// Where the shaft, or the link that has the part, is at the end of the whole step.
 struct PartEnd {
-  ShaftAxis axis;                                          ///< of the shaft
+  ShaftAxis axis;                                          ///< of the shaft, if `link` is null
   const Link* link = nullptr;                              ///< null: the part is the shaft
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< T_organ_link
 };
@@ -24,19 +25,20 @@ struct PartLeg {
   std::uint32_t link = 0;  ///< number of its link, as in FaceContact
 };
 
-/// A face on one leg of a step, and where it is when the whole step ends.
+/// A face on one leg of a step, and where it is at the end of the whole step.
 struct FaceLeg {
   FaceMotion motion;
-  double begin, finish;  ///< the leg's share of the step: fractions in [0, 1]
-  Triangle end;
+  double begin, finish;  ///< fractions of the step, in [0, 1], at which the leg begins and ends
+  Triangle end;          ///< at the end of the step
 };
 
-/// The contact of a part and a face that first touch as `touch` says. The face's number
-/// is left for the caller to set.
+/// The contact that follows from the first touch of a part and a face. The caller sets the face's
+/// number and vertices.
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face);
 
-/// The contact of a candidate face, by exact distances and with as much work as it takes: none if
-/// it stays farther from the part's core than the radius during the leg.
+/// The contact of one part and one face by exact distances, without picking and without a limit to
+/// the work. Returns nothing if the face stays farther from the part's core than the radius during
+/// the leg.
 std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face);
 
 }  // namespace organ_collision

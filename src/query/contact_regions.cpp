@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <tuple>
 
+#include "picking/volumes/box_volume.hpp"
+#include "picking/volumes/conservative_volume.hpp"
+
 namespace organ_collision {
 
 void ContactRegions::find(const Step& step, const std::vector<FaceContact>& contacts,
@@ -23,14 +26,14 @@ void ContactRegions::find(const Step& step, const std::vector<FaceContact>& cont
   }
 }
 
-/// Of the contacts of one leg and link.
+/// Finds the regions of contacts that share leg and link.
 void ContactRegions::clip(const Step& step, Places begin, Places end,
                           const std::vector<FaceContact>& contacts, std::vector<Region>& regions) {
   if (step.has_shaft() && begin->link == 0) {
-    const ViewingVolume volume = tool_volume(step.shaft(begin->leg), step.radius());
+    const ViewingVolume volume = tool_volume(step.shaft_motion(begin->leg), step.radius());
     return clip(volume, step.organ(), begin, end, contacts, regions);
   }
-  const std::size_t link = begin->link - step.number(0);
+  const std::size_t link = begin->link - step.link_number(0);
   const RigidMotion motion = step.link_motion(begin->leg, link);
   for (const LinkPart& part : step.link(link).parts) {
     const SweptBox box(part.bounds, motion, part.radius);
@@ -38,21 +41,21 @@ void ContactRegions::clip(const Step& step, Places begin, Places end,
   }
 }
 
-/// Of those that have no region yet.
+/// Clips the faces of those contacts to a volume that have no region yet.
 void ContactRegions::clip(const ViewingVolume& volume, const TriangleMesh& organ, Places begin,
                           Places end, const std::vector<FaceContact>& contacts,
                           std::vector<Region>& regions) {
-  const auto for_each_due = [&](auto visit) {
+  const auto for_each_missing = [&](auto visit) {
     for (Places place = begin; place != end; ++place) {
       if (regions[place->contact].empty()) visit(place->contact);
     }
   };
   faces_.clear();
-  for_each_due([&](std::size_t i) { faces_.push_back(contacts[i].face); });
+  for_each_missing([&](std::size_t i) { faces_.push_back(contacts[i].face); });
   if (faces_.empty()) return;
   std::vector<Region> clipped = clipper_.clip(volume, organ, faces_);
   auto next = clipped.begin();
-  for_each_due([&](std::size_t i) { regions[i].swap(*next++); });
+  for_each_missing([&](std::size_t i) { regions[i].swap(*next++); });
 }
 
 }  // namespace organ_collision

@@ -10,12 +10,13 @@
 
 namespace organ_collision {
 
-/// Finds the regions of contacts: each contact's face, as it is at the end of the step, in the
-/// volume of the leg that touched it: the shaft's, or that of the link's first part whose volume it
-/// meets. Keeps its memory.
+/// Finds the regions of contacts. A region is the polygon in which the contact's face, as it is at
+/// the end of the step, meets the tool's volume on the leg that touched it. The volume is the
+/// shaft's, or that of the first part of the link whose volume the face meets. Keeps its memory
+/// between steps.
 class ContactRegions {
  public:
-  /// Draws in `context`, which must outlive it.
+  /// `context` is what it draws in; it must outlive this object.
   explicit ContactRegions(GlContext& context) : clipper_(context) {}
 
   /// Replaces `regions` by one for each of `contacts`. Throws GlError if GL did not work.
@@ -23,7 +24,7 @@ class ContactRegions {
             std::vector<Region>& regions);
 
  private:
-  /// A contact, to be sorted by the volumes that it may be clipped to.
+  /// A contact and what decides about the volumes that its face is clipped to.
   struct Place {
     std::size_t leg;
     std::uint32_t link;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry/tool/rigid_motion.hpp"
+#include "request_check.hpp"
 #include "rotation_subdivision.hpp"
 
 namespace organ_collision {
@@ -13,33 +14,33 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// [1] A span's volume is thicker than its legs' by at most this share.
+// [1] The volume of a span may be thicker than those of its legs by at most this share.
 constexpr double kAllowedShare = 0.25;
-// [1] How far a pose's rotation may be from one (request_check.cpp); legs are without that error.
-constexpr double kRotation = 1e-9;
 
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 
-/// Twice the sine of half the angle between two orientations: how far a point at a distance of one
-/// from any axis moves, at most.
-double turn(const Isometry3d& from, const Isometry3d& to) {
+/// [1] The chord of the rotation between two orientations: 2 sin(angle / 2). A point at the
+/// distance r from the axis of rotation moves by r times that.
+double rotation_chord(const Isometry3d& from, const Isometry3d& to) {
   return (to.linear() - from.linear()).norm() / std::sqrt(2.0);
 }
 
-double share(const ToolWaypoint* waypoints, std::size_t begin, std::size_t i, std::size_t end) {
+/// The time on the chord, in [0, 1], of waypoint `i`.
+double time_on_chord(const ToolWaypoint* waypoints, std::size_t begin, std::size_t i,
+                     std::size_t end) {
   return (waypoints[i].fraction - waypoints[begin].fraction) /
          (waypoints[end].fraction - waypoints[begin].fraction);
 }
 
-/// [m] How far the shaft's axis is from its chord between two waypoints; of no interest beyond
-/// `allowed`.
+/// [m] The largest deviation of the shaft's axis from its chord between two waypoints; kTooFar if
+/// it exceeds `allowed`.
 double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                        double allowed) {
   const ShaftMotion chord{waypoints[begin].axis, waypoints[end].axis};
   double deviation = 0.0;
   for (std::size_t i = begin + 1; i < end; ++i) {
     const ShaftAxis& axis = waypoints[i].axis;
-    const ShaftAxis on_chord = chord.at(share(waypoints, begin, i, end));
+    const ShaftAxis on_chord = chord.at(time_on_chord(waypoints, begin, i, end));
     deviation = std::max(
         {deviation, (axis.trocar - on_chord.trocar).norm(), (axis.tip - on_chord.tip).norm()});
     if (deviation > allowed) return kTooFar;
@@ -47,33 +48,35 @@ double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::si
   return deviation;
 }
 
-/// [m] The same of a link. Between waypoints, leg and chord both leave the straight way between
-/// their ends by at most an eighth of the radius times the squared angle (CoreMotion::bend).
+/// [m] A bound on the same for a link. At the waypoints the deviation of a ball is known. Between
+/// two waypoints, the leg and the chord each deviate from straight lines by their chord deviation:
+/// at most an eighth of the arm times the squared angle. See doc/geometry.md, Rims and chord
+/// deviation.
 double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                       std::size_t link, const LinkBall& ball, double allowed) {
   const Isometry3d& first = waypoints[begin].links[link];
   const Isometry3d& last = waypoints[end].links[link];
-  if (turn(first, last) > kMaxRotation) return kTooFar;
+  if (rotation_chord(first, last) > kMaxRotation) return kTooFar;
   const RigidMotion chord(first, last);
   const double arm = ball.center.norm() + ball.radius;
   double at_waypoints = 0.0, between = 0.0, time = 0.0;
   for (std::size_t i = begin + 1; i <= end; ++i) {
     const Isometry3d& pose = waypoints[i].links[link];
-    const double next_time = share(waypoints, begin, i, end);
+    const double next_time = time_on_chord(waypoints, begin, i, end);
     const Isometry3d on_chord = chord.at(next_time);
     at_waypoints = std::max(at_waypoints, (pose * ball.center - on_chord * ball.center).norm() +
-                                              ball.radius * turn(pose, on_chord));
-    // An angle is at most pi / 2 times its chord.
-    const double leg_angle = M_PI_2 * turn(waypoints[i - 1].links[link], pose);
+                                              ball.radius * rotation_chord(pose, on_chord));
+    // An angle of at most pi is at most pi / 2 times its chord.
+    const double leg_angle = M_PI_2 * rotation_chord(waypoints[i - 1].links[link], pose);
     const double chord_angle = chord.angle() * (next_time - time);
     between = std::max(between, arm * (leg_angle * leg_angle + chord_angle * chord_angle) / 8.0);
     time = next_time;
     if (at_waypoints + between > allowed) return kTooFar;
   }
-  return at_waypoints + between + kRotation * arm;
+  return at_waypoints + between + kRotationTolerance * arm;
 }
 
-/// Tries all legs that are left, then half of them, and so on.
+/// Tries all remaining legs first, then half of them, and so on.
 template <typename Deviation>
 LegSpan longest_span(std::size_t count, std::size_t begin, Deviation deviation) {
   for (std::size_t legs = count > 1 ? count - 1 - begin : 1; legs > 1; legs /= 2) {

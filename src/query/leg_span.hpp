@@ -9,34 +9,34 @@
 
 namespace organ_collision {
 
-/// Consecutive legs of a step, [begin, end), on which a part of the tool stays near its chord: the
-/// motion straight from the first waypoint to the last. One viewing volume around the chord serves
-/// them all.
+/// Consecutive legs of a step, [begin, end), on which a part of the tool stays near its chord. The
+/// chord is the motion that leads directly from the first waypoint of the span to the last. One
+/// viewing volume around the chord serves all legs of the span. See doc/geometry.md, Spans of legs.
 struct LegSpan {
   std::size_t begin, end;
-  double deviation;  ///< [m] no point of the part is farther than this from its place on the chord
+  double deviation;  ///< [m] bound on how far any point of the part is from its place on the chord
 
   std::size_t leg_count() const { return end - begin; }
 };
 
-/// A ball that holds a link, in the link's frame [m].
+/// A ball that contains a link, in the link's frame [m].
 struct LinkBall {
   Eigen::Vector3d center;
   double radius;
 };
 
-/// Around the cores of all parts of a link; their own radii left aside.
+/// A ball around the cores of all parts of a link. It need not contain the parts' radii.
 LinkBall ball_around(const Link& link);
 
-/// [m] How far from its chord a link may stray before a volume around the chord becomes much larger
-/// than those around the legs: a share of the thickness of its thinnest part.
+/// [m] How far a link may deviate from its chord: a share of the thickness of its thinnest part.
+/// With more, the volume around the chord would be much larger than those around the legs.
 double allowed_deviation(const Link& link);
-/// The same of a shaft.
+/// The same for a shaft with its radius [m].
 double allowed_deviation(double shaft_radius);
 
-/// The longest span found that begins with the leg from waypoint `begin` and deviates by no more
-/// than is allowed; at least that one leg, which deviates by nothing. `waypoints` as many as
-/// `count`; of a tool at rest there is one, which is one leg.
+/// A long span that begins with the leg from waypoint `begin` and whose deviation is at most
+/// `allowed` [m]: at least that one leg, whose deviation is 0. There are `count` waypoints. A tool
+/// at rest has one waypoint, which counts as one leg.
 LegSpan shaft_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
                    double allowed);
 LegSpan link_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,

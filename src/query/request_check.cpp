@@ -1,8 +1,8 @@
 #include "request_check.hpp"
 
-#include <sstream>
 #include <stdexcept>
 
+#include "geometry/concatenate.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -10,16 +10,11 @@ namespace {
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw std::invalid_argument(message.str());
+  throw std::invalid_argument(concatenate(parts...));
 }
 
-/// [1] How far a pose's rotation may be from one.
-constexpr double kRotation = 1e-9;
-
 void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& point) {
-  // NaN is within nothing.
+  // Comparisons with NaN are false, so NaN is refused.
   if ((point.array().abs() <= tolerance::kFarthest).all()) return;
   refuse(name, " of waypoint ", waypoint, " is (", point.x(), ", ", point.y(), ", ", point.z(),
          "); must be finite and within ", tolerance::kFarthest, " m");
@@ -33,11 +28,12 @@ void check_links(const std::vector<Link>& links, const ToolWaypoint& waypoint, s
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Eigen::Isometry3d& pose = waypoint.links[i];
     check_point(links[i].name.c_str(), index, pose.translation());
-    const Eigen::Matrix3d& turn = pose.linear();
-    if (!(turn * turn.transpose()).isIdentity(kRotation) || !(turn.determinant() > 0.0)) {
+    const Eigen::Matrix3d& rotation = pose.linear();
+    if (!(rotation * rotation.transpose()).isIdentity(kRotationTolerance) ||
+        !(rotation.determinant() > 0.0)) {
       refuse("the orientation of ", links[i].name, " of waypoint ", index, " has the determinant ",
-             turn.determinant(), "; must be a rotation: orthonormal within ", kRotation,
-             ", right-handed");
+             rotation.determinant(), "; must be a rotation: orthonormal within ",
+             kRotationTolerance, ", right-handed");
     }
   }
 }
@@ -66,9 +62,7 @@ void check_path(const CollisionRequest& request) {
   }
 }
 
-bool needs_resting_trocar(QueryMode mode) {
-  return mode == QueryMode::kPaperSwept || mode == QueryMode::kPaperNaive;
-}
+bool needs_resting_trocar(QueryMode mode) { return is_paper_mode(mode) && !is_static_mode(mode); }
 
 void check_radius(const CollisionRequest& request) {
   const bool has_links = request.links && !request.links->empty();
@@ -82,10 +76,6 @@ void check_radius(const CollisionRequest& request) {
 }
 
 }  // namespace
-
-bool is_paper_mode(QueryMode mode) {
-  return mode != QueryMode::kStatic && mode != QueryMode::kSwept;
-}
 
 void check(const CollisionRequest& request) {
   if (!request.organ) refuse("the request names no organ");

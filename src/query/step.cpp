@@ -44,7 +44,7 @@ OrganMotion Step::organ_motion(const LegSpan& span) const {
   return {*organ_before_, *boxes_before_, organ_, begin(span), finish(span)};
 }
 
-FaceLeg Step::face(std::size_t leg, std::uint32_t face) const {
+FaceLeg Step::face_leg(std::size_t leg, std::uint32_t face) const {
   const FaceIndices& corners = organ_.faces()[face];
   return {organ_motion(span_of(leg)).face(corners), begin(span_of(leg)), finish(span_of(leg)),
           organ_.triangle(corners)};

@@ -10,11 +10,14 @@
 
 namespace organ_collision {
 
-/// A request's step, leg by leg: the tool between two waypoints, the faces in that share of the
-/// step. A view of request and path, which must outlive it.
+/// The step of a request, leg by leg. A leg is the motion of the tool from one waypoint of the path
+/// to the next, and of the organ in the same fraction of the step. The step refers to the request
+/// and the path, which must outlive it.
 class Step {
  public:
-  /// `boxes` are refitted where the organ's shapes do not share their clusters.
+  /// `path` is the request's, or a subdivision of it. `boxes` is memory for the boxes of the
+  /// organ's earlier shape. They are refitted if that shape does not share the clusters of the
+  /// later one.
   Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& boxes);
 
   const TriangleMesh& organ() const { return organ_; }
@@ -22,35 +25,37 @@ class Step {
   double radius() const { return radius_; }  ///< [m] of the shaft
   std::size_t link_count() const { return links_ ? links_->size() : 0; }
   const Link& link(std::size_t link) const { return (*links_)[link]; }
-  /// As in FaceContact.
-  std::uint32_t number(std::size_t link) const {
+  /// The number of a link, as in FaceContact::link.
+  std::uint32_t link_number(std::size_t link) const {
     return static_cast<std::uint32_t>(has_shaft() ? link + 1 : link);
   }
 
-  /// A tool at rest has one leg without motion.
+  /// Number of legs. A tool at rest has one leg, without motion.
   std::size_t leg_count() const { return waypoint_count_ > 1 ? waypoint_count_ - 1 : 1; }
-  /// The leg that a fraction of the step falls in; the earlier one at a waypoint.
+  /// The leg at a fraction of the step; at a waypoint, the earlier one.
   std::size_t leg_at(double fraction) const;
 
+  /// The span of a single leg.
   LegSpan span_of(std::size_t leg) const { return {leg, leg + 1, 0.0}; }
-  /// The longest spans found that begin with a leg.
+  /// Long spans that begin with a leg; see leg_span.hpp.
   LegSpan shaft_span(std::size_t leg) const;
   LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
 
-  /// What moves how on a leg, or along the chord of a span.
-  ShaftMotion shaft(std::size_t leg) const { return shaft(span_of(leg)); }
-  ShaftMotion shaft(const LegSpan& span) const { return {from(span).axis, to(span).axis}; }
+  /// The motion of the shaft or of a link on a leg, or along the chord of a span.
+  ShaftMotion shaft_motion(std::size_t leg) const { return shaft_motion(span_of(leg)); }
+  ShaftMotion shaft_motion(const LegSpan& span) const { return {from(span).axis, to(span).axis}; }
   RigidMotion link_motion(std::size_t leg, std::size_t link) const {
     return link_motion(span_of(leg), link);
   }
   RigidMotion link_motion(const LegSpan& span, std::size_t link) const {
     return {from(span).links[link], to(span).links[link]};
   }
+  /// The motion of the organ during a span.
   OrganMotion organ_motion(const LegSpan& span) const;
-  FaceLeg face(std::size_t leg, std::uint32_t face) const;
-  /// The leg of a span in which a time of its chord falls; the earlier one at a waypoint.
+  FaceLeg face_leg(std::size_t leg, std::uint32_t face) const;
+  /// The leg of a span at a time of its chord, in [0, 1]; at a waypoint, the earlier one.
   std::size_t leg_at(const LegSpan& span, double time) const;
-  /// Where shaft and links are when the step ends.
+  /// The shaft and the links at the end of the step.
   PartEnd shaft_end() const { return {last().axis}; }
   PartEnd link_end(std::size_t link) const { return {{}, &(*links_)[link], last().links[link]}; }
 
@@ -71,7 +76,8 @@ class Step {
   const std::vector<Link>* links_;
   const ToolWaypoint* waypoints_;
   std::size_t waypoint_count_;
-  const BlockBoxes* boxes_before_ = nullptr;  ///< of the organ before, in its present clusters
+  /// Of the earlier shape, in the clusters of the later one; null if the organ rests.
+  const BlockBoxes* boxes_before_ = nullptr;
 };
 
 }  // namespace organ_collision

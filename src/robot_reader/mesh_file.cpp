@@ -12,10 +12,10 @@
 #include <map>
 #include <memory>
 #include <new>
-#include <sstream>
 #include <utility>
 #include <vector>
 
+#include "geometry/concatenate.hpp"
 #include "resource.hpp"
 #include "ros/tools/link_description.hpp"
 
@@ -81,9 +81,8 @@ class NoOtherFiles : public Assimp::IOSystem {
 
 void check_scale(const Vector3d& scale) {
   if (scale.allFinite() && (scale.array() != 0.0).all()) return;
-  std::ostringstream message;
-  message << "its scale is " << scale.transpose() << "; must be finite, and not 0 along any axis";
-  throw ToolError(message.str());
+  throw ToolError(concatenate("its scale is ", scale.transpose(),
+                              "; must be finite, and not 0 along any axis"));
 }
 
 /// assimp recognises the format by it.

@@ -9,8 +9,8 @@
 #include <cerrno>
 #include <cstring>
 
-#include "ros/tools/reader_limits.hpp"
 #include "ros/tools/link_description.hpp"
+#include "ros/tools/reader_limits.hpp"
 
 namespace organ_collision {
 namespace {

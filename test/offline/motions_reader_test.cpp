@@ -83,7 +83,7 @@ TEST(MotionsReader, sorts_integers_by_value_and_names_as_text) {
   EXPECT_EQ(sorted({"stab", "10", "9", "palpate 2"}), (Names{"10", "9", "palpate 2", "stab"}));
 }
 
-/// The message, without the file's name, that a file is refused with.
+/// The message for a file that is refused, without the file's name at its beginning.
 std::string refusal(const std::string& content) {
   const TemporaryFile file(content);
   const std::string message = input_error([&] { read_motions(file.path()); });

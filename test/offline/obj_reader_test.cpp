@@ -74,7 +74,7 @@ TEST(ObjReader, allows_degenerate_faces) {
   EXPECT_EQ(faces_of("f 1 1 2\nf 3 3 3\n"), (Faces{{0, 0, 1}, {2, 2, 2}}));
 }
 
-/// The message, without the file's name, that a file is refused with.
+/// The message for a file that is refused, without the file's name at its beginning.
 std::string refusal(const std::string& content) {
   const TemporaryFile file(content);
   const std::string message = input_error([&] { read_obj(file.path()); });

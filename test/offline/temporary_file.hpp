@@ -10,7 +10,7 @@
 
 namespace organ_collision {
 
-/// A file with a given content, gone with this object.
+/// A file with a given content. The destructor removes it.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& content) {
@@ -30,7 +30,7 @@ class TemporaryFile {
   std::string path_;
 };
 
-/// What the InputError says that `action` throws; a failure where it throws none.
+/// The message of the InputError that `action` throws. The test fails if it throws none.
 template <typename Action>
 std::string input_error(const Action& action) {
   try {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "comparison.hpp"
+#include "picking/volumes/paper_volumes.hpp"
 
 namespace organ_collision::oracle {
 namespace {

@@ -9,7 +9,8 @@
 #include "test/geometry/tool/tool_meshes.hpp"
 #include "test/grid_surface.hpp"
 
-// Counts what C++ code allocates in this program; Mesa is C and allocates by itself.
+// Counts the allocations by C++ code in this program. Mesa is written in C, so its allocations do
+// not count.
 namespace {
 std::size_t allocations = 0;
 
@@ -33,7 +34,7 @@ namespace {
 
 constexpr std::size_t kShapes = 8;
 
-/// A box, a cylinder and a ball on one link, a mesh of 512 faces on another.
+/// A link of a box, a cylinder and a ball, and a link of a mesh with 512 faces.
 std::vector<Link> some_links() {
   oracle::Random random(10);
   const auto pose = [&] { return oracle::random_pose(0.02, random); };
@@ -43,7 +44,7 @@ std::vector<Link> some_links() {
           {"plate", {LinkPart::mesh(wavy_mesh(16, 0.4).surface())}}};
 }
 
-/// An organ that goes through its shapes in a circle, and a tool that goes with it.
+/// An organ that repeats a cycle of shapes, and a tool that repeats a cycle of paths.
 class Simulation {
  public:
   Simulation(bool shuffle, bool trocar_moves, std::vector<Link> links)
@@ -67,8 +68,8 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// A new shape, then both modes, the organ at rest and moving; returns how many contacts there
-  /// were.
+  /// Takes the next shape and evaluates both exact modes, with the organ at rest and moving.
+  /// Returns the number of contacts.
   std::size_t step() {
     const std::size_t i = next_++ % kShapes;
     std::swap(organ_, before_);
@@ -106,7 +107,7 @@ class Simulation {
   std::size_t next_ = 0;
 };
 
-/// Goes through all shapes twice, and then twice more, counting.
+/// Expects that no memory is allocated after all shapes have been used twice.
 void expect_none(Simulation& simulation, bool shuffle) {
   std::size_t contacts = 0;
   for (std::size_t i = 0; i < 2 * kShapes; ++i) contacts += simulation.step();

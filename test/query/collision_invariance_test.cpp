@@ -1,4 +1,5 @@
-// What must not change an answer: how motion is cut, the order of faces, the frame, the picker.
+// What must not change an answer: how the motion is divided into legs, the order of faces, the
+// frame, the picker.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -77,13 +78,13 @@ TEST_P(CollisionQueryWith, OrderOfFacesAndVerticesOnlyRenumbers) {
   }
 }
 
-/// Coordinates that sums and products with small powers of two leave exact.
+/// Rounds coordinates so that sums, and products with small powers of two, are exact.
 Vector3d on_lattice(const Vector3d& p) { return (p * 4096.0).array().round() / 4096.0; }
 
 TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
   Random random(6);
-  Eigen::Matrix3d turn;  // about (1, 1, 1): exact
-  turn << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  Eigen::Matrix3d rotation;  // about (1, 1, 1), without rounding
+  rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
   for (int i = 0; i < 30; ++i) {
     Soup soup = scattered_faces(100, random);
     for (float& x : soup.vertices) x = std::round(x * 4096.0F) / 4096.0F;
@@ -96,7 +97,7 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
     const double scale = std::ldexp(1.0, random.integer(-3, 3));
     const Vector3d shift =
         scale * Vector3d(random.integer(-8, 8), random.integer(-8, 8), random.integer(-8, 8));
-    const auto map = [&](const Vector3d& p) { return Vector3d(scale * (turn * p) + shift); };
+    const auto map = [&](const Vector3d& p) { return Vector3d(scale * (rotation * p) + shift); };
     Soup moved = soup;
     for (std::size_t v = 0; v < soup.vertices.size(); v += 3) {
       const Vector3d p = map({soup.vertices[v], soup.vertices[v + 1], soup.vertices[v + 2]});
@@ -112,7 +113,7 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
       FaceContact contact = expected[j];
       contact.point = map(contact.point);
       contact.end_point = map(contact.end_point);
-      contact.normal = turn * contact.normal;
+      contact.normal = rotation * contact.normal;
       contact.depth *= scale;
       expect_same(found[j], contact, 1e-6);
     }

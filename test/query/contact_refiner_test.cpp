@@ -54,7 +54,7 @@ ShaftAxis moved(const ShaftAxis& axis, const Vector3d& by) {
   return {axis.trocar + by, axis.tip + by};
 }
 
-/// [m] What doubles lose of the coordinates.
+/// [m] A bound on the rounding errors of the trial's coordinates.
 double rounding(const Trial& trial) {
   double largest = trial.motion.end.tip.norm() + trial.motion.end.trocar.norm();
   for (const Vector3d& corner : trial.face) largest += corner.norm();
@@ -171,7 +171,7 @@ TEST_P(ContactTrials, OrderOfCornersChangesNothing) {
 INSTANTIATE_TEST_SUITE_P(Kinds, ContactTrials,
                          testing::Range<std::size_t>(0, oracle::trial_kinds().size()));
 
-// A face in the plane z = 0.1, outward up.
+// A face in the plane z = 0.1, whose outer side is up.
 const Triangle kFace = {Vector3d(-0.02, -0.03, 0.1), Vector3d(0.05, -0.03, 0.1),
                         Vector3d(-0.02, 0.06, 0.1)};
 const Vector3d kTrocar(0.01, -0.01, 0.4);
@@ -207,7 +207,7 @@ TEST(Contact, PassedThroughIsDeeperThanTheRadiusAndBehind) {
 }
 
 TEST(Contact, TouchedAndLeftHasANegativeDepth) {
-  // The tip comes down onto the face in the first leg; by the end of the step it is withdrawn.
+  // The tip comes down onto the face in the first leg. At the end of the step it is withdrawn.
   const ShaftMotion down{{kTrocar, {0.0, 0.0, 0.15}}, {kTrocar, {0.0, 0.0, 0.1}}};
   const ShaftAxis withdrawn{kTrocar, {0.0, 0.0, 0.2}};
   const auto touched = refine({down, {kFace, kFace}, 0.0, 0.5, withdrawn, kFace}, kRadius);
@@ -216,11 +216,11 @@ TEST(Contact, TouchedAndLeftHasANegativeDepth) {
   EXPECT_NEAR(touched->depth, kRadius - 0.1, 1e-8);
   EXPECT_FALSE(touched->behind);
 
-  // The tissue leaves a resting tool.
+  // The tissue moves away from a resting tool.
   const Vector3d away(0.0, 0.0, -0.1);
-  const FaceMotion flees{kFace, {kFace[0] + away, kFace[1] + away, kFace[2] + away}};
+  const FaceMotion leaves{kFace, {kFace[0] + away, kFace[1] + away, kFace[2] + away}};
   const ShaftAxis axis{kTrocar, {0.0, 0.0, 0.103}};
-  const auto left = refine(whole_step({axis, axis}, flees), kRadius);
+  const auto left = refine(whole_step({axis, axis}, leaves), kRadius);
   ASSERT_TRUE(left);
   EXPECT_EQ(left->fraction, 0.0);
   EXPECT_NEAR(left->depth, 0.002 - 0.1, 1e-15);

@@ -1,5 +1,5 @@
-// collision_query.hpp where OpenGL reports an error in the midst of a query. This program stands
-// between the package and OSMesa, and lets calls fail.
+// collision_query.hpp when OpenGL reports an error during a query. This program stands between the
+// package and OSMesa, and makes calls fail.
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ class GlFaultsWith : public CollisionQueryWith {
   void TearDown() override { checks_until_error = kNever; }
 };
 
-// Legs, links and regions are drawn one after the other; each of their draws is checked once.
+// Legs, links and regions are drawn one after the other. Each draw is made to fail once.
 TEST_P(GlFaultsWith, LeaveNoContactsBehindAndTheNextQueryIsWhole) {
   Random random(51);
   std::size_t failed = 0, found = 0;

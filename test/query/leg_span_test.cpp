@@ -14,7 +14,7 @@ using oracle::Random;
 
 constexpr int kSamples = 20;
 
-/// A path that bends, turns and trembles, of a shaft and one link.
+/// A path of a shaft and one link that drift, rotate and tremble.
 ToolPath wandering(std::size_t count, double tremor, Random& random) {
   ToolPath path = {{0.0, random_axis(random), {oracle::random_pose(0.1, random)}}};
   const Vector3d drift = random.scale(1e-6, 1e-3) * random.direction();
@@ -31,7 +31,7 @@ ToolPath wandering(std::size_t count, double tremor, Random& random) {
   return path;
 }
 
-/// Visits times of the legs of a span: (leg, time in it, time on the chord).
+/// Calls visit(leg, time on the leg, time on the chord) for several times of each leg of a span.
 template <typename Visit>
 void for_each_time(const ToolPath& path, const LegSpan& span, Visit visit) {
   const double begin = path[span.begin].fraction, end = path[span.end].fraction;
@@ -45,7 +45,7 @@ void for_each_time(const ToolPath& path, const LegSpan& span, Visit visit) {
   }
 }
 
-TEST(LegSpan, NoPointOfAShaftIsFartherFromItsChordThanSaid) {
+TEST(LegSpan, NoPointOfAShaftIsFartherFromItsChordThanTheDeviation) {
   Random random(1);
   std::size_t shared = 0;
   for (int i = 0; i < 300; ++i) {
@@ -72,7 +72,7 @@ TEST(LegSpan, NoPointOfAShaftIsFartherFromItsChordThanSaid) {
   EXPECT_GT(shared, 500U);
 }
 
-TEST(LegSpan, NoPointOfALinkIsFartherFromItsChordThanSaid) {
+TEST(LegSpan, NoPointOfALinkIsFartherFromItsChordThanTheDeviation) {
   Random random(2);
   std::size_t shared = 0;
   for (int i = 0; i < 300; ++i) {

@@ -1,4 +1,4 @@
-// contact_refiner.hpp for the parts of links.
+// contact_refiner.hpp for parts of links.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -19,17 +19,18 @@ using oracle::LinkTrial;
 using oracle::Random;
 
 constexpr std::uint32_t kNumber = 3;
-/// [m] What the distances and directions of cores may lack.
+/// [m] Allowed error of the distances between cores and faces.
 constexpr double kSlack = 2e-9;
 
-/// The rest of a step: the leg's share of it, and where link and face are when it ends.
+/// The step that a leg belongs to: the fractions at which the leg begins and ends, and link and
+/// face at the end of the step.
 struct Rest {
   double begin, finish;
   Isometry3d link_end;
   Triangle face_end;
 };
 
-/// Of a leg from `start` to `end`; `link` has the part.
+/// The contact of a part of `link` on a leg from `start` to `end`.
 std::optional<FaceContact> refine(const Link& link, const LinkPart& part, const Isometry3d& start,
                                   const Isometry3d& end, const FaceMotion& face, const Rest& rest) {
   const RigidMotion motion(start, end);
@@ -37,7 +38,7 @@ std::optional<FaceContact> refine(const Link& link, const LinkPart& part, const 
                 FaceLeg{face, rest.begin, rest.finish, rest.face_end});
 }
 
-/// The whole step of a link that has only this part.
+/// The contact of a link that has only this part, during a whole step.
 std::optional<FaceContact> refine(const LinkPart& part, const Isometry3d& start,
                                   const Isometry3d& end, const Triangle& face) {
   const Link link{"jaw", {part}};
@@ -99,7 +100,7 @@ TEST_P(LinkContactTrials, AtRestMovingTheLinkByDepthParts) {
   EXPECT_GT(contacts, 0);
 }
 
-TEST_P(LinkContactTrials, PiercedAtRestTakesTheFaceNormalTheShorterWayOut) {
+TEST_P(LinkContactTrials, PiercedAtRestTakesTheFaceNormalOfTheShorterWayOut) {
   for_each_trial(150, [](const LinkTrial& trial) {
     const ConvexCore core = trial.end * trial.core;
     if (oracle::distance(core, trial.face) > 0.0) return;
@@ -136,7 +137,7 @@ TEST_P(LinkContactTrials, SweptDepthIsThatOfTheEnd) {
           (trial.end * trial.core).height(normal) + trial.radius - normal.dot(contact->point),
           1e-9 + 100.0 * oracle::rounding(trial));
     } else if (distance > 1e-5) {
-      // The core's point that touched, moved with the link.
+      // The point of the core that touched, moved with the link.
       const Vector3d core_at_touch = contact->point - distance * normal;
       const Vector3d core_end = trial.end * (at_touch.inverse() * core_at_touch);
       EXPECT_NEAR(contact->depth, trial.radius - normal.dot(contact->point - core_end), 1e-8);
@@ -150,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()),
                      testing::Range<std::size_t>(0, oracle::kCoreKinds)));
 
-/// A face in a plane of this height, outward up.
+/// A face in the plane z, whose outer side is up.
 Triangle face_at(double z) {
   return {Vector3d(-0.02, -0.03, z), Vector3d(0.05, -0.03, z), Vector3d(-0.02, 0.06, z)};
 }
@@ -185,7 +186,8 @@ TEST(LinkContact, PiercedLeavesTheWayThatIsShorter) {
   EXPECT_NEAR(above->depth, 0.04 + tolerance::kConvexMargin, 1e-12);
 }
 
-// Both ways are as long: the first component that is not zero decides, not the order of corners.
+// Both ways out have the same length. The normal's first component that is not zero decides, not
+// the order of corners.
 TEST(LinkContact, PiercedInTheMiddleTakesTheNormalWithAPositiveFirstComponent) {
   const Triangle face = face_at(0.0);
   for (const Triangle& same : {face, Triangle{face[0], face[2], face[1]}}) {
@@ -197,7 +199,7 @@ TEST(LinkContact, PiercedInTheMiddleTakesTheNormalWithAPositiveFirstComponent) {
 }
 
 TEST(LinkContact, PiercedLeavesWithTheWholeLink) {
-  // The rod on the cube makes the way down the longer one.
+  // Because of the rod on the cube, the way down is the longer one.
   const Link link{"jaw", {kCube, LinkPart::cylinder(at({0.0, 0.0, 0.2}), 0.01, 0.4)}};
   const Triangle face = face_at(0.03);
   const auto contact =
@@ -223,7 +225,7 @@ TEST(LinkContact, FractionIsOfTheWholeStepAndDepthOfItsEnd) {
   const Link link{"jaw", {kCube}};
   const Triangle face = face_at(0.0);
   const FaceMotion rests{face, face};
-  // In this leg the cube comes down through the face, by the end of the step it is above it again.
+  // On this leg the cube moves down through the face. At the end of the step it is above it again.
   const auto left = refine(link, kCube, at({0.0, 0.0, 0.15}), at({0.0, 0.0, 0.0}), rests,
                            {0.25, 0.75, at({0.0, 0.0, 0.07}), face});
   ASSERT_TRUE(left);
@@ -231,7 +233,7 @@ TEST(LinkContact, FractionIsOfTheWholeStepAndDepthOfItsEnd) {
   EXPECT_TRUE(left->normal.isApprox(Vector3d(0.0, 0.0, -1.0), 1e-6));
   EXPECT_NEAR(left->depth, -0.02, 1e-7);
   EXPECT_FALSE(left->behind);
-  // By the end of the step the face has moved up through it.
+  // At the end of the step the face has moved up through the cube.
   const auto passed = refine(link, kCube, at({0.0, 0.0, 0.15}), at({0.0, 0.0, 0.0}), rests,
                              {0.0, 0.5, at({0.0, 0.0, 0.07}), face_at(0.05)});
   ASSERT_TRUE(passed);
@@ -239,8 +241,8 @@ TEST(LinkContact, FractionIsOfTheWholeStepAndDepthOfItsEnd) {
   EXPECT_TRUE(passed->behind);
 }
 
-// The corner that touched goes round with the link.
-TEST(LinkContact, DepthIsOfThePointThatTurnedWithTheLink) {
+// The corner that touched rotates with the link.
+TEST(LinkContact, DepthIsOfThePointThatRotatedWithTheLink) {
   Isometry3d end = kOrigin;
   end.linear() = Eigen::AngleAxisd(0.8, Vector3d::UnitY()).toRotationMatrix();
   const LinkPart plate = LinkPart::box(kOrigin, {0.04, 0.04, 1e-6});

@@ -39,28 +39,29 @@ inline std::vector<Link> random_links(bool may_be_meshes, oracle::Random& random
   return links;
 }
 
-/// A path of shaft and links, through one to three legs that turn by at most `turn` [rad].
-inline ToolPath random_link_path(std::size_t links, double turn, oracle::Random& random) {
+/// A path of shaft and links, of one to three legs. On each leg, links rotate by at most `rotation`
+/// [rad].
+inline ToolPath random_link_path(std::size_t links, double rotation, oracle::Random& random) {
   ToolPath path = random_path(true, random);
   for (std::size_t link = 0; link < links; ++link) {
     Eigen::Isometry3d pose = oracle::random_pose(0.1, random);
     for (ToolWaypoint& waypoint : path) {
       waypoint.links.push_back(pose);
-      pose.linear() *= oracle::random_turn(random.scale(1e-5, turn), random);
+      pose.linear() *= oracle::random_turn(random.scale(1e-5, rotation), random);
       pose.translation() += random.scale(1e-5, 0.05) * random.direction();
     }
   }
   return path;
 }
 
-/// An organ that rests or moves, and a tool of links, with or without a shaft.
+/// An organ that rests or moves, and a tool that has links, with or without a shaft.
 struct LinkScene {
-  LinkScene(bool may_be_meshes, oracle::Random& random, double turn = 0.19)
+  LinkScene(bool may_be_meshes, oracle::Random& random, double rotation = 0.19)
       : soup(scattered_faces(150, random)),
         organ(mesh(soup)),
         before(mesh(shaken(soup, random.scale(1e-5, 0.02), random))),
         links(random_links(may_be_meshes, random)) {
-    request = swept(organ, random_link_path(links.size(), turn, random), 0.0);
+    request = swept(organ, random_link_path(links.size(), rotation, random), 0.0);
     if (random.chance(0.5)) request.radius = random.scale(0.5e-3, 0.01);
     if (random.chance(0.5)) request.organ_before = &before;
     request.links = &links;
@@ -74,7 +75,7 @@ struct LinkScene {
   CollisionRequest request;
 };
 
-/// The first touch of a face with any triangle of a part's surface.
+/// The contact of a face with the triangle of a part's surface that touches it first.
 inline std::optional<FaceContact> refine_surface(const PartLeg& part, const ToolSurface& surface,
                                                  const FaceLeg& face) {
   std::optional<FirstTouch> first;
@@ -90,7 +91,7 @@ inline std::optional<FaceContact> refine_surface(const PartLeg& part, const Tool
   return contact_of(*first, part, face);
 }
 
-/// Every face with every part in every leg: no picking, no boxes.
+/// The contacts of every face with every part on every leg, without picking or boxes.
 class BruteForce {
  public:
   explicit BruteForce(const CollisionRequest& request) : request_(request) {
@@ -146,7 +147,8 @@ class BruteForce {
     if (contact && (!best || is_before(*contact, *best))) best = contact;
   }
 
-  /// Earlier, else deeper, else by the point.
+  /// Whether `a` is the contact to keep: the earlier one; else the deeper one; else the point
+  /// decides.
   static bool is_before(const FaceContact& a, const FaceContact& b) {
     const Eigen::Vector3d &p = a.point, &q = b.point;
     return std::make_tuple(a.fraction, -a.depth, p.x(), p.y(), p.z()) <
@@ -162,5 +164,11 @@ class BruteForce {
   const CollisionRequest& request_;
   std::vector<FaceContact> contacts_;
 };
+
+inline void expect_same_links(const std::vector<FaceContact>& a,
+                              const std::vector<FaceContact>& b) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].link, b[i].link);
+}
 
 }  // namespace organ_collision

@@ -1,4 +1,4 @@
-// collision_query.hpp over all magnitudes of radius, length, step and organ that may be asked for.
+// collision_query.hpp for all legal magnitudes of radius, shaft length, motion and organ.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,8 @@ constexpr double kTiniest = 1e-300;  // [m]
 constexpr QueryMode kModes[] = {QueryMode::kStatic, QueryMode::kSwept, QueryMode::kPaperStatic,
                                 QueryMode::kPaperSwept, QueryMode::kPaperNaive};
 
-/// [m] Ordinary ones too, and those about which 32 bits and 64 give out.
+/// [m] A size of any magnitude: ordinary sizes, and sizes near the limits of 32-bit and 64-bit
+/// numbers.
 double some_size(Random& random) {
   const double size[] = {random.scale(1e-3, 0.3), random.scale(1e-12, 1e6),
                          random.scale(1e-50, 1e-12), random.scale(kTiniest, 1e-50), 1e-20};
@@ -29,7 +30,7 @@ Vector3d within_reach(const Vector3d& point) {
   return point.cwiseMax(-tolerance::kFarthest).cwiseMin(tolerance::kFarthest);
 }
 
-/// Faces that the tool may meet: from corner to corner of its way, or across it.
+/// Faces of about the given size around the axis at the start or end of a path.
 TriangleMesh faces_about(const ToolPath& path, double size, Random& random) {
   std::vector<float> vertices;
   std::vector<std::uint32_t> triangles;
@@ -57,7 +58,7 @@ void expect_finite(const FaceContact& contact) {
   EXPECT_TRUE(std::isfinite(contact.view_max));
 }
 
-/// A view along the shaft is as deep as the shaft is long.
+/// The depths along the view lie between 0 and the length of the shaft.
 void expect_within_view(const FaceContact& contact, const ToolPath& path) {
   double length = 0.0;
   for (const auto& [fraction, axis, links] : path) {

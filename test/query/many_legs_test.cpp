@@ -1,5 +1,5 @@
-// collision_query.hpp for tools that go through many waypoints in a step, as a hand trembles, and
-// for organs that jump while they do.
+// collision_query.hpp for paths with many waypoints, like those of a trembling hand, and for organs
+// that jump during the step.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,8 +15,8 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using oracle::Random;
 
-/// A path of `legs` legs along a random one of few, all of whose waypoints tremble by up to
-/// `tremor` [m], and by as many radians at a distance of one metre.
+/// A path of `legs` legs from the start of `smooth` to its end. Each waypoint is displaced by up to
+/// `tremor` [m], and each link also rotated by up to as many radians.
 ToolPath trembling(const ToolPath& smooth, std::size_t legs, double tremor, Random& random) {
   ToolPath path;
   const ToolWaypoint &from = smooth.front(), &to = smooth.back();
@@ -40,7 +40,7 @@ enum class Change { kNone, kShakes, kGlitches, kJumps };
 constexpr std::array<Change, 4> kChanges = {Change::kNone, Change::kShakes, Change::kGlitches,
                                             Change::kJumps};
 
-/// The organ's shape before the step.
+/// The organ's shape at the start of the step.
 Soup changed(const Soup& soup, Change change, Random& random) {
   if (change == Change::kShakes) return shaken(soup, random.scale(1e-5, 0.01), random);
   Soup before = soup;
@@ -82,7 +82,7 @@ TEST_P(ManyLegsWith, AShaftTouchesWhatItTouchesLegByLeg) {
   for (const std::size_t count : found) EXPECT_GT(count, 100U);
 }
 
-// Parts of a link may touch a face together, and then rounding decides which of them is first.
+// If parts of a link touch a face at the same time, rounding decides which of them is first.
 TEST_P(ManyLegsWith, LinksTouchWhatTheyTouchLegByLeg) {
   Random random(22);
   std::array<std::size_t, kChanges.size()> found = {};
@@ -107,7 +107,7 @@ TEST_P(ManyLegsWith, LinksTouchWhatTheyTouchLegByLeg) {
   for (const std::size_t count : found) EXPECT_GT(count, 100U);
 }
 
-// Shapes that were made one by one have clusters of their own.
+// Meshes that were created separately do not share their clusters.
 TEST_P(ManyLegsWith, ShapesNeedNotShareTheirClusters) {
   Random random(23);
   for (int i = 0; i < 20 && !HasFailure(); ++i) {
@@ -124,7 +124,7 @@ TEST_P(ManyLegsWith, ShapesNeedNotShareTheirClusters) {
   }
 }
 
-// Each region is clipped to the volume of the leg and link that touched first.
+// A region is clipped to the volume of the leg and link of the first touch.
 TEST_P(ManyLegsWith, RegionsAreThoseOfTheLegThatTouched) {
   Random random(24);
   std::size_t compared = 0;

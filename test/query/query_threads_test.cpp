@@ -1,4 +1,4 @@
-// collision_query.hpp used by one thread at a time, but not always the same.
+// collision_query.hpp used by one thread at a time, but by different ones.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -15,7 +15,7 @@
 namespace organ_collision {
 namespace {
 
-/// A thread that lives on between its tasks: GL remembers what was current in it.
+/// A thread that lives on between its tasks. GL remembers which context was current in it.
 class Worker {
  public:
   Worker() : thread_([this] { work(); }) {}
@@ -82,7 +82,7 @@ class QueryThreads : public testing::Test {
   std::size_t expected_ = 0;
 };
 
-// Afterwards every thread makes another context current than the one that is gone.
+// After a query is destroyed, every thread makes the context of another query current.
 TEST_F(QueryThreads, MadeUsedAndDestroyedInAnyThread) {
   ASSERT_GT(expected_, 5U);
   constexpr std::size_t kThreads = 3;
@@ -136,7 +136,7 @@ TEST_F(QueryThreads, TwoChangePlacesAndWorkSideBySide) {
   }
 }
 
-// Refused requests leave no trace either.
+// A refused request does not leave the context current in the thread.
 TEST_F(QueryThreads, ARefusedRequestHoldsNoThread) {
   Worker worker;
   auto query = std::make_unique<CollisionQuery>();

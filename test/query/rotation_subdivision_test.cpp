@@ -21,7 +21,7 @@ ToolWaypoint waypoint(double fraction, double angle) {
           {pose(0.1, 0.0), pose(angle, fraction)}};
 }
 
-TEST(ShortTurns, LeaveShortTurnsAsTheyAre) {
+TEST(RotationSubdivision, LeaveRotationSubdivisionAsTheyAre) {
   const ToolPath path = {waypoint(0.0, 0.0), waypoint(0.4, 0.19), waypoint(1.0, 0.3)};
   ToolPath finer;
   EXPECT_EQ(&with_subdivided_rotations(path, finer), &path);
@@ -29,7 +29,7 @@ TEST(ShortTurns, LeaveShortTurnsAsTheyAre) {
   EXPECT_EQ(&with_subdivided_rotations(rest, finer), &rest);
 }
 
-TEST(ShortTurns, DivideLongOnesAlongTheSameWay) {
+TEST(RotationSubdivision, DivideLongOnesAlongTheSameWay) {
   const ToolPath path = {waypoint(0.0, 0.0), waypoint(0.5, 0.1), waypoint(1.0, 3.0)};
   ToolPath finer;
   ASSERT_EQ(&with_subdivided_rotations(path, finer), &finer);
@@ -49,8 +49,8 @@ TEST(ShortTurns, DivideLongOnesAlongTheSameWay) {
   }
 }
 
-// Half a turn has no shorter way; some way is gone.
-TEST(ShortTurns, DivideHalfATurn) {
+// A rotation by pi has no unique shortest path. Any of them may be taken.
+TEST(RotationSubdivision, DivideHalfATurn) {
   ToolPath path = {waypoint(0.0, 0.0), waypoint(1.0, 0.0)};
   path[1].links[1].linear() = Vector3d(-1.0, -1.0, 1.0).asDiagonal();
   path[0].links[1].linear().setIdentity();

@@ -18,7 +18,7 @@ struct Soup {
 
 inline TriangleMesh mesh(const Soup& soup) { return {soup.vertices, soup.triangles}; }
 
-/// Scattered faces of all sizes, some of them with common corners.
+/// Scattered faces of many sizes. Some share corners.
 inline Soup scattered_faces(std::size_t count, oracle::Random& random) {
   Soup soup;
   for (std::size_t i = 0; i < count; ++i) {
@@ -40,7 +40,7 @@ inline Soup shaken(const Soup& soup, double by, oracle::Random& random) {
   return moved;
 }
 
-/// A closed bumpy surface of 1224 faces, some 0.2 m long, as the paper's liver had.
+/// A closed bumpy surface, about 0.2 m long, with as many faces as the paper's liver: 1224.
 inline Soup liver() {
   constexpr int kRings = 17, kSectors = 36;
   Soup soup;
@@ -78,7 +78,7 @@ inline ShaftAxis random_axis(oracle::Random& random) {
   return {Eigen::Vector3d(0.0, 0.0, 0.25) + random.point(0.05), random.point(0.1)};
 }
 
-/// With a resting or a moving trocar, through one to three legs.
+/// A path of a shaft with a resting or moving trocar, of one to three legs.
 inline ToolPath random_path(bool trocar_moves, oracle::Random& random) {
   ToolPath path = {{0.0, random_axis(random)}};
   const int legs = random.integer(1, 3);

@@ -1,4 +1,4 @@
-// collision_query.hpp where a request asks for more work than a query may cost.
+// collision_query.hpp for requests that need more work than a query may cost.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using oracle::Random;
 
 constexpr double kFar = 4e5;  // [m]
 
-/// Long slivers through each other.
+/// Long thin faces that intersect each other.
 Soup slivers(std::size_t count, Random& random) {
   Soup soup;
   for (std::size_t i = 0; i < count; ++i) {
@@ -32,7 +32,7 @@ Soup slivers(std::size_t count, Random& random) {
   return soup;
 }
 
-/// A tool that turns and moves among them while they move the other way.
+/// A tool that rotates and moves among long thin faces that move as well.
 class WorkLimit : public testing::Test {
  protected:
   WorkLimit() {
@@ -72,7 +72,7 @@ void expect_finite(const FaceContact& contact) {
   EXPECT_LE(contact.fraction, 1.0);
 }
 
-/// Every face that touches, by as much work as it takes, is among the contacts.
+/// Expects every face that touches, found without a limit to the work, among the contacts.
 void expect_none_missed(const PartLeg& part, const CollisionRequest& request,
                         const CollisionResult& result) {
   auto contact = result.contacts.begin();
@@ -132,7 +132,7 @@ TEST_F(WorkLimit, OfLinksReportsWhatIsNotResolved) {
   }
 }
 
-// The same request costs the same work: the answer does not depend on what was asked before.
+// The same request costs the same work. The answer does not depend on earlier requests.
 TEST_F(WorkLimit, IsTheSameForEveryQuery) {
   const std::vector<Link> links = {
       {"link", {LinkPart::box(Isometry3d::Identity(), {kFar, 0.2 * kFar, 0.01 * kFar})}}};

@@ -4,7 +4,8 @@
 
 namespace organ_collision {
 
-/// GL did not do what it was asked. what() says what to install or change where it can.
+/// An OpenGL call failed, or OpenGL picking does not work in this process. what() says what to
+/// install or change, if that is known.
 class GlError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

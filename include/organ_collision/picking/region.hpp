@@ -5,8 +5,8 @@
 
 namespace organ_collision {
 
-/// Corners of the polygon in which a face meets a viewing volume, in the organ's frame [m]; empty
-/// where it does not. Exact on the face to float precision.
+/// The polygon in which a face meets a viewing volume: its corners in the organ's frame [m], in
+/// 32-bit precision. Empty if the face does not meet the volume.
 using Region = std::vector<Eigen::Vector3d>;
 
 }  // namespace organ_collision

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,58 +8,103 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
+#include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/picking/picker_kind.hpp"
 #include "organ_collision/picking/region.hpp"
 #include "organ_collision/query/contact.hpp"
+#include "organ_collision/query/query_mode.hpp"
 
 namespace organ_collision {
 
-/// Values as in msg/ContactArray.msg.
-enum class QueryMode : std::uint8_t {
-  kStatic = 0,       ///< what the tool touches at the end of its path
-  kSwept = 1,        ///< what it touches anywhere on its path
-  kPaperStatic = 2,  ///< the faces in the 1999 paper's own volumes, unrefined
-  kPaperSwept = 3,
-  kPaperNaive = 4
-};
-
-/// What a tool did in one step, and which organ it may have touched.
+/// One question: which faces of an organ does a tool touch, or did it touch during one step?
+///
+/// All lengths are in metres. All positions and poses are in the organ's frame. A request refers to
+/// its meshes and links and does not own them: they must outlive the call of evaluate().
 struct CollisionRequest {
-  const TriangleMesh* organ = nullptr;  ///< the organ's shape at the end of the step
-  const TriangleMesh* organ_before =
-      nullptr;          ///< at its start, with the same faces; null: it rests
-  ToolPath path;        ///< in the organ's frame; static modes look at the last waypoint only
-  double radius = 0.0;  ///< [m] of the shaft; 0: the tool has links alone
-  const std::vector<Link>* links = nullptr;  ///< each with its pose in every waypoint; null: none
+  /// The organ's shape at the end of the step. Required.
+  const TriangleMesh* organ = nullptr;
+  /// The organ's shape at the start of the step, with the same faces. Each vertex moves linearly
+  /// from there. Null: the organ rests. Static and paper modes ignore it.
+  const TriangleMesh* organ_before = nullptr;
+  /// How the tool moved. Static modes look only at the last waypoint.
+  ToolPath path;
+  /// [m] Of the shaft: the tool touches what comes within this distance of its axis. 0: the tool
+  /// has no shaft, only links.
+  double radius = 0.0;
+  /// The tool's links; every waypoint of `path` has a pose for each. Null: none. Paper modes ignore
+  /// links.
+  const std::vector<Link>* links = nullptr;
   QueryMode mode = QueryMode::kStatic;
-  bool regions = false;  ///< also clip each contact's face to the tool's viewing volume
+  /// Whether to clip the face of each contact to the tool's viewing volume as well. Paper modes
+  /// have no regions.
+  bool regions = false;
 };
 
+/// The answer to a request.
 struct CollisionResult {
-  std::vector<FaceContact> contacts;  ///< by rising face, then link; one for each
-  std::vector<Region> regions;        ///< empty unless asked for; else one for each contact
-  std::size_t unresolved = 0;         ///< of the contacts, as in msg/ContactArray.msg
+  /// One contact for each face and link that touch, sorted by face, then link.
+  std::vector<FaceContact> contacts;
+  /// One region for each contact, or empty if the request did not ask for regions. A region may be
+  /// empty.
+  std::vector<Region> regions;
+  /// Number of contacts with is_resolved == false; see FaceContact.
+  std::size_t unresolved = 0;
 };
 
-/// Finds the faces that a tool touches: picked by GL, confirmed by exact distances.
-/// Owns its GL context, which is current in the calling thread only while a function runs: any
-/// thread may make, use and destroy it, one at a time. Keeps its buffers between queries.
+/// Finds the faces of an organ that a tool touches. OpenGL picking finds the candidates, exact
+/// distances confirm them. No face that the tool touches is missed (see doc/exactness.md). The
+/// paper modes are the exception: they return the faces in the paper's volumes, which miss some.
+///
+/// This example prints the faces that a swept shaft touches (complete: test/install/consumer):
+/// \code
+///   const organ_collision::TriangleMesh organ(
+///       {-0.05f, -0.05f, 0.1f, 0.05f, -0.05f, 0.1f, 0.05f, 0.05f, 0.1f}, {0, 1, 2});
+///   organ_collision::CollisionRequest request;
+///   request.organ = &organ;
+///   request.radius = 0.005;
+///   request.mode = organ_collision::QueryMode::kSwept;
+///   // Each waypoint: the fraction of the step, then trocar and tip of the shaft's axis.
+///   request.path = {{0.0, {{0.0, 0.0, 0.0}, {0.15, 0.01, 0.15}}},
+///                   {1.0, {{0.0, 0.0, 0.0}, {-0.15, 0.01, 0.15}}}};
+///
+///   organ_collision::CollisionQuery query;
+///   organ_collision::CollisionResult result;
+///   query.evaluate(request, result);
+///   for (const auto& contact : result.contacts) std::cout << contact.face << '\n';
+/// \endcode
+///
+/// Threads: any thread may create, use and destroy a query, but only one thread at a time.
+/// Different queries may run in different threads at the same time, on the same meshes and links as
+/// long as nobody changes these.
+///
+/// OpenGL: a query owns its context, which is current in the calling thread only while one of its
+/// functions runs. Creating a query takes about 10 ms. A query keeps its memory between calls, and
+/// a result that is used again keeps its own, so repeated calls rarely allocate.
 class CollisionQuery {
  public:
-  /// Throws GlError where GL picking does not work here.
+  /// `kind` changes how candidates are picked, and the speed, but never the contacts. Throws
+  /// GlError if OpenGL picking does not work in this process.
   explicit CollisionQuery(PickerKind kind = PickerKind::kFeedback);
   ~CollisionQuery();
   CollisionQuery(CollisionQuery&&) noexcept;
   CollisionQuery& operator=(CollisionQuery&&) noexcept;
 
-  /// Throws std::invalid_argument naming the value for a request that has no answer (radius not
-  /// positive where there are no links, coordinates not finite, links without pose or with one that
-  /// is no rotation, path empty or with fractions that do not rise from 0 to 1,
-  /// earlier shape of other faces, paper volume of a tool that is too short or too thin), GlError
-  /// when the picker failed. `result` is empty after either.
+  /// Replaces `result` by the answer to `request`. After an exception `result` is empty: there is
+  /// no answer, which is not the same as no contact.
+  ///
+  /// Throws GlError if OpenGL failed. Throws std::invalid_argument, naming the value and what is
+  /// legal, for a request that has no answer:
+  /// - the organ is missing, or organ_before has other faces;
+  /// - the mode is none of QueryMode;
+  /// - the radius is negative, not finite or above tolerance::kFarthest, or 0 without links;
+  /// - a coordinate is not finite, or its magnitude is above tolerance::kFarthest;
+  /// - the path is empty, or its fractions do not rise from 0 to 1;
+  /// - a waypoint lacks the pose of a link, or has a pose whose linear part is not a rotation;
+  /// - in a paper mode: the tool has no shaft, its trocar moves in a swept mode, or it is too short
+  ///   or too thin for the paper's volumes.
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
-  /// GL_VERSION of its context.
+  /// The GL_VERSION of the query's OpenGL context.
   const std::string& gl_version() const;
 
  private:

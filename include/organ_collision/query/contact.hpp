@@ -6,38 +6,54 @@
 
 namespace organ_collision {
 
-/// One face that a tool touches, as msg/Contact.msg has it (whose C++ name is
-/// organ_collision::Contact, hence this one). Lengths in metres, vectors in the
-/// organ's frame.
+/// One face that a tool touches, with the fields of msg/Contact.msg. (The message's C++ type is
+/// already called organ_collision::Contact.)
+///
+/// Lengths are in metres, points and vectors in the organ's frame. "The tool" is the shaft's axis
+/// with its radius, or the touching part of a link. A contact describes the first touch within the
+/// step, except where a field says that it describes the end of the step. In a static query both
+/// are the same.
+///
+/// If tool and face are apart when the step begins, the distance between `point` and the axis is
+/// the radius, to within 1e-9 m. In a static query, moving the tool by -depth * normal brings its
+/// distance to the face back to the radius. If the tool pierces the face, the distance is then at
+/// least the radius.
 struct FaceContact {
   std::uint32_t face = 0;
-  /// Its corners: indices of the organ's vertices, in the order of `barycentric`.
+  /// The indices of the face's corners in the organ's vertices, in the order of `barycentric`.
   std::array<std::uint32_t, 3> vertices = {};
-  /// Of the tool: its shaft, if it has one, is 0, and its links follow.
+  /// Which link of the tool touches. If the tool has a shaft, the shaft is 0 and its links follow
+  /// from 1; else its links count from 0.
   std::uint32_t link = 0;
-  /// First touch, as a share of the step, in [0, 1]; 0 when static.
+  /// Time of the first touch as a fraction of the step, in [0, 1]; 0 in a static query.
   double fraction = 0.0;
-  /// The face's point nearest the axis, or the link, at first touch.
+  /// The point of the face nearest the axis or link at the first touch. Of several nearest points,
+  /// the one nearest the tip.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  /// Unit, from the axis, or the link, to `point`; the face's own where they pierce it, turned the
-  /// tip's way, or so that the link's way back out is the shorter one.
+  /// Unit vector from the axis or link to `point`. If the axis or link pierces the face (their
+  /// distance is at most tolerance::kPierced), it is the face's own normal or its opposite, so that
+  /// the tool leaves along -normal. For a shaft, normal · (tip - trocar) >= 0. For a link, -normal
+  /// is the shorter way out.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  /// Of `point` in the face, in the order of its vertices.
+  /// Barycentric coordinates of `point` in the face, in the order of `vertices`.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
-  /// Place on the axis nearest `point`, in [0, 1] from trocar to tip; 0 for links.
+  /// The place on the axis nearest `point`, in [0, 1] from trocar to tip; 0 for links.
   double shaft = 0.0;
-  /// Penetration along `normal` at the end of the step; negative: touched and left. Where a tool
-  /// pierces the face, that of its tip, or of the link's foremost point.
+  /// Penetration along `normal` at the end of the step. Negative: the tool touched the face and
+  /// left it again. If the tool pierces the face, it is the penetration of the tip, or of the
+  /// link's foremost point along `normal`.
   double depth = 0.0;
-  /// That place on the axis, or the link, is on the face's inner side at the end of the step.
+  /// Whether the place on the axis or link that touched is on the inner side of the face at the end
+  /// of the step. The outer side follows from the right-hand rule.
   bool behind = false;
-  /// The same point of the face, by its barycentrics, at the end of the step.
+  /// Where the point of the face with the same barycentric coordinates is at the end of the step.
   Eigen::Vector3d end_point = Eigen::Vector3d::Zero();
-  /// False: reported to be safe, since the work that a query may cost was used up. Its point,
-  /// normal and depth need not be those of the first touch then. Not in the message.
+  /// False if the query used up the work that it may cost before it could decide on this face. The
+  /// face is then reported to be safe: it may touch, and point, normal and depth may differ from
+  /// those of the first touch. The message has no such field; it counts these contacts.
   bool is_resolved = true;
-  /// Paper modes only, which set nothing else but the face: depth range along the view, from the
-  /// plane of the trocar.
+  /// Depth range of the face along the view, measured from the plane of the trocar. Set only in the
+  /// paper modes, which set no other field except `face`.
   double view_min = 0.0;
   double view_max = 0.0;
 };

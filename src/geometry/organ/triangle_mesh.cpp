@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "geometry/concatenate.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -19,10 +19,10 @@ void check_coordinates(const std::vector<float>& vertices) {
   const auto bad = std::find_if_not(vertices.begin(), vertices.end(), is_legal);
   if (bad == vertices.end()) return;
   const auto index = static_cast<std::size_t>(bad - vertices.begin());
-  std::ostringstream message;
-  message << "xyz"[index % 3] << " of vertex " << index / 3 << " is " << *bad
-          << "; coordinates must be finite and within " << tolerance::kFarthest << " m";
-  throw MeshError(std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite, message.str());
+  throw MeshError(
+      std::isfinite(*bad) ? Reason::kTooFar : Reason::kNotFinite,
+      concatenate("xyz"[index % 3], " of vertex ", index / 3, " is ", *bad,
+                  "; coordinates must be finite and within ", tolerance::kFarthest, " m"));
 }
 
 void check_sizes(std::size_t coordinates, std::size_t indices, const MeshLimits& limits) {
@@ -92,6 +92,16 @@ void TriangleMesh::move_vertices(SharedVertices vertices) {
   }
   std::swap(boxes_, spare_boxes_);
   vertices_ = std::move(vertices);
+}
+
+bool TriangleMesh::has_triangles(const std::vector<std::uint32_t>& triangles) const {
+  if (triangles.size() != 3 * face_count()) return false;
+  const std::uint32_t* next = triangles.data();
+  for (const FaceIndices& face : faces()) {
+    if (face[0] != next[0] || face[1] != next[1] || face[2] != next[2]) return false;
+    next += 3;
+  }
+  return true;
 }
 
 }  // namespace organ_collision

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "geometry/concatenate.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -21,9 +21,7 @@ constexpr std::uint32_t kScannedFaces = 64;
 
 template <typename... Parts>
 [[noreturn]] void refuse(Reason reason, const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw MeshError(reason, message.str());
+  throw MeshError(reason, concatenate(parts...));
 }
 
 void check(const std::vector<Vector3d>& vertices, const std::vector<FaceIndices>& faces) {

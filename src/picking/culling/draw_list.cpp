@@ -7,9 +7,10 @@
 namespace organ_collision {
 namespace {
 
-// [1] A volume grows by at most this share of the part's thickness for how far faces move, and for
-// what 32 bits lose (a millionth of the largest coordinate). Beyond, more faces would survive
-// clipping than it is worth.
+// [1] A face is not drawn if it moves by more than kMostMove times the part's thickness, or if one
+// of its coordinates exceeds kMostExtent times that thickness. The volume would have to grow so
+// much for it that many other faces would survive clipping. With kMostExtent the volume grows by 1%
+// of the thickness, since 32-bit clipping loses a millionth of the largest coordinate.
 constexpr double kMostMove = 0.5;
 constexpr double kMostExtent = 0.01 / 1e-6;
 
@@ -17,7 +18,7 @@ Triangle shifted(const Triangle& face, const Eigen::Vector3d& origin) {
   return {face[0] - origin, face[1] - origin, face[2] - origin};
 }
 
-/// [m] The farthest that a corner is from where it is half way.
+/// [m] The largest distance of a corner, at any time, from its place half way.
 double half_move(const FaceMotion& face) {
   double squared = 0.0;
   for (int i = 0; i < 3; ++i) {
@@ -26,7 +27,7 @@ double half_move(const FaceMotion& face) {
   return 0.5 * std::sqrt(squared);
 }
 
-/// [m] Largest coordinate.
+/// [m] The largest coordinate of a face.
 double extent(const Triangle& face) {
   return std::max({face[0].cwiseAbs().maxCoeff(), face[1].cwiseAbs().maxCoeff(),
                    face[2].cwiseAbs().maxCoeff()});
@@ -38,7 +39,7 @@ std::uint32_t face_number(float lower, float upper) {
   return static_cast<std::uint32_t>(lower) | static_cast<std::uint32_t>(upper) << 16;
 }
 
-/// Calls add(face) for each face that outcodes do not reject.
+/// Calls add(face) for each face that the outcodes do not reject.
 template <typename Add>
 void DrawList::for_each_face(const ViewingVolume& volume, const OrganMotion& organ, Add add) {
   constexpr std::size_t kRun = FaceClusters::kRun;

@@ -11,35 +11,38 @@
 
 namespace organ_collision {
 
-/// A corner of a drawn face. What follows the position goes through GL as a texture coordinate.
+/// A corner of a drawn face. GL passes on what follows the position as one texture coordinate.
 struct DrawVertex {
   std::array<float, 3> position;     ///< in the volume's shifted coordinates [m]
-  std::array<float, 2> barycentric;  ///< the corner's second and third; the first makes up to 1
-  std::array<float, 2> number;       ///< the face's: lower and upper 16 bits, exact as floats
+  std::array<float, 2> barycentric;  ///< second and third barycentric coordinate of the corner
+  std::array<float, 2> number;       ///< of the face: its lower and upper 16 bits, exact
 };
 
-/// The number that was split over two floats.
+/// Puts a face's number together again from its two halves.
 std::uint32_t face_number(float lower, float upper);
 
-/// Faces as GL is to draw them, in the order in which they were added. Keeps its memory.
+/// The faces that GL draws, in the order in which they were added. Keeps its memory between
+/// queries.
 class DrawList {
  public:
-  /// Replaces the list by the faces of `mesh`, cluster by cluster, but for those that outcodes
-  /// reject: whose three corners, or the boxes that hold these, are outside of one half-space.
+  /// Replaces the list by the faces of `mesh`, cluster by cluster, without those that outcodes
+  /// reject: faces whose three corners, or the boxes that contain these, are all outside the same
+  /// half-space.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
 
-  /// Replaces the list by the faces of an organ that may meet a part during their motion, each
-  /// drawn where it is half way. Returns the volume to draw them in: around the part, and grown by
-  /// how far one of them moves from there, and for what 32 bits lose. A single face shall not make
-  /// it large: those that move far, or that reach far from the part, are `undrawn`.
+  /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
+  /// is drawn where it is half way. Returns the volume to clip them to: it contains the space that
+  /// the part sweeps, grown by how far a drawn face moves from its place half way and for 32-bit
+  /// clipping. Faces that move far, or that reach far from the part, would make the volume large;
+  /// they are not drawn but listed in undrawn().
   ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
 
-  /// Replaces the list by `faces`; they are numbered by their place in it.
+  /// Replaces the list by `faces` of the mesh. The number of a face is its index in `faces`.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh,
               const std::vector<std::uint32_t>& faces);
 
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
-  /// Numbers of faces that may meet the part, and that GL is not to decide on.
+  /// Numbers of the faces that may meet the part but that GL does not decide on.
   const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:

@@ -10,9 +10,9 @@ namespace {
 
 constexpr std::size_t kRun = FaceClusters::kRun;
 
-// [1] What 32 bits lose of a dot product with a unit normal, as a share of what the point's
-// coordinates add up to: six roundings, and nine more of a place between two others. The rest is
-// margin.
+// [1] Bounds on the rounding error of a dot product with a unit normal in 32 bits, as shares of the
+// sum of the magnitudes of the point's coordinates. There are six roundings, and nine more for a
+// point interpolated between two others. The rest is a safety margin.
 constexpr float kSlack = 8.0F / (1 << 24);
 constexpr float kSlackBetween = 16.0F / (1 << 24);
 
@@ -21,7 +21,7 @@ BoxRun load_boxes(const std::vector<BlockBoxes::Box>& boxes, std::size_t begin) 
           load_points([&](std::size_t i) { return boxes[begin + i].max.data(); })};
 }
 
-/// Points are boxes without extent.
+/// Vertices as boxes without extent.
 BoxRun load_vertices(const TriangleMesh& shape, const std::uint32_t* vertices) {
   const float* const xyz = shape.vertices().data();
   const PointRun points =
@@ -87,8 +87,9 @@ void Outcodes::add_vertices(std::size_t block) {
   }
 }
 
-/// Of boxes that rest, or whose corners move linearly: outside all the time where they are outside
-/// at both ends of the organ's motion. `load_before()`: the boxes before the step.
+/// Finds the outcodes of boxes that rest, or whose corners move linearly. A moving box is outside a
+/// half-space all the time if it is outside at both ends of the organ's motion. `load_before()`
+/// returns the boxes of the organ's earlier shape.
 template <typename LoadBefore>
 void Outcodes::find_codes(const BoxRun& after, LoadBefore load_before, Code* codes) const {
   CodeRun outside;
@@ -106,7 +107,7 @@ void Outcodes::find_codes(const BoxRun& after, LoadBefore load_before, Code* cod
   }
 }
 
-/// `slack`: how far rounding may have moved the boxes along a normal [m].
+/// `slack` [m]: how far rounding may have moved the boxes along a normal.
 CodeRun Outcodes::find_codes(const BoxRun& boxes, const ValueRun& slack) const {
   const auto& [low, high] = boxes;
   CodeRun codes{};

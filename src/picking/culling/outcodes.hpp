@@ -10,29 +10,35 @@
 
 namespace organ_collision {
 
-/// One bit for each half-space of a volume that something is wholly outside of, all the time that
-/// the organ moves: a section of its vertices, a block of them, a vertex. Faces whose corners, or
-/// what holds these, share a bit do not meet the volume. Of blocks only those are looked at whose
-/// sections do not tell enough, and so with vertices. Keeps its memory.
+/// Outcodes of an organ's vertices with respect to a viewing volume. An outcode has a bit for each
+/// half-space of the volume. The bit is set if the vertex is outside that half-space during the
+/// whole motion of the organ. For a block or a section of vertices, it is set if all of them are
+/// outside. If the corners of a face, or the blocks or sections that contain them, have a bit in
+/// common, the face does not meet the volume.
+///
+/// Outcodes are found from coarse to fine: those of blocks only where the sections cannot reject
+/// the faces, those of vertices only where the blocks cannot. See doc/geometry.md, Words and
+/// Outcodes and 32-bit clipping. Keeps its memory between queries.
 class Outcodes {
  public:
-  /// Starts anew. In 32 bits, with slack for all that these lose: a face that meets the volume is
-  /// never outside.
+  /// Starts with a new volume and organ, and finds the outcodes of all sections. Computes in 32
+  /// bits and allows for their rounding: a face that meets the volume is never rejected.
   void assign(const ViewingVolume& volume, const OrganMotion& organ);
 
-  /// Whether all faces of the clusters of a section are outside of one half-space.
+  /// Whether all faces of a section's clusters are outside the same half-space.
   bool section_is_outside(std::size_t section) const {
     return common(clusters().sections(section), section_codes_) != 0;
   }
-  /// Finds the outcodes of all blocks that hold vertices of these.
+  /// Finds the outcodes of all blocks that contain vertices of those faces.
   void add_blocks(std::size_t section);
-  /// Whether all faces of a block's cluster, of a section whose blocks were added, are.
+  /// Whether all faces of a block's cluster are outside the same half-space. Requires add_blocks()
+  /// of the block's section.
   bool cluster_is_outside(std::size_t block) const {
     return common(clusters().blocks(block), block_codes_) != 0;
   }
-  /// Finds the outcodes of all vertices of these.
+  /// Finds the outcodes of all vertices of those faces.
   void add_vertices(std::size_t block);
-  /// Whether a face of a cluster whose vertices were added is.
+  /// Whether a face is outside a half-space. Requires add_vertices() of the face's cluster.
   bool face_is_outside(const FaceIndices& corners) const {
     return (vertex_codes_[corners[0]] & vertex_codes_[corners[1]] & vertex_codes_[corners[2]]) != 0;
   }
@@ -42,6 +48,7 @@ class Outcodes {
   struct Plane {
     float x, y, z, offset;
   };
+  /// The bits that all parts have in common.
   static unsigned common(const FaceClusters::Range<std::uint32_t>& parts,
                          const std::vector<Code>& codes) {
     unsigned code = ~0U;
@@ -58,7 +65,7 @@ class Outcodes {
   std::optional<OrganMotion> organ_;
   std::vector<Plane> planes_;
   std::vector<Code> section_codes_, block_codes_;
-  std::vector<Code> vertex_codes_;  ///< in the sender's order
+  std::vector<Code> vertex_codes_;  ///< by the vertex's index in the mesh
   std::vector<char> section_is_done_, block_is_done_;
 };
 

@@ -8,12 +8,12 @@
 
 namespace organ_collision {
 
-// The compiler's own vectors, as wide as every 64-bit processor has them.
+// The compiler's vector type. Four floats fit the registers of every 64-bit processor.
 inline constexpr std::size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
 using LaneCodes = std::int32_t __attribute__((vector_size(sizeof(float) * kLanes)));
 
-/// One value for each of FaceClusters::kRun points.
+/// One value, or one outcode, for each of FaceClusters::kRun points.
 using ValueRun = std::array<Lanes, FaceClusters::kRun / kLanes>;
 using CodeRun = std::array<LaneCodes, FaceClusters::kRun / kLanes>;
 
@@ -27,7 +27,7 @@ struct BoxRun {
   PointRun low, high;
 };
 
-/// `xyz(i)` points to the coordinates of point i.
+/// Loads a run of points. `xyz(i)` points to the three coordinates of point i.
 template <typename Coordinates>
 PointRun load_points(Coordinates xyz) {
   PointRun run;
@@ -43,13 +43,14 @@ PointRun load_points(Coordinates xyz) {
   return run;
 }
 
-/// Where points that move linearly are at a fraction of their way.
+/// The points at a fraction of their linear motion.
 PointRun between(const PointRun& before, const PointRun& after, float fraction);
 
-/// The sum of the largest magnitudes of the coordinates of each box [m].
+/// [m] For each box, the sum over x, y and z of the largest magnitude of that coordinate in the
+/// box.
 ValueRun magnitude(const BoxRun& boxes);
 
-/// The greater one of each two values.
+/// Element by element, the greater value.
 ValueRun greater(const ValueRun& a, const ValueRun& b);
 ValueRun scaled(const ValueRun& values, float factor);
 

@@ -21,24 +21,25 @@ class FeedbackVertex {
   double window_depth() const { return floats_[2]; }
   /// The second and third barycentric coordinate in the face.
   Eigen::Vector2d barycentric() const { return {floats_[7], floats_[8]}; }
+  /// The number of the face, as in DrawVertex.
   std::uint32_t face() const { return face_number(floats_[9], floats_[10]); }
 
  private:
   const float* floats_;
 };
 
-/// Draws `vertices`, three a triangle, in GL_FEEDBACK mode, clipped to `volume`; makes the context
-/// current. Fills `buffer`, which grows until all fits. Returns how many floats were written.
-/// Throws GlError if GL did not work.
+/// Draws triangles, three `vertices` each, in GL_FEEDBACK mode, clipped to `volume`. Makes the
+/// context current. Enlarges `buffer` until everything fits. Returns the number of floats written
+/// to it. Throws GlError if GL did not work.
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                           const std::vector<DrawVertex>& vertices, std::vector<float>& buffer);
 
-/// Calls visit(vertex) for each vertex that the `size` floats of a feedback buffer hold, in the
-/// order drawn. Throws GlError for what no triangle leaves behind.
+/// Calls visit(vertex) for each vertex in the first `size` floats of a feedback buffer, in the
+/// order drawn. Throws GlError for a token that no triangle leaves behind.
 template <typename Visit>
 void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit);
 
-/// How many vertices follow the token at `place`, which moves on to the first of them.
+/// The number of vertices that follow the token at `place`. Advances `place` to the first of them.
 std::size_t read_token(const std::vector<float>& buffer, std::size_t& place);
 
 template <typename Visit>

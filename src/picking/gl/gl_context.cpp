@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-// [pixel] Nothing is ever drawn into it; OSMesa wants one all the same.
+// [pixel] Nothing is ever drawn into the framebuffer, but OSMesa requires one.
 constexpr int kFramebufferSide = 4;
 
 }  // namespace
@@ -51,7 +51,7 @@ GlContext::GlContext() : state_(std::make_unique<State>()) {
         "OSMesa's place; install libosmesa6 and start this process without preloading libGL");
   }
   state_->version = reinterpret_cast<const char*>(version);
-  // On for good: switching them costs as much as drawing a face.
+  // Never disabled again: each switch costs as much time as a face.
   state_->functions.EnableClientState(GL_VERTEX_ARRAY);
   state_->functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
 }

@@ -10,9 +10,12 @@ namespace organ_collision {
 struct GlFunctions;
 
 /// An OSMesa compatibility context without a window, its framebuffer, and the GL functions loaded
-/// from it (never linked: where libGL was loaded first, linked ones silently do nothing).
-/// Move-only. Belongs to one thread at a time. Making it, make_current and every picker leave it
-/// current in the calling thread: release it there before another thread uses or destroys it.
+/// from it. The functions are loaded and never linked: in a process that loaded libGL first, linked
+/// functions silently do nothing.
+///
+/// Move-only. Belongs to one thread at a time. The constructor, make_current and every picker leave
+/// the context current in the calling thread. Release it there before another thread uses or
+/// destroys it.
 class GlContext {
  public:
   /// Throws GlError when OSMesa gives no context, no function, or no version string.
@@ -23,12 +26,13 @@ class GlContext {
 
   /// Makes this context current in the calling thread; cheap when it already is.
   void make_current();
-  /// Leaves the calling thread without a current context, if this one was.
+  /// If this context is current in the calling thread, the thread has no current context
+  /// afterwards.
   void release();
 
-  /// GL_VERSION, as "4.5 (Compatibility Profile) Mesa 22.3.6".
+  /// GL_VERSION, for example "4.5 (Compatibility Profile) Mesa 22.3.6".
   const std::string& version() const;
-  /// The functions of this context; valid as long as it lives.
+  /// The functions of this context. Valid as long as the context lives.
   const GlFunctions& functions() const;
 
   /// Throws GlError naming `where` and the error code if GL reports one.
@@ -39,8 +43,8 @@ class GlContext {
   std::unique_ptr<State> state_;
 };
 
-/// Makes a context current in the calling thread; its end releases the context, so that any thread
-/// may use or destroy it next.
+/// Makes a context current in the calling thread. The destructor releases the context, so that any
+/// thread may use or destroy it next.
 class ScopedCurrentContext {
  public:
   explicit ScopedCurrentContext(GlContext& context) : context_(context) { context_.make_current(); }

@@ -13,8 +13,8 @@
 
 namespace organ_collision {
 
-/// The GL functions that OSMesa gives out. The prototypes of gl.h lend their types only: nothing of
-/// libGL is linked.
+/// Pointers to the GL functions that OSMesa provides. Only the types come from the prototypes in
+/// gl.h; libGL is not linked.
 struct GlFunctions {
 #define ORGAN_COLLISION_DECLARE(name) decltype(&gl##name) name = nullptr;
   ORGAN_COLLISION_GL_FUNCTIONS(ORGAN_COLLISION_DECLARE)

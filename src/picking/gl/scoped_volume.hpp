@@ -5,8 +5,8 @@
 
 namespace organ_collision {
 
-/// Makes GL clip to a viewing volume, for vertices in its shifted coordinates; its end disables the
-/// user planes again. Relies on no earlier state.
+/// Makes GL clip to a viewing volume, for vertices in the volume's shifted coordinates. The
+/// destructor disables the user planes again. Relies on no earlier GL state.
 class ScopedVolume {
  public:
   ScopedVolume(const GlFunctions& gl, const ViewingVolume& volume);

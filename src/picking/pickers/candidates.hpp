@@ -13,7 +13,7 @@ inline void sort_by_face(std::vector<Candidate>& candidates) {
             [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
 }
 
-/// Adds the faces that GL was not to decide on.
+/// Adds the faces that GL did not decide on. They have no depth range.
 inline void add_undrawn(const DrawList& list, std::vector<Candidate>& candidates) {
   for (const std::uint32_t face : list.undrawn()) candidates.push_back({face, 0.0, 0.0});
 }

@@ -23,10 +23,11 @@ void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
   sort_by_face(candidates);
 }
 
-/// Adds the faces of the list that meet the volume.
+/// Adds the faces of the draw list that meet the volume.
 void FeedbackPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
   const std::size_t size = draw_feedback(context_, volume, draw_list_.vertices(), buffer_);
-  // Faces come back in the order drawn; one that was clipped as several primitives in a row.
+  // Faces come back in the order drawn. If GL has split a face into several primitives, they follow
+  // each other.
   for_each_vertex(buffer_, size, [&](const FeedbackVertex& vertex) {
     const double depth = volume.view_depth(vertex.window_depth());
     if (candidates.empty() || candidates.back().face != vertex.face()) {

@@ -5,7 +5,7 @@
 
 namespace organ_collision {
 
-/// Picks in GL_FEEDBACK mode: one draw call for all faces that are not plainly outside.
+/// Picks in GL_FEEDBACK mode, with one draw call for all faces that outcodes do not reject.
 class FeedbackPicker : public Picker {
  public:
   explicit FeedbackPicker(GlContext& context) : context_(context) {}

@@ -11,7 +11,7 @@ std::unique_ptr<Picker> new_picker(PickerKind kind, GlContext& context) {
   return std::make_unique<FeedbackPicker>(context);
 }
 
-// A box of 2 m by 2 m by 2 m, one edge cut off by a user plane.
+// A box of 2 m by 2 m by 2 m. A user plane cuts off one edge.
 ViewingVolume check_volume() {
   ViewingVolume volume =
       ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
@@ -20,7 +20,7 @@ ViewingVolume check_volume() {
   return volume;
 }
 
-// Face 0 passes by the corner of the box, face 1 lies in the edge that is cut off, face 2 hits.
+// Face 0 passes by a corner of the box, face 1 lies at the edge that is cut off, face 2 is in view.
 TriangleMesh check_mesh() {
   return {{-3,    0,    0, 0,     -3,   0,    -3,    -3,   1,     //
            0.9F,  0.6F, 0, 0.6F,  0.9F, 0,    0.9F,  0.9F, 0.5F,  //

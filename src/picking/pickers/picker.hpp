@@ -15,8 +15,8 @@
 
 namespace organ_collision {
 
-/// A face that survived GL's clipping to a viewing volume, with its depth range along the view,
-/// behind the near plane [m].
+/// A face that survived GL's clipping to a viewing volume, with the range of its depths behind the
+/// near plane, along the view [m].
 struct Candidate {
   std::uint32_t face;
   double view_min;
@@ -28,19 +28,21 @@ class Picker {
  public:
   virtual ~Picker() = default;
 
-  /// Replaces `candidates` by the faces of `mesh` that meet `volume`, by rising number, each once.
-  /// Makes the context current. Throws GlError if GL did not work: no answer, not an empty one.
+  /// Replaces `candidates` by the faces of `mesh` that meet `volume`, each once, sorted by number.
+  /// Makes the context current. Throws GlError if GL did not work: there is no answer then, which
+  /// is not the same as no candidate.
   virtual void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                     std::vector<Candidate>& candidates) = 0;
 
-  /// Replaces `candidates` by at least the faces of `organ` that come within the space that `part`
-  /// sweeps, by rising number, each once; their depth range means nothing. Otherwise the same.
+  /// Replaces `candidates` by the faces of `organ` that may meet the space that `part` sweeps, each
+  /// once, sorted by number. Contains every face that does. The depth ranges are without meaning.
+  /// Makes the context current, and throws, as above.
   virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
 };
 
-/// A picker that draws in `context`, which must outlive it. Picks a face known to hit and one known
-/// to miss; throws GlError if either comes out wrong.
+/// Makes a picker that draws in `context`, which must outlive it. Tries it first with faces of
+/// which one is known to be in view, and throws GlError if it picks wrongly.
 std::unique_ptr<Picker> make_picker(PickerKind kind, GlContext& context);
 
 }  // namespace organ_collision

@@ -11,11 +11,11 @@
 
 namespace organ_collision {
 
-/// Clips single faces with GL_FEEDBACK, their barycentric coordinates as texture coordinates, so
-/// that the region does not inherit what window coordinates lose.
+/// Clips single faces with GL_FEEDBACK. Barycentric coordinates travel through GL as texture
+/// coordinates, so that regions do not suffer from the low precision of window coordinates.
 class RegionClipper {
  public:
-  /// Draws in `context`, which must outlive it.
+  /// `context` is what it draws in; it must outlive this object.
   explicit RegionClipper(GlContext& context) : context_(&context) {}
 
   /// One region for each of `faces`, in their order. Throws GlError if GL did not work.

@@ -9,15 +9,15 @@
 namespace organ_collision {
 namespace {
 
-// A hit record under a single name: how many names, depth range, name.
+// Length of a hit record with one name: number of names, least and greatest depth, name.
 constexpr std::size_t kRecord = 4;
 
-// Window depths of the near and the far plane. Mesa's conversion of depths to 32-bit integers wraps
-// around where rounding leaves them outside of [0, 1], or at 1.
+// Window depths of the near and the far plane. Mesa converts depths to 32-bit integers. The
+// conversion wraps around for depths that rounding puts at 1 or outside [0, 1].
 constexpr double kNearDepth = 0.25;
 constexpr double kFarDepth = 0.75;
 
-// Keeps window depths off 0 and 1 as long as it lives.
+// Keeps window depths away from 0 and 1 as long as it lives.
 class ScopedDepthRange {
  public:
   explicit ScopedDepthRange(const GlFunctions& gl) : gl_(gl) {
@@ -31,7 +31,7 @@ class ScopedDepthRange {
   const GlFunctions& gl_;
 };
 
-// The window depth that a hit record stands for, in [0, 1] from near to far.
+// The window depth of an entry of a hit record, in [0, 1] from near to far.
 double window_depth(std::uint32_t recorded) {
   const double depth = recorded / static_cast<double>(std::numeric_limits<std::uint32_t>::max());
   return (depth - kNearDepth) / (kFarDepth - kNearDepth);

@@ -1,12 +1,13 @@
+#include "box_volume.hpp"
+
 #include <algorithm>
 
 #include "rounding.hpp"
-#include "viewing_volume.hpp"
 
 namespace organ_collision {
 namespace {
 
-/// The box, grown by `motion` and for rounding; `extent` as in VolumeMargin [m].
+/// The box, grown by margin.motion and for rounding.
 ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
                          const Rounding& rounding) {
   const Eigen::Vector3d origin = box.axes().transpose() * box.origin();
@@ -22,9 +23,9 @@ ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
 }  // namespace
 
 ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin) {
-  return box_volume(box, margin, kCovered);
+  return box_volume(box, margin, kClippingRounding);
 }
 
-ViewingVolume tool_volume(const SweptBox& box) { return box_volume(box, {}, kIgnored); }
+ViewingVolume tool_volume(const SweptBox& box) { return box_volume(box, {}, kNoRounding); }
 
 }  // namespace organ_collision

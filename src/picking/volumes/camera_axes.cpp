@@ -5,11 +5,11 @@
 namespace organ_collision {
 namespace {
 
-// [1] Sine of the angle below which what is left of a vector across the view is rounding only, and
-// may point along the view.
+// [1] Sine of the angle to the view below which the part of a vector across the view is only
+// rounding.
 constexpr double kParallel = 1e-12;
 
-// Unit, or zero where the vector is.
+// The unit vector, or zero for a zero vector.
 Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
 
 }  // namespace
@@ -29,7 +29,7 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& 
   Eigen::Vector3d x = direction(right);
   x -= z * z.dot(x);
   if (x.norm() < kParallel) return camera_axes(view);
-  // Once more: what the subtraction leaves of a nearly parallel vector is half rounding.
+  // Repeated because the first subtraction cancels most digits of a nearly parallel vector.
   x = direction(x);
   x = direction(x - z * z.dot(x));
   Eigen::Matrix3d axes;

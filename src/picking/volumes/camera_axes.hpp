@@ -4,11 +4,12 @@
 
 namespace organ_collision {
 
-/// Orthonormal columns x, y, z with z along `view` (not zero) and y towards the frame axis least
-/// aligned with it.
+/// A camera's axes: orthonormal columns x, y, z with z along `view` (not zero) and y towards the
+/// frame axis least aligned with it.
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view);
 
-/// The same with x along the part of `right` at right angles to `view`, where there is one.
+/// The same with x along the part of `right` that is perpendicular to `view`. If `right` is
+/// parallel to `view`, as above.
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right);
 
 }  // namespace organ_collision

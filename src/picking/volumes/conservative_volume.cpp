@@ -1,3 +1,5 @@
+#include "conservative_volume.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -7,7 +9,6 @@
 #include "camera_axes.hpp"
 #include "convex_hull.hpp"
 #include "rounding.hpp"
-#include "viewing_volume.hpp"
 
 namespace organ_collision {
 namespace {
@@ -15,14 +16,15 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-// The perspective camera serves triangles of trocar and tips that are neither too thin nor too skew
-// for it; the box serves all others.
+// The wedge serves a triangle of trocar and tips that is neither too thin nor too oblique for it.
+// The box serves all others.
 constexpr double kMinSine = 1e-3;       // [1] of the angle at the trocar
-constexpr double kMinStep = 1e-3;       // [1] the tip's way, as a share of the axis
+constexpr double kMinStep = 1e-3;       // [1] tip motion as a share of the axis length
 constexpr double kMinForward = 0.3;     // [1] cosine between either axis and the view
 constexpr double kMinNearShare = 1e-3;  // [1] near, as a share of far
 
-// [1] A user plane that cuts less than this share of the radius off the box is not worth its cost.
+// [1] A user plane that cuts off less than this share of the radius is left out: it would cost
+// more than it saves.
 constexpr double kWorthCutting = 0.25;
 
 // Both ends of the axis before and after the leg, relative to the first trocar [m].
@@ -40,9 +42,9 @@ struct Ends {
   Vector3d origin, trocar_end, tip_start, tip_end;
 };
 
-// The wedge of the paper's section 4, its sides moved outward by the radius at right angles, its
-// ends by the radius along the view. None where the triangle does not suit it, or the trocar moves.
-// `extent` [m]: the largest coordinate among motion and drawn faces.
+// The wedge of the paper's section 4. Its sides are moved outward by the radius at right angles,
+// its ends by the radius along the view. Returns nothing if the triangle does not suit it, or if
+// the trocar moves. `extent` [m] is the largest coordinate of the motion and of the drawn faces.
 std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double extent,
                                    const Rounding& rounding) {
   const double longest = std::max(ends.tip_start.norm(), ends.tip_end.norm());
@@ -59,10 +61,10 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   const double left = axes.col(0).dot(start) / view.dot(start);
   const double right = axes.col(0).dot(end) / view.dot(end);
 
-  // The sides meet this many radii behind the trocar, on the bisector of the angle there.
+  // The sides meet on the bisector of the angle at the trocar, this many radii behind the trocar.
   const Vector3d bisector = (start + end).normalized();
   const double back = 2 / (end - start).norm();
-  // Slanting sides mix more of the depth into what is rounded.
+  // The more a side slants, the more of the rounding of the depth enters its equation.
   const double slant = 1 + std::max(std::abs(left), std::abs(right));
   const double reach = std::max(extent, back * radius);
   const double grown = radius + rounding.plane * slant * reach;
@@ -79,8 +81,8 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   return volume;
 }
 
-// Camera axes of the box: z along the longer axis, x along the largest motion across it, so that
-// the hull of a resting trocar and both tips is flat in y.
+// Camera axes of the box: z along the longer axis, x along the largest motion across it. The hull
+// of a resting trocar and both tips is then flat in y.
 Eigen::Matrix3d box_axes(const Ends& ends) {
   const Vector3d later = ends.tip_end - ends.trocar_end;
   Vector3d view = later.stableNorm() > ends.tip_start.stableNorm() ? later : ends.tip_start;
@@ -93,8 +95,8 @@ Eigen::Matrix3d box_axes(const Ends& ends) {
   return camera_axes(view, tip_moves_more ? tip_step : ends.trocar_end);
 }
 
-// A box around all positions of the axis, grown by the radius, and cut along the edges that their
-// hull shows from the side, each moved out by the radius.
+// A box around all positions of the axis, grown by the radius. User planes cut it along the edges
+// of the hull of these positions, seen along y, each moved outward by the radius.
 ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Rounding& rounding) {
   const double grown = radius + rounding.plane * extent;
   const Eigen::Matrix3d axes = box_axes(ends);
@@ -134,11 +136,11 @@ ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double exte
 
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin) {
-  return swept_volume(motion, radius + margin.motion, margin.extent, kCovered);
+  return swept_volume(motion, radius + margin.motion, margin.extent, kClippingRounding);
 }
 
 ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
-  return swept_volume(motion, radius, 0.0, kIgnored);
+  return swept_volume(motion, radius, 0.0, kNoRounding);
 }
 
 }  // namespace organ_collision

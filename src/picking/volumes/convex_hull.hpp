@@ -6,7 +6,7 @@
 
 namespace organ_collision {
 
-/// Up to four corners in the plane, counterclockwise, none inside an edge.
+/// Up to four corners in the plane, counterclockwise. No corner lies inside an edge.
 struct ConvexHull {
   std::array<Eigen::Vector2d, 4> corners;
   std::size_t count = 0;
@@ -15,7 +15,8 @@ struct ConvexHull {
   const Eigen::Vector2d* end() const { return corners.data() + count; }
 };
 
-/// Of four points. One corner if all coincide, two if they lie on a line. Allocates nothing.
+/// The convex hull of four points: one corner if all coincide, two if they lie on a line. Allocates
+/// nothing.
 ConvexHull convex_hull(std::array<Eigen::Vector2d, 4> points);
 
 }  // namespace organ_collision

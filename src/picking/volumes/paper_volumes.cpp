@@ -1,38 +1,37 @@
+#include "paper_volumes.hpp"
+
 #include <algorithm>
 #include <optional>
-#include <sstream>
 
 #include "camera_axes.hpp"
-#include "viewing_volume.hpp"
+#include "geometry/concatenate.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
 
-// [1] A step shorter than this share of the axis or of the radius is no motion; a trocar nearer
-// than this to the line of the tips lies on it. Beyond it the hexahedron has no shape that could be
-// computed.
+// [1] A step counts as no motion if it is shorter than this share of the axis length or radius,
+// whichever is larger. A trocar within the same distance of the line through the tips counts as on
+// it. In both cases only rounding would decide the directions of the hexahedron.
 constexpr double kFlat = 1e-9;
 
-// [m], [1] Shafts that are shorter, or thinner, or thinner than this share of their length leave
-// nothing of their volume but the rounding of 32-bit clipping.
+// [m], [1] The volume of a shaft that is shorter, thinner, or thinner relative to its length is
+// smaller than the rounding of 32-bit clipping.
 constexpr double kLeastSize = 1e-9;
 constexpr double kThinnest = 1e-6;
 
 void check_size(double length, double radius) {
-  std::ostringstream message;
-  const double thinnest = std::max(kThinnest * length, kLeastSize);
   if (!(length >= kLeastSize)) {
-    message << "trocar and tip are " << length << " m apart; the paper's volumes need at least "
-            << kLeastSize << " m";
-  } else if (!(radius >= thinnest)) {
-    message << "radius is " << radius << " m; the paper's volumes of a shaft of " << length
-            << " m need at least " << thinnest << " m";
-  } else {
-    return;
+    throw VolumeError(concatenate("trocar and tip are ", length,
+                                  " m apart; the paper's volumes need at least ", kLeastSize,
+                                  " m"));
   }
-  throw VolumeError(message.str());
+  const double thinnest = std::max(kThinnest * length, kLeastSize);
+  if (!(radius >= thinnest)) {
+    throw VolumeError(concatenate("radius is ", radius, " m; the paper's volumes of a shaft of ",
+                                  length, " m need at least ", thinnest, " m"));
+  }
 }
 
 // The hexahedron of figure 4, seen from the trocar along z, with x along the tip's motion.
@@ -43,7 +42,8 @@ struct Hexahedron {
   double travel() const { return end - start; }
 };
 
-// Follows section 4 of the paper; none without motion, or with the trocar on the line of the tips.
+// Follows section 4 of the paper. Returns nothing without motion, or if the trocar lies on the line
+// through the tips.
 std::optional<Hexahedron> hexahedron(const ShaftMotion& motion, double radius) {
   const Vector3d previous = motion.start.tip - motion.start.trocar;
   const Vector3d current = motion.end.tip - motion.start.trocar;
@@ -78,7 +78,8 @@ ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius) {
 ViewingVolume paper_swept_volume(const ShaftMotion& motion, double radius) {
   const auto solid = hexahedron(motion, radius);
   if (!solid) return static_to_farther_tip(motion, radius);
-  // Thales: the sides meet behind the trocar at this share of the distance to the tips.
+  // By the intercept theorem, the distance from the trocar back to where the sides meet is this
+  // share of the distance from the trocar to the tips.
   const double share = 2 * radius / solid->travel();
   const double near = share * solid->height;
   const double left = share * solid->start;
@@ -98,7 +99,7 @@ ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius) {
   ViewingVolume volume = ViewingVolume::orthographic(
       {motion.start.trocar, Vector3d::Zero(), solid->axes, std::min(0.0, solid->start) - radius,
        std::max(0.0, solid->end) + radius, -radius, radius, 0, solid->height});
-  // A side runs from (-+radius, 0) to (tip -+ radius, height) in x and z.
+  // In x and z, a side runs from (outward * radius, 0) to (tip + outward * radius, height).
   const auto add_side = [&](double tip, double outward) {
     const Vector3d normal = solid->axes * (outward * Vector3d(solid->height, 0, -tip)).normalized();
     volume.add_user_plane({normal, outward * radius * normal.dot(solid->axes.col(0))});

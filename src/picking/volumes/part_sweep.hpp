@@ -3,23 +3,24 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "geometry/distance/swept_box.hpp"
-#include "organ_collision/geometry/tool/shaft.hpp"
-#include "viewing_volume.hpp"
+#include "box_volume.hpp"
+#include "conservative_volume.hpp"
 
 namespace organ_collision {
 
-/// The space that a part of a tool sweeps: what its conservative volumes are built around, once it
-/// is known how far the faces near it move. A view of its motion, which must outlive it.
+/// The space that a part of a tool sweeps on one leg, or on the chord of several. It builds the
+/// conservative volumes around that space once the margins are known. It refers to the motion or
+/// the box, which must outlive it.
 class PartSweep {
  public:
-  /// A shaft of this radius [m].
+  /// A shaft with its radius [m].
   PartSweep(const ShaftMotion& shaft, double radius) : shaft_(&shaft), radius_(radius) {}
   explicit PartSweep(const SweptBox& box) : box_(&box) {}
 
-  /// Of the volumes' shifted coordinates [m].
+  /// [m] The origin of the volumes' shifted coordinates, in the organ's frame.
   const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_->start.trocar; }
-  /// [m] The radius of the shaft, or half of the box's middle edge: a box may be flat.
+  /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths: the
+  /// shortest edge of a flat box says nothing about its size.
   double thickness() const {
     if (!box_) return radius_;
     Eigen::Vector3d edges = box_->high() - box_->low();

@@ -2,15 +2,16 @@
 
 namespace organ_collision {
 
-/// How far a volume grows for what 32-bit clipping loses, as shares of the largest coordinate [1].
+/// [1] How far 32-bit clipping may misplace the planes of a volume, as shares of the largest
+/// coordinate. See doc/geometry.md, Margins.
 struct Rounding {
-  double plane;     ///< every plane is misplaced by up to this
-  double division;  ///< the far plane by this times far / near as well
+  double plane;     ///< any plane
+  double division;  ///< the far plane of a perspective camera in addition: this times far / near
 };
 
-// Measured with faces aimed at the boundary: a tenth of the first is too little, and a sixteenth of
-// the second. The rest is margin.
-inline constexpr Rounding kCovered{1e-6, 16.0 / (1 << 24)};
-inline constexpr Rounding kIgnored{0.0, 0.0};
+// Faces aimed at the boundary were missed with a tenth of the first value, and with a sixteenth of
+// the second. The rest is a safety margin.
+inline constexpr Rounding kClippingRounding{1e-6, 16.0 / (1 << 24)};
+inline constexpr Rounding kNoRounding{0.0, 0.0};
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 namespace organ_collision {
 namespace {
 
-// A camera coordinate as a row: times (p, 1) it gives axis · (p - eye).
+// A camera coordinate as a row: its product with (p, 1) is axis · (p - eye).
 Eigen::RowVector4d coordinate(const ViewingVolume::Camera& camera, int axis) {
   const Eigen::Vector3d direction = camera.axes.col(axis);
   return {direction.x(), direction.y(), direction.z(), -direction.dot(camera.eye)};
@@ -30,8 +30,8 @@ ViewingVolume ViewingVolume::orthographic(const Camera& camera) {
   return volume;
 }
 
-// The rows of glFrustum, for a camera that looks along +z, divided by `near`: w is 1 there, so that
-// all entries stay of ordinary size however far away the eye is.
+// The rows of glFrustum, for a camera that looks along +z, divided by `near`. w is then 1 at the
+// near plane, and no entry becomes very large or small, however far away the eye is.
 ViewingVolume ViewingVolume::perspective(const Camera& camera) {
   const auto& [origin, eye, axes, left, right, bottom, top, near, far] = camera;
   ViewingVolume volume;
@@ -68,9 +68,9 @@ HalfSpace ViewingVolume::half_space(std::size_t index) const {
 
 double ViewingVolume::view_depth(double window_depth) const {
   const double range = far_ - near_;
-  const double depth = std::clamp(window_depth, 0.0, 1.0);  // Clipping rounds.
+  const double depth = std::clamp(window_depth, 0.0, 1.0);
   if (!perspective_) return depth * range;
-  // far near / (far - depth range) - near, without the cancellations.
+  // Equals far near / (far - depth range) - near, without cancellation.
   return near_ * depth * range / (near_ + (1.0 - depth) * range);
 }
 

@@ -52,16 +52,6 @@ SharedVertices vertices_of(const boost::shared_ptr<const Message>& message) {
   return {&message->vertices, [message](const void*) {}};
 }
 
-bool has_triangles(const TriangleMesh& mesh, const std::vector<std::uint32_t>& triangles) {
-  if (triangles.size() != 3 * mesh.face_count()) return false;
-  const std::uint32_t* next = triangles.data();
-  for (const FaceIndices& face : mesh.faces()) {
-    if (face[0] != next[0] || face[1] != next[1] || face[2] != next[2]) return false;
-    next += 3;
-  }
-  return true;
-}
-
 bool has_new_topology(const DeformableOrgan& organ, const OrganMesh& message) {
   return message.topology != organ.latest().mesh->topology();
 }
@@ -85,7 +75,7 @@ bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMe
   if (known != connections_.end() && known->second.contains(connection)) return false;
   const TriangleMesh& latest = *organ.latest().mesh;
   return message.vertices.size() != latest.vertices().size() ||
-         !has_triangles(latest, message.triangles);
+         !latest.has_triangles(message.triangles);
 }
 
 OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connection& connection,
@@ -134,7 +124,7 @@ OrganChange OrganRegistry::apply_checked(const OrganMeshConstPtr& pointer,
     } else if (is_another_organ(organ, message, connection)) {
       organ.replace(built(), stamp, now);
       change = OrganChange::kOrgan;
-    } else if (has_triangles(*organ.latest().mesh, message.triangles)) {
+    } else if (organ.latest().mesh->has_triangles(message.triangles)) {
       organ.move(vertices_of(pointer), stamp, now);
     } else {
       refuse("same topology, other triangles",

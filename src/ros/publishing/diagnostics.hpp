@@ -16,11 +16,6 @@
 
 namespace organ_collision {
 
-/// Shows the counts as "WHAT, REASON". A reason with new failures is a warning with the latest
-/// message, or an error if picking failed.
-void show_failures(const std::string& what, FailureLog& log,
-                   diagnostic_updater::DiagnosticStatusWrapper& status);
-
 /// The node's tasks for /diagnostics.
 class Diagnostics {
  public:

@@ -1,8 +1,8 @@
 #include "contact_array.hpp"
 
 #include <chrono>
-#include <sstream>
 
+#include "geometry/concatenate.hpp"
 #include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
@@ -47,10 +47,8 @@ bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
 }
 
 std::string stale_message(const DeformableOrgan& organ, ros::Time now, double timeout_sec) {
-  std::ostringstream message;
-  message << "mesh of organ '" << organ.name() << "' is " << organ.latest().age(now)
-          << " s old; at most " << timeout_sec << " s are allowed (mesh_timeout_sec)";
-  return message.str();
+  return concatenate("mesh of organ '", organ.name(), "' is ", organ.latest().age(now),
+                     " s old; at most ", timeout_sec, " s are allowed (mesh_timeout_sec)");
 }
 
 }  // namespace organ_collision

@@ -4,9 +4,9 @@
 
 #include <cmath>
 #include <exception>
-#include <sstream>
 
 #include "contact_array.hpp"
+#include "geometry/concatenate.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "query_conversions.hpp"
 #include "ros/interface/conversions.hpp"
@@ -19,9 +19,7 @@ namespace {
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", message.str());
+  throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", concatenate(parts...));
 }
 
 void refuse_unless(bool is_default, const char* field) {
@@ -49,12 +47,14 @@ void check_served(const QueryCollisionBatch::Request& request) {
   refuse_unless(!request.stop_at_first_contact, "stop_at_first_contact");
 }
 
-bool looks_at_end_only(std::uint8_t mode) {
-  return mode == ContactArray::STATIC || mode == ContactArray::PAPER_STATIC;
-}
+static_assert(ContactArray::STATIC == static_cast<int>(QueryMode::kStatic) &&
+              ContactArray::SWEPT == static_cast<int>(QueryMode::kSwept) &&
+              ContactArray::PAPER_STATIC == static_cast<int>(QueryMode::kPaperStatic) &&
+              ContactArray::PAPER_SWEPT == static_cast<int>(QueryMode::kPaperSwept) &&
+              ContactArray::PAPER_NAIVE == static_cast<int>(QueryMode::kPaperNaive));
 
-void check_mode(std::uint8_t mode) {
-  if (mode <= ContactArray::PAPER_NAIVE) return;
+QueryMode checked_mode(std::uint8_t mode) {
+  if (mode <= ContactArray::PAPER_NAIVE) return static_cast<QueryMode>(mode);
   refuse("mode is ", static_cast<int>(mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
 }
 
@@ -63,22 +63,18 @@ void check_point(const char* name, const geometry_msgs::Point& point) {
   refuse("motion.", name, " is (", point.x, ", ", point.y, ", ", point.z, "); must be finite");
 }
 
-void check_motion(const ToolMotion& motion, std::uint8_t mode) {
+void check_motion(const ToolMotion& motion, QueryMode mode) {
   if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
     refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
   }
   check_point("trocar", motion.trocar);
   check_point("tip", motion.tip);
-  if (looks_at_end_only(mode)) return;
+  if (is_static_mode(mode)) return;
   check_point("previous_trocar", motion.previous_trocar);
   check_point("previous_tip", motion.previous_tip);
 }
 
-bool is_paper_mode(std::uint8_t mode) {
-  return mode != ContactArray::STATIC && mode != ContactArray::SWEPT;
-}
-
-void check_tool(const Tool& tool, std::uint8_t mode) {
+void check_tool(const Tool& tool, QueryMode mode) {
   if (!tool.fault.empty()) {
     throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
   }
@@ -101,20 +97,19 @@ ros::Time stamp_or_now(const std_msgs::Header& header) {
   return header.stamp.isZero() ? ros::Time::now() : header.stamp;
 }
 
-CollisionRequest collision_with(const DeformableOrgan& organ, std::uint8_t mode,
-                                bool organ_motion) {
+CollisionRequest collision_with(const DeformableOrgan& organ, QueryMode mode, bool organ_motion) {
   CollisionRequest collision;
   collision.organ = organ.latest().mesh.get();
-  const bool moves = organ_motion && mode == ContactArray::SWEPT;
+  const bool moves = organ_motion && mode == QueryMode::kSwept;
   if (moves) collision.organ_before = organ.previous().mesh.get();
-  collision.mode = static_cast<QueryMode>(mode);
+  collision.mode = mode;
   return collision;
 }
 
 /// Sets the path to the request's motion, transformed into the organ's frame.
 void set_motion(const ToolMotion& motion, const Timed<Eigen::Isometry3d>& T_organ_motion,
                 CollisionRequest& collision, ContactArray& answer) {
-  collision.path = to_path(motion, looks_at_end_only(answer.mode), T_organ_motion.value);
+  collision.path = to_path(motion, is_static_mode(collision.mode), T_organ_motion.value);
   collision.radius = motion.radius;
   if (!T_organ_motion.stamp.isZero()) answer.header.stamp = T_organ_motion.stamp;
   answer.step_start = answer.header.stamp;
@@ -176,18 +171,18 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(request.tool);
   if (tool) set_links(answer, tool->parameters);
   check_served(request);
-  check_mode(request.mode);
-  if (tool) check_tool(*tool, request.mode);
+  const QueryMode mode = checked_mode(request.mode);
+  if (tool) check_tool(*tool, mode);
   const DeformableOrgan& organ = find_organ(request.organ);
   set_organ(answer, organ, organ.latest());
   check_age(organ);
 
-  CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
+  CollisionRequest collision = collision_with(organ, mode, request.organ_motion);
   collision.regions = request.regions;
   if (tool) {
     set_tool_motion(request, organ, *tool, collision, answer);
   } else {
-    check_motion(request.motion, request.mode);
+    check_motion(request.motion, mode);
     set_motion(request.motion, motion_frame(request.header, organ), collision, answer);
   }
   sources_.contact_query.evaluate(collision, answer);
@@ -197,7 +192,7 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
 void QueryServices::answer(const QueryCollisionBatch::Request& request,
                            QueryCollisionBatch::Response& response) const {
   check_served(request);
-  check_mode(request.mode);
+  const QueryMode mode = checked_mode(request.mode);
   check_size(request.motions.size());
   const DeformableOrgan& organ = find_organ(request.organ);
   check_age(organ);
@@ -206,13 +201,13 @@ void QueryServices::answer(const QueryCollisionBatch::Request& request,
       answer_about(request.organ, "", request.mode, stamp_or_now(request.header));
   set_organ(unanswered, organ, organ.latest());
 
-  CollisionRequest collision = collision_with(organ, request.mode, request.organ_motion);
+  CollisionRequest collision = collision_with(organ, mode, request.organ_motion);
   std::size_t bytes = ros::serialization::serializationLength(response);
   response.results.reserve(request.motions.size());
   for (const ToolMotion& motion : request.motions) {
     ContactArray& result = response.results.emplace_back(unanswered);
     try {
-      check_motion(motion, request.mode);
+      check_motion(motion, mode);
       set_motion(motion, T_organ_motion, collision, result);
       sources_.contact_query.evaluate(collision, result);
     } catch (const Rejection& rejection) {
@@ -276,7 +271,7 @@ void QueryServices::set_tool_motion(const QueryCollision::Request& request,
 
   const auto index = static_cast<std::size_t>(&tool - sources_.tools.data());
   const LastStep* last = sources_.history.last(organ.name(), index);
-  if (!last || looks_at_end_only(request.mode)) {
+  if (!last || is_static_mode(collision.mode)) {
     collision.path = resting_path(end.found->value);
     return;
   }

@@ -1,9 +1,9 @@
 #include "link_builder.hpp"
 
 #include <cmath>
-#include <sstream>
 #include <utility>
 
+#include "geometry/concatenate.hpp"
 #include "link_description.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
@@ -14,9 +14,7 @@ using Eigen::Vector3d;
 
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
-  std::ostringstream message;
-  (message << ... << parts);
-  throw ToolError(message.str());
+  throw ToolError(concatenate(parts...));
 }
 
 double checked_size(const std::string& what, double size) {

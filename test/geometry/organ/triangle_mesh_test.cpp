@@ -135,5 +135,19 @@ TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
   EXPECT_FALSE(TriangleMesh(one_more, kTetrahedron).same_faces(mesh));
 }
 
+TEST(TriangleMesh, KnowsWhetherTrianglesAreItsOwn) {
+  const TriangleMesh mesh(kCorners, kTetrahedron);
+  EXPECT_TRUE(mesh.has_triangles(kTetrahedron));
+  EXPECT_FALSE(mesh.has_triangles({}));
+  std::vector<std::uint32_t> fewer = kTetrahedron;
+  fewer.resize(fewer.size() - 3);
+  EXPECT_FALSE(mesh.has_triangles(fewer));
+  for (std::uint32_t i = 0; i < kTetrahedron.size(); ++i) {
+    std::vector<std::uint32_t> changed = kTetrahedron;
+    changed[i] = (changed[i] + 1) % 4;
+    EXPECT_FALSE(mesh.has_triangles(changed)) << "index " << i;
+  }
+}
+
 }  // namespace
 }  // namespace organ_collision

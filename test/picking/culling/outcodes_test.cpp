@@ -28,7 +28,8 @@ ViewingVolume random_volume(std::mt19937& random, const Vector3d& origin, std::s
   return volume;
 }
 
-/// How far the face's nearest corner is outside of the half-space that it is farthest outside of.
+/// [m] The largest distance by which all corners of the face are outside one half-space. Not
+/// positive: no half-space rejects the face.
 double farthest_outside(const Triangle& face, const ViewingVolume& volume) {
   double farthest = -1e9;
   for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
@@ -57,7 +58,7 @@ std::set<std::uint32_t> kept(Outcodes& outcodes, const TriangleMesh& mesh) {
   return faces;
 }
 
-TEST(Outcodes, RejectTheFacesOutsideOfOneHalfSpace) {
+TEST(Outcodes, RejectTheFacesOutsideOneHalfSpace) {
   std::mt19937 random(17);
   Outcodes outcodes;
   for (const float far : {0.0F, 2.5F, 1000.0F}) {
@@ -93,7 +94,7 @@ TEST(Outcodes, NeverRejectAFaceThatTouchesTheVolumeInOnePoint) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Outcodes outcodes;
   for (int trial = 0; trial < 2000; ++trial) {
-    // The first face's first corner lies as near to one of the half-spaces as floats allow.
+    // The face's first corner is as near to the boundary of a half-space as floats allow.
     const double far = std::pow(10.0, trial % 6 - 3);
     const ViewingVolume volume = random_volume(random, Vector3d::Constant(far), 3);
     const HalfSpace h = volume.half_space(static_cast<std::size_t>(trial) % 9);
@@ -113,7 +114,7 @@ TEST(Outcodes, NeverRejectAFaceThatTouchesTheVolumeInOnePoint) {
   }
 }
 
-TEST(Outcodes, StartAnewForAnotherShape) {
+TEST(Outcodes, StartAgainForAnotherShape) {
   Outcodes outcodes;
   const ViewingVolume below = ViewingVolume::orthographic(
       {Vector3d::Zero(), Vector3d::Zero(), Eigen::Matrix3d::Identity(), -2, 2, -2, 2, -2, 0.5});

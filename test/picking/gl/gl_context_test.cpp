@@ -33,7 +33,8 @@ TEST(GlContext, TellsItsVersion) {
   EXPECT_NE(context.version().find("Mesa"), std::string::npos) << context.version();
 }
 
-// Where libGL was loaded first, it answers to the names of all GL functions, and does nothing.
+// If a process has loaded libGL first, the names of all GL functions resolve to libGL, whose
+// functions do nothing.
 TEST(GlContext, WorksBesideAnotherLibGl) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs where libGL is preloaded";
   const auto other = reinterpret_cast<decltype(&glGetString)>(dlsym(RTLD_DEFAULT, "glGetString"));

@@ -1,4 +1,5 @@
-// Faces aimed at sides, edges and corners of a link's moving box, as aimed_faces_test at capsules.
+// Faces aimed at sides, edges and corners of a link's moving box, like those of aimed_faces_test
+// that are aimed at capsules.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The box's point farthest along `outward`: of several, any.
+// The point of the box that is farthest along `outward`. Of several, any.
 Vector3d farthest(const OrientedBox& box, const Vector3d& outward, Random& random) {
   Vector3d point = box.center;
   for (int i = 0; i < 3; ++i) {
@@ -27,7 +28,7 @@ Vector3d farthest(const OrientedBox& box, const Vector3d& outward, Random& rando
   return point;
 }
 
-// Of some times of the leg the one when that point is farthest.
+// The farthest such point of the moving box, at one of several times of the leg.
 Vector3d farthest(const MovingBox& moving, const Vector3d& outward, Random& random) {
   const RigidMotion motion = moving.motion();
   Vector3d best = motion.start() * moving.box.center;
@@ -40,7 +41,8 @@ Vector3d farthest(const MovingBox& moving, const Vector3d& outward, Random& rand
   return best;
 }
 
-// Along the box's own axes at some end of the leg, or as the volume's planes lie, or anywhere.
+// A direction: through the planes of the volume, along an axis of the box at the start or end of
+// the leg, or any.
 Vector3d aim_at(const MovingBox& moving, Random& random) {
   const SweptBox swept(moving.box, moving.motion(), moving.radius);
   const Eigen::Matrix3d turn = (random.below(2) == 0 ? moving.start : moving.end).linear();

@@ -11,14 +11,14 @@
 
 namespace organ_collision {
 
-/// A face that the tool touches, just so, at `touch`, and nowhere deeper.
+/// A face that the tool just touches at `touch`.
 struct AimedFace {
   TriangleMesh mesh;
   Eigen::Vector3d touch;  // [m] on the face as it is after rounding to 32 bits
 };
 
-/// A face at about `place` that extends sideways and outward only, touched at a corner, at an edge
-/// or in its interior.
+/// A face near `place` that extends only sideways and outward, so that it is touched at a corner,
+/// on an edge or in its interior.
 inline AimedFace aimed_face(const Eigen::Vector3d& place, const Eigen::Vector3d& outward,
                             double largest, Random& random) {
   const Eigen::Vector3d side = outward.cross(random.direction()).normalized();
@@ -53,7 +53,7 @@ inline AimedFace aimed_face(const Eigen::Vector3d& place, const Eigen::Vector3d&
   return {mesh, touch};
 }
 
-/// Outward through a side, an edge or a corner of the volume, or anywhere.
+/// A direction outward through a side, an edge or a corner of the volume, or any direction.
 inline Eigen::Vector3d aim(const ViewingVolume& volume, Random& random) {
   const int planes = random.below(8);
   if (planes == 0) return random.direction();

@@ -1,5 +1,5 @@
-// Faces aimed at the boundary of the swept capsule where the conservative volume is tightest:
-// random ones cannot show what 32-bit clipping loses.
+// Faces aimed at the boundary of the swept capsule, where the conservative volume is tightest.
+// Random faces are too rarely so close to it to show what 32-bit clipping loses.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// A point of the axis at some time of the motion that is farthest along `outward`: of several, any.
+// The point of the axis, at any time of the motion, that is farthest along `outward`. Of several,
+// any.
 Vector3d farthest(const ShaftMotion& motion, const Vector3d& outward, Random& random) {
   Vector3d best = motion.at(random.uniform(0, 1)).at(random.uniform(0, 1));
   for (int i = 0; i < 12; ++i) {
@@ -36,7 +37,8 @@ ShaftMotion moved(const ShaftMotion& motion, const Vector3d& by) {
 
 class AimedFacesTest : public testing::TestWithParam<PickerKind> {
  protected:
-  // Aims a face no larger than `size` [m] at the outward side of a tool that is brought there.
+  // Makes a face no larger than `size` [m], moves the tool so that it just touches the face in the
+  // direction `outward`, and expects that the face is picked.
   void shoot(ShaftMotion motion, double radius, const Vector3d& outward, double size) {
     const Vector3d on_core = farthest(motion, outward, random_);
     const double reach = radius * (1 - random_.magnitude(1e-9, 1e-6));
@@ -79,8 +81,9 @@ TEST_P(AimedFacesTest, AreNeverMissed) {
   EXPECT_GT(aimed_, 150'000);
 }
 
-// The far plane loses a share of far / near, the user planes of radius / near. Swings in which near
-// is small show it, with small faces, for which the volume grows least.
+// The rounding error of the far plane grows with far / near, that of the user planes with radius /
+// near. Both are largest for wide swings, in which near is small. Small faces are used because the
+// volume grows least for them.
 TEST_P(AimedFacesTest, AreNotMissedWhereThePerspectiveDivisionIsWorst) {
   int perspective = 0;
   for (int i = 0; i < 100'000; ++i) {

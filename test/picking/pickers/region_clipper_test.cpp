@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "picking/volumes/conservative_volume.hpp"
+#include "picking/volumes/paper_volumes.hpp"
 #include "test/picking/volumes/clip_oracle.hpp"
 #include "test/picking/volumes/random_motions.hpp"
 
@@ -22,7 +24,7 @@ Vector3d area(const Polygon& polygon) {
   return twice / 2;
 }
 
-// [m] From each corner of `from` to the nearest of `to`; the largest.
+// [m] The largest distance from a corner of `from` to the nearest corner of `to`.
 double farthest_corner(const Polygon& from, const Polygon& to) {
   double farthest = 0;
   for (const Vector3d& corner : from) {
@@ -67,7 +69,8 @@ TEST(RegionClipper, RegionsAreTheClippedFaces) {
           Polygon expected = clip_oracle(volume, face);
           for (Vector3d& corner : expected) corner += volume.origin();
           const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);
-          // Where planes meet a face at a small angle, corners are ill-determined: the area is not.
+          // If a plane meets the face at a small angle, the corners are ill-conditioned, but the
+          // area is not.
           const double size = std::sqrt(normal.norm());
           EXPECT_NEAR((area(regions[k]) - area(expected)).norm(), 0, 1e-5 * size) << motion;
           EXPECT_GT(area(regions[k]).dot(normal), 0) << "the face's turning direction" << motion;
@@ -114,7 +117,7 @@ TEST(RegionClipper, NoFacesNoRegions) {
   EXPECT_TRUE(clipper.clip(conservative_volume({axis, axis}, 0.1, {}), mesh, {}).empty());
 }
 
-// More than the first buffer holds.
+// The result is larger than the initial buffer.
 TEST(RegionClipper, ManyFacesAtOnce) {
   GlContext context;
   const ShaftAxis axis{Vector3d(0, 0, 0), Vector3d(0, 0, 1)};

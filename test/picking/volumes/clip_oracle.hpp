@@ -11,7 +11,7 @@ namespace organ_collision {
 using Polygon = std::vector<Eigen::Vector3d>;
 
 /// The part of a convex polygon inside a half-space (Sutherland and Hodgman 1974), in double
-/// precision. Serves segments and points, too.
+/// precision. Works for segments and points, too.
 inline Polygon clip_to(const Polygon& polygon, const HalfSpace& half_space) {
   Polygon inside;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -40,10 +40,10 @@ inline Polygon clip_oracle(const ViewingVolume& volume, const Triangle& face, do
   return polygon;
 }
 
-/// Whether a face meets a volume: certainly, certainly not, or too close to say at 32 bits.
+/// Whether a face meets a volume: certainly, certainly not, or too close to tell in 32 bits.
 enum class Verdict { kIn, kOut, kClose };
 
-/// `band` [m]: how far clipping may misplace a plane.
+/// `band` [m]: how far 32-bit clipping may misplace a plane.
 inline Verdict verdict(const ViewingVolume& volume, const Triangle& face, double band) {
   if (!clip_oracle(volume, face, -band).empty()) return Verdict::kIn;
   return clip_oracle(volume, face, band).empty() ? Verdict::kOut : Verdict::kClose;

@@ -20,10 +20,10 @@ std::vector<Vector2d> corners_of(const std::array<Vector2d, 4>& points) {
   return {hull.begin(), hull.end()};
 }
 
-TEST(ConvexHull, HoldsAllPointsAndTurnsLeft) {
+TEST(ConvexHull, ContainsAllPointsAndTurnsLeft) {
   std::mt19937 engine(51);
   for (int i = 0; i < 20'000; ++i) {
-    // On a coarse grid, so that points coincide and lie on lines.
+    // Points on a coarse grid, so that some coincide and some lie on a line.
     std::uniform_int_distribution<int> coordinate(0, 1 + i % 9);
     std::array<Vector2d, 4> points;
     for (Vector2d& point : points) point = {coordinate(engine), coordinate(engine)};

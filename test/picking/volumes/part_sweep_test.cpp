@@ -15,12 +15,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Faces that move, each through a point of its own at a time of its own.
+/// Moving faces. Each passes through a given point at a given time.
 struct MovingFaces {
   std::vector<float> before, after;
   std::vector<std::uint32_t> triangles;
 
-  /// A face that contains `point` at `time`; its corners move by about `move` [m].
+  /// Adds a face that contains `point` at `time` and whose corners move by about `move` [m].
   void add(const Vector3d& point, double time, double size, double move, Random& random) {
     const Vector3d velocity = move * random.direction();
     const Vector3d a = size * random.direction(), b = size * random.direction();
@@ -58,7 +58,8 @@ class PartSweepWith : public testing::TestWithParam<PickerKind> {
   std::vector<Candidate> candidates_;
 };
 
-// A part sees the faces as they move within a share of the step, from `begin` to `finish`.
+// The part moves during a fraction of the step, from `begin` to `finish`. Only the motion of the
+// faces in that fraction counts.
 TEST_P(PartSweepWith, MissesNoMovingFaceThatComesNearAShaft) {
   Random random(41);
   for (const MotionKind kind : kMotionKinds) {
@@ -107,12 +108,12 @@ TEST_P(PartSweepWith, MissesNoMovingFaceThatComesNearABox) {
   }
 }
 
-// A vertex that leaps, however far, adds candidates only where its own faces are.
-TEST_P(PartSweepWith, OneVertexThatLeapsConcernsItsOwnFacesOnly) {
+// A vertex that jumps adds only its own faces to the candidates, however far it jumps.
+TEST_P(PartSweepWith, OneVertexThatJumpsConcernsItsOwnFacesOnly) {
   Random random(43);
   const GridSurface grid = grid_surface(60);
   const TriangleMesh after(grid.vertices, grid.triangles());
-  for (const double leap : {0.0, 0.1, 10.0, 1e5}) {
+  for (const double jump : {0.0, 0.1, 10.0, 1e5}) {
     for (int trial = 0; trial < 10; ++trial) {
       const Vector3d tip = after.vertex(static_cast<std::size_t>(random.below(3600)));
       const Vector3d trocar = tip + Vector3d(0.05, 0.03, 0.3);
@@ -121,22 +122,23 @@ TEST_P(PartSweepWith, OneVertexThatLeapsConcernsItsOwnFacesOnly) {
       const std::vector<std::uint32_t> resting = pick(part, OrganMotion(after));
       std::vector<float> vertices = grid.vertices;
       vertices[static_cast<std::size_t>(3 * random.below(3600) + random.below(3))] +=
-          static_cast<float>(leap);
+          static_cast<float>(jump);
       TriangleMesh before = after;
       before.move_vertices(vertices);
       const std::vector<std::uint32_t> moving =
           pick(part, OrganMotion(before, before.block_boxes(), after, 0.0, 1.0));
       EXPECT_TRUE(std::includes(moving.begin(), moving.end(), resting.begin(), resting.end()));
-      EXPECT_LE(moving.size(), resting.size() + 12) << "leap " << leap;
-      // And where it is after the leap.
+      EXPECT_LE(moving.size(), resting.size() + 12) << "jump " << jump;
+      // The same for the resting shape after the jump.
       const std::vector<std::uint32_t> back = pick(part, OrganMotion(before));
-      EXPECT_LE(back.size(), resting.size() + 12) << "leap " << leap;
+      EXPECT_LE(back.size(), resting.size() + 12) << "jump " << jump;
     }
   }
 }
 
-// Candidates of a share of an organ's leap are those of that share.
-TEST_P(PartSweepWith, ALeapIsGoneThroughShareByShare) {
+// If the organ jumps, the candidates for a fraction of the step follow from the motion in that
+// fraction.
+TEST_P(PartSweepWith, AJumpIsDividedIntoFractions) {
   const GridSurface grid = grid_surface(60);
   const TriangleMesh after(grid.vertices, grid.triangles());
   TriangleMesh before = after;
@@ -149,13 +151,13 @@ TEST_P(PartSweepWith, ALeapIsGoneThroughShareByShare) {
   const PartSweep part(resting, 0.005);
   const std::size_t whole =
       pick(part, OrganMotion(before, before.block_boxes(), after, 0.0, 1.0)).size();
-  std::size_t shares = 0;
+  std::size_t fractions = 0;
   for (int i = 0; i < 50; ++i) {
-    const OrganMotion share(before, before.block_boxes(), after, i / 50.0, (i + 1) / 50.0);
-    shares += pick(part, share).size();
+    const OrganMotion fraction(before, before.block_boxes(), after, i / 50.0, (i + 1) / 50.0);
+    fractions += pick(part, fraction).size();
   }
   EXPECT_GT(whole, 20U);
-  EXPECT_LT(shares, 50 * whole / 4);
+  EXPECT_LT(fractions, 50 * whole / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, PartSweepWith,

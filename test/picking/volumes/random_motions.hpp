@@ -11,7 +11,7 @@
 
 namespace organ_collision {
 
-/// Numbers and vectors from a fixed seed.
+/// Random numbers and vectors from a fixed seed.
 class Random {
  public:
   explicit Random(unsigned seed) : engine_(seed) {}
@@ -19,7 +19,7 @@ class Random {
   double uniform(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  /// Between `low` and `high`, both positive, every magnitude equally likely.
+  /// Log-uniform between `low` and `high`, which are positive.
   double magnitude(double low, double high) {
     return std::exp(uniform(std::log(low), std::log(high)));
   }
@@ -55,7 +55,8 @@ inline constexpr std::array kMotionKinds = {
     MotionKind::kPastTrocar, MotionKind::kMovingTrocar, MotionKind::kParallelShift,
     MotionKind::kGrid};
 
-/// A motion of the given kind, its trocar `offset` [m] away from the frame's origin.
+/// A motion of the given kind. Its trocar starts at the distance `offset` [m] from the frame's
+/// origin.
 inline ShaftMotion random_motion(MotionKind kind, double offset, Random& random) {
   const Eigen::Vector3d trocar = offset * random.direction();
   const double length = random.magnitude(0.01, 0.4);
@@ -102,7 +103,8 @@ inline ShaftMotion random_motion(MotionKind kind, double offset, Random& random)
       return {start, {start.trocar + shift, start.tip + shift}};
     }
     case MotionKind::kGrid: {
-      // Exactly along, exactly square, exactly at the trocar: what rounding hides elsewhere.
+      // Points on a coarse grid: exactly along the axis, exactly perpendicular to it, exactly at
+      // the trocar.
       const auto snap = [&](const Eigen::Vector3d& near) -> Eigen::Vector3d {
         return (32 * (near + 0.1 * random.direction())).array().round() / 32;
       };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <string>
 #include <vector>
@@ -16,9 +17,9 @@ const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
 /// A motion that crosses the sheet at height 0, in the organ's frame.
 inline ToolMotion through() {
   ToolMotion motion;
-  motion.previous_trocar = motion.trocar = to_point({0.0, 0.0, 1.0});
-  motion.previous_tip = to_point(kAbove);
-  motion.tip = to_point(kBelow);
+  motion.previous_trocar = motion.trocar = tf2::toMsg(Eigen::Vector3d(0.0, 0.0, 1.0));
+  motion.previous_tip = tf2::toMsg(kAbove);
+  motion.tip = tf2::toMsg(kBelow);
   motion.radius = 0.01;
   return motion;
 }

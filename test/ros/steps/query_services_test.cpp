@@ -14,8 +14,8 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_EQ(answer.header.frame_id, "liver_frame");
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
   request.mode = ContactArray::STATIC;
-  request.motion.tip = to_point(kAbove);
-  request.motion.previous_tip = to_point(kBelow);
+  request.motion.tip = tf2::toMsg(kAbove);
+  request.motion.previous_tip = tf2::toMsg(kBelow);
   answer = services.query(request);
   EXPECT_EQ(answer.status, ContactArray::OK);
   EXPECT_TRUE(answer.contacts.empty());
@@ -29,7 +29,7 @@ TEST_F(QueryServicesTest, MotionInAnotherFrame) {
   const ContactArray here = services.query(request);
   for (geometry_msgs::Point* point : {&request.motion.previous_trocar, &request.motion.previous_tip,
                                       &request.motion.trocar, &request.motion.tip}) {
-    *point = to_point(T_liver_table.inverse() * to_eigen(*point));
+    *point = tf2::toMsg(Eigen::Vector3d(T_liver_table.inverse() * to_eigen(*point)));
   }
   request.header.frame_id = "/table";
   const ContactArray there = services.query(request);
@@ -45,7 +45,7 @@ TEST_F(QueryServicesTest, MotionInAnotherFrame) {
 
 TEST_F(QueryServicesTest, OrganMovesOnRequest) {
   send_vertices(1.1, 2.0f);
-  request.motion.previous_tip = request.motion.tip = to_point(kAbove);
+  request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAbove);
   EXPECT_TRUE(services.query(request).contacts.empty());
   request.organ_motion = true;
   EXPECT_EQ(services.query(request).contacts.size(), 2u);

@@ -101,6 +101,8 @@ class TriangleMesh {
     return vertex_count() == other.vertex_count() &&
            (topology_ == other.topology_ || faces() == other.faces());
   }
+  /// Whether the faces are those of `triangles`, three vertex indices a face, in the same order.
+  bool has_triangles(const std::vector<std::uint32_t>& triangles) const;
 
  private:
   /// What never changes, shared by all shapes.

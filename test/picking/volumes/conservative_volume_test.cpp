@@ -1,0 +1,93 @@
+#include "picking/volumes/conservative_volume.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "excess.hpp"
+#include "geometry/distance/closest_points.hpp"
+#include "random_motions.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+// If a half-space contains the balls around the four ends of the axis, it contains the capsules
+// around all positions of the axis: their points are convex combinations of points of those balls.
+TEST(ConservativeVolume, ContainsTheSweptCapsule) {
+  Random random(15);
+  int cameras[2] = {0, 0};
+  for (int i = 0; i < 400'000; ++i) {
+    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
+    const double offset = i % 2 == 0 ? 0.3 : random.magnitude(1, 1000);
+    const ShaftMotion motion = random_motion(kind, offset, random);
+    const double radius = random.magnitude(0.0005, 0.01);
+    VolumeMargin margin;
+    if (i % 3 == 0) margin.motion = random.magnitude(1e-9, 0.01);
+    if (i % 5 == 0) margin.extent = random.magnitude(0.1, 1000);
+    const ViewingVolume volume = conservative_volume(motion, radius, margin);
+    ASSERT_TRUE(volume.clip().allFinite()) << motion;
+    for (std::size_t k = 0; k < volume.half_space_count(); ++k) {
+      ASSERT_NEAR(volume.half_space(k).normal.norm(), 1, 1e-9) << motion;
+    }
+    const double thick = radius + margin.motion;
+    for (const Vector3d& end :
+         {motion.start.trocar, motion.start.tip, motion.end.trocar, motion.end.tip}) {
+      ASSERT_LE(excess(volume, end) + thick, -2.5e-7 * margin.extent)
+          << motion << " radius " << radius << " motion " << margin.motion << " extent "
+          << margin.extent;
+    }
+    const bool perspective = volume.clip().row(3).head<3>().norm() > 0;
+    ++cameras[perspective ? 1 : 0];
+  }
+  EXPECT_GT(cameras[0], 50'000);
+  EXPECT_GT(cameras[1], 50'000);
+}
+
+// The volume exceeds the capsule at the corners of a box, and where a side of a wedge meets the far
+// plane at a small angle.
+TEST(ConservativeVolume, TakesInLittleMoreThanTheSweptCapsule) {
+  Random random(16);
+  int inside = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
+    const ShaftMotion motion = random_motion(kind, 0.3, random);
+    if (motion.start.trocar != motion.end.trocar) continue;
+    const double radius = random.magnitude(0.0005, 0.01);
+    const ViewingVolume volume = conservative_volume(motion, radius, {});
+    const bool perspective = volume.clip().row(3).head<3>().norm() > 0;
+    const Triangle swept = {motion.start.trocar, motion.start.tip, motion.end.tip};
+    for (int k = 0; k < 50; ++k) {
+      const Vector3d point = motion.at(random.uniform(0, 1)).at(random.uniform(0, 1)) +
+                             radius * random.magnitude(0.5, 20) * random.direction();
+      if (excess(volume, point) > 0) continue;
+      ++inside;
+      const double distance = closest_points({point, point}, swept).distance;
+      EXPECT_LT(distance, radius * (perspective ? 6 : 1.75)) << motion << "radius " << radius;
+    }
+  }
+  EXPECT_GT(inside, 50'000);
+}
+
+TEST(ToolVolume, IsTheConservativeOneWithoutGrowth) {
+  Random random(17);
+  for (int i = 0; i < 50'000; ++i) {
+    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
+    const ShaftMotion motion = random_motion(kind, 0.3, random);
+    const double radius = random.magnitude(0.0005, 0.01);
+    const ViewingVolume volume = tool_volume(motion, radius);
+    double tightest = -1;
+    for (const Vector3d& end :
+         {motion.start.trocar, motion.start.tip, motion.end.trocar, motion.end.tip}) {
+      const double out = excess(volume, end) + radius;
+      ASSERT_LE(out, 1e-12) << motion << "radius " << radius;
+      tightest = std::max(tightest, out);
+    }
+    EXPECT_GE(tightest, -1e-12) << "some plane touches the capsule" << motion;
+  }
+}
+
+}  // namespace
+}  // namespace organ_collision
