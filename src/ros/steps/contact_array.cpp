@@ -4,6 +4,7 @@
 
 #include "geometry/concatenate.hpp"
 #include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
 
