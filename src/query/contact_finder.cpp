@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/distance/separating_plane.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -102,8 +103,9 @@ void ContactFinder::find_first_legs(const Step& step, const LegSpan& span, const
     if (!touch.first) continue;
     const ClosestPoints& closest = touch.first->closest;
     const bool is_direction = !part.is_surface() && closest.distance > tolerance::kPierced;
-    open_faces_.push_back({touch.face, step.leg_at(span, touch.first->time),
-                           is_direction ? closest.apart.normalized() : Eigen::Vector3d::Zero()});
+    open_faces_.push_back(
+        {touch.face, step.leg_at(span, touch.first->time),
+         is_direction ? closest.separation.normalized() : Eigen::Vector3d::Zero()});
   }
 }
 

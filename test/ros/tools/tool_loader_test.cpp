@@ -26,7 +26,7 @@ std::string find_text(const std::string& parameter) {
 
 /// How far a part reaches along an axis, with its radius.
 double reach(const LinkPart& part, const Vector3d& direction) {
-  return part.height(direction) + part.radius;
+  return part.support_value(direction) + part.radius;
 }
 
 /// The box around a part, along the link's axes.
