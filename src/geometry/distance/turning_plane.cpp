@@ -20,7 +20,8 @@ BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const Co
   const double duration = to.time - from.time;
   const double deviation = std::max(core.chord_deviation(duration, normal_from),
                                     core.chord_deviation(duration, normal_to));
-  // The turning normal is at most as long as the quadratic with the coefficients 1, this, 1.
+  // The length of the turning normal is at most the quadratic with the coefficients 1, this, 1. The
+  // deviation at time t is at most 4 t (1 - t) times the largest one: coefficients 0, 2, 0.
   const double normal_length = 0.5 * (1.0 + normal_from.dot(normal_to));
   return {radius + (rim_from.transpose() * normal_from).norm(),
           normal_length * radius + 2.0 * deviation +
@@ -47,12 +48,12 @@ double clear_share(const Instant& from, const Instant& to, const CoreMotion& cor
   double share = 2.0;
   for (int corner = 0; corner < 3; ++corner) {
     for (std::size_t point = 0; point < from.core.count; ++point) {
-      const Vector3d apart_from = from.face[corner] - from.core.points[point];
-      const Vector3d apart_to = to.face[corner] - to.core.points[point];
+      const Vector3d separation_from = from.face[corner] - from.core.points[point];
+      const Vector3d separation_to = to.face[corner] - to.core.points[point];
       BernsteinQuadratic gap{
-          normal_from.dot(apart_from) - required.start,
-          0.5 * (normal_from.dot(apart_to) + normal_to.dot(apart_from)) - required.middle,
-          normal_to.dot(apart_to) - required.end};
+          normal_from.dot(separation_from) - required.start,
+          0.5 * (normal_from.dot(separation_to) + normal_to.dot(separation_from)) - required.middle,
+          normal_to.dot(separation_to) - required.end};
       // No corner is nearer than the nearest points, except by rounding.
       gap.start = std::max(gap.start, from.closest.distance - radius);
       share = std::min(share, first_root(gap));
