@@ -39,10 +39,7 @@ bool touches(const LinkPart& part, const RigidMotion& motion, const Triangle& fa
   const FaceMotion resting{face, face};
   if (!part.surface) return first_touch({part.core, motion}, resting, part.radius).has_value();
   for (std::size_t i = 0; i < part.surface->faces().size(); ++i) {
-    ConvexCore triangle;
-    for (const Eigen::Vector3d& corner : part.surface->triangle(i)) {
-      triangle.points[triangle.count++] = corner;
-    }
+    const ConvexCore triangle(part.surface->triangle(i));
     if (first_touch({triangle, motion}, resting, part.radius)) return true;
   }
   return false;

@@ -4,7 +4,7 @@
 
 namespace organ_collision {
 
-/// All x with normal · x <= offset; `normal` points outward and is unit [m].
+/// All points x with normal · x <= offset [m]. `normal` is unit and points outward.
 struct HalfSpace {
   Eigen::Vector3d normal;
   double offset;

@@ -1,12 +1,11 @@
 #include "obj_reader.hpp"
 
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
 #include <utility>
 
-#include "organ_collision/geometry/tolerances.hpp"
+#include "geometry/coordinate_range.hpp"
 #include "text_reader.hpp"
 
 namespace organ_collision {
@@ -50,7 +49,7 @@ class ObjReader {
       const std::optional<double> number = parse_number(words[i]);
       if (!number) throw text_.error(axis + " is " + in_quotes(words[i]) + "; must be a number");
       const auto rounded = static_cast<float>(*number);
-      if (!(std::abs(rounded) <= tolerance::kFarthest)) {
+      if (!is_in_range(rounded)) {
         throw text_.error(axis + " is " + in_quotes(words[i]) +
                           "; must be finite and within 1e6 m");
       }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "geometry/distance/separating_plane.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -112,8 +113,9 @@ void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
     if (!touch.first) continue;
     const ClosestPoints& closest = touch.first->closest;
     const bool is_direction = !part.is_surface() && closest.distance > tolerance::kPierced;
-    pending_faces_.push_back({touch.face, step.leg_at(span, touch.first->time),
-                              is_direction ? closest.apart.normalized() : Eigen::Vector3d::Zero()});
+    pending_faces_.push_back(
+        {touch.face, step.leg_at(span, touch.first->time),
+         is_direction ? closest.separation.normalized() : Eigen::Vector3d::Zero()});
   }
 }
 

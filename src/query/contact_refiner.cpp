@@ -12,10 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d at(const Vector3d& barycentric, const Triangle& face) {
-  return barycentric[0] * face[0] + barycentric[1] * face[1] + barycentric[2] * face[2];
-}
-
 Vector3d longest_edge(const Triangle& face) {
   const Vector3d edges[] = {face[1] - face[0], face[2] - face[1], face[0] - face[2]};
   return *std::max_element(std::begin(edges), std::end(edges), [](const auto& a, const auto& b) {
@@ -25,7 +21,7 @@ Vector3d longest_edge(const Triangle& face) {
 
 /// The unit face normal by the right-hand rule; zero where the face is degenerate.
 Vector3d face_normal(const Triangle& face) {
-  const Vector3d normal = (face[1] - face[0]).cross(face[2] - face[0]);
+  const Vector3d normal = twice_area(face);
   const double length = normal.norm();
   if (!(length > tolerance::kParallel * longest_edge(face).squaredNorm())) return Vector3d::Zero();
   return normal / length;
@@ -70,7 +66,7 @@ double support_value(const Link& link, const Eigen::Isometry3d& T_organ_link,
   const Vector3d in_link = T_organ_link.linear().transpose() * direction;
   double highest = -std::numeric_limits<double>::infinity();
   for (const LinkPart& part : link.parts) {
-    highest = std::max(highest, part.height(in_link) + part.radius);
+    highest = std::max(highest, part.support_value(in_link) + part.radius);
   }
   return highest + direction.dot(T_organ_link.translation());
 }
@@ -116,7 +112,7 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   contact.fraction = face.begin + touch.time * (face.finish - face.begin);
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;
-  contact.end_point = at(closest.barycentric, face.end);
+  contact.end_point = point_at(face.end, closest.barycentric);
   contact.shaft = part.end.link ? 0.0 : closest.shaft;
   if (closest.distance <= tolerance::kPierced) {
     const Triangle face_now = face.motion.at(touch.time);
@@ -126,7 +122,7 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
     contact.depth =
         support_value_at_end(part, contact.normal) - contact.normal.dot(contact.end_point);
   } else {
-    contact.normal = closest.apart.normalized();
+    contact.normal = closest.separation.normalized();
     contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);
   }
   contact.behind = face_normal(face.end).dot(core_end - contact.end_point) < -tolerance::kTie;

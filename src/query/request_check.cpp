@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -14,8 +15,7 @@ template <typename... Parts>
 }
 
 void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& point) {
-  // Comparisons with NaN are false, so NaN is refused.
-  if ((point.array().abs() <= tolerance::kFarthest).all()) return;
+  if (is_in_range(point)) return;
   refuse(name, " of waypoint ", waypoint, " is (", point.x(), ", ", point.y(), ", ", point.z(),
          "); must be finite and within ", tolerance::kFarthest, " m");
 }
@@ -69,7 +69,7 @@ void check_radius(const CollisionRequest& request) {
   if (has_links && request.radius == 0.0) {
     if (is_paper_mode(request.mode))
       refuse("the paper's modes need a shaft; the tool has links alone");
-  } else if (!(request.radius > 0.0 && request.radius <= tolerance::kFarthest)) {
+  } else if (!(request.radius > 0.0 && is_in_range(request.radius))) {
     refuse("radius is ", request.radius, " m; must be positive, finite and within ",
            tolerance::kFarthest, " m");
   }

@@ -161,15 +161,13 @@ ConvexCore make_core(std::size_t core_kind, Random& random) {
     case 0:
       return LinkPart::sphere(pose.translation(), 1.0).core;
     case 1: {
-      ConvexCore core;
-      core.count = 3;
+      Triangle core;
       const double height = random.chance(0.2) ? 1e-6 : 1.0;
-      core.points[0] = pose.translation();
-      core.points[1] = core.points[0] + size.x() * random.direction();
-      core.points[2] = core.points[0] +
-                       random.uniform(-1.0, 2.0) * (core.points[1] - core.points[0]) +
-                       height * size.y() * random.direction();
-      return core;
+      core[0] = pose.translation();
+      core[1] = core[0] + size.x() * random.direction();
+      core[2] = core[0] + random.uniform(-1.0, 2.0) * (core[1] - core[0]) +
+                height * size.y() * random.direction();
+      return ConvexCore(core);
     }
     case 2:
       return LinkPart::box(pose, size).core;

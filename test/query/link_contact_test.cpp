@@ -108,12 +108,13 @@ TEST_P(LinkContactTrials, PiercedAtRestTakesTheFaceNormalOfTheShorterWayOut) {
     ASSERT_TRUE(contact);
     const double slack = 1e-9 + 100.0 * oracle::rounding(trial);
     const Vector3d& normal = contact->normal;
-    const double out = core.height(normal) + trial.radius - normal.dot(contact->point);
+    const double out = core.support_value(normal) + trial.radius - normal.dot(contact->point);
     EXPECT_NEAR(contact->depth, out, slack);
     if (is_degenerate(trial.face)) return;
     const Vector3d area = (trial.face[1] - trial.face[0]).cross(trial.face[2] - trial.face[0]);
     EXPECT_NEAR(std::abs(normal.dot(area.normalized())), 1.0, 1e-12);
-    const double other_way = core.height(-normal) + trial.radius + normal.dot(contact->point);
+    const double other_way =
+        core.support_value(-normal) + trial.radius + normal.dot(contact->point);
     EXPECT_LE(contact->depth, other_way + slack);
   });
 }
@@ -132,10 +133,10 @@ TEST_P(LinkContactTrials, SweptDepthIsThatOfTheEnd) {
     }
     const Vector3d& normal = contact->normal;
     if (distance < 0.5 * tolerance::kPierced) {
-      EXPECT_NEAR(
-          contact->depth,
-          (trial.end * trial.core).height(normal) + trial.radius - normal.dot(contact->point),
-          1e-9 + 100.0 * oracle::rounding(trial));
+      EXPECT_NEAR(contact->depth,
+                  (trial.end * trial.core).support_value(normal) + trial.radius -
+                      normal.dot(contact->point),
+                  1e-9 + 100.0 * oracle::rounding(trial));
     } else if (distance > 1e-5) {
       // The point of the core that touched, moved with the link.
       const Vector3d core_at_touch = contact->point - distance * normal;

@@ -80,10 +80,7 @@ inline std::optional<FaceContact> refine_surface(const PartLeg& part, const Tool
                                                  const FaceLeg& face) {
   std::optional<FirstTouch> first;
   for (std::size_t i = 0; i < surface.faces().size(); ++i) {
-    ConvexCore core;
-    core.count = 3;
-    const Triangle triangle = surface.triangle(i);
-    std::copy(triangle.begin(), triangle.end(), core.points.begin());
+    const ConvexCore core(surface.triangle(i));
     const auto touch = first_touch(CoreMotion(core, *part.core.link()), face.motion, part.radius);
     if (touch && (!first || touch->time < first->time)) first = touch;
   }

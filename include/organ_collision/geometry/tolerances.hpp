@@ -1,39 +1,42 @@
 #pragma once
 
-/// All tolerances of the geometry, each with its unit, its meaning and what follows from it.
+/// All tolerances of the geometry, each with its unit, its meaning and its consequences.
 namespace organ_collision::tolerance {
 
-/// [m] First touch stops advancing when the distance is within this of the radius. On the tool's
-/// way, a face that comes within the radius is touched, and one that stays beyond radius + kTouch
-/// is not. Where the step begins, and in static queries, the distance as rounded decides.
+/// [m] The search for the first touch stops when the distance is within this of the radius. While
+/// the tool moves, a face that comes within the radius is touched, and a face that stays farther
+/// than radius + kTouch is not. At the start of a step, and in static queries, the rounded distance
+/// alone decides.
 inline constexpr double kTouch = 1e-10;
 
-/// [1] The same as a share of the largest coordinate: some roundings of it. Nearer than that, a
-/// distance and the next time of the leg are rounding. More than kTouch from 12.5 km on.
+/// [1] The same tolerance as a share of the largest coordinate: a few roundings of it. Smaller
+/// differences of distance or time are noise. It is larger than kTouch for coordinates above
+/// 12.5 km.
 inline constexpr double kRounding = 8e-15;
 
-/// [m] At most this distance between axis and face counts as piercing: the direction between the
-/// nearest points is then noise, so the normal is taken from the face.
+/// [m] Axis and face count as piercing up to this distance. The direction between their nearest
+/// points is then noise, so the normal of the face is used instead.
 inline constexpr double kPierced = 1e-9;
 
-/// [m] Radius that parts of links with flat faces are given, so that the direction in which they
-/// first touch is none of rounding: they touch what is nearer than this. Less than 32 bits round
-/// off a vertex 0.2 m from the origin.
+/// [m] Radius of parts of links with flat faces (convex margin). It keeps the contact direction
+/// well defined: such a part touches faces that are nearer than this. It is smaller than the
+/// rounding of a 32-bit vertex coordinate 0.2 m from the origin.
 inline constexpr double kConvexMargin = 1e-8;
 
-/// [m] Nearest pairs that are apart by the same vector, within this, are tied; the one nearest the
-/// tip is taken.
+/// [m] Nearest pairs are tied if their separation vectors differ by less than this. Of tied pairs,
+/// the one nearest the tip is used.
 inline constexpr double kTie = 1e-12;
 
-/// [1] Sine of the angle below which two directions count as parallel: an axis lies in the plane of
-/// a face, a face is degenerate (its height over its longest edge, as a share of that edge).
+/// [1] Two directions count as parallel below this sine of the angle between them. An axis then
+/// lies in the plane of a face. A face is degenerate if its height is a smaller share of its
+/// longest edge.
 inline constexpr double kParallel = 1e-12;
 
-/// [m] No coordinate may be larger: an organ there is a mistake of units, and clipping with 32-bit
-/// floats would over-report within a metre of the tool.
+/// [m] The largest legal coordinate. An organ farther away is a mistake of units, and clipping with
+/// 32-bit floats would report too many faces within a metre of the tool.
 inline constexpr double kFarthest = 1e6;
 
-// The guarantee for contacts, 1e-9 m, depends on this order.
+// Contacts are exact to 1e-9 m only if the tolerances have this order.
 static_assert(kTie < kTouch && kTouch < kPierced && kPierced <= 1e-9);
 
 }  // namespace organ_collision::tolerance

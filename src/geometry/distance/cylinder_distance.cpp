@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "triangle_projection.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -26,22 +28,22 @@ class NearestToCylinder {
   const ClosestPoints& nearest() const { return nearest_; }
 
  private:
-  /// From the nearest point of the solid cylinder to a point; zero inside.
-  Vector3d apart(const Vector3d& point) const {
+  /// The vector from the nearest point of the solid cylinder to a point; zero inside.
+  Vector3d separation(const Vector3d& point) const {
     const Vector3d from_end = point - cylinder_.points[0];
     const double place = along_.dot(from_end);
     const Vector3d across = from_end - place * along_;
     const double distance = across.norm();
     const double beyond = place - std::clamp(place, 0.0, length_);
-    Vector3d apart = beyond * along_;
-    if (distance > radius_) apart += (1.0 - radius_ / distance) * across;
-    return apart;
+    Vector3d separation = beyond * along_;
+    if (distance > radius_) separation += (1.0 - radius_ / distance) * across;
+    return separation;
   }
 
-  void consider(const Vector3d& barycentric, const Vector3d& on_face, const Vector3d& apart) {
-    const double distance = apart.norm();
+  void consider(const Vector3d& barycentric, const Vector3d& on_face, const Vector3d& separation) {
+    const double distance = separation.norm();
     if (distance < nearest_.distance) {
-      nearest_ = {distance, 0.0, barycentric, on_face - apart, on_face, apart};
+      nearest_ = {distance, 0.0, barycentric, on_face - separation, on_face, separation};
       is_found_ = distance == 0.0;
     }
   }
@@ -53,10 +55,10 @@ class NearestToCylinder {
     Vector3d barycentric = Vector3d::Zero();
     barycentric[from] = 1.0 - place;
     barycentric[to] = place;
-    consider(barycentric, on_face, apart(on_face));
+    consider(barycentric, on_face, separation(on_face));
   }
 
-  /// Half of the derivative of the squared distance along a line, and of that one.
+  /// Half of the first and half of the second derivative of the squared distance along a line.
   struct Slope {
     double value, rise;
   };
@@ -77,10 +79,11 @@ class NearestToCylinder {
     return slope;
   }
 
-  /// Where on an edge, in [0, 1], the distance is least: its slope rises. Newton's steps, halved
-  /// where they leave the bracket or are no faster than halving.
+  /// The place on an edge, in [0, 1], with the least distance. The slope rises along the edge, so
+  /// Newton's method finds where it is zero. The bracket is halved instead if Newton's step leaves
+  /// it or makes less progress than halving.
   double nearest_place(const Vector3d& corner, const Vector3d& edge) {
-    constexpr int kMaxSteps = 200;  // Halving alone takes some sixty to neighbouring numbers.
+    constexpr int kMaxSteps = 200;  // Halving alone needs about sixty.
     if (slope(corner, edge).value >= 0.0) return 0.0;
     if (slope(corner + edge, edge).value <= 0.0) return 1.0;
     double low = 0.0, high = 1.0, place = 0.5, last_move = 1.0;
@@ -99,8 +102,10 @@ class NearestToCylinder {
     return place;
   }
 
+  /// Considers the cylinder's support point with its projection into the face. If the projection
+  /// lies outside, the nearest point of the face is on an edge.
   void consider_inside() {
-    const Vector3d area = (face_[1] - face_[0]).cross(face_[2] - face_[0]);
+    const Vector3d area = twice_area(face_);
     if (!(area.squaredNorm() > 0.0)) return;
     const Vector3d normal = area.normalized();
     const Vector3d front = cylinder_.support(normal), back = cylinder_.support(-normal);
@@ -110,19 +115,19 @@ class NearestToCylinder {
     } else if (below > 0.0) {
       consider_projection(back, -below * normal, area);
     } else {
-      // The cylinder reaches through the face's plane: one point of the section is as good as any,
-      // since a section that is partly inside the face meets an edge.
+      // The cylinder crosses the face's plane. Any one point of the section is enough to consider:
+      // if it lies outside the face and the section overlaps the face, the section crosses an edge.
       const double share = above + below < 0.0 ? below / (above + below) : 0.5;
       consider_projection(back + share * (front - back), Vector3d::Zero(), area);
     }
   }
 
-  /// Barycentric coordinates of a point's projection; Ericson, Real-Time Collision Detection, 3.4.
-  void consider_projection(const Vector3d& point, const Vector3d& apart, const Vector3d& area) {
-    const Vector3d a = face_[0] - point, b = face_[1] - point, c = face_[2] - point;
-    const Vector3d areas(area.dot(b.cross(c)), area.dot(c.cross(a)), area.dot(a.cross(b)));
-    if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return;
-    consider(areas / areas.sum(), point + apart, apart);
+  void consider_projection(const Vector3d& point, const Vector3d& separation,
+                           const Vector3d& area) {
+    const auto barycentric =
+        project_origin(face_[0] - point, face_[1] - point, face_[2] - point, area);
+    if (!barycentric) return;
+    consider(*barycentric, point + separation, separation);
     is_found_ = true;
   }
 
@@ -130,7 +135,7 @@ class NearestToCylinder {
   const Triangle& face_;
   const Vector3d along_;
   const double length_, radius_;
-  bool is_found_ = false;  ///< none is nearer: the nearest point of the face's plane is in the face
+  bool is_found_ = false;  ///< no pair can be nearer than `nearest_`
   int steps_ = 4;          ///< as in ClosestPoints
   ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
 };

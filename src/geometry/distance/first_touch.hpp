@@ -5,36 +5,32 @@
 #include "closest_points.hpp"
 #include "geometry/organ/face_motion.hpp"
 #include "geometry/tool/core_motion.hpp"
-#include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "work_budget.hpp"
 
 namespace organ_collision {
 
 /// When a part's core first comes within the radius of a face, and where.
 struct FirstTouch {
-  double time;  ///< in [0, 1] of the leg
+  double time;  ///< time of impact, in [0, 1] of the leg
   ClosestPoints closest;
-  bool is_resolved = true;  ///< false: not before this time, and whether at all is not known
+  /// False if the work budget ran out: nothing touches before `time`, and whether anything touches
+  /// later is unknown.
+  bool is_resolved = true;
 };
 
-/// Whether the core stays farther than `distance` [m] from the face during the whole leg, because
-/// it does so from a plane at right angles to `normal` that faces it. False says nothing. `normal`:
-/// unit, from the core to the face.
-bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
-                  double distance);
-
-/// First time of the leg, up to `until`, at which distance(face, core) <= radius [m], to within
-/// tolerance::kTouch, and kRounding of the largest coordinate; none if the core stays farther all
-/// that time. One routine for fixed and moving trocars, links that turn, resting and moving faces.
-/// What `budget` does not suffice for is a touch that is not resolved: no face is missed.
+/// The first time of the leg, up to `until`, at which distance(face, core) <= radius [m]; none if
+/// the core stays farther away until then. The distance is resolved to tolerance::kTouch plus
+/// kRounding of the largest coordinate. This one routine serves fixed and moving trocars, links
+/// that turn, and faces at rest and in motion.
 ///
-/// Conservative advancement with a turning plane: the plane between the nearest points at the
-/// start of an interval is turned linearly into the one at its end. While all corners stay beyond
-/// it by the radius, nothing touches; the first time one may not is where the search goes on.
+/// No touching face is missed when the budget runs out: the result is then a touch with
+/// `is_resolved` false.
+///
+/// Method: conservative advancement with a turning plane. See doc/geometry.md, First touch.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until = 1.0);
 
-/// The same with as much work as it takes, up to a thousand advances.
+/// The same with an unlimited budget.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       double until = 1.0);
 

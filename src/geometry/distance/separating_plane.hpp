@@ -1,43 +1,53 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 
-#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "geometry/organ/face_motion.hpp"
+#include "geometry/tool/core_motion.hpp"
+#include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
 
-/// Unit, at right angles to a triangle's plane; zero if it has none.
+/// Unit normal of a triangle's plane; zero if the triangle is degenerate.
 inline Eigen::Vector3d plane_normal(const Triangle& corners) {
-  return (corners[1] - corners[0]).cross(corners[2] - corners[0]).stableNormalized();
+  return twice_area(corners).stableNormalized();
 }
 
-/// An interval of heights along a direction.
-struct Heights {
+/// What a shape covers along a direction: the least and the greatest direction · point.
+struct ProjectionInterval {
   double low, high;
 };
 
-inline Heights heights(const Eigen::Vector3d& direction, const Triangle& corners) {
+inline ProjectionInterval project_onto(const Eigen::Vector3d& direction, const Triangle& corners) {
   const double a = direction.dot(corners[0]), b = direction.dot(corners[1]);
   const double c = direction.dot(corners[2]);
   return {std::min({a, b, c}), std::max({a, b, c})};
 }
 
-/// When a gap that changes linearly from one value to the other, or is larger, may first be zero or
-/// less: in [0, 1]; 2: never.
-inline double first_zero(double from, double to) {
-  if (from <= 0.0) return 0.0;
-  return to > 0.0 ? 2.0 : from / (from - to);
+/// The first time in [0, 1] at which a gap may be zero or less if it is never smaller than the
+/// linear function from `start` to `end`; 2 if it stays positive.
+inline double first_zero(double start, double end) {
+  if (start <= 0.0) return 0.0;
+  return end > 0.0 ? 2.0 : start / (start - end);
 }
 
-/// A time of the leg before which a plane at right angles to a direction surely keeps a face and a
-/// part of a tool farther apart than `reach`, whose points move linearly but for what `reach` makes
-/// up for. Heights of both at both ends of the leg; 2: all the time.
-inline double clear_until(const Heights& face, const Heights& face_at_end, const Heights& part,
-                          const Heights& part_at_end, double reach) {
+/// A time of the leg, in [0, 1], before which a face and a part of a tool are surely farther apart
+/// than `reach` [m], because a plane with a fixed normal separates them; 2 if during all of it. The
+/// intervals are the projections onto the normal at the start and at the end of the leg. `reach`
+/// includes how far points leave their chords.
+inline double clear_until(const ProjectionInterval& face, const ProjectionInterval& face_at_end,
+                          const ProjectionInterval& part, const ProjectionInterval& part_at_end,
+                          double reach) {
   return std::max(
       first_zero(face.low - part.high - reach, face_at_end.low - part_at_end.high - reach),
       first_zero(part.low - face.high - reach, part_at_end.low - face_at_end.high - reach));
 }
+
+/// Whether the plane with this fixed normal keeps the core farther than `distance` [m] from the
+/// face during the whole leg. `normal` is unit and points from the core to the face. False decides
+/// nothing.
+bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
+                  double distance);
 
 }  // namespace organ_collision

@@ -13,44 +13,36 @@ namespace {
 
 using Eigen::Vector3d;
 
-ConvexCore core_of(const Triangle& triangle) {
-  ConvexCore core;
-  core.count = 3;
-  std::copy(triangle.begin(), triangle.end(), core.points.begin());
-  return core;
-}
-
-Triangle corners(const ConvexCore& core) {
-  return {core.points[0], core.points[1], core.points[2]};
-}
-
-/// As SweptBox::clear_until, by the planes of face and triangle at the start.
+/// As SweptBox::clear_until(), for a triangle of the tool. Tests the planes of face and triangle at
+/// the start of the leg.
 double clear_until(const FaceMotion& triangle, const FaceMotion& face, double reach) {
   double until = 0.0;
-  for (const Vector3d& direction : {plane_normal(face.start), plane_normal(triangle.start)}) {
-    until =
-        std::max(until, clear_until(heights(direction, face.start), heights(direction, face.end),
-                                    heights(direction, triangle.start),
-                                    heights(direction, triangle.end), reach));
+  for (const Vector3d& normal : {plane_normal(face.start), plane_normal(triangle.start)}) {
+    until = std::max(
+        until, clear_until(project_onto(normal, face.start), project_onto(normal, face.end),
+                           project_onto(normal, triangle.start), project_onto(normal, triangle.end),
+                           reach));
   }
   return until;
 }
 
-/// Later touches are of no interest.
+/// The time after which further touches of the face do not matter: its first touch so far.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
 
-/// Whether no triangle can touch the face earlier or deeper: all that pierce it are as deep.
+/// Whether no other triangle can touch the face earlier or deeper. All triangles that pierce a face
+/// when the leg begins count as equally deep.
 bool is_settled(const FaceTouch& face) {
   return face.first && face.first->time == 0.0 &&
          face.first->closest.distance <= tolerance::kPierced;
 }
 
-/// Whether `touch` is the earlier, or at the same time the nearer one, which is deeper then.
+/// Whether `touch` is earlier than `other`, or at the same time nearer, and thereby deeper.
 bool precedes(const FirstTouch& touch, const FirstTouch& other) {
   return std::tie(touch.time, touch.closest.distance) <
          std::tie(other.time, other.closest.distance);
 }
 
+/// Takes faces down the tree of boxes.
 class Descent {
  public:
   using Iterator = std::vector<FaceTouch>::iterator;
@@ -58,6 +50,7 @@ class Descent {
   Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget)
       : surface_(surface), motion_(motion), radius_(radius), budget_(budget) {}
 
+  /// Finds the touches of the faces [begin, end) with the triangles below a node.
   void visit(std::uint32_t index, Iterator begin, Iterator end) const {
     const ToolSurface::Node& node = surface_.nodes()[index];
     const SweptBox box(node.box, motion_, radius_);
@@ -66,7 +59,8 @@ class Descent {
       return !is_settled(face) && box.clear_until(face.motion) <= latest(face);
     });
     if (kept == begin) return;
-    if (node.second == 0) {
+    const bool is_leaf = node.second == 0;
+    if (is_leaf) {
       for (std::uint32_t face = node.begin; face < node.end; ++face) touch(face, begin, kept);
     } else {
       visit(index + 1, begin, kept);
@@ -75,14 +69,15 @@ class Descent {
   }
 
  private:
+  /// Finds the touches of the faces [begin, end) with one triangle of the surface.
   void touch(std::uint32_t index, Iterator begin, Iterator end) const {
-    const CoreMotion core(core_of(surface_.triangle(index)), motion_);
-    const FaceMotion triangle{corners(core.start()), corners(core.end())};
-    const double reach = radius_ + core.bend(1.0);
+    const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
+    const FaceMotion triangle{core.start().triangle(), core.end().triangle()};
+    const double reach = radius_ + core.chord_deviation(1.0);
     for (Iterator face = begin; face != end; ++face) {
       if (is_settled(*face)) continue;
       if (face->first && budget_.is_used_up()) {
-        face->first->is_resolved = false;  // A touch, but perhaps not the first one.
+        face->first->is_resolved = false;  // This triangle might touch earlier.
         continue;
       }
       const double until = latest(*face);
@@ -105,12 +100,6 @@ void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, d
                         WorkBudget& budget, std::vector<FaceTouch>& faces) {
   for (FaceTouch& face : faces) face.first.reset();
   Descent(surface, motion, radius, budget).visit(0, faces.begin(), faces.end());
-}
-
-void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
-                        std::vector<FaceTouch>& faces) {
-  WorkBudget unlimited = WorkBudget::unlimited();
-  find_first_touches(surface, motion, radius, unlimited, faces);
 }
 
 }  // namespace organ_collision

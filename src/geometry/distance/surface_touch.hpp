@@ -10,23 +10,21 @@
 
 namespace organ_collision {
 
-/// A face on one leg, and when it first touches, once that is found.
+/// A face during one leg, and its first touch once that is found.
 struct FaceTouch {
-  std::uint32_t face;  ///< its number
+  std::uint32_t face;  ///< number
   FaceMotion motion;
   std::optional<FirstTouch> first;
 };
 
-/// Finds when each of `faces` first comes within `radius` [m] of a link's surface: down the tree of
-/// boxes with the faces that may reach them, then face against face. Of triangles that touch a face
-/// when the leg begins, the nearest counts: it is the deepest then. Leaves the faces in another
-/// order. Allocates nothing.
-/// What `budget` does not suffice for is as first_touch says.
+/// Sets the first touch of each of `faces`: when it first comes within `radius` [m] of a link's
+/// surface; none if it does not. If several triangles touch a face when the leg begins, the nearest
+/// one counts, which is the deepest. Changes the order of `faces`. Allocates nothing. If `budget`
+/// runs out, touches are unresolved, as first_touch() says.
+///
+/// The faces descend the surface's tree of boxes. Below a box, only the faces that may reach it are
+/// kept; in a leaf each of them is tested against each triangle.
 void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
                         WorkBudget& budget, std::vector<FaceTouch>& faces);
-
-/// The same with as much work as it takes.
-void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
-                        std::vector<FaceTouch>& faces);
 
 }  // namespace organ_collision

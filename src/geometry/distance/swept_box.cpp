@@ -11,8 +11,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [m] Of any point of the box, as CoreMotion::bend.
-double bend(const OrientedBox& box, const RigidMotion& motion) {
+/// [m] As CoreMotion::chord_deviation, for any point of the box.
+double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
   if (motion.angle() == 0.0) return 0.0;
   double arm = motion.arm(box.center);
   for (int i = 0; i < 3; ++i) arm += box.half_size[i] * motion.arm(box.axes.col(i));
@@ -22,10 +22,10 @@ double bend(const OrientedBox& box, const RigidMotion& motion) {
 }  // namespace
 
 SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius)
-    : axes_(motion.half_way() * box.axes),
+    : axes_(motion.mid_orientation() * box.axes),
       start_(place(box, motion.start())),
       end_(place(box, motion.end())),
-      reach_(radius + bend(box, motion)) {}
+      reach_(radius + chord_deviation(box, motion)) {}
 
 SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
   Place place;
@@ -44,19 +44,19 @@ double SweptBox::clear_until(const FaceMotion& face) const {
     const Vector3d axis = axes_.col(i);
     until =
         std::max(until, organ_collision::clear_until(
-                            heights(axis, face.start), heights(axis, face.end),
+                            project_onto(axis, face.start), project_onto(axis, face.end),
                             {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach_));
   }
   if (until > 1.0) return until;
   const Vector3d normal = plane_normal(face.start);
-  const auto box_heights = [&](const Place& box) {
+  const auto project_box = [&](const Place& box) {
     const double center = normal.dot(box.center);
     const double half = (normal.transpose() * box.half_edges).cwiseAbs().sum();
-    return Heights{center - half, center + half};
+    return ProjectionInterval{center - half, center + half};
   };
-  return std::max(
-      until, organ_collision::clear_until(heights(normal, face.start), heights(normal, face.end),
-                                          box_heights(start_), box_heights(end_), reach_));
+  return std::max(until, organ_collision::clear_until(
+                             project_onto(normal, face.start), project_onto(normal, face.end),
+                             project_box(start_), project_box(end_), reach_));
 }
 
 }  // namespace organ_collision

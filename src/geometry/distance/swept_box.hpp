@@ -8,37 +8,38 @@
 
 namespace organ_collision {
 
-/// A box of a link, grown by a radius, on one leg of the link's way, in the organ's frame [m].
+/// The space that a box of a link, grown by a radius, covers during one leg, in the organ's frame
+/// [m]. See doc/geometry.md, Swept boxes.
 class SweptBox {
  public:
-  /// `box` in the link's frame.
+  /// `box` is in the link's frame; `radius` in metres.
   SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius);
 
-  /// The box's centre at the start.
+  /// The box's centre at the start of the leg.
   const Eigen::Vector3d& origin() const { return start_.center; }
-  /// The box's own axes half way: columns, orthonormal, right-handed.
+  /// The axes of the box in the middle of the leg: columns, orthonormal, right-handed.
   const Eigen::Matrix3d& axes() const { return axes_; }
-  /// Of the whole leg, along the axes.
+  /// Bounds of the covered space along each of axes(), as axis · point.
   Eigen::Vector3d low() const { return start_.low.cwiseMin(end_.low).array() - reach_; }
   Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
 
   /// A time of the leg before which the face surely stays farther from the box than the radius;
-  /// above 1: all the time. Tried are planes that do not turn: across the box's axes half way, and
-  /// along the face at the start. Since points move linearly but for their bend, the gap over such
-  /// a plane is at least what lies between its values at both ends of the leg.
+  /// above 1 if it does so during the whole leg. Tests fixed planes: those across axes(), and the
+  /// face's own plane at the start.
   double clear_until(const FaceMotion& face) const;
 
  private:
+  /// The box at one end of the leg.
   struct Place {
     Eigen::Vector3d center;
-    Eigen::Matrix3d half_edges;
-    Eigen::Vector3d low, high;  ///< along the axes
+    Eigen::Matrix3d half_edges;  ///< columns
+    Eigen::Vector3d low, high;   ///< projections onto `axes_`
   };
   Place place(const OrientedBox& box, const Eigen::Isometry3d& pose) const;
 
   Eigen::Matrix3d axes_;
   Place start_, end_;
-  double reach_;  ///< [m] radius and bend
+  double reach_;  ///< [m] radius, and how far points of the box leave their chords
 };
 
 }  // namespace organ_collision

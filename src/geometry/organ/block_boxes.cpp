@@ -20,14 +20,15 @@ Box empty_box() {
   return {Array4f::Constant(kMost), Array4f::Constant(-kMost)};
 }
 
-/// A vertex as one vector, together with the next one's x; the last vertex has none.
+/// Loads a vertex as one vector. load() also reads the x of the next vertex, so the last vertex
+/// needs load_last().
 Array4f load(const float* xyz) { return Eigen::Map<const Array4f>(xyz); }
 Array4f load_last(const float* xyz) { return {xyz[0], xyz[1], xyz[2], 0.0F}; }
 
-/// Boxes of runs of vertices; returns the sum of all coordinates.
+/// Fits the boxes of blocks that are runs of vertices. Returns the sum of all coordinates.
 float fit_runs(const std::vector<float>& vertices, const std::vector<std::uint32_t>& block_of_run,
                std::vector<Box>& blocks) {
-  // Processors fetch ahead by themselves, but not beyond a page.
+  // The processor's own prefetching stops at the end of a page.
   constexpr std::size_t kAhead = 128;
   const Box empty = empty_box();
   const float* const xyz = vertices.data();
@@ -52,8 +53,8 @@ float fit_runs(const std::vector<float>& vertices, const std::vector<std::uint32
   return (sum + vertex).sum();
 }
 
-/// The same for blocks in any order. Goes through the vertices, not through the blocks: of the two,
-/// the boxes fit into the cache.
+/// The same for blocks of any vertices. Iterates over the vertices, not over the blocks, because
+/// the boxes fit into the cache and the vertices may not.
 float fit_scattered(const std::vector<float>& vertices,
                     const std::vector<std::uint32_t>& block_of_vertex, std::vector<Box>& blocks) {
   std::fill(blocks.begin(), blocks.end(), empty_box());
@@ -79,7 +80,7 @@ bool all_finite(const std::vector<float>& values) {
 
 bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& vertices) {
   blocks_.resize(round_up(clusters.block_count()), empty_box());
-  // Other clusters may have had more blocks.
+  // Boxes may be left from other clusters with more blocks.
   std::fill(blocks_.begin() + static_cast<std::ptrdiff_t>(clusters.block_count()), blocks_.end(),
             empty_box());
   sections_.resize(round_up(clusters.section_count()), empty_box());
@@ -94,7 +95,7 @@ bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& v
     all = join(all, box);
   }
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};
-  // A sum that is finite proves that all were; one that overflowed proves nothing.
+  // If the sum is finite, so are all coordinates. If it is not, it may merely have overflowed.
   return std::isfinite(sum) || all_finite(vertices);
 }
 

@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kRun = FaceClusters::kRun;
 constexpr std::uint32_t kNone = ~0U;
 
-/// Spreads ten bits to every third one.
+/// Spreads the lowest ten bits so that two zeros stand between neighbours.
 std::uint32_t spread(std::uint32_t bits) {
   bits = (bits | (bits << 16)) & 0x030000FFU;
   bits = (bits | (bits << 8)) & 0x0300F00FU;
@@ -23,7 +23,8 @@ Eigen::Vector3f vertex(const std::vector<float>& vertices, std::size_t i) {
   return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]);
 }
 
-/// Every `stride`-th vertex, by its number, along a Morton curve through 1024 cells a side.
+/// The numbers of every `stride`-th vertex, in their order along a Morton curve through a grid of
+/// 1024 cells along each side.
 std::vector<std::uint32_t> morton_order(const std::vector<float>& vertices, std::size_t stride) {
   const auto count = static_cast<Eigen::Index>(vertices.size() / 3);
   const Eigen::Map<const Eigen::Matrix3Xf> points(vertices.data(), 3, count);
@@ -43,8 +44,8 @@ std::vector<std::uint32_t> morton_order(const std::vector<float>& vertices, std:
   return {keyed.begin(), keyed.end()};
 }
 
-/// Whether vertices that follow each other are not much farther apart than the ends of edges. A
-/// sample of each tells.
+/// Whether vertices that follow each other in the sender's order are neighbours in space: on
+/// average, over a sample, not much farther apart than the two ends of an edge.
 bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
   constexpr std::size_t kSamples = 4096;
   constexpr double kFar = 4.0;
@@ -93,7 +94,7 @@ void FaceClusters::order_vertices(const std::vector<float>& vertices) {
   order_.resize((order_.size() + kRun - 1) / kRun * kRun, order_.back());
 }
 
-/// Sorts the faces by the block of their first vertex; counting sort keeps rising numbers.
+/// Sorts the faces by their first block. Counting sort keeps the numbers within a cluster rising.
 void FaceClusters::group(const std::vector<FaceIndices>& faces, const Numbers& block_of) {
   const auto home = [&](const FaceIndices& face) {
     return std::min({block_of[face[0]], block_of[face[1]], block_of[face[2]]});

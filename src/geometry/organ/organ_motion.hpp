@@ -8,16 +8,16 @@
 
 namespace organ_collision {
 
-/// The surface of an organ during some share of a step, in its frame [m]: it rests, or each vertex
-/// moves linearly. A view of its shapes, which must outlive it.
+/// The surface of an organ during a share of a step, in its frame [m]. The organ rests, or each
+/// vertex moves linearly. This is a view of meshes that must outlive it.
 class OrganMotion {
  public:
-  /// At rest.
+  /// An organ at rest.
   explicit OrganMotion(const TriangleMesh& organ)
       : before_(&organ), boxes_before_(&organ.block_boxes()), after_(&organ) {}
-  /// From `begin` to `finish`, fractions in [0, 1] of a step in which the organ moves from `before`
-  /// to `after`. Both have the same faces; `boxes_before` are of the shape `before`, in the
-  /// clusters of `after`.
+  /// The share from `begin` to `finish`, fractions in [0, 1], of a step in which the organ moves
+  /// from the shape `before` to the shape `after`. Both meshes have the same faces. `boxes_before`
+  /// are the boxes of the shape `before` in the clusters of `after`.
   OrganMotion(const TriangleMesh& before, const BlockBoxes& boxes_before, const TriangleMesh& after,
               double begin, double finish)
       : before_(&before),
@@ -31,13 +31,14 @@ class OrganMotion {
   const TriangleMesh& before() const { return *before_; }
   const BlockBoxes& boxes_before() const { return *boxes_before_; }
   const TriangleMesh& after() const { return *after_; }
-  /// The share of the step, as fractions of it.
+  /// The share of the step, in fractions.
   double begin() const { return begin_; }
   double finish() const { return finish_; }
 
-  /// One face during that share.
+  /// The motion of one face during the share.
   FaceMotion face(const FaceIndices& corners) const;
-  /// [m] The largest coordinate, relative to `origin`, that any vertex has at any time of the step.
+  /// [m] The largest absolute coordinate, relative to `origin`, of any vertex at any time of the
+  /// step.
   double extent(const Eigen::Vector3d& origin) const;
 
  private:

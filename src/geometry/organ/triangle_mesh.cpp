@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -12,11 +13,10 @@ namespace {
 
 using Reason = MeshError::Reason;
 
-bool is_legal(float coordinate) { return std::abs(coordinate) <= tolerance::kFarthest; }
-
-/// Throws for the first coordinate that is not finite or too large, if there is one.
+/// Throws if a coordinate is not finite or too large; names the first one.
 void check_coordinates(const std::vector<float>& vertices) {
-  const auto bad = std::find_if_not(vertices.begin(), vertices.end(), is_legal);
+  const auto bad = std::find_if_not(vertices.begin(), vertices.end(),
+                                    [](float coordinate) { return is_in_range(coordinate); });
   if (bad == vertices.end()) return;
   const auto index = static_cast<std::size_t>(bad - vertices.begin());
   throw MeshError(
@@ -83,11 +83,11 @@ void TriangleMesh::move_vertices(SharedVertices vertices) {
                                        " vertex coordinates; this topology has " +
                                        std::to_string(vertices_->size()));
   }
-  // The boxes tell in the same pass whether all is legal; which one is not needs a second look.
+  // The boxes show in the same pass whether all coordinates are legal. Only if one is not does a
+  // second pass find which.
   const bool finite = spare_boxes_.refit(topology_->clusters, *vertices);
   const Eigen::AlignedBox3f& box = spare_boxes_.all();
-  if (!finite || !is_legal(box.min().cwiseAbs().maxCoeff()) ||
-      !is_legal(box.max().cwiseAbs().maxCoeff())) {
+  if (!finite || !is_in_range(box.min().cast<double>()) || !is_in_range(box.max().cast<double>())) {
     check_coordinates(*vertices);
   }
   std::swap(boxes_, spare_boxes_);

@@ -6,11 +6,11 @@ using Eigen::Vector3d;
 
 Vector3d ConvexCore::support(const Vector3d& direction) const {
   std::size_t farthest = 0;
-  double height = direction.dot(points[0]);
+  double value = direction.dot(points[0]);
   for (std::size_t i = 1; i < count; ++i) {
     const double other = direction.dot(points[i]);
-    if (other > height) {
-      height = other;
+    if (other > value) {
+      value = other;
       farthest = i;
     }
   }
@@ -19,7 +19,7 @@ Vector3d ConvexCore::support(const Vector3d& direction) const {
   return points[farthest] + rim * across.stableNormalized();
 }
 
-double ConvexCore::height(const Vector3d& direction) const {
+double ConvexCore::support_value(const Vector3d& direction) const {
   return direction.dot(support(direction));
 }
 

@@ -5,6 +5,7 @@
 namespace organ_collision {
 namespace {
 
+/// [m] Upper bound; see CoreMotion::arm_.
 double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
   double arm = 0.0;
   if (motion.angle() == 0.0) return arm;
@@ -29,19 +30,30 @@ ConvexCore CoreMotion::at(double time) const {
 }
 
 double CoreMotion::farthest_move() const {
-  if (link_) return link_->way() + arm_ * link_->angle();
+  if (link_) return link_->origin_displacement() + arm_ * link_->angle();
   return std::max((end_.points[0] - start_.points[0]).norm(),
                   (end_.points[1] - start_.points[1]).norm());
 }
 
-double CoreMotion::bend(double duration) const {
+double CoreMotion::chord_deviation(double duration) const {
   if (!link_) return 0.0;
+  // An eighth of the acceleration, by which a curve leaves its chord at most.
   const double angle = duration * link_->angle();
   return arm_ * angle * angle / 8.0;
 }
 
-double CoreMotion::bend(double duration, const Eigen::Vector3d& normal) const {
-  return link_ ? link_->axis().cross(normal).norm() * bend(duration) : 0.0;
+double CoreMotion::chord_deviation(double duration, const Eigen::Vector3d& normal) const {
+  return link_ ? link_->axis().cross(normal).norm() * chord_deviation(duration) : 0.0;
+}
+
+double CoreMotion::largest_coordinate() const {
+  double largest = 0.0;
+  for (const ConvexCore* core : {&start_, &end_}) {
+    for (std::size_t i = 0; i < core->count; ++i) {
+      largest = std::max(largest, core->points[i].cwiseAbs().maxCoeff());
+    }
+  }
+  return largest;
 }
 
 }  // namespace organ_collision

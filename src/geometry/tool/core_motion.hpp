@@ -6,13 +6,13 @@
 
 namespace organ_collision {
 
-/// One leg of the way of a part's core, in the organ's frame [m]: a shaft's axis, whose ends move
-/// linearly, or a link's core, which moves rigidly.
+/// One leg of the path of a part's core, in the organ's frame [m]. The core is the axis of a shaft,
+/// whose ends move linearly, or belongs to a link, which moves rigidly.
 class CoreMotion {
  public:
   // An axis is a core. NOLINTNEXTLINE(google-explicit-constructor)
   CoreMotion(const ShaftMotion& shaft) : start_(shaft.start), end_(shaft.end) {}
-  /// `core` in the link's frame. `motion` must outlive this.
+  /// `core` is in the link's frame. `motion` must outlive this object.
   CoreMotion(const ConvexCore& core, const RigidMotion& motion);
 
   const ConvexCore& start() const { return start_; }
@@ -20,22 +20,26 @@ class CoreMotion {
   /// The core at `time` in [0, 1] of the leg.
   ConvexCore at(double time) const;
 
-  /// How the link moves; null: the core is a shaft's axis.
+  /// The motion of the link; null if the core is the axis of a shaft.
   const RigidMotion* link() const { return link_; }
-  /// [m] No point of the core moves farther than this.
+  /// [m] An upper bound of how far any point of the core moves.
   double farthest_move() const;
-  /// [m] No point's way between two times, `duration` in [0, 1] of the leg apart, is farther than
-  /// this from the straight and even way between its ends, along `normal`: a curve leaves its chord
-  /// by at most an eighth of its greatest acceleration, at right angles to the turning axis.
-  double bend(double duration, const Eigen::Vector3d& normal) const;
+  /// [m] An upper bound, along `normal` (unit), of how far any point of the core is from where it
+  /// would be if it moved linearly between two times that are `duration`, in [0, 1] of the leg,
+  /// apart. See doc/geometry.md, Rims and chord deviation.
+  double chord_deviation(double duration, const Eigen::Vector3d& normal) const;
   /// The same along any direction.
-  double bend(double duration) const;
+  double chord_deviation(double duration) const;
+  /// [m] The largest absolute coordinate of the core's points at both ends of the leg. The rim of a
+  /// cylinder is left out.
+  double largest_coordinate() const;
 
  private:
   ConvexCore start_, end_;
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double arm_ = 0.0;  ///< [m] the core's farthest from the turning axis
+  double arm_ = 0.0;  ///< [m] upper bound of the distance of the core's points from the axis
+                      ///< through the link's origin about which the link turns
 };
 
 }  // namespace organ_collision

@@ -46,8 +46,8 @@ LinkPart LinkPart::mesh(ToolSurface surface) {
   return {{}, shared, tolerance::kConvexMargin, bounds};
 }
 
-double LinkPart::height(const Vector3d& direction) const {
-  return surface ? surface->height(direction) : core.height(direction);
+double LinkPart::support_value(const Vector3d& direction) const {
+  return surface ? surface->support_value(direction) : core.support_value(direction);
 }
 
 }  // namespace organ_collision

@@ -3,7 +3,7 @@
 namespace organ_collision {
 namespace {
 
-/// What is only nearly a rotation would grow or shrink the link on its way.
+/// Makes the linear part an exact rotation; otherwise the link would change its size on its path.
 Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
   pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
   return pose;
@@ -12,12 +12,12 @@ Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
 }  // namespace
 
 RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end)
-    : start_(orthonormal(start)), end_(orthonormal(end)), half_way_(start_.linear()) {
+    : start_(orthonormal(start)), end_(orthonormal(end)), mid_orientation_(start_.linear()) {
   if (start_.linear() == end_.linear()) return;
   const Eigen::AngleAxisd turn(Eigen::Matrix3d(start_.linear().transpose() * end_.linear()));
   axis_ = turn.axis();
   angle_ = turn.angle();
-  half_way_ = at(0.5).linear();
+  mid_orientation_ = at(0.5).linear();
 }
 
 Eigen::Isometry3d RigidMotion::at(double time) const {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -14,9 +15,9 @@ namespace {
 using Eigen::Vector3d;
 using Reason = MeshError::Reason;
 
-/// Fewer faces are not worth a test of their box.
+/// A leaf has at most so many faces: to test boxes of fewer faces costs more than it saves.
 constexpr std::uint32_t kLeafFaces = 4;
-/// So few are looked through for the highest corner faster than boxes.
+/// A node with at most so many faces is scanned for its support value without further boxes.
 constexpr std::uint32_t kScannedFaces = 64;
 
 template <typename... Parts>
@@ -28,7 +29,7 @@ void check(const std::vector<Vector3d>& vertices, const std::vector<FaceIndices>
   if (faces.empty()) refuse(Reason::kNoTriangles, "has no triangle; at least one is needed");
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vector3d& v = vertices[i];
-    if ((v.array().abs() <= tolerance::kFarthest).all()) continue;
+    if (is_in_range(v)) continue;
     refuse(v.allFinite() ? Reason::kTooFar : Reason::kNotFinite, "vertex ", i, " is at (", v.x(),
            ", ", v.y(), ", ", v.z(), "); must be finite and within ", tolerance::kFarthest, " m");
   }
@@ -41,7 +42,7 @@ void check(const std::vector<Vector3d>& vertices, const std::vector<FaceIndices>
   }
 }
 
-/// Leaves out vertices that no face uses: they are no part of the surface.
+/// Removes the vertices that no face uses.
 void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
   constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> number(vertices.size(), kUnused);
@@ -58,7 +59,7 @@ void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& face
   vertices.swap(used);
 }
 
-/// Puts faces in an order that does not depend on the caller's: by their corners.
+/// Sorts faces by their corners, so that the tree does not depend on the caller's order.
 void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
   const auto is_less = [&](const FaceIndices& a, const FaceIndices& b) {
     for (std::size_t corner = 0; corner < a.size(); ++corner) {
@@ -72,7 +73,7 @@ void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndi
   std::sort(faces.begin(), faces.end(), is_less);
 }
 
-/// Axes along which points are spread most and least.
+/// The principal axes of points: columns, orthonormal, right-handed.
 Eigen::Matrix3d principal_axes(const std::vector<Vector3d>& points) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& point : points) mean += point / static_cast<double>(points.size());
@@ -89,10 +90,6 @@ OrientedBox box_around(const std::vector<Vector3d>& points, const Eigen::Matrix3
   return {axes * box.center(), axes, 0.5 * box.sizes()};
 }
 
-double top(const OrientedBox& box, const Vector3d& direction) {
-  return direction.dot(box.center) + (direction.transpose() * box.axes).cwiseAbs() * box.half_size;
-}
-
 }  // namespace
 
 ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices> faces)
@@ -103,7 +100,8 @@ ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices
   build(0, static_cast<std::uint32_t>(faces_.size()));
 }
 
-/// Splits at the median of the faces' middles along the box's longest axis.
+/// Adds the node of the faces [begin, end) and, below it, its children. The faces are split at the
+/// median of their centroids along the box's longest axis.
 void ToolSurface::build(std::uint32_t begin, std::uint32_t end) {
   std::vector<Vector3d> corners;
   for (std::uint32_t face = begin; face < end; ++face) {
@@ -131,32 +129,33 @@ void ToolSurface::build(std::uint32_t begin, std::uint32_t end) {
   build(half, end);
 }
 
-double ToolSurface::height(const Vector3d& direction) const {
-  double height = -std::numeric_limits<double>::infinity();
-  raise(0, direction, height);
-  return height;
+double ToolSurface::support_value(const Vector3d& direction) const {
+  double value = -std::numeric_limits<double>::infinity();
+  raise_support_value(0, direction, value);
+  return value;
 }
 
-/// Raises `height` to that of the node's faces: the child first that may reach higher, the other
-/// where it may reach higher still.
-void ToolSurface::raise(std::uint32_t node, const Vector3d& direction, double& height) const {
+/// Raises `value` to the support value of the node's faces if that is greater. The child whose box
+/// reaches farther comes first; the other is visited only if its box reaches farther than `value`.
+void ToolSurface::raise_support_value(std::uint32_t node, const Vector3d& direction,
+                                      double& value) const {
   const auto& [box, begin, end, second] = nodes_[node];
   if (end - begin <= kScannedFaces) {
     for (std::uint32_t face = begin; face < end; ++face) {
       for (const std::uint32_t corner : faces_[face]) {
-        height = std::max(height, direction.dot(vertices_[corner]));
+        value = std::max(value, direction.dot(vertices_[corner]));
       }
     }
     return;
   }
   const std::uint32_t first = node + 1;
-  const double first_top = top(nodes_[first].box, direction);
-  const double second_top = top(nodes_[second].box, direction);
-  const bool swap = second_top > first_top;
-  raise(swap ? second : first, direction, height);
-  // Boxes are rounded.
-  if (std::min(first_top, second_top) >= height - 1e-12 * std::abs(height)) {
-    raise(swap ? first : second, direction, height);
+  const double of_first = nodes_[first].box.support_value(direction);
+  const double of_second = nodes_[second].box.support_value(direction);
+  const bool swap = of_second > of_first;
+  raise_support_value(swap ? second : first, direction, value);
+  constexpr double kBoxRounding = 1e-12;  // A box may be too small by this share.
+  if (std::min(of_first, of_second) >= value - kBoxRounding * std::abs(value)) {
+    raise_support_value(swap ? first : second, direction, value);
   }
 }
 

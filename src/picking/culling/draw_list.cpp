@@ -1,7 +1,6 @@
 #include "draw_list.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace organ_collision {
@@ -16,21 +15,6 @@ constexpr double kMostExtent = 0.01 / 1e-6;
 
 Triangle shifted(const Triangle& face, const Eigen::Vector3d& origin) {
   return {face[0] - origin, face[1] - origin, face[2] - origin};
-}
-
-/// [m] The largest distance of a corner, at any time, from its place half way.
-double half_move(const FaceMotion& face) {
-  double squared = 0.0;
-  for (int i = 0; i < 3; ++i) {
-    squared = std::max(squared, (face.end[i] - face.start[i]).squaredNorm());
-  }
-  return 0.5 * std::sqrt(squared);
-}
-
-/// [m] The largest coordinate of a face.
-double extent(const Triangle& face) {
-  return std::max({face[0].cwiseAbs().maxCoeff(), face[1].cwiseAbs().maxCoeff(),
-                   face[2].cwiseAbs().maxCoeff()});
 }
 
 }  // namespace
@@ -76,9 +60,10 @@ ViewingVolume DrawList::assign(const PartSweep& part, const OrganMotion& organ) 
   double farthest_move = 0.0;
   for_each_face(volume, organ, [&](const FaceClusters::Face& face) {
     const FaceMotion motion = organ.face(face.corners);
-    const double move = organ.rests() ? 0.0 : half_move(motion);
+    const double move = organ.rests() ? 0.0 : 0.5 * motion.farthest_move();
     const Triangle half_way = shifted(organ.rests() ? motion.end : motion.at(0.5), origin);
-    if (move > most_move || (organ_extent > most_extent && extent(half_way) > most_extent)) {
+    if (move > most_move ||
+        (organ_extent > most_extent && largest_coordinate(half_way) > most_extent)) {
       undrawn_.push_back(face.number);
     } else {
       farthest_move = std::max(farthest_move, move);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "geometry/coordinate_range.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/legal_name.hpp"
@@ -31,7 +32,7 @@ std::string fault(const PoseStamped& pose) {
     text << "has no frame: header.frame_id is empty";
   } else if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
     text << "is in the frame " << wrong;
-  } else if (!((Eigen::Array3d(p.x, p.y, p.z).abs() <= tolerance::kFarthest).all())) {
+  } else if (!is_in_range(Eigen::Vector3d(p.x, p.y, p.z))) {
     text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite and within "
          << tolerance::kFarthest << " m";
   } else if (pose.header.stamp.toSec() > ros::Time::now().toSec() + kAhead) {

@@ -1,11 +1,10 @@
 #include "tool_poses.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 
-#include "organ_collision/geometry/tolerances.hpp"
+#include "geometry/coordinate_range.hpp"
 #include "path_builder.hpp"
 #include "path_simplification.hpp"
 
@@ -33,14 +32,10 @@ std::string without_link(const Tool& tool, std::size_t link, const std::string& 
          (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": " + why_not;
 }
 
-bool is_near(const Eigen::Vector3d& point) {
-  return (point.array().abs() <= tolerance::kFarthest).all();
-}
-
 bool is_near(const ToolPose& pose) {
-  return is_near(pose.axis.trocar) && is_near(pose.axis.tip) &&
+  return is_in_range(pose.axis.trocar) && is_in_range(pose.axis.tip) &&
          std::all_of(pose.links.begin(), pose.links.end(),
-                     [](const auto& link) { return is_near(link.translation()); });
+                     [](const auto& link) { return is_in_range(link.translation()); });
 }
 
 /// [ns] In whole nanoseconds, because ros::Duration overflows for extreme stamps.

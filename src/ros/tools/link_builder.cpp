@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
 #include "link_description.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
@@ -18,12 +19,12 @@ template <typename... Parts>
 }
 
 double checked_size(const std::string& what, double size) {
-  if (size > 0.0 && size <= tolerance::kFarthest) return size;
+  if (size > 0.0 && is_in_range(size)) return size;
   refuse(what, " is ", size, "; must be more than 0 and at most ", tolerance::kFarthest, " m");
 }
 
 Eigen::Isometry3d checked_pose(const ShapePose& pose) {
-  if (!(pose.position.array().abs() <= tolerance::kFarthest).all()) {
+  if (!is_in_range(pose.position)) {
     refuse("a shape's origin is ", pose.position.transpose(), "; must be finite and within ",
            tolerance::kFarthest, " m");
   }

@@ -15,25 +15,29 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Random;
 
-/// Of one face with every triangle: no boxes, no order.
+/// As find_first_touches(), without a budget.
+void find_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
+                  std::vector<FaceTouch>& faces) {
+  WorkBudget unlimited = WorkBudget::unlimited();
+  find_first_touches(surface, motion, radius, unlimited, faces);
+}
+
+/// The first touch of one face, from every triangle alone, without boxes.
 std::optional<FirstTouch> by_all_pairs(const ToolSurface& surface, const RigidMotion& motion,
                                        double radius, const FaceMotion& face) {
   std::optional<FirstTouch> first;
   for (std::size_t i = 0; i < surface.faces().size(); ++i) {
-    ConvexCore core;
-    core.count = 3;
-    const Triangle triangle = surface.triangle(i);
-    std::copy(triangle.begin(), triangle.end(), core.points.begin());
+    const ConvexCore core(surface.triangle(i));
     const auto touch = first_touch(CoreMotion(core, motion), face, radius);
     if (touch && (!first || touch->time < first->time)) first = touch;
   }
   return first;
 }
 
-/// Left from another query.
+/// A touch left from an earlier query.
 const FirstTouch kEarlier{0.0, ClosestPoints{}};
 
-/// The faces of an organ about a tool, at rest and moving.
+/// Faces of an organ around a tool, some at rest and some moving.
 std::vector<FaceTouch> faces_around(const Eigen::Isometry3d& pose, std::uint32_t count,
                                     Random& random) {
   std::vector<FaceTouch> faces;
@@ -57,7 +61,7 @@ std::vector<FaceTouch> faces_around(const Eigen::Isometry3d& pose, std::uint32_t
 void expect_as_all_pairs(const ToolSurface& surface, const RigidMotion& motion, double radius,
                          std::vector<FaceTouch> faces, int& touched) {
   const std::vector<FaceTouch> asked = faces;
-  find_first_touches(surface, motion, radius, faces);
+  find_touches(surface, motion, radius, faces);
   ASSERT_EQ(faces.size(), asked.size());
   std::sort(faces.begin(), faces.end(),
             [](const auto& a, const auto& b) { return a.face < b.face; });
@@ -68,7 +72,8 @@ void expect_as_all_pairs(const ToolSurface& surface, const RigidMotion& motion, 
     ASSERT_EQ(faces[i].first.has_value(), expected.has_value());
     if (!expected) continue;
     ++touched;
-    EXPECT_NEAR(faces[i].first->time, expected->time, 1e-6);  // kTouch apart
+    // Both distances are within kTouch of the radius.
+    EXPECT_NEAR(faces[i].first->time, expected->time, 1e-6);
     if (expected->time > 0.0) {
       EXPECT_NEAR(faces[i].first->closest.distance, radius, 2.0 * tolerance::kTouch);
     } else {
@@ -95,7 +100,7 @@ TEST(SurfaceTouch, IsTheFirstOfAllPairs) {
   EXPECT_GT(touched, 1000);
 }
 
-// A mesh is a surface: what it encloses it does not touch.
+// A mesh is a surface, so it does not touch the faces that it encloses.
 TEST(SurfaceTouch, IsNoneInsideAClosedMesh) {
   Random random(2);
   const Eigen::Isometry3d pose = oracle::random_pose(0.1, random);
@@ -107,14 +112,15 @@ TEST(SurfaceTouch, IsNoneInsideAClosedMesh) {
     return FaceTouch{0, {corners, corners}, {}};
   };
   std::vector<FaceTouch> faces = {face(0.0)};
-  find_first_touches(surface, motion, tolerance::kConvexMargin, faces);
+  find_touches(surface, motion, tolerance::kConvexMargin, faces);
   EXPECT_FALSE(faces[0].first);
   faces = {face(0.05)};
-  find_first_touches(surface, motion, tolerance::kConvexMargin, faces);
+  find_touches(surface, motion, tolerance::kConvexMargin, faces);
   EXPECT_TRUE(faces[0].first);
 }
 
-/// A triangle across the plane z = 0, piercing it at x, and one just above it, 5e-9 m.
+/// A triangle that pierces the plane z = 0 at x, one that is 5e-9 m above the plane at y, and one
+/// far away.
 ToolMesh piercing_and_grazing(double x, double y) {
   ToolMesh mesh;
   mesh.vertices = {{x, 0.0, 0.01},      {x, 0.002, 0.01},       {x, 0.001, -0.01},
@@ -124,7 +130,7 @@ ToolMesh piercing_and_grazing(double x, double y) {
   return mesh;
 }
 
-// Both touch when the leg begins, whichever of them is looked at first.
+// Two triangles touch when the leg begins. The result does not depend on which comes first.
 TEST(SurfaceTouch, OfTouchesAtTheSameTimeIsTheNearest) {
   Random random(3);
   const Triangle corners = {Vector3d(-0.1, -0.1, 0.0), Vector3d(0.2, -0.1, 0.0),
@@ -136,7 +142,7 @@ TEST(SurfaceTouch, OfTouchesAtTheSameTimeIsTheNearest) {
     if (random.chance(0.5)) end.translation() = 0.01 * random.direction();
     const RigidMotion motion(Eigen::Isometry3d::Identity(), end);
     std::vector<FaceTouch> faces = {{0, {corners, corners}, {}}};
-    find_first_touches(mesh.surface(), motion, tolerance::kConvexMargin, faces);
+    find_touches(mesh.surface(), motion, tolerance::kConvexMargin, faces);
     ASSERT_TRUE(faces[0].first);
     EXPECT_EQ(faces[0].first->time, 0.0);
     EXPECT_LE(faces[0].first->closest.distance, tolerance::kTie);
@@ -146,7 +152,7 @@ TEST(SurfaceTouch, OfTouchesAtTheSameTimeIsTheNearest) {
 TEST(SurfaceTouch, OfNoFacesIsNothing) {
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   std::vector<FaceTouch> faces;
-  find_first_touches(wavy_mesh(3, 1.0).surface(), {pose, pose}, 1e-3, faces);
+  find_touches(wavy_mesh(3, 1.0).surface(), {pose, pose}, 1e-3, faces);
   EXPECT_TRUE(faces.empty());
 }
 

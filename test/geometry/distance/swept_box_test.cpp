@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 using oracle::LinkTrial;
 using oracle::Random;
 
-constexpr std::size_t kBox = 2;  // of the kinds of cores
+constexpr std::size_t kBox = 2;  // the number of this kind of core
 
-/// The box of which a trial has the core.
+/// The box with the core of a trial.
 OrientedBox box_of(const ConvexCore& core) {
   const auto& p = core.points;
   OrientedBox box{0.5 * (p[0] + p[7]), {}, {}};
@@ -60,22 +60,22 @@ TEST_P(SweptBoxTrials, HoldsTheGrownBoxAllTheTime) {
       for (int axis = 0; axis < 3; ++axis) {
         const Vector3d along = swept.axes().col(axis);
         const double slack = oracle::rounding(trial);
-        EXPECT_LE(core.height(along) + trial.radius, swept.high()[axis] + slack);
-        EXPECT_GE(-core.height(-along) - trial.radius, swept.low()[axis] - slack);
+        EXPECT_LE(core.support_value(along) + trial.radius, swept.high()[axis] + slack);
+        EXPECT_GE(-core.support_value(-along) - trial.radius, swept.low()[axis] - slack);
       }
     }
   });
 }
 
-// A link at rest, or one that does not turn: the bounds are reached.
+// If the link does not turn, the box reaches its bounds.
 TEST_P(SweptBoxTrials, IsTightWithoutTurning) {
   for_each_trial(300, [](LinkTrial trial, Random& /*random*/) {
     trial.end.linear() = trial.start.linear();
     const SweptBox swept(box_of(trial.core), trial.motion(), trial.radius);
     for (int axis = 0; axis < 3; ++axis) {
       const Vector3d along = swept.axes().col(axis);
-      const double high = std::max((trial.start * trial.core).height(along),
-                                   (trial.end * trial.core).height(along));
+      const double high = std::max((trial.start * trial.core).support_value(along),
+                                   (trial.end * trial.core).support_value(along));
       EXPECT_NEAR(swept.high()[axis], high + trial.radius, 2.0 * oracle::rounding(trial));
     }
   });
@@ -97,7 +97,7 @@ TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
     if (until == 0.0) return;
     ++clear;
     for (int i = 0; i < 100; ++i) {
-      // A share of rounding less than the time itself, when something may touch.
+      // At `until` itself the distance may equal the radius, but for rounding.
       const double time = std::min(until, 1.0) * (i < 2 ? i : random.uniform(0.0, 1.0));
       EXPECT_GT(closest_points(motion.at(time) * trial.core, face.at(time)).distance,
                 trial.radius - oracle::rounding(trial))
@@ -110,7 +110,7 @@ TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
 INSTANTIATE_TEST_SUITE_P(Kinds, SweptBoxTrials,
                          testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()));
 
-// What it is for: of far faces hardly any is kept.
+// This is what the box is for: it excludes nearly all faces that are far away.
 TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
   Random random(7);
   int far = 0, clear = 0;
@@ -127,7 +127,7 @@ TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
   EXPECT_GT(clear, far * 8 / 10) << "of " << far;
 }
 
-// Seen along the box's axes they overlap; the face's own plane parts them.
+// The projections onto the box's axes overlap. Only the face's own plane separates the two.
 TEST(SweptBox, StaysClearOfAFaceOverACorner) {
   const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -141,7 +141,7 @@ TEST(SweptBox, StaysClearOfAFaceOverACorner) {
   EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until(face(touching - 1e-9)), 0.0);
 }
 
-// A face without a plane has only the box's axes.
+// For a degenerate face only the planes across the box's axes can separate the two.
 TEST(SweptBox, NeedsNoPlane) {
   const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

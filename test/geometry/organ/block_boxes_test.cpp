@@ -16,7 +16,7 @@ Eigen::Array3f vertex(const GridSurface& grid, std::uint32_t index) {
   return Eigen::Map<const Eigen::Array3f>(&grid.vertices[3 * index]);
 }
 
-/// The smallest box around everything that `point(i)` gives below `count`.
+/// The smallest box around the points point(0) to point(count - 1).
 template <typename Point>
 Eigen::AlignedBox3f box_around(std::size_t count, const Point& point) {
   Eigen::AlignedBox3f box;

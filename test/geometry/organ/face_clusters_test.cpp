@@ -24,15 +24,15 @@ std::vector<std::uint32_t> blocks_of_vertices(const FaceClusters& clusters, std:
   return block_of;
 }
 
-/// Each number once.
+/// The set of numbers, each of which must occur once.
 std::set<std::uint32_t> set_of(const FaceClusters::Range<std::uint32_t>& range) {
   const std::set<std::uint32_t> set(range.begin(), range.end());
   EXPECT_EQ(set.size(), static_cast<std::size_t>(range.end() - range.begin()));
   return set;
 }
 
-/// Every face is in one cluster, by rising numbers, and all its vertices are in the cluster's
-/// blocks, and these in the section's sections.
+/// Checks that every face is in one cluster, by rising numbers, that its vertices are in the
+/// cluster's blocks, and that these blocks are in the section's sections.
 void expect_covering(const FaceClusters& clusters, const std::vector<FaceIndices>& faces,
                      std::size_t vertex_count) {
   const std::vector<std::uint32_t> block_of = blocks_of_vertices(clusters, vertex_count);
@@ -93,7 +93,7 @@ TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
   expect_covering(FaceClusters(fan, vertices), fan, 300);
   const std::vector<FaceIndices> one = {{299, 150, 299}};
   expect_covering(FaceClusters(one, vertices), one, 300);
-  vertices[0] = 1e6F;  // one vertex far from all others
+  vertices[0] = 1e6F;  // One vertex is far from all others.
   expect_covering(FaceClusters(fan, vertices), fan, 300);
 }
 

@@ -13,7 +13,7 @@ const std::vector<float> kCorners = {0.1F, 0.2F, 0.3F, 1.4F, 0.1F, 0.2F,
                                      0.2F, 1.7F, 0.1F, 0.3F, 0.2F, 1.1F};
 const std::vector<std::uint32_t> kTetrahedron = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 
-/// Calls `action`, which must throw MeshError for `reason` with `words` in its message.
+/// Checks that `action` throws MeshError for `reason`, with `words` in its message.
 template <typename Action>
 void expect_refused(Reason reason, const std::vector<std::string>& words, Action action) {
   try {

@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Random;
 
-/// Points all over a core's border: its corners, or its rims at `count` places each.
+/// Points of a core's boundary: its corners, or `count` points on each of a cylinder's rims.
 std::vector<Vector3d> border(const ConvexCore& core, int count) {
   std::vector<Vector3d> points(core.points.begin(), core.points.begin() + core.count);
   if (!core.is_cylinder()) return points;
@@ -31,7 +31,8 @@ std::vector<Vector3d> border(const ConvexCore& core, int count) {
 }
 
 Vector3d any_direction(const ConvexCore& core, Random& random) {
-  if (random.chance(0.2)) return core.points[core.count - 1] - core.points[0];  // often an axis
+  // For some cores this is the axis.
+  if (random.chance(0.2)) return core.points[core.count - 1] - core.points[0];
   if (random.chance(0.2)) return core.rim.col(0);
   return random.scale(1e-12, 1e6) * random.direction();
 }
@@ -45,16 +46,16 @@ TEST_P(ConvexCoreOf, SupportIsItsFarthestPoint) {
     const Vector3d direction = any_direction(core, random);
     const Vector3d support = core.support(direction);
     EXPECT_LE(oracle::distance(core, support), 4e-15);
-    EXPECT_EQ(core.height(direction), direction.dot(support));
+    EXPECT_EQ(core.support_value(direction), direction.dot(support));
     double highest = -INFINITY;
     for (const Vector3d& point : border(core, 5000)) {
       highest = std::max(highest, direction.dot(point));
     }
     const double rounding = 1e-15 * direction.norm();
-    EXPECT_GE(core.height(direction), highest - rounding);
-    // The nearest of 5000 places is at most this much lower.
+    EXPECT_GE(core.support_value(direction), highest - rounding);
+    // The nearest of 5000 points on a rim is at most this much lower.
     const double lower = 2e-7 * core.rim.norm() * direction.norm();
-    EXPECT_LE(core.height(direction), highest + lower + rounding);
+    EXPECT_LE(core.support_value(direction), highest + lower + rounding);
   }
 }
 
@@ -68,10 +69,10 @@ TEST_P(ConvexCoreOf, MovesRigidly) {
     EXPECT_EQ(moved.is_axis(), core.is_axis());
     EXPECT_EQ(moved.is_cylinder(), core.is_cylinder());
     const Vector3d direction = any_direction(core, random);
-    EXPECT_NEAR(
-        moved.height(pose.linear() * direction),
-        core.height(direction) + direction.dot(pose.linear().transpose() * pose.translation()),
-        1e-15 * direction.norm());
+    EXPECT_NEAR(moved.support_value(pose.linear() * direction),
+                core.support_value(direction) +
+                    direction.dot(pose.linear().transpose() * pose.translation()),
+                1e-15 * direction.norm());
   }
 }
 
@@ -98,7 +99,7 @@ TEST(ConvexCore, OfABallIsAnAxisWithoutLength) {
   EXPECT_EQ(core.axis().trocar, core.axis().tip);
 }
 
-// Whichever component of the rim is zero.
+// is_cylinder() must not depend on which components of the rim are zero.
 TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
   Random random(3);
   for (int i = 0; i < 24; ++i) {

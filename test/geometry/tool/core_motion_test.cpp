@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 using oracle::LinkTrial;
 using oracle::Random;
 
-/// The same points of the core at a time, those farthest along some directions of the link.
+/// Support points of the core, for the same directions of the link at every pose.
 std::vector<Vector3d> points_of(const ConvexCore& core, const Eigen::Isometry3d& pose) {
   Random random(5);
   std::vector<Vector3d> points;
@@ -24,7 +24,7 @@ std::vector<Vector3d> points_of(const ConvexCore& core, const Eigen::Isometry3d&
 
 class CoreMotionOf : public testing::TestWithParam<std::size_t> {
  protected:
-  /// Calls `check(trial, motion of the link, motion of the core)` for links that move in all ways.
+  /// Calls `check(trial, motion of the link, motion of the core, random)` for all kinds of motion.
   template <typename Check>
   void for_each_motion(Check check) {
     Random random(40 + GetParam());
@@ -70,7 +70,7 @@ TEST_P(CoreMotionOf, FarthestMoveBoundsTheWayOfEveryPoint) {
   });
 }
 
-TEST_P(CoreMotionOf, NoPointLeavesItsChordByMoreThanTheBend) {
+TEST_P(CoreMotionOf, NoPointLeavesItsChordByMoreThanTheDeviation) {
   for_each_motion([](const LinkTrial& trial, const RigidMotion& motion, const CoreMotion& core,
                      Random& random) {
     const double from = random.uniform(0.0, 1.0), to = random.uniform(from, 1.0);
@@ -82,7 +82,7 @@ TEST_P(CoreMotionOf, NoPointLeavesItsChordByMoreThanTheBend) {
       for (std::size_t i = 0; i < now.size(); ++i) {
         const Vector3d on_chord = (1.0 - share) * first[i] + share * last[i];
         EXPECT_LE((now[i] - on_chord).norm(),
-                  4.0 * share * (1.0 - share) * core.bend(to - from) + 1e-15);
+                  4.0 * share * (1.0 - share) * core.chord_deviation(to - from) + 1e-15);
       }
     }
   });
@@ -90,7 +90,7 @@ TEST_P(CoreMotionOf, NoPointLeavesItsChordByMoreThanTheBend) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, CoreMotionOf, testing::Range<std::size_t>(0, oracle::kCoreKinds));
 
-// A point as far out as the core reaches, at right angles to the axis, moves just as far.
+// The bounds are reached by a point as far from the axis as the core reaches.
 TEST(CoreMotion, BoundsAreTightForAPointThatTurns) {
   Eigen::Isometry3d start = Eigen::Isometry3d::Identity(), end = start;
   end.linear() = Eigen::AngleAxisd(0.01, Vector3d::UnitZ()).toRotationMatrix();
@@ -102,16 +102,16 @@ TEST(CoreMotion, BoundsAreTightForAPointThatTurns) {
   EXPECT_NEAR(point.farthest_move(), 0.3 * 0.01, 1e-16);
   const Vector3d chord = 0.5 * (point.at(0.0).points[0] + point.at(1.0).points[0]);
   const double off = (point.at(0.5).points[0] - chord).norm();
-  EXPECT_NEAR(point.bend(1.0), off, 1e-4 * off);
+  EXPECT_NEAR(point.chord_deviation(1.0), off, 1e-4 * off);
 }
 
-TEST(CoreMotion, OfAShaftHasNoBend) {
+TEST(CoreMotion, OfAShaftHasNoChordDeviation) {
   Random random(6);
   for (int i = 0; i < 100; ++i) {
     const ShaftMotion shaft = oracle::make_trial(0, random).motion;
     const CoreMotion core(shaft);
     EXPECT_EQ(core.link(), nullptr);
-    EXPECT_EQ(core.bend(1.0), 0.0);
+    EXPECT_EQ(core.chord_deviation(1.0), 0.0);
     EXPECT_EQ(core.farthest_move(), std::max((shaft.end.tip - shaft.start.tip).norm(),
                                              (shaft.end.trocar - shaft.start.trocar).norm()));
     const double time = random.uniform(0.0, 1.0);

@@ -17,7 +17,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using oracle::Random;
 
-/// A distance of a shape, centred, with its axes along x, y and z, from a point of its own frame.
+/// [m] The distance of a centred shape, with its axes along x, y and z, from a point in its frame.
 double box_distance(const Vector3d& size, const Vector3d& point) {
   return (point.cwiseAbs() - 0.5 * size).cwiseMax(0.0).norm();
 }
@@ -30,12 +30,12 @@ double distance(const LinkPart& part, const Vector3d& point) {
   return closest_points(part.core, Triangle{point, point, point}).distance;
 }
 
-/// Points in and around a shape of that size, in its frame.
+/// A point in or around a shape of this size, in its frame.
 Vector3d around(const Vector3d& size, Random& random) {
   return size.cwiseProduct(random.point(1.2));
 }
 
-/// The part's bounds hold its core, and touch it on all six sides.
+/// Checks that the part's bounds contain its core and touch it on all six sides.
 void expect_tight_bounds(const LinkPart& part) {
   const OrientedBox& box = part.bounds;
   EXPECT_LE((box.axes * box.axes.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
@@ -43,8 +43,8 @@ void expect_tight_bounds(const LinkPart& part) {
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = box.axes.col(i);
     const double middle = axis.dot(box.center);
-    EXPECT_NEAR(part.height(axis), middle + box.half_size[i], 1e-15);
-    EXPECT_NEAR(part.height(-axis), box.half_size[i] - middle, 1e-15);
+    EXPECT_NEAR(part.support_value(axis), middle + box.half_size[i], 1e-15);
+    EXPECT_NEAR(part.support_value(-axis), box.half_size[i] - middle, 1e-15);
   }
 }
 
@@ -104,7 +104,7 @@ TEST(LinkPart, MeshHasItsSurfaceAndTheBoxAroundIt) {
   EXPECT_EQ(part.bounds.half_size, part.surface->nodes().front().box.half_size);
 }
 
-TEST(LinkPart, HeightIsHowFarItReaches) {
+TEST(LinkPart, SupportValueIsThatOfSurfaceOrCore) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     const ToolMesh mesh =
@@ -113,10 +113,10 @@ TEST(LinkPart, HeightIsHowFarItReaches) {
     const Vector3d direction = random.direction();
     double highest = -INFINITY;
     for (const Vector3d& vertex : mesh.vertices) highest = std::max(highest, direction.dot(vertex));
-    EXPECT_EQ(part.height(direction), highest);
+    EXPECT_EQ(part.support_value(direction), highest);
     ConvexCore core = oracle::make_core(3, random);
     const LinkPart convex{core, nullptr, 0.01, {}};
-    EXPECT_EQ(convex.height(direction), core.height(direction));
+    EXPECT_EQ(convex.support_value(direction), core.support_value(direction));
   }
 }
 

@@ -43,7 +43,7 @@ TEST(RigidMotion, BeginsAndEndsAtThePosesGiven) {
     const RigidMotion motion(c.start, c.end);
     EXPECT_LE((motion.at(0.0).matrix() - c.start.matrix()).norm(), 2e-15);
     EXPECT_LE((motion.at(1.0).matrix() - c.end.matrix()).norm(), 2e-15);
-    // It does not jump there.
+    // There is no jump at the ends.
     EXPECT_LE((motion.at(1e-12).matrix() - c.start.matrix()).norm(), 2e-11);
     EXPECT_LE((motion.at(1.0 - 1e-12).matrix() - c.end.matrix()).norm(), 2e-11);
   });
@@ -65,7 +65,8 @@ TEST(RigidMotion, SaysHowFarItGoes) {
   for_each_case([](const Case& c, Random& /*random*/) {
     const RigidMotion motion(c.start, c.end);
     EXPECT_NEAR(motion.angle(), c.angle, 1e-14);
-    EXPECT_NEAR(motion.way(), (c.start.translation() - c.end.translation()).norm(), 1e-15);
+    EXPECT_NEAR(motion.origin_displacement(), (c.start.translation() - c.end.translation()).norm(),
+                1e-15);
   });
 }
 

@@ -11,7 +11,7 @@
 
 namespace organ_collision {
 
-/// What a ToolSurface is made of.
+/// The input of a ToolSurface.
 struct ToolMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<FaceIndices> faces;
@@ -19,7 +19,7 @@ struct ToolMesh {
   ToolSurface surface() const { return {vertices, faces}; }
 };
 
-/// Scattered faces of all sizes; some are slivers, segments or points, some the same twice.
+/// Scattered faces of all sizes. Some are segments or points, some are repeated.
 inline ToolMesh scattered_mesh(std::size_t faces, oracle::Random& random) {
   ToolMesh mesh;
   for (std::uint32_t i = 0; i < faces; ++i) {
@@ -49,7 +49,7 @@ inline ToolMesh wavy_mesh(int side, double scale) {
   return mesh;
 }
 
-/// The twelve triangles of a box, outward; at a pose in the link's frame.
+/// The twelve triangles of a box, facing outward, at a pose in the link's frame.
 inline ToolMesh box_mesh(const Eigen::Isometry3d& T_link_shape, const Eigen::Vector3d& size) {
   ToolMesh mesh;
   for (const double x : {-0.5, 0.5}) {

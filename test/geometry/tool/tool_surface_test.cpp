@@ -25,12 +25,13 @@ double outside(const OrientedBox& box, const Vector3d& point) {
   return std::max(0.0, (from_center.cwiseAbs() - box.half_size).maxCoeff());
 }
 
-/// Looks at every node; returns how deep the deepest is.
+/// Checks every node of a tree.
 class TreeCheck {
  public:
   explicit TreeCheck(const ToolSurface& surface)
       : surface_(surface), rounding_(1e-15 * reach(surface.nodes().front().box)) {}
 
+  /// Returns the depth of the tree below a node.
   int depth(std::uint32_t index = 0) {
     ++visited_;
     const ToolSurface::Node& node = surface_.nodes()[index];
@@ -73,7 +74,7 @@ class TreeCheck {
   std::vector<int> in_leaves_ = std::vector<int>(surface_.faces().size());
 };
 
-/// The coordinates of each face's corners, in an order of their own.
+/// The coordinates of each face's corners, in sorted order.
 std::vector<std::array<double, 9>> sorted(const std::vector<FaceIndices>& faces,
                                           const std::vector<Vector3d>& vertices) {
   std::vector<std::array<double, 9>> corners;
@@ -125,8 +126,7 @@ TEST(ToolSurface, HugeAndTinyCoordinatesAreLegal) {
   for (const double scale : {1e-9, 1.0, 0.9e7}) expect_tree(wavy_mesh(8, scale));
 }
 
-// A sheet lies flat in its boxes, however it is turned.
-TEST(ToolSurface, HeightIsThatOfTheHighestVertex) {
+TEST(ToolSurface, SupportValueIsThatOfTheFarthestVertex) {
   Random random(4);
   const ToolSurface surface = scattered_mesh(150, random).surface();
   for (int i = 0; i < 300; ++i) {
@@ -135,10 +135,11 @@ TEST(ToolSurface, HeightIsThatOfTheHighestVertex) {
     for (const Vector3d& vertex : surface.vertices()) {
       highest = std::max(highest, direction.dot(vertex));
     }
-    EXPECT_EQ(surface.height(direction), highest);
+    EXPECT_EQ(surface.support_value(direction), highest);
   }
 }
 
+// A sheet lies flat in its boxes in every orientation.
 TEST(ToolSurface, BoxesAreTurnedWithTheFaces) {
   Random random(2);
   for (int i = 0; i < 20; ++i) {
@@ -152,7 +153,7 @@ TEST(ToolSurface, BoxesAreTurnedWithTheFaces) {
   }
 }
 
-/// Must be refused for `reason` with `word` in the message.
+/// Checks that the mesh is refused for `reason`, with `word` in the message.
 void expect_refused(Reason reason, const std::string& word, const ToolMesh& mesh) {
   try {
     mesh.surface();

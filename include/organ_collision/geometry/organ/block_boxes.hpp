@@ -7,22 +7,24 @@
 
 namespace organ_collision {
 
-/// Axis-aligned boxes of an organ's blocks and sections of vertices, for one shape of it [m].
+/// Axis-aligned boxes around the blocks and sections of an organ's vertices, for one shape of the
+/// organ [m]. FaceClusters explains blocks and sections.
 class BlockBoxes {
  public:
-  /// Four coordinates, to be loaded at once; the fourth means nothing.
+  /// The first three coordinates count. The fourth is unused padding for vector registers.
   struct Box {
     Eigen::Array4f min, max;
   };
 
-  /// Fits the boxes to new vertices (x y z x y z ... [m]) in one pass over them. False if some
-  /// coordinate is not finite: the boxes mean nothing then. Allocates only for new clusters.
+  /// Fits the boxes to new vertices (x y z x y z ... [m]) in one pass over them. Returns false if a
+  /// coordinate is not finite; the boxes are then unspecified. Allocates only if `clusters` has
+  /// more blocks than before.
   bool refit(const FaceClusters& clusters, const std::vector<float>& vertices);
 
-  /// Both filled up to multiples of FaceClusters::kRun with boxes that hold nothing.
+  /// Both are padded with empty boxes to a multiple of FaceClusters::kRun.
   const std::vector<Box>& blocks() const { return blocks_; }
   const std::vector<Box>& sections() const { return sections_; }
-  /// Box around all vertices.
+  /// The box around all vertices.
   const Eigen::AlignedBox3f& all() const { return all_; }
 
  private:

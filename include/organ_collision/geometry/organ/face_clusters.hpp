@@ -7,28 +7,32 @@
 
 namespace organ_collision {
 
-/// Three vertex indices; outward by the right-hand rule.
+/// The three vertex indices of a face. Its outward side is given by the right-hand rule.
 using FaceIndices = std::array<std::uint32_t, 3>;
 
-/// Faces in spatially coherent groups, and the vertices in blocks whose boxes cover them. Made when
-/// the triangles change; the boxes are refitted to each new shape (block_boxes.hpp).
+/// Groups an organ's vertices and faces so that neighbours in space are together. It is made when
+/// the triangles change. The boxes around the groups are fitted to each new shape (BlockBoxes).
+/// See doc/geometry.md, Words.
 ///
-/// A block is kRun vertices: neighbours in the sender's order where these are neighbours in space
-/// as well, since such runs are read without a gather; else neighbours along a Morton curve. To
-/// each block belongs a cluster: the faces whose first vertex, in the order of blocks, is in it.
-/// Blocks are in Morton order, so that kRun of them, a section, lie together.
+/// - A block is a group of kRun vertices. If vertices that follow each other in the sender's order
+///   are also neighbours in space, a block is a run of kRun such vertices, which can be read
+///   without a gather. Otherwise the vertices are grouped along a Morton curve.
+/// - A section is kRun blocks. Blocks are in Morton order, so a section is coherent too.
+/// - The cluster of a block is the faces that have a vertex in this block and none in an earlier
+///   block.
 class FaceClusters {
  public:
-  /// Few enough for tight boxes, enough to fill vector registers.
+  /// The vertices in a block, and the blocks in a section: few enough for tight boxes, and enough
+  /// to fill vector registers.
   static constexpr std::size_t kRun = 16;
 
-  /// `vertices`: x y z x y z ... [m], finite; `faces` refer to them.
+  /// `vertices`: x y z x y z ... [m], finite. `faces` refer to them.
   FaceClusters(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
   std::size_t block_count() const { return order_.size() / kRun; }
   std::size_t section_count() const { return (block_count() + kRun - 1) / kRun; }
 
-  /// A run of items to loop over.
+  /// Consecutive items to iterate over.
   template <typename T>
   struct Range {
     const T* first;
@@ -40,25 +44,25 @@ class FaceClusters {
     FaceIndices corners;
     std::uint32_t number;
   };
-  /// The faces of a block's cluster, by rising number; may be none.
+  /// The faces of a block's cluster, by rising number. There may be none.
   Range<Face> faces(std::size_t block) const {
     return {faces_.data() + face_begin_[block], faces_.data() + face_begin_[block + 1]};
   }
-  /// The blocks that hold all vertices of the faces of a block's cluster.
+  /// The blocks that contain the vertices of the faces of a block's cluster.
   Range<std::uint32_t> blocks(std::size_t block) const { return blocks_.of(block); }
-  /// The sections that hold all vertices of the faces of a section's clusters.
+  /// The sections that contain the vertices of the faces of a section's clusters.
   Range<std::uint32_t> sections(std::size_t section) const { return sections_.of(section); }
 
-  /// The kRun vertices of a block; the last vertex of all may be there several times.
+  /// The kRun vertices of a block. In an incomplete block the last vertex is repeated.
   const std::uint32_t* vertices(std::size_t block) const { return &order_[kRun * block]; }
-  /// The block of each run of kRun vertices in the sender's order; empty: blocks are no such runs.
+  /// The block of each run of kRun vertices in the sender's order; empty if blocks are not runs.
   const std::vector<std::uint32_t>& block_of_run() const { return block_of_run_; }
-  /// The block of each vertex where they are not; else empty.
+  /// The block of each vertex if blocks are not runs; empty if they are.
   const std::vector<std::uint32_t>& block_of_vertex() const { return block_of_vertex_; }
 
  private:
   using Numbers = std::vector<std::uint32_t>;
-  /// Lists of numbers, one after the other.
+  /// Lists of numbers, stored one after the other.
   struct Lists {
     Numbers all, begin = {0};
     Range<std::uint32_t> of(std::size_t i) const {

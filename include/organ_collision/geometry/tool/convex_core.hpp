@@ -6,30 +6,38 @@
 #include <cstddef>
 
 #include "organ_collision/geometry/tool/shaft.hpp"
+#include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
 
-/// What a convex part of a tool is without its radius: the hull of a few points, or of two discs
-/// [m].
+/// A convex part of a tool without its radius: the hull of up to eight points or of two discs [m].
+/// The part is all points within the radius of the core. One point makes a ball, two a shaft, three
+/// a triangle of a mesh, eight a box, two discs a flat-ended cylinder.
 struct ConvexCore {
   std::array<Eigen::Vector3d, 8> points;
   std::size_t count = 0;
-  /// Of a flat-ended cylinder, whose two points are the ends' centres: from a centre to the rim, in
-  /// two directions at right angles to each other and to the axis [m]. Else zero.
+  /// For a flat-ended cylinder, whose two points are the centres of its ends: two vectors from a
+  /// centre to the rim, at right angles to each other and to the axis [m]. Zero for other cores.
   Eigen::Matrix<double, 3, 2> rim = Eigen::Matrix<double, 3, 2>::Zero();
 
   ConvexCore() = default;
   // An axis is a core. NOLINTNEXTLINE(google-explicit-constructor)
   ConvexCore(const ShaftAxis& axis) : points{axis.trocar, axis.tip}, count(2) {}
+  explicit ConvexCore(const Triangle& triangle)
+      : points{triangle[0], triangle[1], triangle[2]}, count(3) {}
 
-  /// The core's point farthest along `direction`, which need not be unit.
+  /// The point of the core farthest along `direction`, which need not be unit.
   Eigen::Vector3d support(const Eigen::Vector3d& direction) const;
-  /// How far the core reaches along `direction`: direction · support(direction).
-  double height(const Eigen::Vector3d& direction) const;
-  /// Whether its nearest points have a place on a straight axis: a ball or a shaft.
+  /// The greatest direction · point of the core's points.
+  double support_value(const Eigen::Vector3d& direction) const;
+  /// A ball or a shaft.
   bool is_axis() const { return count <= 2 && !is_cylinder(); }
+  bool is_triangle() const { return count == 3; }
   bool is_cylinder() const { return rim(0, 0) != 0.0 || rim(1, 0) != 0.0 || rim(2, 0) != 0.0; }
+  /// From the first point to the last one; of a ball or a shaft, all of it.
   ShaftAxis axis() const { return {points[0], points[count - 1]}; }
+  /// The first three points; of a triangle, all of it.
+  Triangle triangle() const { return {points[0], points[1], points[2]}; }
 };
 
 /// The core moved rigidly.

@@ -15,22 +15,22 @@ namespace organ_collision {
 /// has one, of the surface.
 struct LinkPart {
   ConvexCore core;
-  std::shared_ptr<const ToolSurface> surface;  ///< null: the part is convex
+  std::shared_ptr<const ToolSurface> surface;  ///< null if the part is convex
   double radius;                               ///< [m] > 0
   OrientedBox bounds;                          ///< of core or surface, without the radius
 
-  // The shapes of URDF, at a pose in the link's frame. Sizes in metres, positive. What has flat
-  // faces gets the radius tolerance::kConvexMargin.
+  // The shapes of URDF, at a pose in the link's frame. Sizes are in metres and positive. Shapes
+  // with flat faces get the radius tolerance::kConvexMargin.
   static LinkPart sphere(const Eigen::Vector3d& center, double radius);
-  /// Along z, centred, with flat ends.
+  /// Centred, along z, with flat ends.
   static LinkPart cylinder(const Eigen::Isometry3d& T_link_shape, double radius, double length);
   /// Centred; `size` along x, y and z.
   static LinkPart box(const Eigen::Isometry3d& T_link_shape, const Eigen::Vector3d& size);
-  /// Of a mesh already in the link's frame.
+  /// A mesh whose vertices are in the link's frame.
   static LinkPart mesh(ToolSurface surface);
 
-  /// How far core or surface reaches along `direction`.
-  double height(const Eigen::Vector3d& direction) const;
+  /// The greatest direction · point of the core or the surface, without the radius.
+  double support_value(const Eigen::Vector3d& direction) const;
 };
 
 /// A rigid link of a tool.

@@ -4,8 +4,8 @@
 
 namespace organ_collision {
 
-/// Axis of a tool's shaft at one time, in the organ's frame [m]. The tool is the capsule around it:
-/// all points within the shaft radius of the axis. Trocar and tip may coincide: a ball.
+/// The axis of a tool's shaft at one time, in the organ's frame [m]. The tool is the capsule around
+/// it: all points within the shaft radius of the axis. If trocar and tip coincide, it is a ball.
 struct ShaftAxis {
   Eigen::Vector3d trocar;
   Eigen::Vector3d tip;
@@ -14,7 +14,7 @@ struct ShaftAxis {
   Eigen::Vector3d at(double place) const { return trocar + place * (tip - trocar); }
 };
 
-/// One leg of a tool's way: both ends of the axis move linearly from `start` to `end`.
+/// One leg of a shaft's path: both ends of the axis move linearly from `start` to `end`.
 struct ShaftMotion {
   ShaftAxis start;
   ShaftAxis end;

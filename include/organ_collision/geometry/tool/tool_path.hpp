@@ -7,21 +7,22 @@
 
 namespace organ_collision {
 
-/// Where a tool was at one time, in the organ's frame [m].
+/// The pose of a tool at one time, in the organ's frame [m].
 struct ToolPose {
-  ShaftAxis axis;                             ///< of its shaft; means nothing where it has none
-  std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each of its links
+  ShaftAxis axis;                             ///< of the shaft; unused if the tool has none
+  std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each link
 };
 
-/// The same at `fraction` in [0, 1] of the step.
+/// The pose of a tool at `fraction` in [0, 1] of the step, in the organ's frame [m].
 struct ToolWaypoint {
   double fraction;
-  ShaftAxis axis;                             ///< of its shaft; means nothing where it has none
-  std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each of its links
+  ShaftAxis axis;                             ///< of the shaft; unused if the tool has none
+  std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each link
 };
 
-/// How a tool moved during one step: from waypoint to waypoint, ends of the axis linearly, links as
-/// RigidMotion says, with fractions rising from 0 to 1. A single waypoint is a tool at rest.
+/// How a tool moved during one step. From waypoint to waypoint the ends of the shaft's axis and the
+/// origins of the links move linearly, and the links turn about a fixed axis at constant speed
+/// (slerp). Fractions rise from 0 to 1. A single waypoint is a tool at rest.
 using ToolPath = std::vector<ToolWaypoint>;
 
 /// The path of a tool at rest.

@@ -7,43 +7,44 @@
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
 
-/// A rigid triangle mesh of a tool, in its link's frame, in a tree of oriented boxes that is made
-/// once (Gottschalk, Lin, Manocha: "OBBTree", 1996). It is a surface: what lies wholly inside
-/// touches nothing.
+/// A rigid triangle mesh of a tool, in its link's frame [m], with a tree of oriented boxes
+/// (Gottschalk, Lin, Manocha: "OBBTree", 1996). It is a surface: a face wholly inside a closed mesh
+/// does not touch it.
 class ToolSurface {
  public:
-  /// [m] Any triangle soup with at least one face. Throws MeshError for what could not be one:
-  /// coordinates not finite or beyond tolerance::kFarthest, wrong indices, no face.
+  /// Any triangle soup. Throws MeshError if there is no face, an index is wrong, or a coordinate is
+  /// not finite or beyond tolerance::kFarthest.
   ToolSurface(std::vector<Eigen::Vector3d> vertices, std::vector<FaceIndices> faces);
 
-  /// Those that faces use.
+  /// The vertices that faces use, in an order of their own.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
-  /// In the order of the tree, whatever the caller's is: triangles in another order make the same
-  /// surface.
+  /// In the order of the tree, which does not depend on the caller's order of faces.
   const std::vector<FaceIndices>& faces() const { return faces_; }
   Triangle triangle(std::size_t face) const {
     return {vertices_[faces_[face][0]], vertices_[faces_[face][1]], vertices_[faces_[face][2]]};
   }
 
-  /// How far it reaches along `direction`: the greatest direction · vertex.
-  double height(const Eigen::Vector3d& direction) const;
+  /// The greatest direction · vertex. `direction` need not be unit.
+  double support_value(const Eigen::Vector3d& direction) const;
 
-  /// A box around the faces [begin, end), and around those of its two children, which follow it:
-  /// the first directly, the second at `second`. A leaf has none: `second` is 0.
+  /// A box around the faces [begin, end). The two children of an inner node share its faces: the
+  /// first child is the next node, the second one stands at `second`. In a leaf `second` is 0.
   struct Node {
     OrientedBox box;
     std::uint32_t begin, end;
     std::uint32_t second;
   };
-  /// The first is the root.
+  /// The tree in depth-first order; the root is first.
   const std::vector<Node>& nodes() const { return nodes_; }
 
  private:
   void build(std::uint32_t begin, std::uint32_t end);
-  void raise(std::uint32_t node, const Eigen::Vector3d& direction, double& height) const;
+  void raise_support_value(std::uint32_t node, const Eigen::Vector3d& direction,
+                           double& value) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<FaceIndices> faces_;
