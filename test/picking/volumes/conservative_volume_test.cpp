@@ -64,7 +64,7 @@ TEST(ConservativeVolume, TakesInLittleMoreThanTheSweptCapsule) {
                              radius * random.magnitude(0.5, 20) * random.direction();
       if (excess(volume, point) > 0) continue;
       ++inside;
-      const double distance = closest_points({point, point}, swept).distance;
+      const double distance = closest_points(ShaftAxis{point, point}, swept).distance;
       EXPECT_LT(distance, radius * (perspective ? 6 : 1.75)) << motion << "radius " << radius;
     }
   }
