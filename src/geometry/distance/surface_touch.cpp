@@ -59,6 +59,7 @@ class Descent {
       return !is_settled(face) && box.clear_until(face.motion) <= latest(face);
     });
     if (kept == begin) return;
+    if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, kept);
     const bool is_leaf = node.second == 0;
     if (is_leaf) {
       for (std::uint32_t face = node.begin; face < node.end; ++face) touch(face, begin, kept);
@@ -69,6 +70,16 @@ class Descent {
   }
 
  private:
+  /// Marks the touches of the faces [begin, end) as unresolved. A face without a touch gets one with
+  /// the triangle.
+  void leave_unresolved(std::uint32_t index, Iterator begin, Iterator end) const {
+    const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
+    for (Iterator face = begin; face != end; ++face) {
+      if (!face->first) face->first = first_touch(core, face->motion, radius_, budget_);
+      face->first->is_resolved = false;
+    }
+  }
+
   /// Finds the touches of the faces [begin, end) with one triangle of the surface.
   void touch(std::uint32_t index, Iterator begin, Iterator end) const {
     const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
@@ -77,7 +88,7 @@ class Descent {
     for (Iterator face = begin; face != end; ++face) {
       if (is_settled(*face)) continue;
       if (face->first && budget_.is_used_up()) {
-        face->first->is_resolved = false;  // This triangle might touch earlier.
+        face->first->is_resolved = false;  // This triangle may touch earlier.
         continue;
       }
       const double until = latest(*face);

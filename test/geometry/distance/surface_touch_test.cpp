@@ -149,6 +149,44 @@ TEST(SurfaceTouch, OfTouchesAtTheSameTimeIsTheNearest) {
   }
 }
 
+/// A flat square of 2 * side * side triangles in the plane z = 0, 0.1 m wide.
+ToolMesh flat_mesh(std::uint32_t side) {
+  ToolMesh mesh;
+  for (std::uint32_t row = 0; row <= side; ++row) {
+    for (std::uint32_t column = 0; column <= side; ++column) {
+      mesh.vertices.emplace_back(0.1 * column / side, 0.1 * row / side, 0.0);
+    }
+  }
+  for (std::uint32_t row = 0; row < side; ++row) {
+    for (std::uint32_t column = 0; column < side; ++column) {
+      const std::uint32_t corner = row * (side + 1) + column;
+      mesh.faces.push_back({corner, corner + 1, corner + side + 1});
+      mesh.faces.push_back({corner + 1, corner + side + 2, corner + side + 1});
+    }
+  }
+  return mesh;
+}
+
+// Every triangle is within the convex margin of every face, and none pierces it: the tree rules out
+// none of the million pairs.
+TEST(SurfaceTouch, DescendsNoFurtherOnceTheBudgetIsUsedUp) {
+  constexpr double kGap = 5e-9;  // [m]
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const Triangle corners = {Vector3d(-0.1, -0.1, kGap), Vector3d(0.3, -0.1, kGap),
+                            Vector3d(-0.1, 0.3, kGap)};
+  std::vector<FaceTouch> faces(200, {0, {corners, corners}, {}});
+  WorkBudget budget;
+  find_first_touches(flat_mesh(50).surface(), RigidMotion(pose, pose), tolerance::kConvexMargin,
+                     budget, faces);
+  EXPECT_TRUE(budget.is_used_up());
+  budget.add_pairs(WorkBudget::kLeastPairs + 10'000);
+  EXPECT_FALSE(budget.is_used_up()) << "a tenth of the budget did not suffice to end the search";
+  for (const FaceTouch& face : faces) {
+    ASSERT_TRUE(face.first);
+    EXPECT_FALSE(face.first->is_resolved);
+  }
+}
+
 TEST(SurfaceTouch, OfNoFacesIsNothing) {
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   std::vector<FaceTouch> faces;
