@@ -17,6 +17,10 @@ using Eigen::Vector3d;
 // [1] The volume of a span may be thicker than those of its legs by at most this share.
 constexpr double kAllowedShare = 0.25;
 
+/// [1] A pose of a request may move a point at a distance of 1 by this much more than the rotation
+/// nearest to it, with which legs are evaluated. See doc/geometry.md, Spans of legs.
+constexpr double kOffRotation = 2.5 * kRotationTolerance;
+
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 
 /// [1] The chord of the rotation between two orientations: 2 sin(angle / 2). A point at the
@@ -73,7 +77,7 @@ double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::siz
     time = next_time;
     if (at_waypoints + between > allowed) return kTooFar;
   }
-  return at_waypoints + between + kRotationTolerance * arm;
+  return at_waypoints + between + kOffRotation * arm;
 }
 
 /// Tries all remaining legs first, then half of them, and so on.
