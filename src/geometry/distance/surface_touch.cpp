@@ -70,8 +70,8 @@ class Descent {
   }
 
  private:
-  /// Marks the touches of the faces [begin, end) as unresolved. A face without a touch gets one with
-  /// the triangle.
+  /// Marks the touches of the faces [begin, end) as unresolved. A face without a touch gets one
+  /// with the triangle.
   void leave_unresolved(std::uint32_t index, Iterator begin, Iterator end) const {
     const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
     for (Iterator face = begin; face != end; ++face) {
