@@ -28,7 +28,7 @@ inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
 inline constexpr char kPublishRegions[] = "publish_regions";
 inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
 
-/// Of each entry of `tools`.
+/// The keys of each entry of `tools`.
 inline constexpr char kToolName[] = "name";
 inline constexpr char kTrocarFrame[] = "trocar_frame";
 inline constexpr char kTipFrame[] = "tip_frame";
