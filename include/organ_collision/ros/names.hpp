@@ -1,6 +1,7 @@
 #pragma once
 
-/// All names that the node has in the ROS graph, relative to its private namespace.
+/// The default name of the node, and the names of its topics, services and parameters, relative to
+/// its private namespace.
 namespace organ_collision::names {
 
 inline constexpr char kNode[] = "organ_collision";
