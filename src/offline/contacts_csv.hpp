@@ -10,8 +10,9 @@ namespace organ_collision {
 /// The header line of the contacts, with its line end.
 std::string contacts_header();
 
-/// Appends a line for each contact of a motion: the query, the face, and what the contact is, with
-/// 17 significant digits. In the paper modes the columns after the face are empty.
+/// Appends a line for each contact of a motion, with the columns of contacts_header(). Numbers
+/// after the face have 17 significant digits. In the paper modes the columns after the face are
+/// empty.
 void append_contacts(const Motion& motion, const CollisionResult& result, std::string& csv);
 
 }  // namespace organ_collision

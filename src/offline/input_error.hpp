@@ -18,7 +18,7 @@ class InputError : public std::runtime_error {
       : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
 };
 
-/// `text` in quotes, for a message of one line: control characters are replaced, and long texts
+/// `text` in quotes, for a message of one line: control characters are replaced, and long texts are
 /// cut.
 std::string in_quotes(std::string_view text);
 

@@ -9,8 +9,7 @@
 
 namespace organ_collision {
 
-/// One line of a motions file: the motion of a tool with a resting trocar, and what is asked about
-/// it.
+/// One line of a motions file: the motion of a tool with a resting trocar, and the kind of query.
 struct Motion {
   std::string query;  ///< its name in the file; printed with its contacts
   std::size_t line;   ///< its line in the file, from 1

@@ -17,11 +17,11 @@ struct ObjMesh {
   std::size_t line_count;
 };
 
-/// Reads the `v` and `f` lines of an OBJ file and ignores all others. Faces are numbered as the
-/// file's `f` lines; a polygon of n corners is cut into a fan around its first one and counts as
-/// n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be negative (counted back
-/// from the last vertex so far) and may carry texture and normal indices, which are ignored. Throws
-/// InputError if the file is missing or not a legal mesh.
+/// Reads the `v` and `f` lines of an OBJ file and ignores all others. Faces are numbered in the
+/// order of the file's `f` lines. A polygon of n corners is cut into a fan around its first corner
+/// and counts as n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be negative
+/// (counted back from the last vertex above the line) and may carry texture and normal indices,
+/// which are ignored. Throws InputError if the file is missing or not a legal mesh.
 ObjMesh read_obj(const std::string& file);
 
 /// Throws InputError, naming the first difference, if `before` does not have the same faces and the

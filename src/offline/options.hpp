@@ -7,7 +7,7 @@
 
 namespace organ_collision {
 
-/// What the command line of query_offline asks for.
+/// The options on the command line of query_offline.
 struct Options {
   std::string mesh;
   std::string mesh_before;  ///< empty: the organ rests
@@ -16,9 +16,9 @@ struct Options {
   bool help = false;
 };
 
-/// Reads the command line. `arguments` are those without the program's name, as `--name value` or
-/// `--name=value`. Throws InputError for options that are unknown, repeated, without value or
-/// missing. If --help is among them, the others are not checked.
+/// Reads the command line. `arguments` exclude the program's name. Options are given as `--name
+/// value` or `--name=value`. Throws InputError for options that are unknown, repeated, without
+/// value or missing. If --help is among them, the others are not checked.
 Options parse_options(const std::vector<std::string>& arguments);
 
 /// What --help prints.

@@ -5,8 +5,8 @@
 
 namespace organ_collision {
 
-/// Says on stderr, once a second, how many motions are done. A run of less than a second says
-/// nothing.
+/// Prints on stderr, at most once a second, how many motions are done. A run of less than a second
+/// prints nothing.
 class Progress {
  public:
   explicit Progress(std::size_t total) : total_(total) {}

@@ -58,9 +58,9 @@ void ContactFinder::find_link_contacts(const Step& step, std::size_t link,
   forget_touched_legs(contacts, begin);
 }
 
-/// The method, for one part of the tool. A camera's viewing volume gets the shape of the space that
-/// the part sweeps, GL draws the organ in a picking mode, and exact distances decide on the faces
-/// that survive clipping.
+/// The method, for one part of the tool. A viewing volume is built around the space that the part
+/// sweeps, GL draws the organ in a picking mode, and exact distances decide on the faces that
+/// survive clipping.
 void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const Part& part,
                                        std::vector<FaceContact>& contacts) {
   pick(step, span, part);
@@ -78,8 +78,8 @@ void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, co
     };
     pending_faces_.erase(std::remove_if(pending_faces_.begin(), pending_faces_.end(), is_decided),
                          pending_faces_.end());
-    // Most faces of a sustained contact touch on the first leg. Only the others are worth a look at
-    // the chord.
+    // Most faces of a sustained contact touch on the first leg. Only the others are worth testing
+    // against the chord.
     if (leg == span.begin && span.leg_count() > 1) keep_faces_near_chord(step, span, part);
   }
 }
@@ -157,12 +157,12 @@ void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, dou
   }
 }
 
-/// Whether a touch of a face on a leg would be the first one known.
+/// Whether the present link is not known to touch the face on a leg before `leg`.
 bool ContactFinder::is_pending(std::uint32_t face, std::size_t leg) const {
   return touched_leg_[face] == 0 || touched_leg_[face] > leg;
 }
 
-/// Clears the memory of touched faces for the next link: contacts from `begin` on are of this one.
+/// Clears touched_leg_ for the next link. The contacts from `begin` on belong to the present one.
 void ContactFinder::forget_touched_legs(const std::vector<FaceContact>& touched,
                                         std::size_t begin) {
   for (std::size_t i = begin; i < touched.size(); ++i) touched_leg_[touched[i].face] = 0;

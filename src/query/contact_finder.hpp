@@ -19,9 +19,9 @@ class ContactFinder {
   /// `picker` must outlive it.
   explicit ContactFinder(Picker& picker) : picker_(picker) {}
 
-  /// Adds the contacts of all parts of the tool, in no order. If several parts of a link touch a
-  /// face, there may be several contacts of the same face and link, and the first touch is among
-  /// them. Throws GlError if GL did not work.
+  /// Adds the contacts of all parts of the tool, in no particular order. If several parts of a link
+  /// touch a face, there may be several contacts of the same face and link, and the first touch is
+  /// among them. Throws GlError if GL did not work.
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
  private:

@@ -47,8 +47,8 @@ bool first_nonzero_is_positive(const Vector3d& v) {
   return true;
 }
 
-/// The normal if the axis pierces the face: the face's own, with the sign for which it points along
-/// the axis from trocar to tip. See doc/geometry.md, Ties and piercing.
+/// The normal if the axis pierces the face: the face's own, turned so that normal · (tip - trocar)
+/// >= 0. See doc/geometry.md, Ties and piercing.
 Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
   const Vector3d direction = axis.tip - axis.trocar;
   Vector3d normal = face_normal(face);
@@ -71,8 +71,8 @@ double support_value(const Link& link, const Eigen::Isometry3d& T_organ_link,
   return highest + direction.dot(T_organ_link.translation());
 }
 
-/// The normal if a link pierces the face: the face's own, with the sign for which the way out,
-/// along -normal, is the shorter one.
+/// The normal if a link pierces the face: the face's own, with the sign for which the motion along
+/// -normal that parts them is shorter.
 Vector3d piercing_normal(const Link& link, const Eigen::Isometry3d& T_organ_link,
                          const Triangle& face) {
   Vector3d normal = face_normal(face);

@@ -36,9 +36,9 @@ struct FaceLeg {
 /// number and vertices.
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face);
 
-/// The contact of one part and one face by exact distances, without picking and without a limit to
-/// the work. Returns nothing if the face stays farther from the part's core than the radius during
-/// the leg.
+/// The contact of one part and one face by exact distances, without picking and without a work
+/// limit. Returns nothing if the face stays farther from the part's core than the radius during the
+/// leg.
 std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face);
 
 }  // namespace organ_collision

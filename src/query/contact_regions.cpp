@@ -41,7 +41,7 @@ void ContactRegions::clip(const Step& step, Places begin, Places end,
   }
 }
 
-/// Clips the faces of those contacts to a volume that have no region yet.
+/// Clips to a volume the faces of those contacts that have no region yet.
 void ContactRegions::clip(const ViewingVolume& volume, const TriangleMesh& organ, Places begin,
                           Places end, const std::vector<FaceContact>& contacts,
                           std::vector<Region>& regions) {

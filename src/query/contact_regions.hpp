@@ -11,12 +11,11 @@
 namespace organ_collision {
 
 /// Finds the regions of contacts. A region is the polygon in which the contact's face, as it is at
-/// the end of the step, meets the tool's volume on the leg that touched it. The volume is the
-/// shaft's, or that of the first part of the link whose volume the face meets. Keeps its memory
-/// between steps.
+/// the end of the step, meets the tool's volume on the leg of the first touch. For a link, this is
+/// the volume of its first part whose volume the face meets. Keeps its memory between steps.
 class ContactRegions {
  public:
-  /// `context` is what it draws in; it must outlive this object.
+  /// Draws in `context`, which must outlive this object.
   explicit ContactRegions(GlContext& context) : clipper_(context) {}
 
   /// Replaces `regions` by one for each of `contacts`. Throws GlError if GL did not work.
@@ -24,7 +23,7 @@ class ContactRegions {
             std::vector<Region>& regions);
 
  private:
-  /// A contact and what decides about the volumes that its face is clipped to.
+  /// A contact, and the leg and link that determine to which volumes its face is clipped.
   struct Place {
     std::size_t leg;
     std::uint32_t link;

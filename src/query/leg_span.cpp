@@ -24,7 +24,7 @@ constexpr double kOffRotation = 2.5 * kRotationTolerance;
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
 
 /// [1] The chord of the rotation between two orientations: 2 sin(angle / 2). A point at the
-/// distance r from the axis of rotation moves by r times that.
+/// distance r from the axis of rotation moves by r times this chord.
 double rotation_chord(const Isometry3d& from, const Isometry3d& to) {
   return (to.linear() - from.linear()).norm() / std::sqrt(2.0);
 }
@@ -52,10 +52,10 @@ double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::si
   return deviation;
 }
 
-/// [m] A bound on the same for a link. At the waypoints the deviation of a ball is known. Between
-/// two waypoints, the leg and the chord each deviate from straight lines by their chord deviation:
-/// at most an eighth of the arm times the squared angle. See doc/geometry.md, Rims and chord
-/// deviation.
+/// [m] The same for a link, as an upper bound. At the waypoints the deviation of the ball is known.
+/// Between two waypoints, the leg and the chord each deviate from straight lines by their chord
+/// deviation: at most an eighth of the arm times the squared angle. See doc/geometry.md, Rims and
+/// chord deviation.
 double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                       std::size_t link, const LinkBall& ball, double allowed) {
   const Isometry3d& first = waypoints[begin].links[link];

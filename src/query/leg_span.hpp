@@ -29,7 +29,8 @@ struct LinkBall {
 LinkBall ball_around(const Link& link);
 
 /// [m] How far a link may deviate from its chord: a share of the thickness of its thinnest part.
-/// With more, the volume around the chord would be much larger than those around the legs.
+/// With a larger deviation, the volume around the chord would be much larger than the volumes
+/// around the legs.
 double allowed_deviation(const Link& link);
 /// The same for a shaft with its radius [m].
 double allowed_deviation(double shaft_radius);

@@ -9,8 +9,8 @@ namespace organ_collision {
 inline constexpr double kMaxRotation = 0.2;
 
 /// The same motion with waypoints added, so that no link rotates by more than kMaxRotation within a
-/// leg: the larger the rotation, the looser are the boxes around the moving link. Returns `path`
-/// itself if nothing is to be added, else `finer`, which it fills.
+/// leg. Larger rotations would make the boxes around the moving link loose. Returns `path` itself
+/// if no waypoint is needed. Otherwise fills and returns `finer`.
 const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer);
 
 }  // namespace organ_collision

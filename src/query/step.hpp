@@ -76,7 +76,7 @@ class Step {
   const std::vector<Link>* links_;
   const ToolWaypoint* waypoints_;
   std::size_t waypoint_count_;
-  /// Of the earlier shape, in the clusters of the later one; null if the organ rests.
+  /// The boxes of the earlier shape in the clusters of the later one; null if the organ rests.
   const BlockBoxes* boxes_before_ = nullptr;
 };
 

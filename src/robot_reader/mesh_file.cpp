@@ -85,7 +85,7 @@ void check_scale(const Vector3d& scale) {
                               "; must be finite, and not 0 along any axis"));
 }
 
-/// assimp recognises the format by it.
+/// The extension of a file name. assimp recognises the format by it.
 std::string extension(const std::string& file) {
   const std::size_t dot = file.find_last_of("./");
   return dot == std::string::npos || file[dot] == '/' ? "" : file.substr(dot + 1);
@@ -125,7 +125,7 @@ void check_ply_header(const std::string& content) {
   }
 }
 
-/// Why the importer failed. It reports lack of memory by the text of the exception that it caught.
+/// Why the importer failed. If memory ran out, its error is only the text of std::bad_alloc.
 std::string reason(const Assimp::Importer& importer) {
   const std::string error = importer.GetErrorString();
   return error == std::bad_alloc().what() ? "there is not enough memory to read it" : error;

@@ -11,8 +11,9 @@ namespace organ_collision {
 /// formats of assimp. As in RViz, the axes are those of the file. Lengths are multiplied by
 /// `scale`, and in DAE by the file's unit too. Corners at the same position become one vertex.
 /// Points, lines, and other files that the file names are ignored. `file`: as for read_resource().
-/// `scale`: finite and not 0 along any axis; a negative one mirrors. Throws ToolError, but leaves
-/// to ToolSurface what that refuses. A broken file may end the program.
+/// `scale`: finite and not 0 along any axis; a negative one mirrors. Throws ToolError if `scale` is
+/// illegal, the file cannot be read, or a vertex is not finite. ToolSurface checks everything else,
+/// for example that there are triangles. A broken file may end the program.
 MeshDescription read_mesh_file(const std::string& file, const Eigen::Vector3d& scale,
                                const Eigen::Affine3d& T_link_mesh);
 

@@ -9,7 +9,7 @@
 
 #include "ros/tools/reader_limits.hpp"
 
-// For sanitizers, GCC defines macros, and clang has __has_feature.
+// GCC defines macros for sanitizers. clang has __has_feature instead.
 #ifndef __has_feature
 #define __has_feature(feature) 0
 #endif

@@ -50,8 +50,8 @@ std::size_t checked_size(const std::string& path, const struct stat& status) {
   return size;
 }
 
-/// Follows links. Checks the file before opening it, because opening may block or trigger a device.
-/// Checks it again afterwards, because it may have been replaced in between.
+/// Follows symbolic links. Checks the file before opening it, because opening may block or trigger
+/// a device. Checks it again afterwards, because it may have been replaced in between.
 std::string read_file(const std::string& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
@@ -77,8 +77,8 @@ bool begins_with(const std::string& text, const std::string& prefix) {
   return text.compare(0, prefix.size(), prefix) == 0;
 }
 
-/// Replaces the escapes of a URL, as %41 for A. A % that is not followed by two hexadecimal digits
-/// stays, and so does %00.
+/// Replaces the escapes of a URL, such as %41 by A. A % that is not followed by two hexadecimal
+/// digits stays, and so does %00.
 std::string decoded(const std::string& url) {
   std::string text;
   for (std::size_t i = 0; i < url.size(); ++i) {

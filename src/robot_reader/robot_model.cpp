@@ -20,7 +20,8 @@ ShapePose to_eigen(const urdf::Pose& pose) {
   return {to_eigen(pose.position), {q.w, q.x, q.y, q.z}};
 }
 
-/// Collects the errors that urdfdom logs through console_bridge during its own lifetime.
+/// While an object of this class lives, collects the errors that urdfdom logs through
+/// console_bridge.
 class ScopedErrorCollector : public console_bridge::OutputHandler {
  public:
   explicit ScopedErrorCollector(std::vector<std::string>& errors)

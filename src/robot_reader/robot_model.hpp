@@ -19,8 +19,8 @@ class RobotModel {
   /// `urdf`: the text of the URDF. Throws ToolError if it does not describe a robot.
   explicit RobotModel(const std::string& urdf);
 
-  /// All collision shapes of a link or, if it has none, all its visual shapes; and the joint that
-  /// moves it. Calls `about_to_read` before reading each mesh, with "link 'jaw': mesh 'jaw.stl'".
+  /// The joint that moves a link, and all its collision shapes or, if it has none, all its visual
+  /// shapes. Calls `about_to_read` before reading each mesh, with "link 'jaw': mesh 'jaw.stl'".
   /// Throws ToolError if there is no such link, or a shape or mesh cannot be read.
   LinkDescription link(const std::string& name,
                        const std::function<void(const std::string&)>& about_to_read) const;

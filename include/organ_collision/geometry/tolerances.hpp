@@ -9,9 +9,9 @@ namespace organ_collision::tolerance {
 /// alone decides.
 inline constexpr double kTouch = 1e-10;
 
-/// [1] The same tolerance as a share of the largest coordinate: a few roundings of it. Smaller
-/// differences of distance or time are noise. It is larger than kTouch for coordinates above
-/// 12.5 km.
+/// [1] The same tolerance as a share of the largest coordinate: a few rounding errors of that
+/// coordinate. Smaller differences of distance or time are noise. It is larger than kTouch for
+/// coordinates above 12.5 km.
 inline constexpr double kRounding = 8e-15;
 
 /// [m] Axis and face count as piercing up to this distance. The direction between their nearest
@@ -19,7 +19,7 @@ inline constexpr double kRounding = 8e-15;
 inline constexpr double kPierced = 1e-9;
 
 /// [m] Radius of parts of links with flat faces (convex margin). It keeps the contact direction
-/// well defined: such a part touches faces that are nearer than this. It is smaller than the
+/// well defined: such a part touches faces that are nearer than this. It is about as large as the
 /// rounding of a 32-bit vertex coordinate 0.2 m from the origin.
 inline constexpr double kConvexMargin = 1e-8;
 
@@ -32,8 +32,8 @@ inline constexpr double kTie = 1e-12;
 /// longest edge.
 inline constexpr double kParallel = 1e-12;
 
-/// [m] The largest legal coordinate. An organ farther away is a mistake of units, and clipping with
-/// 32-bit floats would report too many faces within a metre of the tool.
+/// [m] The largest legal coordinate. An organ farther away is a mistake of units. At this distance,
+/// neighbouring 32-bit coordinates differ by 6 cm.
 inline constexpr double kFarthest = 1e6;
 
 // Contacts are exact to 1e-9 m only if the tolerances have this order.

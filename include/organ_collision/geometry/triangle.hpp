@@ -15,7 +15,7 @@ inline Eigen::Vector3d point_at(const Triangle& triangle, const Eigen::Vector3d&
   return barycentric[0] * triangle[0] + barycentric[1] * triangle[1] + barycentric[2] * triangle[2];
 }
 
-/// Points along the outward normal, and is as long as twice the area [m^2]. Zero if the triangle is
+/// A vector along the outward normal whose length is twice the area [m^2]. Zero if the triangle is
 /// degenerate.
 inline Eigen::Vector3d twice_area(const Triangle& triangle) {
   return (triangle[1] - triangle[0]).cross(triangle[2] - triangle[0]);

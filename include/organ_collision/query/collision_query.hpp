@@ -24,12 +24,12 @@ struct CollisionRequest {
   /// The organ's shape at the end of the step. Required.
   const TriangleMesh* organ = nullptr;
   /// The organ's shape at the start of the step, with the same faces. Each vertex moves linearly
-  /// from there. Null: the organ rests. Static and paper modes ignore it.
+  /// to its place in `organ`. Null: the organ rests. Static and paper modes ignore it.
   const TriangleMesh* organ_before = nullptr;
   /// How the tool moved. Static modes look only at the last waypoint.
   ToolPath path;
-  /// [m] Of the shaft: the tool touches what comes within this distance of its axis. 0: the tool
-  /// has no shaft, only links.
+  /// [m] The radius of the shaft: the tool touches every face that comes within this distance of
+  /// its axis. 0: the tool has no shaft, only links.
   double radius = 0.0;
   /// The tool's links; every waypoint of `path` has a pose for each. Null: none. Paper modes ignore
   /// links.
@@ -74,8 +74,8 @@ struct CollisionResult {
 /// \endcode
 ///
 /// Threads: any thread may create, use and destroy a query, but only one thread at a time.
-/// Different queries may run in different threads at the same time, on the same meshes and links as
-/// long as nobody changes these.
+/// Different queries may run in different threads at the same time, on the same meshes and links,
+/// as long as these do not change.
 ///
 /// OpenGL: a query owns its context, which is current in the calling thread only while one of its
 /// functions runs. Creating a query takes about 10 ms. A query keeps its memory between calls, and
@@ -95,7 +95,7 @@ class CollisionQuery {
   /// Throws GlError if OpenGL failed. Throws std::invalid_argument, naming the value and what is
   /// legal, for a request that has no answer:
   /// - the organ is missing, or organ_before has other faces;
-  /// - the mode is none of QueryMode;
+  /// - the mode is not a value of QueryMode;
   /// - the radius is negative, not finite or above tolerance::kFarthest, or 0 without links;
   /// - a coordinate is not finite, or its magnitude is above tolerance::kFarthest;
   /// - the path is empty, or its fractions do not rise from 0 to 1;

@@ -14,10 +14,10 @@ namespace organ_collision {
 /// step, except where a field says that it describes the end of the step. In a static query both
 /// are the same.
 ///
-/// If tool and face are apart when the step begins, the distance between `point` and the axis is
-/// the radius, to within 1e-9 m. In a static query, moving the tool by -depth * normal brings its
-/// distance to the face back to the radius. If the tool pierces the face, the distance is then at
-/// least the radius.
+/// If the tool does not touch the face when the step begins, the distance between `point` and the
+/// axis is the radius, to within 1e-9 m. In a static query, moving the tool by -depth * normal
+/// brings its distance to the face back to the radius. If the tool pierces the face, the distance
+/// is then at least the radius.
 struct FaceContact {
   std::uint32_t face = 0;
   /// The indices of the face's corners in the organ's vertices, in the order of `barycentric`.
@@ -31,9 +31,9 @@ struct FaceContact {
   /// the one nearest the tip.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   /// Unit vector from the axis or link to `point`. If the axis or link pierces the face (their
-  /// distance is at most tolerance::kPierced), it is the face's own normal or its opposite, so that
-  /// the tool leaves along -normal. For a shaft, normal · (tip - trocar) >= 0. For a link, -normal
-  /// is the shorter way out.
+  /// distance is at most tolerance::kPierced), it is the face's own normal or its opposite, with
+  /// the sign for which a motion along -normal parts the tool from the face. For a shaft, normal ·
+  /// (tip - trocar) >= 0. For a link, it is the sign for which that motion is shorter.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   /// Barycentric coordinates of `point` in the face, in the order of `vertices`.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
@@ -48,12 +48,12 @@ struct FaceContact {
   bool behind = false;
   /// Where the point of the face with the same barycentric coordinates is at the end of the step.
   Eigen::Vector3d end_point = Eigen::Vector3d::Zero();
-  /// False if the query used up the work that it may cost before it could decide on this face. The
-  /// face is then reported to be safe: it may touch, and point, normal and depth may differ from
+  /// False if the query reached its work limit before it could decide on this face. The face is
+  /// then reported to be safe: it may not touch at all, and point, normal and depth may differ from
   /// those of the first touch. The message has no such field; it counts these contacts.
   bool is_resolved = true;
-  /// Depth range of the face along the view, measured from the plane of the trocar. Set only in the
-  /// paper modes, which set no other field except `face`.
+  /// Depth range [m], along the view, of the part of the face inside the volume, measured from the
+  /// plane of the trocar. Set only in the paper modes, which set no other field except `face`.
   double view_min = 0.0;
   double view_max = 0.0;
 };

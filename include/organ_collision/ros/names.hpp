@@ -1,6 +1,7 @@
 #pragma once
 
-/// All names that the node has in the ROS graph, relative to its private namespace.
+/// The default name of the node, and the names of its topics, services and parameters, relative to
+/// its private namespace.
 namespace organ_collision::names {
 
 inline constexpr char kNode[] = "organ_collision";
@@ -28,7 +29,7 @@ inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
 inline constexpr char kPublishRegions[] = "publish_regions";
 inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
 
-/// Of each entry of `tools`.
+/// The keys of each entry of `tools`.
 inline constexpr char kToolName[] = "name";
 inline constexpr char kTrocarFrame[] = "trocar_frame";
 inline constexpr char kTipFrame[] = "tip_frame";

@@ -22,10 +22,11 @@ double nearest_place(const Vector3d& point, const Vector3d& segment, double if_d
   return std::clamp(point.dot(segment) / length2, 0.0, 1.0);
 }
 
-/// Collects pairs of points of an axis and a face, one of which is a nearest pair: where the axis
-/// pierces the face, each end of the axis with its projection into the face, each edge with the
-/// axis and with both its ends, each corner with the axis. Both points of a pair lie on axis and
-/// face, so rounding never makes a distance too small. All points are relative to the trocar.
+/// Collects pairs of points of an axis and a face. At least one of them is a nearest pair: where
+/// the axis pierces the face, each end of the axis with its projection into the face, each edge
+/// with the axis and with both its ends, each corner with the axis. Both points of a pair lie on
+/// axis and face, so rounding never makes a distance too small. All points are relative to the
+/// trocar.
 class NearestPair {
  public:
   struct Pair {
@@ -63,8 +64,9 @@ class NearestPair {
   }
 
  private:
-  /// Adds a pair. The caller sets the barycentric coordinates in the result: to pass them as an
-  /// argument would copy values that were just stored in parts, which stalls the processor.
+  /// Adds a pair. The caller sets the barycentric coordinates in the result: passing them as an
+  /// argument would copy a vector just after its components were written one by one, which stalls
+  /// the processor.
   Pair& consider(double shaft, const Vector3d& on_face) {
     Pair& pair = pairs_[count_++];
     const Vector3d separation = on_face - shaft * axis_;
@@ -74,7 +76,8 @@ class NearestPair {
     return pair;
   }
 
-  /// Adds the pairs whose point on the face lies inside it. consider_edge() adds all others.
+  /// Adds the pairs whose point on the face lies inside it. Edges and corners are considered
+  /// separately.
   void consider_inside() {
     const Vector3d area = twice_area(face_);
     if (!(area.squaredNorm() > 0.0)) return;

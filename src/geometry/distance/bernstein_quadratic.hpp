@@ -10,7 +10,8 @@ struct BernsteinQuadratic {
   double start, middle, end;
 };
 
-/// First root in (0, 1] of a quadratic whose value at the start is positive; 2 if there is none.
+/// The first root in (0, 1] of a quadratic whose value at the start is positive; 2 if it has no
+/// such root.
 inline double first_root(const BernsteinQuadratic& quadratic) {
   const auto& [start, middle, end] = quadratic;
   if (middle >= 0.0 && end > 0.0) return 2.0;  // The control polygon stays positive.
@@ -19,7 +20,8 @@ inline double first_root(const BernsteinQuadratic& quadratic) {
   const double discriminant = half_linear * half_linear - square * start;
   if (discriminant < 0.0) return 2.0;
   const double root = std::sqrt(discriminant);
-  // Of the two forms of the solution, the one that does not cancel digits.
+  // The solution has two equivalent forms. The sign of half_linear decides which one does not
+  // cancel digits.
   const double place =
       half_linear < 0.0 ? start / (root - half_linear) : -(root + half_linear) / square;
   return place >= 0.0 && place <= 1.0 ? place : 2.0;

@@ -23,9 +23,9 @@ struct ClosestPoints {
 /// The nearest points of a core and a face (possibly degenerate to a segment or a point). Each kind
 /// of core has its own method: see axis_distance.hpp, cylinder_distance.hpp and gjk.hpp.
 ///
-/// `distance_bound` [m] lets the search for a hull stop early. If the distance is larger than this
-/// bound, the result may hold any lower bound of the distance that is larger than it, too; the
-/// points are then unspecified. Axes and cylinders ignore it.
+/// `distance_bound` [m] lets the search for a hull stop early. If the true distance is larger than
+/// `distance_bound`, the returned distance may be any value between the two; the points are then
+/// unspecified. Axes and cylinders ignore it.
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
                              double distance_bound = std::numeric_limits<double>::infinity());
 

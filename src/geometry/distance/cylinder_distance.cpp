@@ -115,8 +115,9 @@ class NearestToCylinder {
     } else if (below > 0.0) {
       consider_projection(back, -below * normal, area);
     } else {
-      // The cylinder crosses the face's plane. Any one point of the section is enough to consider:
-      // if it lies outside the face and the section overlaps the face, the section crosses an edge.
+      // The cylinder crosses the face's plane. It suffices to consider any one point of the
+      // section: if it lies outside the face and the section overlaps the face, the section crosses
+      // an edge.
       const double share = above + below < 0.0 ? below / (above + below) : 0.5;
       consider_projection(back + share * (front - back), Vector3d::Zero(), area);
     }

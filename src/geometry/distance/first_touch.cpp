@@ -10,7 +10,8 @@
 namespace organ_collision {
 namespace {
 
-/// An unresolved touch at the start, with any pair of points of core and face: it costs no search.
+/// An unresolved touch at the start. Its pair of points belongs to core and face but need not be
+/// the nearest one, so that it needs no iteration.
 FirstTouch unresolved_at_start(const CoreMotion& core, const FaceMotion& face) {
   return {0.0, axis_closest_points(core.start().axis(), face.start), false};
 }
@@ -21,8 +22,9 @@ double touching_distance(const CoreMotion& core, const FaceMotion& face, double 
   return radius + tolerance::kTouch + tolerance::kRounding * extent;
 }
 
-/// How long the next interval should be, as a multiple of the last one, of which `share` was clear.
-/// The distances [m] are those at both ends of that share.
+/// How long the next interval should be, as a multiple of the last one. Nothing touched during the
+/// first `share` of the last interval. The distances [m] are those at the start and at the end of
+/// that share.
 double next_length(double share, double distance_before, double distance, double radius) {
   if (share > 1.0) return 2.0;
   // Twice the time until core and face touch, if they go on approaching as fast as before.
@@ -35,7 +37,7 @@ double next_length(double share, double distance_before, double distance, double
 
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until) {
-  constexpr int kMaxAdvances = 1000;  // About ten are enough.
+  constexpr int kMaxAdvances = 1000;  // About ten are needed.
   if (budget.is_used_up() && !core.start().is_axis()) return unresolved_at_start(core, face);
 
   const double farthest_move = core.farthest_move() + face.farthest_move();

@@ -13,8 +13,8 @@ namespace organ_collision {
 struct FirstTouch {
   double time;  ///< time of impact, in [0, 1] of the leg
   ClosestPoints closest;
-  /// False if the work budget ran out: nothing touches before `time`, and whether anything touches
-  /// later is unknown.
+  /// False if the search stopped early, because the work budget ran out or it made too many
+  /// advances. Core and face do not touch before `time`. Whether they touch later is unknown.
   bool is_resolved = true;
 };
 
@@ -23,8 +23,8 @@ struct FirstTouch {
 /// kRounding of the largest coordinate. This one routine serves fixed and moving trocars, links
 /// that turn, and faces at rest and in motion.
 ///
-/// No touching face is missed when the budget runs out: the result is then a touch with
-/// `is_resolved` false.
+/// No touching face is missed if the budget runs out before the search has decided: the result is
+/// then a touch with `is_resolved` false.
 ///
 /// Method: conservative advancement with a turning plane. See doc/geometry.md, First touch.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,

@@ -82,7 +82,7 @@ class Simplex {
   }
 
   // Each of these considers the point nearest to the origin if it lies inside the edge, triangle or
-  // tetrahedron. Otherwise it lies on the border, which the others cover.
+  // tetrahedron. Otherwise that point lies on the border, which the other functions cover.
 
   void consider_edge(int i, int j, Sum& best) const {
     const Vector3d &a = vertices_[i].separation, edge = vertices_[j].separation - a;
@@ -134,8 +134,8 @@ Vertex support_against(const Vector3d& direction, const ConvexCore& core, const 
   return {on_core, face[corner] - on_core, corner};
 }
 
-/// The nearest points of two triangles, as those of all edges of each with the other: slower than
-/// the iteration, but exact for slivers too.
+/// The nearest points of two triangles, from the nearest points of each edge of one triangle and
+/// the other triangle. This is slower than the iteration, but also exact for slivers.
 ClosestPoints nearest_of_edges(const Triangle& core, const Triangle& face) {
   ClosestPoints nearest{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
   const auto consider = [&](const ClosestPoints& other) {
@@ -160,7 +160,7 @@ ClosestPoints nearest_of_edges(const Triangle& core, const Triangle& face) {
 
 ClosestPoints gjk_closest_points(const ConvexCore& hull, const Triangle& face,
                                  double distance_bound) {
-  constexpr int kMaxSteps = 100;  // About five are enough.
+  constexpr int kMaxSteps = 100;  // About five are needed.
   Simplex simplex(support_against(face[0] - hull.points[0], hull, face));
   int step = 1;
   for (; step < kMaxSteps; ++step) {
@@ -176,7 +176,7 @@ ClosestPoints gjk_closest_points(const ConvexCore& hull, const Triangle& face,
     }
     if (distance - least <= tolerance::kTie * std::max(1.0, distance)) break;
     if (simplex.has(next) || !simplex.add(next)) {
-      // Rounding prevents progress, as it does where a triangle is a sliver.
+      // Rounding prevents progress, for example if a triangle is a sliver.
       if (!hull.is_triangle()) break;
       return nearest_of_edges(hull.triangle(), face);
     }

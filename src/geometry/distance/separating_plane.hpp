@@ -25,17 +25,18 @@ inline ProjectionInterval project_onto(const Eigen::Vector3d& direction, const T
   return {std::min({a, b, c}), std::max({a, b, c})};
 }
 
-/// The first time in [0, 1] at which a gap may be zero or less if it is never smaller than the
-/// linear function from `start` to `end`; 2 if it stays positive.
+/// The first zero, in [0, 1], of the linear function from `start` to `end`: 0 if `start` is not
+/// positive, 2 if the function stays positive. A gap that is never smaller than this function is
+/// positive before that time.
 inline double first_zero(double start, double end) {
   if (start <= 0.0) return 0.0;
   return end > 0.0 ? 2.0 : start / (start - end);
 }
 
-/// A time of the leg, in [0, 1], before which a face and a part of a tool are surely farther apart
-/// than `reach` [m], because a plane with a fixed normal separates them; 2 if during all of it. The
-/// intervals are the projections onto the normal at the start and at the end of the leg. `reach`
-/// includes how far points leave their chords.
+/// A time of the leg, in [0, 1], before which a plane with a fixed normal certainly keeps a face
+/// and a part of a tool farther than some distance from each other; 2 if it does so during the
+/// whole leg. The intervals are the projections onto the normal at the start and at the end of the
+/// leg. `reach` [m] is that distance plus the chord deviation.
 inline double clear_until(const ProjectionInterval& face, const ProjectionInterval& face_at_end,
                           const ProjectionInterval& part, const ProjectionInterval& part_at_end,
                           double reach) {

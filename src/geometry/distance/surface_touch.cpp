@@ -36,7 +36,7 @@ bool is_settled(const FaceTouch& face) {
          face.first->closest.distance <= tolerance::kPierced;
 }
 
-/// Whether `touch` is earlier than `other`, or at the same time nearer, and thereby deeper.
+/// Whether `touch` is earlier than `other`, or nearer at the same time. The nearer one is deeper.
 bool precedes(const FirstTouch& touch, const FirstTouch& other) {
   return std::tie(touch.time, touch.closest.distance) <
          std::tie(other.time, other.closest.distance);

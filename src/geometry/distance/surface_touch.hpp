@@ -17,10 +17,11 @@ struct FaceTouch {
   std::optional<FirstTouch> first;
 };
 
-/// Sets the first touch of each of `faces`: when it first comes within `radius` [m] of a link's
-/// surface; none if it does not. If several triangles touch a face when the leg begins, the nearest
-/// one counts, which is the deepest. Changes the order of `faces`. Allocates nothing. If `budget`
-/// runs out, touches are unresolved, as first_touch() says.
+/// Sets the first touch of each of `faces`: when the face first comes within `radius` [m] of a
+/// link's surface. A face that stays farther away has no first touch. If several triangles touch a
+/// face when the leg begins, the nearest one counts, because it is the deepest. Changes the order
+/// of `faces`. Allocates nothing. If `budget` runs out, touches are unresolved: the face may not
+/// touch at all, or may touch earlier.
 ///
 /// The faces descend the surface's tree of boxes. Below a box, only the faces that may reach it are
 /// kept; in a leaf each of them is tested against each triangle.

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [m] As CoreMotion::chord_deviation, for any point of the box.
+/// [m] The same bound as CoreMotion::chord_deviation(), for any point of the box.
 double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
   if (motion.angle() == 0.0) return 0.0;
   double arm = motion.arm(box.center);

@@ -24,8 +24,8 @@ class SweptBox {
   Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
 
   /// A time of the leg before which the face surely stays farther from the box than the radius;
-  /// above 1 if it does so during the whole leg. Tests fixed planes: those across axes(), and the
-  /// face's own plane at the start.
+  /// above 1 if it does so during the whole leg. Tests fixed planes: those at right angles to
+  /// axes(), and the face's own plane at the start.
   double clear_until(const FaceMotion& face) const;
 
  private:
@@ -39,7 +39,7 @@ class SweptBox {
 
   Eigen::Matrix3d axes_;
   Place start_, end_;
-  double reach_;  ///< [m] radius, and how far points of the box leave their chords
+  double reach_;  ///< [m] radius plus chord deviation
 };
 
 }  // namespace organ_collision

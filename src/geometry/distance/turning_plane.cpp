@@ -10,9 +10,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [m] How far a corner must be from a point of the core, along the turning normal, to be surely
-/// farther than `radius` from the core: the radius, the reach of the core's rim, and how far the
-/// core's points leave their chords. `normal_from` and `normal_to` are the normals at both ends.
+/// [m] How far a corner must be from a point of the core, along the turning normal, to be certainly
+/// farther than `radius` from the core: the radius, the support value of the core's rim, and the
+/// chord deviation. `normal_from` and `normal_to` are the normals at both ends.
 BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const CoreMotion& core,
                                 double radius, const Vector3d& normal_from,
                                 const Vector3d& normal_to) {
@@ -20,8 +20,9 @@ BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const Co
   const double duration = to.time - from.time;
   const double deviation = std::max(core.chord_deviation(duration, normal_from),
                                     core.chord_deviation(duration, normal_to));
-  // The length of the turning normal is at most the quadratic with the coefficients 1, this, 1. The
-  // deviation at time t is at most 4 t (1 - t) times the largest one: coefficients 0, 2, 0.
+  // The length of the turning normal is at most the quadratic with the coefficients 1,
+  // normal_length, 1. The deviation at time t is at most 4 t (1 - t) times the largest deviation, a
+  // quadratic with the coefficients 0, 2, 0 times that deviation.
   const double normal_length = 0.5 * (1.0 + normal_from.dot(normal_to));
   return {radius + (rim_from.transpose() * normal_from).norm(),
           normal_length * radius + 2.0 * deviation +

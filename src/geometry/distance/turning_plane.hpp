@@ -23,13 +23,13 @@ struct Instant {
           double distance_bound = std::numeric_limits<double>::infinity());
 };
 
-/// The share of the interval between two instants during which core and face certainly stay farther
-/// apart than `radius` [m]; above 1 if they do so during all of it. Conservative: they may well
-/// stay apart for longer.
+/// The share of the interval between two instants during which the distance of core and face
+/// certainly stays above `radius` [m]; above 1 if it does so during the whole interval. This is a
+/// lower bound: the true share may be larger.
 ///
-/// The bound is a plane that turns linearly from the one instant's normal to the other's. The gap
-/// between it and each pair of corner and core point is a quadratic in time. See doc/geometry.md,
-/// First touch, and Rims and chord deviation.
+/// The bound comes from a plane whose normal turns linearly from `from.normal` to `to.normal`.
+/// Along this normal, the separation of each pair of corner and core point is a quadratic in time.
+/// See doc/geometry.md, First touch, and Rims and chord deviation.
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius);
 
 }  // namespace organ_collision

@@ -53,7 +53,7 @@ float fit_runs(const std::vector<float>& vertices, const std::vector<std::uint32
   return (sum + vertex).sum();
 }
 
-/// The same for blocks of any vertices. Iterates over the vertices, not over the blocks, because
+/// The same for blocks that are not runs. Iterates over the vertices, not over the blocks, because
 /// the boxes fit into the cache and the vertices may not.
 float fit_scattered(const std::vector<float>& vertices,
                     const std::vector<std::uint32_t>& block_of_vertex, std::vector<Box>& blocks) {

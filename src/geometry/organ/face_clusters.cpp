@@ -45,7 +45,7 @@ std::vector<std::uint32_t> morton_order(const std::vector<float>& vertices, std:
 }
 
 /// Whether vertices that follow each other in the sender's order are neighbours in space: on
-/// average, over a sample, not much farther apart than the two ends of an edge.
+/// average over a sample, their distance is at most kFar times the length of an edge.
 bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
   constexpr std::size_t kSamples = 4096;
   constexpr double kFar = 4.0;

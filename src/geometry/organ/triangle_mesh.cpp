@@ -83,8 +83,8 @@ void TriangleMesh::move_vertices(SharedVertices vertices) {
                                        " vertex coordinates; this topology has " +
                                        std::to_string(vertices_->size()));
   }
-  // The boxes show in the same pass whether all coordinates are legal. Only if one is not does a
-  // second pass find which.
+  // Fitting the boxes also shows whether all coordinates are legal. Only if one is illegal, a
+  // second pass finds it.
   const bool finite = spare_boxes_.refit(topology_->clusters, *vertices);
   const Eigen::AlignedBox3f& box = spare_boxes_.all();
   if (!finite || !is_in_range(box.min().cast<double>()) || !is_in_range(box.max().cast<double>())) {

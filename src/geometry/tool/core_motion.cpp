@@ -37,7 +37,7 @@ double CoreMotion::farthest_move() const {
 
 double CoreMotion::chord_deviation(double duration) const {
   if (!link_) return 0.0;
-  // An eighth of the acceleration, by which a curve leaves its chord at most.
+  // A curve leaves its chord by at most an eighth of its acceleration.
   const double angle = duration * link_->angle();
   return arm_ * angle * angle / 8.0;
 }

@@ -24,9 +24,10 @@ class CoreMotion {
   const RigidMotion* link() const { return link_; }
   /// [m] An upper bound of how far any point of the core moves.
   double farthest_move() const;
-  /// [m] An upper bound, along `normal` (unit), of how far any point of the core is from where it
-  /// would be if it moved linearly between two times that are `duration`, in [0, 1] of the leg,
-  /// apart. See doc/geometry.md, Rims and chord deviation.
+  /// [m] An upper bound of how far any point of the core deviates, along `normal` (unit), from
+  /// linear motion between its places at the start and at the end of an interval. `duration`, in
+  /// [0, 1] of the leg, is the length of the interval. See doc/geometry.md, Rims and chord
+  /// deviation.
   double chord_deviation(double duration, const Eigen::Vector3d& normal) const;
   /// The same along any direction.
   double chord_deviation(double duration) const;
@@ -38,8 +39,8 @@ class CoreMotion {
   ConvexCore start_, end_;
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double arm_ = 0.0;  ///< [m] upper bound of the distance of the core's points from the axis
-                      ///< through the link's origin about which the link turns
+  double arm_ = 0.0;  ///< [m] upper bound of the distance of the core's points from the axis of
+                      ///< the link's rotation, which passes through the link's origin
 };
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 namespace organ_collision {
 
 /// One leg of a link's path, in the organ's frame [m]. The link's origin moves linearly. The link
-/// turns about a fixed direction at constant speed, the shorter way round (slerp).
+/// turns about a fixed direction at constant speed, by at most half a turn (slerp).
 class RigidMotion {
  public:
   /// T_organ_link at both ends of the leg.
@@ -22,7 +22,8 @@ class RigidMotion {
   double angle() const { return angle_; }
   /// The direction about which the link turns: unit, in the organ's frame.
   Eigen::Vector3d axis() const { return start_.linear() * axis_; }
-  /// [m] Distance of a point in the link's frame from that axis through the link's origin.
+  /// [m] Distance of a point in the link's frame from the axis of the rotation, which passes
+  /// through the link's origin.
   double arm(const Eigen::Vector3d& p_link) const { return axis_.cross(p_link).norm(); }
   /// [m] How far the link's origin moves.
   double origin_displacement() const { return (end_.translation() - start_.translation()).norm(); }

@@ -15,9 +15,11 @@ namespace {
 using Eigen::Vector3d;
 using Reason = MeshError::Reason;
 
-/// A leaf has at most so many faces: to test boxes of fewer faces costs more than it saves.
+/// The largest number of faces in a leaf. Testing boxes around fewer faces costs more than it
+/// saves.
 constexpr std::uint32_t kLeafFaces = 4;
-/// A node with at most so many faces is scanned for its support value without further boxes.
+/// If a node has at most this many faces, its support value is found by scanning them, without the
+/// boxes below it.
 constexpr std::uint32_t kScannedFaces = 64;
 
 template <typename... Parts>

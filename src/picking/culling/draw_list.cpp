@@ -8,8 +8,8 @@ namespace {
 
 // [1] A face is not drawn if it moves by more than kMostMove times the part's thickness, or if one
 // of its coordinates exceeds kMostExtent times that thickness. The volume would have to grow so
-// much for it that many other faces would survive clipping. With kMostExtent the volume grows by 1%
-// of the thickness, since 32-bit clipping loses a millionth of the largest coordinate.
+// much for such a face that many other faces would survive clipping. With kMostExtent the volume
+// grows by 1% of the thickness, since 32-bit clipping loses a millionth of the largest coordinate.
 constexpr double kMostMove = 0.5;
 constexpr double kMostExtent = 0.01 / 1e-6;
 

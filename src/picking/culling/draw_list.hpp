@@ -11,30 +11,30 @@
 
 namespace organ_collision {
 
-/// A corner of a drawn face. GL passes on what follows the position as one texture coordinate.
+/// A corner of a drawn face. GL returns the members after the position as one texture coordinate.
 struct DrawVertex {
   std::array<float, 3> position;     ///< in the volume's shifted coordinates [m]
   std::array<float, 2> barycentric;  ///< second and third barycentric coordinate of the corner
   std::array<float, 2> number;       ///< of the face: its lower and upper 16 bits, exact
 };
 
-/// Puts a face's number together again from its two halves.
+/// The face's number from its lower and upper 16 bits.
 std::uint32_t face_number(float lower, float upper);
 
 /// The faces that GL draws, in the order in which they were added. Keeps its memory between
 /// queries.
 class DrawList {
  public:
-  /// Replaces the list by the faces of `mesh`, cluster by cluster, without those that outcodes
-  /// reject: faces whose three corners, or the boxes that contain these, are all outside the same
-  /// half-space.
+  /// Replaces the list by the faces of `mesh` that outcodes do not reject, cluster by cluster.
+  /// Outcodes reject a face if its three corners, or the boxes that contain them, are all outside
+  /// the same half-space.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
 
   /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
   /// is drawn where it is half way. Returns the volume to clip them to: it contains the space that
-  /// the part sweeps, grown by how far a drawn face moves from its place half way and for 32-bit
-  /// clipping. Faces that move far, or that reach far from the part, would make the volume large;
-  /// they are not drawn but listed in undrawn().
+  /// the part sweeps, and has grown by the largest distance of a drawn face from its place half
+  /// way, and for 32-bit clipping. Faces that move far, or that reach far from the part, would make
+  /// the volume large; they are not drawn but listed in undrawn().
   ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
 
   /// Replaces the list by `faces` of the mesh. The number of a face is its index in `faces`.

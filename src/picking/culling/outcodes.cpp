@@ -11,8 +11,9 @@ namespace {
 constexpr std::size_t kRun = FaceClusters::kRun;
 
 // [1] Bounds on the rounding error of a dot product with a unit normal in 32 bits, as shares of the
-// sum of the magnitudes of the point's coordinates. There are six roundings, and nine more for a
-// point interpolated between two others. The rest is a safety margin.
+// sum of the magnitudes of the point's coordinates. The error is at most four roundings, and seven
+// more for a point interpolated between two others. The rest is a safety margin. See
+// doc/geometry.md, Outcodes and 32-bit clipping.
 constexpr float kSlack = 8.0F / (1 << 24);
 constexpr float kSlackBetween = 16.0F / (1 << 24);
 
@@ -107,7 +108,7 @@ void Outcodes::find_codes(const BoxRun& after, LoadBefore load_before, Code* cod
   }
 }
 
-/// `slack` [m]: how far rounding may have moved the boxes along a normal.
+/// `slack` [m]: a bound on the rounding error of each box along a normal.
 CodeRun Outcodes::find_codes(const BoxRun& boxes, const ValueRun& slack) const {
   const auto& [low, high] = boxes;
   CodeRun codes{};

@@ -16,9 +16,9 @@ namespace organ_collision {
 /// outside. If the corners of a face, or the blocks or sections that contain them, have a bit in
 /// common, the face does not meet the volume.
 ///
-/// Outcodes are found from coarse to fine: those of blocks only where the sections cannot reject
-/// the faces, those of vertices only where the blocks cannot. See doc/geometry.md, Words and
-/// Outcodes and 32-bit clipping. Keeps its memory between queries.
+/// Outcodes are found from coarse to fine. The outcodes of blocks are found only where the sections
+/// cannot reject the faces, and the outcodes of vertices only where the blocks cannot. See
+/// doc/geometry.md, Words and Outcodes and 32-bit clipping. Keeps its memory between queries.
 class Outcodes {
  public:
   /// Starts with a new volume and organ, and finds the outcodes of all sections. Computes in 32
@@ -29,14 +29,14 @@ class Outcodes {
   bool section_is_outside(std::size_t section) const {
     return common(clusters().sections(section), section_codes_) != 0;
   }
-  /// Finds the outcodes of all blocks that contain vertices of those faces.
+  /// Finds the outcodes of all blocks that contain vertices of the faces of the section's clusters.
   void add_blocks(std::size_t section);
   /// Whether all faces of a block's cluster are outside the same half-space. Requires add_blocks()
   /// of the block's section.
   bool cluster_is_outside(std::size_t block) const {
     return common(clusters().blocks(block), block_codes_) != 0;
   }
-  /// Finds the outcodes of all vertices of those faces.
+  /// Finds the outcodes of all vertices of the faces of the block's cluster.
   void add_vertices(std::size_t block);
   /// Whether a face is outside a half-space. Requires add_vertices() of the face's cluster.
   bool face_is_outside(const FaceIndices& corners) const {
@@ -48,7 +48,7 @@ class Outcodes {
   struct Plane {
     float x, y, z, offset;
   };
-  /// The bits that all parts have in common.
+  /// The bits that the codes of all parts (blocks or sections) have in common.
   static unsigned common(const FaceClusters::Range<std::uint32_t>& parts,
                          const std::vector<Code>& codes) {
     unsigned code = ~0U;

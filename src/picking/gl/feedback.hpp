@@ -28,14 +28,14 @@ class FeedbackVertex {
   const float* floats_;
 };
 
-/// Draws triangles, three `vertices` each, in GL_FEEDBACK mode, clipped to `volume`. Makes the
-/// context current. Enlarges `buffer` until everything fits. Returns the number of floats written
-/// to it. Throws GlError if GL did not work.
+/// Draws each three consecutive `vertices` as a triangle in GL_FEEDBACK mode, clipped to `volume`.
+/// Makes the context current. Enlarges `buffer` until everything fits. Returns the number of floats
+/// written to it. Throws GlError if GL did not work.
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                           const std::vector<DrawVertex>& vertices, std::vector<float>& buffer);
 
 /// Calls visit(vertex) for each vertex in the first `size` floats of a feedback buffer, in the
-/// order drawn. Throws GlError for a token that no triangle leaves behind.
+/// order drawn. Throws GlError for a token that clipped triangles cannot produce.
 template <typename Visit>
 void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit);
 

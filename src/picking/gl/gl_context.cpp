@@ -51,7 +51,7 @@ GlContext::GlContext() : state_(std::make_unique<State>()) {
         "OSMesa's place; install libosmesa6 and start this process without preloading libGL");
   }
   state_->version = reinterpret_cast<const char*>(version);
-  // Never disabled again: each switch costs as much time as a face.
+  // They stay enabled, because each switch costs as much time as a face.
   state_->functions.EnableClientState(GL_VERTEX_ARRAY);
   state_->functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
 }

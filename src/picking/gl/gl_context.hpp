@@ -18,7 +18,7 @@ struct GlFunctions;
 /// destroys it.
 class GlContext {
  public:
-  /// Throws GlError when OSMesa gives no context, no function, or no version string.
+  /// Throws GlError if OSMesa gives no context or no version string, or lacks a GL function.
   GlContext();
   ~GlContext();
   GlContext(GlContext&&) noexcept;

@@ -21,7 +21,7 @@ struct GlFunctions {
 #undef ORGAN_COLLISION_DECLARE
 };
 
-/// Loads all of them; throws GlError naming the first that is missing.
+/// Loads all these functions. Throws GlError, naming the first one that is missing.
 GlFunctions load_gl_functions();
 
 }  // namespace organ_collision

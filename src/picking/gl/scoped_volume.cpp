@@ -5,9 +5,9 @@
 namespace organ_collision {
 
 // The whole matrix is loaded as the modelview matrix, and the projection stays the identity. GL's
-// eye coordinates are then clip coordinates, and the user planes are given in those. With a
-// projection, GL would transform the planes by its inverse in 32 bits, and lose the precision that
-// the shift to the origin has gained.
+// eye coordinates are then clip coordinates, in which the user planes are given. With a projection,
+// GL would transform the planes by its inverse in 32 bits and lose the precision that the shift to
+// the origin has gained.
 ScopedVolume::ScopedVolume(const GlFunctions& gl, const ViewingVolume& volume)
     : gl_(gl), user_plane_count_(static_cast<GLenum>(volume.user_plane_count())) {
   gl_.LoadIdentity();

@@ -6,7 +6,8 @@
 namespace organ_collision {
 
 /// Makes GL clip to a viewing volume, for vertices in the volume's shifted coordinates. The
-/// destructor disables the user planes again. Relies on no earlier GL state.
+/// destructor disables the user planes again. Of the earlier GL state, it relies only on the matrix
+/// mode and the projection of a new context.
 class ScopedVolume {
  public:
   ScopedVolume(const GlFunctions& gl, const ViewingVolume& volume);

@@ -35,14 +35,14 @@ class Picker {
                     std::vector<Candidate>& candidates) = 0;
 
   /// Replaces `candidates` by the faces of `organ` that may meet the space that `part` sweeps, each
-  /// once, sorted by number. Contains every face that does. The depth ranges are without meaning.
-  /// Makes the context current, and throws, as above.
+  /// once, sorted by number. Contains every face that does. The depth ranges have no meaning. Makes
+  /// the context current, and throws, as above.
   virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
 };
 
-/// Makes a picker that draws in `context`, which must outlive it. Tries it first with faces of
-/// which one is known to be in view, and throws GlError if it picks wrongly.
+/// Makes a picker that draws in `context`, which must outlive it. First tests it with three faces,
+/// only one of them in view. Throws GlError if it picks wrongly.
 std::unique_ptr<Picker> make_picker(PickerKind kind, GlContext& context);
 
 }  // namespace organ_collision

@@ -10,8 +10,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-// Puts the corners of a convex polygon, each once, in the order that agrees with the face's
-// corners.
+// Orders the corners of a convex polygon in the same sense as the face's corners. Removes
+// duplicates.
 void order_corners(std::vector<Vector2d>& corners) {
   const auto less = [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();

@@ -15,7 +15,7 @@ namespace organ_collision {
 /// coordinates, so that regions do not suffer from the low precision of window coordinates.
 class RegionClipper {
  public:
-  /// `context` is what it draws in; it must outlive this object.
+  /// Draws in `context`, which must outlive this object.
   explicit RegionClipper(GlContext& context) : context_(&context) {}
 
   /// One region for each of `faces`, in their order. Throws GlError if GL did not work.

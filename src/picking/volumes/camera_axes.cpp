@@ -5,8 +5,8 @@
 namespace organ_collision {
 namespace {
 
-// [1] Sine of the angle to the view below which the part of a vector across the view is only
-// rounding.
+// [1] A vector counts as parallel to the view below this sine of the angle between them: its part
+// at right angles to the view is then only rounding.
 constexpr double kParallel = 1e-12;
 
 // The unit vector, or zero for a zero vector.
@@ -29,7 +29,7 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& 
   Eigen::Vector3d x = direction(right);
   x -= z * z.dot(x);
   if (x.norm() < kParallel) return camera_axes(view);
-  // Repeated because the first subtraction cancels most digits of a nearly parallel vector.
+  // This is repeated because the first subtraction cancels most digits of a nearly parallel vector.
   x = direction(x);
   x = direction(x - z * z.dot(x));
   Eigen::Matrix3d axes;

@@ -17,14 +17,14 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 // The wedge serves a triangle of trocar and tips that is neither too thin nor too oblique for it.
-// The box serves all others.
+// The box serves all other motions.
 constexpr double kMinSine = 1e-3;       // [1] of the angle at the trocar
 constexpr double kMinStep = 1e-3;       // [1] tip motion as a share of the axis length
 constexpr double kMinForward = 0.3;     // [1] cosine between either axis and the view
 constexpr double kMinNearShare = 1e-3;  // [1] near, as a share of far
 
-// [1] A user plane that cuts off less than this share of the radius is left out: it would cost
-// more than it saves.
+// [1] A user plane that cuts off less than this share of the radius is left out, because it would
+// cost more than it saves.
 constexpr double kWorthCutting = 0.25;
 
 // Both ends of the axis before and after the leg, relative to the first trocar [m].
@@ -43,8 +43,9 @@ struct Ends {
 };
 
 // The wedge of the paper's section 4. Its sides are moved outward by the radius at right angles,
-// its ends by the radius along the view. Returns nothing if the triangle does not suit it, or if
-// the trocar moves. `extent` [m] is the largest coordinate of the motion and of the drawn faces.
+// its ends by the radius along the view. Returns nothing if the triangle is too thin or too
+// oblique, or if the trocar moves. `extent` [m] is the largest coordinate of the motion and of the
+// drawn faces.
 std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double extent,
                                    const Rounding& rounding) {
   const double longest = std::max(ends.tip_start.norm(), ends.tip_end.norm());
@@ -64,7 +65,8 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   // The sides meet on the bisector of the angle at the trocar, this many radii behind the trocar.
   const Vector3d bisector = (start + end).normalized();
   const double back = 2 / (end - start).norm();
-  // The more a side slants, the more of the rounding of the depth enters its equation.
+  // A side's equation contains the depth times the side's slope, so the rounding of the depth
+  // counts in proportion to the slope.
   const double slant = 1 + std::max(std::abs(left), std::abs(right));
   const double reach = std::max(extent, back * radius);
   const double grown = radius + rounding.plane * slant * reach;

@@ -14,8 +14,7 @@ namespace organ_collision {
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin);
 
-/// The conservative volume without its margins: as close to the swept capsule as six frustum planes
-/// and the user planes allow. Regions of contacts are clipped to it.
+/// The conservative volume without its margins. Regions of contacts are clipped to it.
 ViewingVolume tool_volume(const ShaftMotion& motion, double radius);
 
 }  // namespace organ_collision

@@ -14,7 +14,7 @@ bool turns_left(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return ab.x() * ac.y() - ab.y() * ac.x() > 0;
 }
 
-// Adds the corners of the hull's side from the first point to the last, except for the last.
+// Adds the corners on one side of the hull, from the first point to the last. The last is left out.
 template <typename Iterator>
 void add_chain(Iterator first, Iterator last, ConvexHull& hull) {
   std::array<Vector2d, 4> chain;

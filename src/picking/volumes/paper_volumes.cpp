@@ -16,8 +16,8 @@ using Eigen::Vector3d;
 // it. In both cases only rounding would decide the directions of the hexahedron.
 constexpr double kFlat = 1e-9;
 
-// [m], [1] The volume of a shaft that is shorter, thinner, or thinner relative to its length is
-// smaller than the rounding of 32-bit clipping.
+// The least length and radius of a shaft [m], and its least radius as a share of its length [1].
+// The volume of a smaller shaft is lost in the rounding of 32-bit clipping.
 constexpr double kLeastSize = 1e-9;
 constexpr double kThinnest = 1e-6;
 

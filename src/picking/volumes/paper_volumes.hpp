@@ -8,11 +8,12 @@
 namespace organ_collision {
 
 /// The volumes of Lombardo, Cani and Neyret, "Real-time collision detection for virtual surgery"
-/// (1999), to the letter. They miss some faces near the sides and the end of a swept tool, and they
+/// (1999), as published. They miss some faces near the sides and the end of a swept tool, and they
 /// are not grown for 32-bit clipping. Radii are in metres.
 ///
-/// All three throw VolumeError for a shaft of which 32-bit clipping would leave nothing: shorter
-/// than 1e-9 m, or with a radius below 1e-9 m or below a millionth of its length.
+/// The three functions throw VolumeError for a shaft whose volume would be lost in the rounding of
+/// 32-bit clipping: one shorter than 1e-9 m, or with a radius below 1e-9 m or below a millionth of
+/// its length.
 
 /// The motion has no such volume. what() names the value and what is legal.
 class VolumeError : public std::invalid_argument {

@@ -8,9 +8,9 @@
 
 namespace organ_collision {
 
-/// The space that a part of a tool sweeps on one leg, or on the chord of several. It builds the
-/// conservative volumes around that space once the margins are known. It refers to the motion or
-/// the box, which must outlive it.
+/// The space that a part of a tool sweeps on one leg, or on the chord of a span of legs. It builds
+/// the conservative volumes around that space once the margins are known. It refers to the motion
+/// or the box, which must outlive it.
 class PartSweep {
  public:
   /// A shaft with its radius [m].

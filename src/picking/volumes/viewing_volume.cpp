@@ -5,7 +5,7 @@
 namespace organ_collision {
 namespace {
 
-// A camera coordinate as a row: its product with (p, 1) is axis · (p - eye).
+// A camera coordinate as a row. The product of the row and (p, 1) is axis · (p - eye).
 Eigen::RowVector4d coordinate(const ViewingVolume::Camera& camera, int axis) {
   const Eigen::Vector3d direction = camera.axes.col(axis);
   return {direction.x(), direction.y(), direction.z(), -direction.dot(camera.eye)};

@@ -27,7 +27,7 @@ class ViewingVolume {
   std::size_t user_plane_count() const { return user_plane_count_; }
 
   /// The same volume as half-spaces in shifted coordinates: first the six frustum planes (left,
-  /// right, bottom, top, near, far), which are the rows of `clip`, then the user planes.
+  /// right, bottom, top, near, far), which follow from the rows of clip(), then the user planes.
   std::size_t half_space_count() const { return 6 + user_plane_count_; }
   HalfSpace half_space(std::size_t index) const;
 

@@ -11,7 +11,7 @@ namespace organ_collision {
 /// organ [m]. FaceClusters explains blocks and sections.
 class BlockBoxes {
  public:
-  /// The first three coordinates count. The fourth is unused padding for vector registers.
+  /// The first three coordinates are x, y and z. The fourth is padding for vector registers.
   struct Box {
     Eigen::Array4f min, max;
   };

@@ -64,8 +64,8 @@ class TriangleMesh {
       : TriangleMesh(std::make_shared<std::vector<float>>(std::move(vertices)), triangles, topology,
                      limits) {}
 
-  /// Sets new positions for the same triangles; their number must be unchanged. Reads them once,
-  /// and neither copies nor allocates.
+  /// Sets new positions for the same triangles. The number of vertices must be unchanged. Reads the
+  /// positions once and does not copy them. Only the first call allocates.
   void move_vertices(SharedVertices vertices);
   void move_vertices(std::vector<float> vertices) {
     move_vertices(std::make_shared<std::vector<float>>(std::move(vertices)));
@@ -94,8 +94,8 @@ class TriangleMesh {
     return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
   }
 
-  /// Whether both meshes have the same triangles and as many vertices. One can then be an earlier
-  /// shape of the other.
+  /// Whether both meshes have the same triangles and the same number of vertices. One can then be
+  /// an earlier shape of the other.
   bool same_faces(const TriangleMesh& other) const {
     return vertex_count() == other.vertex_count() &&
            (topology_ == other.topology_ || faces() == other.faces());

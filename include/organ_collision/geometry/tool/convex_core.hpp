@@ -34,9 +34,10 @@ struct ConvexCore {
   bool is_axis() const { return count <= 2 && !is_cylinder(); }
   bool is_triangle() const { return count == 3; }
   bool is_cylinder() const { return rim(0, 0) != 0.0 || rim(1, 0) != 0.0 || rim(2, 0) != 0.0; }
-  /// From the first point to the last one; of a ball or a shaft, all of it.
+  /// The segment from the first point to the last one. For a ball or a shaft, this is the whole
+  /// core.
   ShaftAxis axis() const { return {points[0], points[count - 1]}; }
-  /// The first three points; of a triangle, all of it.
+  /// The triangle of the first three points. For a triangle core, this is the whole core.
   Triangle triangle() const { return {points[0], points[1], points[2]}; }
 };
 

@@ -17,14 +17,14 @@ struct LinkPart {
   ConvexCore core;
   std::shared_ptr<const ToolSurface> surface;  ///< null if the part is convex
   double radius;                               ///< [m] > 0
-  OrientedBox bounds;                          ///< of core or surface, without the radius
+  OrientedBox bounds;                          ///< around core or surface, without the radius
 
   // The shapes of URDF, at a pose in the link's frame. Sizes are in metres and positive. Shapes
   // with flat faces get the radius tolerance::kConvexMargin.
   static LinkPart sphere(const Eigen::Vector3d& center, double radius);
-  /// Centred, along z, with flat ends.
+  /// A cylinder around the z axis of the shape, centred at its origin, with flat ends.
   static LinkPart cylinder(const Eigen::Isometry3d& T_link_shape, double radius, double length);
-  /// Centred; `size` along x, y and z.
+  /// A box centred at the shape's origin, with the edge lengths `size` along x, y and z.
   static LinkPart box(const Eigen::Isometry3d& T_link_shape, const Eigen::Vector3d& size);
   /// A mesh whose vertices are in the link's frame.
   static LinkPart mesh(ToolSurface surface);

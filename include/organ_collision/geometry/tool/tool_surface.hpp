@@ -20,7 +20,7 @@ class ToolSurface {
   /// not finite or beyond tolerance::kFarthest.
   ToolSurface(std::vector<Eigen::Vector3d> vertices, std::vector<FaceIndices> faces);
 
-  /// The vertices that faces use, in an order of their own.
+  /// The vertices that faces use. Their order is not the caller's.
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   /// In the order of the tree, which does not depend on the caller's order of faces.
   const std::vector<FaceIndices>& faces() const { return faces_; }
