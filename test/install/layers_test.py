@@ -21,7 +21,7 @@ ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_ms
 GL = re.compile(r'\b(GL|EGL)/')
 GL_LIBRARIES = r'lib(OSMesa|GL|EGL)\.so'
 PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
-# The layers that the adapters do without, and the rooms of the node.
+# The layers that the adapters must not use, and the folders of the node.
 NODE = re.compile(r'(organ_collision/)?(picking|query)/|ros/(node|motion|organs|parameters|publishing|steps|tools)/')
 
 

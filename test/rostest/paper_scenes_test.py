@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""The scenes of the 1999 paper: a liver of 1224 faces, of which a tool touches 5 to 25, and a
-tetrahedron, of which it touches 0 to 3. Both pickers give exact contacts and the faces of the
-paper's own modes."""
+"""The scenes of the 1999 paper: a tool touches 5 to 25 faces of a liver of 1224 faces, and 0 to 3
+faces of a tetrahedron. Both pickers give exact contacts, and the faces of the paper's own modes."""
 
 import random
 import sys
