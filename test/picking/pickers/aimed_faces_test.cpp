@@ -81,9 +81,9 @@ TEST_P(AimedFacesTest, AreNeverMissed) {
   EXPECT_GT(aimed_, 150'000);
 }
 
-// The rounding error of the far plane grows with far / near, that of the user planes with radius /
-// near. Both are largest for wide swings, in which near is small. Small faces are used because the
-// volume grows least for them.
+// The rounding error of the far plane grows with far / near. The error of the user planes grows
+// with radius / near. Both are largest for wide swings, in which near is small. Small faces are
+// used, because the volume grows least for them.
 TEST_P(AimedFacesTest, AreNotMissedWhereThePerspectiveDivisionIsWorst) {
   int perspective = 0;
   for (int i = 0; i < 100'000; ++i) {
