@@ -26,7 +26,7 @@ std::vector<Contact> contacts_of(const TriangleMesh& organ, const ShaftAxis& axi
   return contacts;
 }
 
-/// The different normals (to 1e-6) of the contacts that are local minima.
+/// The distinct normals, rounded to 1e-6, of the contacts that are local minima.
 std::set<std::vector<long>> nearest_normals(const std::vector<Contact>& contacts) {
   const std::vector<std::size_t> basins = basins_of(contacts);
   std::set<std::vector<long>> normals;
@@ -52,7 +52,7 @@ TEST(Basins, OfFlatTissueTheNearestIsOneHoweverItIsDivided) {
 }
 
 TEST(Basins, OfACreaseBothSidesAreNearest) {
-  // 1 mm from one wall, 4.2 mm from the other.
+  // The axis is 1 mm from one wall and 4.2 mm from the other.
   const double across = std::sqrt(0.5) * (0.001 - 0.0042), up = std::sqrt(0.5) * 0.0052;
   for (const double cell : {0.02, 0.0025, 0.00125}) {
     const auto contacts = contacts_of(folded_sheet(M_PI / 4, M_PI / 4, cell),

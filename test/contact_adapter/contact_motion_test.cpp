@@ -112,6 +112,6 @@ TEST(ContactMotion, IsNoMoreThanTheWayOfRealQueries) {
       EXPECT_LE(ways[i], 1.01 * steps[i].way) << "yaw " << yaw << ", step " << i;
       sum += ways[i];
     }
-    EXPECT_GE(sum, 0.01) << "yaw " << yaw;  // [m]; the whole motion is 36 mm
+    EXPECT_GE(sum, 0.01) << "yaw " << yaw;  // [m] The tool moves by 36 mm.
   }
 }

@@ -60,7 +60,7 @@ struct ForceStep {
   ShaftAxis axis;
   Eigen::Vector3d force;
   double change;  ///< [N] of the force since the last step
-  double way;     ///< [m] that the axis has moved since then: the larger way of its two ends
+  double way;     ///< [m] distance that the faster end of the axis has moved since then
 };
 
 /// The forces on a shaft that moves through `poses`, with the organ at rest. The queries are those

@@ -35,7 +35,7 @@ TEST(ForceTrajectory, LyingOnTissueItGrowsOnPastTheRadius) {
         const double lowest = std::min(step.axis.tip.z(), step.axis.trocar.z());
         const double depth = std::max(0.0, kRadius - lowest);
         EXPECT_LE(angle_between(step.force, Vector3d::UnitZ()), step.force.z() > 0.1 ? 1e-3 : 4.0);
-        // Once the trocar's end is inside, no contact tells its depth.
+        // If the trocar's end is inside the tissue, no contact reports its depth.
         if (tilt < 0.0 && step.axis.trocar.z() < 0.0) continue;
         EXPECT_NEAR(step.force.z(), kStiffness * depth, 2.0 * kStiffness * kStep);
       }

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kStiffness = 250.0;
-/// [N], [N m] The tolerance if several springs are searched for: a few millionths of the largest.
+/// [N], [N m] The tolerance for several springs: a few millionths of the largest force.
 constexpr double kSearched = 1e-4;
 
 struct Wrench {
@@ -75,7 +75,7 @@ TEST(PenaltyWrench, WhatWasLeftDoesNotCount) {
 }
 
 TEST(PenaltyWrench, SplittingSomeFacesMoreThanOthersChangesNoForce) {
-  // Two walls and a floor, each split within its plane.
+  // Two walls and a floor. Each consists of several pushes in one plane.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> way(-0.002, 0.002);
   const std::vector<Push> whole = {push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.0011),

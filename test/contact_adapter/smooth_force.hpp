@@ -24,8 +24,7 @@ inline ForceLaw remembering_law(const KeptSides::Radius& radius = kRadius) {
 }
 
 /// Moves a shaft through `corners` and returns its forces. Expects no jump: from one pose to the
-/// next, the force changes by at most 5 times as much as that of a spring which the tool
-/// compresses.
+/// next, the force changes by at most 5 * kStiffness * the distance moved.
 inline std::vector<ForceStep> expect_no_jump(const std::string& what, const TriangleMesh& organ,
                                              const std::vector<ShaftAxis>& corners) {
   const auto steps = forces_along(way_through(corners, kStep), organ, remembering_law());

@@ -25,8 +25,8 @@ Contact wall_at(double depth) {
   return wall;
 }
 
-/// A contact with the wall whose push does not count: the floor contains its nearest corner and
-/// extends nearer to the tool.
+/// A contact with the wall whose push does not count: the wall's nearest corner also belongs to the
+/// floor, which is nearer to the tool.
 Contact hidden_wall(double depth) {
   Contact wall = wall_at(depth);
   wall.vertices = {2, 4, 5};
@@ -66,7 +66,7 @@ TEST(WrenchLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   expect_near(force(law, answer_of({floor_at(0.003), hidden_wall(0.002)})), up);
   const ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
   for (int step = 1; step <= 40; ++step) {
-    // While the tool rests, by stiffness * 0.05 mm each millisecond.
+    // While the tool rests, the force changes by stiffness * 0.05 mm each millisecond.
     expect_near(force(law, appeared), up + std::min(1.0, 0.025 * step) * left);
   }
   expect_near(force(law, answer_of({floor_at(0.003), hidden_wall(0.002)}), 0.0), up + left);
@@ -106,7 +106,7 @@ TEST(WrenchLaw, WithoutContactsItIsZeroAtOnce) {
 }
 
 TEST(WrenchLaw, LinksThatShareAFaceAreOneSpring) {
-  // The spring of the deeper one, at a place between them, because both lie on the face.
+  // Both contacts lie on one face. Their spring has the larger depth and acts between them.
   Contact left = floor_at(0.001), right = floor_at(0.003);
   left.end_point = tf2::toMsg(Eigen::Vector3d(0.0, 0.0, 0.0));
   right.end_point = tf2::toMsg(Eigen::Vector3d(0.04, 0.0, 0.0));

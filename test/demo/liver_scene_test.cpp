@@ -21,7 +21,7 @@ class LiverSceneTest : public testing::Test {
     return scene_.markers(ros::Time(5.0), vertices_, seconds).markers;
   }
 
-  /// How yellow a face is. Tissue has equally little green and blue, so it has about 0.
+  /// How yellow a face is. Tissue has as much green as blue, so the result for it is about 0.
   static double yellowness(const Marker& liver, std::size_t face) {
     double least = 1.0;
     for (int k = 0; k < 3; ++k) {

@@ -54,7 +54,7 @@ TEST(ScriptedTools, PalpatorIsSlowAndPressesAndLifts) {
     EXPECT_LT(speed, 0.06) << "[m/s] at " << time << " s";
     const double distance = distance_to_liver(palpator.at(time));
     (distance < kToolRadius ? pressing : lifted) += 1;
-    // No deeper than tissue yields: only the ball around the tip enters.
+    // The palpator presses no deeper than the tissue yields: only the ball around its tip enters.
     EXPECT_GT(liver_level(palpator.tip(time)), -0.006) << "at " << time << " s";
   }
   EXPECT_GT(pressing, 100);

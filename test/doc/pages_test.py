@@ -29,7 +29,7 @@ def sections(page):
 
 
 def references():
-    """What follows "doc/geometry.md, " in a file of the code, on one line, with the file."""
+    """All (file, text after "doc/geometry.md, ") in the code, with line breaks removed."""
     for folder in CODE:
         for path in glob.glob(os.path.join(SOURCE, folder, '**', '*.*'), recursive=True):
             if path.endswith(('.cpp', '.hpp', '.py', '.msg', '.srv')) and path != __file__:

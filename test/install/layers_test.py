@@ -21,9 +21,10 @@ ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_ms
 GL = re.compile(r'\b(GL|EGL)/')
 GL_LIBRARIES = r'lib(OSMesa|GL|EGL)\.so'
 PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
-# The layers that the adapters do without, and the rooms of the node. What the modes are called is in a
-# header alone.
-NODE = re.compile(r'(organ_collision/)?(picking|query)/(?!query_mode\.hpp)|ros/(node|motion|organs|parameters|publishing|steps|tools)/')
+# The layers that the adapters must not use, and the folders of the node. The names of the modes are
+# allowed: that header links nothing.
+NODE = re.compile(r'(organ_collision/)?(picking|query)/(?!query_mode\.hpp)'
+                  r'|ros/(node|motion|organs|parameters|publishing|steps|tools)/')
 
 
 def includes(room, files='*'):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The contacts that the program prints, each beside the naive oracle's."""
+"""The contacts that the program prints, compared with the naive oracle's."""
 
 import random
 import unittest
@@ -26,7 +26,7 @@ class ContactsTest(ProgramCase):
         self.write('motions.csv', motions_text(lines))
 
     def assert_row(self, row, query, right):
-        """A row is the oracle's contact."""
+        """Checks that a row is the oracle's contact."""
         what = 'query %s: %r instead of %r' % (query, row, right)
         self.assertEqual(row[:2], [str(query), str(right.face)], what)
         fraction, depth, *vectors = map(float, row[2:])
@@ -36,7 +36,7 @@ class ContactsTest(ProgramCase):
         self.assertLessEqual(length(sub(vectors[3:], right.normal)), 100 * TOLERANCE, what)
 
     def assert_rows(self, rows, expected):
-        """`expected`: (query, contacts of the oracle), in the order of the output."""
+        """`expected`: pairs (query, contacts of the oracle), in the order of the output."""
         flat = [(query, right) for query, contacts in expected for right in contacts]
         self.assertEqual(
             [row[:2] for row in rows], [[str(query), str(c.face)] for query, c in flat]
@@ -45,8 +45,8 @@ class ContactsTest(ProgramCase):
             self.assert_row(row, query, right)
 
     def test_one_face_by_hand(self):
-        """A tip 4 mm above a plate and 5 mm thick: 1 mm deep. Falling from 10 mm to 4 mm above it,
-        it first touches after 5/6 of the way."""
+        """A tip of 5 mm radius, 4 mm above a plate, is 1 mm deep. If it falls from 10 mm to 4 mm,
+        it first touches after 5/6 of the step."""
         self.write('organ.obj', 'v -1 -1 0.25\nv 1 -1 0.25\nv 1 1 0.25\nv -1 1 0.25\nf 1 2 3 4\n')
         line = '%s,0.25,-0.5,0.5,0.25,-0.5,0.26,0.25,-0.5,0.254,0.005'
         self.write('motions.csv', motions_text([line % '2,static', line % '1,swept']))

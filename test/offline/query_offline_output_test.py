@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""How the program prints: order, digits, progress, and what happens where it cannot."""
+"""The output of the program: order, digits, progress, and failures to write or to draw."""
 
 import os
 import subprocess
@@ -53,7 +53,8 @@ class OutputTest(ProgramCase):
             self.assertIn(word, done.stdout)
 
     def test_progress_of_a_long_run(self):
-        """On stderr, once a second, and nothing else there: more motions until it takes so long."""
+        """Progress is printed on stderr at most once a second, and nothing else. The number of
+        motions is doubled until a run takes long enough to print progress."""
         self.write('organ.obj', obj_text(scenes.sheet(0.1, 60)))
         for count in (100 * 2**i for i in range(10)):
             self.write_motions(range(count))

@@ -12,13 +12,13 @@ using Eigen::Vector3d;
 
 class Search {
  public:
-  /// `distance`: the distance at a time of the leg [m]. `speed`: the most that it changes in the
-  /// whole leg [m].
+  /// `distance`: the distance at a time of the leg [m]. `speed`: an upper bound of its change in
+  /// the whole leg [m].
   Search(std::function<double(double)> distance, double speed, double radius, double slack)
       : distance_(std::move(distance)), speed_(speed), radius_(radius), slack_(slack) {}
 
-  /// Searches the interval, its earlier half first, until a time is found at which they certainly
-  /// meet.
+  /// Searches the interval, its earlier half first, until a time is found at which core and face
+  /// certainly meet.
   void look(double from, double to) {
     const double half = 0.5 * (to - from), middle = from + half;
     const double gap = distance_(middle) - radius_;

@@ -59,7 +59,7 @@ TriangleMesh wavy_sheet(int side, bool shuffle, double phase) {
   return {grid.vertices, grid.triangles()};
 }
 
-// An organ of many clusters, most of which are away from the tool.
+// The organ has many clusters. Most of them are far from the tool.
 TEST_P(CollisionQueryWith, ClustersCostNoContact) {
   Random random(6);
   std::size_t found = 0;

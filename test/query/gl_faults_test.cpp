@@ -1,5 +1,5 @@
-// collision_query.hpp when OpenGL reports an error during a query. This program stands between the
-// package and OSMesa, and makes calls fail.
+// Tests collision_query.hpp when OpenGL reports an error during a query. This program stands
+// between the package and OSMesa, and makes calls fail.
 #include <GL/osmesa.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>

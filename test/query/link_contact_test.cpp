@@ -187,8 +187,8 @@ TEST(LinkContact, PiercedLeavesTheWayThatIsShorter) {
   EXPECT_NEAR(above->depth, 0.04 + tolerance::kConvexMargin, 1e-12);
 }
 
-// Both ways out have the same length. The normal's first component that is not zero decides, not
-// the order of corners.
+// The link can leave the face upward or downward by the same distance. The sign of the normal's
+// first nonzero component decides, and not the order of the corners.
 TEST(LinkContact, PiercedInTheMiddleTakesTheNormalWithAPositiveFirstComponent) {
   const Triangle face = face_at(0.0);
   for (const Triangle& same : {face, Triangle{face[0], face[2], face[1]}}) {
@@ -200,7 +200,7 @@ TEST(LinkContact, PiercedInTheMiddleTakesTheNormalWithAPositiveFirstComponent) {
 }
 
 TEST(LinkContact, PiercedLeavesWithTheWholeLink) {
-  // Because of the rod on the cube, the way down is the longer one.
+  // Because of the rod on the cube, the link would have to move farther downward than upward.
   const Link link{"jaw", {kCube, LinkPart::cylinder(at({0.0, 0.0, 0.2}), 0.01, 0.4)}};
   const Triangle face = face_at(0.03);
   const auto contact =

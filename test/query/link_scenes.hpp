@@ -144,8 +144,8 @@ class BruteForce {
     if (contact && (!best || is_before(*contact, *best))) best = contact;
   }
 
-  /// Whether `a` is the contact to keep: the earlier one; else the deeper one; else the point
-  /// decides.
+  /// Whether `a` is the contact to keep. The earlier contact is kept, then the deeper one, then the
+  /// one whose point comes first.
   static bool is_before(const FaceContact& a, const FaceContact& b) {
     const Eigen::Vector3d &p = a.point, &q = b.point;
     return std::make_tuple(a.fraction, -a.depth, p.x(), p.y(), p.z()) <

@@ -26,7 +26,7 @@ class ContactAdapterInputTest(ContactAdapterCase):
         self.node.send_vertices(self.organ, SHEET, missing)
         failed = self.node.contacts.wait_for(self.organ, 'probe', mesh_stamp=missing)
         self.assertEqual(failed.status, ContactArray.NO_TRANSFORM)
-        for _ in range(2):  # out, and clear
+        for _ in range(2):  # the first step leaves the sheet, the second stays clear of it
             self.step(SHEET, CLEAR, vertices=True)
         outputs.wait_for(self.stamp)
         wait_until(lambda: not outputs.faces[-1].data, 'an empty list of faces')
@@ -35,7 +35,8 @@ class ContactAdapterInputTest(ContactAdapterCase):
         diagnostics.wait_for_count('unpublished, no transform', 1)
 
     def test_malformed_contacts_publish_nothing(self):
-        """Another sender publishes them on the same topic. The adapter continues to work."""
+        """Another sender publishes malformed contacts on the same topic. The adapter continues to
+        work."""
         outputs, diagnostics = self.connect(), Diagnostics()
         sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
         wait_until(

@@ -22,7 +22,7 @@ SHEET = scenes.sheet(0.1, 6)
 ARM = (0.05, 0.0, 0.0)  # [m] from the joint to the ball's centre and the jaw's origin
 SMALL, LARGE, SHAFT = 0.003, 0.006, 0.005  # [m] radii: pendulum's ball, hook's ball and shaft
 SHARES = [i / 300 for i in range(301)]  # shares of a step at which the test samples an arc
-CLOSE = 3e-4  # [m] more than half of the ball's way between two samples
+CLOSE = 3e-4  # [m] more than half of the distance that the ball moves between two samples
 JAW_MESH = RigidMesh.from_stl(
     roslib.packages.get_pkg_dir('organ_collision') + '/test/data/tools/jaw_binary.stl', unit=0.001
 )
@@ -102,8 +102,8 @@ class LinkSweepsTest(LinkCase):
             self.tf.send((tool + '/mount', tool + '/ball', pose, stamp))
 
     def swept(self, **swings):
-        """{tool: answer} about a step in which each pendulum swings. At both ends of the step, none
-        touches anything."""
+        """{tool: answer} about a step in which each pendulum swings. Checks that no tool touches
+        anything at either end of the step."""
         begin = self.next_stamp()
         end = self.next_stamp(rospy.Duration(0, 10**8))
         for tool, swing in swings.items():

@@ -25,8 +25,8 @@ class MeshAdapterLateTest(MeshAdapterCase, NodeStarter):
     adapter = '/early_adapter'
 
     def send_organs(self, stamp):
-        """Sends four organs, moves two of them, one in each way, and removes one. All of this is
-        done when the function returns."""
+        """Sends four organs, moves one by points and one by a new marker, and removes one. Waits
+        until the adapter has published all of this."""
         meshes = MessageLog('/late/organ_mesh', OrganMesh)
         shapes = MessageLog('/late/organ_vertices', OrganVertices)
         self.publish('/early/first', shape_mesh(FINE))

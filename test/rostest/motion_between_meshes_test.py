@@ -42,7 +42,7 @@ class MotionBetweenMeshesTest(ToolCase):
         self.assertEqual(faces_of(result), [c.face for c in way_down])
         self.assertGreater(len(way_down), 0)
         for found, right in zip(result.contacts, way_down):
-            # The way down is the first half of the step; the tip ends 0.05 m above the sheet.
+            # The tip descends in the first half of the step and ends 0.05 m above the sheet.
             self.assertAlmostEqual(found.fraction, right.fraction / 2, delta=2e-3)
             self.assertLess(found.depth, 0)
             self.assertFalse(found.behind)

@@ -13,8 +13,8 @@ from support.contact_case import ContactCase
 from support.node_client import NodeClient, TfSender, wait_until
 
 SMALL = scenes.sheet(0.02, 4)
-# The probe touches all of its faces, and their contacts need more than a mebibyte. The hook touches
-# none.
+# The probe touches all faces of this mesh, and their contacts need more than a mebibyte. The hook
+# touches no face.
 LARGE = scenes.sheet(0.02, 70)
 
 

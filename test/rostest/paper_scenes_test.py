@@ -1,7 +1,6 @@
 #!/usr/bin/python3
-"""The scenes of the 1999 paper: a liver of 1224 faces, of which a tool touches 5 to 25, and a
-tetrahedron, of which it touches 0 to 3. Both pickers give exact contacts and the faces of the
-paper's own modes."""
+"""The scenes of the 1999 paper: a tool touches 5 to 25 faces of a liver of 1224 faces, and 0 to 3
+faces of a tetrahedron. Both pickers give exact contacts, and the faces of the paper's own modes."""
 
 import random
 import sys
@@ -92,8 +91,9 @@ class PaperScenesTest(ContactCase):
         self.assertLessEqual({0, 1, 2}, set(static))
 
     def check_paper(self, organ, message, mode, volume):
-        """Checks the faces of the paper's volume and their depth ranges. A face may go either way,
-        because of 32-bit clipping, if growing or shrinking the volume by 1e-5 m decides it."""
+        """Checks the faces of the paper's volume and their depth ranges. Because of 32-bit
+        clipping, a face may be in the answer or not if growing or shrinking the volume by 1e-5 m
+        decides it."""
         mesh = self.meshes[organ]
         grown, shrunk = ([(n, d + margin) for n, d in volume] for margin in (1e-5, -1e-5))
         certain, possible = set(paper_oracle.picked(mesh, shrunk)), set(

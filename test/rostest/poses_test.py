@@ -77,7 +77,7 @@ class PosesTest(ContactCase):
         return stamp
 
     def swept(self, *tips):
-        """The contacts of the arm on its way through these tip positions."""
+        """The faces that the arm touches while its tip moves through these positions."""
         faces = set()
         for before, after in zip(tips, tips[1:]):
             contacts = oracle.swept_contacts(SHEET, (TROCAR, before), (TROCAR, after), RADIUS)

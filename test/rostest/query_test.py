@@ -139,7 +139,7 @@ class QueryTest(ContactCase):
         self.assertAlmostEqual(result.contacts[0].depth, 0.001, delta=1e-8)
         result = self.node.query('needle', shaft((0.05, 0.0, -0.003), (0.05, 0.1, -0.003), 0.004))
         self.assertEqual(faces_of(result), [1, 2])
-        # The axis pierces it, so the normal is perpendicular to the axis and to the longest edge.
+        # The axis pierces the needle, which has no normal. The contact's normal is still unit.
         result = self.node.query('needle', shaft((0.02, -0.1, 0.0), (0.02, -0.001, 0.0), 0.004))
         for contact in result.contacts:
             self.assertAlmostEqual(length(xyz(contact.normal)), 1.0, delta=1e-9)

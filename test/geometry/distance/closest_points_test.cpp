@@ -61,8 +61,8 @@ TEST_P(CoreTrials, LieOnCoreAndFace) {
   });
 }
 
-// If core and face are well apart, the plane at right angles to the separation separates them by
-// the whole distance.
+// If core and face are clearly separated, the plane at right angles to the separation separates
+// them by the whole distance.
 TEST_P(CoreTrials, NothingIsNearerThanThePlaneBetweenThem) {
   for_each_core(300, [](const LinkTrial& trial, const ConvexCore& core, Random& /*random*/) {
     const ClosestPoints found = closest_points(core, trial.face);

@@ -21,7 +21,8 @@ using oracle::LinkTrial;
 using oracle::Random;
 using oracle::Trial;
 
-/// [m] Within this of the radius a face may touch or not. Every touch is this near to the radius.
+/// [m] A face whose distance is within this of the radius may touch or not. The distance of every
+/// touch is within this of the radius.
 constexpr double kBand = 1e-9;
 
 FaceMotion resting(const Triangle& face) { return {face, face}; }
@@ -132,7 +133,7 @@ FaceMotion some_motion(const Triangle& face, Random& random) {
   return motion;
 }
 
-/// Checks that the touch is not missed, neither too early nor too late, and at the radius.
+/// Checks that the touch is not missed, is neither too early nor too late, and is at the radius.
 void expect_first(const std::optional<FirstTouch>& touch, const LinkTrial& trial,
                   const FaceMotion& face) {
   const oracle::FirstTime earliest = oracle::first_time_within(trial, face, band(trial));

@@ -97,7 +97,7 @@ TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
     if (until == 0.0) return;
     ++clear;
     for (int i = 0; i < 100; ++i) {
-      // At `until` itself the distance may equal the radius, but for rounding.
+      // At `until` itself the distance may equal the radius, except for rounding.
       const double time = std::min(until, 1.0) * (i < 2 ? i : random.uniform(0.0, 1.0));
       EXPECT_GT(closest_points(motion.at(time) * trial.core, face.at(time)).distance,
                 trial.radius - oracle::rounding(trial))

@@ -28,8 +28,8 @@ ViewingVolume random_volume(std::mt19937& random, const Vector3d& origin, std::s
   return volume;
 }
 
-/// [m] The largest distance by which all corners of the face are outside one half-space. Not
-/// positive: no half-space rejects the face.
+/// [m] The largest distance by which all corners of the face are outside one half-space. If it is
+/// not positive, no half-space rejects the face.
 double farthest_outside(const Triangle& face, const ViewingVolume& volume) {
   double farthest = -1e9;
   for (std::size_t i = 0; i < volume.half_space_count(); ++i) {

@@ -1,5 +1,5 @@
-// Faces aimed at sides, edges and corners of a link's moving box, like those of aimed_faces_test
-// that are aimed at capsules.
+// Faces aimed at sides, edges and corners of a link's moving box. In aimed_faces_test.cpp, faces
+// are aimed at capsules.
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The point of the box that is farthest along `outward`. Of several, any.
+// The point of the box that is farthest along `outward`. If there are several, a random one.
 Vector3d farthest(const OrientedBox& box, const Vector3d& outward, Random& random) {
   Vector3d point = box.center;
   for (int i = 0; i < 3; ++i) {
@@ -41,8 +41,8 @@ Vector3d farthest(const MovingBox& moving, const Vector3d& outward, Random& rand
   return best;
 }
 
-// A direction: through the planes of the volume, along an axis of the box at the start or end of
-// the leg, or any.
+// A direction outward through planes of the volume, along an axis of the box at the start or end of
+// the leg, or a random one.
 Vector3d aim_at(const MovingBox& moving, Random& random) {
   const SweptBox swept(moving.box, moving.motion(), moving.radius);
   const Eigen::Matrix3d turn = (random.below(2) == 0 ? moving.start : moving.end).linear();

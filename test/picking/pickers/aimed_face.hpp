@@ -53,7 +53,7 @@ inline AimedFace aimed_face(const Eigen::Vector3d& place, const Eigen::Vector3d&
   return {mesh, touch};
 }
 
-/// A direction outward through a side, an edge or a corner of the volume, or any direction.
+/// A direction outward through a side, an edge or a corner of the volume, or a random direction.
 inline Eigen::Vector3d aim(const ViewingVolume& volume, Random& random) {
   const int planes = random.below(8);
   if (planes == 0) return random.direction();

@@ -1,5 +1,5 @@
 // Faces aimed at the boundary of the swept capsule, where the conservative volume is tightest.
-// Random faces are too rarely so close to it to show what 32-bit clipping loses.
+// Random faces are rarely close enough to it to show what 32-bit clipping loses.
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The point of the axis, at any time of the motion, that is farthest along `outward`. Of several,
-// any.
+// The point of the axis, at any time of the motion, that is farthest along `outward`. If there are
+// several, a random one.
 Vector3d farthest(const ShaftMotion& motion, const Vector3d& outward, Random& random) {
   Vector3d best = motion.at(random.uniform(0, 1)).at(random.uniform(0, 1));
   for (int i = 0; i < 12; ++i) {
@@ -81,9 +81,9 @@ TEST_P(AimedFacesTest, AreNeverMissed) {
   EXPECT_GT(aimed_, 150'000);
 }
 
-// The rounding error of the far plane grows with far / near, that of the user planes with radius /
-// near. Both are largest for wide swings, in which near is small. Small faces are used because the
-// volume grows least for them.
+// The rounding error of the far plane grows with far / near. The error of the user planes grows
+// with radius / near. Both are largest for wide swings, in which near is small. Small faces are
+// used, because the volume grows least for them.
 TEST_P(AimedFacesTest, AreNotMissedWhereThePerspectiveDivisionIsWorst) {
   int perspective = 0;
   for (int i = 0; i < 100'000; ++i) {

@@ -37,7 +37,7 @@ TEST_F(ToolPosesTest, FramesNeedNotMoveAtTheSameTimes) {
   for (int i = 0; i <= 7; ++i) send_tip(1.0 + 0.015 * i);
   const SampledPath sampled =
       ToolPoses(buffer_, {1.0, 100}).path(kTool, "liver", known_pose(1.0), known_pose(1.1));
-  // The trocar moves on a straight line, so the path bends only where the path of the tip does.
+  // The trocar moves on a straight line, so the waypoints are those of the tip's path.
   ASSERT_EQ(sampled.path.size(), 8u);
   for (int i = 0; i <= 6; ++i) EXPECT_NEAR(sampled.path[i].fraction, 0.15 * i, 1e-7);
 }

@@ -39,8 +39,8 @@ class ToolCase(ContactCase):
         return (tool + '_trocar', tool + '_tip')
 
     def place(self, tool, *way):
-        """Sends the tool's frames along `way`, pairs of (axis, stamp). The axis is (trocar, tip) in
-        the organ's frame, or one point for each of the tool's frames."""
+        """Sends the tool's frames at each (axis, stamp) of `way`. The axis is (trocar, tip) in the
+        organ's frame, or one point for each of the tool's frames."""
         turn = (0.1, 0.2, 0.3, 0.9)
         self.tf.send(
             *[
