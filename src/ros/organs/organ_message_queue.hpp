@@ -47,7 +47,7 @@ class OrganMessageQueue {
     std::function<TriangleMesh(const OrganMeshConstPtr&)> build;
     /// Whether the message's triangles are new to the organ, so that a mesh has to be built.
     std::function<bool(const OrganMesh&, const Connection&)> is_new;
-    /// Wakes the thread that calls next(), because a mesh has been built. Called in the queue's
+    /// Wakes the thread that calls next(), because a build has ended. Called in the queue's
     /// thread; may throw std::bad_alloc.
     std::function<void()> wake;
   };
