@@ -7,7 +7,7 @@
 namespace organ_collision::bench {
 
 /// Google Benchmark's JSON with plain names: without "/iterations:64/manual_time" at the end. The
-/// CPU time is replaced by the measured time, because it includes work outside of the timed part.
+/// measured time replaces the CPU time, because the CPU time includes work outside the timed part.
 class PlainJsonReporter : public benchmark::JSONReporter {
  public:
   void ReportRuns(const std::vector<Run>& runs) override {

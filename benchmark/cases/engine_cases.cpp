@@ -10,7 +10,7 @@ struct EngineEntry {
   const char* name;
   std::unique_ptr<Engine> (*make)();
   std::size_t max_faces;  ///< with more faces, a step takes seconds
-  double face_seconds;    ///< rough time of a step for each face
+  double face_seconds;    ///< [s] rough time of a step, divided by the number of faces
 };
 
 constexpr std::size_t kAll = 1'000'000;
@@ -42,8 +42,8 @@ constexpr PartEntry kParts[] = {
 };
 
 // A repetition is one round through the scene's steps, or fewer steps if the engine is slow. Google
-// Benchmark must not choose the number: an update may take almost no time (it may only keep a
-// pointer), and would be repeated, each time with the rest of its step, until enough time adds up.
+// Benchmark must not choose the number. It would repeat a part that takes almost no time (an update
+// may only keep a pointer) very often, and each time the whole step would have to run.
 std::size_t steps_per_repetition(std::size_t faces, double face_seconds) {
   constexpr double kSeconds = 0.05;
   const double affordable = kSeconds / (face_seconds * static_cast<double>(faces));

@@ -13,7 +13,7 @@ namespace organ_collision::bench {
 /// reads these names.
 std::string case_name(const std::string& part, const std::string& engine, const SceneKey& key);
 
-/// Registers a benchmark whose repetitions have `steps` iterations, each timed by `run` itself.
+/// Registers a benchmark whose repetitions have `steps` iterations. `run` times each one itself.
 void add_case(const std::string& name, std::size_t steps,
               const std::function<void(benchmark::State&)>& run);
 

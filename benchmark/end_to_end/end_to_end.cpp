@@ -25,7 +25,8 @@ void print(const char* what, const LatencyReport& report) {
             << ", \"worst\": " << kMicro * report.latencies.quantile(1.0) << "}" << std::endl;
 }
 
-/// The highest rate that the node sustains for a second without skipping a shape [Hz].
+/// The highest of several rates that the node sustains for a second without skipping a shape [Hz].
+/// 10 Hz if it sustains no other.
 double sustained_rate(Simulator& simulator) {
   for (const double rate : {1000.0, 500.0, 250.0, 100.0, 50.0, 25.0}) {
     const LatencyReport trial = simulator.run(rate, 1.0);
@@ -38,8 +39,9 @@ double sustained_rate(Simulator& simulator) {
 
 // end_to_end external|nodelet|echo FACES TOOLS SECONDS
 // Measures /organ_collision, which is already running (external), or the nodelet or an Echo in this
-// process. Prints lines of JSON: "settling" when the node has got some shapes, "shapes" from shapes
-// to contacts, and "service" for service calls if there is such a service.
+// process. Prints lines of JSON: "settling" after the node has received some shapes, "shapes" with
+// the latencies from shapes to contacts, and "service" with those of service calls, if there is
+// such a service.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "end_to_end");
   if (argc != 5) {
@@ -61,7 +63,7 @@ int main(int argc, char** argv) {
     Simulator simulator(faces, tools);
     simulator.start();
     // The caller reads the node's memory when this line arrives. Later rates may be too high for
-    // the node, and messages that wait then take memory, too.
+    // the node. Waiting messages would then take memory, too.
     print("settling", simulator.run(20.0, 1.0));
     const double rate = sustained_rate(simulator);
     print("shapes", simulator.run(rate, seconds));

@@ -70,7 +70,7 @@ def resident_bytes(process):
 
 
 def measure(kind, program, answerer, faces, tools, seconds, settled=lambda: None):
-    """Runs PROGRAM and returns its reports. Calls settled() when the node has got some shapes at a low rate."""
+    """Runs PROGRAM and returns its reports. Calls settled() after the node has received some shapes at a low rate."""
     reports = []
     arguments = [program, answerer, str(faces), str(tools), str(seconds)]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, universal_newlines=True) as process:

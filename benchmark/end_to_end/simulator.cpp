@@ -11,8 +11,8 @@
 namespace organ_collision::bench {
 namespace {
 
-// Chosen so that at 1224 faces and 1 kHz the tip moves at 1 m/s and the organ at 0.2 m/s, which is
-// as fast as a hand moves.
+// Chosen so that at 1224 faces and 1 kHz the tip moves at 1 m/s, like a fast hand, and the organ at
+// 0.2 m/s.
 constexpr std::size_t kStepsAcross = 10;
 constexpr double kOrganShare = 0.125;  // [1] share of SceneScale::organ_step
 constexpr std::size_t kShapes = 8;

@@ -21,7 +21,7 @@ namespace organ_collision::bench {
 
 /// The latencies of a run, and how many answers were missing or wrong.
 struct LatencyReport {
-  double rate;  ///< [Hz] of published shapes; 0 for service calls, which follow each other
+  double rate;  ///< [Hz] of published shapes; 0 for service calls, which have no set rate
   std::size_t sent = 0;
   std::size_t skipped = 0;  ///< shapes for which not all tools' contacts arrived
   std::size_t failed = 0;   ///< answers whose status is not OK

@@ -26,7 +26,7 @@ class BulletQuantized : public Engine {
     organ_ = &organ;
     mesh_.emplace(organ, rest);
     mesh_->view().calculateAabbBruteForce(low_, high_);
-    // Bullet stores each box as fractions of this one, so it must hold the organ in all its shapes.
+    // Bullet stores all boxes relative to this box, which must contain the organ in all its shapes.
     const btVector3 air(kAir, kAir, kAir);
     low_ -= air;
     high_ += air;

@@ -12,7 +12,7 @@ namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
 
-/// A face, identified by its number. Its corners are looked up in the organ's present shape.
+/// A face, identified by its number. Its corners are read from the organ's present shape.
 class Face {
  public:
   using Id = std::uint32_t;

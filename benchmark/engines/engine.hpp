@@ -9,7 +9,7 @@
 
 namespace organ_collision::bench {
 
-/// A way to find the faces of a deforming surface that meet a convex volume.
+/// A collision engine: finds the faces of a deforming surface that meet a convex volume.
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -17,8 +17,8 @@ class Engine {
   /// Prepares for the organ's triangles, before the first shape arrives. `rest`: its vertices at
   /// rest, x y z x y z ... [m]. `organ` must outlive the engine.
   virtual void set_topology(const OrganSurface& organ, const std::vector<float>& rest) = 0;
-  /// Takes a new shape, in the form in which a message delivers it. `vertices` stay valid until the
-  /// next update.
+  /// Takes a new shape, in the form in which a message delivers it. `vertices` must stay valid
+  /// until the next update.
   virtual void update(const SharedVertices& vertices) = 0;
   /// Replaces `faces` by the sorted numbers of the faces that meet the volume.
   virtual void query(const VolumeQuery& query, std::vector<std::uint32_t>& faces) = 0;

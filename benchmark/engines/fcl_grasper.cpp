@@ -80,7 +80,7 @@ void FclGrasper::query(const ToolWaypoint& tool, std::vector<std::uint32_t>& fac
   faces.clear();
   fcl::CollisionRequestd request;
   request.num_max_contacts = 100'000;
-  request.enable_contact = true;  // FCL tells the numbers of the faces only with contacts.
+  request.enable_contact = true;  // FCL gives the numbers of faces only with contacts.
   const auto collide = [&](const fcl::CollisionGeometryd& part, const Eigen::Isometry3d& pose) {
     fcl::CollisionResultd result;
     fcl::collide(objects_->organ.get(), Eigen::Isometry3d::Identity(), &part, pose, request,

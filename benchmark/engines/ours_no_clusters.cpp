@@ -8,7 +8,7 @@
 namespace organ_collision::bench {
 namespace {
 
-/// The feedback picker without its clusters. The outcodes of all vertices tell which faces GL has
+/// The feedback picker without its clusters. The outcodes of all vertices decide which faces GL has
 /// to clip.
 class OursNoClusters : public Engine {
  public:

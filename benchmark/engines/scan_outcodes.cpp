@@ -10,14 +10,13 @@
 namespace organ_collision::bench {
 namespace {
 
-constexpr double kRounding =
-    1e-6;  // [m] more than the rounding to 32 bits moves a plane, at an organ's size
+constexpr double kRounding = 1e-6;  // [m] more than rounding to 32 bits moves a plane near an organ
 
 struct Plane {
   float x, y, z, offset;
 };
 
-/// The first eight half-spaces at most.
+/// The planes of at most eight half-spaces: the first ones.
 struct Planes {
   std::array<Plane, 8> plane;
   std::size_t count = 0;
@@ -69,7 +68,7 @@ __attribute__((target("avx2,fma"), always_inline)) inline Points load(const floa
           _mm256_shuffle_ps(lower_yz, c, _MM_SHUFFLE(3, 0, 3, 1))};
 }
 
-// For each point the distance to the plane, negative if the point is outside.
+// For each point, the signed distance to the plane, negative if the point is outside.
 __attribute__((target("avx2,fma"), always_inline)) inline __m256i room(const Plane& plane,
                                                                        const Points& points) {
   __m256 room = _mm256_set1_ps(plane.offset);

@@ -4,8 +4,8 @@
 
 namespace organ_collision::bench {
 
-/// The GL context of all engines that draw. With one context each, switching between them would be
-/// part of the measured time.
+/// The GL context of all engines that draw. If each had its own context, switching between contexts
+/// would be part of the measured time.
 inline GlContext& shared_context() {
   static GlContext context;
   return context;

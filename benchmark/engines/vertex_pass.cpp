@@ -10,7 +10,7 @@ using Eigen::Array4f;
 using Vector = Eigen::Map<const Array4f>;
 
 constexpr std::size_t kAhead =
-    128;  // vertices. The processor prefetches by itself only up to the end of a page.
+    128;  // [vertices] The processor prefetches by itself only up to the end of a page.
 
 // Reduces four points to one. The three vectors hold x y z x, y z x y and z x y z.
 template <typename Pick>

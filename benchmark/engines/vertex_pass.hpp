@@ -11,7 +11,7 @@ class VertexPass {
  public:
   static constexpr std::size_t kBlock = 16;
 
-  /// `vertices`: x y z x y z ... [m]. A last block with fewer vertices has a box, too.
+  /// `vertices`: x y z x y z ... [m]. If the last block has fewer vertices, it has a box, too.
   void fit(const std::vector<float>& vertices);
 
   /// The corners of each block's box [m].

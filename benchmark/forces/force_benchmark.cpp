@@ -17,8 +17,8 @@ namespace {
 constexpr double kRadius = 0.005;  // [m]
 
 /// `count` contacts, spread evenly over the lower half of a ball. In tight tissue all have the same
-/// depth. Otherwise the ball is pressed down into a dent of its own shape, so a contact is the
-/// deeper the more its normal points down.
+/// depth. Otherwise the ball is pressed down into a dent of its own shape, so that the depth grows
+/// from the rim of the dent to its bottom.
 ContactArray half_sphere(std::uint32_t count, bool is_tight) {
   constexpr double kGoldenAngle = 2.399963229728653;  // [rad]
   ContactArray answer;

@@ -9,7 +9,8 @@
 
 namespace organ_collision::bench {
 
-/// Times contacts with full geometry: the package's whole query on the steps of a scene.
+/// Times contacts with full geometry on the steps of a scene: the refinement alone, and the
+/// package's whole query.
 class ContactMeasurement {
  public:
   /// Checks the faces of the contacts against brute force before anything is timed. `scene` must
@@ -22,8 +23,8 @@ class ContactMeasurement {
     double seconds;
     std::size_t contacts;  ///< of the static and the swept query together
   };
-  /// Times only the refinement of the next step's candidates. If `organ_moves`, the organ moves to
-  /// its new shape in the swept query; if not, it rests in it.
+  /// Times only the refinement of the next step's candidates. In the swept query, the organ moves
+  /// to its new shape if `organ_moves`; otherwise it rests in the new shape.
   Timed contacts(bool organ_moves);
   /// Times the whole next step: update, static query and swept query.
   Timed step(bool organ_moves);

@@ -16,7 +16,7 @@ struct StepTimes {
   double swept_query = 0.0;
 };
 
-/// Times an engine on the steps of a scene, over and over.
+/// Times an engine on the steps of a scene, in rounds.
 class EngineMeasurement {
  public:
   /// Checks all answers before anything is timed. If `rigid`, the organ stays in its first shape.
@@ -24,8 +24,8 @@ class EngineMeasurement {
   EngineMeasurement(std::unique_ptr<Engine> engine, const Scene& scene, bool rigid);
 
   const CheckSummary& summary() const { return summary_; }
-  /// How long the i-th step took. A step runs once, and its times are kept: the parts of a step are
-  /// reported by separate benchmarks, but come from the same run.
+  /// How long the i-th step took. A step runs only once, and its times are kept. Separate
+  /// benchmarks report the parts of a step, but all parts come from the same run.
   const StepTimes& times(std::size_t i);
 
  private:

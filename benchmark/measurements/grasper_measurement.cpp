@@ -11,8 +11,8 @@ namespace organ_collision::bench {
 namespace {
 
 constexpr std::size_t kFaces = 1224;
-constexpr double kTipStep = 0.001;   // [m] of the tip in a step: 1 m/s at 1 kHz
-constexpr double kJawStep = 0.02;    // [rad] of each jaw in a step
+constexpr double kTipStep = 0.001;  // [m] in a step, sideways at the point aimed at: 1 m/s at 1 kHz
+constexpr double kJawStep = 0.02;   // [rad] of each jaw in a step
 constexpr double kJawOpening = 0.3;  // [rad] at the start of a step
 constexpr double kReach =
     0.024;  // [m] from the end of the shaft to the point that the motions aim at

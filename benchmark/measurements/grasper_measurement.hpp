@@ -10,9 +10,9 @@
 
 namespace organ_collision::bench {
 
-/// Times the package's whole query, and FCL's query of the same shapes. A grasper, a shaft with
-/// three links, is pushed into an organ of 1224 faces at a hand's highest speed while its jaws
-/// close.
+/// Times the package's whole query, and FCL's query of the same shapes. A grasper (a shaft with
+/// three links) pierces an organ of 1224 faces and moves sideways, at 1 m/s at 1 kHz, while its
+/// jaws close.
 class GrasperMeasurement {
  public:
   /// Checks the answers to the first steps against brute force before anything is timed.

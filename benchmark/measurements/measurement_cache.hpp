@@ -23,9 +23,9 @@ struct SceneKey {
   }
 };
 
-/// Everything that benchmarks share: scenes and the measurements on them. Each is made, checked and
-/// its errors reported on stderr when it is first asked for, so a filtered run makes only what it
-/// needs.
+/// The scenes and measurements that benchmarks share. Each is made when it is first asked for, so
+/// that a filtered run makes only those that it needs. A measurement is then checked, and the
+/// errors are reported on stderr.
 class MeasurementCache {
  public:
   const Scene& scene(const SceneKey& key);
@@ -35,7 +35,7 @@ class MeasurementCache {
   ContactMeasurement& contacts(const SceneKey& key);
   GrasperMeasurement& grasper();
 
-  /// Number of faces that the package's own pickers missed or found wrongly so far.
+  /// Number of faces that the package itself has missed or found wrongly so far.
   std::size_t own_errors() const { return own_errors_; }
 
  private:

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 constexpr double kJump = 0.1;            // [m]
 constexpr double kTremor = 5e-5;         // [m] standard deviation along each axis
 constexpr double kJawOpening = 0.3;      // [rad]
-constexpr std::size_t kGlitching = 700;  // a vertex of large organs that is far from the tools
+constexpr std::size_t kGlitching = 700;  // a vertex far from the tools, in large organs
 /// Points at the end of the organ, where its faces are smallest: a grasper touches some 100 of the
 /// 1224 faces there.
 const ShaftAxis kTowardsEnd{{-0.0361, 0.1536, -0.0694}, {-0.0832, 0.0, 0.0}};

@@ -7,7 +7,7 @@
 
 namespace organ_collision::bench {
 
-/// Times a swept query when the motion is not smooth: the simulator glitches or the hand trembles.
+/// Times a swept query whose motion is not smooth: the simulator glitches or the hand trembles.
 class RoughMotionMeasurement {
  public:
   enum class Organ {
@@ -17,8 +17,8 @@ class RoughMotionMeasurement {
   };
   enum class Tool { kShaft, kGrasper };
 
-  /// The tool is in contact with an organ of `faces` faces. It rests, apart from a tremor of
-  /// 0.05 mm at each of the `samples` poses of its path.
+  /// The tool is in contact with an organ of `faces` faces. It rests, except for a tremor of 0.05
+  /// mm (standard deviation along each axis) at each of the `samples` poses of its path.
   RoughMotionMeasurement(std::size_t faces, Organ organ, Tool tool, std::size_t samples);
 
   struct Timed {

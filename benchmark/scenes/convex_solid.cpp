@@ -31,7 +31,8 @@ void add_corner(const HalfSpace& a, const HalfSpace& b, const HalfSpace& c,
   if (std::none_of(corners.begin(), corners.end(), is_same)) corners.push_back(point);
 }
 
-// The corners on one plane, sorted by angle around their centre. Empty if they bound no area.
+// The corners on one plane, sorted by angle around their centre. Empty if there are fewer than
+// three.
 std::vector<int> side_of(const HalfSpace& half_space, const std::vector<Vector3d>& corners) {
   std::vector<int> side;
   Vector3d centre = Vector3d::Zero();

@@ -7,7 +7,7 @@
 namespace organ_collision::bench {
 namespace {
 
-// [m] Within this distance of the boundary, clipping in 32 bits may go either way.
+// [m] Within this distance of the boundary, clipping in 32 bits may keep a face or drop it.
 constexpr double kBand = 2e-6;
 
 /// One bit for each half-space that the vertex is outside of by more than the band.

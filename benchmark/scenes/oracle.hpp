@@ -11,7 +11,7 @@ namespace organ_collision::bench {
 /// The reference answer to a query. Both lists are sorted.
 struct Answer {
   std::vector<std::uint32_t> faces;  ///< faces that certainly meet the volume
-  std::vector<std::uint32_t> close;  ///< too close to the boundary for 32 bits: either is right
+  std::vector<std::uint32_t> close;  ///< too close to the boundary for 32 bits: may be found or not
 };
 
 /// Clips every face in double precision.
@@ -21,7 +21,7 @@ Answer brute_force_answer(const VolumeQuery& query, const OrganSurface& organ,
 /// The errors in an engine's answer.
 struct Errors {
   std::size_t missed = 0;  ///< faces that meet the volume and were not found
-  std::size_t wrong = 0;   ///< faces found that do not meet the volume, or were found before
+  std::size_t wrong = 0;   ///< faces found that do not meet the volume, or found twice
 };
 
 /// `found` must be sorted.

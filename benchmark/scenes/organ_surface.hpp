@@ -27,8 +27,9 @@ Triangle corners(const OrganSurface& organ, const std::vector<float>& vertices, 
 /// Throws std::invalid_argument for any other number.
 OrganSurface make_organ(std::size_t faces);
 
-/// The vertices of the deformed organ. It is bent by up to about 1 cm, the same in all phases;
-/// around the bent position, every vertex moves on a circle of radius `amplitude` [m].
+/// The vertices of the deformed organ. Every vertex has a displacement of up to about 1 cm that is
+/// the same in all phases. Around that position, each of its coordinates oscillates with
+/// `amplitude` [m]. `phase` [rad].
 std::vector<float> deformed(const std::vector<float>& rest, double phase, double amplitude);
 
 /// A random order of vertices and faces: vertex i becomes `vertex[i]`, and face i becomes

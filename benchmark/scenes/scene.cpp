@@ -13,8 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// With so few shapes, each is in the third-level cache when it is used, as a shape is that a
-// message has just delivered.
+// With so few shapes, each is in the third-level cache when it is used. This is also the case for a
+// shape that a message has just delivered.
 constexpr std::size_t kShapes = 4;
 constexpr double kPi = 3.14159265358979323846;
 

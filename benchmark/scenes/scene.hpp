@@ -29,7 +29,7 @@ std::size_t step_count(std::size_t faces);
 /// within a step are in proportion to the length of the faces' edges (see SceneScale), so each
 /// query hits 5 to 25 faces at every size of the mesh (0 to 3 of the tetrahedron).
 struct Scene {
-  /// `faces`: as make_organ takes it.
+  /// `faces`: as for make_organ().
   explicit Scene(std::size_t faces);
   /// The same scene with vertices and faces in random order.
   Scene shuffled() const;

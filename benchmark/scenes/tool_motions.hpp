@@ -14,7 +14,7 @@ struct SceneScale {
 
   double radius;      ///< of the tool; 5 mm at 1224 faces and fewer
   double tip_step;    ///< distance that the tip moves from the start of a step to its end
-  double organ_step;  ///< radius of the circle on which each vertex moves
+  double organ_step;  ///< amplitude of the motion of each vertex, see deformed()
 };
 
 /// A seeded sequence of tool motions. In each, the tool enters through one of four trocars above

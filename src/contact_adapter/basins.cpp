@@ -18,12 +18,12 @@ using Eigen::Vector3d;
 
 /// [1] A barycentric coordinate up to this counts as zero: the point does not depend on the corner.
 constexpr double kOnEdge = 1e-9;
-/// [m] Smaller differences between the distances of two faces are rounding.
+/// [m] Smaller differences between the distances of two faces count as rounding errors.
 constexpr double kNearer = 1e-9;
 
 /// The corners that the contact's point depends on: one, two (the point is on an edge), or three.
 struct Support {
-  std::array<std::uint32_t, 3> vertices{};  ///< the two of an edge in rising order
+  std::array<std::uint32_t, 3> vertices{};  ///< for an edge: its two vertices in rising order
   std::size_t count = 0;
 };
 
@@ -57,7 +57,7 @@ class ContactsAtVertices {
     }
   }
 
-  /// The contacts at one corner of the support: the corner with the fewest contacts.
+  /// The contacts at that corner of the support that has the fewest contacts.
   const std::vector<std::size_t>& around(std::uint32_t link, const Support& support) const {
     const std::vector<std::size_t>* fewest = &at_.at(key(link, support.vertices[0]));
     if (support.count > 1) {
@@ -122,8 +122,9 @@ void follow_to_the_end(std::vector<std::size_t>& next) {
 
 std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts) {
   const ContactsAtVertices at_vertices(contacts);
-  // Contacts with the same support have the same point, and so the same nearer face. It is searched
-  // for once: otherwise each face around a vertex would be compared with each other face.
+  // Contacts with the same support have the same point, and so the same nearer face. This face is
+  // searched for only once. Otherwise each face around a vertex would be compared with each other
+  // face.
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t> seen;
   std::vector<std::size_t> next(contacts.size());
   for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -75,8 +75,8 @@ geometry_msgs::WrenchStamped ContactAdapter::wrench_of(const ContactArray& conta
   return stamped;
 }
 
-/// Reads the parameters of the node that publishes the contacts. The cached look-up follows changes
-/// of the parameter without a call of the parameter server each time.
+/// Reads the parameters of the node that publishes the contacts. The cached look-up notices changes
+/// of the parameter, and does not call the parameter server each time.
 KeptSides::Radius ContactAdapter::radius_of(const std::string& tool) const {
   XmlRpc::XmlRpcValue tools;
   const std::string node = ros::names::parentNamespace(subscriber_.getTopic());

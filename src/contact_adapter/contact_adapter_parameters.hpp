@@ -18,10 +18,10 @@ struct ContactAdapterParameters {
   std::vector<std::string> misspelt{};          ///< a sentence for each unknown name
 };
 
-/// Reads them from the members of the adapter's private namespace. Throws ParameterError.
+/// Reads the parameters from the members of the adapter's private namespace. Throws ParameterError.
 ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all);
 
-/// Reads them from the parameter server. Throws ParameterError.
+/// Reads the parameters from the parameter server. Throws ParameterError.
 ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

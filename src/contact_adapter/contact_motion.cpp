@@ -9,8 +9,9 @@
 namespace organ_collision {
 namespace {
 
-/// [1] Cosine of the largest angle by which the normal of a pierced face turns in a step. If it
-/// turned more, one of the two contacts, with its depth, is from before the axis pierced the face.
+/// [1] Cosine of the largest angle by which the normal of a pierced face turns in a step. If the
+/// normal turned more, one of the two contacts is from before the axis pierced the face, and their
+/// depths cannot be compared.
 constexpr double kSame = 0.999;
 
 }  // namespace
@@ -54,7 +55,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
     if (!last_) continue;
     const auto before = last_->find({contact.face, contact.link});
     if (before == last_->end()) {
-      // A face that was not touched when the step began got its whole depth in this step.
+      // If the face was not touched when the step began, its whole depth arose in this step.
       way = std::max(way, contact.fraction > 0.0 ? contact.depth : now.depth);
     } else {
       way = std::max(way, way_between(before->second, now));

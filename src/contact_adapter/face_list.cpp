@@ -7,7 +7,7 @@ namespace organ_collision {
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts) {
   std_msgs::UInt32MultiArray faces;
   for (const Contact& contact : contacts.contacts) faces.data.push_back(contact.face);
-  // A tool with links has a contact for each of them that touches the face.
+  // A face has one contact for each link that touches it.
   std::sort(faces.data.begin(), faces.data.end());
   faces.data.erase(std::unique(faces.data.begin(), faces.data.end()), faces.data.end());
 

@@ -14,10 +14,10 @@ namespace {
 using Eigen::Vector3d;
 
 /// [1] Cosine of the largest angle between kept normals of the same side. Normals that differ more
-/// belong to two sides, as in a crease.
+/// belong to two sides, for example of a crease.
 constexpr double kSameSide = 0.9;
 
-/// [rad] The largest angle allowed between the kept normal and the contact's own one, when the axis
+/// [rad] The largest angle allowed between the kept normal and the contact's normal, when the axis
 /// is at `distance` [m] from the face. The nearer the axis comes to an edge, the faster the
 /// direction to the edge turns. Below half the radius, the kept normal follows this direction less
 /// and less, so that the force turns no faster than the tool moves.
@@ -56,7 +56,7 @@ KeptSides::Kept KeptSides::first_touch(const Contact& contact, const Radius& rad
   kept.normal = to_eigen(contact.normal);
   kept.depth = contact.depth;
   kept.depth_in_plane = radius.value_or(contact.depth);
-  // If the face was pierced before this step, assume that the tip pierced it.
+  // The face may have been pierced before this step. Then assume that the tip pierced it.
   kept.by_tip = contact.shaft >= 1.0 || contact.fraction == 0.0;
   if (!radius) return kept;
   kept.is_past = contact.depth >= *radius;
@@ -89,8 +89,8 @@ void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
     kept.by_tip = contact.shaft >= 1.0;
     kept.depth_in_plane = radius;
   } else if (!kept.is_nearest) {
-    // The face becomes nearest when the axis is already past the surface, as beside an edge. The
-    // depth continues from its last value, so that the force does not jump.
+    // The face becomes nearest when the axis is already past the surface, for example beside an
+    // edge. The depth continues from its last value, so that the force does not jump.
     kept.depth_in_plane =
         std::min(kept.depth_in_plane, kept.depth + distance * kept.normal.dot(now));
   }
@@ -116,7 +116,7 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
   const std::vector<Contact>& contacts = answer.contacts;
   const std::vector<std::size_t> basins = basins_of(contacts);
   std::vector<Kept> nearest(contacts.size());
-  std::vector<bool> passed(contacts.size());  // at the start or at the end of the step
+  std::vector<bool> passed(contacts.size());  // past the face when the step begins or ends
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (basins[i] != i) continue;
     const Kept* before = find(contacts[i]);
@@ -132,8 +132,8 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
     const Kept& there = nearest[basins[i]];
     Push push{to_eigen(contact.end_point), there.normal, there.depth, basins[i] == i};
     if (!push.counts) push.depth = std::min(there.depth, contact.depth);
-    // Faces around the nearest one share its side. Faces of another side keep their own one: past a
-    // crease, where its edge is nearest, both sides keep pushing.
+    // Faces around the nearest one share its side. Faces of another side keep their own side: past
+    // a crease, where the edge of the crease is nearest, both sides keep pushing.
     const Kept* own = push.counts ? nullptr : find(contact);
     if (own && own->normal.dot(there.normal) >= kSameSide) own = nullptr;
     if (own) {

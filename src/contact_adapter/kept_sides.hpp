@@ -16,18 +16,19 @@ struct Push {
   Eigen::Vector3d place;   ///< Contact.end_point
   Eigen::Vector3d normal;  ///< unit; from the side of first touch into the tissue
   double depth;            ///< along the normal; negative if the tool has left the face
-  bool counts;             ///< whether it has a spring: it is a local minimum or a side of its own
+  bool counts;             ///< whether it has a spring: a local minimum, or a face of another side
 };
 
 /// Remembers on which side a tool first touched each face of an organ, with each of its links.
 ///
 /// A contact's normal and depth have no memory: once the axis has passed a face, they push the tool
-/// out on the far side. Here the normal stays that of the side of first touch, and the depth keeps
-/// growing. The side of a face is forgotten at the first answer without this face, at a static
-/// answer (the first one after a reset), and at a new topology. A lost answer changes nothing.
+/// out on the far side. Here the normal keeps pointing into the tissue from the side of first
+/// touch, and the depth keeps growing. The side of a face is forgotten at the first answer without
+/// this face, at a static answer (the first one after a reset), and at a new topology. A lost
+/// answer changes nothing.
 ///
-/// - As long as the axis is on the side of first touch, normal and depth are the contact's. Closer
-///   than half the radius, the normal lags: see greatest_angle().
+/// - As long as the axis is on the side of first touch, normal and depth are the contact's. If the
+///   axis is closer to the face than half the radius, the normal lags: see greatest_angle().
 /// - Past the face, the normal stays. The depth is s - r (n . m), with the shaft's radius s, the
 ///   kept normal n, the contact's distance r = s - Contact.depth, and its normal m.
 /// - A face that the axis pierces has the contact's depth if the tip pierced it and the two normals
@@ -38,8 +39,8 @@ class KeptSides {
  public:
   using Radius = std::optional<double>;  ///< [m]
 
-  /// One push for each contact, in the order of the contacts. `answer`: the next one about the same
-  /// organ and tool after that of the last call. `shaft_radius`: none if it is unknown.
+  /// One push for each contact, in the order of the contacts. `answer`: the next answer about the
+  /// same organ and tool. `shaft_radius`: unset if it is unknown.
   std::vector<Push> follow(const ContactArray& answer, const Radius& shaft_radius);
 
  private:
@@ -47,9 +48,9 @@ class KeptSides {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< as in Push
     double depth = 0.0;                                ///< [m] as in Push
     double depth_in_plane = 0.0;                       ///< [m] with the axis in the face's plane
-    std::optional<bool> behind = {};  ///< Contact.behind on the kept side; none: not known yet
+    std::optional<bool> behind = {};  ///< Contact.behind on the kept side; unset: not known yet
     bool by_tip = false;      ///< the tip was nearest when the axis was last on the kept side
-    bool is_nearest = false;  ///< as basins_of() says
+    bool is_nearest = false;  ///< a local minimum by basins_of()
     bool is_past = false;     ///< the axis pierces the face, or is on its other side
   };
   using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;

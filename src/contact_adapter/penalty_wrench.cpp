@@ -13,7 +13,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [1] The search ends when no depth is uncovered by more than this share of the greatest depth.
+/// [1] The search ends when the uncovered part of each depth is at most this share of the greatest
+/// depth.
 constexpr double kEnough = 1e-6;
 // Limits of the search. Ordinary contacts need one to three springs.
 constexpr int kRounds = 8;
@@ -22,8 +23,8 @@ constexpr int kSweeps = 200;
 
 struct Spring {
   Vector3d normal;
-  double depth;         ///< [m] d in penalty_wrench()
-  double length = 0.0;  ///< [m] l in penalty_wrench()
+  double depth;         ///< [m] d_i in penalty_wrench.hpp
+  double length = 0.0;  ///< [m] l_i in penalty_wrench.hpp
   double lack = 0.0;    ///< [m] the part of the depth that the springs do not cover
 };
 
@@ -37,9 +38,9 @@ std::vector<Spring> springs_of(const std::vector<Push>& pushes) {
   return springs;
 }
 
-/// Repeatedly lengthens the spring that lacks most, until none lacks more than `enough` or the
-/// limit of springs is reached. Adds the lengthened springs to `used`. Returns whether there
-/// were any.
+/// Repeatedly lengthens the spring with the greatest lack. Stops when no lack exceeds `enough` [m],
+/// or after kSpringsARound times. Adds the lengthened springs to `used`. Returns whether it
+/// lengthened any.
 bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, double enough) {
   for (int count = 0; count < kSpringsARound; ++count) {
     const auto most =
@@ -57,7 +58,7 @@ bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, doub
 }
 
 /// Balances the used springs by projected Gauss-Seidel sweeps: each spring gets the length that the
-/// others leave uncovered.
+/// others leave uncovered. Ends when all changes in a sweep are less than `enough` [m].
 void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used, double enough) {
   double change = enough;
   for (int sweep = 0; sweep < kSweeps && change >= enough; ++sweep) {

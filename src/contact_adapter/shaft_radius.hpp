@@ -8,11 +8,11 @@
 
 namespace organ_collision {
 
-/// [m] The radius of a tool's shaft by the collision node's parameter `tools`; none if the
-/// parameter does not contain the tool, or the tool has no shaft.
+/// [m] The radius of a tool's shaft, from the collision node's parameter `tools`. std::nullopt if
+/// the parameter does not contain the tool, or if the tool has no shaft.
 std::optional<double> shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
 
-/// [m] `shaft_radius` if the contact is of the shaft; none if it is of a link.
+/// [m] `shaft_radius` if the contact is of the shaft; std::nullopt if it is of a link.
 std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
                                 const std::optional<double>& shaft_radius);
 

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 /// [1] The allowed change of force, as a multiple of stiffness * motion. A flat surface needs 1, a
 /// crease 2, a narrow crease more.
 constexpr double kSteepness = 4.0;
-/// [m/s] How fast the wrench approaches that of the penalty law while the tool rests.
+/// [m/s] The allowed change of force while the tool rests, divided by stiffness and time.
 constexpr double kSettling = 0.05;
 
 Vector3d blend(const geometry_msgs::Vector3& from, const geometry_msgs::Vector3& to, double share) {

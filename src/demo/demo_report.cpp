@@ -59,7 +59,7 @@ class DemoReport {
     for (const auto& [tool, tally] : comparison_.tallies()) touched_[tool];
   }
 
-  /// Whether the collision node has answered, if only with a failure.
+  /// Whether the collision node has answered, even if only with a failure.
   bool has_heard_of_node() const { return answers_ > 0 || !failure_.empty(); }
 
   /// Prints one line about the last `seconds`. `time` [s]: since the start.

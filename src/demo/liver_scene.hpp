@@ -10,8 +10,9 @@
 
 namespace organ_collision {
 
-/// What a viewer shows of the demo, besides the collision node's own markers: the lit liver, on
-/// which touched faces glow for a while, and the surfaces swept by fast tools, for the same time.
+/// The demo's markers for RViz, besides those of the collision node: the lit liver, and the
+/// surfaces that fast tools sweep. Touched faces glow for a while, and the surfaces are shown for
+/// the same time.
 class LiverScene {
  public:
   /// `frame`: the liver's frame.

@@ -1,5 +1,5 @@
-/// The demo's simulator. Publishes a breathing liver and two instruments for the collision node,
-/// and lets the contacts that it answers push the tissue.
+/// The demo's simulator. Publishes a breathing liver and two instruments for the collision node.
+/// The contacts in the node's answers push the tissue.
 
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>

@@ -85,8 +85,8 @@ ClosedSurface make_lattice_box(const std::array<int, 3>& cells) {
   return box;
 }
 
-/// Makes the triangles equally large. In each round, moves each vertex to the mean centre of the
-/// triangles around it, weighted by their areas, and back onto the surface.
+/// Makes the triangles about equally large. In each round, moves each vertex to the mean centre of
+/// the triangles around it, weighted by their areas, and back onto the surface.
 void even_out(ClosedSurface& surface, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     const double morph = std::min(1.0, 2.0 * round / rounds);

@@ -22,8 +22,9 @@ struct ClosedSurface {
 /// x points to the patient's left, y to the head, z to the front. The right lobe is the larger one.
 double liver_level(const Eigen::Vector3d& point);
 
-/// The liver's surface at rest: 614 vertices, 1224 faces, 0.2 m from lobe to lobe. A lattice box of
-/// 13 x 12 x 6 cells, 2 triangles to each square, drawn onto liver_level = 0 and evened out there.
+/// The liver's surface at rest: 614 vertices, 1224 faces, 0.2 m from lobe to lobe. It begins as the
+/// surface of a box of 19 x 10 x 4 cells, with 2 triangles for each square. The vertices are moved
+/// onto liver_level = 0 and spread evenly there.
 ClosedSurface make_liver_surface();
 
 }  // namespace organ_collision

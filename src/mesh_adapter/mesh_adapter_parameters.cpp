@@ -12,7 +12,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// A legal ROS name of a topic or node. A private name is refused: it would lie below this adapter.
+/// A legal ROS name of a topic or node. A private name is refused, because it would be in this
+/// adapter's namespace.
 std::string graph_name(const ParameterGroup& group, const char* name) {
   std::string text = group.text(name);
   std::string error;

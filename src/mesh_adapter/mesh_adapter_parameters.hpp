@@ -25,10 +25,10 @@ struct MeshAdapterParameters {
   std::vector<std::string> misspelt;  ///< a sentence for each unknown name
 };
 
-/// Reads them from the members of the adapter's private namespace. Throws ParameterError.
+/// Reads the parameters from the members of the adapter's private namespace. Throws ParameterError.
 MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpc::XmlRpcValue& private_namespace);
 
-/// Reads them from the parameter server. Throws ParameterError.
+/// Reads the parameters from the parameter server. Throws ParameterError.
 MeshAdapterParameters load_mesh_adapter_parameters(const ros::NodeHandle& private_node);
 
 }  // namespace organ_collision

@@ -9,7 +9,8 @@ namespace organ_collision {
 /// A message that cannot be read as a surface. what() names the illegal value and what is legal.
 class MessageError : public std::runtime_error {
  public:
-  /// `reason`: short, and the same for all errors of its kind, which are counted by it.
+  /// `reason`: a short text that is the same for all errors of one kind. Errors are counted by
+  /// reason.
   MessageError(std::string reason, const std::string& message)
       : std::runtime_error(message), reason_(std::move(reason)) {}
 

@@ -46,7 +46,7 @@ void OrganFeed::send(ReceivedSurface& surface) {
   }
 }
 
-/// Sends the message before checking it here, so that the collision node need not wait.
+/// Sends the message before it is checked here, so that the collision node need not wait.
 void OrganFeed::send_mesh(ReceivedSurface& surface, std::uint32_t topology) {
   const auto message = message_of<OrganMesh>(organ_, topology, surface.frame, surface.stamp);
   message->vertices = std::move(surface.vertices);
@@ -56,7 +56,7 @@ void OrganFeed::send_mesh(ReceivedSurface& surface, std::uint32_t topology) {
     mesh_.emplace(TriangleMesh(vertices_of(message), message->triangles, topology, kNoLimits));
     frame_ = surface.frame;
     stamp_ = surface.stamp;
-  } catch (const MeshError&) {  // The collision node refuses and reports it.
+  } catch (const MeshError&) {  // The collision node refuses and reports the mesh.
   }
 }
 
@@ -79,7 +79,7 @@ void OrganFeed::move(SharedVertices vertices, ros::Time stamp) {
   try {
     mesh_->move_vertices(std::move(vertices));
     stamp_ = stamp;
-  } catch (const MeshError&) {  // The collision node refuses and reports them.
+  } catch (const MeshError&) {  // The collision node refuses and reports the vertices.
   }
 }
 

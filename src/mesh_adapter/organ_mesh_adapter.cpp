@@ -10,7 +10,8 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] Meshes are rare, but another marker must not displace the organ's one in the queue.
+/// [messages] Meshes are rare, but another marker must not displace the organ's marker in the
+/// queue.
 constexpr std::uint32_t kSurfaceQueue = 10;
 /// [messages] Only the newest vertices count.
 constexpr std::uint32_t kVerticesQueue = 1;
@@ -26,15 +27,15 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
     : node_(node), parameters_(load_mesh_adapter_parameters(private_node)) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
-  // Not latched: a latched topic keeps only the last message, so only one organ, and with the shape
-  // that it had then.
+  // Not latched: a latched topic keeps only the last message. A new subscriber would get only one
+  // organ, and in an old shape.
   ros::NodeHandle collision_node(node_, parameters_.collision_node);
   meshes_ = collision_node.advertise<OrganMesh>(
       names::kOrganMesh, outgoing_queue(parameters_),
       [this](const ros::SingleSubscriberPublisher& newcomer) { welcome(newcomer); });
   vertices_ =
       collision_node.advertise<OrganVertices>(names::kOrganVertices, outgoing_queue(parameters_));
-  // Random: the collision node may still have the meshes of an adapter that ran before.
+  // Random, because the collision node may still have meshes of an earlier adapter.
   const std::uint32_t last_topology = std::random_device()();
   for (const OrganParameters& organ : parameters_.organs) add_source(organ, last_topology);
   ROS_INFO("ready: %zu organs, for %s", sources_.size(), collision_node.getNamespace().c_str());

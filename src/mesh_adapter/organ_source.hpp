@@ -26,7 +26,7 @@ class OrganSource {
   /// Takes a message of `vertices_topic`, in the same way.
   void take_vertices(const topic_tools::ShapeShifter& message, ros::Time arrival);
 
-  /// As OrganFeed::mesh().
+  /// See OrganFeed::mesh().
   OrganMeshPtr mesh() const { return feed_.mesh(); }
 
  private:
@@ -36,7 +36,7 @@ class OrganSource {
   OrganParameters parameters_;
   OrganFeed feed_;
   MarkerReader marker_reader_;
-  ReceivedSurface surface_;  ///< of the last message; kept only to use its memory again
+  ReceivedSurface surface_;  ///< of the last message; kept only to reuse its memory
   bool has_warned_ = false;
 };
 

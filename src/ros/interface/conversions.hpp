@@ -10,12 +10,13 @@
 
 namespace organ_collision {
 
-// Between messages and Eigen, in the same units. From points to messages: tf2::toMsg().
+// Conversions between messages and Eigen, in the same units. tf2::toMsg() converts points to
+// messages.
 
 /// tf2::fromMsg() writes into an argument. These return the value, so that formulas can use it.
 Eigen::Vector3d to_eigen(const geometry_msgs::Point& point);
 Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector);
-/// Normalises the rotation, which senders round. tf2::transformToEigen() does not.
+/// Normalises the rotation, because senders round it. tf2::transformToEigen() does not normalise.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform);
 
 /// tf2::toMsg() returns a Point unless it is given a Vector3 to write into.

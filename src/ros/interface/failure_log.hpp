@@ -21,7 +21,7 @@ class FailureLog {
     Time logged;                         ///< when a failure with this reason was last logged
   };
 
-  /// `reason`: one of a small set. `message`: what was wrong, with the illegal value.
+  /// `reason`: one of a few fixed texts. `message`: what was wrong, with the illegal value.
   void add(const std::string& reason, const std::string& message, Time now);
 
   const std::map<std::string, Entry>& by_reason() const { return entries_; }

@@ -10,7 +10,8 @@ namespace organ_collision {
 std::string name_fault(const std::string& name);
 
 /// The name of `legal` that needs the fewest insertions, deletions and replacements of a letter to
-/// become `name` (Levenshtein distance). The first of several such. `legal` must not be empty.
+/// become `name` (Levenshtein distance); the first one of equally near names. `legal` must not be
+/// empty.
 std::string nearest_name(const std::string& name, const std::vector<std::string>& legal);
 
 }  // namespace organ_collision

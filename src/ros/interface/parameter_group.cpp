@@ -12,8 +12,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// 12 digits: a number that is illegal because it is too large for an int is not rounded to one
-/// that looks legal.
+/// Writes 12 digits. With fewer, a number that is slightly too large would be rounded to one that
+/// looks legal.
 std::string written(double number) {
   std::ostringstream text;
   text.precision(12);

@@ -27,15 +27,16 @@ struct NumberRange {
 /// its type and range. A number may be written without a decimal point.
 class ParameterGroup {
  public:
-  /// `path`: the group's name in messages, as "~tools[0]". Throws ParameterError if `value` is not
-  /// a group of named parameters.
+  /// `path`: the group's name in messages, for example "~tools[0]". Throws ParameterError if
+  /// `value` is not a group of named parameters.
   ParameterGroup(std::string path, const XmlRpc::XmlRpcValue& value,
                  std::vector<std::string> legal_names);
 
   bool has(const std::string& name) const { return value_.hasMember(name); }
 
-  /// The value of the member, or `fallback` if there is no such member. Each throws ParameterError
-  /// if the value is illegal, or if there is neither a value nor a fallback.
+  /// Members with a default. Each returns the value of the member, or `fallback` if there is no
+  /// such member. Each throws ParameterError if the value is illegal, or if there is neither a
+  /// value nor a fallback.
   bool flag(const std::string& name, bool fallback) const;
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& legal_values) const;
@@ -48,7 +49,7 @@ class ParameterGroup {
   std::string text(const std::string& name) const;
   /// A list of anything; `of_what` is for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
-  /// A non-empty list of different texts, none of them empty.
+  /// A non-empty list of different, non-empty texts.
   std::vector<std::string> texts(const std::string& name) const;
 
   /// A sentence for each member whose name is not legal. It suggests the nearest legal name.
@@ -59,8 +60,8 @@ class ParameterGroup {
   void check_name(const std::string& name, const std::string& text) const;
   /// Throws ParameterError: "~path/name is VALUE; LEGAL".
   [[noreturn]] void refuse(const std::string& name, const std::string& legal) const;
-  /// Throws ParameterError: "~path/name is missing; LEGAL", with the misspelt members, one of which
-  /// may be meant.
+  /// Throws ParameterError: "~path/name is missing; LEGAL". The message lists the misspelt members,
+  /// because the user may have meant one of them.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& legal) const;
   std::string path_of(const std::string& name) const;
 

@@ -14,7 +14,8 @@ struct ByteRange {
   bool contains(unsigned char byte) const { return first <= byte && byte <= last; }
 };
 
-/// The third and the fourth byte of a character, and the second after most first bytes.
+/// The legal values of the third and fourth byte of a character, and of the second byte after most
+/// first bytes.
 constexpr ByteRange kContinuation{0x80, 0xBF};
 
 /// The legal second bytes after a character's first byte, by table 3-7 of the Unicode Standard. The
@@ -49,7 +50,7 @@ std::size_t first_character(std::string_view text) {
   return size;
 }
 
-/// Whether the character is one of the sets C0 and C1, or DEL.
+/// Whether the character is a control character: in the set C0 or C1, or DEL.
 bool is_control(std::string_view character) {
   const auto last = static_cast<unsigned char>(character.back());
   if (character.size() == 1) return last < 0x20 || last == 0x7F;

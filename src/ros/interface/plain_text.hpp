@@ -7,8 +7,8 @@
 namespace organ_collision {
 
 // Messages and TF bring text of any length and content. Answers and logs contain only plain text:
-// UTF-8 without control characters. Python subscribers can decode it, and a terminal prints it
-// without obeying it.
+// UTF-8 without control characters. Python subscribers can decode it, and it contains no commands
+// to a terminal.
 
 /// [bytes] The longest legal name of an organ, a tool, a link or a frame.
 inline constexpr std::size_t kLongestName = 256;

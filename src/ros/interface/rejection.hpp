@@ -9,8 +9,8 @@ namespace organ_collision {
 /// A message or request that was refused. what() names the illegal value and what is legal.
 class Rejection : public std::runtime_error {
  public:
-  /// `status`: one of ContactArray's. `reason`: short, and the same for all refusals of its kind,
-  /// which are counted by it.
+  /// `status`: one of ContactArray's. `reason`: a short text that is the same for all refusals of
+  /// one kind. Refusals are counted by reason.
   Rejection(std::uint8_t status, std::string reason, const std::string& message)
       : std::runtime_error(message), status_(status), reason_(std::move(reason)) {}
 
@@ -22,11 +22,12 @@ class Rejection : public std::runtime_error {
   std::string reason_;
 };
 
-/// The reason by which failures with this status of ContactArray are counted, as "no mesh".
+/// The reason under which failures with this status of ContactArray are counted, for example
+/// "no mesh".
 std::string reason_of(std::uint8_t status);
 
 /// Throws Rejection, with the message "WHAT 'NAME' ...", if `name` is not legal (legal_name.hpp).
-/// `what`: what the name is of, as "organ". An empty name is accepted.
+/// `what`: the thing that has the name, for example "organ". An empty name is accepted.
 void check_name(const std::string& what, const std::string& name);
 
 }  // namespace organ_collision

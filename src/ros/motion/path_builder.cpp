@@ -6,12 +6,13 @@
 namespace organ_collision {
 namespace {
 
-/// [m] A smaller deviation of an axis, or motion of a trocar, is taken for rounding.
+/// [m] Smaller deviations of an axis and smaller motions of a trocar count as rounding errors.
 constexpr double kStraight = 1e-9;
 /// [m] The same for points of links.
 constexpr double kStraightLink = 1e-6;
 
-/// A trocar that moves by no more than rounding is made to rest: its viewing volumes are tighter.
+/// Stops a trocar that moves only by rounding errors: the viewing volumes of a resting trocar are
+/// tighter.
 void rest_trocar(ToolPath& path) {
   const Eigen::Vector3d trocar = path.back().axis.trocar;
   const auto is_there = [&](const ToolWaypoint& waypoint) {
@@ -42,8 +43,8 @@ ToolPath PathBuilder::take() {
   return std::move(path_);
 }
 
-/// The deviation of `b` from the straight motion from `a` to `c` at its time, as a share of the
-/// tolerance.
+/// The deviation of `b` from the straight motion from `a` to `c` at the time of `b`, as a multiple
+/// of the tolerance.
 double PathBuilder::relative_deviation(const ToolWaypoint& a, const ToolWaypoint& b,
                                        const ToolWaypoint& c) const {
   const Deviation deviation = deviation_(b, StraightMotion(a, c));

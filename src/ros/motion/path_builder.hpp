@@ -5,10 +5,10 @@
 
 namespace organ_collision {
 
-/// Builds a path from samples of a tool's motion, without redundant waypoints: each leg of a path
-/// costs a query. TF interpolates between transforms, so that many samples lie on the straight
-/// motion between their neighbours. A sample is dropped if the path changes by less than 1e-9 m at
-/// the ends of the axis, and by less than 1e-6 m at any point of the links, without it. The
+/// Builds a path from samples of a tool's motion, without redundant waypoints, because each leg of
+/// a path costs a query. TF interpolates between transforms, so that many samples lie on the
+/// straight motion between their neighbours. Samples are dropped as long as this changes the path
+/// by at most 1e-9 m at the ends of the axis and by at most 1e-6 m at all points of the links. The
 /// straight motion of a link is RigidMotion; chains of joints follow it only roughly.
 class PathBuilder {
  public:
@@ -19,8 +19,8 @@ class PathBuilder {
   /// Fractions rise from call to call, up to 1.
   void add(double fraction, const ToolPose& pose);
 
-  /// The path through all samples. Its ends are as given, except that a trocar that moved by less
-  /// than 1e-9 m is made to rest.
+  /// The path through all samples. Its first and last waypoints are as given, except that a trocar
+  /// that moved by at most 1e-9 m is at rest.
   ToolPath take();
 
  private:

@@ -22,9 +22,9 @@ double distance(const ShaftAxis& a, const ShaftAxis& b) {
   return std::max((a.trocar - b.trocar).norm(), (a.tip - b.tip).norm());
 }
 
-/// [m] An upper bound for the distance between the places of a point in two poses, for all points
-/// within `reach` of the origin. A rotation by an angle moves such a point by at most
-/// 2 reach sin(angle / 2), and the Frobenius norm of the difference of the rotation matrices is
+/// [m] An upper bound for the distance between the positions of a point in two poses, for all
+/// points within `reach` of the origin. A rotation by an angle moves such a point by at most
+/// 2 reach sin(angle / 2). The Frobenius norm of the difference of the rotation matrices is
 /// sqrt(8) sin(angle / 2).
 double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double reach) {
   return (a.translation() - b.translation()).norm() +

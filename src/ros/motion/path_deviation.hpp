@@ -8,8 +8,8 @@
 
 namespace organ_collision {
 
-/// The straight motion from one waypoint to another: the ends of the axis move linearly, links as
-/// RigidMotion defines it.
+/// The straight motion from one waypoint to another: the ends of the axis move linearly, and each
+/// link moves as a RigidMotion.
 struct StraightMotion {
   /// `to` has a larger fraction than `from`.
   StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to);
@@ -21,7 +21,7 @@ struct StraightMotion {
 
 /// The distance of a waypoint from a straight motion at the same time [m].
 struct Deviation {
-  double axis;   ///< the larger one of both ends of the axis
+  double axis;   ///< the larger deviation of the two ends of the axis
   double links;  ///< an upper bound for all points of the links
 
   double most() const { return axis > links ? axis : links; }
@@ -35,7 +35,7 @@ class PathDeviation {
   Deviation operator()(const ToolWaypoint& waypoint, const StraightMotion& motion) const;
 
  private:
-  std::vector<double> reaches_;  ///< [m] largest distance of each link's points from its origin
+  std::vector<double> reaches_;  ///< [m] of each link: an upper bound, see reach()
 };
 
 }  // namespace organ_collision

@@ -14,8 +14,9 @@ struct SimplifiedPath {
   double deviation = 0.0;   ///< [m] the largest distance of a dropped waypoint from the path
 };
 
-/// Simplifies a path to at most `legs_max` legs, at least 1. Follows Douglas and Peucker (1973),
-/// with the deviation in space and time: the waypoint with the largest deviation is kept first.
+/// Simplifies a path to at most `legs_max` legs; `legs_max` must be at least 1. Follows Douglas and
+/// Peucker (1973), but compares waypoint and path at the same time. The waypoint with the largest
+/// deviation is kept first.
 SimplifiedPath simplify_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max);
 
 }  // namespace organ_collision

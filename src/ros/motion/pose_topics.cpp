@@ -16,14 +16,16 @@ namespace {
 
 using geometry_msgs::PoseStamped;
 
-/// [messages] Older poses that wait are dropped; the sweep then goes straight across them.
+/// [messages] If more poses wait, the oldest are dropped, and the sweep connects the others
+/// directly.
 constexpr std::uint32_t kQueue = 1000;
 /// [1] A quaternion's length may differ from 1 by this much; it is then normalised.
 constexpr double kUnit = 1e-3;
-/// [s] TF keeps transforms for this long: a pose further in the future would drop all others.
+/// [s] TF keeps transforms for this long. A pose further in the future would make it drop all
+/// others.
 constexpr double kAhead = 10.0;
 
-/// Why a pose is illegal; empty: it is legal.
+/// Why a pose is illegal; empty if it is legal.
 std::string fault(const PoseStamped& pose) {
   const auto& p = pose.pose.position;
   const auto& q = pose.pose.orientation;
@@ -94,7 +96,7 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
-  // Several poses may come within one tick of simulated time: each gets a stamp of its own.
+  // Several poses may arrive within one tick of simulated time. Each gets a different stamp.
   if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
   if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {
     return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
@@ -114,7 +116,7 @@ void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {
   place_base(stream);
 }
 
-/// Base poses are sent once, or rarely: each is valid until the next one.
+/// Base poses are sent only once, or rarely. Therefore each is valid until the next one.
 void PoseTopics::place_base(const Stream& stream) {
   if (!stream.base || stream.frame.empty() || !check(*stream.base, stream.frame)) return;
   sinks_.transforms.add(to_transform(*stream.base, stream.frame), "pose", true);

@@ -14,9 +14,10 @@
 
 namespace organ_collision {
 
-/// Tool tips whose poses come as PoseStamped, for example CRTK's measured_cp: in the frame of their
-/// header, and without a frame name of their own. Each pose becomes a transform to the tool's tip
-/// frame in the node's buffer, so that the rest of the node treats such tools like those on TF.
+/// Receives the poses of tool tips that are sent as PoseStamped, for example CRTK's measured_cp.
+/// Such a message names the frame in which the pose is given, but not the frame of the tip. Each
+/// pose becomes a transform to the tool's tip frame in the node's buffer, so that the rest of the
+/// node treats these tools like those on TF.
 class PoseTopics {
  public:
   /// Where poses go; all must outlive this. `arrived` is called with the tool's index after each
@@ -31,8 +32,8 @@ class PoseTopics {
   /// Subscribes to the topics that the tools name; `node` resolves their names.
   void subscribe(ros::NodeHandle node);
 
-  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are. An illegal pose
-  /// is counted as rejected, and the last pose stays.
+  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal
+  /// pose is counted as rejected, and the last pose stays.
   void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
   void take_base(std::size_t tool, const geometry_msgs::PoseStamped& pose);
 
@@ -42,9 +43,9 @@ class PoseTopics {
  private:
   struct Stream {
     ToolParameters tool;
-    std::string frame;  ///< in which the tip's poses are; empty: no pose came yet
-    ros::Time latest;   ///< stamp of the tip's poses; zero: no pose came yet
-    std::optional<geometry_msgs::PoseStamped> base;  ///< pose of that frame, once it came
+    std::string frame;  ///< in which the tip's poses are given; empty: no pose came yet
+    ros::Time latest;   ///< stamp of the tip's latest pose; zero: no pose came yet
+    std::optional<geometry_msgs::PoseStamped> base;  ///< pose of that frame, if it came
   };
   void place_base(const Stream& stream);
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);

@@ -8,7 +8,7 @@
 namespace organ_collision {
 
 /// The stamps of the recent transforms of one frame. It forgets a stamp when TF forgets the
-/// transform, or when there are too many.
+/// transform, or when there are more than kMost stamps.
 class StampRecord {
  public:
   /// As many transforms as TF keeps at 1 kHz.

@@ -11,11 +11,11 @@
 namespace organ_collision {
 namespace {
 
-/// [poses] For each pose, TF searches through all later transforms: without this limit, a step of
+/// [poses] For each pose, TF searches through all later transforms. Without this limit, a step of
 /// many seconds would take up to a second.
 constexpr std::size_t kMostRead = 1000;
 
-/// The range of the times of some transforms. Static ones, at any time, do not count.
+/// The range of the stamps of some transforms. Static transforms have none and do not count.
 struct StampRange {
   ros::Time earliest, latest;  ///< zero: all transforms are static
 
@@ -46,7 +46,7 @@ double nanoseconds(ros::Time from, ros::Time to) { return static_cast<double>(el
 
 double seconds(ros::Time from, ros::Time to) { return 1e-9 * nanoseconds(from, to); }
 
-/// How many samples with this spacing lie strictly between two times.
+/// How many samples with this spacing lie strictly between two times with this gap.
 double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
@@ -60,7 +60,7 @@ std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
   return size - most;
 }
 
-/// Adds `count` evenly spaced times between two.
+/// Adds `count` evenly spaced times strictly between `from` and `to`.
 void add_even_times(ros::Time from, ros::Time to, std::size_t count,
                     std::vector<ros::Time>& times) {
   const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
@@ -85,7 +85,7 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
   buffer_.set_answered(organ_frame, frames_of(tool), time);
 }
 
-/// The stamps that TF received, and even times in between if they are further apart than
+/// The stamps that TF received, and evenly spaced times between stamps that are further apart than
 /// sample_sec. `cut`: how many more there would be without samples_max.
 std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
                                                ros::Time from, ros::Time to,
@@ -137,7 +137,8 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
     }
     pose.links.push_back(link.found->value);
   }
-  // Each frame was looked up at its own latest time, but all must be of the same time.
+  // For time zero, each frame was looked up at its own latest time, but all poses must be of the
+  // same time.
   if (stamps.earliest != stamps.latest) return this->pose(tool, organ_frame, stamps.earliest);
   return {{{std::move(pose), stamps.earliest}}, ""};
 }

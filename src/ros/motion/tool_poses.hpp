@@ -15,10 +15,10 @@ namespace organ_collision {
 /// How densely motion is sampled from TF.
 struct PathSampling {
   double sample_sec;
-  int samples_max;  ///< of one step, including its end
+  int samples_max;  ///< in one step, including its end
 };
 
-/// A tool's path, and what `samples_max` cost.
+/// A tool's path, and what it lost because of `samples_max`.
 struct SampledPath {
   ToolPath path;
   std::size_t samples_cut = 0;
@@ -32,14 +32,14 @@ class ToolPoses {
   ToolPoses(TransformBuffer& buffer, const PathSampling& sampling)
       : buffer_(buffer), sampling_(sampling) {}
 
-  /// The pose at a time; zero: at the latest time at which all its frames are known.
+  /// The pose at a time. Time zero means the latest time at which all its frames are known.
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
 
-  /// The path from one known pose to another. It is sampled at each stamp that TF received in
-  /// between, and at times in between if these are further apart than sample_sec. Samples that TF
-  /// cannot give are dropped, PathBuilder drops redundant ones, and simplify_path reduces the rest
-  /// to samples_max. If there are more stamps than samples_max and than a thousand, only so many of
-  /// them are read, evenly spread.
+  /// The path from one known pose to another. It is sampled at each stamp that TF received between
+  /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
+  /// Samples that TF cannot give are dropped, PathBuilder drops redundant ones, and simplify_path
+  /// reduces the rest to samples_max. At most max(1000, samples_max) of the stamps are read, evenly
+  /// spread.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
@@ -48,7 +48,7 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// Why a tool's pose is not known: no message came on its pose topic, or `why_not`.
+  /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
                                       ros::Time from, ros::Time to, std::size_t& cut) const;

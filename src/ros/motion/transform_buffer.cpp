@@ -7,7 +7,7 @@
 namespace organ_collision {
 namespace {
 
-/// A frame rarely changes its parent: when an instrument is handed over, or a tree is corrected.
+/// [parents] A frame rarely changes its parent, for example when an instrument is handed over.
 constexpr std::size_t kMostParents = 8;
 
 bool contains(const std::vector<std::size_t>& frames, std::size_t frame) {

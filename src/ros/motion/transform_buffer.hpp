@@ -13,8 +13,8 @@
 
 namespace organ_collision {
 
-/// TF's buffer with a record of the stamps at which each frame's transform was received, which tf2
-/// does not tell. Transforms that are set with setTransform instead of add are not in the record.
+/// TF's buffer, with a record of the stamps of each frame's transforms, because tf2 does not give
+/// them. Transforms that are set with setTransform instead of add are not in the record.
 class TransformBuffer : public tf2::BufferCore {
  public:
   using Frames = std::vector<std::string>;
@@ -35,14 +35,14 @@ class TransformBuffer : public tf2::BufferCore {
 
   /// Notes that the poses of `sources` in the target frame have been used, up to `stamp`.
   void set_answered(const std::string& target, const Frames& sources, ros::Time stamp);
-  /// How many transforms came late: with a stamp up to which poses had already been used.
+  /// How many transforms came late, after poses at or past their stamp had already been used.
   std::size_t late() const { return late_; }
 
  private:
   struct Frame {
     StampRecord stamps;
     ros::Time answered;                ///< poses were used up to this stamp; zero: never
-    std::vector<std::size_t> parents;  ///< recent ones, as indices
+    std::vector<std::size_t> parents;  ///< recent parents, as indices
   };
   using Indices = std::vector<std::size_t>;
 

@@ -17,7 +17,7 @@ Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::stri
       return {std::nullopt, "transform from " + source + " to " + target + " is not finite"};
     }
     return {{{T_target_source, time.isZero() ? found.header.stamp : time}}, ""};
-  } catch (const std::runtime_error& error) {  // Of tf2, and of ros::Time for extreme stamps.
+  } catch (const std::runtime_error& error) {  // From tf2, or from ros::Time for extreme stamps.
     // The text may be long: for a loop, tf2 lists all frames.
     return {std::nullopt, "no transform from " + source + " to " + target + ": " +
                               plain_text(error.what(), kLongestMessage)};

@@ -9,7 +9,7 @@
 
 namespace organ_collision {
 
-/// A value and its time; zero: valid at any time, because all its transforms are static.
+/// A value and its time. Time zero: it is valid at any time, because all its transforms are static.
 template <typename T>
 struct Timed {
   T value;
@@ -23,7 +23,8 @@ struct Lookup {
   std::string why_not;
 };
 
-/// T_target_source at a time; zero: the latest common time. Frame names without a leading slash.
+/// T_target_source at a time; time zero means the latest common time. The frame names must have no
+/// leading slash.
 Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
                                   const std::string& source, ros::Time time);
 

@@ -6,7 +6,8 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] Older messages that wait are dropped; the sweep then goes straight across them.
+/// [messages] If more messages wait, the oldest are dropped, and the sweep connects the poses of
+/// the others directly.
 constexpr std::uint32_t kQueue = 1000;
 
 }  // namespace

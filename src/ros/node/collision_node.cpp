@@ -15,7 +15,7 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kLongestWait(10);
 /// The node calls callbacks for at most this long before it evaluates what they brought.
 constexpr std::chrono::milliseconds kLongestDrain(2);
-/// After a breakdown, the last messages have this long to leave before their publishers close.
+/// After a breakdown, the node waits this long for its last messages to leave.
 const ros::WallDuration kLastWords(1.0);
 
 ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
@@ -77,7 +77,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                                       [this](const ros::TimerEvent&) { steps_.add_tick(); });
   }
   diagnostics_.add_to(updater_);
-  // The updater's own timer follows simulated time: it would stop with it.
+  // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
@@ -98,7 +98,7 @@ void CollisionNode::run(const std::function<bool()>& stop) {
   }
 }
 
-/// Never throws: the exception that ends the node goes on.
+/// Never throws, because the caller rethrows the exception that ends the node.
 void CollisionNode::report_last_diagnostics() {
   try {
     updater_.force_update();
@@ -106,7 +106,8 @@ void CollisionNode::report_last_diagnostics() {
   }
 }
 
-/// Waits for the first callback, or until a shape has waited long enough for its transform.
+/// Waits for the first callback, but not beyond the deadline of a shape that waits for a transform.
+/// Then calls all callbacks that are there, for at most kLongestDrain.
 void CollisionNode::receive() {
   SteadyClock::time_point until = SteadyClock::now() + kLongestWait;
   if (const auto deadline = steps_.next_deadline()) until = std::min(until, *deadline);
@@ -134,7 +135,7 @@ void CollisionNode::apply_organ_messages() {
   }
 }
 
-/// An exception that an action throws is counted, and the node goes on.
+/// Runs an action. If it throws, the exception is counted, and the node goes on.
 void CollisionNode::guard(const std::function<void()>& action) {
   try {
     action();
@@ -143,7 +144,7 @@ void CollisionNode::guard(const std::function<void()>& action) {
   }
 }
 
-/// Called before each callback: after a jump, a message must not meet state from before it.
+/// Called before each callback, so that no message meets state from before a jump of the clock.
 void CollisionNode::watch_clock() {
   const ros::Time now = ros::Time::now();
   if (now < last_now_) {

@@ -24,17 +24,19 @@
 
 namespace organ_collision {
 
-/// The node. It wires the rooms of this library, each of which hands its results on to the next:
-/// topics -> organs and motion -> steps -> publishing (doc/architecture.md). One thread does all of
-/// it through one callback queue. That thread owns the GL context, and there are no locks. Only
-/// large meshes with new triangles are built in a second thread (organ_message_queue.hpp).
+/// The node. It connects the rooms of this library, each of which hands its results on to the next:
+/// topics -> organs and motion -> steps -> publishing (doc/architecture.md). One thread does all
+/// work through one callback queue. That thread owns the GL context and all state, so that the
+/// state needs no locks. Only large meshes with new triangles are built in a second thread
+/// (organ_message_queue.hpp).
 class CollisionNode {
  public:
-  /// Throws ParameterError, GlError. The calling thread must be the one that calls run().
+  /// Throws ParameterError and GlError. The same thread must call run().
   CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// Works until ROS shuts down or `stop` returns true. Throws what the node cannot recover from,
-  /// such as std::bad_alloc; before that, it publishes PICKER_FAILED for each organ and tool.
+  /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
+  /// recover from, such as std::bad_alloc, after it has published PICKER_FAILED for each organ and
+  /// tool.
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:

@@ -14,8 +14,8 @@
 namespace organ_collision {
 namespace {
 
-/// The pause before a restart, so that a node that breaks down at once does not use up a processor.
-/// It doubles each time the node cannot be constructed.
+/// [s] The pause before a restart. Without it, a node that breaks down at once would keep a
+/// processor busy. It doubles each time the node cannot be constructed.
 constexpr double kShortestPauseSec = 0.2;
 constexpr double kLongestPauseSec = 5.0;
 /// How soon a request to stop is noticed within a pause.
@@ -32,7 +32,8 @@ class CollisionNodelet : public nodelet::Nodelet {
   }
 
  private:
-  /// Returns when the node works. Throws what prevented that, so that loading the nodelet fails.
+  /// Returns when the node works. If it cannot be constructed, throws its exception, so that
+  /// loading the nodelet fails.
   void onInit() override {
     std::promise<void> ready;
     std::future<void> outcome = ready.get_future();

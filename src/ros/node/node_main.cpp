@@ -5,7 +5,7 @@
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, organ_collision::names::kNode);
-  const ros::NodeHandle node;  // While one exists, ROS_FATAL below still reaches /rosout.
+  const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
   try {
     organ_collision::CollisionNode(node, ros::NodeHandle("~")).run();
   } catch (const std::exception& error) {

@@ -12,8 +12,8 @@ namespace organ_collision {
 /// the connection is open. A restarted publisher has a new connection, even under the same name.
 using Connection = boost::weak_ptr<const ros::M_string>;
 
-/// A set of connections, ordered by the owner of the header. So a new connection is never mistaken
-/// for a closed one whose header had the same address.
+/// A set of connections, ordered by the owner of the header. Therefore a new connection is never
+/// mistaken for a closed one whose header had the same address.
 class ConnectionSet {
  public:
   bool contains(const Connection& connection) const { return connections_.count(connection) > 0; }

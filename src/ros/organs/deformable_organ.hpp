@@ -10,7 +10,7 @@
 
 namespace organ_collision {
 
-/// An organ's surface at one time. Its users share it; it does not change while they do.
+/// An organ's surface at one time. Its users share it, and it does not change while they use it.
 struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
   ros::Time stamp;                           ///< as sent; zero: unstamped
@@ -32,13 +32,14 @@ class DeformableOrgan {
   const std::string& name() const { return name_; }
   const std::string& frame() const { return frame_; }
   const OrganShape& latest() const { return latest_; }
-  /// The shape before the latest one; without a mesh if the latest is the first of its topology.
+  /// The shape before the latest one. It has no mesh if the latest one is the first of its
+  /// topology, or after forget_previous().
   const OrganShape& previous() const { return previous_; }
 
-  /// New positions for the same triangles. Throws MeshError, and changes nothing, if they do not
-  /// fit. Reuses released shapes, and allocates only if there is none.
+  /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if they do
+  /// not fit. Reuses a released shape, and allocates only if there is none.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
-  /// A new mesh with other triangles.
+  /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
 
   void set_frame(std::string frame) { frame_ = std::move(frame); }
@@ -52,7 +53,7 @@ class DeformableOrgan {
   OrganShape latest_;
   OrganShape previous_;
   std::vector<std::shared_ptr<TriangleMesh>>
-      shapes_;  ///< of the present topology, in use or released
+      shapes_;  ///< all shapes of the present topology, in use or released
 };
 
 }  // namespace organ_collision

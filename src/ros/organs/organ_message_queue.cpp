@@ -101,7 +101,7 @@ void OrganMessageQueue::build_meshes() {
 void OrganMessageQueue::wake() const {
   try {
     functions_.wake();
-  } catch (const std::bad_alloc&) {  // The next call of next() comes somewhat later.
+  } catch (const std::bad_alloc&) {  // The node also calls next() without a wake, but later.
   }
 }
 

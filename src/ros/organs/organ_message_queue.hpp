@@ -19,11 +19,11 @@
 
 namespace organ_collision {
 
-/// A message about one organ: a mesh or vertices; the other of the two pointers is null.
+/// A message about one organ: either `mesh` or `vertices` is set, and the other one is null.
 struct OrganMessage {
   OrganMeshConstPtr mesh = {};
-  Connection connection = {};            ///< over which the mesh came
-  std::future<TriangleMesh> built = {};  ///< valid only where the queue's thread builds the mesh
+  Connection connection = {};            ///< the connection over which the mesh came
+  std::future<TriangleMesh> built = {};  ///< valid only if the queue's thread builds the mesh
   OrganVerticesConstPtr vertices = {};
 
   const std::string& organ() const { return mesh ? mesh->organ : vertices->organ; }
@@ -35,24 +35,24 @@ struct OrganMessage {
 /// messages of each organ keep their order; messages of other organs do not wait.
 class OrganMessageQueue {
  public:
-  /// [faces] Meshes up to this size are built by whoever applies them, in less than a millisecond.
+  /// [faces] Meshes up to this size are built when they are applied, in less than a millisecond.
   static constexpr std::size_t kLarge = 10'000;
-  /// At most this many messages of one organ wait for its mesh. Beyond that, the oldest vertices
-  /// are dropped.
+  /// If more messages of one organ wait for its mesh, the oldest vertices are dropped. Meshes are
+  /// never dropped.
   static constexpr std::size_t kMostWaiting = 100;
 
-  /// What the queue asks others for.
+  /// The functions of others that the queue calls.
   struct Functions {
     /// Builds a mesh; throws MeshError. Called in the queue's thread.
     std::function<TriangleMesh(const OrganMeshConstPtr&)> build;
     /// Whether the message's triangles are new to the organ, so that a mesh has to be built.
     std::function<bool(const OrganMesh&, const Connection&)> is_new;
-    /// Tells the thread that calls next() that there is something for it. Called in the queue's
+    /// Wakes the thread that calls next(), because a build has ended. Called in the queue's
     /// thread; may throw std::bad_alloc.
     std::function<void()> wake;
   };
   explicit OrganMessageQueue(Functions functions);
-  /// Waits for the mesh that is being built. Meshes behind it are dropped.
+  /// Waits for the mesh that is being built. Meshes that wait behind it are not built.
   ~OrganMessageQueue();
   OrganMessageQueue(const OrganMessageQueue&) = delete;
   OrganMessageQueue& operator=(const OrganMessageQueue&) = delete;
@@ -60,8 +60,8 @@ class OrganMessageQueue {
   void add(const OrganMeshConstPtr& message, const Connection& connection = {});
   void add(const OrganVerticesConstPtr& message);
 
-  /// The next message that waits for no mesh; none if there is none now. To be called from time to
-  /// time even without a wake.
+  /// The next message that waits for no mesh, or std::nullopt if there is none now. Must be called
+  /// from time to time even without a call of `wake`, which may fail.
   std::optional<OrganMessage> next();
 
  private:
@@ -74,7 +74,7 @@ class OrganMessageQueue {
 
   Functions functions_;
   Messages ready_;
-  std::map<std::string, Messages> waiting_;  ///< by organ: a mesh that is being built, and the rest
+  std::map<std::string, Messages> waiting_;  ///< by organ: a mesh being built, and what came later
 
   std::mutex mutex_;  ///< guards the next two members
   std::deque<std::packaged_task<TriangleMesh()>> tasks_;

@@ -34,7 +34,7 @@ std::string reason_of(const MeshError& error) {
   return "invalid mesh";
 }
 
-/// Rethrows the exception that is being handled as a Rejection. `named`: the message's name.
+/// Throws a Rejection for the exception that is being handled. `named`: the message in words.
 [[noreturn]] void reject_thrown(const std::string& named) {
   try {
     throw;
@@ -68,7 +68,7 @@ bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connectio
          is_another_organ(known->second, message, connection);
 }
 
-/// For a message with the organ's present topology number.
+/// Whether a mesh with the organ's present topology number is of another organ of the same name.
 bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                                      const Connection& connection) const {
   const auto known = connections_.find(organ.name());

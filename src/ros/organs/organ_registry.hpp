@@ -16,7 +16,8 @@
 
 namespace organ_collision {
 
-/// What a message changed. After kFrame and kOrgan, no earlier shape of the organ is comparable.
+/// What a message changed. After kFrame and kOrgan, the new shape cannot be compared with earlier
+/// ones.
 enum class OrganChange {
   kShape,   ///< the organ has a new shape
   kFrame,   ///< the organ has a new shape in another frame
@@ -32,9 +33,10 @@ class OrganRegistry {
   /// The surface that a mesh message describes. Throws MeshError. May be called from any thread.
   TriangleMesh build(const OrganMeshConstPtr& message) const;
 
-  /// Both throw Rejection. The vertices become the organ's shape without a copy: the message lives
-  /// as long as that shape is used. `built` is called only if the triangles are new, and returns
-  /// what `build` would return.
+  /// Apply a message. All throw Rejection. The vertices become the organ's shape without a copy:
+  /// the message lives as long as that shape is used. `built` is called only if the triangles are
+  /// new, and must return what `build` would return.
+  ///
   /// A mesh may have other triangles under the topology number that the organ already has. If it
   /// came over a connection that is new to this organ, for example from a restarted simulator, it
   /// is another organ. Over a known connection it is refused.
@@ -54,7 +56,7 @@ class OrganRegistry {
   const DeformableOrgan& at(const std::string& name) const;
   const std::map<std::string, DeformableOrgan>& organs() const { return organs_; }
 
-  /// Each organ keeps only its latest shape.
+  /// Makes each organ keep only its latest shape.
   void forget_previous_shapes();
 
  private:

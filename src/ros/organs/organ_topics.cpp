@@ -11,7 +11,8 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] Of all organs together. roscpp drops older ones while the node's thread is busy.
+/// [messages] For all organs together. If more wait while the node's thread is busy, roscpp drops
+/// the oldest.
 constexpr std::uint32_t kQueue = 100;
 
 /// Ends the wait for a callback, and does nothing else.

@@ -17,8 +17,8 @@ namespace organ_collision {
 /// A message about an organ, and what it did.
 struct OrganUpdate {
   OrganMessage message;
-  std::optional<OrganChange> change = {};  ///< none: the message was refused, and changed nothing
-  /// Why the organ has no new shape, as ContactArray's status and message; OK: it has one.
+  std::optional<OrganChange> change = {};  ///< empty: the message was refused, and changed nothing
+  /// Why the organ has no new shape: a status of ContactArray, and its message. OK if it has one.
   std::uint8_t status = 0;
   std::string why_not = {};
 };
@@ -27,18 +27,19 @@ struct OrganUpdate {
 /// the order in which they came.
 class OrganTopics {
  public:
-  /// All must outlive it. `callbacks`: of the thread that calls next(), to wake it.
+  /// All must outlive this. `callbacks`: the queue of the thread that calls next(). A callback is
+  /// added to it to wake that thread.
   OrganTopics(OrganRegistry& organs, FailureLog& rejected, ros::CallbackQueueInterface& callbacks);
 
   void subscribe(ros::NodeHandle private_node);
 
-  /// Take a message of a topic. `connection`: over which the mesh came.
+  /// Take a message of a topic. `connection`: the one over which the mesh came.
   void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {}) {
     queue_.add(message, connection);
   }
   void take_vertices(const OrganVerticesConstPtr& message) { queue_.add(message); }
-  /// Applies the next message that can be applied now; none if there is none. A message that is
-  /// refused is counted as rejected.
+  /// Applies the next message that can be applied now. Returns std::nullopt if there is none. A
+  /// message that is refused is counted as rejected.
   std::optional<OrganUpdate> next();
 
  private:

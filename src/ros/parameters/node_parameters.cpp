@@ -16,7 +16,7 @@ using XmlRpc::XmlRpcValue;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// [bytes] roscpp refuses larger messages.
 constexpr double kMostMessageBytes = 1e9;
-/// Messages with more faces would be too large: three indices of four bytes for each.
+/// With more faces, a message would be too large: each face has three indices of four bytes.
 constexpr double kMostFaces = 83'333'333;
 
 const NumberRange kNotNegative{0.0, kUnlimited};
@@ -60,8 +60,8 @@ void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> n
   }
 }
 
-/// Where the pose of the tip comes from: a frame on TF, or a topic. A tool without a shaft may have
-/// such a topic, too.
+/// Parses where the pose of the tip comes from: a frame on TF, or a topic. A tool without a shaft
+/// may have such a topic, too. `unnamed`: the tip frame if the parameters name only a topic.
 void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParameters& parsed) {
   parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
   parsed.base_pose_topic = topic(tool, names::kBasePoseTopic);

@@ -34,7 +34,7 @@ struct ToolParameters {
 struct NodeParameters {
   std::vector<ToolParameters> tools;
   PickerKind picker = PickerKind::kFeedback;
-  double rate_hz = 0.0;      ///< 0: tools are evaluated only at each mesh
+  double rate_hz = 0.0;      ///< of ticks; 0: steps only at new shapes and pose messages
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;

@@ -18,10 +18,10 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// [messages] For each subscriber that reads more slowly than the node publishes.
+/// [messages] Kept for each subscriber that reads more slowly than the node publishes.
 constexpr std::uint32_t kQueue = 100;
 
-/// Does one part of a report, and goes on to the next if it fails.
+/// Does one part of a report. If it throws, the caller goes on with the next part.
 template <typename Action>
 void attempt(const Action& action) {
   try {

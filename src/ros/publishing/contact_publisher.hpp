@@ -15,8 +15,8 @@
 
 namespace organ_collision {
 
-/// Publishes the answers of steps on `contacts`, and what RViz shows of them on `markers`. Counts
-/// what it publishes.
+/// Publishes the answers of steps on `contacts`, and their markers for RViz on `markers`. Counts
+/// the answers and the accepted shapes.
 class ContactPublisher {
  public:
   /// `tools` and `counters` must outlive this.
@@ -24,7 +24,8 @@ class ContactPublisher {
                    NodeCounters& counters);
 
   void publish(const EvaluatedStep& step);
-  /// If the message brought no shape, publishes an answer that says why, for each tool.
+  /// Counts an accepted shape. If the message brought no shape, publishes for each tool an answer
+  /// that says why.
   void report(const OrganUpdate& update);
   /// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a
   /// node that broke down for the absence of contacts. Never throws, even if memory is short.

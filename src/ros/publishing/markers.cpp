@@ -14,7 +14,7 @@ using visualization_msgs::Marker;
 constexpr double kLifetimeSec = 2.0;
 /// [m] Touched faces are drawn at this distance from the organ, on both sides, to avoid flicker.
 constexpr double kFaceLift = 2e-4;
-/// [m]
+/// [m] Width of the outlines of regions.
 constexpr double kRegionLineWidth = 5e-4;
 
 struct Colour {

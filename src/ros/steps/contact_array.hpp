@@ -12,16 +12,16 @@
 
 namespace organ_collision {
 
-/// An answer about one organ and one tool with a shaft alone, still without contacts. header.stamp
-/// and step_start are `stamp`. The names may come from a message and be illegal: the answer has
-/// them as plain text of at most kLongestName bytes (plain_text.hpp).
+/// An answer without contacts, about one organ and one tool. The tool has a shaft but no links.
+/// header.stamp and step_start are `stamp`. The names may come from a message and be illegal: the
+/// answer has them as plain text of at most kLongestName bytes (plain_text.hpp).
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
 
 /// Sets `links`: the names of the tool's shaft and links.
 void set_links(ContactArray& answer, const ToolParameters& tool);
 
-/// Sets frame, topology and mesh stamp: the shape that the answer is about.
+/// Sets frame, topology and mesh stamp to those of the shape that the answer is about.
 void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape);
 
 /// Sets status and message, and drops contacts and regions. The message becomes plain text of at

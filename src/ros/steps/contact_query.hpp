@@ -9,8 +9,8 @@
 
 namespace organ_collision {
 
-/// Runs collision queries whose answers are ContactArray messages. Errors become statuses. Measures
-/// how long queries take.
+/// Runs collision queries whose answers are ContactArray messages. Illegal requests and failures of
+/// GL become statuses. Measures how long queries take.
 class ContactQuery {
  public:
   /// Runs each kind of query once, so that GL compiles its programs now and not within the first

@@ -12,9 +12,10 @@
 
 namespace organ_collision {
 
-// Between messages and the requests and results of CollisionQuery; lengths in metres on both sides.
+// Conversions between messages and the requests and results of CollisionQuery. All lengths are in
+// metres.
 
-/// All fields as they are, in the same frame.
+/// Copies all fields; the frame is the same.
 Contact to_message(const FaceContact& contact);
 /// The corners in the same order and frame, rounded to 32-bit floats.
 geometry_msgs::Polygon to_message(const Region& region);

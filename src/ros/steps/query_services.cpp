@@ -85,7 +85,7 @@ void check_tool(const Tool& tool, QueryMode mode) {
   }
 }
 
-/// Releases the memory of the results, because it may be what was short.
+/// Also releases the memory of the results, because the failure may be a lack of memory.
 void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
                  const std::string& message) {
   response.results = {};
@@ -188,7 +188,7 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   sources_.contact_query.evaluate(collision, answer);
 }
 
-/// All motions of a batch are in one frame at one time, so that one transform serves them all.
+/// All motions of a batch are given in one frame at one time, so one transform serves them all.
 void QueryServices::answer(const QueryCollisionBatch::Request& request,
                            QueryCollisionBatch::Response& response) const {
   check_served(request);

@@ -23,8 +23,8 @@
 namespace organ_collision {
 
 /// Serves `query` and `query_batch`: what a tool touches, or would touch. Changes no organ and no
-/// history. Never throws: an error becomes the answer's status, PICKER_FAILED if the request is not
-/// to blame.
+/// history. Never throws: an error becomes the answer's status. The status is PICKER_FAILED if the
+/// request is not the cause.
 class QueryServices {
  public:
   /// All must outlive this.

@@ -27,7 +27,8 @@ struct LastStep {
 
 /// The shapes of an organ against which one tool is still to be evaluated: the shape that waits for
 /// its transform, and the newest one behind it. A newer shape does not replace the one that waits.
-/// Otherwise no shape would ever be evaluated if transforms lag by more than the time between two.
+/// Otherwise no shape would ever be evaluated if transforms lag by more than the time between two
+/// shapes.
 class ShapeQueue {
  public:
   struct Entry {
@@ -49,7 +50,7 @@ class ShapeQueue {
 /// The state of one pair of organ and tool.
 struct OrganToolPair {
   std::optional<LastStep> last;
-  /// The organ's shape at the last step of this tool, whether that succeeded or failed.
+  /// The organ's shape at the last step of this tool, whether that step succeeded or failed.
   OrganShape current;
   ShapeQueue queue;
 };

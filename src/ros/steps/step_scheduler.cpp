@@ -88,7 +88,7 @@ bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t too
   return true;
 }
 
-/// All organs and tools with the latest poses.
+/// Evaluates all organs and tools with the latest poses.
 void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
   const ros::Time now = ros::Time::now();
   for (const auto& [name, organ] : organs.organs()) {
@@ -98,7 +98,7 @@ void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
   }
 }
 
-/// All organs with the latest pose of one tool, unless that pose is answered already.
+/// Evaluates all organs with the latest pose of one tool, unless that pose is answered already.
 void StepScheduler::evaluate_latest(const OrganRegistry& organs, std::size_t tool) {
   const ros::Time now = ros::Time::now();
   for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now, true);
@@ -163,7 +163,7 @@ void StepScheduler::evaluate_step(const DeformableOrgan& organ, std::size_t tool
   run(organ, tool, pair, std::move(stamped), std::move(sampled.path));
 }
 
-/// The tool rests at its last pose, because the shape is older than that pose.
+/// The tool rests at its last pose, because no newer pose goes with the shape.
 void StepScheduler::evaluate_held(const DeformableOrgan& organ, std::size_t tool,
                                   OrganToolPair& pair) {
   const LastStep& last = *pair.last;

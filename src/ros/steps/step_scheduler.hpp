@@ -28,9 +28,9 @@ struct EvaluatedStep {
 };
 
 /// Decides which tool is evaluated against which organ, when, and from which pose: at each new
-/// shape of the organ, at each new pose of a tip, and at each tick. A step begins where the last
-/// successful one of that tool and organ ended. A tool with a fault is never evaluated: its answers
-/// say INVALID_TOOL.
+/// shape of the organ, at each new pose of a tip on a pose topic, and at each tick. A step begins
+/// where the last successful one of that tool and organ ended. A tool with a fault is never
+/// evaluated: its answers say INVALID_TOOL.
 class StepScheduler {
  public:
   using Publish = std::function<void(const EvaluatedStep&)>;
@@ -45,25 +45,27 @@ class StepScheduler {
         publish_(std::move(publish)),
         tool_is_due_(tools.size(), false) {}
 
-  /// Notes what a message did to an organ. A new shape becomes due for every tool. History that is
-  /// not comparable to the organ any more is forgotten.
+  /// Notes what a message did to an organ. A new shape becomes due for every tool. Forgets history
+  /// that cannot be compared with the organ's new shape.
   void add(const OrganRegistry& organs, const OrganUpdate& update, SteadyTime now);
   /// Notes that a tool's tip has a new pose: the tool becomes due.
   void add_pose(std::size_t tool);
   /// Makes every tool due.
   void add_tick() { tick_is_due_ = true; }
 
-  /// Evaluates what is due: shapes whose transforms have come or have been waited for long enough,
-  /// then the tools whose tips moved, then all at a tick. Tools and ticks use the latest poses.
+  /// Evaluates what is due: first the shapes whose transforms have come or are past their deadline,
+  /// then the tools whose tips moved, then, at a tick, all tools. The latter two use the latest
+  /// poses.
   void evaluate(const OrganRegistry& organs, SteadyTime now);
 
-  /// Forgets all history: the next step of every tool is static. Shapes that wait still wait.
+  /// Forgets all history: the next step of every tool is static. Waiting shapes go on waiting.
   void reset();
-  /// For a clock that jumped back: forgets all history, and drops the shapes that wait, since their
-  /// transforms will not come. Every organ has its latest shape.
+  /// For a clock that jumped back: forgets all history, and drops the shapes that wait, because
+  /// their transforms will not come. Ticks and poses are evaluated against each organ's latest
+  /// shape.
   void start_anew(const OrganRegistry& organs);
 
-  /// When evaluate() has something to do even if no transform comes; none: never.
+  /// When evaluate() has something to do even if no transform comes; std::nullopt: never.
   std::optional<SteadyTime> next_deadline() const;
   const StepHistory& history() const { return history_; }
 

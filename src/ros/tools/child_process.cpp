@@ -61,7 +61,7 @@ void open_input(const std::string& input, Descriptor& descriptor) {
   if (lseek(descriptor.get(), 0, SEEK_SET) != 0) fail(errno, "lseek");
 }
 
-/// The new process has the three standard streams, and no signal blocked or ignored.
+/// The new process gets its standard streams, and no signal is blocked or ignored in it.
 class SpawnSettings {
  public:
   SpawnSettings(int input, int output) {
@@ -101,7 +101,7 @@ class SpawnSettings {
   posix_spawnattr_t attributes_;
 };
 
-/// Kills the process and waits for it on destruction, if that has not happened before.
+/// A running process. The destructor kills it and waits for its end, unless end() was called.
 class Child {
  public:
   explicit Child(pid_t process) : process_(process) {}
@@ -139,7 +139,7 @@ std::string describe(int status) {
   return failure.str();
 }
 
-/// Reads until the other end is closed. Returns why it stopped before that; else an empty text.
+/// Reads until the other end is closed. Returns why it stopped earlier, or an empty text.
 std::string read_all(int descriptor, const ProcessLimits& limits, std::string& output) {
   const Clock::time_point end = Clock::now() + limits.time;
   std::array<char, 65536> block;

@@ -21,9 +21,9 @@ struct ProcessResult {
 /// Runs a program and waits for its end. `command`: its path and its arguments. `input`: what it
 /// reads on standard input. Throws std::system_error if the program cannot be started.
 ///
-/// Own code, because Boost.Process forks: in a nodelet manager, other threads may hold locks at
-/// that moment, and fork handlers of other libraries would run. posix_spawn does neither. Other
-/// threads may also change signal handlers and wait for children.
+/// Uses posix_spawn. Boost.Process would fork: in a nodelet manager, other threads may hold locks
+/// at that moment, and fork handlers of other libraries would run. Works even if other threads
+/// change signal handlers or wait for all children.
 ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
                           const ProcessLimits& limits);
 

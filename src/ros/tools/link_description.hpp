@@ -53,7 +53,7 @@ using ShapeDescription =
     std::variant<SphereDescription, CylinderDescription, BoxDescription, MeshDescription>;
 
 struct LinkDescription {
-  std::string joint;  ///< that moves the link against its parent; empty: fixed, or the root
+  std::string joint;  ///< moves the link relative to its parent; empty: fixed, or the root
   std::vector<ShapeDescription> shapes;
 };
 

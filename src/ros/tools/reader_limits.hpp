@@ -7,7 +7,7 @@
 /// limits for itself. The node enforces the others on the program.
 namespace organ_collision::reader_limits {
 
-/// [bytes] Of the URDF, and of each mesh file: an STL file of two million triangles.
+/// [bytes] Of the URDF, and of each mesh file. An STL file of two million triangles has this size.
 inline constexpr std::size_t kFileBytes = 100'000'000;
 /// [bytes] Of address space: a file, its parsed form, and the reply to the node.
 inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;

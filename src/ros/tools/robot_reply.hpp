@@ -8,9 +8,9 @@
 
 namespace organ_collision {
 
-// What the program robot_reader writes to the node. Before it reads a file, it writes which one, so
-// that the node can name the file that ended the program. At the end it writes the links, or why it
-// has none. Numbers are in native byte order: both programs run on the same machine.
+// What the program robot_reader writes to the node. Before it reads a file, it writes the name of
+// the file, so that the node can say which file ended the program. At the end it writes the links,
+// or why it has none. Numbers are in native byte order: both programs run on the same machine.
 
 std::string reading_record(const std::string& what);
 std::string refusal_record(const std::string& why);
@@ -18,7 +18,7 @@ std::string links_record(std::vector<LinkDescription> links);
 
 /// Either `refusal` or `links` is set; neither, if the reply is cut off or malformed.
 struct RobotReply {
-  std::string reading;  ///< the last file that was read; empty: the URDF itself
+  std::string reading;  ///< the file that was being read last; empty: the URDF itself
   std::optional<std::string> refusal;
   std::optional<std::vector<LinkDescription>> links;
 };

@@ -15,16 +15,17 @@ namespace organ_collision {
 struct Tool {
   ToolParameters parameters;
   std::vector<Link> links;          ///< in the order of parameters.links
-  std::vector<std::string> joints;  ///< of each link: the joint that moves it; empty: none does
-  std::string fault;  ///< why the links could not be loaded; empty: they were, or there are none
+  std::vector<std::string> joints;  ///< of each link: the joint that moves it, or empty
+  std::string fault;  ///< why the links could not be loaded; empty if there was no error
 };
 
-/// The tool with its links from its URDF: a file, or a parameter that is searched in the node's
-/// private namespace and upwards from there. A bad description throws nothing: the tool has a
-/// `fault`, a sentence that begins with the tool's name.
+/// The tool, with its links from its URDF. The URDF is a file, or a parameter that is searched in
+/// the node's private namespace and upwards from there. A bad description is not thrown: the tool
+/// gets a `fault`, a sentence that begins with the tool's name.
 Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node);
 
-/// The same without ROS. `find_text` returns the value of a parameter, or throws ToolError.
+/// The same without a parameter server. `find_text` returns the value of a parameter, or throws
+/// ToolError.
 Tool load_tool(const ToolParameters& parameters,
                const std::function<std::string(const std::string& parameter)>& find_text);
 
