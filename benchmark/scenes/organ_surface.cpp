@@ -95,10 +95,10 @@ std::vector<float> deformed(const std::vector<float>& rest, double phase, double
   std::vector<float> vertices(rest.size());
   for (std::size_t i = 0; i < rest.size(); i += 3) {
     const double x = rest[i], y = rest[i + 1], z = rest[i + 2];
-    const double bent_x = x + 0.004 * std::sin(30.0 * z + 20.0 * y);
+    const double curved_x = x + 0.004 * std::sin(30.0 * z + 20.0 * y);
     const double bent_y = y + 0.005 * std::sin(25.0 * x);
     const double bent_z = z + 0.008 * std::sin(25.0 * x + 1.0) * std::cos(20.0 * y);
-    vertices[i] = static_cast<float>(bent_x + amplitude * std::sin(40.0 * y + phase));
+    vertices[i] = static_cast<float>(curved_x + amplitude * std::sin(40.0 * y + phase));
     vertices[i + 1] = static_cast<float>(bent_y + amplitude * std::cos(35.0 * x + phase));
     vertices[i + 2] = static_cast<float>(bent_z + amplitude * std::sin(30.0 * x - phase));
   }

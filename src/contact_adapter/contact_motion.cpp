@@ -28,7 +28,7 @@ ContactMotion::Place ContactMotion::place_of(const Contact& contact, const Push&
   return place;
 }
 
-double ContactMotion::way_between(const Place& before, const Place& now) {
+double ContactMotion::path_length_between(const Place& before, const Place& now) {
   if (!before.offset || !now.offset) return std::abs(now.depth - before.depth);
   if (before.pierced && now.pierced && before.pierced->normal.dot(now.pierced->normal) > kSame) {
     return std::min(std::abs(now.pierced->depth - before.pierced->depth),
@@ -58,7 +58,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
       // If the face was not touched when the step began, its whole depth arose in this step.
       way = std::max(way, contact.fraction > 0.0 ? contact.depth : now.depth);
     } else {
-      way = std::max(way, way_between(before->second, now));
+      way = std::max(way, path_length_between(before->second, now));
       last_->erase(before);
     }
   }

@@ -51,7 +51,7 @@ class ContactMotion {
   using Places = std::map<FaceAndLink, Place>;
 
   static Place place_of(const Contact& contact, const Push& push, const KeptSides::Radius& radius);
-  static double way_between(const Place& before, const Place& now);
+  static double path_length_between(const Place& before, const Place& now);
 
   std::optional<Places> last_;
   std::uint32_t topology_ = 0;

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 /// [1] The search ends when the uncovered part of each depth is at most this share of the greatest
 /// depth.
-constexpr double kEnough = 1e-6;
+constexpr double kTolerance = 1e-6;
 // Limits of the search. Ordinary contacts need one to three springs.
 constexpr int kRounds = 8;
 constexpr int kSpringsARound = 16;
@@ -38,15 +38,15 @@ std::vector<Spring> springs_of(const std::vector<Push>& pushes) {
   return springs;
 }
 
-/// Repeatedly lengthens the spring with the greatest lack. Stops when no lack exceeds `enough` [m],
-/// or after kSpringsARound times. Adds the lengthened springs to `used`. Returns whether it
+/// Repeatedly lengthens the spring with the greatest lack. Stops when no lack exceeds `tolerance`
+/// [m], or after kSpringsARound times. Adds the lengthened springs to `used`. Returns whether it
 /// lengthened any.
-bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, double enough) {
+bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, double tolerance) {
   for (int count = 0; count < kSpringsARound; ++count) {
     const auto most =
         std::max_element(springs.begin(), springs.end(),
                          [](const Spring& a, const Spring& b) { return a.lack < b.lack; });
-    if (most->lack <= enough) return count > 0;
+    if (most->lack <= tolerance) return count > 0;
     const std::size_t i = most - springs.begin();
     if (std::find(used.begin(), used.end(), i) == used.end()) used.push_back(i);
     const double by = most->lack;
@@ -58,10 +58,10 @@ bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, doub
 }
 
 /// Balances the used springs by projected Gauss-Seidel sweeps: each spring gets the length that the
-/// others leave uncovered. Ends when all changes in a sweep are less than `enough` [m].
-void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used, double enough) {
-  double change = enough;
-  for (int sweep = 0; sweep < kSweeps && change >= enough; ++sweep) {
+/// others leave uncovered. Ends when all changes in a sweep are less than `tolerance` [m].
+void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used, double tolerance) {
+  double change = tolerance;
+  for (int sweep = 0; sweep < kSweeps && change >= tolerance; ++sweep) {
     change = 0.0;
     for (const std::size_t i : used) {
       double others = 0.0;
@@ -89,12 +89,12 @@ void find_lacks(std::vector<Spring>& springs, const std::vector<std::size_t>& us
 std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
   double greatest = 0.0;
   for (const Spring& spring : springs) greatest = std::max(greatest, spring.depth);
-  const double enough = kEnough * greatest;
+  const double tolerance = kTolerance * greatest;
   std::vector<std::size_t> used;
   if (springs.empty()) return used;
   find_lacks(springs, used);
-  for (int round = 0; round < kRounds && lengthen(springs, used, enough); ++round) {
-    balance(springs, used, 0.1 * enough);
+  for (int round = 0; round < kRounds && lengthen(springs, used, tolerance); ++round) {
+    balance(springs, used, 0.1 * tolerance);
     find_lacks(springs, used);
   }
   return used;

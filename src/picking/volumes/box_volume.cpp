@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rounding.hpp"
+#include "clipping_rounding.hpp"
 
 namespace organ_collision {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "camera_axes.hpp"
+#include "clipping_rounding.hpp"
 #include "convex_hull.hpp"
-#include "rounding.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "picking/pickers/picker.hpp"
+#include "organ_collision/picking/picker_kind.hpp"
 #include "ros/interface/parameter_group.hpp"
 
 namespace organ_collision {

@@ -4,7 +4,7 @@
 
 #include "link_builder.hpp"
 #include "link_description.hpp"
-#include "robot_reader.hpp"
+#include "robot_reader_client.hpp"
 #include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {

@@ -1,4 +1,4 @@
-#include "ros/tools/robot_reader.hpp"
+#include "ros/tools/robot_reader_client.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -1,4 +1,4 @@
-#include "robot_reader.hpp"
+#include "robot_reader_client.hpp"
 
 #include <dlfcn.h>
 #include <unistd.h>
