@@ -14,6 +14,10 @@ import unittest
 
 SOURCE = sys.argv[1]
 LAYERS = ['geometry', 'picking', 'query', 'ros']
+# The folders of a layer, in the order in which data flows through them.
+ROOMS = {'geometry': ['organ', 'tool', 'distance'],
+         'picking': ['volumes', 'culling', 'gl', 'pickers'],
+         'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'steps', 'publishing', 'node']}
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
 CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR, ROBOT_READER = sys.argv[6:10]
@@ -51,6 +55,17 @@ class LayersTest(unittest.TestCase):
                 if other and other.group(1) in LAYERS:
                     self.assertIn(other.group(1), LAYERS[:rank + 1], path)
             self.assertGreater(found, 0, layer)
+
+    def test_a_folder_includes_only_itself_and_those_before_it(self):
+        for layer, rooms in ROOMS.items():
+            folders = sorted(name for name in os.listdir(os.path.join(SOURCE, 'src', layer))
+                             if os.path.isdir(os.path.join(SOURCE, 'src', layer, name)))
+            self.assertEqual(folders, sorted(rooms), layer)
+            for rank, room in enumerate(rooms):
+                for path, included in includes(os.path.join(layer, room)):
+                    other = re.match(r'(?:organ_collision/)?%s/(\w+)/' % layer, included)
+                    if other:
+                        self.assertIn(other.group(1), rooms[:rank + 1], '%s: %s' % (path, included))
 
     def test_ros_is_included_only_in_the_last_layer(self):
         for layer in LAYERS[:-1]:
