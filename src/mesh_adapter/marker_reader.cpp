@@ -31,7 +31,7 @@ std::string type_name(int type) {
 
 /// Refuses zero and negative scales: they would make the organ flat or turn it inside out.
 Eigen::Vector3d scale_of(const Marker& marker) {
-  const Eigen::Vector3d scale = to_eigen(marker.scale);
+  Eigen::Vector3d scale = to_eigen(marker.scale);
   if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
     throw MessageError("wrong scale", concatenate("scale is ", scale.transpose(),
                                                   "; must be finite and more than 0"));
