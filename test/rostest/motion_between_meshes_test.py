@@ -12,16 +12,9 @@ from support import oracle, scenes
 from support.contact_case import faces_of
 from support.node_client import NodeClient, wait_until
 from support.tool_case import STEP, ToolCase
+from support.tool_over_sheet import RADIUS, SHEET, at_height
 
 SWEPT = ContactArray.SWEPT
-SHEET = scenes.sheet(0.1, 4)
-TROCAR = (0.013, 0.007, 0.4)
-RADIUS = 0.005
-
-
-def at_height(height):
-    """The tool, straight above (0.013, 0.007), with its tip at this height."""
-    return (TROCAR, (TROCAR[0], TROCAR[1], height))
 
 
 class MotionBetweenMeshesTest(ToolCase):

@@ -7,20 +7,13 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from support import oracle, scenes
+from support import oracle
 from support.contact_case import faces_of
 from support.node_client import NodeClient
 from support.tool_case import ToolCase
+from support.tool_over_sheet import RADIUS, SHEET, at_height
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
-SHEET = scenes.sheet(0.1, 4)
-TROCAR = (0.013, 0.007, 0.4)
-RADIUS = 0.005
-
-
-def at_height(height):
-    """The tool, straight above (0.013, 0.007), with its tip at this height."""
-    return (TROCAR, (TROCAR[0], TROCAR[1], height))
 
 
 class TransformsTest(ToolCase):

@@ -5,6 +5,7 @@ node_starter          nodes that a test starts and stops itself
 launched              launch files that a test starts and stops itself
 contact_case          test case: compares contacts with the oracle
 tool_case             test case: tools that move by TF, step by step
+tool_over_sheet       the scene of the tests of motion: a tool straight above a sheet
 link_case             test case: tools with links
 mesh_adapter_case     test case: organ_mesh_adapter
 contact_adapter_case  test case: contact_adapter
