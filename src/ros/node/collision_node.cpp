@@ -23,10 +23,6 @@ ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
   return node;
 }
 
-MeshLimits limits(const NodeParameters& parameters) {
-  return {static_cast<std::size_t>(parameters.max_faces)};
-}
-
 std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
                              const ros::NodeHandle& private_node) {
   std::vector<Tool> tools;
@@ -36,10 +32,6 @@ std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
   return tools;
 }
 
-PathSampling sampling(const NodeParameters& parameters) {
-  return {parameters.motion_sample_sec, parameters.motion_samples_max};
-}
-
 }  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -47,51 +39,46 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       private_node_(on_queue(private_node, queue_)),
       loaded_(load_parameters(private_node_)),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
-      organs_(limits(loaded_.parameters)),
-      poses_(transforms_, sampling(loaded_.parameters)),
-      contact_query_(loaded_.parameters.picker),
       publisher_(private_node_, tools_, counters_),
-      steps_(loaded_.parameters, tools_, poses_, contact_query_,
-             [this](const EvaluatedStep& step) { publisher_.publish(step); }),
-      services_({loaded_.parameters, tools_, organs_, transforms_, poses_, steps_.history(),
-                 contact_query_, counters_.refused}),
-      diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, organs_, contact_query_, steps_,
-                    transforms_, counters_}),
-      updater_(node_, private_node_, private_node_.getNamespace()),
-      organ_topics_(organs_, counters_.rejected, queue_),
-      transform_topics_(transforms_, counters_.rejected),
-      pose_topics_(
-          loaded_.parameters.tools,
-          {transforms_, counters_.rejected, [this](std::size_t tool) { steps_.add_pose(tool); }}) {
+      pipeline_(loaded_.parameters, tools_,
+                {[this](const EvaluatedStep& step) { publisher_.publish(step); },
+                 [this](const OrganUpdate& update) { publisher_.report(update); },
+                 counters_.rejected, queue_}),
+      services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
+                 pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),
+                 counters_.refused}),
+      diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, pipeline_.organs(),
+                    pipeline_.contact_query(), pipeline_.steps(), pipeline_.transforms(),
+                    counters_}),
+      updater_(node_, private_node_, private_node_.getNamespace()) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
   for (const Tool& tool : tools_) {
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
   }
-  organ_topics_.subscribe(private_node_);
-  transform_topics_.subscribe(node_);
-  pose_topics_.subscribe(node_);
+  pipeline_.subscribe(node_, private_node_);
   services_.advertise(private_node_);
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   if (loaded_.parameters.rate_hz > 0.0) {
     tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
-                                      [this](const ros::TimerEvent&) { steps_.add_tick(); });
+                                      [this](const ros::TimerEvent&) { pipeline_.add_tick(); });
   }
   diagnostics_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  ROS_INFO("ready: %zu tools, GL %s", tools_.size(), contact_query_.gl_version().c_str());
+  ROS_INFO("ready: %zu tools, GL %s", tools_.size(),
+           pipeline_.contact_query().gl_version().c_str());
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
   try {
     while (private_node_.ok() && !stop()) {
       receive();
-      steps_.evaluate(organs_, SteadyClock::now());
+      pipeline_.evaluate(SteadyClock::now());
     }
   } catch (const std::exception& error) {
-    publisher_.report_breakdown(organs_, error.what());
+    publisher_.report_breakdown(pipeline_.organs(), error.what());
     report_last_diagnostics();
     kLastWords.sleep();
     throw;
@@ -110,29 +97,22 @@ void CollisionNode::report_last_diagnostics() {
 /// Then calls all callbacks that are there, for at most kLongestDrain.
 void CollisionNode::receive() {
   SteadyClock::time_point until = SteadyClock::now() + kLongestWait;
-  if (const auto deadline = steps_.next_deadline()) until = std::min(until, *deadline);
+  if (const auto deadline = pipeline_.next_deadline()) until = std::min(until, *deadline);
   const std::chrono::duration<double> wait = until - SteadyClock::now();
 
   bool called = call_one(ros::WallDuration(std::max(0.0, wait.count())));
   const SteadyClock::time_point end = SteadyClock::now() + kLongestDrain;
   while (called && SteadyClock::now() < end) called = call_one(ros::WallDuration(0.0));
-  watch_clock();
+  pipeline_.watch_clock();
 }
 
 /// Returns false if there was no callback.
 bool CollisionNode::call_one(ros::WallDuration wait) {
-  watch_clock();
+  pipeline_.watch_clock();
   bool called = true;
   guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
-  guard([this] { apply_organ_messages(); });
+  guard([this] { pipeline_.apply_organ_messages(SteadyClock::now()); });
   return called;
-}
-
-void CollisionNode::apply_organ_messages() {
-  while (const auto update = organ_topics_.next()) {
-    steps_.add(organs_, *update, SteadyClock::now());
-    publisher_.report(*update);
-  }
 }
 
 /// Runs an action. If it throws, the exception is counted, and the node goes on.
@@ -144,25 +124,8 @@ void CollisionNode::guard(const std::function<void()>& action) {
   }
 }
 
-/// Called before each callback, so that no message meets state from before a jump of the clock.
-void CollisionNode::watch_clock() {
-  const ros::Time now = ros::Time::now();
-  if (now < last_now_) {
-    ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
-             now.toSec());
-    transforms_.clear();
-    pose_topics_.forget_stamps();
-    organs_.forget_previous_shapes();
-    organs_.forget_connections();
-    steps_.start_anew(organs_);
-  }
-  last_now_ = now;
-}
-
 bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  organs_.forget_previous_shapes();
-  organs_.forget_connections();
-  steps_.reset();
+  pipeline_.reset();
   return true;
 }
 

@@ -9,8 +9,6 @@
 
 #include "markers.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
@@ -74,13 +72,8 @@ void ContactPublisher::report_breakdown(const OrganRegistry& organs, const std::
 void ContactPublisher::publish_failure(const Tool& tool, const std::string& organ,
                                        const std_msgs::Header& header, std::uint8_t status,
                                        const std::string& message) {
-  const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
-  const auto answer = boost::make_shared<ContactArray>(
-      answer_about(organ, tool.parameters.name, ContactArray::STATIC, stamp));
-  set_links(*answer, tool.parameters);
-  answer->header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
-  set_failure(*answer, status, message);
-  contacts_.publish(answer);
+  contacts_.publish(boost::make_shared<ContactArray>(
+      failed_answer(organ, tool.parameters, header, status, message)));
 }
 
 }  // namespace organ_collision

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "geometry/concatenate.hpp"
+#include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
 
@@ -36,6 +37,17 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.message = plain_text(message, kLongestMessage);
   answer.contacts.clear();
   answer.regions.clear();
+}
+
+ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
+                           const std_msgs::Header& header, std::uint8_t status,
+                           const std::string& message) {
+  const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
+  ContactArray answer = answer_about(organ, tool.name, ContactArray::STATIC, stamp);
+  set_links(answer, tool);
+  answer.header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
+  set_failure(answer, status, message);
+  return answer;
 }
 
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message) {

@@ -2,6 +2,7 @@
 
 #include <organ_collision/ContactArray.h>
 #include <ros/time.h>
+#include <std_msgs/Header.h>
 
 #include <cstdint>
 #include <string>
@@ -27,6 +28,12 @@ void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganSh
 /// Sets status and message, and drops contacts and regions. The message becomes plain text of at
 /// most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
+
+/// The answer about an organ that could not be evaluated at all, for example because its mesh was
+/// refused. `header`: of the message that brought no shape; an unstamped one becomes now.
+ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
+                           const std_msgs::Header& header, std::uint8_t status,
+                           const std::string& message);
 
 /// Counts an answer that failed. An answer with the status OK is not counted.
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <ros/callback_queue_interface.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "ros/interface/failure_log.hpp"
+#include "ros/motion/pose_topics.hpp"
+#include "ros/motion/tool_poses.hpp"
+#include "ros/motion/transform_buffer.hpp"
+#include "ros/motion/transform_topics.hpp"
+#include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_topics.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "ros/steps/contact_query.hpp"
+#include "ros/steps/step_scheduler.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+/// The way from messages to answers: organs and motion -> steps (doc/architecture.md). The node
+/// feeds it from topics, the program replay from a bag. Without subscribe(), it needs no ROS
+/// master. All functions must be called in the thread that constructed it, which owns the GL
+/// context.
+class CollisionPipeline {
+ public:
+  /// Where results go; all must outlive this.
+  struct Sinks {
+    std::function<void(const EvaluatedStep&)> step;  ///< gets each step as soon as it is evaluated
+    std::function<void(const OrganUpdate&)> update;  ///< gets what each organ message did
+    FailureLog& rejected;                            ///< counts the messages that were refused
+    ros::CallbackQueueInterface& callbacks;          ///< gets a callback when a mesh was built
+  };
+
+  /// `parameters` and `tools` must outlive this. Throws GlError.
+  CollisionPipeline(const NodeParameters& parameters, const std::vector<Tool>& tools,
+                    const Sinks& sinks);
+
+  /// Subscribes to the topics of organs, of TF and of poses.
+  void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  /// Their receivers. They also take messages from elsewhere than topics.
+  OrganTopics& organ_topics() { return organ_topics_; }
+  TransformTopics& transform_topics() { return transform_topics_; }
+  PoseTopics& pose_topics() { return pose_topics_; }
+
+  /// Compares ROS time with that of the last call. If it jumped back, forgets all history. Call it
+  /// before each message, so that no message meets state from before the jump.
+  void watch_clock();
+  /// Applies the organ messages that can be applied now. Their shapes become due.
+  void apply_organ_messages(SteadyTime now);
+  /// Makes every tool due.
+  void add_tick() { steps_.add_tick(); }
+  /// Evaluates what is due.
+  void evaluate(SteadyTime now) { steps_.evaluate(organs_, now); }
+  /// When evaluate() has something to do even if no message comes; std::nullopt: never.
+  std::optional<SteadyTime> next_deadline() const { return steps_.next_deadline(); }
+  /// Forgets all history: the next step of every tool is static.
+  void reset();
+
+  const OrganRegistry& organs() const { return organs_; }
+  const TransformBuffer& transforms() const { return transforms_; }
+  const ToolPoses& poses() const { return poses_; }
+  const StepScheduler& steps() const { return steps_; }
+  ContactQuery& contact_query() { return contact_query_; }
+
+ private:
+  void forget_organ_history();
+
+  std::function<void(const OrganUpdate&)> update_;
+  OrganRegistry organs_;
+  TransformBuffer transforms_;
+  ToolPoses poses_;
+  ContactQuery contact_query_;
+  StepScheduler steps_;
+
+  OrganTopics organ_topics_;
+  TransformTopics transform_topics_;
+  PoseTopics pose_topics_;
+  ros::Time last_now_;
+};
+
+}  // namespace organ_collision
