@@ -1,0 +1,117 @@
+#include "geometry/organ/surface_topology.hpp"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+
+namespace organ_collision {
+namespace {
+
+using Numbers = std::vector<std::uint32_t>;
+
+/// For each vertex, the first vertex at its place.
+Numbers weld(const std::vector<float>& vertices) {
+  struct Place {
+    float x, y, z;
+    std::uint32_t vertex;
+  };
+  std::vector<Place> places(vertices.size() / 3);
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    places[i] = {vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2], i};
+  }
+  std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+    return std::tie(a.x, a.y, a.z, a.vertex) < std::tie(b.x, b.y, b.z, b.vertex);
+  });
+  Numbers welded(places.size());
+  const Place* first = places.data();
+  for (const Place& place : places) {
+    if (std::tie(place.x, place.y, place.z) != std::tie(first->x, first->y, first->z)) {
+      first = &place;
+    }
+    welded[place.vertex] = first->vertex;
+  }
+  return welded;
+}
+
+/// An edge as its end with the lower number sees it.
+struct Edge {
+  std::uint32_t higher;    ///< the other end
+  std::int32_t direction;  ///< 1 if the edge leads to the other end, -1 if it comes from there
+};
+
+/// Calls visit(lower, edge) for the three edges of each face. An edge from a vertex to itself is
+/// its own opposite, and is left out.
+template <typename Visit>
+void for_each_edge(const std::vector<FaceIndices>& faces, const Numbers& welded,
+                   const Visit& visit) {
+  for (const FaceIndices& face : faces) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = welded[face[i]], to = welded[face[(i + 1) % 3]];
+      if (from < to) visit(from, Edge{to, 1});
+      if (from > to) visit(to, Edge{from, -1});
+    }
+  }
+}
+
+/// The number of different edges in a range, sorted by their other ends, whose directions do not
+/// cancel.
+std::size_t count_open(const Edge* edge, const Edge* end) {
+  std::size_t open = 0;
+  while (edge != end) {
+    const std::uint32_t higher = edge->higher;
+    std::int64_t surplus = 0;
+    for (; edge != end && edge->higher == higher; ++edge) surplus += edge->direction;
+    if (surplus != 0) ++open;
+  }
+  return open;
+}
+
+/// Groups the edges by their lower ends (counting sort), so that opposite edges are in one group.
+std::size_t count_open_edges(const std::vector<FaceIndices>& faces, const Numbers& welded) {
+  std::vector<std::size_t> begin(welded.size() + 1, 0);
+  for_each_edge(faces, welded, [&](std::uint32_t lower, Edge) { ++begin[lower + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Edge> edges(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for_each_edge(faces, welded,
+                [&](std::uint32_t lower, Edge edge) { edges[next[lower]++] = edge; });
+  std::size_t open = 0;
+  for (std::size_t vertex = 0; vertex < welded.size(); ++vertex) {
+    Edge* const first = edges.data() + begin[vertex];
+    Edge* const last = edges.data() + begin[vertex + 1];
+    std::sort(first, last, [](const Edge& a, const Edge& b) { return a.higher < b.higher; });
+    open += count_open(first, last);
+  }
+  return open;
+}
+
+Eigen::Vector3d vertex(const std::vector<float>& vertices, std::size_t i) {
+  return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]).cast<double>();
+}
+
+}  // namespace
+
+SurfaceTopology::SurfaceTopology(const std::vector<FaceIndices>& faces,
+                                 const std::vector<float>& vertices)
+    : welded_(weld(vertices)), open_edges_(count_open_edges(faces, welded_)) {}
+
+/// The sum of the tetrahedra between the faces and one vertex. A vertex of the surface is taken,
+/// and not the origin, so that little is lost to rounding if the organ is far from the origin.
+double signed_volume(const SurfaceTopology& topology, const std::vector<FaceIndices>& faces,
+                     const std::vector<float>& vertices) {
+  if (faces.empty() || !topology.is_closed()) return 0.0;
+  const Eigen::Vector3d apex = vertex(vertices, topology.welded()[faces.front()[0]]);
+  double six_volumes = 0.0;
+  for (const FaceIndices& face : faces) {
+    const FaceIndices corners = topology.welded(face);
+    const Eigen::Vector3d a = vertex(vertices, corners[0]) - apex;
+    const Eigen::Vector3d b = vertex(vertices, corners[1]) - apex;
+    const Eigen::Vector3d c = vertex(vertices, corners[2]) - apex;
+    six_volumes += a.dot(b.cross(c));
+  }
+  return six_volumes / 6.0;
+}
+
+}  // namespace organ_collision

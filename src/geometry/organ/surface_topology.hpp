@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "organ_collision/geometry/organ/face_clusters.hpp"
+
+namespace organ_collision {
+
+/// How the faces of a mesh join. Vertices that are at the same place when this is made count as
+/// one vertex, and stay one when the mesh deforms.
+///
+/// Any triangles are allowed: several components, cavities, degenerate faces and faces that occur
+/// more than once.
+class SurfaceTopology {
+ public:
+  /// `faces` refer to `vertices`: x y z x y z ... [m], finite.
+  SurfaceTopology(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
+
+  /// Whether each directed edge occurs as often as its opposite. Only a closed surface has an inner
+  /// side and a volume.
+  bool is_closed() const { return open_edges_ == 0; }
+  /// The number of edges that occur more often in one direction than in the other.
+  std::size_t open_edge_count() const { return open_edges_; }
+
+  /// For each vertex, the first vertex at its place. Where a deformed mesh has both at different
+  /// places, the first one counts.
+  const std::vector<std::uint32_t>& welded() const { return welded_; }
+  /// The same face, between welded vertices.
+  FaceIndices welded(const FaceIndices& face) const {
+    return {welded_[face[0]], welded_[face[1]], welded_[face[2]]};
+  }
+
+ private:
+  std::vector<std::uint32_t> welded_;
+  std::size_t open_edges_;
+};
+
+/// [m^3] The volume that a closed surface encloses. Negative if its faces point inward. Parts that
+/// are enclosed several times count as often. 0 if the surface is not closed. `faces` are those of
+/// `topology`, and `vertices` are their present positions [m].
+double signed_volume(const SurfaceTopology& topology, const std::vector<FaceIndices>& faces,
+                     const std::vector<float>& vertices);
+
+}  // namespace organ_collision

@@ -1,0 +1,308 @@
+#include "geometry/organ/surface_topology.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "test/grid_surface.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+using Place = std::array<float, 3>;
+using Random = std::mt19937;
+
+Place place(const GridSurface& surface, std::uint32_t vertex) {
+  const float* const at = &surface.vertices[3 * vertex];
+  return {at[0] + 0.0F, at[1] + 0.0F, at[2] + 0.0F};  // -0 becomes 0.
+}
+
+/// How often each directed edge occurs, between places.
+std::map<std::pair<Place, Place>, int> directed_edges(const GridSurface& surface) {
+  std::map<std::pair<Place, Place>, int> count;
+  for (const FaceIndices& face : surface.faces) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      ++count[{place(surface, face[i]), place(surface, face[(i + 1) % 3])}];
+    }
+  }
+  return count;
+}
+
+/// The definition, with a map from places to counts.
+std::size_t open_edges_by_definition(const GridSurface& surface) {
+  const auto count = directed_edges(surface);
+  std::set<std::pair<Place, Place>> open;
+  for (const auto& [edge, times] : count) {
+    const auto opposite = count.find({edge.second, edge.first});
+    if (opposite != count.end() && opposite->second == times) continue;
+    open.insert(std::minmax(edge.first, edge.second));
+  }
+  return open.size();
+}
+
+/// The flux of the field (0, 0, z) through the surface: by the divergence theorem, the volume.
+double volume_by_flux(const GridSurface& surface) {
+  double volume = 0.0;
+  for (const FaceIndices& face : surface.faces) {
+    std::array<std::array<double, 3>, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) p[i][k] = surface.vertices[3 * face[i] + k];
+    }
+    const double shadow =
+        (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) - (p[2][0] - p[0][0]) * (p[1][1] - p[0][1]);
+    volume += shadow / 2.0 * (p[0][2] + p[1][2] + p[2][2]) / 3.0;
+  }
+  return volume;
+}
+
+SurfaceTopology topology_of(const GridSurface& surface) {
+  return {surface.faces, surface.vertices};
+}
+
+double volume_of(const GridSurface& surface) {
+  return signed_volume(topology_of(surface), surface.faces, surface.vertices);
+}
+
+void add_vertex(GridSurface& surface, const Place& at) {
+  surface.vertices.insert(surface.vertices.end(), at.begin(), at.end());
+}
+
+/// A tetrahedron that points outward, with a place for each of its corners.
+GridSurface tetrahedron(Random& random) {
+  std::uniform_real_distribution<float> coordinate(-0.3F, 0.7F);
+  GridSurface solid;
+  for (int i = 0; i < 4; ++i) {
+    add_vertex(solid, {coordinate(random), coordinate(random), coordinate(random)});
+  }
+  solid.faces = {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}};
+  if (volume_by_flux(solid) < 0.0) {
+    for (FaceIndices& face : solid.faces) std::swap(face[1], face[2]);
+  }
+  return solid;
+}
+
+/// A closed, wavy torus: a grid whose opposite sides are joined. It points outward.
+GridSurface torus(int around, int along, double radius, double phase) {
+  GridSurface solid;
+  for (int i = 0; i < along; ++i) {
+    for (int k = 0; k < around; ++k) {
+      const double u = 2 * M_PI * i / along, v = 2 * M_PI * k / around;
+      const double thickness = radius * (0.3 + 0.05 * std::sin(3 * u + phase));
+      const double r = radius + thickness * std::cos(v);
+      add_vertex(solid, {static_cast<float>(r * std::cos(u)), static_cast<float>(r * std::sin(u)),
+                         static_cast<float>(thickness * std::sin(v))});
+    }
+  }
+  const auto at = [=](int i, int k) {
+    return static_cast<std::uint32_t>(i % along * around + k % around);
+  };
+  for (int i = 0; i < along; ++i) {
+    for (int k = 0; k < around; ++k) {
+      solid.faces.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      solid.faces.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  }
+  return solid;
+}
+
+GridSurface turned_over(GridSurface surface) {
+  for (FaceIndices& face : surface.faces) std::swap(face[0], face[2]);
+  return surface;
+}
+
+GridSurface moved(GridSurface surface, float distance) {
+  for (float& coordinate : surface.vertices) coordinate += distance;
+  return surface;
+}
+
+GridSurface joined(const GridSurface& one, const GridSurface& other) {
+  GridSurface both = one;
+  const auto first = static_cast<std::uint32_t>(one.vertices.size() / 3);
+  both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
+  for (const FaceIndices& face : other.faces) {
+    both.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
+  }
+  return both;
+}
+
+/// The same surface, with three vertices of its own for each face, as in an STL file.
+GridSurface unwelded(const GridSurface& surface) {
+  GridSurface soup;
+  for (const FaceIndices& face : surface.faces) {
+    const auto first = static_cast<std::uint32_t>(soup.vertices.size() / 3);
+    for (const std::uint32_t corner : face) add_vertex(soup, place(surface, corner));
+    soup.faces.push_back({first, first + 1, first + 2});
+  }
+  return soup;
+}
+
+void expect_as_defined(const GridSurface& surface, const char* what) {
+  const SurfaceTopology topology = topology_of(surface);
+  const std::size_t open = open_edges_by_definition(surface);
+  EXPECT_EQ(topology.open_edge_count(), open) << what;
+  EXPECT_EQ(topology.is_closed(), open == 0) << what;
+  const double volume = open == 0 ? volume_by_flux(surface) : 0.0;
+  EXPECT_NEAR(volume_of(surface), volume, 1e-12 * (1.0 + std::abs(volume))) << what;
+}
+
+}  // namespace
+
+TEST(SurfaceTopology, VerticesAtOnePlaceAreTheFirstOfThem) {
+  const GridSurface surface{{1, 2, 3, 0, 0, 7, 1, 2, 3, -0.0F, 0, 7, 1, 2, 4}, {{2, 3, 4}}};
+  const SurfaceTopology topology = topology_of(surface);
+  EXPECT_EQ(topology.welded(), (std::vector<std::uint32_t>{0, 1, 0, 1, 4}));
+  EXPECT_EQ(topology.welded(surface.faces[0]), (FaceIndices{0, 1, 4}));
+}
+
+TEST(SurfaceTopology, WeldingFollowsTheDefinition) {
+  Random random(11);
+  std::uniform_int_distribution<int> coordinate(-2, 2);
+  for (int trial = 0; trial < 50; ++trial) {
+    GridSurface surface;
+    for (int i = 0; i < 300; ++i) {
+      const auto draw = [&] { return 0.1F * static_cast<float>(coordinate(random)); };
+      add_vertex(surface, {draw(), draw(), draw()});
+    }
+    surface.faces = {{0, 1, 2}};
+    std::map<Place, std::uint32_t> first;
+    std::vector<std::uint32_t> expected;
+    for (std::uint32_t i = 0; i < 300; ++i) {
+      expected.push_back(first.emplace(place(surface, i), i).first->second);
+    }
+    EXPECT_EQ(topology_of(surface).welded(), expected) << "trial " << trial;
+  }
+}
+
+TEST(SurfaceTopology, ClosedSurfacesInAnyOrderAndAnyVertices) {
+  Random random(5);
+  for (int trial = 0; trial < 40; ++trial) {
+    GridSurface surface = torus(7 + trial % 5, 11 + trial % 3, 0.13, 0.7 * trial);
+    for (int i = 0; i < trial % 4; ++i) surface = joined(surface, tetrahedron(random));
+    const double volume = volume_by_flux(surface);
+    ASSERT_GT(volume, 0.0);
+    const unsigned seed = static_cast<unsigned>(trial);
+    for (const GridSurface& same :
+         {surface, shuffled(surface, seed), unwelded(surface), shuffled(unwelded(surface), seed)}) {
+      expect_as_defined(same, "closed");
+      EXPECT_TRUE(topology_of(same).is_closed());
+      EXPECT_NEAR(volume_of(same), volume, 1e-12);
+      EXPECT_NEAR(volume_of(turned_over(same)), -volume, 1e-12);
+    }
+  }
+}
+
+TEST(SurfaceTopology, AMissingOrATurnedFaceOpensASurface) {
+  Random random(17);
+  for (int trial = 0; trial < 40; ++trial) {
+    GridSurface surface = torus(6, 9, 0.11, trial);
+    if (trial % 2 == 1) surface = unwelded(surface);
+    const std::size_t face = random() % surface.faces.size();
+    GridSurface hole = surface, turned = surface;
+    hole.faces.erase(hole.faces.begin() + static_cast<std::ptrdiff_t>(face));
+    std::swap(turned.faces[face][0], turned.faces[face][1]);
+    for (const GridSurface& open : {hole, turned}) {
+      expect_as_defined(open, "open");
+      EXPECT_EQ(topology_of(open).open_edge_count(), 3u);
+      EXPECT_EQ(volume_of(open), 0.0);
+    }
+  }
+}
+
+TEST(SurfaceTopology, ASheetIsOpenAlongItsBoundary) {
+  for (const int side : {1, 4, 13}) {
+    const GridSurface sheet = shuffled(grid_surface(side), 3);
+    expect_as_defined(sheet, "sheet");
+    EXPECT_EQ(topology_of(sheet).open_edge_count(), 4U * static_cast<unsigned>(side));
+    const GridSurface both_sides = joined(sheet, turned_over(sheet));
+    expect_as_defined(both_sides, "both sides of a sheet");
+    EXPECT_TRUE(topology_of(both_sides).is_closed());
+    EXPECT_NEAR(volume_of(both_sides), 0.0, 1e-18);
+  }
+}
+
+TEST(SurfaceTopology, DegenerateFacesAndFacesThatOccurTwice) {
+  GridSurface surface = torus(5, 8, 0.2, 0.3);
+  const double volume = volume_of(surface);
+  const FaceIndices point{3, 3, 3}, segment{3, 3, 4};
+  surface.faces.insert(surface.faces.begin() + 7, {point, segment});
+  expect_as_defined(surface, "degenerate faces");
+  EXPECT_NEAR(volume_of(surface), volume, 1e-15);
+  surface.faces.push_back(surface.faces[0]);
+  expect_as_defined(surface, "one face occurs twice");
+  EXPECT_FALSE(topology_of(surface).is_closed());
+  surface.faces.pop_back();
+  const std::vector<FaceIndices> once = surface.faces;
+  surface.faces.insert(surface.faces.end(), once.begin(), once.end());
+  expect_as_defined(surface, "all faces occur twice");
+  EXPECT_NEAR(volume_of(surface), 2.0 * volume, 1e-15);
+}
+
+TEST(SurfaceTopology, ACavityIsSubtracted) {
+  const GridSurface outside = torus(9, 14, 0.2, 0.0), inside = torus(7, 10, 0.2 * 0.9, 0.0);
+  const GridSurface shell = joined(outside, turned_over(inside));
+  expect_as_defined(shell, "shell");
+  EXPECT_NEAR(volume_of(shell), volume_of(outside) - volume_of(inside), 1e-15);
+}
+
+TEST(SurfaceTopology, RandomSoupsOnFewPlaces) {
+  Random random(23);
+  int closed = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    GridSurface soup;
+    for (int i = 0; i < 6; ++i) {
+      const auto bit = [&] { return static_cast<float>(random() % 2); };
+      add_vertex(soup, {bit(), bit(), 0.0F});
+    }
+    for (int i = trial % 5; i >= 0; --i) {
+      const auto draw = [&] { return static_cast<std::uint32_t>(random() % 6); };
+      soup.faces.push_back({draw(), draw(), draw()});
+    }
+    expect_as_defined(soup, "soup");
+    if (topology_of(soup).is_closed()) ++closed;
+  }
+  EXPECT_GT(closed, 300) << "too few closed ones to show anything";
+  EXPECT_LT(closed, 2700) << "too few open ones to show anything";
+}
+
+TEST(SurfaceTopology, AFanOfManyFacesAroundOneVertex) {
+  GridSurface cone{{0, 0, 1, 0, 0, -1}, {}};
+  const std::uint32_t rim = 20000;
+  for (std::uint32_t i = 0; i < rim; ++i) {
+    const double angle = 2 * M_PI * i / rim;
+    add_vertex(cone, {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+    const std::uint32_t a = 2 + i, b = 2 + (i + 1) % rim;
+    cone.faces.push_back({0, a, b});
+    cone.faces.push_back({1, b, a});
+  }
+  EXPECT_TRUE(topology_of(cone).is_closed());
+  EXPECT_NEAR(volume_of(cone), 2.0 * M_PI / 3.0, 1e-6);
+}
+
+TEST(SignedVolume, FarFromTheOrigin) {
+  const GridSurface near = torus(12, 17, 0.12, 0.4);
+  const GridSurface far = moved(near, 512.0F);  // Vertices are rounded to 6e-5 m here.
+  EXPECT_NEAR(volume_of(far), volume_of(near), 1e-3 * volume_of(near));
+}
+
+/// Two vertices that were at one place in the mesh message count as one, wherever they are later.
+TEST(SignedVolume, ADeformedMeshIsWeldedAsItsFirstShape) {
+  Random random(3);
+  const GridSurface first = tetrahedron(random);
+  const GridSurface soup = unwelded(first);
+  const SurfaceTopology topology = topology_of(soup);
+  std::vector<float> later = soup.vertices;
+  std::uniform_real_distribution<float> shift(-0.1F, 0.1F);
+  for (float& coordinate : later) coordinate += shift(random);
+  GridSurface welded{later, soup.faces};
+  for (FaceIndices& face : welded.faces) face = topology.welded(face);
+  const double volume = volume_by_flux(welded);
+  EXPECT_GT(std::abs(volume), 1e-3);
+  EXPECT_NEAR(signed_volume(topology, soup.faces, later), volume, 1e-12);
+}
