@@ -1,0 +1,44 @@
+#!/usr/bin/python3
+"""Sends a mesh file as an organ, dips the probe of start.launch into its highest place, and prints what is touched."""
+
+import argparse
+import math
+
+from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
+from organ_collision import contact_table, Organ, read_mesh
+from organ_collision.msg import ContactArray
+import rospy
+from std_msgs.msg import Header
+import tf2_ros
+
+options = argparse.ArgumentParser(description=__doc__)
+options.add_argument('file', help='the mesh: OBJ, STL, PLY, OFF, VTK, ...')
+options.add_argument('--scale', type=float, default=1.0, help='metres for each unit of the file: 0.001 for millimetres')
+options = options.parse_args(rospy.myargv()[1:])
+
+
+def frame(name, stamp, point):
+    return TransformStamped(Header(0, stamp, 'organ'), name, Transform(Vector3(*point), Quaternion(0, 0, 0, 1)))
+
+
+def show(answer):
+    if answer.status != ContactArray.OK:
+        rospy.logwarn_throttle(1, answer.message)
+    elif answer.contacts:
+        contacts = contact_table(answer)
+        print('%s: faces %s, at most %.1f mm deep' % (answer.tool, contacts.face, 1e3 * contacts.depth.max()), flush=True)
+
+
+rospy.init_node('own_mesh')
+vertices, faces = read_mesh(options.file, options.scale)
+organ = Organ('organ', vertices, faces)
+top = vertices[vertices[:, 2].argmax()]
+frames = tf2_ros.TransformBroadcaster()
+contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
+rate = rospy.Rate(50)
+while not rospy.is_shutdown():
+    now = rospy.Time.now()
+    tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe's radius is 0.005 m.
+    frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
+    organ.move(vertices, now)
+    rate.sleep()

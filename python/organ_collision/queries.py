@@ -1,0 +1,80 @@
+"""Questions to the collision node."""
+
+import time
+
+import rospy
+from std_msgs.msg import Header
+
+from organ_collision.arrays import points_array
+from organ_collision.answers import CollisionError, contact_table
+from organ_collision.messages import shaft_motion
+from organ_collision.msg import ContactArray
+from organ_collision.srv import QueryCollision, QueryCollisionBatch
+
+
+class Queries:
+    """Asks a collision node what a shaft would touch. A query changes nothing in the node.
+
+    node     name of the collision node
+    timeout  [s] how long to wait for the node; None: without limit
+
+    Raises rospy.ROSException if the node does not come in time. The methods raise CollisionError if the node has no
+    answer, such as for an unknown organ, and rospy.ServiceException if it is gone.
+    """
+
+    def __init__(self, node='/organ_collision', timeout=None):
+        self._query = rospy.ServiceProxy(node + '/query', QueryCollision)
+        self._batch = rospy.ServiceProxy(node + '/query_batch', QueryCollisionBatch)
+        self._query.wait_for_service(timeout)
+        self._batch.wait_for_service(timeout)
+
+    def query(self, organ, trocar, tip, radius, previous_trocar=None, previous_tip=None, frame=None):
+        """What a shaft touches, as contact_table() returns it.
+
+        organ                          name of the organ
+        trocar, tip                    the ends of the shaft's axis, three numbers each [m]
+        radius                         [m]
+        previous_trocar, previous_tip  where they were before: the shaft is swept from there. None: that end rests
+        frame                          frame of these points; None: the frame has the name of the organ
+        """
+        mode = _mode(previous_trocar, previous_tip)
+        motion = shaft_motion(trocar, tip, radius, previous_trocar, previous_tip)
+        return contact_table(self._query(header=_header(organ, frame), organ=organ, motion=motion, mode=mode).result)
+
+    def query_many(self, organ, trocars, tips, radius, previous_trocars=None, previous_tips=None, frame=None):
+        """The same for k motions in one call. Points are k x 3 arrays. Returns a list of k tables."""
+        mode = _mode(previous_trocars, previous_tips)
+        ends = [points_array(tips if points is None else points, name) for name, points, tips in (
+            ('trocars', trocars, None), ('tips', tips, None), ('previous_trocars', previous_trocars, trocars),
+            ('previous_tips', previous_tips, tips))]
+        if len({len(points) for points in ends}) > 1:
+            raise ValueError('%d trocars, %d tips, %d previous trocars and %d previous tips; must be equally many'
+                             % tuple(len(points) for points in ends))
+        motions = [shaft_motion(trocar, tip, radius, *previous) for trocar, tip, *previous in zip(*ends)]
+        answer = self._batch(header=_header(organ, frame), organ=organ, motions=motions, mode=mode)
+        if answer.status != ContactArray.OK:
+            raise CollisionError(answer.status, answer.message)
+        return [contact_table(result) for result in answer.results]
+
+    def wait_for(self, organ, timeout=None, frame=None):
+        """Waits until the node has the organ. Raises the node's CollisionError if it has not within `timeout` [s]."""
+        end = None if timeout is None else time.monotonic() + timeout
+        while True:
+            try:
+                self.query(organ, (0, 0, 0), (0, 0, 0), 1e-6, frame=frame)
+                return
+            except CollisionError as error:
+                if error.status not in (ContactArray.UNKNOWN_ORGAN, ContactArray.NO_MESH):
+                    raise
+                if end is not None and time.monotonic() > end:
+                    raise
+            rospy.rostime.wallsleep(0.01)
+
+
+def _mode(previous_trocar, previous_tip):
+    is_static = previous_trocar is None and previous_tip is None
+    return ContactArray.STATIC if is_static else ContactArray.SWEPT
+
+
+def _header(organ, frame):
+    return Header(frame_id=organ if frame is None else frame)

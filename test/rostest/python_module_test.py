@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""Organs and queries of the Python module reach a real node, and its answers come back as arrays."""
+
+import sys
+import unittest
+
+import numpy as np
+from organ_collision import CollisionError, contact_table, Organ, organ_mesh, Queries
+from organ_collision.msg import ContactArray
+import rospy
+import rostest
+
+from support import scenes
+from support.node_client import ContactLog, TfSender, wait_until
+
+SHEET = scenes.sheet(0.1, 4)
+VERTICES, FACES = np.array(SHEET.vertices), np.array(SHEET.faces)
+RADIUS = 0.005
+TROCAR, TIP = np.array([0.013, 0.007, 0.2]), np.array([0.013, 0.007, 0.002])
+ASIDE = np.array([1.0, 0.0, 0.0])
+LIMIT = 20.0  # [s]
+
+
+def depth_at(z):
+    """How deep the tip at TIP is in a sheet at this height."""
+    return RADIUS - (TIP[2] - z)
+
+
+class PythonModuleTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.queries = Queries(timeout=LIMIT)
+
+    def organ(self, name, *arguments):
+        organ = Organ(name, VERTICES, FACES, *arguments)
+        self.addCleanup(organ.remove)
+        self.queries.wait_for(name, LIMIT, *arguments)
+        return organ
+
+    def wait_for_depth(self, organ, depth):
+        """Waits until the shaft from TROCAR to TIP is so deep in the organ."""
+        def is_so_deep():
+            seen[:] = self.queries.query(organ, TROCAR, TIP, RADIUS).depth.tolist()
+            return seen and abs(max(seen) - depth) < 1e-7
+        seen = []
+        wait_until(is_so_deep, lambda: 'depth %g; there are %s' % (depth, seen))
+
+    def test_an_organ_is_touched(self):
+        self.organ('sheet')
+        contacts = self.queries.query('sheet', TROCAR, TIP, RADIUS)
+        self.assertGreaterEqual(len(contacts), 1)
+        deepest = contacts[contacts.depth.argmax()]
+        self.assertAlmostEqual(deepest.depth, depth_at(0), delta=1e-7)
+        np.testing.assert_allclose(deepest.point, [*TIP[:2], 0.0], atol=1e-7)
+        np.testing.assert_allclose(deepest.normal, [0, 0, -1], atol=1e-5)
+        np.testing.assert_array_equal(contacts.vertices, FACES[contacts.face])
+        np.testing.assert_allclose(np.einsum('ij,ijk->ik', contacts.barycentric, VERTICES[contacts.vertices]),
+                                   contacts.point, atol=1e-7)
+
+    def test_a_sweep_touches_what_lies_between(self):
+        self.organ('sheet')
+        above = TIP + [0, 0, 0.1]
+        below = TIP - [0, 0, 0.1]
+        self.assertEqual(len(self.queries.query('sheet', TROCAR, above, RADIUS)), 0)
+        contacts = self.queries.query('sheet', TROCAR, below, RADIUS, previous_tip=above)
+        self.assertGreater(len(contacts), 0)
+        self.assertTrue(((contacts.fraction > 0) & (contacts.fraction < 1)).all())
+
+    def test_many_motions_at_once(self):
+        self.organ('sheet')
+        tips = TIP + np.outer([0.0, 0.001, 1.0], [0, 0, 1])
+        tables = self.queries.query_many('sheet', np.tile(TROCAR, (3, 1)), tips, RADIUS)
+        self.assertEqual([len(table) > 0 for table in tables], [True, True, False])
+        self.assertAlmostEqual(tables[1].depth.max(), depth_at(0) - 0.001, delta=1e-7)
+        swept = self.queries.query_many('sheet', [TROCAR], [TIP], RADIUS, previous_tips=[TIP + [0, 0, 0.1]])
+        self.assertEqual(swept[0].face.tolist(), tables[0].face.tolist())
+        with self.assertRaisesRegex(ValueError, '1 trocars, 3 tips'):
+            self.queries.query_many('sheet', [TROCAR], tips, RADIUS)
+
+    def test_an_organ_moves_and_is_replaced(self):
+        organ = self.organ('sheet')
+        organ.move(VERTICES + [0, 0, 0.001])
+        self.wait_for_depth('sheet', depth_at(0.001))
+        organ.replace(VERTICES - [0, 0, 0.0005], FACES[::-1])
+        self.wait_for_depth('sheet', depth_at(-0.0005))
+        organ.move(VERTICES)
+        self.wait_for_depth('sheet', depth_at(0))
+        with self.assertRaisesRegex(ValueError, '24 vertices; sheet has 25'):
+            organ.move(VERTICES[1:])
+
+    def test_several_organs_of_a_program(self):
+        names = ['organ_%d' % i for i in range(5)]
+        organs = [self.organ(name) for name in names]
+        for i, organ in enumerate(organs):
+            organ.move(VERTICES + [0, 0, 0.0001 * i])
+        for i, name in enumerate(names):
+            self.wait_for_depth(name, depth_at(0.0001 * i))
+
+    def test_late_listeners_get_the_latest_shape_of_each_organ(self):
+        first, second = self.organ('first'), self.organ('second')
+        first.move(VERTICES + ASIDE, rospy.Time(7))
+        second.replace(VERTICES - ASIDE, FACES[:3], rospy.Time(8))
+        heard = {}
+        listener = rospy.Subscriber('/organ_collision/organ_mesh', type(organ_mesh('none', VERTICES, FACES)),
+                                    lambda mesh: heard.setdefault(mesh.organ, mesh))
+        self.addCleanup(listener.unregister)
+        wait_until(lambda: {'first', 'second'} <= set(heard), 'both organs')
+        np.testing.assert_allclose(heard['first'].vertices.reshape(-1, 3), np.float32(VERTICES + ASIDE))
+        self.assertEqual((heard['first'].topology, heard['first'].header.stamp), (0, rospy.Time(7)))
+        np.testing.assert_allclose(heard['second'].triangles.reshape(-1, 3), FACES[:3])
+        self.assertEqual((heard['second'].topology, heard['second'].header.stamp), (1, rospy.Time(8)))
+
+    def test_answers_to_shapes_become_tables(self):
+        node, tf = ContactLog('/organ_collision/contacts'), TfSender()
+        wait_until(lambda: tf.resting.get_num_connections() and node.subscriber.get_num_connections(), 'connections')
+        tf.send_resting(('sheet', 'probe_trocar', scenes.Pose((0, 0, 0, 1), TROCAR)),
+                        ('sheet', 'probe_tip', scenes.Pose((0, 0, 0, 1), TIP)))
+        organ, stamp = self.organ('sheet'), rospy.Time.now()
+        organ.move(VERTICES, stamp)
+        contacts = contact_table(node.wait_for('sheet', 'probe', stamp=stamp, status=ContactArray.OK))
+        self.assertAlmostEqual(contacts.depth.max(), depth_at(0), delta=1e-7)
+
+    def test_another_frame(self):
+        self.organ('sheet', 'table')
+        self.assertGreater(len(self.queries.query('sheet', TROCAR, TIP, RADIUS, frame='table')), 0)
+        with self.assertRaisesRegex(CollisionError, '^NO_TRANSFORM: '):
+            self.queries.query('sheet', TROCAR, TIP, RADIUS)
+
+    def test_refusals_are_exceptions(self):
+        with self.assertRaisesRegex(CollisionError, "^UNKNOWN_ORGAN: .*'sheeet'"):
+            self.queries.query('sheeet', TROCAR, TIP, RADIUS)
+        with self.assertRaisesRegex(CollisionError, '^UNKNOWN_ORGAN'):
+            self.queries.query_many('sheeet', [TROCAR], [TIP], RADIUS)
+        with self.assertRaisesRegex(CollisionError, '^UNKNOWN_ORGAN'):
+            self.queries.wait_for('sheeet', 0.1)
+        self.organ('sheet')
+        with self.assertRaisesRegex(CollisionError, '^INVALID_REQUEST: .*-1') as raised:
+            self.queries.query('sheet', TROCAR, TIP, -1)
+        self.assertEqual(raised.exception.status, ContactArray.INVALID_REQUEST)
+
+
+if __name__ == '__main__':
+    rospy.init_node('python_module_test')
+    rostest.rosrun('organ_collision', 'python_module', PythonModuleTest, sys.argv)
