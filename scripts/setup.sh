@@ -1,5 +1,5 @@
 # shellcheck shell=bash
-# Functions that run_demo, run_tests and run_benchmarks share: system packages, the build, the ROS
+# Functions that the run_* commands and make_debs share: system packages, the build, the ROS
 # environment.
 
 repository=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -18,6 +18,9 @@ fail() {
   printf '%s: %s\n' "$(basename "$0")" "$*" >&2
   exit "$code"
 }
+
+# from_package_xml ELEMENT: prints the text of an element of package.xml, such as version.
+from_package_xml() { sed -nE "s|.*<$1[^>]*>(.*)</$1>.*|\1|p" "$repository/package.xml"; }
 
 on_noetic() { [ -f /opt/ros/noetic/setup.bash ] || grep -qs '^VERSION_CODENAME=focal' /etc/os-release; }
 
@@ -63,7 +66,7 @@ install_packages() {
 continue_as_owner() {
   if [ "$(id -u)" = 0 ] && [ -n "${SUDO_USER:-}" ] && [ "$SUDO_USER" != root ] &&
     [ "$(stat -c %U "$repository")" = "$SUDO_USER" ]; then
-    exec sudo -H -u "$SUDO_USER" -- "$repository/$(basename "$0")" "$@"
+    exec sudo -H -u "$SUDO_USER" -- "$(readlink -f "$0")" "$@"
   fi
 }
 

@@ -14,6 +14,7 @@
 #include "organ_collision/query/contact.hpp"
 #include "organ_collision/query/query_mode.hpp"
 
+/// The libraries without ROS. Start at CollisionQuery.
 namespace organ_collision {
 
 /// One question: which faces of an organ does a tool touch, or did it touch during one step?
@@ -34,6 +35,7 @@ struct CollisionRequest {
   /// The tool's links; every waypoint of `path` has a pose for each. Null: none. Paper modes ignore
   /// links.
   const std::vector<Link>* links = nullptr;
+  /// What is asked: static, swept or one of the paper's modes.
   QueryMode mode = QueryMode::kStatic;
   /// Whether to clip the face of each contact to the tool's viewing volume as well. Paper modes
   /// have no regions.
@@ -86,7 +88,9 @@ class CollisionQuery {
   /// GlError if OpenGL picking does not work in this process.
   explicit CollisionQuery(PickerKind kind = PickerKind::kFeedback);
   ~CollisionQuery();
+  /// A query from which another one was moved may only be destroyed or assigned to.
   CollisionQuery(CollisionQuery&&) noexcept;
+  /// Destroys this query's OpenGL context and takes over that of the other query.
   CollisionQuery& operator=(CollisionQuery&&) noexcept;
 
   /// Replaces `result` by the answer to `request`. After an exception `result` is empty: there is

@@ -19,6 +19,7 @@ namespace organ_collision {
 /// brings its distance to the face back to the radius. If the tool pierces the face, the distance
 /// is then at least the radius.
 struct FaceContact {
+  /// The number of the face: its place among the organ's triangles, from 0.
   std::uint32_t face = 0;
   /// The indices of the face's corners in the organ's vertices, in the order of `barycentric`.
   std::array<std::uint32_t, 3> vertices = {};
@@ -52,9 +53,11 @@ struct FaceContact {
   /// then reported to be safe: it may not touch at all, and point, normal and depth may differ from
   /// those of the first touch. The message has no such field; it counts these contacts.
   bool is_resolved = true;
-  /// Depth range [m], along the view, of the part of the face inside the volume, measured from the
-  /// plane of the trocar. Set only in the paper modes, which set no other field except `face`.
+  /// The smallest depth [m], along the view, of the part of the face inside the volume, measured
+  /// from the plane of the trocar. Set only in the paper modes, which set no other field except
+  /// `face` and `view_max`.
   double view_min = 0.0;
+  /// The largest such depth [m].
   double view_max = 0.0;
 };
 

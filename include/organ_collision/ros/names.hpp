@@ -4,17 +4,26 @@
 /// its private namespace.
 namespace organ_collision::names {
 
+/// The default name of the node.
 inline constexpr char kNode[] = "organ_collision";
 
+///@{
+/// A topic.
 inline constexpr char kOrganMesh[] = "organ_mesh";
 inline constexpr char kOrganVertices[] = "organ_vertices";
 inline constexpr char kContacts[] = "contacts";
 inline constexpr char kMarkers[] = "markers";
+///@}
 
+///@{
+/// A service.
 inline constexpr char kQuery[] = "query";
 inline constexpr char kQueryBatch[] = "query_batch";
 inline constexpr char kReset[] = "reset";
+///@}
 
+///@{
+/// A parameter.
 inline constexpr char kTools[] = "tools";
 inline constexpr char kPicker[] = "picker";
 inline constexpr char kRate[] = "rate";
@@ -28,8 +37,10 @@ inline constexpr char kMaxBatch[] = "max_batch";
 inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
 inline constexpr char kPublishRegions[] = "publish_regions";
 inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
+///@}
 
-/// The keys of each entry of `tools`.
+///@{
+/// A key of the entries of `tools`.
 inline constexpr char kToolName[] = "name";
 inline constexpr char kTrocarFrame[] = "trocar_frame";
 inline constexpr char kTipFrame[] = "tip_frame";
@@ -40,5 +51,6 @@ inline constexpr char kLinks[] = "links";
 inline constexpr char kRobotDescription[] = "robot_description";
 inline constexpr char kUrdf[] = "urdf";
 inline constexpr char kTfPrefix[] = "tf_prefix";
+///@}
 
 }  // namespace organ_collision::names

@@ -13,7 +13,8 @@ class BlockBoxes {
  public:
   /// The first three coordinates are x, y and z. The fourth is padding for vector registers.
   struct Box {
-    Eigen::Array4f min, max;
+    Eigen::Array4f min;  ///< the smallest coordinates
+    Eigen::Array4f max;  ///< the largest coordinates
   };
 
   /// Fits the boxes to new vertices (x y z x y z ... [m]) in one pass over them. Returns false if a
@@ -21,8 +22,9 @@ class BlockBoxes {
   /// more blocks than before.
   bool refit(const FaceClusters& clusters, const std::vector<float>& vertices);
 
-  /// Both are padded with empty boxes to a multiple of FaceClusters::kRun.
+  /// The boxes of the blocks, padded with empty boxes to a multiple of FaceClusters::kRun.
   const std::vector<Box>& blocks() const { return blocks_; }
+  /// The boxes of the sections, padded in the same way.
   const std::vector<Box>& sections() const { return sections_; }
   /// The box around all vertices.
   const Eigen::AlignedBox3f& all() const { return all_; }

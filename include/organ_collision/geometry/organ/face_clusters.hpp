@@ -29,20 +29,23 @@ class FaceClusters {
   /// `vertices`: x y z x y z ... [m], finite. `faces` refer to them.
   FaceClusters(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
+  /// The number of blocks, which is also the number of clusters.
   std::size_t block_count() const { return order_.size() / kRun; }
+  /// The number of sections. The last one may have fewer than kRun blocks.
   std::size_t section_count() const { return (block_count() + kRun - 1) / kRun; }
 
   /// Consecutive items to iterate over.
   template <typename T>
   struct Range {
-    const T* first;
-    const T* last;
-    const T* begin() const { return first; }
-    const T* end() const { return last; }
+    const T* first;                           ///< the first item
+    const T* last;                            ///< behind the last item
+    const T* begin() const { return first; }  ///< for range-based loops
+    const T* end() const { return last; }     ///< for range-based loops
   };
+  /// A face with its number in the sender's order.
   struct Face {
-    FaceIndices corners;
-    std::uint32_t number;
+    FaceIndices corners;   ///< its vertices
+    std::uint32_t number;  ///< its place among all faces, from 0
   };
   /// The faces of a block's cluster, by rising number. There may be none.
   Range<Face> faces(std::size_t block) const {

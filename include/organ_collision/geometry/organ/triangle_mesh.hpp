@@ -20,18 +20,21 @@ namespace organ_collision {
 /// Says why vertices or triangles were refused. what() names the value and the legal range.
 class MeshError : public std::invalid_argument {
  public:
+  /// What was wrong.
   enum class Reason {
-    kSize,
-    kIndex,
-    kNotFinite,
-    kTooFar,
-    kNoTriangles,
-    kTooManyFaces,
-    kTooManyVertices
+    kSize,            ///< the arrays have no legal length, or not that of the mesh so far
+    kIndex,           ///< a triangle refers to a vertex that does not exist
+    kNotFinite,       ///< a coordinate is NaN or infinite
+    kTooFar,          ///< a coordinate is beyond tolerance::kFarthest
+    kNoTriangles,     ///< there is no face
+    kTooManyFaces,    ///< there are more faces than MeshLimits allow
+    kTooManyVertices  ///< there are more than three vertices for each of the faces allowed
   };
 
+  /// `message` is the text of what().
   MeshError(Reason reason, const std::string& message)
       : std::invalid_argument(message), reason_(reason) {}
+  /// What was wrong.
   Reason reason() const { return reason_; }
 
  private:
@@ -41,6 +44,7 @@ class MeshError : public std::invalid_argument {
 /// The largest mesh that is accepted. It may have up to three vertices for each of the faces
 /// allowed.
 struct MeshLimits {
+  /// The largest number of faces.
   std::size_t max_faces = 2'000'000;
 };
 
@@ -59,6 +63,7 @@ class TriangleMesh {
   /// `topology`: the sender's revision of `triangles`.
   TriangleMesh(SharedVertices vertices, const std::vector<std::uint32_t>& triangles,
                std::uint32_t topology = 0, const MeshLimits& limits = {});
+  /// \overload
   TriangleMesh(std::vector<float> vertices, const std::vector<std::uint32_t>& triangles,
                std::uint32_t topology = 0, const MeshLimits& limits = {})
       : TriangleMesh(std::make_shared<std::vector<float>>(std::move(vertices)), triangles, topology,
@@ -67,29 +72,38 @@ class TriangleMesh {
   /// Sets new positions for the same triangles. The number of vertices must be unchanged. Reads the
   /// positions once and does not copy them. Only the first call allocates.
   void move_vertices(SharedVertices vertices);
+  /// \overload
   void move_vertices(std::vector<float> vertices) {
     move_vertices(std::make_shared<std::vector<float>>(std::move(vertices)));
   }
 
+  /// The number of faces, at least one.
   std::size_t face_count() const { return faces().size(); }
+  /// The number of vertices, at least one.
   std::size_t vertex_count() const { return vertices_->size() / 3; }
+  /// The sender's revision of the triangles.
   std::uint32_t topology() const { return topology_->revision; }
 
   /// All faces. The address is unchanged as long as the triangles are the same.
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
-  /// The same faces in spatially coherent groups, and the boxes around their current vertices.
+  /// The same faces in spatially coherent groups.
   const FaceClusters& clusters() const { return topology_->clusters; }
+  /// The boxes around the current vertices of these groups [m].
   const BlockBoxes& block_boxes() const { return boxes_; }
   /// x y z x y z ... [m]
   const std::vector<float>& vertices() const { return *vertices_; }
+  /// The same positions, to share them without a copy.
   const SharedVertices& shared_vertices() const { return vertices_; }
   /// The smallest axis-aligned box around all vertices [m].
   const Eigen::AlignedBox3f& box() const { return boxes_.all(); }
 
+  /// The position of a vertex [m], with 0 <= index < vertex_count().
   Eigen::Vector3d vertex(std::size_t index) const {
     return Eigen::Map<const Eigen::Vector3f>(&(*vertices_)[3 * index]).cast<double>();
   }
+  /// The corners of a face [m], with 0 <= face < face_count().
   Triangle triangle(std::size_t face) const { return triangle(faces()[face]); }
+  /// The positions of three vertices [m].
   Triangle triangle(const FaceIndices& corners) const {
     return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
   }

@@ -14,13 +14,15 @@ namespace organ_collision {
 /// A rigid piece of a link, in the link's frame: all points within `radius` of the core or, if it
 /// has one, of the surface.
 struct LinkPart {
-  ConvexCore core;
+  ConvexCore core;                             ///< unused if there is a surface
   std::shared_ptr<const ToolSurface> surface;  ///< null if the part is convex
   double radius;                               ///< [m] > 0
   OrientedBox bounds;                          ///< around core or surface, without the radius
 
   // The shapes of URDF, at a pose in the link's frame. Sizes are in metres and positive. Shapes
   // with flat faces get the radius tolerance::kConvexMargin.
+
+  /// A ball.
   static LinkPart sphere(const Eigen::Vector3d& center, double radius);
   /// A cylinder around the z axis of the shape, centred at its origin, with flat ends.
   static LinkPart cylinder(const Eigen::Isometry3d& T_link_shape, double radius, double length);
@@ -35,8 +37,8 @@ struct LinkPart {
 
 /// A rigid link of a tool.
 struct Link {
-  std::string name;
-  std::vector<LinkPart> parts;
+  std::string name;             ///< as in the robot's URDF
+  std::vector<LinkPart> parts;  ///< the link touches what one of its parts touches
 };
 
 }  // namespace organ_collision

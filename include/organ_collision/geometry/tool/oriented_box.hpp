@@ -6,7 +6,7 @@ namespace organ_collision {
 
 /// A box in any orientation [m].
 struct OrientedBox {
-  Eigen::Vector3d center;
+  Eigen::Vector3d center;     ///< its middle
   Eigen::Matrix3d axes;       ///< columns: orthonormal, right-handed
   Eigen::Vector3d half_size;  ///< along the axes; not negative
 

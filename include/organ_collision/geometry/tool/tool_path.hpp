@@ -15,7 +15,7 @@ struct ToolPose {
 
 /// The pose of a tool at `fraction` in [0, 1] of the step, in the organ's frame [m].
 struct ToolWaypoint {
-  double fraction;
+  double fraction;                            ///< when, as a fraction of the step
   ShaftAxis axis;                             ///< of the shaft; unused if the tool has none
   std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each link
 };

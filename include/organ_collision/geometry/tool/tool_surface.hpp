@@ -24,6 +24,7 @@ class ToolSurface {
   const std::vector<Eigen::Vector3d>& vertices() const { return vertices_; }
   /// In the order of the tree, which does not depend on the caller's order of faces.
   const std::vector<FaceIndices>& faces() const { return faces_; }
+  /// The corners of a face, counted in the order of faces().
   Triangle triangle(std::size_t face) const {
     return {vertices_[faces_[face][0]], vertices_[faces_[face][1]], vertices_[faces_[face][2]]};
   }
@@ -34,9 +35,10 @@ class ToolSurface {
   /// A box around the faces [begin, end). The two children of an inner node share its faces: the
   /// first child is the next node, the second one stands at `second`. In a leaf `second` is 0.
   struct Node {
-    OrientedBox box;
-    std::uint32_t begin, end;
-    std::uint32_t second;
+    OrientedBox box;       ///< around the faces
+    std::uint32_t begin;   ///< the first face
+    std::uint32_t end;     ///< behind the last face
+    std::uint32_t second;  ///< the node of the second child; 0 in a leaf
   };
   /// The tree in depth-first order; the root is first.
   const std::vector<Node>& nodes() const { return nodes_; }
