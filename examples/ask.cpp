@@ -1,8 +1,8 @@
-// Asks which faces of `tissue` a moving shaft would touch. Prints the status and their numbers.
+// Asks which faces of `tissue` a shaft would touch if its tip came down onto the sheet.
 #include <organ_collision/QueryCollision.h>
 #include <ros/ros.h>
 
-#include <iostream>
+#include <cstdio>
 
 geometry_msgs::Point point(double x, double y, double z) {
   geometry_msgs::Point point;
@@ -23,11 +23,13 @@ int main(int argc, char** argv) {
   call.request.organ = "tissue";
   call.request.mode = organ_collision::ContactArray::SWEPT;
   call.request.motion.previous_trocar = call.request.motion.trocar = point(0.0, 0.0, 0.1);
-  call.request.motion.previous_tip = point(0.08, 0.01, -0.05);
-  call.request.motion.tip = point(-0.08, 0.01, -0.05);
+  call.request.motion.previous_tip = point(0.02, 0.01, 0.02);
+  call.request.motion.tip = point(0.02, 0.01, 0.003);
   call.request.motion.radius = 0.005;
   if (!query.call(call)) return 1;
-  std::cout << static_cast<int>(call.response.result.status);
-  for (const auto& contact : call.response.result.contacts) std::cout << ' ' << contact.face;
-  std::cout << '\n';
+  const organ_collision::ContactArray& answer = call.response.result;
+  std::printf("status %d %s\n", answer.status, answer.message.c_str());
+  for (const organ_collision::Contact& contact : answer.contacts) {
+    std::printf("face %u, %.1f mm\n", contact.face, 1e3 * contact.depth);
+  }
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Asks which faces of `tissue` a moving shaft would touch. Prints the status and their numbers."""
+"""Asks which faces of `tissue` a shaft would touch if its tip came down onto the sheet."""
 
 from geometry_msgs.msg import Point
 from organ_collision.msg import ContactArray, ToolMotion
@@ -10,8 +10,10 @@ from std_msgs.msg import Header
 rospy.init_node('ask', anonymous=True)
 rospy.wait_for_service('/organ_collision/query')
 query = rospy.ServiceProxy('/organ_collision/query', QueryCollision, persistent=True)
-motion = ToolMotion(previous_trocar=Point(0, 0, 0.1), previous_tip=Point(0.08, 0.01, -0.05),
-                    trocar=Point(0, 0, 0.1), tip=Point(-0.08, 0.01, -0.05), radius=0.005)
+motion = ToolMotion(previous_trocar=Point(0, 0, 0.1), previous_tip=Point(0.02, 0.01, 0.02),
+                    trocar=Point(0, 0, 0.1), tip=Point(0.02, 0.01, 0.003), radius=0.005)
 answer = query(header=Header(frame_id='tissue'), organ='tissue', motion=motion,
-               mode=ContactArray.SWEPT)
-print(answer.result.status, [contact.face for contact in answer.result.contacts])
+               mode=ContactArray.SWEPT).result
+print('status', answer.status, answer.message)
+for contact in answer.contacts:
+    print('face %d, %.1f mm' % (contact.face, 1e3 * contact.depth))

@@ -1,19 +1,44 @@
-// A minimal simulator: a sheet of tissue moves up and down, and a probe moves through it.
+// A minimal simulator: a probe comes down onto a sheet of tissue, presses, slides and leaves.
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <algorithm>
 #include <cmath>
 
+using organ_collision::Contact;
 using organ_collision::ContactArray;
 using organ_collision::OrganMesh;
 using organ_collision::OrganVertices;
 
+constexpr int kCells = 8;      // in each direction
+constexpr double kSide = 0.1;  // [m]
+
+// A wave of 1 mm runs through the sheet.
 std::vector<float> shape(const ros::Time& stamp) {
-  const float z = static_cast<float>(0.01 * std::sin(stamp.toSec()));
-  return {-0.05f, -0.05f, z, 0.05f, -0.05f, z, 0.05f, 0.05f, z, -0.05f, 0.05f, z};
+  std::vector<float> vertices;
+  for (int j = 0; j <= kCells; ++j) {
+    for (int i = 0; i <= kCells; ++i) {
+      const double x = kSide * (static_cast<double>(i) / kCells - 0.5);
+      const double y = kSide * (static_cast<double>(j) / kCells - 0.5);
+      const double z = 0.001 * std::sin(50 * x + stamp.toSec());
+      for (double coordinate : {x, y, z}) vertices.push_back(static_cast<float>(coordinate));
+    }
+  }
+  return vertices;
+}
+
+std::vector<uint32_t> triangles() {
+  std::vector<uint32_t> triangles;
+  for (uint32_t j = 0; j < kCells; ++j) {
+    for (uint32_t i = 0; i < kCells; ++i) {
+      const uint32_t a = i + j * (kCells + 1), c = a + kCells + 2;
+      triangles.insert(triangles.end(), {a, a + 1, c, a, c, c - 1});
+    }
+  }
+  return triangles;
 }
 
 template <typename Message>
@@ -41,16 +66,19 @@ geometry_msgs::TransformStamped frame(const char* name, const ros::Time& stamp, 
 
 void react(const ContactArray& touched) {
   if (touched.status != ContactArray::OK) ROS_WARN("%s", touched.message.c_str());
-  for (const organ_collision::Contact& contact : touched.contacts) {
-    ROS_INFO("%s: face %u, %.1f mm deep", touched.tool.c_str(), contact.face, 1e3 * contact.depth);
-  }
+  if (touched.contacts.empty()) return;
+  const auto& deepest =
+      *std::max_element(touched.contacts.begin(), touched.contacts.end(),
+                        [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
+  ROS_INFO_THROTTLE(0.5, "%s touches %zu faces. Deepest: face %u, %.1f mm", touched.tool.c_str(),
+                    touched.contacts.size(), deepest.face, 1e3 * deepest.depth);
 }
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "simulator");
   ros::NodeHandle node("organ_collision");
   OrganMesh sheet = tissue<OrganMesh>(ros::Time::now());
-  sheet.triangles = {0, 1, 2, 0, 2, 3};
+  sheet.triangles = triangles();
 
   tf2_ros::TransformBroadcaster frames;
   ros::Publisher mesh = node.advertise<OrganMesh>("organ_mesh", 1, true);
@@ -59,8 +87,8 @@ int main(int argc, char** argv) {
   mesh.publish(sheet);
   for (ros::Rate rate(100); ros::ok(); rate.sleep()) {
     const ros::Time now = ros::Time::now();
-    frames.sendTransform({frame("probe_trocar", now, 0.0, 0.1),
-                          frame("probe_tip", now, 0.1 * std::sin(5 * now.toSec()), -0.05)});
+    const double x = 0.02 * std::sin(now.toSec()), z = 0.008 + 0.005 * std::cos(now.toSec());
+    frames.sendTransform({frame("probe_trocar", now, 0.0, 0.1), frame("probe_tip", now, x, z)});
     vertices.publish(tissue<OrganVertices>(now));
     ros::spinOnce();
   }

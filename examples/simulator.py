@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A minimal simulator: a sheet of tissue moves up and down, and a probe moves through it."""
+"""A minimal simulator: a probe comes down onto a sheet of tissue, presses, slides and leaves."""
 
 import math
 
@@ -9,7 +9,13 @@ import rospy
 from std_msgs.msg import Header
 import tf2_ros
 
-TRIANGLES = [0, 1, 2, 0, 2, 3]
+CELLS = 8    # in each direction
+SIDE = 0.1   # [m]
+PLACES = [(SIDE * (i / CELLS - 0.5), SIDE * (j / CELLS - 0.5))
+          for j in range(CELLS + 1) for i in range(CELLS + 1)]
+CORNERS = [i + j * (CELLS + 1) for j in range(CELLS) for i in range(CELLS)]
+TRIANGLES = [vertex for a in CORNERS
+             for vertex in (a, a + 1, a + CELLS + 2, a, a + CELLS + 2, a + CELLS + 1)]
 
 
 def header(stamp):
@@ -17,8 +23,9 @@ def header(stamp):
 
 
 def shape(stamp):
-    z = 0.01 * math.sin(stamp.to_sec())
-    return [-0.05, -0.05, z, 0.05, -0.05, z, 0.05, 0.05, z, -0.05, 0.05, z]
+    """A wave of 1 mm runs through the sheet."""
+    return [coordinate for x, y in PLACES
+            for coordinate in (x, y, 0.001 * math.sin(50 * x + stamp.to_sec()))]
 
 
 def frame(name, stamp, x, z):
@@ -29,8 +36,10 @@ def frame(name, stamp, x, z):
 def react(touched):
     if touched.status != ContactArray.OK:
         rospy.logwarn('%s', touched.message)
-    for contact in touched.contacts:
-        rospy.loginfo('%s: face %d, %.1f mm deep', touched.tool, contact.face, 1e3 * contact.depth)
+    elif touched.contacts:
+        deepest = max(touched.contacts, key=lambda contact: contact.depth)
+        rospy.loginfo_throttle(0.5, '%s touches %d faces. Deepest: face %d, %.1f mm' % (
+            touched.tool, len(touched.contacts), deepest.face, 1e3 * deepest.depth))
 
 
 rospy.init_node('simulator')
@@ -42,7 +51,7 @@ contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, react)
 mesh.publish(OrganMesh(header(rospy.Time.now()), 'tissue', 0, shape(rospy.Time()), TRIANGLES))
 while not rospy.is_shutdown():
     now = rospy.Time.now()
-    frames.sendTransform([frame('probe_trocar', now, 0, 0.1),
-                          frame('probe_tip', now, 0.1 * math.sin(5 * now.to_sec()), -0.05)])
+    x, z = 0.02 * math.sin(now.to_sec()), 0.008 + 0.005 * math.cos(now.to_sec())
+    frames.sendTransform([frame('probe_trocar', now, 0, 0.1), frame('probe_tip', now, x, z)])
     vertices.publish(OrganVertices(header(now), 'tissue', 0, shape(now)))
     rate.sleep()
