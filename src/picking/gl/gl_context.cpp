@@ -2,27 +2,25 @@
 
 #include <GL/osmesa.h>
 
-#include <array>
-#include <cstdint>
 #include <cstdio>
+#include <vector>
 
 #include "gl_functions.hpp"
 
 namespace organ_collision {
-namespace {
-
-// [pixel] Nothing is ever drawn into the framebuffer, but OSMesa requires one.
-constexpr int kFramebufferSide = 4;
-
-}  // namespace
 
 struct GlContext::State {
-  OSMesaContext context = OSMesaCreateContextExt(OSMESA_RGBA, 0, 0, 0, nullptr);
-  std::array<std::uint8_t, 4 * kFramebufferSide * kFramebufferSide> framebuffer;
+  OSMesaContext context;
+  int width, height;
+  std::vector<std::uint8_t> pixels;
   GlFunctions functions;
   std::string version;
 
-  State() = default;
+  explicit State(const GlFramebuffer& framebuffer)
+      : context(OSMesaCreateContextExt(OSMESA_RGBA, framebuffer.depth_bits, 0, 0, nullptr)),
+        width(framebuffer.width),
+        height(framebuffer.height),
+        pixels(std::size_t{4} * width * height) {}
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
@@ -38,7 +36,8 @@ struct GlContext::State {
   }
 };
 
-GlContext::GlContext() : state_(std::make_unique<State>()) {
+GlContext::GlContext(const GlFramebuffer& framebuffer)
+    : state_(std::make_unique<State>(framebuffer)) {
   if (state_->context == nullptr) {
     throw GlError("OSMesa gives no compatibility context: install libosmesa6 (Mesa before 25.1)");
   }
@@ -62,8 +61,8 @@ GlContext& GlContext::operator=(GlContext&&) noexcept = default;
 
 void GlContext::make_current() {
   if (state_->is_current()) return;
-  if (OSMesaMakeCurrent(state_->context, state_->framebuffer.data(), GL_UNSIGNED_BYTE,
-                        kFramebufferSide, kFramebufferSide) != GL_TRUE) {
+  if (OSMesaMakeCurrent(state_->context, state_->pixels.data(), GL_UNSIGNED_BYTE, state_->width,
+                        state_->height) != GL_TRUE) {
     throw GlError("OSMesa cannot make its context current: is it current in another thread?");
   }
 }
@@ -73,6 +72,8 @@ void GlContext::release() { state_->release(); }
 const std::string& GlContext::version() const { return state_->version; }
 
 const GlFunctions& GlContext::functions() const { return state_->functions; }
+
+const std::uint8_t* GlContext::pixels() const { return state_->pixels.data(); }
 
 void GlContext::check(const char* where) const {
   const GLenum error = state_->functions.GetError();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -8,6 +9,12 @@
 namespace organ_collision {
 
 struct GlFunctions;
+
+/// What a context draws into. Picking draws nothing, but OSMesa requires a framebuffer.
+struct GlFramebuffer {
+  int width = 4, height = 4;  ///< [pixel]
+  int depth_bits = 0;         ///< 0: without depth buffer
+};
 
 /// An OSMesa compatibility context without a window, its framebuffer, and the GL functions loaded
 /// from it. The functions are loaded and never linked: in a process that loaded libGL first, linked
@@ -19,7 +26,7 @@ struct GlFunctions;
 class GlContext {
  public:
   /// Throws GlError if OSMesa gives no context or no version string, or lacks a GL function.
-  GlContext();
+  explicit GlContext(const GlFramebuffer& framebuffer = {});
   ~GlContext();
   GlContext(GlContext&&) noexcept;
   GlContext& operator=(GlContext&&) noexcept;
@@ -34,6 +41,9 @@ class GlContext {
   const std::string& version() const;
   /// The functions of this context. Valid as long as the context lives.
   const GlFunctions& functions() const;
+  /// The framebuffer: rows from bottom to top, with four bytes (red, green, blue, alpha) a pixel.
+  /// Call GL's Finish before reading it. Valid as long as the context lives.
+  const std::uint8_t* pixels() const;
 
   /// Throws GlError naming `where` and the error code if GL reports one.
   void check(const char* where) const;

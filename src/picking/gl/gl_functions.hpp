@@ -2,7 +2,7 @@
 
 #include <GL/gl.h>
 
-// Every GL function that this package calls, without its gl prefix.
+// Every GL function that picking calls, without its gl prefix.
 // clang-format off
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                         \
   F(Begin) F(ClipPlane) F(DepthRange) F(Disable) F(DrawArrays) F(Enable) F(EnableClientState)   \
@@ -23,5 +23,10 @@ struct GlFunctions {
 
 /// Loads all these functions. Throws GlError, naming the first one that is missing.
 GlFunctions load_gl_functions();
+
+using AnyGlFunction = void (*)();
+
+/// The function of this name, for example "glBegin". Throws GlError if OSMesa has none.
+AnyGlFunction find_gl_function(const char* name);
 
 }  // namespace organ_collision

@@ -1,0 +1,142 @@
+#include "renderer.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <limits>
+
+#include "light.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// [1] Each pixel has this number of samples along each side.
+constexpr int kSamples = 3;
+/// [1] Without triangles close to the eye, the nearest visible depth by the farthest one. The depth
+/// buffer is finer for larger values.
+constexpr double kNearByFar = 1e-3;
+
+/// A vertex as GL reads it, in camera coordinates. Their origin is the eye, so 32 bits are enough
+/// even far from the origin of the frame.
+struct GlVertex {
+  Eigen::Vector3f position;
+  Colour colour;
+};
+
+using GlTriangle = std::array<GlVertex, 3>;
+
+struct CameraTriangles {
+  std::vector<GlTriangle> opaque, transparent;
+  double near = std::numeric_limits<double>::infinity(), far = 0.0;  ///< depths [m]
+};
+
+GlTriangle seen(const PictureVertex* corners, const Camera& camera) {
+  const Vector3d a = camera.to_camera(corners[0].position);
+  const Vector3d b = camera.to_camera(corners[1].position);
+  const Vector3d c = camera.to_camera(corners[2].position);
+  // Both sides of a face are lit. The viewer is at the origin.
+  const double side = (b - a).cross(c - a).dot(a) > 0.0 ? -1.0 : 1.0;
+  const auto colour = [&](const PictureVertex& vertex) {
+    if (vertex.normal.isZero(0.0)) return vertex.colour;
+    return lit(vertex.colour, side * (camera.axes.transpose() * vertex.normal));
+  };
+  return {GlVertex{a.cast<float>(), colour(corners[0])},
+          GlVertex{b.cast<float>(), colour(corners[1])},
+          GlVertex{c.cast<float>(), colour(corners[2])}};
+}
+
+bool is_opaque(const GlTriangle& triangle) {
+  return std::all_of(triangle.begin(), triangle.end(),
+                     [](const GlVertex& vertex) { return vertex.colour.w() >= 1.0F; });
+}
+
+/// The farther triangle comes first. Triangles at the same distance are ordered by their corners,
+/// so that the order in the input never matters.
+bool is_farther(const GlTriangle& a, const GlTriangle& b) {
+  const auto key = [](const GlTriangle& t) {
+    const Eigen::Vector3f sum = t[0].position + t[1].position + t[2].position;
+    return std::array<float, 4>{-sum.squaredNorm(), sum.x(), sum.y(), sum.z()};
+  };
+  return key(a) < key(b);
+}
+
+CameraTriangles seen(const PictureTriangles& triangles, const Camera& camera) {
+  CameraTriangles result;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    const GlTriangle triangle = seen(&triangles[i], camera);
+    for (const GlVertex& vertex : triangle) {
+      const double depth = -vertex.position.z();
+      result.near = std::min(result.near, depth);
+      result.far = std::max(result.far, depth);
+    }
+    (is_opaque(triangle) ? result.opaque : result.transparent).push_back(triangle);
+  }
+  std::sort(result.transparent.begin(), result.transparent.end(), is_farther);
+  // The limits leave some space, so that rounding cuts nothing off.
+  result.far = std::max(1.01 * result.far, 1e-3);
+  result.near = std::clamp(0.99 * result.near, kNearByFar * result.far, 0.98 * result.far);
+  return result;
+}
+
+void draw(const RenderFunctions& gl, const std::vector<GlTriangle>& triangles) {
+  if (triangles.empty()) return;
+  const GlVertex& first = triangles.front().front();
+  gl.VertexPointer(3, GL_FLOAT, sizeof(GlVertex), first.position.data());
+  gl.ColorPointer(4, GL_FLOAT, sizeof(GlVertex), first.colour.data());
+  gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.size()));
+}
+
+}  // namespace
+
+Renderer::Renderer(int width, int height)
+    : width_(width),
+      height_(height),
+      context_(GlFramebuffer{kSamples * width, kSamples * height, 24}),
+      gl_(load_render_functions()) {
+  gl_.DisableClientState(GL_TEXTURE_COORD_ARRAY);  // which only the pickers use
+  gl_.EnableClientState(GL_COLOR_ARRAY);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
+Image Renderer::render(const PictureTriangles& triangles, const Camera& camera,
+                       const Colour& background) {
+  const CameraTriangles visible = seen(triangles, camera);
+  context_.make_current();
+  gl_.LoadMatrixd(projection(aspect(), visible.near, visible.far).eval().data());
+  gl_.DepthMask(GL_TRUE);
+  gl_.ClearColor(background.x(), background.y(), background.z(), 1.0F);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw(gl_, visible.opaque);
+  gl_.DepthMask(GL_FALSE);  // A transparent triangle hides no other one.
+  draw(gl_, visible.transparent);
+  gl_.Finish();
+  context_.check("a picture");
+  return downsampled();
+}
+
+Image Renderer::downsampled() const {
+  Image image{width_, height_, {}};
+  image.pixels.reserve(std::size_t{3} * width_ * height_);
+  const std::uint8_t* samples = context_.pixels();
+  const auto row = [&](int y) { return samples + std::size_t{4} * kSamples * width_ * y; };
+  for (int y = kSamples * (height_ - 1); y >= 0; y -= kSamples) {
+    for (int x = 0; x < 4 * kSamples * width_; x += 4 * kSamples) {
+      for (int channel = 0; channel < 3; ++channel) {
+        int sum = 0;
+        for (int i = 0; i < kSamples; ++i) {
+          for (int j = 0; j < kSamples; ++j) sum += row(y + i)[x + 4 * j + channel];
+        }
+        constexpr int kCount = kSamples * kSamples;
+        image.pixels.push_back(static_cast<std::uint8_t>((sum + kCount / 2) / kCount));
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,144 @@
+/// snapshot: pictures of the markers that the node publishes for RViz, without a display.
+
+#include <ros/ros.h>
+
+#include <iostream>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "camera.hpp"
+#include "marker_listener.hpp"
+#include "marker_picture.hpp"
+#include "renderer.hpp"
+#include "snapshot_options.hpp"
+
+namespace organ_collision {
+namespace {
+
+class Snapshot {
+ public:
+  explicit Snapshot(const SnapshotOptions& options)
+      : options_(options),
+        axes_(view_axes(options.to_eye, options.up)),
+        markers_(options.topics, options.frame),
+        picture_(axes_, options.font),
+        renderer_(options.width, options.height) {}
+
+  void take_all() {
+    wait_until([this] { return markers_.has_placed_marker(); }, options_.timeout_sec);
+    const ros::Time first = ros::Time::now() + ros::Duration(options_.after_sec);
+    if (options_.frames == 0) return take(first, options_.output);
+    for (int i = 0; i < options_.frames; ++i) {
+      take(first + ros::Duration(i / options_.rate), numbered_file(options_.output, i + 1));
+    }
+  }
+
+ private:
+  template <typename Condition>
+  void wait_until(Condition condition, double seconds) {
+    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
+    do {
+      markers_.update();
+      if (condition()) return;
+      if (!ros::ok()) throw std::runtime_error("interrupted");
+    } while (ros::SteadyTime::now() < end);
+    throw std::runtime_error(why_no_scene());
+  }
+
+  /// Takes the picture at a time, or as soon as there is something to be seen.
+  void take(const ros::Time& time, const std::string& file) {
+    wait_until([&] { return ros::Time::now() >= time && markers_.has_placed_marker(); },
+               options_.timeout_sec + options_.after_sec);
+    const PictureTriangles triangles = scene();
+    if (triangles.empty()) throw std::runtime_error("the markers show nothing");
+    if (!is_framed_) set_camera(triangles);
+    write_png(file, renderer_.render(triangles, camera_, options_.background));
+  }
+
+  PictureTriangles scene() {
+    PictureTriangles triangles;
+    for (const auto& [key, entry] : markers_.markers().entries()) {
+      if (!entry.T_fixed_header) continue;
+      try {
+        picture_.add(entry.marker, *entry.T_fixed_header, triangles);
+      } catch (const MarkerError& error) {
+        warn("marker " + key.ns + "/" + std::to_string(key.id) + " of " + key.topic +
+             " is left out: " + error.what());
+      }
+    }
+    for (const auto& [frame, error] : markers_.missing_transforms()) {
+      warn("the markers of frame '" + frame + "' are left out: " + error);
+    }
+    return triangles;
+  }
+
+  void set_camera(const PictureTriangles& triangles) {
+    const Eigen::Vector3d target = options_.target.value_or(centre(triangles));
+    const double distance = options_.distance
+                                ? *options_.distance
+                                : framing_distance(triangles, target, axes_, renderer_.aspect());
+    camera_ = {target + distance * axes_.col(2), axes_};
+    is_framed_ = true;
+  }
+
+  std::string why_no_scene() const {
+    std::string topics;
+    for (const std::string& topic : options_.topics) topics += " " + ros::names::resolve(topic);
+    if (!markers_.has_publisher()) {
+      return "no node publishes" + topics + "; `rostopic list` shows what there is";
+    }
+    if (!markers_.missing_transforms().empty()) {
+      const auto& [frame, error] = *markers_.missing_transforms().begin();
+      return "the markers of frame '" + frame + "' have no transform: " + error;
+    }
+    return "no marker came within the timeout on" + topics;
+  }
+
+  /// Says everything only once.
+  void warn(const std::string& message) {
+    if (said_.insert(message).second) std::cerr << "snapshot: " << message << std::endl;
+  }
+
+  const SnapshotOptions& options_;
+  Eigen::Matrix3d axes_;
+  MarkerListener markers_;
+  MarkerPicture picture_;
+  Renderer renderer_;
+  Camera camera_;
+  bool is_framed_ = false;
+  std::set<std::string> said_;
+};
+
+int run(int argc, char** argv) {
+  try {
+    std::vector<std::string> arguments;
+    ros::removeROSArgs(argc, argv, arguments);
+    const SnapshotOptions options =
+        parse_snapshot_options({arguments.begin() + 1, arguments.end()});
+    if (options.help) {
+      std::cout << snapshot_usage();
+      return 0;
+    }
+    ros::init(argc, argv, "snapshot", ros::init_options::AnonymousName);
+    if (!ros::master::check()) {
+      throw std::runtime_error("there is no ROS master at " + ros::master::getURI() +
+                               "; start the scene first, for example with roslaunch");
+    }
+    const ros::NodeHandle node;  // It keeps ROS running after the markers' own handle is gone.
+    Snapshot(options).take_all();
+    return 0;
+  } catch (const OptionError& error) {
+    std::cerr << "snapshot: " << error.what() << " (--help explains)" << std::endl;
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "snapshot: " << error.what() << std::endl;
+    return 1;
+  }
+}
+
+}  // namespace
+}  // namespace organ_collision
+
+int main(int argc, char** argv) { return organ_collision::run(argc, argv); }
