@@ -26,7 +26,9 @@ def show(answer):
         rospy.logwarn_throttle(1, answer.message)
     elif answer.contacts:
         contacts = contact_table(answer)
-        print('%s: faces %s, at most %.1f mm deep' % (answer.tool, contacts.face, 1e3 * contacts.depth.max()), flush=True)
+        deepest = contacts[contacts.depth.argmax()]
+        print('%s touches %d faces, deepest in face %d: %.1f mm'
+              % (answer.tool, len(contacts), deepest.face, 1e3 * deepest.depth), flush=True)
 
 
 rospy.init_node('own_mesh')
@@ -35,7 +37,7 @@ organ = Organ('organ', vertices, faces)
 top = vertices[vertices[:, 2].argmax()]
 frames = tf2_ros.TransformBroadcaster()
 contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
-rate = rospy.Rate(50)
+rate = rospy.Rate(20)
 while not rospy.is_shutdown():
     now = rospy.Time.now()
     tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe's radius is 0.005 m.
