@@ -32,15 +32,16 @@ def show(answer):
 
 
 rospy.init_node('own_mesh')
+contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
+frames = tf2_ros.TransformBroadcaster()
+rate = rospy.Rate(20)
+
 vertices, faces = read_mesh(options.file, options.scale)
 organ = Organ('organ', vertices, faces)
 top = vertices[vertices[:, 2].argmax()]
-frames = tf2_ros.TransformBroadcaster()
-contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
-rate = rospy.Rate(20)
 while not rospy.is_shutdown():
     now = rospy.Time.now()
-    tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe's radius is 0.005 m.
+    tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
     frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
     organ.move(vertices, now)
     rate.sleep()
