@@ -26,19 +26,22 @@ def show(answer):
         rospy.logwarn_throttle(1, answer.message)
     elif answer.contacts:
         contacts = contact_table(answer)
-        print('%s: faces %s, at most %.1f mm deep' % (answer.tool, contacts.face, 1e3 * contacts.depth.max()), flush=True)
+        deepest = contacts[contacts.depth.argmax()]
+        print('%s touches %d faces, deepest in face %d: %.1f mm'
+              % (answer.tool, len(contacts), deepest.face, 1e3 * deepest.depth), flush=True)
 
 
 rospy.init_node('own_mesh')
+contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
+frames = tf2_ros.TransformBroadcaster()
+rate = rospy.Rate(20)
+
 vertices, faces = read_mesh(options.file, options.scale)
 organ = Organ('organ', vertices, faces)
 top = vertices[vertices[:, 2].argmax()]
-frames = tf2_ros.TransformBroadcaster()
-contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
-rate = rospy.Rate(50)
 while not rospy.is_shutdown():
     now = rospy.Time.now()
-    tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe's radius is 0.005 m.
+    tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
     frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
     organ.move(vertices, now)
     rate.sleep()

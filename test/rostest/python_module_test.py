@@ -1,12 +1,17 @@
 #!/usr/bin/python3
 """Organs and queries of the Python module reach a real node, and its answers come back as arrays."""
 
+import os
+import signal
+import subprocess
 import sys
+import threading
 import unittest
 
 import numpy as np
 from organ_collision import CollisionError, contact_table, Organ, organ_mesh, Queries
 from organ_collision.msg import ContactArray
+import roslib.packages
 import rospy
 import rostest
 
@@ -120,6 +125,19 @@ class PythonModuleTest(unittest.TestCase):
         organ.move(VERTICES, stamp)
         contacts = contact_table(node.wait_for('sheet', 'probe', stamp=stamp, status=ContactArray.OK))
         self.assertAlmostEqual(contacts.depth.max(), depth_at(0), delta=1e-7)
+
+    def test_the_example_prints_contacts_with_a_file(self):
+        program = roslib.packages.find_node('organ_collision', 'own_mesh.py')[0]
+        mesh = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'urdf/meshes/jaw.stl')
+        process = subprocess.Popen([program, mesh, '--scale', '5'], stdout=subprocess.PIPE, universal_newlines=True)
+        watchdog = threading.Timer(LIMIT, process.kill)
+        watchdog.start()
+        self.addCleanup(watchdog.cancel)
+        printed = next((line for line in process.stdout if 'touches' in line), 'nothing')
+        self.assertRegex(printed, r'^probe touches \d+ faces, deepest in face \d+: [0-4]\.\d mm$')
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        self.assertEqual(process.returncode, 0)
 
     def test_another_frame(self):
         self.organ('sheet', 'table')

@@ -1,0 +1,60 @@
+#!/usr/bin/python3
+"""Sends the force of the tissue on an instrument to the hand that moves it: from the wrench of contact_adapter to the
+servo_cf of a dVRK's MTM. Sends no torque. If no wrench arrives any more, the force becomes zero."""
+
+import time
+
+from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
+from PyKDL import Rotation, Vector
+import rospy
+from std_msgs.msg import Bool, Header
+import tf2_ros
+
+
+class Hand:
+    def __init__(self):
+        self.max_force = rospy.get_param('~max_force', 2.0)  # [N]
+        self.scale = rospy.get_param('~force_scale', 1.0)
+        self.timeout = rospy.get_param('~timeout', 0.1)  # [s] without a wrench, after which the force is zero
+        self.frame = rospy.get_param('~frame', 'ECM')  # The axes of the camera are those of the surgeon's display.
+        self.last_wrench = None
+        self.transforms = tf2_ros.Buffer()
+        self.listener = tf2_ros.TransformListener(self.transforms)
+        self.force = rospy.Publisher('servo_cf', WrenchStamped, queue_size=1)
+        # Otherwise the dVRK takes forces in the frame of the hand's grip, which turns with the hand.
+        self.absolute = rospy.Publisher('set_cf_orientation_absolute', Bool, queue_size=1, latch=True)
+        self.absolute.publish(True)
+        self.wrench = rospy.Subscriber('wrench', WrenchStamped, self.feel, queue_size=1)
+        rospy.on_shutdown(self.release)
+
+    def feel(self, wrench):
+        try:
+            transform = self.transforms.lookup_transform(self.frame, wrench.header.frame_id, rospy.Time())
+        except tf2_ros.TransformException as error:
+            return rospy.logwarn_throttle(1, 'no force on the hand: %s' % error)
+        q, f = transform.transform.rotation, wrench.wrench.force
+        force = self.scale * (Rotation.Quaternion(q.x, q.y, q.z, q.w) * Vector(f.x, f.y, f.z))
+        if force.Norm() > self.max_force:
+            force *= self.max_force / force.Norm()
+        self.last_wrench = time.monotonic()
+        self.send(force)
+
+    def watch(self):
+        if self.last_wrench is not None and time.monotonic() - self.last_wrench > self.timeout:
+            self.last_wrench = None
+            rospy.logwarn('no force on the hand: no wrench for %g s' % self.timeout)
+            self.release()
+
+    def release(self):
+        self.send(Vector())
+
+    def send(self, force):
+        self.force.publish(WrenchStamped(Header(0, rospy.Time.now(), self.frame), Wrench(Vector3(*force), Vector3())))
+
+
+if __name__ == '__main__':
+    rospy.init_node('dvrk_hand')
+    hand = Hand()
+    while not rospy.is_shutdown():
+        hand.watch()
+        time.sleep(hand.timeout / 4)  # Not rospy's clock, which a simulator may stop.

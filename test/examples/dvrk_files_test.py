@@ -1,0 +1,117 @@
+#!/usr/bin/python3
+"""What stands in for the dVRK is consistent: its kinematics, the URDF of the instrument, and the organ's surface.
+
+Usage: dvrk_files_test.py SOURCE_FOLDER
+"""
+
+import importlib.util
+import os
+import sys
+import unittest
+from xml.etree import ElementTree
+
+import numpy as np
+from PyKDL import Frame, Rotation, Vector
+
+SOURCE = sys.argv[1]
+RANDOM = np.random.default_rng(5)
+
+
+def example(name):
+    """The module in examples/NAME.py."""
+    spec = importlib.util.spec_from_file_location(name, os.path.join(SOURCE, 'examples', name + '.py'))
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+ROBOT, ORGAN = example('dvrk_robot'), example('dvrk_organ')
+URDF = ElementTree.parse(os.path.join(SOURCE, 'urdf', 'psm.urdf'))
+
+
+def vector(text):
+    return Vector(*[float(word) for word in text.split()])
+
+
+def link_in_tip(link, positions):
+    """The pose of a link in the frame of the tip, if the joints have these positions."""
+    if link == 'PSM_tip':
+        return Frame()
+    joint = next(joint for joint in URDF.iter('joint') if joint.find('child').get('link') == link)
+    return link_in_tip(joint.find('parent').get('link'), positions) * origin(joint) * motion(joint, positions)
+
+
+def origin(joint):
+    element = joint.find('origin')
+    if element is None:
+        return Frame()
+    return Frame(Rotation.RPY(*vector(element.get('rpy', '0 0 0'))), vector(element.get('xyz', '0 0 0')))
+
+
+def motion(joint, positions):
+    if joint.get('type') == 'fixed':
+        return Frame()
+    axis, mimic = vector(joint.find('axis').get('xyz')), joint.find('mimic')
+    position = positions[joint.get('name')] if mimic is None \
+        else positions[mimic.get('joint')] * float(mimic.get('multiplier'))
+    return Frame(axis * position) if joint.get('type') == 'prismatic' else Frame(Rotation.Rot(axis, position))
+
+
+def random_joints():
+    joints = RANDOM.uniform(-0.7, 0.7, 6)
+    joints[2] = RANDOM.uniform(0.05, 0.24)
+    return dict(zip(ROBOT.JOINTS, joints.tolist()))
+
+
+class DvrkFilesTest(unittest.TestCase):
+
+    def test_the_shaft_passes_through_the_remote_centre(self):
+        for _ in range(100):
+            joints = random_joints()
+            shaft = ROBOT.forward_kinematics(**joints) * link_in_tip('PSM_shaft', joints)
+            centre = shaft.Inverse().p  # The remote centre in the frame of the shaft.
+            self.assertAlmostEqual(centre.x(), 0, delta=1e-9)
+            self.assertAlmostEqual(centre.y(), 0, delta=1e-9)
+            self.assertAlmostEqual(centre.z(), -(joints['insertion'] - 0.4318 + 0.4162), delta=1e-9)
+
+    def test_the_urdf_leads_back_to_the_remote_centre(self):
+        for _ in range(100):
+            joints = random_joints()
+            centre = ROBOT.forward_kinematics(**joints) * link_in_tip('PSM_remote_centre', joints)
+            np.testing.assert_allclose(list(centre.p), [0, 0, 0], atol=1e-9)
+            np.testing.assert_allclose(list(centre.M.GetRot()), [0, 0, 0], atol=1e-9)
+
+    def test_the_shaft_turns_with_the_roll_alone(self):
+        joints = random_joints()
+        x = [(ROBOT.forward_kinematics(**joints) * link_in_tip('PSM_shaft', joints)).M.UnitX()]
+        for joint, turn in (('wrist_pitch', 0), ('wrist_yaw', 0), ('insertion', 0), ('roll', 0.3)):
+            joints[joint] += 0.3
+            x.append((ROBOT.forward_kinematics(**joints) * link_in_tip('PSM_shaft', joints)).M.UnitX())
+            self.assertAlmostEqual(np.dot(list(x[-2]), list(x[-1])), np.cos(turn), delta=1e-9, msg=joint)
+
+    def test_open_jaws_are_symmetric_and_apart(self):
+        ends = [link_in_tip(link, {'jaw': 0.8}) * Vector(0, 0, 0.01) for link in ('PSM_left_jaw', 'PSM_right_jaw')]
+        self.assertAlmostEqual(ends[0].y(), 0.01 * np.sin(0.4), delta=1e-12)
+        self.assertAlmostEqual(ends[1].y(), -ends[0].y(), delta=1e-12)
+        self.assertAlmostEqual(ends[1].z(), ends[0].z(), delta=1e-12)
+
+    def test_at_rest_an_arm_points_at_its_target(self):
+        for remote_centre, target in ROBOT.ARMS.values():
+            reach = (target - remote_centre).Norm()
+            tip = ROBOT.base_pose(remote_centre, target) * ROBOT.forward_kinematics(0, 0, ROBOT.OFFSET + reach, 0, 0, 0)
+            np.testing.assert_allclose(list(tip.p), list(target), atol=1e-9)
+            np.testing.assert_allclose(list(tip.M.UnitZ() * reach), list(target - remote_centre), atol=1e-9)
+
+    def test_the_organ_is_closed_and_outward(self):
+        vertices, faces = ORGAN.ellipsoid(ORGAN.RADII)
+        _, places = np.unique(vertices.round(9), axis=0, return_inverse=True)
+        edges = [(places.ravel()[f[i - 1]], places.ravel()[f[i]]) for f in faces for i in range(3)]
+        self.assertEqual(len(set(edges)), len(edges))
+        self.assertEqual({(b, a) for a, b in edges}, set(edges))
+        a, b, c = vertices[faces].swapaxes(0, 1)
+        volume = np.einsum('ij,ij->', a, np.cross(b, c)) / 6
+        self.assertAlmostEqual(volume, 4 / 3 * np.pi * np.prod(ORGAN.RADII), delta=0.02 * volume)
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=2)
