@@ -13,7 +13,9 @@ endfunction()
 function(organ_collision_layer name)
   add_library(organ_collision_${name} ${ARGN})
   add_library(organ_collision::${name} ALIAS organ_collision_${name})
-  set_target_properties(organ_collision_${name} PROPERTIES EXPORT_NAME ${name})
+  # The binary interface may change with each minor version. Static libraries ignore these numbers.
+  set_target_properties(organ_collision_${name} PROPERTIES EXPORT_NAME ${name}
+    VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
   target_include_directories(organ_collision_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<INSTALL_INTERFACE:include>)

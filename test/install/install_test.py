@@ -57,6 +57,14 @@ class InstallTest(unittest.TestCase):
         self.assertIn(self.prefix + '/lib/liborgan_collision_query', linked)
         self.assertNotRegex(linked, r'lib(ros|tf2|nodelet|xmlrpc)')
 
+    def test_another_prefix_than_the_configured_one_is_refused(self):
+        other = os.path.join(self.folder, 'other')
+        done = subprocess.run(['cmake', '--install', BUILD, '--prefix', other], env=PLAIN_ENVIRONMENT,
+                              text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn('-DCMAKE_INSTALL_PREFIX=' + other, done.stdout)
+        self.assertFalse(os.path.exists(other))
+
     def test_all_public_headers_are_installed_and_no_others(self):
         installed = headers(os.path.join(self.prefix, 'include', 'organ_collision'))
         self.assertEqual(installed, headers(os.path.join(SOURCE, 'include', 'organ_collision')))

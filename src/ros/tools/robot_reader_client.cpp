@@ -31,14 +31,17 @@ std::filesystem::path folder_of_this_code() {
   return file.parent_path();
 }
 
-/// The program is in the folder organ_collision below this library or, if the library is linked
-/// into a program, beside that program. This holds in a build folder, in an install space and in a
-/// nodelet manager.
+/// The program is in the folder organ_collision below this library. In Debian packages that folder
+/// is beside the library's: lib/x86_64-linux-gnu is for libraries alone. If the library is linked
+/// into a program, robot_reader is beside that program.
 std::string find_program() {
   const std::filesystem::path folder = folder_of_this_code();
   const std::filesystem::path below = folder / "organ_collision" / kProgram;
-  const std::filesystem::path beside = folder / kProgram;
-  return !can_run(below) && can_run(beside) ? beside : below;
+  for (const auto& other :
+       {folder.parent_path() / "organ_collision" / kProgram, folder / kProgram}) {
+    if (!can_run(below) && can_run(other)) return other;
+  }
+  return below;
 }
 
 ProcessResult run_reader(std::vector<std::string> arguments, const std::string& input) {
