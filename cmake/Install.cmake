@@ -25,5 +25,6 @@ install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINAT
   PATTERN "*.py" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml")
-install(PROGRAMS examples/ask.py examples/grasper.py examples/simulator.py
+install(PROGRAMS examples/ask.py examples/grasper.py examples/repeat_pose.py
+  examples/simulator.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
