@@ -70,8 +70,8 @@ void react(const ContactArray& touched) {
   const auto& deepest =
       *std::max_element(touched.contacts.begin(), touched.contacts.end(),
                         [](const Contact& a, const Contact& b) { return a.depth < b.depth; });
-  ROS_INFO_THROTTLE(0.5, "%s touches %zu faces. Deepest: face %u, %.1f mm", touched.tool.c_str(),
-                    touched.contacts.size(), deepest.face, 1e3 * deepest.depth);
+  ROS_INFO_THROTTLE(0.5, "%s: %.1f mm deep in face %u; faces touched: %zu", touched.tool.c_str(),
+                    1e3 * deepest.depth, deepest.face, touched.contacts.size());
 }
 
 int main(int argc, char** argv) {

@@ -38,8 +38,8 @@ def react(touched):
         rospy.logwarn('%s', touched.message)
     elif touched.contacts:
         deepest = max(touched.contacts, key=lambda contact: contact.depth)
-        rospy.loginfo_throttle(0.5, '%s touches %d faces. Deepest: face %d, %.1f mm' % (
-            touched.tool, len(touched.contacts), deepest.face, 1e3 * deepest.depth))
+        rospy.loginfo_throttle(0.5, '%s: %.1f mm deep in face %d; faces touched: %d' % (
+            touched.tool, 1e3 * deepest.depth, deepest.face, len(touched.contacts)))
 
 
 rospy.init_node('simulator')

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the figures of doc/geometry.md from the formulas that the page derives.
+"""Draws the figures of the pages, from the formulas that the pages give.
 
 Usage: doc/figures/draw.py [FOLDER]
 
@@ -13,7 +13,8 @@ import sys
 
 import style
 
-FIGURES = ['words', 'wedge', 'margins', 'outcodes', 'first_touch', 'chord_deviation', 'swept_box',
+FIGURES = ['touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
+           'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'chord_deviation', 'swept_box',
            'spans', 'distances', 'piercing', 'winding', 'work']
 
 

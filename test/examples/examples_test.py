@@ -1,16 +1,21 @@
 #!/usr/bin/python3
-"""In both minimal simulators the probe touches the tissue, and both ask programs get an answer."""
+"""In both minimal simulators the probe presses the tissue by some millimetres, straight down. Both ask programs get an
+answer. A pose is repeated."""
 
+import re
 import signal
 import subprocess
 import sys
 import threading
 import unittest
 
+from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
+from organ_collision.msg import ContactArray
 import roslib.packages
 import rospy
 from rosgraph_msgs.msg import Log
 import rostest
+from std_msgs.msg import Header
 
 LIMIT = 20.0  # [s]
 
@@ -20,37 +25,76 @@ def example(name):
     return roslib.packages.find_node('organ_collision', name)[0]
 
 
+def depths(said):
+    """The depths [mm] in what a program prints."""
+    return [float(depth) for depth in re.findall(r'(-?[\d.]+) mm', said)]
+
+
 class ExamplesTest(unittest.TestCase):
 
     def setUp(self):
-        self.awaited = {'probe: face 0', 'probe: face 1'}
-        self.all_seen = threading.Event()
+        self.pressed = threading.Event()
         self.log = rospy.Subscriber('/rosout', Log, self.on_log)
 
     def tearDown(self):
         self.log.unregister()
 
     def on_log(self, line):
-        if line.name == '/simulator':
-            self.awaited -= {line.msg.split(',')[0]}
-            if not self.awaited:
-                self.all_seen.set()
+        if line.name == '/simulator' and re.match(r'probe: .* mm deep in face \d+; faces touched: \d+$', line.msg):
+            depth, = depths(line.msg)
+            if 1.0 < depth < 4.0:
+                self.pressed.set()
 
-    def check(self, simulator, asker, answer):
+    def check(self, simulator, asker):
         simulation = subprocess.Popen([example(simulator)])
         try:
-            self.assertTrue(self.all_seen.wait(LIMIT), 'waited without success for %s' % self.awaited)
-            printed = subprocess.check_output([example(asker)], text=True, timeout=LIMIT)
-            self.assertEqual(printed.strip(), answer)
+            self.assertTrue(self.pressed.wait(LIMIT), 'waited without success for an ordinary touch')
+            self.check_directions()
+            said = subprocess.check_output([example(asker)], text=True, timeout=LIMIT)
+            self.assertEqual(said.splitlines()[0].strip(), 'status 0')
+            self.assertTrue(0.9 < max(depths(said)) < 3.1, said)
         finally:
             simulation.send_signal(signal.SIGINT)
             self.assertEqual(simulation.wait(LIMIT), 0)
 
+    def check_directions(self):
+        """Waits for an answer whose deepest contact is 1 to 4 mm deep, straight into the tissue."""
+        for _ in range(2000):
+            answer = rospy.wait_for_message('/organ_collision/contacts', ContactArray, LIMIT)
+            deepest = max(answer.contacts, key=lambda contact: contact.depth, default=None)
+            if deepest and 0.001 < deepest.depth < 0.004 and deepest.normal.z < -0.95 and not deepest.behind:
+                return
+        self.fail('no ordinary touch in 2000 answers')
+
     def test_python(self):
-        self.check('simulator.py', 'ask.py', '0 [0, 1]')
+        self.check('simulator.py', 'ask.py')
 
     def test_cpp(self):
-        self.check('example_simulator', 'example_ask', '0 0 1')
+        self.check('example_simulator', 'example_ask')
+
+    def test_a_pose_is_repeated_with_rising_stamps(self):
+        source = rospy.Publisher('/hand/pose', PoseStamped, queue_size=1, latch=True)
+        received, enough = [], threading.Event()
+
+        def receive(pose):
+            received.append(pose)
+            if len(received) == 10:
+                enough.set()
+
+        target = rospy.Subscriber('/hand/repeated', PoseStamped, receive)
+        first = PoseStamped(Header(stamp=rospy.Time.now(), frame_id='hand_base'),
+                            Pose(Point(0.1, 0.2, 0.3), Quaternion(0, 0, 0, 1)))
+        source.publish(first)
+        program = subprocess.Popen([example('repeat_pose.py'), '/hand/pose', '/hand/repeated'])
+        try:
+            self.assertTrue(enough.wait(LIMIT))
+        finally:
+            target.unregister()
+            program.send_signal(signal.SIGINT)
+            self.assertEqual(program.wait(LIMIT), 0)
+        stamps = [pose.header.stamp for pose in received]
+        self.assertEqual(stamps, sorted(set(stamps)))
+        self.assertTrue(all(pose.pose == first.pose and pose.header.frame_id == 'hand_base' for pose in received))
 
 
 if __name__ == '__main__':

@@ -12,13 +12,20 @@ import unittest
 
 SOURCE = sys.argv[1]
 SHOWN = {'cpp': '.cpp', 'python': '.py', 'xml': '.launch', 'yaml': '.yaml', 'cmake': '.txt'}
-# The pages that explain the interface. Their code blocks are parts of tested files.
-USER_PAGES = ('README.md', 'doc/interface.md', 'doc/robots.md', 'doc/meshes.md', 'doc/forces.md')
+SHOWN_FOLDERS = ('examples', 'config', 'launch', 'test/install/consumer')
+# The pages that explain the names of the interface.
+INTERFACE_PAGES = ('doc/interface.md', 'doc/tools.md', 'doc/meshes.md', 'doc/forces.md')
+FRONT_PAGE_LINES = 150
 
 
 def read(path):
     with open(os.path.join(SOURCE, path)) as text:
         return text.read()
+
+
+def pages():
+    return [os.path.relpath(path, SOURCE) for folder in ('.', 'doc')
+            for path in glob.glob(os.path.join(SOURCE, folder, '*.md'))]
 
 
 def without_indent(text):
@@ -37,23 +44,25 @@ def anchors(path):
 
 class ReadmeTest(unittest.TestCase):
 
-    def setUp(self):
-        self.text = '\n'.join(read(page) for page in USER_PAGES)
-
     def test_each_code_block_is_part_of_a_tested_file(self):
-        blocks = re.findall(r'^```(\w+)\n(.*?)^```', self.text, re.M | re.S)
-        self.assertEqual({language for language, _ in blocks} - {'bash'}, set(SHOWN))
-        files = [path for folder in ('examples', 'test/install/consumer')
-                 for path in glob.glob(os.path.join(SOURCE, folder, '*'))]
-        for language, block in blocks:
-            if language != 'bash':
-                self.assertTrue(any(without_indent(block) in without_indent(read(path))
-                                    for path in files if path.endswith(SHOWN[language])), block)
+        files = [path for folder in SHOWN_FOLDERS
+                 for path in glob.glob(os.path.join(SOURCE, folder, '**', '*.*'), recursive=True)]
+        shown = set()
+        for page in pages():
+            for language, block in re.findall(r'^```(\w+)\n(.*?)^```', read(page), re.M | re.S):
+                if language in ('bash', 'mermaid'):
+                    continue
+                shown.add(language)
+                with self.subTest(page=page, block=block):
+                    self.assertTrue(any(without_indent(block) in without_indent(read(path))
+                                        for path in files if path.endswith(SHOWN[language])))
+        self.assertEqual(shown, set(SHOWN))
+
+    def test_readme_is_a_front_page(self):
+        self.assertLessEqual(len(read('README.md').splitlines()), FRONT_PAGE_LINES)
 
     def test_each_link_leads_to_a_file_and_a_heading(self):
-        pages = [os.path.relpath(path, SOURCE) for folder in ('.', 'doc')
-                 for path in glob.glob(os.path.join(SOURCE, folder, '*.md'))]
-        for page in pages:
+        for page in pages():
             prose = re.sub(r'`[^`\n]*`', '', without_code_blocks(read(page)))
             links = re.findall(r'\]\(([^)#\s]*)(?:#([^)\s]+))?\)', prose)
             for target, anchor in links:
@@ -76,7 +85,8 @@ class ReadmeTest(unittest.TestCase):
         statuses = re.findall(r'^uint8 (\w+)=', read('msg/ContactArray.msg'), re.M)
         self.assertGreater(len(names), 10)
         self.assertGreater(len(statuses), 10)
-        shown = re.findall(r'`([^`]+)`', without_code_blocks(self.text))
+        text = '\n'.join(read(page) for page in INTERFACE_PAGES)
+        shown = re.findall(r'`([^`]+)`', without_code_blocks(text))
         self.assertEqual([name for name in names + statuses
                           if not any(re.fullmatch('/?' + name, span) for span in shown)], [])
 

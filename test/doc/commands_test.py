@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+"""The commands of the pages run as they stand.
+
+Each block of commands is typed into a terminal of its own page, from top to bottom, unless the paragraph before it says
+that it was run by hand. A command that runs until Ctrl-C must still run, or have ended without error, at the end of the
+page. Every other command ends without error. Of the scripts at the top of the repository, the options are checked.
+
+Usage: commands_test.py SOURCE_FOLDER DEVEL_FOLDER
+"""
+
+import os
+import re
+import shlex
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SOURCE, DEVEL = sys.argv[1:3]
+PAGES = ('README.md', 'doc/getting_started.md', 'doc/tools.md', 'doc/library.md', 'doc/troubleshooting.md')
+LIMIT = 60.0  # [s]
+ORGAN = """v -0.05 -0.05 0
+v 0.05 -0.05 0
+v 0.05 0.05 0
+v -0.05 0.05 0
+f 1 2 3
+f 1 3 4
+"""
+MOTIONS = '1,swept,0,0,0.1,-0.02,0,0.03,0.02,0,0.003,0.005\n'
+
+
+def commands(page):
+    """Pairs of (command, its comment) of all blocks that were not run by hand."""
+    with open(os.path.join(SOURCE, page), encoding='utf-8') as text:
+        parts = re.split(r'^```(\w*)\n(.*?)^```', text.read(), flags=re.M | re.S)
+    for before, language, block in zip(parts[::3], parts[1::3], parts[2::3]):
+        paragraph = before.strip().split('\n\n')[-1]
+        if language != 'bash' or 'by hand' in paragraph:
+            continue
+        for line in block.splitlines():
+            command, _, comment = line.partition(' #')
+            if command.strip() and not command.startswith('. '):
+                yield command.strip(), comment
+
+
+def free_port():
+    with socket.socket() as listener:
+        listener.bind(('', 0))
+        return listener.getsockname()[1]
+
+
+class Terminals:
+    """Runs commands in a folder that has the user's files, with a ROS master of their own."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        port = free_port()
+        self.environment = dict(os.environ, ROS_HOSTNAME='localhost', ROS_HOME=folder,
+                                ROS_MASTER_URI='http://localhost:%d' % port)
+        self.output = open(os.path.join(folder, 'output'), 'w+')
+        self.running = []
+        self.start('roscore -p %d' % port)
+
+    def start(self, command):
+        shell = 'unset BASH_ENV; . %s/setup.bash; %s' % (shlex.quote(DEVEL), command)
+        process = subprocess.Popen(['bash', '-c', shell], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
+                                   stdout=self.output, stderr=self.output, start_new_session=True)
+        self.running.append((command, process))
+        return process
+
+    def run(self, command):
+        """Whether the command ends without error. What it needs may still be starting, so it may be tried again."""
+        deadline = time.monotonic() + LIMIT
+        while time.monotonic() < deadline:
+            process = self.start(command)
+            try:
+                if process.wait(max(0.1, deadline - time.monotonic())) == 0:
+                    return True
+            except subprocess.TimeoutExpired:
+                return False
+            self.running.pop()
+            time.sleep(0.5)
+        return False
+
+    def failed(self):
+        return [command for command, process in self.running if process.poll() not in (None, 0)]
+
+    def close(self):
+        for _, process in reversed(self.running):
+            if process.poll() is None:
+                os.killpg(process.pid, signal.SIGINT)
+        for _, process in self.running:
+            try:
+                process.wait(LIMIT)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+
+    def said(self):
+        self.output.seek(0)
+        return self.output.read()[-4000:]
+
+
+class CommandsTest(unittest.TestCase):
+
+    def check_script(self, command):
+        words = command.split()
+        usage = subprocess.check_output([os.path.join(SOURCE, words[0]), '--help'], text=True)
+        for option in words[1:]:
+            if option.startswith('-'):
+                self.assertIn(option, usage, command)
+
+    def test_commands_of_the_pages(self):
+        for page in PAGES:
+            with self.subTest(page=page), tempfile.TemporaryDirectory(prefix='organ_collision_') as folder:
+                for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS)):
+                    with open(os.path.join(folder, name), 'w') as file:
+                        file.write(content)
+                found = list(commands(page))
+                self.assertTrue(found, page)
+                terminals = Terminals(folder)
+                try:
+                    for command, comment in found:
+                        if command.startswith('./'):
+                            self.check_script(command)
+                        elif command.startswith('roslaunch') or 'Ctrl-C' in comment:
+                            terminals.start(command)
+                        else:
+                            self.assertTrue(terminals.run(command), command + '\n' + terminals.said())
+                    self.assertEqual(terminals.failed(), [], terminals.said())
+                finally:
+                    terminals.close()
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=2)
