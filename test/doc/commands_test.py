@@ -164,4 +164,4 @@ class CommandsTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1], verbosity=2, warnings='ignore')  # rosgraph leaves sockets open
