@@ -2,8 +2,8 @@
 """The commands of the pages run as they stand.
 
 Each block of commands is typed into a terminal of its own page, from top to bottom, unless the paragraph before it says
-that it was run by hand. A command that runs until Ctrl-C must still run, or have ended without error, at the end of the
-page. Every other command ends without error. Of the scripts at the top of the repository, the options are checked.
+that it was run by hand. A command that runs until Ctrl-C must start a node. It must still run, or have ended without error, at
+the end of the page. Every other command ends without error. Of the scripts at the top of the repository, the options are checked.
 
 Usage: commands_test.py SOURCE_FOLDER DEVEL_FOLDER
 """
@@ -19,8 +19,12 @@ import tempfile
 import time
 import unittest
 
+import rosgraph
+
 SOURCE, DEVEL = sys.argv[1:3]
-PAGES = ('README.md', 'doc/getting_started.md', 'doc/tools.md', 'doc/library.md', 'doc/troubleshooting.md')
+# Each page, and what the reader has already started.
+PAGES = {'README.md': [], 'doc/getting_started.md': [], 'doc/tools.md': [], 'doc/library.md': [],
+         'doc/troubleshooting.md': ['roslaunch organ_collision start.launch']}
 LIMIT = 60.0  # [s]
 ORGAN = """v -0.05 -0.05 0
 v 0.05 -0.05 0
@@ -58,11 +62,13 @@ class Terminals:
     def __init__(self, folder):
         self.folder = folder
         port = free_port()
-        self.environment = dict(os.environ, ROS_HOSTNAME='localhost', ROS_HOME=folder,
-                                ROS_MASTER_URI='http://localhost:%d' % port)
+        uri = 'http://localhost:%d' % port
+        self.environment = dict(os.environ, ROS_HOSTNAME='localhost', ROS_HOME=folder, ROS_MASTER_URI=uri)
+        self.master = rosgraph.Master('/commands_test', uri)
         self.output = open(os.path.join(folder, 'output'), 'w+')
         self.running = []
         self.start('roscore -p %d' % port)
+        self.run('rostopic list')
 
     def start(self, command):
         shell = 'unset BASH_ENV; . %s/setup.bash; %s' % (shlex.quote(DEVEL), command)
@@ -85,6 +91,25 @@ class Terminals:
             time.sleep(0.5)
         return False
 
+    def nodes(self):
+        """The running nodes. A node that was started again is another one."""
+        try:
+            names = {node for topics in self.master.getSystemState() for _, nodes in topics for node in nodes}
+            return {(name, self.master.lookupNode(name)) for name in names}
+        except (OSError, rosgraph.MasterException):  # A node may end meanwhile.
+            return set()
+
+    def start_node(self, command):
+        """Whether the command starts a node."""
+        before = self.nodes()
+        process = self.start(command)
+        deadline = time.monotonic() + LIMIT
+        while process.poll() is None and time.monotonic() < deadline:
+            if self.nodes() - before:
+                return True
+            time.sleep(0.1)
+        return False
+
     def failed(self):
         return [command for command, process in self.running if process.poll() not in (None, 0)]
 
@@ -98,6 +123,7 @@ class Terminals:
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 process.wait()
+        self.output.close()
 
     def said(self):
         self.output.seek(0)
@@ -114,7 +140,7 @@ class CommandsTest(unittest.TestCase):
                 self.assertIn(option, usage, command)
 
     def test_commands_of_the_pages(self):
-        for page in PAGES:
+        for page, started in PAGES.items():
             with self.subTest(page=page), tempfile.TemporaryDirectory(prefix='organ_collision_') as folder:
                 for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS)):
                     with open(os.path.join(folder, name), 'w') as file:
@@ -123,11 +149,13 @@ class CommandsTest(unittest.TestCase):
                 self.assertTrue(found, page)
                 terminals = Terminals(folder)
                 try:
+                    for command in started:
+                        self.assertTrue(terminals.start_node(command), command + '\n' + terminals.said())
                     for command, comment in found:
                         if command.startswith('./'):
                             self.check_script(command)
                         elif command.startswith('roslaunch') or 'Ctrl-C' in comment:
-                            terminals.start(command)
+                            self.assertTrue(terminals.start_node(command), command + '\n' + terminals.said())
                         else:
                             self.assertTrue(terminals.run(command), command + '\n' + terminals.said())
                     self.assertEqual(terminals.failed(), [], terminals.said())
@@ -136,4 +164,4 @@ class CommandsTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=sys.argv[:1], verbosity=2, warnings='ignore')  # rosgraph leaves sockets open
