@@ -7,6 +7,7 @@ Doxygen gives headings no anchors of GitHub's form, so each heading gets a label
 become references to labels. Links to other files lead from the folder html in $OUTPUT into the repository.
 """
 
+import collections
 import os
 import re
 import sys
@@ -17,6 +18,11 @@ REPOSITORY = os.path.relpath('.', os.path.join(os.environ['OUTPUT'], 'html'))
 
 def slug(heading):
     return re.sub(r'[^\w\- ]', '', heading.lower()).replace(' ', '-')
+
+
+def plain(text):
+    """In headings and references, Doxygen shows the signs of Markdown as they are."""
+    return re.sub('[`*]', '', text)
 
 
 def label(page, anchor=''):
@@ -35,25 +41,34 @@ def reference(page, target):
     return '@ref ' + label(path, anchor) if path.endswith('.md') else os.path.join(REPOSITORY, path)
 
 
-def with_labels(page, text):
-    """The only heading of the first level is the title of the page."""
+def with_labels(page, text, used):
+    """The only heading of the first level is the title of the page. `used` counts the anchors, which GitHub numbers."""
     def labelled(heading):
-        name = label(page) if heading[1] == '#' else label(page, slug(heading[2]))
-        return heading[0] if name == 'index' else '%s {#%s}' % (heading[0], name)
+        anchor = slug(heading[2])
+        number = '-%d' % used[anchor] if used[anchor] else ''
+        used[anchor] += 1
+        name = label(page) if heading[1] == '#' else label(page, anchor + number)
+        words = plain(heading[0])
+        return words if name == 'index' else '%s {#%s}' % (words, name)
     return re.sub('^(#+) (.*)$', labelled, text, flags=re.M)
 
 
 def with_references(page, text):
-    """Puts the text of each link on one line, because Doxygen does not read references of several lines."""
-    return re.sub(r'(?<!!)(\[[^\]]*\])\(([^)\s]+)\)',
-                  lambda link: '%s(%s)' % (re.sub(r'\s+', ' ', link[1]), reference(page, link[2])), text)
+    """Doxygen reads the text of a reference only on one line, and stumbles over <https://...>."""
+    def link(found):
+        target = reference(page, found[2])
+        words = re.sub(r'\s+', ' ', found[1])
+        return '[%s](%s)' % (plain(words) if target.startswith('@ref') else words, target)
+    text = re.sub(r'<(https?://[^>\s]+)>', r'[\1](\1)', text)
+    return re.sub(r'(?<!!)\[([^\]]*)\]\(([^)\s]+)\)', link, text)
 
 
 def convert(page, text):
     """Leaves blocks of code as they are."""
-    parts = re.split('(^```.*?^```$)', text, flags=re.M | re.S)
-    return ''.join(part if part.startswith('```') else with_references(page, with_labels(page, part))
-                   for part in parts)
+    used = collections.Counter()
+    parts = re.split('(^ *```.*?^ *```$)', text, flags=re.M | re.S)
+    return ''.join(part if part.lstrip().startswith('```')
+                   else with_references(page, with_labels(page, part, used)) for part in parts)
 
 
 if __name__ == '__main__':

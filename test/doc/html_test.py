@@ -7,6 +7,7 @@ Usage: html_test.py SOURCE_FOLDER OUTPUT_FOLDER
 import glob
 import html.parser
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -58,7 +59,7 @@ class HtmlTest(unittest.TestCase):
         self.assertGreater(len(written), 5)
         for path in written:
             with open(path, encoding='utf-8') as page:
-                title = page.readline().lstrip('# ').strip()
+                title = re.sub('[`*]', '', page.readline().lstrip('# ').strip())
             self.assertTrue(any(title in page.text for page in self.pages.values()), path)
         self.assertIn(os.path.join(HTML, 'classorgan__collision_1_1CollisionQuery.html'), self.pages)
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The files and folders that CONTRIBUTING.md names exist, and so do the targets of its links.
+"""The files and folders that CONTRIBUTING.md names exist, and so do the targets of its links. CHANGELOG.rst begins with
+this version.
 
 Usage: contributing_test.py SOURCE_FOLDER
 """
@@ -33,6 +34,13 @@ class ContributingTest(unittest.TestCase):
             if not re.search(r'[A-Z]{4}', os.path.basename(path)):  # NAME stands for any name.
                 for variant in variants(path):
                     self.assertTrue(glob.glob(os.path.join(SOURCE, variant)), variant)
+
+    def test_the_changelog_begins_with_this_version_or_with_what_is_not_released_yet(self):
+        with open(os.path.join(SOURCE, 'package.xml')) as text:
+            version = re.search('<version>(.*)</version>', text.read()).group(1)
+        with open(os.path.join(SOURCE, 'CHANGELOG.rst')) as text:
+            newest = re.search(r'^(.*)\n-+$', text.read(), re.M).group(1)
+        self.assertRegex(newest, r'^(Forthcoming|%s \(\d{4}-\d\d-\d\d\))$' % re.escape(version))
 
 
 if __name__ == '__main__':
