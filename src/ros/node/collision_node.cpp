@@ -5,6 +5,8 @@
 #include <exception>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/plausible_size.hpp"
 
 namespace organ_collision {
 namespace {
@@ -36,6 +38,14 @@ std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
   return tools;
 }
 
+void warn_of_implausible_sizes(const std::vector<Tool>& tools) {
+  for (const Tool& tool : tools) {
+    if (!tool.parameters.has_shaft()) continue;
+    const std::string doubt = doubt_about_radius(tool.parameters.name, tool.parameters.radius);
+    if (!doubt.empty()) ROS_WARN("%s", doubt.c_str());
+  }
+}
+
 PathSampling sampling(const NodeParameters& parameters) {
   return {parameters.motion_sample_sec, parameters.motion_samples_max};
 }
@@ -59,6 +69,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                     transforms_, counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       organ_topics_(organs_, counters_.rejected, queue_),
+      surfaces_(background_),
+      organ_services_({organs_, organ_topics_, queue_, background_}),
       transform_topics_(transforms_, counters_.rejected),
       pose_topics_(
           loaded_.parameters.tools,
@@ -67,10 +79,13 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   for (const Tool& tool : tools_) {
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
   }
+  warn_of_implausible_sizes(tools_);
   organ_topics_.subscribe(private_node_);
   transform_topics_.subscribe(node_);
   pose_topics_.subscribe(node_);
   services_.advertise(private_node_);
+  organ_services_.advertise(private_node_);
+  background_thread_.start();
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   if (loaded_.parameters.rate_hz > 0.0) {
     tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
@@ -81,7 +96,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  ROS_INFO("ready: %zu tools, GL %s", tools_.size(), contact_query_.gl_version().c_str());
+  ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
+           contact_query_.gl_version().c_str());
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
@@ -89,6 +105,7 @@ void CollisionNode::run(const std::function<bool()>& stop) {
     while (private_node_.ok() && !stop()) {
       receive();
       steps_.evaluate(organs_, SteadyClock::now());
+      surfaces_.update(organs_, SteadyClock::now());
     }
   } catch (const std::exception& error) {
     publisher_.report_breakdown(organs_, error.what());
@@ -140,7 +157,8 @@ void CollisionNode::guard(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::exception& error) {  // Usually std::bad_alloc.
-    counters_.rejected.add("exception", error.what(), SteadyClock::now());
+    counters_.rejected.add("exception", std::string("a message was dropped: ") + error.what(),
+                           SteadyClock::now());
   }
 }
 

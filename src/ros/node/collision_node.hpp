@@ -2,6 +2,7 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
 #include <functional>
@@ -12,7 +13,9 @@
 #include "ros/motion/transform_buffer.hpp"
 #include "ros/motion/transform_topics.hpp"
 #include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_services.hpp"
 #include "ros/organs/organ_topics.hpp"
+#include "ros/organs/surface_inspector.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/publishing/contact_publisher.hpp"
 #include "ros/publishing/diagnostics.hpp"
@@ -28,7 +31,8 @@ namespace organ_collision {
 /// topics -> organs and motion -> steps -> publishing (doc/architecture.md). One thread does all
 /// work through one callback queue. That thread owns the GL context and all state, so that the
 /// state needs no locks. Only large meshes with new triangles are built in a second thread
-/// (organ_message_queue.hpp).
+/// (organ_message_queue.hpp), and their surfaces are inspected in a third one, the background
+/// thread (surface_inspector.hpp).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -49,6 +53,8 @@ class CollisionNode {
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   ros::CallbackQueue queue_;
+  ros::CallbackQueue background_;
+  ros::AsyncSpinner background_thread_{1, &background_};
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
@@ -66,6 +72,8 @@ class CollisionNode {
   diagnostic_updater::Updater updater_;
 
   OrganTopics organ_topics_;
+  SurfaceInspector surfaces_;
+  OrganServices organ_services_;
   TransformTopics transform_topics_;
   PoseTopics pose_topics_;
   ros::ServiceServer reset_;
