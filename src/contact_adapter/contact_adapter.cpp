@@ -41,7 +41,8 @@ void ContactAdapter::on_contacts(const ContactArray& message) {
   ++received_;
   try {
     if (message.status != ContactArray::OK) {
-      throw Rejection(message.status, reason_of(message.status), message.message);
+      const std::string reason = reason_of(message.status);
+      throw Rejection(message.status, reason, message.message.empty() ? reason : message.message);
     }
     check_contacts(message);
     publish(message, pair_of(message.organ, message.tool));

@@ -63,7 +63,8 @@ void OrganMeshAdapter::subscribe(const std::string& topic, std::uint32_t queue_s
     try {
       take(*event.getConstMessage(), event.getReceiptTime());
     } catch (const MessageError& error) {
-      refused_.add(name + ": " + error.reason(), error.what(), std::chrono::steady_clock::now());
+      const std::string from = name + ": ";
+      refused_.add(from + error.reason(), from + error.what(), std::chrono::steady_clock::now());
     }
   };
   subscribers_.push_back(node_.subscribe<Message>(topic, queue_size, callback, {},

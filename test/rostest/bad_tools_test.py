@@ -99,8 +99,9 @@ class BadToolsTest(LinkCase):
         for tool, words in FAULTS.items():
             for word in [tool + ': '] + words:
                 self.assertIn(word, self.node.summaries['tools'])
-        for tool, links in (('ball', '1'), ('hook', '0'), ('malformed', '0')):
+        for tool, links in (('ball', '1'), ('malformed', '0')):
             self.assertEqual(self.node.diagnostics[tool + ', links'], links)
+        self.assertEqual(self.node.diagnostics['hook, radius of the shaft [m]'], '0.005')
 
         def counted():
             failures = int(self.node.diagnostics.get('unanswered, invalid tool', 0))

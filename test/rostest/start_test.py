@@ -94,15 +94,21 @@ class StartTest(ContactCase, NodeStarter):
             [({}, ['tools', 'missing']), ({'tool': [TOOL]}, ['tools', "'tools'", 'tool '])]
         )
 
-    def test_misspelt_names_are_reported(self):
+    def test_misspelt_names_and_implausible_sizes_are_reported(self):
         process = self.start(
             self.name,
-            {'tools': [dict(TOOL, colour='red')], 'tf_timeout': 0.5, 'publish_region': True},
+            {
+                'tools': [dict(TOOL, colour='red', radius=5.0)],
+                'tf_timeout': 0.5,
+                'publish_region': True,
+            },
         )
         NodeClient(self.name)
         printed = self.stop(process)
         for word in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour'):
             self.assertIn(word, printed)
+        self.assertIn("tool 'grasper' has a radius of 5 m", printed)
+        self.assertIn('ready: 1 tool,', printed)
 
     def test_legal_parameters_at_their_limits(self):
         process = self.start(

@@ -20,6 +20,8 @@ inline constexpr char kMarkers[] = "markers";
 inline constexpr char kQuery[] = "query";
 inline constexpr char kQueryBatch[] = "query_batch";
 inline constexpr char kReset[] = "reset";
+inline constexpr char kListOrgans[] = "list_organs";
+inline constexpr char kRemoveOrgan[] = "remove_organ";
 ///@}
 
 ///@{

@@ -20,8 +20,8 @@ void FailureLog::add(const std::string& reason, const std::string& message, Time
   entry.latest = plain_text(message, kLongestMessage);
   if (entry.count > 1 && now - entry.logged < kLogPeriod) return;
   entry.logged = now;
-  ROS_WARN("%s: %s (%lu so far)", reason.c_str(), entry.latest.c_str(),
-           static_cast<unsigned long>(entry.count));
+  const std::string times = entry.count > 1 ? " (" + std::to_string(entry.count) + " times)" : "";
+  ROS_WARN("%s%s", entry.latest.c_str(), times.c_str());
 }
 
 void FailureLog::reported() {
@@ -37,8 +37,7 @@ void show_failures(const std::string& what, FailureLog& log,
     status.add(key, entry.count);
     if (entry.not_yet_reported == 0) continue;
     const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
-    status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN,
-                        reason + ": " + entry.latest);
+    status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, entry.latest);
   }
   log.reported();
 }

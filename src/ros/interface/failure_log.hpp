@@ -21,7 +21,8 @@ class FailureLog {
     Time logged;                         ///< when a failure with this reason was last logged
   };
 
-  /// `reason`: one of a few fixed texts. `message`: what was wrong, with the illegal value.
+  /// `reason`: one of a few fixed texts, under which failures are counted. `message`: what was
+  /// wrong, with the illegal value. The user reads the message without the reason.
   void add(const std::string& reason, const std::string& message, Time now);
 
   const std::map<std::string, Entry>& by_reason() const { return entries_; }

@@ -20,6 +20,9 @@ inline constexpr std::size_t kLongestMessage = 2000;
 /// number of bytes that were left out.
 std::string plain_text(const std::string& text, std::size_t most);
 
+/// "1 face", "2208 faces". `noun`: one whose plural ends with an s.
+std::string counted(std::size_t count, const std::string& noun);
+
 /// "a, b, c"
 std::string listed(const std::vector<std::string>& texts);
 

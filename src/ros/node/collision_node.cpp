@@ -5,6 +5,8 @@
 #include <exception>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/plausible_size.hpp"
 
 namespace organ_collision {
 namespace {
@@ -32,6 +34,14 @@ std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
   return tools;
 }
 
+void warn_of_implausible_sizes(const std::vector<Tool>& tools) {
+  for (const Tool& tool : tools) {
+    if (!tool.parameters.has_shaft()) continue;
+    const std::string doubt = doubt_about_radius(tool.parameters.name, tool.parameters.radius);
+    if (!doubt.empty()) ROS_WARN("%s", doubt.c_str());
+  }
+}
+
 }  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
@@ -50,13 +60,18 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, pipeline_.organs(),
                     pipeline_.contact_query(), pipeline_.steps(), pipeline_.transforms(),
                     counters_}),
-      updater_(node_, private_node_, private_node_.getNamespace()) {
+      updater_(node_, private_node_, private_node_.getNamespace()),
+      surfaces_(background_),
+      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), queue_, background_}) {
   for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
   for (const Tool& tool : tools_) {
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
   }
+  warn_of_implausible_sizes(tools_);
   pipeline_.subscribe(node_, private_node_);
   services_.advertise(private_node_);
+  organ_services_.advertise(private_node_);
+  background_thread_.start();
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   if (loaded_.parameters.rate_hz > 0.0) {
     tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
@@ -67,7 +82,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  ROS_INFO("ready: %zu tools, GL %s", tools_.size(),
+  ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
            pipeline_.contact_query().gl_version().c_str());
 }
 
@@ -76,6 +91,7 @@ void CollisionNode::run(const std::function<bool()>& stop) {
     while (private_node_.ok() && !stop()) {
       receive();
       pipeline_.evaluate(SteadyClock::now());
+      surfaces_.update(pipeline_.organs(), SteadyClock::now());
     }
   } catch (const std::exception& error) {
     publisher_.report_breakdown(pipeline_.organs(), error.what());
@@ -120,7 +136,8 @@ void CollisionNode::guard(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::exception& error) {  // Usually std::bad_alloc.
-    counters_.rejected.add("exception", error.what(), SteadyClock::now());
+    counters_.rejected.add("exception", std::string("a message was dropped: ") + error.what(),
+                           SteadyClock::now());
   }
 }
 

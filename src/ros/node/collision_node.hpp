@@ -2,11 +2,14 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
 #include <functional>
 #include <vector>
 
+#include "ros/organs/organ_services.hpp"
+#include "ros/organs/surface_inspector.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/pipeline/collision_pipeline.hpp"
 #include "ros/publishing/contact_publisher.hpp"
@@ -20,7 +23,8 @@ namespace organ_collision {
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
 /// (doc/architecture.md). One thread does all work through one callback queue. That thread owns the
 /// GL context and all state, so that the state needs no locks. Only large meshes with new triangles
-/// are built in a second thread (organ_message_queue.hpp).
+/// are built in a second thread (organ_message_queue.hpp), and their surfaces are inspected in a
+/// third one, the background thread (surface_inspector.hpp).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -39,6 +43,8 @@ class CollisionNode {
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   ros::CallbackQueue queue_;
+  ros::CallbackQueue background_;
+  ros::AsyncSpinner background_thread_{1, &background_};
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
@@ -51,6 +57,8 @@ class CollisionNode {
   Diagnostics diagnostics_;
   diagnostic_updater::Updater updater_;
 
+  SurfaceInspector surfaces_;
+  OrganServices organ_services_;
   ros::ServiceServer reset_;
   ros::Timer tick_;
   ros::WallTimer diagnostic_timer_;

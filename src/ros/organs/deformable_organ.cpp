@@ -18,7 +18,11 @@ void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time r
 }
 
 void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time received) {
-  shapes_ = {std::make_shared<TriangleMesh>(std::move(mesh))};
+  // First what may fail for lack of memory, so that the organ then stays as it was.
+  std::vector<std::shared_ptr<TriangleMesh>> shapes{
+      std::make_shared<TriangleMesh>(std::move(mesh))};
+  surface_ = std::make_shared<OrganSurface>(*shapes.front());
+  shapes_ = std::move(shapes);
   previous_ = {};
   latest_ = {shapes_.front(), stamp, received};
 }

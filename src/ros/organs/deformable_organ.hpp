@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_surface.hpp"
 
 namespace organ_collision {
 
@@ -36,6 +37,9 @@ class DeformableOrgan {
   /// topology, or after forget_previous().
   const OrganShape& previous() const { return previous_; }
 
+  /// What is known of the surface. Another object if the triangles change.
+  const std::shared_ptr<OrganSurface>& surface() const { return surface_; }
+
   /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if they do
   /// not fit. Reuses a released shape, and allocates only if there is none.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
@@ -52,6 +56,7 @@ class DeformableOrgan {
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
+  std::shared_ptr<OrganSurface> surface_;
   std::vector<std::shared_ptr<TriangleMesh>>
       shapes_;  ///< all shapes of the present topology, in use or released
 };

@@ -62,6 +62,12 @@ void OrganMessageQueue::add(OrganMessage message) {
   if (oldest != messages.end()) messages.erase(oldest);
 }
 
+bool OrganMessageQueue::has(const std::string& organ) const {
+  return waiting_.count(organ) > 0 ||
+         std::any_of(ready_.begin(), ready_.end(),
+                     [&](const OrganMessage& message) { return message.organ() == organ; });
+}
+
 std::optional<OrganMessage> OrganMessageQueue::next() {
   if (!ready_.empty()) return take_front(ready_);
   for (auto organ = waiting_.begin(); organ != waiting_.end(); ++organ) {

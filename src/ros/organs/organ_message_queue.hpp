@@ -60,6 +60,9 @@ class OrganMessageQueue {
   void add(const OrganMeshConstPtr& message, const Connection& connection = {});
   void add(const OrganVerticesConstPtr& message);
 
+  /// Whether a message of this organ has been added and not yet taken.
+  bool has(const std::string& organ) const;
+
   /// The next message that waits for no mesh, or std::nullopt if there is none now. Must be called
   /// from time to time even without a call of `wake`, which may fail.
   std::optional<OrganMessage> next();

@@ -86,6 +86,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
   if (message.vertices.empty() && message.triangles.empty()) {
     organs_.erase(message.organ);
     connections_.erase(message.organ);
+    refusals_.erase(message.organ);
     without_mesh_.insert(message.organ);
     return OrganChange::kRemoved;
   }
@@ -98,9 +99,11 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
     const OrganChange change = apply_checked(pointer, connection, frame, now, built);
     connections_[message.organ].add(connection);
     without_mesh_.erase(message.organ);
+    refusals_.erase(message.organ);
     return change;
-  } catch (...) {
+  } catch (const Rejection& rejection) {
     if (organs_.count(message.organ) == 0) without_mesh_.insert(message.organ);
+    refusals_[message.organ] = plain_text(rejection.what(), kLongestMessage);
     throw;
   }
 }
@@ -172,11 +175,19 @@ const DeformableOrgan& OrganRegistry::at(const std::string& name) const {
   const auto organ = organs_.find(name);
   if (organ != organs_.end()) return organ->second;
   if (without_mesh_.count(name) > 0) {
+    const std::string refusal = last_refusal(name);
     throw Rejection(ContactArray::NO_MESH, "organ without mesh",
-                    "organ " + quoted(name) + " has no valid mesh; send one on organ_mesh");
+                    "organ " + quoted(name) +
+                        (refusal.empty() ? " was removed; send a mesh on organ_mesh"
+                                         : " has no mesh, because it was refused: " + refusal));
   }
   throw Rejection(ContactArray::UNKNOWN_ORGAN, "unknown organ",
                   "organ " + quoted(name) + " is unknown; " + known_organs());
+}
+
+std::string OrganRegistry::last_refusal(const std::string& organ) const {
+  const auto refusal = refusals_.find(organ);
+  return refusal == refusals_.end() ? "" : refusal->second;
 }
 
 void OrganRegistry::forget_previous_shapes() {

@@ -52,9 +52,12 @@ class OrganRegistry {
   void forget_connections() { connections_.clear(); }
 
   /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for an organ that was removed or whose meshes were
-  /// all refused.
+  /// all refused. The message of NO_MESH says which, and why the last mesh was refused.
   const DeformableOrgan& at(const std::string& name) const;
   const std::map<std::string, DeformableOrgan>& organs() const { return organs_; }
+
+  /// Why the organ's last mesh was refused. Empty if it was accepted, or if none came.
+  std::string last_refusal(const std::string& organ) const;
 
   /// Makes each organ keep only its latest shape.
   void forget_previous_shapes();
@@ -71,6 +74,7 @@ class OrganRegistry {
   std::map<std::string, DeformableOrgan> organs_;
   std::map<std::string, ConnectionSet> connections_;  ///< by organ: its meshes' connections
   std::set<std::string> without_mesh_;                ///< known names: removed, or never valid
+  std::map<std::string, std::string> refusals_;       ///< by organ: why its last mesh was refused
 };
 
 }  // namespace organ_collision

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/function_callback.hpp"
 
 namespace organ_collision {
 namespace {
@@ -14,12 +15,6 @@ namespace {
 /// [messages] For all organs together. If more wait while the node's thread is busy, roscpp drops
 /// the oldest.
 constexpr std::uint32_t kQueue = 100;
-
-/// Ends the wait for a callback, and does nothing else.
-class WakeUp : public ros::CallbackInterface {
- public:
-  CallResult call() override { return Success; }
-};
 
 }  // namespace
 
@@ -31,7 +26,7 @@ OrganTopics::OrganTopics(OrganRegistry& organs, FailureLog& rejected,
               [this](const OrganMesh& message, const Connection& connection) {
                 return organs_.is_new(message, connection);
               },
-              [&callbacks] { callbacks.addCallback(boost::make_shared<WakeUp>()); }}) {}
+              [&callbacks] { call_later(callbacks, [] {}); }}) {}
 
 void OrganTopics::subscribe(ros::NodeHandle private_node) {
   using MeshEvent = ros::MessageEvent<const OrganMesh>;
@@ -44,6 +39,14 @@ void OrganTopics::subscribe(ros::NodeHandle private_node) {
       private_node.subscribe<OrganVertices>(
           names::kOrganVertices, kQueue,
           [this](const OrganVerticesConstPtr& message) { take_vertices(message); }, {}, no_delay)};
+}
+
+void OrganTopics::remove(const std::string& organ) {
+  check_name("organ", organ);
+  if (!queue_.has(organ)) organs_.at(organ);
+  const auto removal = boost::make_shared<OrganMesh>();
+  removal->organ = organ;
+  take_mesh(removal);
 }
 
 std::optional<OrganUpdate> OrganTopics::next() {

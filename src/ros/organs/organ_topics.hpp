@@ -38,6 +38,9 @@ class OrganTopics {
     queue_.add(message, connection);
   }
   void take_vertices(const OrganVerticesConstPtr& message) { queue_.add(message); }
+  /// Removes an organ, as a mesh without vertices and triangles does: after the messages that were
+  /// taken before. Throws Rejection if there is no such organ.
+  void remove(const std::string& organ);
   /// Applies the next message that can be applied now. Returns std::nullopt if there is none. A
   /// message that is refused is counted as rejected.
   std::optional<OrganUpdate> next();

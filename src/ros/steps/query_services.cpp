@@ -148,7 +148,8 @@ ContactArray QueryServices::query(const QueryCollision::Request& request) const 
   } catch (const Rejection& rejection) {
     set_failure(result, rejection.status(), rejection.what());
   } catch (const std::exception& error) {
-    set_failure(result, ContactArray::PICKER_FAILED, error.what());
+    set_failure(result, ContactArray::PICKER_FAILED,
+                std::string("the query failed: ") + error.what());
   }
   return result;
 }
@@ -161,7 +162,8 @@ QueryCollisionBatch::Response QueryServices::query_batch(
   } catch (const Rejection& rejection) {
     set_failure(response, rejection.status(), rejection.what());
   } catch (const std::exception& error) {
-    set_failure(response, ContactArray::PICKER_FAILED, error.what());
+    set_failure(response, ContactArray::PICKER_FAILED,
+                std::string("the query failed: ") + error.what());
   }
   return response;
 }

@@ -58,7 +58,7 @@ TEST(FailureLog, IsShownWithItsCountsAndWarnsOfNewFailuresOnce) {
   EXPECT_EQ(status.values[0].key, "rejected, wrong size");
   EXPECT_EQ(status.values[0].value, "2");
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
-  EXPECT_EQ(status.message, "wrong size: 8 numbers");
+  EXPECT_EQ(status.message, "8 numbers");
   show_failures("rejected", log, later);
   EXPECT_EQ(later.values[0].value, "2");
   EXPECT_EQ(later.level, DiagnosticStatus::OK);

@@ -65,6 +65,12 @@ TEST(PlainText, WhateverComesIsPlainAfterwards) {
   }
 }
 
+TEST(PlainText, Counted) {
+  EXPECT_EQ(counted(0, "face"), "0 faces");
+  EXPECT_EQ(counted(1, "face"), "1 face");
+  EXPECT_EQ(counted(2208, "face"), "2208 faces");
+}
+
 TEST(PlainText, Listed) {
   EXPECT_EQ(listed({}), "");
   EXPECT_EQ(listed({"a"}), "a");

@@ -86,6 +86,15 @@ TEST(DeformableOrgan, NewTrianglesHaveNoPreviousShape) {
   EXPECT_EQ(liver.latest().mesh->faces()[0], (FaceIndices{0, 2, 1}));
 }
 
+TEST(DeformableOrgan, TheSurfaceIsThatOfTheTriangles) {
+  DeformableOrgan liver = organ();
+  const std::shared_ptr<OrganSurface> first = liver.surface();
+  liver.move(shared(triangle_at(5)), ros::Time(3), ros::Time(3));
+  EXPECT_EQ(liver.surface(), first);
+  liver.replace(TriangleMesh(triangle_at(7), {0, 2, 1}, 4), ros::Time(5), ros::Time(5));
+  EXPECT_NE(liver.surface(), first);
+}
+
 TEST(DeformableOrgan, AgeOfAnUnstampedShapeIsSinceItsArrival) {
   EXPECT_EQ((OrganShape{nullptr, ros::Time(3), ros::Time(4)}.age(ros::Time(10))), 7.0);
   EXPECT_EQ((OrganShape{nullptr, ros::Time(0), ros::Time(4)}.age(ros::Time(10))), 6.0);

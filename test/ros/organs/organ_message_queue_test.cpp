@@ -186,6 +186,19 @@ TEST_F(OrganMessageQueueTest, AMeshThatCannotBeBuiltHoldsNothingUp) {
   EXPECT_EQ(taken_.back(), "liver vertices 2");
 }
 
+TEST_F(OrganMessageQueueTest, SaysOfWhichOrgansMessagesWait) {
+  EXPECT_FALSE(queue_.has("liver"));
+  queue_.add(mesh("liver", 1, kFaces));
+  queue_.add(vertices("spleen", 7));
+  EXPECT_TRUE(queue_.has("liver"));
+  EXPECT_TRUE(queue_.has("spleen"));
+  EXPECT_FALSE(queue_.has("kidney"));
+  let(1);
+  take_until(2);
+  EXPECT_FALSE(queue_.has("liver"));
+  EXPECT_FALSE(queue_.has("spleen"));
+}
+
 TEST_F(OrganMessageQueueTest, TheOldestVerticesGoWhereTooManyWait) {
   queue_.add(mesh("liver", 1, kFaces));
   for (std::uint32_t i = 0; i < 250; ++i) queue_.add(vertices("liver", i));

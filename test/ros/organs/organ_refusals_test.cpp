@@ -114,6 +114,39 @@ TEST_F(OrganRegistryTest, BadVerticesLeaveTheGoodOnes) {
   expect_refused(bad, invalid, "not finite");
 }
 
+TEST_F(OrganRegistryTest, AnOrganWithoutMeshSaysWhyTheLastOneWasRefused) {
+  const auto why = [this](const std::string& organ) -> std::string {
+    try {
+      store_.at(organ);
+    } catch (const Rejection& rejection) {
+      return rejection.what();
+    }
+    return "";
+  };
+  OrganMesh bad = mesh();
+  bad.triangles[2] = 4;
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "index out of range");
+  EXPECT_NE(why("liver").find("face 0 refers to vertex 4 of 4"), std::string::npos) << why("liver");
+  bad = mesh();
+  bad.vertices.pop_back();
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "wrong size");
+  EXPECT_NE(why("liver").find("11 vertex coordinates"), std::string::npos) << why("liver");
+  expect_refused(vertices(1), ContactArray::NO_MESH, "organ without mesh",
+                 {"11 vertex coordinates"});
+  EXPECT_EQ(why("liver").find("face 0"), std::string::npos) << "only the last reason counts";
+
+  apply(mesh(), ros::Time(7));
+  EXPECT_EQ(store_.last_refusal("liver"), "");
+  expect_refused(bad, ContactArray::INVALID_REQUEST, "wrong size");
+  EXPECT_EQ(why("liver"), "") << "the good mesh stays";
+  EXPECT_NE(store_.last_refusal("liver"), "");
+  OrganMesh removal = mesh();
+  removal.vertices.clear();
+  removal.triangles.clear();
+  apply(removal, ros::Time(8));
+  EXPECT_EQ(why("liver"), "organ 'liver' was removed; send a mesh on organ_mesh");
+}
+
 TEST_F(OrganRegistryTest, UnknownOrganIsToldWhichAreKnown) {
   apply(mesh("liver"), ros::Time(7));
   apply(mesh("kidney"), ros::Time(7));

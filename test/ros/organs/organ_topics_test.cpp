@@ -89,6 +89,21 @@ TEST_F(OrganTopicsTest, ARemovedOrganHasNoMesh) {
   EXPECT_TRUE(rejected_.by_reason().empty());
 }
 
+TEST_F(OrganTopicsTest, RemoveDoesWhatAnEmptyMeshDoes) {
+  EXPECT_THROW(topics_.remove("liver"), Rejection);
+  topics_.take_mesh(mesh());
+  topics_.remove("liver");  // It may still wait.
+  ASSERT_TRUE(topics_.next());
+  const auto update = topics_.next();
+  ASSERT_TRUE(update && update->change);
+  EXPECT_EQ(*update->change, OrganChange::kRemoved);
+  EXPECT_EQ(update->status, ContactArray::NO_MESH);
+  EXPECT_TRUE(organs_.organs().empty());
+  EXPECT_THROW(topics_.remove("liver"), Rejection) << "it is removed already";
+  EXPECT_THROW(topics_.remove("\n"), Rejection);
+  EXPECT_FALSE(topics_.next());
+}
+
 TEST_F(OrganTopicsTest, ALargeMeshWakesTheThreadThatWaitsForIt) {
   topics_.take_mesh(mesh(OrganMessageQueue::kLarge + 1));
   std::optional<OrganUpdate> update = topics_.next();

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 
 #include "test/ros/steps/node_parts.hpp"
@@ -66,7 +67,7 @@ TEST_F(DiagnosticsTest, RejectedMessagesByReason) {
   counters.rejected.add("wrong size", "8 numbers", now);
   EXPECT_EQ(values(&Diagnostics::messages).at("rejected, wrong size"), "2");
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
-  EXPECT_NE(status.message.find("wrong size: 8 numbers"), std::string::npos) << status.message;
+  EXPECT_EQ(status.message, "8 numbers");
   EXPECT_EQ(values(&Diagnostics::messages).at("rejected, wrong size"), "2");
   EXPECT_EQ(status.level, DiagnosticStatus::OK);  // No new failure.
 }
@@ -87,13 +88,50 @@ TEST_F(DiagnosticsTest, AToolWithAFaultIsAnError) {
   auto shown = values(&Diagnostics::tools);
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
   EXPECT_EQ(status.message, "2 tools");
-  EXPECT_EQ(shown.at("hook, links"), "0");
+  EXPECT_EQ(shown.at("hook, radius of the shaft [m]"), "0.01");
+  EXPECT_FALSE(shown.count("hook, links")) << "a shaft has none";
   EXPECT_EQ(shown.at("grasper, links"), "2");
   tools.push_back(shaft_tool("needle", 0.001));
   tools[1].fault = "grasper: parameter 'robot_description' is not set";
   values(&Diagnostics::tools);
   EXPECT_EQ(status.level, DiagnosticStatus::ERROR);
   EXPECT_NE(status.message.find(tools[1].fault), std::string::npos) << status.message;
+}
+
+TEST_F(DiagnosticsTest, OneToolIsCountedAndAnImplausibleRadiusWarns) {
+  values(&Diagnostics::tools);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(status.message, "1 tool");
+  tools.push_back(shaft_tool("needle", 5.0));
+  values(&Diagnostics::tools);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_NE(status.message.find("tool 'needle' has a radius of 5 m"), std::string::npos)
+      << status.message;
+}
+
+TEST_F(DiagnosticsTest, SurfaceOfEachOrgan) {
+  send_mesh(48.0, 0.0);
+  auto shown = values(&Diagnostics::organs);
+  EXPECT_EQ(shown.at("liver, extent [m]"), "2 x 2 x 0");
+  EXPECT_EQ(shown.at("liver, surface"), "not yet known");
+  EXPECT_EQ(shown.at("liver, orientation"), "not yet known");
+  organs.at("liver").surface()->find();
+  shown = values(&Diagnostics::organs);
+  EXPECT_EQ(shown.at("liver, surface"), "open (4 edges)");
+  EXPECT_EQ(shown.at("liver, orientation"), "none");
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(status.message, "1 organ");
+}
+
+TEST_F(DiagnosticsTest, ARefusedNewerMeshOfAGoodOrgan) {
+  send_mesh(48.0, 0.0);
+  EXPECT_FALSE(values(&Diagnostics::organs).count("liver, newer mesh refused"));
+  send_mesh(49.0, std::nanf(""), 2);
+  auto shown = values(&Diagnostics::organs);
+  const std::string refusal = shown.at("liver, newer mesh refused");
+  EXPECT_NE(refusal.find("nan"), std::string::npos) << refusal;
+  send_mesh(49.5, 0.1F, 2);
+  EXPECT_FALSE(values(&Diagnostics::organs).count("liver, newer mesh refused"));
 }
 
 TEST_F(DiagnosticsTest, AgeOfEachOrgan) {

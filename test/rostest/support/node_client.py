@@ -136,7 +136,7 @@ class NodeClient:
         self.meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, queue_size=100)
         self.shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=100)
         self.contacts = ContactLog(node + '/contacts')
-        self.diagnostics, self.summaries = {}, {}
+        self.diagnostics, self.summaries, self.levels = {}, {}, {}
         self.past_summaries = {}  # For each name, all summaries so far, in order.
         self.diagnostics_subscriber = rospy.Subscriber(
             '/diagnostics', diagnostic_msgs.msg.DiagnosticArray, self._keep_diagnostics
@@ -168,7 +168,7 @@ class NodeClient:
         for status in message.status:
             if status.name.lstrip('/').startswith(self.node.lstrip('/') + ':'):
                 name = status.name.split(': ')[-1]
-                self.summaries[name] = status.message
+                self.summaries[name], self.levels[name] = status.message, status.level
                 self.past_summaries.setdefault(name, []).append(status.message)
                 for pair in status.values:
                     self.diagnostics[pair.key] = pair.value

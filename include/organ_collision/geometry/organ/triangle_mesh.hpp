@@ -51,6 +51,7 @@ struct MeshLimits {
 /// Vertex positions, x y z x y z ... [m]. They are constant, so that a mesh can use the array of a
 /// message without a copy.
 using SharedVertices = std::shared_ptr<const std::vector<float>>;
+using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
 
 /// The surface of an organ: triangles and the current positions of their vertices, in the organ's
 /// frame [m]. Any triangle soup is accepted: the surface need not be closed or manifold, and faces
@@ -86,6 +87,7 @@ class TriangleMesh {
 
   /// All faces. The address is unchanged as long as the triangles are the same.
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
+  SharedFaces shared_faces() const { return {topology_, &topology_->faces}; }
   /// The same faces in spatially coherent groups.
   const FaceClusters& clusters() const { return topology_->clusters; }
   /// The boxes around the current vertices of these groups [m].

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <organ_collision/ListOrgans.h>
+#include <organ_collision/RemoveOrgan.h>
+#include <ros/callback_queue_interface.h>
+#include <ros/node_handle.h>
+
+#include <atomic>
+
+#include "organ_list.hpp"
+#include "organ_registry.hpp"
+#include "organ_topics.hpp"
+
+namespace organ_collision {
+
+/// Serves `list_organs` and `remove_organ`.
+///
+/// The background thread serves `list_organs`, because volumes of large organs take milliseconds.
+/// It asks the node's thread only for the list, so that no step waits for the rest.
+class OrganServices {
+ public:
+  /// All must outlive this.
+  struct Sources {
+    const OrganRegistry& organs;
+    OrganTopics& topics;
+    ros::CallbackQueueInterface& node_queue;  ///< of the node's thread, which owns the organs
+    ros::CallbackQueueInterface& background;  ///< of the thread that calls OrganSurface::find()
+  };
+
+  explicit OrganServices(const Sources& sources) : sources_(sources) {}
+  /// Ends a call that still waits for the node's thread: it must be this thread.
+  ~OrganServices();
+  OrganServices(const OrganServices&) = delete;
+  OrganServices& operator=(const OrganServices&) = delete;
+
+  void advertise(ros::NodeHandle private_node);
+
+  /// In the background thread. Returns false if the node ends before its thread has answered.
+  bool on_list(ListOrgans::Request& request, ListOrgans::Response& response);
+  /// In the node's thread. Does what a mesh without vertices and triangles does.
+  bool on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response);
+
+ private:
+  Sources sources_;
+  std::atomic<bool> stop_{false};
+  ros::ServiceServer list_, remove_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,31 @@
+#include "organ_surface.hpp"
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace organ_collision {
+namespace {
+
+/// [1] A smaller share of the cube of the organ's size is no volume but rounding, as between the
+/// two sides of a sheet.
+constexpr double kNoVolume = 1e-9;
+
+/// [m] The longest side of the box around all vertices.
+double size_of(const std::vector<float>& vertices) {
+  const Eigen::Map<const Eigen::Matrix3Xf> points(vertices.data(), 3,
+                                                  static_cast<Eigen::Index>(vertices.size() / 3));
+  const Eigen::Vector3d low = points.rowwise().minCoeff().cast<double>();
+  return (points.rowwise().maxCoeff().cast<double>() - low).maxCoeff();
+}
+
+}  // namespace
+
+void OrganSurface::find() {
+  if (found_) return;
+  topology_.emplace(*faces_, *vertices_);
+  inward_ = volume(*vertices_) < -kNoVolume * std::pow(size_of(*vertices_), 3);
+  vertices_.reset();
+  found_ = true;
+}
+
+}  // namespace organ_collision
