@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A minimal simulator: a sheet of tissue moves up and down, and a probe moves through it."""
 
+import argparse
 import math
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
@@ -33,6 +34,7 @@ def react(touched):
         rospy.loginfo('%s: face %d, %.1f mm deep', touched.tool, contact.face, 1e3 * contact.depth)
 
 
+argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
 rospy.init_node('simulator')
 rate = rospy.Rate(100)
 frames = tf2_ros.TransformBroadcaster()

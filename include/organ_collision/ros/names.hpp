@@ -14,6 +14,7 @@ inline constexpr char kMarkers[] = "markers";
 inline constexpr char kQuery[] = "query";
 inline constexpr char kQueryBatch[] = "query_batch";
 inline constexpr char kReset[] = "reset";
+inline constexpr char kReloadTools[] = "reload_tools";
 
 inline constexpr char kTools[] = "tools";
 inline constexpr char kPicker[] = "picker";

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <utility>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/handover.hpp"
 
 namespace organ_collision {
 namespace {
@@ -25,15 +27,6 @@ ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
 
 MeshLimits limits(const NodeParameters& parameters) {
   return {static_cast<std::size_t>(parameters.max_faces)};
-}
-
-std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
-                             const ros::NodeHandle& private_node) {
-  std::vector<Tool> tools;
-  for (const ToolParameters& of_tool : parameters) {
-    tools.push_back(load_tool(of_tool, private_node));
-  }
-  return tools;
 }
 
 PathSampling sampling(const NodeParameters& parameters) {
@@ -60,28 +53,35 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       updater_(node_, private_node_, private_node_.getNamespace()),
       organ_topics_(organs_, counters_.rejected, queue_),
       transform_topics_(transforms_, counters_.rejected),
-      pose_topics_(
-          loaded_.parameters.tools,
-          {transforms_, counters_.rejected, [this](std::size_t tool) { steps_.add_pose(tool); }}) {
-  for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
-  for (const Tool& tool : tools_) {
-    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
-  }
+      pose_topics_(loaded_.parameters.tools, {transforms_, counters_.rejected,
+                                              [this](std::size_t tool) { steps_.add_pose(tool); }}),
+      tool_reload_(on_queue(private_node, change_queue_), tools_,
+                   [this](LoadedToolList& loaded, const KeptTools& kept) {
+                     run_in_thread_of(queue_, [&] { exchange_tools(loaded, kept); });
+                   }),
+      live_parameters_(on_queue(private_node, change_queue_), live_parameters(loaded_.parameters),
+                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }),
+      change_thread_(1, &change_queue_) {
+  warn_of_settings();
   organ_topics_.subscribe(private_node_);
   transform_topics_.subscribe(node_);
   pose_topics_.subscribe(node_);
   services_.advertise(private_node_);
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
-  if (loaded_.parameters.rate_hz > 0.0) {
-    tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
-                                      [this](const ros::TimerEvent&) { steps_.add_tick(); });
-  }
+  start_ticks();
   diagnostics_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  change_thread_.start();
   ROS_INFO("ready: %zu tools, GL %s", tools_.size(), contact_query_.gl_version().c_str());
+}
+
+/// Ends the wait of the thread of the changes for this thread.
+CollisionNode::~CollisionNode() {
+  queue_.disable();
+  queue_.clear();
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
@@ -157,6 +157,45 @@ void CollisionNode::watch_clock() {
     steps_.start_anew(organs_);
   }
   last_now_ = now;
+}
+
+void CollisionNode::warn_of_settings() const {
+  for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
+  for (const Tool& tool : tools_) {
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
+  }
+  if (tools_.empty()) ROS_WARN("%s", kNoTools);
+}
+
+/// Also called when the rate has changed.
+void CollisionNode::start_ticks() {
+  tick_ = ros::Timer();
+  if (!(loaded_.parameters.rate_hz > 0.0)) return;
+  tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
+                                    [this](const ros::TimerEvent&) { steps_.add_tick(); });
+}
+
+/// Runs in the node's thread.
+void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
+  std::swap(tools_, loaded.tools);
+  std::swap(loaded_.misspelt, loaded.misspelt);
+  loaded_.parameters.tools.clear();
+  for (const Tool& tool : tools_) loaded_.parameters.tools.push_back(tool.parameters);
+  pose_topics_.change_tools(loaded_.parameters.tools, node_);
+  steps_.change_tools(organs_, kept);
+  warn_of_settings();
+}
+
+/// Runs in the thread of the changes.
+void CollisionNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
+  // Only this thread ever makes the node's thread change them.
+  const LiveNodeParameters now = changed(loaded_.parameters, changes);
+  run_in_thread_of(queue_, [&] {
+    LiveNodeParameters& parameters = loaded_.parameters;
+    const bool same_rate = parameters.rate_hz == now.rate_hz;
+    parameters = now;
+    if (!same_rate) start_ticks();
+  });
 }
 
 bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {

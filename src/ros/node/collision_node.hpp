@@ -2,11 +2,13 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
 #include <functional>
 #include <vector>
 
+#include "ros/interface/live_parameters.hpp"
 #include "ros/motion/pose_topics.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/motion/transform_buffer.hpp"
@@ -21,18 +23,23 @@
 #include "ros/steps/query_services.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "ros/tools/tool.hpp"
+#include "tool_reload.hpp"
 
 namespace organ_collision {
 
 /// The node. It connects the rooms of this library, each of which hands its results on to the next:
 /// topics -> organs and motion -> steps -> publishing (doc/architecture.md). One thread does all
 /// work through one callback queue. That thread owns the GL context and all state, so that the
-/// state needs no locks. Only large meshes with new triangles are built in a second thread
-/// (organ_message_queue.hpp).
+/// state needs no locks. Large meshes with new triangles are built in a second thread
+/// (organ_message_queue.hpp). A third thread serves what changes tools and parameters: it loads and
+/// checks them, and only the exchange is done in the node's thread.
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
   CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~CollisionNode();
+  CollisionNode(const CollisionNode&) = delete;
+  CollisionNode& operator=(const CollisionNode&) = delete;
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
   /// recover from, such as std::bad_alloc, after it has published PICKER_FAILED for each organ and
@@ -46,6 +53,10 @@ class CollisionNode {
   void apply_organ_messages();
   void guard(const std::function<void()>& action);
   void watch_clock();
+  void warn_of_settings() const;
+  void start_ticks();
+  void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
+  void change_parameters(const XmlRpc::XmlRpcValue& changes);
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   ros::CallbackQueue queue_;
@@ -72,6 +83,12 @@ class CollisionNode {
   ros::Timer tick_;
   ros::WallTimer diagnostic_timer_;
   ros::Time last_now_;
+
+  // What works in the thread of the changes.
+  ros::CallbackQueue change_queue_;
+  ToolReload tool_reload_;
+  LiveParameters live_parameters_;
+  ros::AsyncSpinner change_thread_;
 };
 
 }  // namespace organ_collision

@@ -43,6 +43,7 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
 
 void Diagnostics::tools(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, std::to_string(sources_.tools.size()) + " tools");
+  if (sources_.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
   for (const Tool& tool : sources_.tools) {
     status.add(tool.parameters.name + ", links", tool.links.size());
     if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);

@@ -96,6 +96,13 @@ TEST_F(DiagnosticsTest, AToolWithAFaultIsAnError) {
   EXPECT_NE(status.message.find(tools[1].fault), std::string::npos) << status.message;
 }
 
+TEST_F(DiagnosticsTest, NoToolsAreAWarning) {
+  tools.clear();
+  values(&Diagnostics::tools);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, kNoTools);
+}
+
 TEST_F(DiagnosticsTest, AgeOfEachOrgan) {
   send_mesh(48.0, 0.0);
   auto shown = values(&Diagnostics::organs);
