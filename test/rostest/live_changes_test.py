@@ -92,7 +92,7 @@ class LiveChangesTest(ToolCase):
             [
                 "unchanged: 'kept'; changed: 'hook'",
                 "unchanged: 'hook', 'kept'; new: 'saw'",
-                "unchanged: 'kept'; removed: 'hook', 'saw'",
+                "unchanged: 'kept'; removed: 'saw', 'hook'",
             ],
         )
         self.assert_no_gap('kept')
