@@ -12,7 +12,18 @@ geometry_msgs::Point point(double x, double y, double z) {
   return point;
 }
 
+constexpr char kUsage[] = R"(Usage: example_ask
+Asks /organ_collision/query which faces of the organ `tissue` a moving shaft would touch.
+Prints the status and the faces' numbers.
+)";
+
 int main(int argc, char** argv) {
+  ros::V_string arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (arguments.size() > 1) {
+    std::cout << kUsage;
+    return arguments[1] == "--help" || arguments[1] == "-h" ? 0 : 2;
+  }
   ros::init(argc, argv, "ask", ros::init_options::AnonymousName);
   ros::NodeHandle node;
   ros::service::waitForService("/organ_collision/query");

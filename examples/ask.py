@@ -1,12 +1,15 @@
 #!/usr/bin/python3
 """Asks which faces of `tissue` a shaft would touch if its tip came down onto the sheet."""
 
+import argparse
+
 from geometry_msgs.msg import Point
 from organ_collision.msg import ContactArray, ToolMotion
 from organ_collision.srv import QueryCollision
 import rospy
 from std_msgs.msg import Header
 
+argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
 rospy.init_node('ask', anonymous=True)
 rospy.wait_for_service('/organ_collision/query')
 query = rospy.ServiceProxy('/organ_collision/query', QueryCollision, persistent=True)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Moves the grasper of grasper.launch: it dips into the liver, and its jaws open and close."""
 
+import argparse
 import math
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
@@ -23,6 +24,7 @@ MOTION = {
     'grasper_jaw': (0.3, 0.3, 2.0),
 }
 
+argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
 # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
 rospy.init_node('grasper', disable_signals=True)
 trocar = tf2_ros.StaticTransformBroadcaster()

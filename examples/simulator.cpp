@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
 using organ_collision::Contact;
 using organ_collision::ContactArray;
@@ -74,7 +75,19 @@ void react(const ContactArray& touched) {
                     1e3 * deepest.depth, deepest.face, touched.contacts.size());
 }
 
+constexpr char kUsage[] = R"(Usage: example_simulator
+A sheet of tissue moves up and down, and a probe moves through it.
+Publishes /organ_collision/organ_mesh, /organ_collision/organ_vertices and /tf.
+Subscribes to /organ_collision/contacts, and logs the contacts.
+)";
+
 int main(int argc, char** argv) {
+  ros::V_string arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (arguments.size() > 1) {
+    std::cout << kUsage;
+    return arguments[1] == "--help" || arguments[1] == "-h" ? 0 : 2;
+  }
   ros::init(argc, argv, "simulator");
   ros::NodeHandle node("organ_collision");
   OrganMesh sheet = tissue<OrganMesh>(ros::Time::now());

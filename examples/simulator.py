@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A minimal simulator: a probe comes down onto a sheet of tissue, presses, slides and leaves."""
 
+import argparse
 import math
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
@@ -42,6 +43,7 @@ def react(touched):
             touched.tool, 1e3 * deepest.depth, deepest.face, len(touched.contacts)))
 
 
+argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
 rospy.init_node('simulator')
 rate = rospy.Rate(100)
 frames = tf2_ros.TransformBroadcaster()

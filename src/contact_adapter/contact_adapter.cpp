@@ -4,6 +4,7 @@
 #include <ros/param.h>
 #include <std_msgs/UInt32MultiArray.h>
 
+#include "contact_adapter_names.hpp"
 #include "contact_check.hpp"
 #include "face_list.hpp"
 #include "force_limit.hpp"
@@ -23,6 +24,11 @@ constexpr std::uint32_t kQueue = 20;
 ContactAdapter::ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& private_node)
     : private_node_(private_node),
       parameters_(load_contact_adapter_parameters(private_node)),
+      live_parameters_(private_node, live_parameters(parameters_),
+                       [this](const XmlRpc::XmlRpcValue& changes) {
+                         LiveContactAdapterParameters& live = parameters_;
+                         live = changed(parameters_, changes);
+                       }),
       updater_(node, private_node, private_node.getNamespace()) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
   updater_.setHardwareID("none");
@@ -92,8 +98,10 @@ ContactAdapter::Pair& ContactAdapter::pair_of(const std::string& organ, const st
     ROS_INFO("the radius of tool '%s' is not known: past a face its depth stays", tool.c_str());
   }
   const std::string name = names_.of(organ, tool);
-  const Pair pair{private_node_.advertise<std_msgs::UInt32MultiArray>(name + "/faces", kQueue),
-                  private_node_.advertise<geometry_msgs::WrenchStamped>(name + "/wrench", kQueue)};
+  const Pair pair{private_node_.advertise<std_msgs::UInt32MultiArray>(
+                      ros::names::append(name, names::kFaces), kQueue),
+                  private_node_.advertise<geometry_msgs::WrenchStamped>(
+                      ros::names::append(name, names::kWrench), kQueue)};
   return pairs_.insert({{organ, tool}, pair}).first->second;
 }
 

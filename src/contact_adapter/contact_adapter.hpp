@@ -46,6 +46,7 @@ class ContactAdapter {
 
   ros::NodeHandle private_node_;
   ContactAdapterParameters parameters_;
+  LiveParameters live_parameters_;
   PairNames names_;
   std::map<std::pair<std::string, std::string>, Pair> pairs_;  ///< by organ and tool
   std::uint64_t received_ = 0;  ///< messages, including those that report a failure

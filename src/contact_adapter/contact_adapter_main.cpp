@@ -1,12 +1,17 @@
 #include <ros/ros.h>
 
 #include "contact_adapter.hpp"
+#include "contact_adapter_help.hpp"
+#include "contact_adapter_names.hpp"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "contact_adapter");
+  using namespace organ_collision;
+  if (const auto exit_code = answer_arguments(argc, argv, contact_adapter_help()))
+    return *exit_code;
+  ros::init(argc, argv, names::kContactAdapter);
   const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
   try {
-    organ_collision::ContactAdapter adapter(node, ros::NodeHandle("~"));
+    ContactAdapter adapter(node, ros::NodeHandle("~"));
     ros::spin();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

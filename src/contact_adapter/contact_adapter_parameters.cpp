@@ -1,35 +1,56 @@
 #include "contact_adapter_parameters.hpp"
 
 #include <limits>
-#include <optional>
 
+#include "contact_adapter_help.hpp"
+#include "contact_adapter_names.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/parameter_group.hpp"
 
 namespace organ_collision {
 namespace {
 
-constexpr char kStiffness[] = "stiffness";
-constexpr char kMaxForce[] = "max_force";
-const NumberRange kPositive{0.0, std::numeric_limits<double>::infinity(), false};
-/// [s] ROS timers do not accept much longer periods.
-const NumberRange kPeriod{0.0, 1e6, false};
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr NumberRange kStiffnessRange{0.0, kUnlimited, false};
+constexpr NumberRange kMaxForceRange{0.0, kUnlimited, false, true};
+
+/// Missing members keep their values.
+void parse_live(const ParameterGroup& group, LiveContactAdapterParameters& p) {
+  p.stiffness = group.number(names::kStiffness, p.stiffness, kStiffnessRange);
+  p.max_force = group.number(names::kMaxForce, p.max_force, kMaxForceRange);
+}
 
 }  // namespace
 
 ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all) {
-  const ParameterGroup group("~", all, {kStiffness, kMaxForce, names::kDiagnosticPeriod});
+  const ParameterGroup group("~", all,
+                             {names::kStiffness, names::kMaxForce, names::kDiagnosticPeriod});
   ContactAdapterParameters p;
   p.misspelt = group.misspelt();
-  p.stiffness = group.number(kStiffness, p.stiffness, kPositive);
-  if (group.has(kMaxForce)) p.max_force = group.number(kMaxForce, std::nullopt, kPositive);
+  parse_live(group, p);
   p.diagnostic_period_sec =
-      group.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kPeriod);
+      group.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kTimerPeriod);
   return p;
 }
 
 ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node) {
   return parse_contact_adapter_parameters(all_parameters(private_node));
+}
+
+std::vector<LiveParameter> live_parameters(const LiveContactAdapterParameters& p) {
+  const std::vector<HelpEntry> help = contact_adapter_help().parameters;
+  const LiveContactAdapterParameters defaults;
+  return {{names::kStiffness, text_of(help, names::kStiffness), p.stiffness, defaults.stiffness,
+           kStiffnessRange},
+          {names::kMaxForce, text_of(help, names::kMaxForce), p.max_force, defaults.max_force,
+           kMaxForceRange}};
+}
+
+LiveContactAdapterParameters changed(const LiveContactAdapterParameters& parameters,
+                                     const XmlRpc::XmlRpcValue& changes) {
+  LiveContactAdapterParameters result = parameters;
+  parse_live(live_group(changes, live_parameters(parameters)), result);
+  return result;
 }
 
 }  // namespace organ_collision

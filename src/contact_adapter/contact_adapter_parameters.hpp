@@ -7,15 +7,21 @@
 #include <string>
 #include <vector>
 
+#include "ros/interface/live_parameters.hpp"
+
 namespace organ_collision {
 
-/// The validated parameters of the node, with the documented defaults.
-struct ContactAdapterParameters {
+/// The parameters that can be changed while the node runs, with the documented defaults.
+struct LiveContactAdapterParameters {
   double stiffness = 300.0;  ///< [N/m] of the penalty law
   double max_force =
       std::numeric_limits<double>::infinity();  ///< [N] larger forces are scaled down to it
-  double diagnostic_period_sec = 1.0;           ///< in wall time
-  std::vector<std::string> misspelt{};          ///< a sentence for each unknown name
+};
+
+/// The validated parameters of the node, with the documented defaults.
+struct ContactAdapterParameters : LiveContactAdapterParameters {
+  double diagnostic_period_sec = 1.0;   ///< in wall time
+  std::vector<std::string> misspelt{};  ///< a sentence for each unknown name
 };
 
 /// Reads the parameters from the members of the adapter's private namespace. Throws ParameterError.
@@ -23,5 +29,13 @@ ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcVa
 
 /// Reads the parameters from the parameter server. Throws ParameterError.
 ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node);
+
+/// The members of LiveContactAdapterParameters, for LiveParameters.
+std::vector<LiveParameter> live_parameters(const LiveContactAdapterParameters& parameters);
+
+/// The parameters after these changes. Throws ParameterError if a change is illegal, or if the
+/// parameter cannot be changed while the node runs.
+LiveContactAdapterParameters changed(const LiveContactAdapterParameters& parameters,
+                                     const XmlRpc::XmlRpcValue& changes);
 
 }  // namespace organ_collision

@@ -13,6 +13,8 @@
 #include <set>
 #include <sstream>
 
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/program_help.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "static_comparison.hpp"
 
@@ -22,6 +24,22 @@ namespace {
 constexpr double kPatienceSec = 60.0;  // until the collision node answers for the first time
 constexpr std::size_t kFacesListed = 4;
 constexpr double kMicroseconds = 1e6;
+constexpr char kCollisionNode[] = "/organ_collision";
+
+ProgramHelp help() {
+  ProgramHelp help{"demo_report",
+                   "Prints what the collision node finds: one line each second, and a summary at "
+                   "the end. Names of topics are below that node's."};
+  help.subscribed = {{names::kContacts, "organ_collision/ContactArray", "the answers"},
+                     {names::kOrganMesh, "organ_collision/OrganMesh", "the organ"},
+                     {names::kOrganVertices, "organ_collision/OrganVertices", "its shapes"},
+                     {"/tf, /tf_static", "tf2_msgs/TFMessage", "where the tools are"},
+                     {"/diagnostics", "diagnostic_msgs/DiagnosticArray", "query times"}};
+  help.parameters = {{"seconds", "0", "[s] how long it listens; 0: until it is stopped"},
+                     {"collision_node", kCollisionNode, "name of the collision node"}};
+  help.further = "roslaunch organ_collision demo.launch starts it.";
+  return help;
+}
 
 /// [s] The value that `percent` of all values do not exceed; 0 if there are none.
 double percentile(std::vector<double> values, double percent) {
@@ -161,11 +179,15 @@ class DemoReport {
 }  // namespace organ_collision
 
 int main(int argc, char** argv) try {
+  if (const auto exit_code =
+          organ_collision::answer_arguments(argc, argv, organ_collision::help())) {
+    return *exit_code;
+  }
   ros::init(argc, argv, "demo_report");
   ros::NodeHandle private_node("~");
   const double seconds = private_node.param("seconds", 0.0);
   const std::string collision_node =
-      private_node.param<std::string>("collision_node", "/organ_collision");
+      private_node.param<std::string>("collision_node", organ_collision::kCollisionNode);
   organ_collision::DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node)};
 
   ros::WallTime start = ros::WallTime::now();

@@ -16,6 +16,8 @@
 
 #include "liver_scene.hpp"
 #include "liver_soft_body.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/program_help.hpp"
 #include "scripted_tools.hpp"
 
 namespace organ_collision {
@@ -27,6 +29,22 @@ constexpr double kMostYield = 0.008;  // [m] in one step
 constexpr double kTfLeadSec =
     0.5;  // only TF is sent, so that listeners have it before the first shape
 constexpr double kSceneRate = 30.0;  // [Hz]
+constexpr double kRate = 125.0;      // [Hz] of shapes, by default
+constexpr char kCollisionNode[] = "/organ_collision";
+
+ProgramHelp help() {
+  ProgramHelp help{"liver_simulator",
+                   "The demo's simulator: a breathing liver and two instruments, for a collision "
+                   "node whose contacts push the tissue. Names of topics are below that node's."};
+  help.subscribed = {{names::kContacts, "organ_collision/ContactArray", "what pushes the tissue"}};
+  help.published = {{names::kOrganMesh, "organ_collision/OrganMesh", "the liver, once"},
+                    {names::kOrganVertices, "organ_collision/OrganVertices", "its new shapes"},
+                    {"/tf, /tf_static", "tf2_msgs/TFMessage", "tips and trocars"}};
+  help.parameters = {{names::kRate, shown(kRate), "[Hz] of shapes"},
+                     {"collision_node", kCollisionNode, "name of the collision node"}};
+  help.further = "roslaunch organ_collision demo.launch starts it.";
+  return help;
+}
 
 geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
                                           const std::string& child,
@@ -172,19 +190,21 @@ class LiverSimulator {
 }  // namespace organ_collision
 
 int main(int argc, char** argv) {
+  using namespace organ_collision;
+  if (const auto exit_code = answer_arguments(argc, argv, help())) return *exit_code;
   ros::init(argc, argv, "liver_simulator");
   ros::NodeHandle private_node("~");
-  const double rate = private_node.param("rate", 125.0);
-  const double fastest = 1.0 / organ_collision::kStabDuration;
+  const double rate = private_node.param<double>(names::kRate, kRate);
+  const double fastest = 1.0 / kStabDuration;
   if (!(rate >= 20.0 && rate <= fastest)) {
     ROS_FATAL("rate is %g; it must be from 20 to %g Hz, so that a stab fits into one step", rate,
               fastest);
     return 2;
   }
   const std::string collision_node =
-      private_node.param<std::string>("collision_node", "/organ_collision");
+      private_node.param<std::string>("collision_node", kCollisionNode);
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
-  organ_collision::LiverSimulator simulator(ros::NodeHandle(collision_node), private_node, rate);
+  LiverSimulator simulator(ros::NodeHandle(collision_node), private_node, rate);
   for (ros::Rate loop(rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();
     simulator.step();

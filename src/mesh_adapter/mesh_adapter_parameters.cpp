@@ -5,6 +5,7 @@
 #include <set>
 
 #include "mesh_adapter_names.hpp"
+#include "organ_collision/ros/names.hpp"
 #include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
@@ -68,13 +69,16 @@ void parse_organs(const ParameterGroup& all, MeshAdapterParameters& parameters) 
 }  // namespace
 
 MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpcValue& private_namespace) {
-  const ParameterGroup all("~", private_namespace, {names::kOrgans, names::kCollisionNode});
+  const ParameterGroup all("~", private_namespace,
+                           {names::kOrgans, names::kCollisionNode, names::kDiagnosticPeriod});
   MeshAdapterParameters parameters;
   parameters.misspelt = all.misspelt();
   parse_organs(all, parameters);
   if (all.has(names::kCollisionNode)) {
     parameters.collision_node = graph_name(all, names::kCollisionNode);
   }
+  parameters.diagnostic_period_sec =
+      all.number(names::kDiagnosticPeriod, parameters.diagnostic_period_sec, kTimerPeriod);
   return parameters;
 }
 

@@ -22,7 +22,8 @@ struct OrganParameters {
 struct MeshAdapterParameters {
   std::vector<OrganParameters> organs;
   std::string collision_node = "organ_collision";
-  std::vector<std::string> misspelt;  ///< a sentence for each unknown name
+  double diagnostic_period_sec = 1.0;  ///< in wall time
+  std::vector<std::string> misspelt;   ///< a sentence for each unknown name
 };
 
 /// Reads the parameters from the members of the adapter's private namespace. Throws ParameterError.

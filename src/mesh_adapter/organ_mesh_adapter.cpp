@@ -24,7 +24,9 @@ std::uint32_t outgoing_queue(const MeshAdapterParameters& parameters) {
 }  // namespace
 
 OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : node_(node), parameters_(load_mesh_adapter_parameters(private_node)) {
+    : node_(node),
+      parameters_(load_mesh_adapter_parameters(private_node)),
+      updater_(node, private_node, private_node.getNamespace()) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
   // Not latched: a latched topic keeps only the last message. A new subscriber would get only one
@@ -37,31 +39,36 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
       collision_node.advertise<OrganVertices>(names::kOrganVertices, outgoing_queue(parameters_));
   // Random, because the collision node may still have meshes of an earlier adapter.
   const std::uint32_t last_topology = std::random_device()();
-  for (const OrganParameters& organ : parameters_.organs) add_source(organ, last_topology);
-  ROS_INFO("ready: %zu organs, for %s", sources_.size(), collision_node.getNamespace().c_str());
+  for (const OrganParameters& organ : parameters_.organs) add_organ(organ, last_topology);
+  updater_.setHardwareID("none");
+  updater_.add("meshes", this, &OrganMeshAdapter::diagnose);
+  // A timer of wall time, because the updater's own period stops when simulated time stops.
+  diagnostic_timer_ =
+      private_node.createWallTimer(ros::WallDuration(parameters_.diagnostic_period_sec),
+                                   [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  ROS_INFO("ready: %zu organs, for %s", organs_.size(), collision_node.getNamespace().c_str());
 }
 
-void OrganMeshAdapter::add_source(const OrganParameters& organ, std::uint32_t last_topology) {
-  OrganSource& source = sources_.emplace_back(
-      organ, last_topology,
-      OrganFeed::Outlet{[this](const OrganMeshPtr& message) { meshes_.publish(message); },
-                        [this](const OrganVerticesPtr& message) { vertices_.publish(message); }});
-  subscribe(organ.topic, kSurfaceQueue, [&source](const Message& message, ros::Time arrival) {
-    source.take_surface(message, arrival);
-  });
-  if (organ.vertices_topic.empty()) return;
-  subscribe(organ.vertices_topic, kVerticesQueue,
-            [&source](const Message& message, ros::Time arrival) {
-              source.take_vertices(message, arrival);
-            });
+void OrganMeshAdapter::add_organ(const OrganParameters& parameters, std::uint32_t last_topology) {
+  const OrganFeed::Outlet outlet{
+      [this](const OrganMeshPtr& message) { meshes_.publish(message); },
+      [this](const OrganVerticesPtr& message) { vertices_.publish(message); }};
+  Organ& organ = organs_.emplace_back(Organ{{parameters, last_topology, outlet}});
+  subscribe(organ, parameters.topic, kSurfaceQueue, &OrganSource::take_surface);
+  if (parameters.vertices_topic.empty()) return;
+  subscribe(organ, parameters.vertices_topic, kVerticesQueue, &OrganSource::take_vertices);
 }
 
-void OrganMeshAdapter::subscribe(const std::string& topic, std::uint32_t queue_size,
-                                 const std::function<void(const Message&, ros::Time)>& take) {
+void OrganMeshAdapter::subscribe(Organ& organ, const std::string& topic, std::uint32_t queue_size,
+                                 Take take) {
   const std::string name = node_.resolveName(topic);
-  const boost::function<void(const Event&)> callback = [this, name, take](const Event& event) {
+  const boost::function<void(const Event&)> callback = [this, name, take,
+                                                        &organ](const Event& event) {
+    ++organ.received;
     try {
-      take(*event.getConstMessage(), event.getReceiptTime());
+      (organ.source.*take)(*event.getConstMessage(), event.getReceiptTime());
+      ++organ.converted;
+      organ.latest = std::chrono::steady_clock::now();
     } catch (const MessageError& error) {
       const std::string from = name + ": ";
       refused_.add(from + error.reason(), from + error.what(), std::chrono::steady_clock::now());
@@ -71,10 +78,35 @@ void OrganMeshAdapter::subscribe(const std::string& topic, std::uint32_t queue_s
                                                   ros::TransportHints().tcpNoDelay()));
 }
 
+void OrganMeshAdapter::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "converting");
+  status.add("organs", organs_.size());
+  const auto now = std::chrono::steady_clock::now();
+  for (const Organ& organ : organs_) {
+    const OrganParameters& parameters = organ.source.parameters();
+    status.add(parameters.name + ", messages received", organ.received);
+    status.add(parameters.name + ", messages converted", organ.converted);
+    if (organ.converted > 0) {
+      status.add(parameters.name + ", age of last [s]",
+                 std::chrono::duration<double>(now - organ.latest).count());
+    }
+    if (organ.received == 0) {
+      status.mergeSummary(DiagnosticStatus::WARN, "organ '" + parameters.name +
+                                                      "': nothing came yet on " +
+                                                      node_.resolveName(parameters.topic));
+    }
+  }
+  for (const std::string& sentence : parameters_.misspelt) {
+    status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  show_failures("refused", refused_, status);
+}
+
 /// Sends a new subscriber all organs in their latest shape.
 void OrganMeshAdapter::welcome(const ros::SingleSubscriberPublisher& newcomer) const {
-  for (const OrganSource& source : sources_) {
-    if (const OrganMeshPtr mesh = source.mesh()) newcomer.publish(mesh);
+  for (const Organ& organ : organs_) {
+    if (const OrganMeshPtr mesh = organ.source.mesh()) newcomer.publish(mesh);
   }
 }
 

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <topic_tools/shape_shifter.h>
 
+#include <chrono>
+#include <cstdint>
 #include <functional>
 #include <list>
 #include <string>
@@ -26,9 +29,18 @@ class OrganMeshAdapter {
   using Message = topic_tools::ShapeShifter;
   using Event = ros::MessageEvent<const Message>;
 
-  void add_source(const OrganParameters& organ, std::uint32_t last_topology);
-  void subscribe(const std::string& topic, std::uint32_t queue_size,
-                 const std::function<void(const Message&, ros::Time)>& take);
+  /// An organ, and what came of it.
+  struct Organ {
+    OrganSource source;
+    std::uint64_t received = 0;  ///< messages
+    std::uint64_t converted = 0;
+    std::chrono::steady_clock::time_point latest = {};  ///< when the last one was converted
+  };
+  using Take = void (OrganSource::*)(const Message& message, ros::Time arrival);
+
+  void add_organ(const OrganParameters& parameters, std::uint32_t last_topology);
+  void subscribe(Organ& organ, const std::string& topic, std::uint32_t queue_size, Take take);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void welcome(const ros::SingleSubscriberPublisher& newcomer) const;
 
   ros::NodeHandle node_;
@@ -36,8 +48,10 @@ class OrganMeshAdapter {
   FailureLog refused_;
   ros::Publisher meshes_;
   ros::Publisher vertices_;
-  std::list<OrganSource> sources_;
+  std::list<Organ> organs_;
   std::vector<ros::Subscriber> subscribers_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer diagnostic_timer_;
 };
 
 }  // namespace organ_collision

@@ -1,13 +1,16 @@
 #include <ros/ros.h>
 
+#include "mesh_adapter_help.hpp"
 #include "mesh_adapter_names.hpp"
 #include "organ_mesh_adapter.hpp"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, organ_collision::names::kMeshAdapter);
+  using namespace organ_collision;
+  if (const auto exit_code = answer_arguments(argc, argv, mesh_adapter_help())) return *exit_code;
+  ros::init(argc, argv, names::kMeshAdapter);
   const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
   try {
-    organ_collision::OrganMeshAdapter adapter(node, ros::NodeHandle("~"));
+    OrganMeshAdapter adapter(node, ros::NodeHandle("~"));
     ros::spin();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

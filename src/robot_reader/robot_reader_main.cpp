@@ -1,7 +1,5 @@
-// Reads links of a robot for the node. A broken file may end this program, but not the node.
-//
-// Usage: robot_reader URDF LINK...
-// URDF: a file or URL, or - for standard input. For standard output, see robot_reply.hpp.
+// Reads links of a robot for the node. A broken file may end this program, but not the node. For
+// standard output, see robot_reply.hpp.
 
 #include <unistd.h>
 
@@ -20,6 +18,13 @@
 using namespace organ_collision;
 
 namespace {
+
+constexpr char kUsage[] = R"(Usage: robot_reader URDF LINK...
+
+Reads the shapes of a robot's links and writes them to standard output, in binary form. The
+collision node runs this program, so that a broken file cannot end the node.
+URDF: a file or URL, or - for standard input.
+)";
 
 /// The standard output of the program, for replies only. Libraries that print to standard output
 /// are redirected to standard error.
@@ -57,9 +62,14 @@ std::string read_links(int argc, char** argv, const ReplyStream& reply) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::cerr << "Usage: robot_reader URDF LINK...; the node runs it\n";
-    return EXIT_FAILURE;
+  const std::string first = argc < 2 ? "" : argv[1];
+  if (first == "--help" || first == "-h") {
+    std::cout << kUsage;
+    return EXIT_SUCCESS;
+  }
+  if (first.empty() || first.rfind("--", 0) == 0) {
+    std::cerr << "robot_reader: '" << first << "' is no URDF; must be a file, a URL or -\n";
+    return 2;
   }
   const ReplyStream reply;
   try {

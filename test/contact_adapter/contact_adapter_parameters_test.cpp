@@ -55,8 +55,9 @@ TEST(ContactAdapterParameters, IllegalOnesAreRefused) {
   EXPECT_EQ(refusal("stiffness", "soft"), "~stiffness is 'soft'; must be a number, more than 0");
   EXPECT_NE(refusal("stiffness", std::numeric_limits<double>::infinity()), "accepted");
   EXPECT_NE(refusal("stiffness", std::numeric_limits<double>::quiet_NaN()), "accepted");
-  EXPECT_EQ(refusal("max_force", 0), "~max_force is '0'; must be a number, more than 0");
-  EXPECT_NE(refusal("max_force", std::numeric_limits<double>::infinity()), "accepted");
+  EXPECT_EQ(refusal("max_force", 0), "~max_force is '0'; must be a number, more than 0, or .inf");
+  EXPECT_EQ(refusal("max_force", std::numeric_limits<double>::infinity()), "accepted");
+  EXPECT_NE(refusal("max_force", -std::numeric_limits<double>::infinity()), "accepted");
   EXPECT_NE(refusal("diagnostic_period", 0.0), "accepted");
 }
 
@@ -68,4 +69,17 @@ TEST(ContactAdapterParameters, MisspeltNamesAreReported) {
   ASSERT_EQ(p.misspelt.size(), 1u);
   EXPECT_NE(p.misspelt[0].find("~stifness is no parameter; nearest is 'stiffness'"),
             std::string::npos);
+}
+
+TEST(ContactAdapterParameters, BothOfTheForceCanBeChangedLive) {
+  XmlRpcValue changes = group();
+  changes["max_force"] = 2.0;
+  const LiveContactAdapterParameters limited = changed({}, changes);
+  EXPECT_EQ(limited.stiffness, 300.0);
+  EXPECT_EQ(limited.max_force, 2.0);
+  changes["max_force"] = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(changed(limited, changes).max_force, std::numeric_limits<double>::infinity());
+  changes["stiffness"] = -1.0;
+  EXPECT_THROW(changed(limited, changes), ParameterError);
+  EXPECT_EQ(live_parameters(limited).size(), 2u);
 }

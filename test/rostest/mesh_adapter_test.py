@@ -13,7 +13,13 @@ from visualization_msgs.msg import Marker
 from support import oracle, scenes
 from support.contact_case import faces_of
 from support.foreign_meshes import cloud, deletion, marker, polygon_mesh, shape_mesh
-from support.mesh_adapter_case import AXIS, RADIUS, MeshAdapterCase, MessageLog
+from support.mesh_adapter_case import (
+    AXIS,
+    RADIUS,
+    AdapterDiagnostics,
+    MeshAdapterCase,
+    MessageLog,
+)
 from support.node_client import TfSender, shaft, wait_until
 
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
@@ -150,6 +156,22 @@ class MeshAdapterTest(MeshAdapterCase):
         self.assertEqual(self.wait_for_contacts('framed', SHEET).header.frame_id, 'liver_frame')
         self.publish('/sim/framed', polygon_mesh(LOWER, frame=''))
         self.wait_for_contacts('framed', LOWER)
+
+    def test_diagnostics_count_messages(self):
+        """Each organ's messages are counted, those that are refused by reason."""
+        adapter = AdapterDiagnostics(self.adapter)
+        for _ in range(2):
+            self.publish('/sim/unmeshed_points', cloud(SHEET.vertices, frame='liver_frame'))
+        self.publish('/sim/framed', polygon_mesh(SHEET))
+        wait_until(
+            lambda: adapter.values.get('framed, messages converted', '0') >= '1'
+            and adapter.values.get('refused, /sim/unmeshed_points: no mesh', '0') >= '2',
+            lambda: adapter.values,
+        )
+        self.assertEqual(adapter.values['organs'], '7')
+        self.assertGreaterEqual(int(adapter.values['framed, messages received']), 1)
+        self.assertGreaterEqual(float(adapter.values['framed, age of last [s]']), 0.0)
+        self.assertIn("organ 'odd': nothing came yet on /sim/odd", adapter.summary)
 
 
 if __name__ == '__main__':

@@ -11,7 +11,7 @@ import rostest
 
 from support import oracle, scenes
 from support.contact_case import ContactCase
-from support.node_client import NodeClient, shaft
+from support.node_client import NodeClient, shaft, wait_until
 from support.node_starter import NodeStarter
 
 TOOL = {
@@ -109,6 +109,16 @@ class StartTest(ContactCase, NodeStarter):
             self.assertIn(word, printed)
         self.assertIn("tool 'grasper' has a radius of 5 m", printed)
         self.assertIn('ready: 1 tool,', printed)
+
+    def test_an_empty_list_of_tools_is_said(self):
+        """The node starts, says what follows, and answers queries that give a motion."""
+        process = self.start(self.name, {'tools': []})
+        node = NodeClient(self.name)
+        node.send_mesh('sheet', SHEET, rospy.Time(1))
+        node.wait_for_shape('sheet', rospy.Time(1))
+        wait_until(lambda: 'tools' in node.summaries, '/diagnostics')
+        self.assertIn('~tools is empty', node.summaries['tools'])
+        self.assertIn('~tools is empty', self.stop(process))
 
     def test_legal_parameters_at_their_limits(self):
         process = self.start(

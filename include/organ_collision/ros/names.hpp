@@ -22,6 +22,7 @@ inline constexpr char kQueryBatch[] = "query_batch";
 inline constexpr char kReset[] = "reset";
 inline constexpr char kListOrgans[] = "list_organs";
 inline constexpr char kRemoveOrgan[] = "remove_organ";
+inline constexpr char kReloadTools[] = "reload_tools";
 ///@}
 
 ///@{

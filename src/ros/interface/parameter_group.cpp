@@ -24,7 +24,9 @@ std::string written(double number) {
 std::string written(const NumberRange& range) {
   const std::string lowest =
       (range.lowest_is_legal ? "at least " : "more than ") + written(range.lowest);
-  return std::isinf(range.highest) ? lowest : lowest + ", at most " + written(range.highest);
+  const std::string highest =
+      std::isinf(range.highest) ? "" : ", at most " + written(range.highest);
+  return lowest + highest + (range.infinity_is_legal ? ", or .inf" : "");
 }
 
 std::string written(const XmlRpcValue& value) {
@@ -34,6 +36,7 @@ std::string written(const XmlRpcValue& value) {
 }
 
 bool contains(const NumberRange& range, double number) {
+  if (std::isinf(number)) return range.infinity_is_legal && number > 0.0;
   return std::isfinite(number) && number <= range.highest &&
          (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
 }

@@ -18,10 +18,14 @@ class ParameterError : public std::runtime_error {
 
 /// The legal values of a number.
 struct NumberRange {
-  double lowest;
-  double highest;
+  double lowest = 0.0;
+  double highest = 0.0;
   bool lowest_is_legal = true;
+  bool infinity_is_legal = false;
 };
+
+/// [s] Legal periods of timers. ROS timers do not accept much longer ones.
+inline constexpr NumberRange kTimerPeriod{0.0, 1e6, false};
 
 /// A group of parameters, as the parameter server holds it. The functions that read a member check
 /// its type and range. A number may be written without a decimal point.

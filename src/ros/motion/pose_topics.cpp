@@ -65,6 +65,11 @@ geometry_msgs::TransformStamped to_transform(const PoseStamped& pose, const std:
   return transform;
 }
 
+bool has_same_topics(const ToolParameters& a, const ToolParameters& b) {
+  return a.name == b.name && a.tip_frame == b.tip_frame && a.tip_pose_topic == b.tip_pose_topic &&
+         a.base_pose_topic == b.base_pose_topic;
+}
+
 ros::Time after(ros::Time time) {
   ros::Time next;
   return time.isZero() ? time : next.fromNSec(time.toNSec() + 1);
@@ -74,25 +79,47 @@ ros::Time after(ros::Time time) {
 
 PoseTopics::PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks)
     : sinks_(sinks) {
-  for (const ToolParameters& tool : tools) streams_.push_back({tool, {}, {}, {}});
-}
-
-void PoseTopics::subscribe(ros::NodeHandle node) {
-  const auto subscribe_to = [&](const std::string& topic, auto take, std::size_t tool) {
-    if (topic.empty()) return;
-    subscribers_.push_back(node.subscribe<PoseStamped>(
-        topic, kQueue,
-        [=](const geometry_msgs::PoseStampedConstPtr& pose) { (this->*take)(tool, *pose); }, {},
-        ros::TransportHints().tcpNoDelay()));
-  };
-  for (std::size_t tool = 0; tool < streams_.size(); ++tool) {
-    subscribe_to(streams_[tool].tool.tip_pose_topic, &PoseTopics::take_tip, tool);
-    subscribe_to(streams_[tool].tool.base_pose_topic, &PoseTopics::take_base, tool);
+  for (const ToolParameters& tool : tools) {
+    streams_.push_back(std::make_unique<Stream>(Stream{streams_.size(), tool, {}, {}, {}, {}, {}}));
   }
 }
 
+void PoseTopics::subscribe(const ros::NodeHandle& node) {
+  for (const auto& stream : streams_) subscribe(*stream, node);
+}
+
+void PoseTopics::change_tools(const std::vector<ToolParameters>& tools,
+                              const ros::NodeHandle& node) {
+  std::vector<std::unique_ptr<Stream>> old = std::move(streams_);
+  streams_.clear();
+  for (const ToolParameters& tool : tools) {
+    const auto kept = std::find_if(old.begin(), old.end(), [&](const auto& stream) {
+      return stream && has_same_topics(stream->tool, tool);
+    });
+    const bool is_new = kept == old.end();
+    streams_.push_back(is_new ? std::make_unique<Stream>() : std::move(*kept));
+    streams_.back()->index = streams_.size() - 1;
+    streams_.back()->tool = tool;
+    if (is_new) subscribe(*streams_.back(), node);
+  }
+}
+
+void PoseTopics::subscribe(Stream& stream, ros::NodeHandle node) {
+  const auto subscribe_to = [&](const std::string& topic, auto take) {
+    if (topic.empty()) return ros::Subscriber();
+    return node.subscribe<PoseStamped>(
+        topic, kQueue,
+        [this, take, &stream](const geometry_msgs::PoseStampedConstPtr& pose) {
+          (this->*take)(stream.index, *pose);
+        },
+        {}, ros::TransportHints().tcpNoDelay());
+  };
+  stream.tips = subscribe_to(stream.tool.tip_pose_topic, &PoseTopics::take_tip);
+  stream.bases = subscribe_to(stream.tool.base_pose_topic, &PoseTopics::take_base);
+}
+
 void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
-  Stream& stream = streams_[tool];
+  Stream& stream = *streams_[tool];
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
@@ -110,7 +137,7 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
 }
 
 void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {
-  Stream& stream = streams_[tool];
+  Stream& stream = *streams_[tool];
   if (!check(pose, stream.frame)) return;
   stream.base = pose;
   place_base(stream);
@@ -123,7 +150,7 @@ void PoseTopics::place_base(const Stream& stream) {
 }
 
 void PoseTopics::forget_stamps() {
-  for (Stream& stream : streams_) stream.latest = ros::Time();
+  for (const auto& stream : streams_) stream->latest = ros::Time();
 }
 
 /// Returns false, and counts the pose as rejected, if it cannot be the pose of `frame`.

@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,13 @@ class PoseTopics {
     std::function<void(std::size_t)> arrived;
   };
   PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks);
+  PoseTopics(const PoseTopics&) = delete;  ///< The subscriptions refer to this.
 
   /// Subscribes to the topics that the tools name; `node` resolves their names.
-  void subscribe(ros::NodeHandle node);
+  void subscribe(const ros::NodeHandle& node);
+  /// Takes a new list of tools. The subscriptions of tools with the same name, tip frame and topics
+  /// stay, so that no pose is lost.
+  void change_tools(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node);
 
   /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal
   /// pose is counted as rejected, and the last pose stays.
@@ -42,18 +47,21 @@ class PoseTopics {
 
  private:
   struct Stream {
+    std::size_t index;  ///< of the tool
     ToolParameters tool;
     std::string frame;  ///< in which the tip's poses are given; empty: no pose came yet
     ros::Time latest;   ///< stamp of the tip's latest pose; zero: no pose came yet
     std::optional<geometry_msgs::PoseStamped> base;  ///< pose of that frame, if it came
+    ros::Subscriber tips, bases;
   };
+  void subscribe(Stream& stream, ros::NodeHandle node);
   void place_base(const Stream& stream);
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
   void reject(const std::string& frame, const std::string& wrong);
 
-  std::vector<Stream> streams_;  ///< by tool
+  /// By tool. Subscriptions refer to them, so their addresses must not change.
+  std::vector<std::unique_ptr<Stream>> streams_;
   Sinks sinks_;
-  std::vector<ros::Subscriber> subscribers_;
 };
 
 }  // namespace organ_collision

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <utility>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/handover.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/plausible_size.hpp"
 
@@ -23,15 +25,6 @@ const ros::WallDuration kLastWords(1.0);
 ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
   node.setCallbackQueue(&queue);
   return node;
-}
-
-std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
-                             const ros::NodeHandle& private_node) {
-  std::vector<Tool> tools;
-  for (const ToolParameters& of_tool : parameters) {
-    tools.push_back(load_tool(of_tool, private_node));
-  }
-  return tools;
 }
 
 void warn_of_implausible_sizes(const std::vector<Tool>& tools) {
@@ -62,28 +55,34 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                     counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_),
-      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), queue_, background_}) {
-  for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
-  for (const Tool& tool : tools_) {
-    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
-  }
-  warn_of_implausible_sizes(tools_);
+      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), queue_, background_}),
+      tool_reload_(on_queue(private_node, background_), tools_,
+                   [this](LoadedToolList& loaded, const KeptTools& kept) {
+                     run_in_thread_of(queue_, [&] { exchange_tools(loaded, kept); });
+                   }),
+      live_parameters_(on_queue(private_node, background_), live_parameters(loaded_.parameters),
+                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }),
+      background_thread_(1, &background_) {
+  warn_of_settings();
   pipeline_.subscribe(node_, private_node_);
   services_.advertise(private_node_);
   organ_services_.advertise(private_node_);
-  background_thread_.start();
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
-  if (loaded_.parameters.rate_hz > 0.0) {
-    tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
-                                      [this](const ros::TimerEvent&) { pipeline_.add_tick(); });
-  }
+  start_ticks();
   diagnostics_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  background_thread_.start();
   ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
            pipeline_.contact_query().gl_version().c_str());
+}
+
+/// Ends the wait of the background thread for this thread.
+CollisionNode::~CollisionNode() {
+  queue_.disable();
+  queue_.clear();
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
@@ -139,6 +138,45 @@ void CollisionNode::guard(const std::function<void()>& action) {
     counters_.rejected.add("exception", std::string("a message was dropped: ") + error.what(),
                            SteadyClock::now());
   }
+}
+
+void CollisionNode::warn_of_settings() const {
+  for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
+  for (const Tool& tool : tools_) {
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
+  }
+  if (tools_.empty()) ROS_WARN("%s", kNoTools);
+  warn_of_implausible_sizes(tools_);
+}
+
+/// Also called when the rate has changed.
+void CollisionNode::start_ticks() {
+  tick_ = ros::Timer();
+  if (!(loaded_.parameters.rate_hz > 0.0)) return;
+  tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
+                                    [this](const ros::TimerEvent&) { pipeline_.add_tick(); });
+}
+
+/// Runs in the node's thread.
+void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
+  std::swap(tools_, loaded.tools);
+  std::swap(loaded_.misspelt, loaded.misspelt);
+  loaded_.parameters.tools.clear();
+  for (const Tool& tool : tools_) loaded_.parameters.tools.push_back(tool.parameters);
+  pipeline_.change_tools(loaded_.parameters.tools, kept, node_);
+  warn_of_settings();
+}
+
+/// Runs in the background thread.
+void CollisionNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
+  // Only this thread ever makes the node's thread change them.
+  const LiveNodeParameters now = changed(loaded_.parameters, changes);
+  run_in_thread_of(queue_, [&] {
+    LiveNodeParameters& parameters = loaded_.parameters;
+    const bool same_rate = parameters.rate_hz == now.rate_hz;
+    parameters = now;
+    if (!same_rate) start_ticks();
+  });
 }
 
 bool CollisionNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {

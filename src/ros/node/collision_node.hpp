@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "ros/interface/live_parameters.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
 #include "ros/parameters/node_parameters.hpp"
@@ -17,18 +18,23 @@
 #include "ros/publishing/node_counters.hpp"
 #include "ros/steps/query_services.hpp"
 #include "ros/tools/tool.hpp"
+#include "tool_reload.hpp"
 
 namespace organ_collision {
 
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
-/// (doc/architecture.md). One thread does all work through one callback queue. That thread owns the
-/// GL context and all state, so that the state needs no locks. Only large meshes with new triangles
-/// are built in a second thread (organ_message_queue.hpp), and their surfaces are inspected in a
-/// third one, the background thread (surface_inspector.hpp).
+/// (doc/architecture.md). One thread does all work of the steps through one callback queue. That
+/// thread owns the GL context and all state, so that the state needs no locks. Large meshes with
+/// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the background
+/// thread, inspects surfaces, and loads and checks new tools and parameters. The node's thread only
+/// exchanges them.
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
   CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~CollisionNode();
+  CollisionNode(const CollisionNode&) = delete;
+  CollisionNode& operator=(const CollisionNode&) = delete;
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
   /// recover from, such as std::bad_alloc, after it has published PICKER_FAILED for each organ and
@@ -40,11 +46,14 @@ class CollisionNode {
   void receive();
   bool call_one(ros::WallDuration wait);
   void guard(const std::function<void()>& action);
+  void warn_of_settings() const;
+  void start_ticks();
+  void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
+  void change_parameters(const XmlRpc::XmlRpcValue& changes);
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   ros::CallbackQueue queue_;
   ros::CallbackQueue background_;
-  ros::AsyncSpinner background_thread_{1, &background_};
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
@@ -62,6 +71,11 @@ class CollisionNode {
   ros::ServiceServer reset_;
   ros::Timer tick_;
   ros::WallTimer diagnostic_timer_;
+
+  // What works in the background thread.
+  ToolReload tool_reload_;
+  LiveParameters live_parameters_;
+  ros::AsyncSpinner background_thread_;
 };
 
 }  // namespace organ_collision

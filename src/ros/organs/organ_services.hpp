@@ -2,10 +2,8 @@
 
 #include <organ_collision/ListOrgans.h>
 #include <organ_collision/RemoveOrgan.h>
-#include <ros/callback_queue_interface.h>
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-
-#include <atomic>
 
 #include "organ_list.hpp"
 #include "organ_registry.hpp"
@@ -23,15 +21,11 @@ class OrganServices {
   struct Sources {
     const OrganRegistry& organs;
     OrganTopics& topics;
-    ros::CallbackQueueInterface& node_queue;  ///< of the node's thread, which owns the organs
+    ros::CallbackQueue& node_queue;           ///< of the node's thread, which owns the organs
     ros::CallbackQueueInterface& background;  ///< of the thread that calls OrganSurface::find()
   };
 
   explicit OrganServices(const Sources& sources) : sources_(sources) {}
-  /// Ends a call that still waits for the node's thread: it must be this thread.
-  ~OrganServices();
-  OrganServices(const OrganServices&) = delete;
-  OrganServices& operator=(const OrganServices&) = delete;
 
   void advertise(ros::NodeHandle private_node);
 
@@ -42,7 +36,6 @@ class OrganServices {
 
  private:
   Sources sources_;
-  std::atomic<bool> stop_{false};
   ros::ServiceServer list_, remove_;
 };
 

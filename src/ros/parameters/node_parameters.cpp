@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "organ_collision/ros/names.hpp"
+#include "parameter_help.hpp"
 #include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
@@ -19,7 +20,9 @@ constexpr double kMostMessageBytes = 1e9;
 /// With more faces, a message would be too large: each face has three indices of four bytes.
 constexpr double kMostFaces = 83'333'333;
 
-const NumberRange kNotNegative{0.0, kUnlimited};
+const NumberRange kRateRange{0.0, 10'000.0};
+const NumberRange kTfTimeoutRange{0.0, 60.0};
+const NumberRange kMeshTimeoutRange{0.0, kUnlimited};
 const NumberRange kPositive{0.0, kUnlimited, false};
 
 const std::string kShaft = "trocar_frame, tip_frame and radius";
@@ -120,7 +123,8 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   return parsed;
 }
 
-void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
+LoadedTools parse_tools(const ParameterGroup& all) {
+  LoadedTools loaded{{}, all.misspelt()};
   const XmlRpcValue& list =
       all.list(names::kTools, "groups of name and links, or name, " + kShaft + " [m]");
   for (int i = 0; i < list.size(); ++i) {
@@ -130,12 +134,30 @@ void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
          names::kBasePoseTopic, names::kRadius, names::kLinks, names::kRobotDescription,
          names::kUrdf, names::kTfPrefix});
     const ToolParameters tool = parse_tool(group);
-    for (const ToolParameters& other : loaded.parameters.tools) {
+    for (const ToolParameters& other : loaded.tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
     }
-    loaded.parameters.tools.push_back(tool);
+    loaded.tools.push_back(tool);
     for (std::string& sentence : group.misspelt()) loaded.misspelt.push_back(std::move(sentence));
   }
+  return loaded;
+}
+
+ParameterGroup node_group(const XmlRpcValue& private_namespace) {
+  return {
+      "~",
+      private_namespace,
+      {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
+       names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
+       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod}};
+}
+
+/// Missing members keep their values.
+void parse_live(const ParameterGroup& all, LiveNodeParameters& p) {
+  p.rate_hz = all.number(names::kRate, p.rate_hz, kRateRange);
+  p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, kTfTimeoutRange);
+  p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kMeshTimeoutRange);
+  p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
 }
 
 }  // namespace
@@ -145,28 +167,21 @@ std::string ToolParameters::link_frame(const std::string& link) const {
 }
 
 LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
-  const ParameterGroup all(
-      "~", private_namespace,
-      {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
-       names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
-       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod});
-  LoadedParameters loaded;
-  loaded.misspelt = all.misspelt();
-  parse_tools(all, loaded);
+  const ParameterGroup all = node_group(private_namespace);
+  LoadedTools tools = parse_tools(all);
+  LoadedParameters loaded{{}, std::move(tools.misspelt)};
   NodeParameters& p = loaded.parameters;
+  p.tools = std::move(tools.tools);
+  parse_live(all, p);
   p.picker = picker_kind(all.choice(names::kPicker, "feedback", {"feedback", "select"}));
-  p.rate_hz = all.number(names::kRate, p.rate_hz, {0.0, 10'000.0});
   p.organ_motion = all.flag(names::kOrganMotion, p.organ_motion);
   p.motion_sample_sec = all.number(names::kMotionSampleSec, p.motion_sample_sec, kPositive);
   p.motion_samples_max =
       all.whole_number(names::kMotionSamplesMax, p.motion_samples_max, {1, 100'000});
-  p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, {0.0, 60.0});
-  p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative);
   p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, {1, kMostFaces});
   p.max_batch = all.whole_number(names::kMaxBatch, p.max_batch, {1, 1'000'000});
   p.max_batch_bytes =
       all.whole_number(names::kMaxBatchBytes, p.max_batch_bytes, {1, kMostMessageBytes});
-  p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, {0.01, 3600.0});
   return loaded;
@@ -174,6 +189,31 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
 
 LoadedParameters load_parameters(const ros::NodeHandle& private_node) {
   return parse_parameters(all_parameters(private_node));
+}
+
+LoadedTools load_tool_parameters(const ros::NodeHandle& private_node) {
+  return parse_tools(node_group(all_parameters(private_node)));
+}
+
+std::vector<LiveParameter> live_parameters(const LiveNodeParameters& p) {
+  const std::vector<HelpEntry> help = parameter_help();
+  const LiveNodeParameters defaults;
+  const auto number = [&](const char* name, double value, double fallback,
+                          const NumberRange& range) {
+    return LiveParameter{name, text_of(help, name), value, fallback, range};
+  };
+  return {number(names::kRate, p.rate_hz, defaults.rate_hz, kRateRange),
+          number(names::kTfTimeoutSec, p.tf_timeout_sec, defaults.tf_timeout_sec, kTfTimeoutRange),
+          number(names::kMeshTimeoutSec, p.mesh_timeout_sec, defaults.mesh_timeout_sec,
+                 kMeshTimeoutRange),
+          LiveParameter{names::kPublishRegions, text_of(help, names::kPublishRegions),
+                        p.publish_regions, defaults.publish_regions}};
+}
+
+LiveNodeParameters changed(const LiveNodeParameters& parameters, const XmlRpcValue& changes) {
+  LiveNodeParameters result = parameters;
+  parse_live(live_group(changes, live_parameters(parameters)), result);
+  return result;
 }
 
 }  // namespace organ_collision

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "organ_collision/picking/picker_kind.hpp"
+#include "ros/interface/live_parameters.hpp"
 #include "ros/interface/parameter_group.hpp"
 
 namespace organ_collision {
@@ -30,20 +31,24 @@ struct ToolParameters {
   std::string link_frame(const std::string& link) const;
 };
 
-/// The node's parameters after validation. The defaults here are the documented ones.
-struct NodeParameters {
+/// The parameters that can be changed while the node runs. The defaults are the documented ones.
+struct LiveNodeParameters {
+  double rate_hz = 0.0;  ///< of ticks; 0: steps only at new shapes and pose messages
+  double tf_timeout_sec = 0.02;
+  double mesh_timeout_sec = 0.0;  ///< 0: never stale
+  bool publish_regions = false;
+};
+
+/// The node's parameters after validation. The defaults are the documented ones.
+struct NodeParameters : LiveNodeParameters {
   std::vector<ToolParameters> tools;
   PickerKind picker = PickerKind::kFeedback;
-  double rate_hz = 0.0;      ///< of ticks; 0: steps only at new shapes and pose messages
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;
-  double tf_timeout_sec = 0.02;
-  double mesh_timeout_sec = 0.0;  ///< 0: never stale
   int max_faces = 2'000'000;
-  int max_batch = 1000;            ///< [motions] in one call of query_batch
-  int max_batch_bytes = 64 << 20;  ///< [bytes] of all results of a batch, serialized
-  bool publish_regions = false;
+  int max_batch = 1000;                ///< [motions] in one call of query_batch
+  int max_batch_bytes = 64 << 20;      ///< [bytes] of all results of a batch, serialized
   double diagnostic_period_sec = 1.0;  ///< of wall time
 };
 
@@ -58,5 +63,22 @@ LoadedParameters parse_parameters(const XmlRpc::XmlRpcValue& private_namespace);
 
 /// From the parameter server. Throws ParameterError.
 LoadedParameters load_parameters(const ros::NodeHandle& private_node);
+
+/// The tools alone, and one sentence for each unknown name among all parameters.
+struct LoadedTools {
+  std::vector<ToolParameters> tools;
+  std::vector<std::string> misspelt;
+};
+
+/// The tools that the parameter server has now. Throws ParameterError.
+LoadedTools load_tool_parameters(const ros::NodeHandle& private_node);
+
+/// The members of LiveNodeParameters, for LiveParameters.
+std::vector<LiveParameter> live_parameters(const LiveNodeParameters& parameters);
+
+/// The parameters after these changes. Throws ParameterError if a change is illegal, or if the
+/// parameter cannot be changed while the node runs.
+LiveNodeParameters changed(const LiveNodeParameters& parameters,
+                           const XmlRpc::XmlRpcValue& changes);
 
 }  // namespace organ_collision

@@ -18,6 +18,7 @@
 #include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "ros/tools/tool.hpp"
+#include "ros/tools/tool_changes.hpp"
 
 namespace organ_collision {
 
@@ -59,6 +60,10 @@ class CollisionPipeline {
   std::optional<SteadyTime> next_deadline() const { return steps_.next_deadline(); }
   /// Forgets all history: the next step of every tool is static.
   void reset();
+  /// Call it when the list of tools has changed. Kept tools keep their history. `parameters`: of
+  /// all tools; `node`: where their pose topics are.
+  void change_tools(const std::vector<ToolParameters>& parameters, const KeptTools& kept,
+                    const ros::NodeHandle& node);
 
   const OrganRegistry& organs() const { return organs_; }
   const TransformBuffer& transforms() const { return transforms_; }

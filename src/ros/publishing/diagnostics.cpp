@@ -68,6 +68,7 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
 
 void Diagnostics::tools(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, counted(sources_.tools.size(), "tool"));
+  if (sources_.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
   for (const Tool& tool : sources_.tools) show_tool(tool, status);
 }
 

@@ -1,5 +1,7 @@
 #include "step_history.hpp"
 
+#include <algorithm>
+
 namespace organ_collision {
 
 void ShapeQueue::pop() {
@@ -22,6 +24,17 @@ void StepHistory::forget(const std::string& organ) {
   auto end = first;
   while (end != pairs_.end() && end->first.first == organ) ++end;
   pairs_.erase(first, end);
+}
+
+void StepHistory::renumber(const KeptTools& kept) {
+  Pairs old;
+  old.swap(pairs_);
+  for (auto& [key, pair] : old) {
+    const auto now = std::find(kept.begin(), kept.end(), key.second);
+    if (now == kept.end()) continue;
+    const auto tool = static_cast<std::size_t>(now - kept.begin());
+    pairs_.insert({{key.first, tool}, std::move(pair)});
+  }
 }
 
 }  // namespace organ_collision

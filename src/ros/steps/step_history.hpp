@@ -12,6 +12,7 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "ros/organs/deformable_organ.hpp"
+#include "ros/tools/tool_changes.hpp"
 
 namespace organ_collision {
 
@@ -65,6 +66,8 @@ class StepHistory {
   const LastStep* last(const std::string& organ, std::size_t tool) const;
 
   void forget(const std::string& organ);
+  /// For a new list of tools: numbers the kept tools anew, and forgets the others.
+  void renumber(const KeptTools& kept);
   void clear() { pairs_.clear(); }
 
   Pairs& pairs() { return pairs_; }

@@ -124,6 +124,18 @@ void StepScheduler::evaluate_latest(const DeformableOrgan& organ, std::size_t to
   }
 }
 
+void StepScheduler::change_tools(const OrganRegistry& organs, const KeptTools& kept) {
+  history_.renumber(kept);
+  const std::vector<char> was_due = std::exchange(tool_is_due_, std::vector<char>(kept.size()));
+  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
+    tool_is_due_[tool] = !kept[tool] || was_due[*kept[tool]];
+    if (kept[tool]) continue;
+    for (const auto& [name, organ] : organs.organs()) {
+      history_.of(name, tool).current = organ.latest();
+    }
+  }
+}
+
 void StepScheduler::reset() {
   for (auto& [key, pair] : history_.pairs()) pair.last.reset();
 }

@@ -58,6 +58,10 @@ class StepScheduler {
   /// poses.
   void evaluate(const OrganRegistry& organs, SteadyTime now);
 
+  /// For a new list of tools, which must be in place already. The kept tools keep their history and
+  /// what is due. The other tools become due, with a static step against each organ's latest shape.
+  void change_tools(const OrganRegistry& organs, const KeptTools& kept);
+
   /// Forgets all history: the next step of every tool is static. Waiting shapes go on waiting.
   void reset();
   /// For a clock that jumped back: forgets all history, and drops the shapes that wait, because

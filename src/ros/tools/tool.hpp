@@ -19,6 +19,11 @@ struct Tool {
   std::string fault;  ///< why the links could not be loaded; empty if there was no error
 };
 
+/// What the log and /diagnostics say about an empty list of tools.
+inline constexpr char kNoTools[] =
+    "~tools is empty: no contacts are published, and only queries that give a motion are answered; "
+    "set ~tools and call ~reload_tools, or start the node anew";
+
 /// The tool, with its links from its URDF. The URDF is a file, or a parameter that is searched in
 /// the node's private namespace and upwards from there. A bad description is not thrown: the tool
 /// gets a `fault`, a sentence that begins with the tool's name.

@@ -282,3 +282,41 @@ TEST(Parameters, MisspeltNamesAreReported) {
   expect_words(misspelt[0], {"~mesh_timout_sec", "'mesh_timeout_sec'"});
   expect_words(misspelt[1], {"~tools[0]/colour", "radius"});
 }
+
+TEST(LiveNodeParameters, ChangesKeepTheRest) {
+  LiveNodeParameters before;
+  before.rate_hz = 50.0;
+  XmlRpcValue changes;
+  changes["tf_timeout_sec"] = 1;
+  changes["publish_regions"] = true;
+  const LiveNodeParameters after = changed(before, changes);
+  EXPECT_EQ(after.rate_hz, 50.0);
+  EXPECT_EQ(after.tf_timeout_sec, 1.0);
+  EXPECT_EQ(after.mesh_timeout_sec, before.mesh_timeout_sec);
+  EXPECT_TRUE(after.publish_regions);
+}
+
+TEST(LiveNodeParameters, IllegalChangesAreRefused) {
+  const std::vector<std::pair<const char*, XmlRpcValue>> illegal = {
+      {"rate", -1.0},           {"rate", 10'001.0},       {"rate", std::nan("")},
+      {"tf_timeout_sec", 61},   {"mesh_timeout_sec", -1}, {"mesh_timeout_sec", 1.0 / 0.0},
+      {"publish_regions", 1.0}, {"picker", "select"},     {"rates", 1.0}};
+  for (const auto& [name, value] : illegal) {
+    XmlRpcValue changes;
+    changes[name] = value;
+    EXPECT_THROW(changed({}, changes), ParameterError) << name;
+  }
+}
+
+TEST(LiveNodeParameters, EachIsDescribed) {
+  LiveNodeParameters now;
+  now.rate_hz = 50.0;
+  const std::vector<LiveParameter> all = live_parameters(now);
+  EXPECT_EQ(all.size(), 4u);
+  for (LiveParameter parameter : all) {
+    EXPECT_FALSE(parameter.text.empty()) << parameter.name;
+    XmlRpcValue changes;
+    changes[parameter.name] = parameter.value;
+    EXPECT_NO_THROW(changed(now, changes)) << parameter.name;
+  }
+}

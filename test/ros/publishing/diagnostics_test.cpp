@@ -134,6 +134,13 @@ TEST_F(DiagnosticsTest, ARefusedNewerMeshOfAGoodOrgan) {
   EXPECT_FALSE(values(&Diagnostics::organs).count("liver, newer mesh refused"));
 }
 
+TEST_F(DiagnosticsTest, NoToolsAreAWarning) {
+  tools.clear();
+  values(&Diagnostics::tools);
+  EXPECT_EQ(status.level, DiagnosticStatus::WARN);
+  EXPECT_EQ(status.message, kNoTools);
+}
+
 TEST_F(DiagnosticsTest, AgeOfEachOrgan) {
   send_mesh(48.0, 0.0);
   auto shown = values(&Diagnostics::organs);

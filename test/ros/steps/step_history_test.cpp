@@ -73,3 +73,18 @@ TEST(StepHistory, ForgetsOneOrganOrAll) {
   history.clear();
   EXPECT_TRUE(history.pairs().empty());
 }
+
+TEST(StepHistory, KeptToolsAreNumberedAnewAndOthersForgotten) {
+  StepHistory history;
+  for (const char* organ : {"kidney", "liver"}) {
+    for (int tool = 0; tool < 3; ++tool) history.of(organ, tool).last = step(10 + tool);
+  }
+  history.renumber({std::nullopt, 2, 0, std::nullopt});
+  EXPECT_EQ(history.pairs().size(), 4u);
+  for (const char* organ : {"kidney", "liver"}) {
+    EXPECT_EQ(history.last(organ, 0), nullptr);
+    EXPECT_EQ(history.last(organ, 1)->stamp, ros::Time(12));
+    EXPECT_EQ(history.last(organ, 2)->stamp, ros::Time(10));
+    EXPECT_EQ(history.last(organ, 3), nullptr);
+  }
+}

@@ -280,3 +280,52 @@ TEST_F(StepSchedulerTest, RegionsOnRequest) {
   ASSERT_EQ(published[0].regions.size(), 1u);
   EXPECT_GE(published[0].regions[0].points.size(), 3u);
 }
+
+TEST_F(StepSchedulerTest, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  set_point(transforms, "liver_frame", "needle_trocar", 0.0, {0.0, 0.0, 1.0}, true);
+  set_point(transforms, "liver_frame", "needle_tip", 1.0, kBelow);
+  tools = {shaft_tool("needle", 0.01), tools[0]};
+  steps.change_tools(organs, {std::nullopt, 0});
+  const auto at_once = evaluate();
+  expect_step(at_once, kStatic, 1.0, 1.0, 1);
+  EXPECT_EQ(at_once[0].tool, "needle");
+
+  send_tip(1.1, kBelow);
+  set_point(transforms, "liver_frame", "needle_tip", 1.1, kAbove);
+  send_vertices(1.1, 0.0);
+  const auto next = evaluate();
+  ASSERT_EQ(next.size(), 2u);
+  for (const ContactArray& answer : next) {
+    EXPECT_EQ(answer.mode, kSwept) << answer.tool;
+    EXPECT_EQ(answer.step_start, ros::Time(1.0)) << answer.tool;
+  }
+}
+
+TEST_F(StepSchedulerTest, AfterAChangeOfToolsWhatWaitsIsStillEvaluated) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
+  send_vertices(1.1, 0.0);
+  EXPECT_TRUE(evaluate().empty());  // It waits for its transform.
+  tools.push_back(tools[0]);
+  tools.erase(tools.begin());
+  steps.change_tools(organs, {0});
+  EXPECT_TRUE(evaluate().empty());
+  send_tip(1.1, kBelow);
+  expect_step(evaluate(), kSwept, 1.0, 1.1, 1);
+}
+
+TEST_F(StepSchedulerTest, ARemovedToolIsNotEvaluated) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  send_vertices(1.1, 0.0);
+  tools.clear();
+  steps.change_tools(organs, {});
+  EXPECT_TRUE(evaluate(milliseconds(1000)).empty());
+  EXPECT_TRUE(tick().empty());
+  EXPECT_EQ(steps.next_deadline(), std::nullopt);
+}

@@ -3,6 +3,7 @@ collision node about the organs."""
 
 import threading
 
+from diagnostic_msgs.msg import DiagnosticArray
 from organ_collision.msg import ContactArray
 import rospy
 
@@ -29,6 +30,21 @@ class MessageLog:
     def of(self, organ):
         with self.lock:
             return [message for message in self.messages if message.organ == organ]
+
+
+class AdapterDiagnostics:
+    """The latest of what the adapter publishes on /diagnostics."""
+
+    def __init__(self, adapter):
+        self.values, self.summary = {}, ''
+        self.name = adapter.lstrip('/') + ': meshes'
+        self.subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, self._keep)
+
+    def _keep(self, message):
+        for status in message.status:
+            if status.name.lstrip('/') == self.name:
+                self.summary = status.message
+                self.values = {pair.key: pair.value for pair in status.values}
 
 
 class MeshAdapterCase(ContactCase):

@@ -1,0 +1,50 @@
+#include "contact_adapter_help.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/ContactArray.h>
+#include <ros/names.h>
+#include <ros/service_traits.h>
+#include <std_msgs/UInt32MultiArray.h>
+
+#include "contact_adapter_names.hpp"
+#include "contact_adapter_parameters.hpp"
+#include "organ_collision/ros/names.hpp"
+
+namespace organ_collision {
+
+ProgramHelp contact_adapter_help() {
+  const ContactAdapterParameters defaults;
+  const std::string pair = "~ORGAN/TOOL";
+  ProgramHelp help{names::kContactAdapter,
+                   "Turns the contacts of the collision node into a wrench and a list of faces for "
+                   "each organ and tool. The force has no upper limit unless max_force is set."};
+  help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
+                      ros::message_traits::datatype<ContactArray>(),
+                      "remap it if the collision node has another name"}};
+  help.published = {
+      {ros::names::append(pair, names::kWrench),
+       ros::message_traits::datatype<geometry_msgs::WrenchStamped>(),
+       "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
+      {ros::names::append(pair, names::kFaces),
+       ros::message_traits::datatype<std_msgs::UInt32MultiArray>(),
+       "the numbers of the touched faces"},
+      {"/diagnostics", ros::message_traits::datatype<diagnostic_msgs::DiagnosticArray>(),
+       "number of messages, of those without output by reason, of clipped forces"}};
+  help.services = {{"set_parameters",
+                    ros::service_traits::datatype<dynamic_reconfigure::Reconfigure>(),
+                    "changes stiffness and max_force while the node runs, as dynparam and "
+                    "rqt_reconfigure do"}};
+  help.parameters = {
+      {names::kStiffness, shown(defaults.stiffness), "[N/m] force for each metre of depth"},
+      {names::kMaxForce, "no limit", "[N] larger forces are clipped to it"},
+      {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
+       "[s] between messages on /diagnostics"}};
+  help.further =
+      "roslaunch organ_collision contact_adapter.launch starts it. doc/forces.md explains the law "
+      "of the force.";
+  return help;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,80 @@
+#include "node_help.hpp"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/OrganMesh.h>
+#include <organ_collision/OrganVertices.h>
+#include <organ_collision/QueryCollision.h>
+#include <organ_collision/QueryCollisionBatch.h>
+#include <ros/service_traits.h>
+#include <std_srvs/Empty.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include "organ_collision/ros/names.hpp"
+#include "ros/parameters/parameter_help.hpp"
+
+namespace organ_collision {
+namespace {
+
+template <typename Message>
+std::string message() {
+  return ros::message_traits::datatype<Message>();
+}
+
+template <typename Service>
+std::string service() {
+  return ros::service_traits::datatype<Service>();
+}
+
+std::vector<HelpEntry> subscribed_topics() {
+  return {
+      {names::kOrganMesh, message<OrganMesh>(), "an organ's surface: vertices and triangles"},
+      {names::kOrganVertices, message<OrganVertices>(), "an organ's new shape: its vertices"},
+      {"/tf, /tf_static", message<tf2_msgs::TFMessage>(), "where tools and organs are"},
+      {"as each tool names it", message<geometry_msgs::PoseStamped>(),
+       "where the tool's tip is (tip_pose_topic, base_pose_topic)"},
+  };
+}
+
+std::vector<HelpEntry> published_topics() {
+  return {
+      {names::kContacts, message<ContactArray>(),
+       "what each tool touches, for each shape or pose, also if it is nothing"},
+      {names::kMarkers, message<visualization_msgs::MarkerArray>(), "what RViz shows"},
+      {"/diagnostics", message<diagnostic_msgs::DiagnosticArray>(),
+       "query times, age of meshes, refused messages"},
+  };
+}
+
+std::vector<HelpEntry> services() {
+  return {
+      {names::kQuery, service<QueryCollision>(), "what one motion, or one tool, would touch"},
+      {names::kQueryBatch, service<QueryCollisionBatch>(), "what many motions would touch"},
+      {names::kReset, service<std_srvs::Empty>(),
+       "forgets all history: the next step of each tool is static"},
+      {names::kReloadTools, service<std_srvs::Trigger>(), "reads the parameter tools again"},
+      {"set_parameters", service<dynamic_reconfigure::Reconfigure>(),
+       "changes parameters while the node runs, as dynparam and rqt_reconfigure do"},
+  };
+}
+
+}  // namespace
+
+ProgramHelp node_help() {
+  return {"organ_collision_node",
+          "Tells which faces of deforming organs surgical tools touch, or touched since the last "
+          "answer. The names below are private to the node (~), whose default name is /" +
+              std::string(names::kNode) + ".",
+          subscribed_topics(),
+          published_topics(),
+          services(),
+          parameter_help(),
+          "roslaunch organ_collision organ_collision.launch tools:=FILE.yaml starts the node with "
+          "the tools of a file. doc/interface.md explains all of this."};
+}
+
+}  // namespace organ_collision

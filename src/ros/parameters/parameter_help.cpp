@@ -1,0 +1,39 @@
+#include "parameter_help.hpp"
+
+#include "node_parameters.hpp"
+#include "organ_collision/ros/names.hpp"
+
+namespace organ_collision {
+
+std::vector<HelpEntry> parameter_help() {
+  const NodeParameters defaults;
+  return {
+      {names::kTools, "required",
+       "list of tools. A shaft has name, trocar_frame, tip_frame or tip_pose_topic, and radius "
+       "[m]. A robot's tool has name and links"},
+      {names::kPicker, "feedback",
+       "feedback (GL_FEEDBACK, fast) or select (GL_SELECT, as in the 1999 paper)"},
+      {names::kRate, shown(defaults.rate_hz),
+       "[Hz] the node also evaluates at this rate; 0: only at new shapes and pose messages"},
+      {names::kOrganMotion, shown(defaults.organ_motion),
+       "true: organs move linearly from shape to shape; false: they jump"},
+      {names::kMotionSampleSec, shown(defaults.motion_sample_sec),
+       "[s] interval at which TF is sampled where its transforms are farther apart"},
+      {names::kMotionSamplesMax, shown(defaults.motion_samples_max),
+       "largest number of legs of a tool's path in a step"},
+      {names::kTfTimeoutSec, shown(defaults.tf_timeout_sec),
+       "[s] how long a new shape waits for its transforms"},
+      {names::kMeshTimeoutSec, shown(defaults.mesh_timeout_sec),
+       "[s] an older mesh is answered with STALE_MESH; 0: never"},
+      {names::kMaxFaces, shown(defaults.max_faces), "larger organs are refused"},
+      {names::kMaxBatch, shown(defaults.max_batch), "motions in one call of query_batch"},
+      {names::kMaxBatchBytes, shown(defaults.max_batch_bytes),
+       "bytes of all results of one call of query_batch"},
+      {names::kPublishRegions, shown(defaults.publish_regions),
+       "true: each contact has the polygon in which its face meets the tool's viewing volume"},
+      {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
+       "[s] between messages on /diagnostics"},
+  };
+}
+
+}  // namespace organ_collision
