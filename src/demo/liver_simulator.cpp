@@ -8,13 +8,11 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
-#include "liver_scene.hpp"
 #include "liver_soft_body.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/program_help.hpp"
@@ -28,7 +26,6 @@ constexpr double kYield = 0.5;        // [1] share of the depth by which tissue 
 constexpr double kMostYield = 0.008;  // [m] in one step
 constexpr double kTfLeadSec =
     0.5;  // only TF is sent, so that listeners have it before the first shape
-constexpr double kSceneRate = 30.0;  // [Hz]
 constexpr double kRate = 125.0;      // [Hz] of shapes, by default
 constexpr char kCollisionNode[] = "/organ_collision";
 
@@ -72,14 +69,12 @@ std::vector<TissuePush> pushes_of(const std::vector<Contact>& contacts) {
 
 class LiverSimulator {
  public:
-  LiverSimulator(ros::NodeHandle collision_node, ros::NodeHandle private_node, double rate)
+  LiverSimulator(ros::NodeHandle collision_node, double rate)
       : rate_(rate),
         surface_(make_liver_surface()),
         liver_(surface_),
-        scene_(kOrgan, surface_.faces),
         mesh_publisher_(collision_node.advertise<OrganMesh>("organ_mesh", 1, true)),
         vertices_publisher_(collision_node.advertise<OrganVertices>("organ_vertices", 1)),
-        scene_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("scene", 10)),
         contacts_subscriber_(
             collision_node.subscribe("contacts", 10, &LiverSimulator::on_contacts, this)) {
     publish_trocars();
@@ -107,13 +102,11 @@ class LiverSimulator {
     const ros::Time stamp = ros::Time::now();
     publish_tips(stamp);
     steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
-    show(stamp);
   }
 
   void on_contacts(const ContactArray& array) {
     if (array.status == ContactArray::OK && array.organ == kOrgan) {
       pushes_[array.tool] = pushes_of(array.contacts);
-      for (const Contact& contact : array.contacts) scene_.touch(contact.face);
     }
   }
 
@@ -159,28 +152,14 @@ class LiverSimulator {
     vertices_publisher_.publish(vertices);
   }
 
-  void show(const ros::Time& stamp) {
-    if (scene_publisher_.getNumSubscribers() == 0) return;
-    for (const ScriptedTool& tool : scripted_tools()) {
-      scene_.move_tool(tool.at((steps_ - 1) / rate_), tool.at(steps_ / rate_));
-    }
-    if (steps_ % steps_shown() != 0) return;
-    scene_publisher_.publish(scene_.markers(stamp, liver_.vertices(), steps_shown() / rate_));
-  }
-
-  /// Only one step out of this number is shown.
-  int steps_shown() const { return std::max(1, static_cast<int>(rate_ / kSceneRate)); }
-
   double rate_;
   ClosedSurface surface_;
   LiverSoftBody liver_;
-  LiverScene scene_;
   std::map<std::string, std::vector<TissuePush>> pushes_;  ///< by tool, since the last step
   long lead_steps_ = 0;
   long steps_ = 0;
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
-  ros::Publisher scene_publisher_;
   ros::Subscriber contacts_subscriber_;
   tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
   tf2_ros::TransformBroadcaster tip_broadcaster_;
@@ -204,7 +183,7 @@ int main(int argc, char** argv) {
   const std::string collision_node =
       private_node.param<std::string>("collision_node", kCollisionNode);
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
-  LiverSimulator simulator(ros::NodeHandle(collision_node), private_node, rate);
+  LiverSimulator simulator(ros::NodeHandle(collision_node), rate);
   for (ros::Rate loop(rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();
     simulator.step();

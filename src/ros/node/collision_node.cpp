@@ -43,8 +43,12 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       loaded_(load_parameters(private_node_)),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
       publisher_(private_node_, tools_, counters_),
+      markers_(private_node_, loaded_.parameters.markers, tools_),
       pipeline_(loaded_.parameters, tools_,
-                {[this](const EvaluatedStep& step) { publisher_.publish(step); },
+                {[this](const EvaluatedStep& step) {
+                   publisher_.publish(step);
+                   markers_.add(step);
+                 },
                  [this](const OrganUpdate& update) { publisher_.report(update); },
                  counters_.rejected, queue_}),
       services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
@@ -91,6 +95,7 @@ void CollisionNode::run(const std::function<bool()>& stop) {
       receive();
       pipeline_.evaluate(SteadyClock::now());
       surfaces_.update(pipeline_.organs(), SteadyClock::now());
+      guard([this] { markers_.update(pipeline_.organs(), pipeline_.steps().history()); });
     }
   } catch (const std::exception& error) {
     publisher_.report_breakdown(pipeline_.organs(), error.what());
@@ -164,6 +169,7 @@ void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept
   loaded_.parameters.tools.clear();
   for (const Tool& tool : tools_) loaded_.parameters.tools.push_back(tool.parameters);
   pipeline_.change_tools(loaded_.parameters.tools, kept, node_);
+  markers_.set_tools(tools_);
   warn_of_settings();
 }
 
@@ -176,6 +182,7 @@ void CollisionNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
     const bool same_rate = parameters.rate_hz == now.rate_hz;
     parameters = now;
     if (!same_rate) start_ticks();
+    markers_.set_settings(parameters.markers);
   });
 }
 

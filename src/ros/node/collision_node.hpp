@@ -15,6 +15,7 @@
 #include "ros/pipeline/collision_pipeline.hpp"
 #include "ros/publishing/contact_publisher.hpp"
 #include "ros/publishing/diagnostics.hpp"
+#include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
 #include "ros/steps/query_services.hpp"
 #include "ros/tools/tool.hpp"
@@ -61,6 +62,7 @@ class CollisionNode {
   NodeCounters counters_;
 
   ContactPublisher publisher_;
+  MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
   Diagnostics diagnostics_;

@@ -23,6 +23,7 @@ constexpr double kMostFaces = 83'333'333;
 const NumberRange kRateRange{0.0, 10'000.0};
 const NumberRange kTfTimeoutRange{0.0, 60.0};
 const NumberRange kMeshTimeoutRange{0.0, kUnlimited};
+const NumberRange kFrameRates{0.0, 1000.0};  // [Hz]
 const NumberRange kPositive{0.0, kUnlimited, false};
 
 const std::string kShaft = "trocar_frame, tip_frame and radius";
@@ -149,7 +150,15 @@ ParameterGroup node_group(const XmlRpcValue& private_namespace) {
       private_namespace,
       {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
        names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
-       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod}};
+       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod,
+       names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth}};
+}
+
+/// Missing members keep their values.
+void parse_markers(const ParameterGroup& all, MarkerSettings& markers) {
+  markers.markers_rate_hz = all.number(names::kMarkersRate, markers.markers_rate_hz, kFrameRates);
+  markers.surface_rate_hz = all.number(names::kSurfaceRate, markers.surface_rate_hz, kFrameRates);
+  markers.markers_depth = all.number(names::kMarkersDepth, markers.markers_depth, kPositive);
 }
 
 /// Missing members keep their values.
@@ -158,6 +167,7 @@ void parse_live(const ParameterGroup& all, LiveNodeParameters& p) {
   p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, kTfTimeoutRange);
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kMeshTimeoutRange);
   p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
+  parse_markers(all, p.markers);
 }
 
 }  // namespace
@@ -207,7 +217,13 @@ std::vector<LiveParameter> live_parameters(const LiveNodeParameters& p) {
           number(names::kMeshTimeoutSec, p.mesh_timeout_sec, defaults.mesh_timeout_sec,
                  kMeshTimeoutRange),
           LiveParameter{names::kPublishRegions, text_of(help, names::kPublishRegions),
-                        p.publish_regions, defaults.publish_regions}};
+                        p.publish_regions, defaults.publish_regions},
+          number(names::kMarkersRate, p.markers.markers_rate_hz, defaults.markers.markers_rate_hz,
+                 kFrameRates),
+          number(names::kSurfaceRate, p.markers.surface_rate_hz, defaults.markers.surface_rate_hz,
+                 kFrameRates),
+          number(names::kMarkersDepth, p.markers.markers_depth, defaults.markers.markers_depth,
+                 kPositive)};
 }
 
 LiveNodeParameters changed(const LiveNodeParameters& parameters, const XmlRpcValue& changes) {

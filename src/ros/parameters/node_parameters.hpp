@@ -31,12 +31,20 @@ struct ToolParameters {
   std::string link_frame(const std::string& link) const;
 };
 
+/// How markers are published and drawn.
+struct MarkerSettings {
+  double markers_rate_hz = 30.0;  ///< 0: no markers
+  double surface_rate_hz = 30.0;  ///< of the surface of each organ; 0: no surfaces
+  double markers_depth = 0.01;    ///< [m] deeper contacts all have the last colour of the map
+};
+
 /// The parameters that can be changed while the node runs. The defaults are the documented ones.
 struct LiveNodeParameters {
   double rate_hz = 0.0;  ///< of ticks; 0: steps only at new shapes and pose messages
   double tf_timeout_sec = 0.02;
   double mesh_timeout_sec = 0.0;  ///< 0: never stale
   bool publish_regions = false;
+  MarkerSettings markers;
 };
 
 /// The node's parameters after validation. The defaults are the documented ones.

@@ -33,6 +33,12 @@ std::vector<HelpEntry> parameter_help() {
        "true: each contact has the polygon in which its face meets the tool's viewing volume"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},
+      {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),
+       "[Hz] of the pictures for RViz; 0: no markers"},
+      {names::kSurfaceRate, shown(defaults.markers.surface_rate_hz),
+       "[Hz] of each organ's surface in these pictures; 0: no surfaces"},
+      {names::kMarkersDepth, shown(defaults.markers.markers_depth),
+       "[m] contacts of this depth or more have the last colour of the map"},
   };
 }
 

@@ -51,6 +51,8 @@ struct MeshLimits {
 /// Vertex positions, x y z x y z ... [m]. They are constant, so that a mesh can use the array of a
 /// message without a copy.
 using SharedVertices = std::shared_ptr<const std::vector<float>>;
+
+/// The triangles of a mesh. Meshes with the same triangles share them.
 using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
 
 /// The surface of an organ: triangles and the current positions of their vertices, in the organ's
