@@ -25,5 +25,5 @@ install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINAT
   PATTERN "*.py" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml")
-install(PROGRAMS examples/ask.py examples/grasper.py examples/simulator.py
+install(PROGRAMS examples/ask.py examples/grasper.py examples/simulator.py scripts/view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})

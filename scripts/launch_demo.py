@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A quiet roslaunch for the demo: shows only errors and what the nodes print. The exit code is 1 if
-a required node failed, and 0 otherwise.
+a node failed, and 0 otherwise.
 
 Usage: launch_demo.py LAUNCH_FILE [ARGUMENT:=VALUE]...
 """
@@ -24,22 +24,8 @@ class ExitCodes(roslaunch.pmon.ProcessListener):
         self.by_name[name] = exit_code
 
 
-class ErrorsOnly:
-    """A stream that drops roslaunch's message about a required node that ended without error."""
-
-    def __init__(self, stream):
-        self.stream = stream
-
-    def write(self, text):
-        if 'process has finished cleanly' not in text:
-            self.stream.write(text)
-
-    def flush(self):
-        self.stream.flush()
-
-
 def run(launch_file, arguments):
-    """Runs the launch file and returns the names of the required nodes that failed."""
+    """Runs the launch file and returns the names of the nodes that failed."""
     run_id = roslaunch.rlutil.get_or_generate_uuid(None, False)
     roslaunch.configure_logging(run_id)
     ended = ExitCodes()
@@ -48,13 +34,12 @@ def run(launch_file, arguments):
     launch.start()
     launch.spin()
     return [node.name for node in launch.config.nodes
-            if node.required and ended.by_name.get(node.name, 0) != 0]
+            if ended.by_name.get(node.name, 0) != 0]
 
 
 def main():
     try:
-        with open(os.devnull, 'w') as nowhere, contextlib.redirect_stdout(nowhere), \
-                contextlib.redirect_stderr(ErrorsOnly(sys.stderr)):
+        with open(os.devnull, 'w') as nowhere, contextlib.redirect_stdout(nowhere):
             failed = run(sys.argv[1], sys.argv[2:])
     except (roslaunch.RLException, rospkg.ResourceNotFound) as error:
         sys.exit(str(error))

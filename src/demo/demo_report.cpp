@@ -13,13 +13,15 @@
 #include <set>
 #include <sstream>
 
+#include "end_node.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "static_comparison.hpp"
 
 namespace organ_collision {
 namespace {
 
-constexpr double kPatienceSec = 60.0;  // until the collision node answers for the first time
+constexpr double kFirstPatienceSec = 60.0;  // until the collision node answers for the first time
+constexpr double kPatienceSec = 10.0;       // between two answers
 constexpr std::size_t kFacesListed = 4;
 constexpr double kMicroseconds = 1e6;
 
@@ -59,8 +61,8 @@ class DemoReport {
     for (const auto& [tool, tally] : comparison_.tallies()) touched_[tool];
   }
 
-  /// Whether the collision node has answered, even if only with a failure.
-  bool has_heard_of_node() const { return answers_ > 0 || !failure_.empty(); }
+  /// When the collision node answered last, even if only with a failure. Zero: never.
+  ros::WallTime last_answer() const { return last_answer_; }
 
   /// Prints one line about the last `seconds`. `time` [s]: since the start.
   void print_line(double time, double seconds) {
@@ -121,6 +123,7 @@ class DemoReport {
   }
 
   void on_contacts(const ContactArrayConstPtr& answer) {
+    last_answer_ = ros::WallTime::now();
     if (answer->status != ContactArray::OK) {
       failure_ = answer->message;
       return;
@@ -152,42 +155,59 @@ class DemoReport {
   std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
   std::vector<double> delays_;                              ///< [s]
   QueryTime query_time_;
+  ros::WallTime last_answer_;
   std::string failure_;  ///< the latest one since the last line
 
   std::vector<ros::Subscriber> subscribers_;
 };
 
-}  // namespace
-}  // namespace organ_collision
+/// Reports for `seconds`, or without end if that is 0. Returns false if there were no contacts.
+/// Throws std::runtime_error if the collision node does not answer.
+bool report(const std::string& collision_node, double seconds) {
+  DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node)};
+  const auto now = [] { return ros::WallTime::now(); };
+  const auto listen = [&] {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
+  };
+  const auto check = [&](ros::WallTime since, double patience) {
+    if ((now() - since).toSec() > patience) {
+      throw std::runtime_error(collision_node + " does not answer");
+    }
+  };
 
-int main(int argc, char** argv) try {
-  ros::init(argc, argv, "demo_report");
-  ros::NodeHandle private_node("~");
-  const double seconds = private_node.param("seconds", 0.0);
-  const std::string collision_node =
-      private_node.param<std::string>("collision_node", "/organ_collision");
-  organ_collision::DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node)};
-
-  ros::WallTime start = ros::WallTime::now();
-  const auto elapsed = [&] { return (ros::WallTime::now() - start).toSec(); };
-  const auto listen = [] { ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02)); };
-
-  while (ros::ok() && !report.has_heard_of_node()) {
-    listen();
-    if (elapsed() < organ_collision::kPatienceSec) continue;
-    throw std::runtime_error(collision_node + " does not answer");
-  }
-  start = ros::WallTime::now();
+  ros::WallTime start = now();
+  for (; ros::ok() && report.last_answer().isZero(); listen()) check(start, kFirstPatienceSec);
+  start = now();
+  const auto elapsed = [&] { return (now() - start).toSec(); };
   double last_line = 0.0, next_line = 1.0;
   while (ros::ok() && !(seconds > 0.0 && elapsed() >= seconds)) {
     listen();
+    check(report.last_answer(), kPatienceSec);
     if (elapsed() < next_line) continue;
     report.print_line(elapsed(), elapsed() - last_line);
     last_line = elapsed();
     next_line += 1.0;
   }
-  return report.print_summary(elapsed()) ? 0 : 1;
-} catch (const std::exception& error) {
-  std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS is shut down by now
-  return 1;
+  return report.print_summary(elapsed());
+}
+
+}  // namespace
+}  // namespace organ_collision
+
+/// Also ends the nodes that the parameter `ends` names, so that the whole demo ends.
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "demo_report");
+  ros::NodeHandle private_node("~");
+  bool found_contacts = false;
+  try {
+    found_contacts = organ_collision::report(
+        private_node.param<std::string>("collision_node", "/organ_collision"),
+        private_node.param("seconds", 0.0));
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS may be shut down by now
+  }
+  for (const std::string& name : private_node.param("ends", std::vector<std::string>())) {
+    if (ros::ok()) organ_collision::end_node(name);
+  }
+  return found_contacts ? 0 : 1;
 }

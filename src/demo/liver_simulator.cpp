@@ -8,13 +8,11 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
-#include "liver_scene.hpp"
 #include "liver_soft_body.hpp"
 #include "scripted_tools.hpp"
 
@@ -26,7 +24,6 @@ constexpr double kYield = 0.5;        // [1] share of the depth by which tissue 
 constexpr double kMostYield = 0.008;  // [m] in one step
 constexpr double kTfLeadSec =
     0.5;  // only TF is sent, so that listeners have it before the first shape
-constexpr double kSceneRate = 30.0;  // [Hz]
 
 geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
                                           const std::string& child,
@@ -54,14 +51,12 @@ std::vector<TissuePush> pushes_of(const std::vector<Contact>& contacts) {
 
 class LiverSimulator {
  public:
-  LiverSimulator(ros::NodeHandle collision_node, ros::NodeHandle private_node, double rate)
+  LiverSimulator(ros::NodeHandle collision_node, double rate)
       : rate_(rate),
         surface_(make_liver_surface()),
         liver_(surface_),
-        scene_(kOrgan, surface_.faces),
         mesh_publisher_(collision_node.advertise<OrganMesh>("organ_mesh", 1, true)),
         vertices_publisher_(collision_node.advertise<OrganVertices>("organ_vertices", 1)),
-        scene_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("scene", 10)),
         contacts_subscriber_(
             collision_node.subscribe("contacts", 10, &LiverSimulator::on_contacts, this)) {
     publish_trocars();
@@ -89,13 +84,11 @@ class LiverSimulator {
     const ros::Time stamp = ros::Time::now();
     publish_tips(stamp);
     steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
-    show(stamp);
   }
 
   void on_contacts(const ContactArray& array) {
     if (array.status == ContactArray::OK && array.organ == kOrgan) {
       pushes_[array.tool] = pushes_of(array.contacts);
-      for (const Contact& contact : array.contacts) scene_.touch(contact.face);
     }
   }
 
@@ -141,28 +134,14 @@ class LiverSimulator {
     vertices_publisher_.publish(vertices);
   }
 
-  void show(const ros::Time& stamp) {
-    if (scene_publisher_.getNumSubscribers() == 0) return;
-    for (const ScriptedTool& tool : scripted_tools()) {
-      scene_.move_tool(tool.at((steps_ - 1) / rate_), tool.at(steps_ / rate_));
-    }
-    if (steps_ % steps_shown() != 0) return;
-    scene_publisher_.publish(scene_.markers(stamp, liver_.vertices(), steps_shown() / rate_));
-  }
-
-  /// Only one step out of this number is shown.
-  int steps_shown() const { return std::max(1, static_cast<int>(rate_ / kSceneRate)); }
-
   double rate_;
   ClosedSurface surface_;
   LiverSoftBody liver_;
-  LiverScene scene_;
   std::map<std::string, std::vector<TissuePush>> pushes_;  ///< by tool, since the last step
   long lead_steps_ = 0;
   long steps_ = 0;
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
-  ros::Publisher scene_publisher_;
   ros::Subscriber contacts_subscriber_;
   tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
   tf2_ros::TransformBroadcaster tip_broadcaster_;
@@ -184,7 +163,7 @@ int main(int argc, char** argv) {
   const std::string collision_node =
       private_node.param<std::string>("collision_node", "/organ_collision");
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
-  organ_collision::LiverSimulator simulator(ros::NodeHandle(collision_node), private_node, rate);
+  organ_collision::LiverSimulator simulator(ros::NodeHandle(collision_node), rate);
   for (ros::Rate loop(rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();
     simulator.step();

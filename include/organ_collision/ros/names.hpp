@@ -28,6 +28,9 @@ inline constexpr char kMaxBatch[] = "max_batch";
 inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
 inline constexpr char kPublishRegions[] = "publish_regions";
 inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
+inline constexpr char kMarkersRate[] = "markers_rate";
+inline constexpr char kSurfaceRate[] = "surface_rate";
+inline constexpr char kMarkersDepth[] = "markers_depth";
 
 /// The keys of each entry of `tools`.
 inline constexpr char kToolName[] = "name";

@@ -51,8 +51,12 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       poses_(transforms_, sampling(loaded_.parameters)),
       contact_query_(loaded_.parameters.picker),
       publisher_(private_node_, tools_, counters_),
+      markers_(private_node_, loaded_.parameters.markers, tools_),
       steps_(loaded_.parameters, tools_, poses_, contact_query_,
-             [this](const EvaluatedStep& step) { publisher_.publish(step); }),
+             [this](const EvaluatedStep& step) {
+               publisher_.publish(step);
+               markers_.add(step);
+             }),
       services_({loaded_.parameters, tools_, organs_, transforms_, poses_, steps_.history(),
                  contact_query_, counters_.refused}),
       diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, organs_, contact_query_, steps_,
@@ -89,6 +93,7 @@ void CollisionNode::run(const std::function<bool()>& stop) {
     while (private_node_.ok() && !stop()) {
       receive();
       steps_.evaluate(organs_, SteadyClock::now());
+      guard([this] { markers_.update(organs_, steps_.history()); });
     }
   } catch (const std::exception& error) {
     publisher_.report_breakdown(organs_, error.what());

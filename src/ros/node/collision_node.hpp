@@ -16,6 +16,7 @@
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/publishing/contact_publisher.hpp"
 #include "ros/publishing/diagnostics.hpp"
+#include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
 #include "ros/steps/contact_query.hpp"
 #include "ros/steps/query_services.hpp"
@@ -60,6 +61,7 @@ class CollisionNode {
   ToolPoses poses_;
   ContactQuery contact_query_;
   ContactPublisher publisher_;
+  MarkerPublisher markers_;
   StepScheduler steps_;
   QueryServices services_;
   Diagnostics diagnostics_;

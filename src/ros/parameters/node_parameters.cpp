@@ -20,6 +20,7 @@ constexpr double kMostMessageBytes = 1e9;
 constexpr double kMostFaces = 83'333'333;
 
 const NumberRange kNotNegative{0.0, kUnlimited};
+const NumberRange kFrameRates{0.0, 1000.0};  // [Hz]
 const NumberRange kPositive{0.0, kUnlimited, false};
 
 const std::string kShaft = "trocar_frame, tip_frame and radius";
@@ -138,6 +139,14 @@ void parse_tools(const ParameterGroup& all, LoadedParameters& loaded) {
   }
 }
 
+MarkerSettings parse_markers(const ParameterGroup& all) {
+  MarkerSettings markers;
+  markers.markers_rate_hz = all.number(names::kMarkersRate, markers.markers_rate_hz, kFrameRates);
+  markers.surface_rate_hz = all.number(names::kSurfaceRate, markers.surface_rate_hz, kFrameRates);
+  markers.markers_depth = all.number(names::kMarkersDepth, markers.markers_depth, kPositive);
+  return markers;
+}
+
 }  // namespace
 
 std::string ToolParameters::link_frame(const std::string& link) const {
@@ -149,7 +158,8 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
       "~", private_namespace,
       {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
        names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
-       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod});
+       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod,
+       names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth});
   LoadedParameters loaded;
   loaded.misspelt = all.misspelt();
   parse_tools(all, loaded);
@@ -169,6 +179,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
   p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, {0.01, 3600.0});
+  p.markers = parse_markers(all);
   return loaded;
 }
 

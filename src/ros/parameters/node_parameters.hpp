@@ -30,6 +30,13 @@ struct ToolParameters {
   std::string link_frame(const std::string& link) const;
 };
 
+/// How markers are published and drawn.
+struct MarkerSettings {
+  double markers_rate_hz = 30.0;  ///< 0: no markers
+  double surface_rate_hz = 30.0;  ///< of the surface of each organ; 0: no surfaces
+  double markers_depth = 0.01;    ///< [m] deeper contacts all have the last colour of the map
+};
+
 /// The node's parameters after validation. The defaults here are the documented ones.
 struct NodeParameters {
   std::vector<ToolParameters> tools;
@@ -45,6 +52,7 @@ struct NodeParameters {
   int max_batch_bytes = 64 << 20;  ///< [bytes] of all results of a batch, serialized
   bool publish_regions = false;
   double diagnostic_period_sec = 1.0;  ///< of wall time
+  MarkerSettings markers;
 };
 
 /// The parameters, and one sentence for each unknown name among them.

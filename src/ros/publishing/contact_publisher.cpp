@@ -1,13 +1,11 @@
 #include "contact_publisher.hpp"
 
 #include <organ_collision/ContactArray.h>
-#include <visualization_msgs/MarkerArray.h>
 
 #include <boost/make_shared.hpp>
 #include <chrono>
 #include <exception>
 
-#include "markers.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
@@ -36,14 +34,12 @@ ContactPublisher::ContactPublisher(ros::NodeHandle private_node, const std::vect
                                    NodeCounters& counters)
     : tools_(tools),
       counters_(counters),
-      contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)),
-      markers_(private_node.advertise<visualization_msgs::MarkerArray>(names::kMarkers, kQueue)) {}
+      contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)) {}
 
 void ContactPublisher::publish(const EvaluatedStep& step) {
   count_failure(counters_.failed, step.answer->status, step.answer->message);
   contacts_.publish(step.answer);
   counters_.contacts.count();
-  if (markers_.getNumSubscribers() > 0) markers_.publish(step_markers(step));
 }
 
 void ContactPublisher::report(const OrganUpdate& update) {

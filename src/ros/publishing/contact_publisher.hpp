@@ -15,8 +15,7 @@
 
 namespace organ_collision {
 
-/// Publishes the answers of steps on `contacts`, and their markers for RViz on `markers`. Counts
-/// the answers and the accepted shapes.
+/// Publishes the answers of steps on `contacts`. Counts the answers and the accepted shapes.
 class ContactPublisher {
  public:
   /// `tools` and `counters` must outlive this.
@@ -38,7 +37,6 @@ class ContactPublisher {
   const std::vector<Tool>& tools_;
   NodeCounters& counters_;
   ros::Publisher contacts_;
-  ros::Publisher markers_;
 };
 
 }  // namespace organ_collision

@@ -18,6 +18,8 @@ class DurationStatistics {
   };
 
   void add(double seconds) { seconds_[count_++ % kCapacity] = seconds; }
+  /// The duration of the last event; 0 if there was none.
+  double latest() const { return count_ > 0 ? seconds_[(count_ - 1) % kCapacity] : 0.0; }
   /// The percentile p is the smallest duration that at least p percent of the events do not exceed.
   Summary summary() const;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <organ_collision/ContactArray.h>
 #include <ros/time.h>
 
 #include <chrono>
@@ -52,6 +53,8 @@ struct OrganToolPair {
   std::optional<LastStep> last;
   /// The organ's shape at the last step of this tool, whether that step succeeded or failed.
   OrganShape current;
+  /// To the last step, whether it succeeded or failed; null if there was none.
+  ContactArrayConstPtr answer;
   ShapeQueue queue;
 };
 

@@ -125,7 +125,10 @@ void StepScheduler::evaluate_latest(const DeformableOrgan& organ, std::size_t to
 }
 
 void StepScheduler::reset() {
-  for (auto& [key, pair] : history_.pairs()) pair.last.reset();
+  for (auto& [key, pair] : history_.pairs()) {
+    pair.last.reset();
+    pair.answer.reset();
+  }
 }
 
 void StepScheduler::start_anew(const OrganRegistry& organs) {
@@ -190,13 +193,15 @@ void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToo
     poses_.set_answered(tools_[tool], organ.frame(), end.stamp);
     pair.last = LastStep{std::move(end.value), end.stamp, pair.current.mesh};
   }
-  publish_({answer, tools_[tool], mesh, request.path});
+  pair.answer = answer;
+  publish_({answer, tools_[tool], mesh, request.path, contact_query_.query_times().latest()});
 }
 
-void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, const OrganToolPair& pair,
+void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                          ros::Time stamp, std::uint8_t status, const std::string& message) {
   const auto answer = answer_about_step(organ, tool, pair, stamp);
   set_failure(*answer, status, message);
+  pair.answer = answer;
   publish_({answer, tools_[tool], *pair.current.mesh, {}});
 }
 

@@ -24,7 +24,8 @@ struct EvaluatedStep {
   ContactArrayPtr answer;
   const Tool& tool;
   const TriangleMesh& mesh;
-  const ToolPath& path;  ///< empty if the step failed before the path was known
+  const ToolPath& path;    ///< empty if the step failed before the path was known
+  double query_sec = 0.0;  ///< [s] that the query took; 0 if there was none
 };
 
 /// Decides which tool is evaluated against which organ, when, and from which pose: at each new
@@ -92,8 +93,8 @@ class StepScheduler {
   void evaluate_held(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   void run(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair, Timed<ToolPose> end,
            ToolPath path);
-  void fail(const DeformableOrgan& organ, std::size_t tool, const OrganToolPair& pair,
-            ros::Time stamp, std::uint8_t status, const std::string& message);
+  void fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair, ros::Time stamp,
+            std::uint8_t status, const std::string& message);
   ContactArrayPtr answer_about_step(const DeformableOrgan& organ, std::size_t tool,
                                     const OrganToolPair& pair, ros::Time end) const;
   SteadyTime deadline(const ShapeQueue::Entry& entry) const;

@@ -48,6 +48,9 @@ struct MeshLimits {
 /// message without a copy.
 using SharedVertices = std::shared_ptr<const std::vector<float>>;
 
+/// The triangles of a mesh. Meshes with the same triangles share them.
+using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
+
 /// The surface of an organ: triangles and the current positions of their vertices, in the organ's
 /// frame [m]. Any triangle soup is accepted: the surface need not be closed or manifold, and faces
 /// may be degenerate. A mesh is always valid: illegal input throws MeshError and changes nothing.
@@ -77,6 +80,7 @@ class TriangleMesh {
 
   /// All faces. The address is unchanged as long as the triangles are the same.
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
+  SharedFaces shared_faces() const { return {topology_, &topology_->faces}; }
   /// The same faces in spatially coherent groups, and the boxes around their current vertices.
   const FaceClusters& clusters() const { return topology_->clusters; }
   const BlockBoxes& block_boxes() const { return boxes_; }

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <std_msgs/ColorRGBA.h>
+
+#include <cstddef>
+
+namespace organ_collision::colours {
+
+/// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
+/// that the map distinguishes (dark violet). Values beyond are clamped.
+std_msgs::ColorRGBA depth(double share);
+
+/// The surface of an organ. `number`: its place among the organs; neighbours differ.
+std_msgs::ColorRGBA tissue(std::size_t number);
+
+std_msgs::ColorRGBA tool();
+std_msgs::ColorRGBA swept();
+std_msgs::ColorRGBA region();
+std_msgs::ColorRGBA normal();
+std_msgs::ColorRGBA text();
+std_msgs::ColorRGBA failure();
+
+/// The colour with its opacity multiplied by `share` in [0, 1].
+std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share);
+
+}  // namespace organ_collision::colours

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/tool_path.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "ros/steps/step_history.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+/// An organ and its latest shape. Nobody changes the arrays that it shares.
+struct SceneOrgan {
+  std::string name;
+  std::string frame;
+  SharedVertices vertices;
+  SharedFaces faces;
+  Eigen::AlignedBox3f box;
+
+  Eigen::Vector3d vertex(std::size_t index) const {
+    return Eigen::Map<const Eigen::Vector3f>(&(*vertices)[3 * index]).cast<double>();
+  }
+  Triangle triangle(std::size_t face) const {
+    const FaceIndices& corners = (*faces)[face];
+    return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
+  }
+  /// [m] The diagonal of its box. Widths of lines and heights of texts are shares of it.
+  double size() const { return box.diagonal().cast<double>().norm(); }
+};
+
+/// What is known of a tool and an organ.
+struct ScenePair {
+  std::string organ;
+  std::size_t tool;              ///< index into Scene::tools
+  ContactArrayConstPtr answer;   ///< the latest about the organ's present triangles; null: none yet
+  std::optional<ToolPose> pose;  ///< in the organ's frame, at the last successful step
+};
+
+/// A step since the last picture.
+struct SceneStep {
+  SteadyTime time;
+  ContactArrayConstPtr answer;
+  SharedFaces faces;  ///< of the organ at that time
+  ToolPath path;      ///< empty if the step failed
+  double query_sec;
+};
+
+/// What one picture shows. It shares or copies everything, so that another thread can draw it.
+struct Scene {
+  SteadyTime time;
+  MarkerSettings settings;
+  bool anew = false;  ///< a subscriber has come that knows nothing yet
+  std::shared_ptr<const std::vector<Tool>> tools;
+  std::vector<SceneOrgan> organs;
+  std::vector<ScenePair> pairs;  ///< sorted by organ, then tool
+  std::vector<SceneStep> steps;  ///< the oldest first
+
+  /// Null if there is no such organ.
+  const SceneOrgan* organ(const std::string& name) const;
+  /// The first pair of the tool that has a pose: the tool is drawn in the frame of that organ. Null
+  /// if there is none.
+  const ScenePair* placement(std::size_t tool) const;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,71 @@
+#include "status_markers.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "colours.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+using visualization_msgs::Marker;
+
+constexpr std::size_t kLongestReason = 100;  // [bytes]
+/// Shares of the organ's size.
+constexpr double kHeight = 0.03;
+constexpr double kDistance = 0.15;  ///< above the organ's box
+
+std::string counted(std::size_t number, const std::string& what) {
+  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
+}
+
+std::string rounded(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+double deepest(const ContactArray& answer) {
+  double deepest = answer.contacts.front().depth;
+  for (const Contact& contact : answer.contacts) deepest = std::max(deepest, contact.depth);
+  return deepest;
+}
+
+}  // namespace
+
+std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
+  if (!answer) return tool + ": no answer yet";
+  if (answer->status != ContactArray::OK) {
+    return tool + ": " + reason_of(answer->status) + ": " +
+           plain_text(answer->message, kLongestReason);
+  }
+  if (answer->contacts.empty()) return tool + ": touches nothing";
+  return tool + ": " + counted(answer->contacts.size(), "contact") +
+         rounded(", %.1f mm deep", 1e3 * deepest(*answer));
+}
+
+void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec, MarkerSheet& sheet) {
+  std::string text = organ.name + ": " + counted(organ.faces->size(), "face");
+  bool failed = false;
+  for (const ScenePair& pair : scene.pairs) {
+    if (pair.organ != organ.name) continue;
+    text += "\n" + status_line((*scene.tools)[pair.tool].parameters.name, pair.answer);
+    failed = failed || (pair.answer && pair.answer->status != ContactArray::OK);
+  }
+  if (query_sec > 0.0) text += rounded("\n%.0f us a query", 1e6 * query_sec);
+
+  const Eigen::AlignedBox3d box = organ.box.cast<double>();
+  Vector3d place = box.center();
+  place.z() = box.max().z() + kDistance * organ.size();
+  Marker status = make_marker(marker_names::kStatus, organ.frame, Marker::TEXT_VIEW_FACING,
+                              failed ? colours::failure() : colours::text());
+  status.text = std::move(text);
+  status.pose = pose_message(Eigen::Isometry3d(Eigen::Translation3d(place)));
+  status.scale.z = kHeight * organ.size();
+  sheet.add(std::move(status));
+}
+
+}  // namespace organ_collision
