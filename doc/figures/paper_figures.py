@@ -28,10 +28,12 @@ TOOL = {'name': 'tool', 'trocar_frame': 'trocar', 'tip_frame': 'tip', 'radius': 
 TROCAR = (0.030, 0.080, 0.150)
 BEFORE, AFTER = (-0.070, -0.020, 0.015), (0.020, -0.035, 0.010)
 LIMIT = 60.0  # [s] longest wait for anything
+COLOURS = {'markers_depth': 0.25}  # [m] Touched faces are yellow to red, and easy to see.
 PERIOD = 0.2  # [s] from one step to its repetition, so that its traces do not fade
 
 CAMERA = ['--view', '-80,45', '--target', '0.0,0.0,0.025', '--distance', '0.27']
 PICTURE = ['--size', '720x540', '--background', '#ffffff', '--after', '1', '--timeout', str(LIMIT)]
+HIDDEN = ['--hide', 'normals', '--hide', 'names', '--hide', 'status']
 
 
 @contextlib.contextmanager
@@ -125,7 +127,7 @@ class Scene:
         end = threading.Event()
         motion = threading.Thread(target=self.repeat, args=(tips, end))
         motion.start()
-        command = ['rosrun', 'organ_collision', 'snapshot', *CAMERA, *PICTURE]
+        command = ['rosrun', 'organ_collision', 'snapshot', *CAMERA, *PICTURE, *HIDDEN]
         try:
             subprocess.run([*command, '--output', os.path.join(HERE, file)], check=True)
         finally:
@@ -141,7 +143,7 @@ def main():
         wait_until(rosgraph.is_master_online, 'the ROS master')
         rospy.init_node('paper_figures', disable_signals=True)
         mesh = liver()
-        rospy.set_param(NODE, {'tools': [TOOL], 'tf_timeout_sec': LIMIT})
+        rospy.set_param(NODE, {'tools': [TOOL], 'tf_timeout_sec': LIMIT, **COLOURS})
         with started('rosrun', 'organ_collision', 'organ_collision_node', '__name:=' + NODE[1:]):
             scene = Scene(mesh)
             scene.show([BEFORE], 'paper_figure_9.png')
