@@ -60,7 +60,7 @@ class Snapshot {
   PictureTriangles scene() {
     PictureTriangles triangles;
     for (const auto& [key, entry] : markers_.markers().entries()) {
-      if (!entry.T_fixed_header) continue;
+      if (!entry.T_fixed_header || is_hidden(key.ns, options_.hidden)) continue;
       try {
         picture_.add(entry.marker, *entry.T_fixed_header, triangles);
       } catch (const MarkerError& error) {

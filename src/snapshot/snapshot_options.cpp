@@ -1,5 +1,6 @@
 #include "snapshot_options.hpp"
 
+#include <algorithm>
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
@@ -98,7 +99,9 @@ int whole_number(const std::string& option, const std::string& value, int least,
 
 po::variables_map split(const std::vector<std::string>& arguments) {
   po::options_description legal;
-  legal.add_options()("topic", po::value<std::vector<std::string>>());
+  for (const char* name : {"topic", "hide"}) {
+    legal.add_options()(name, po::value<std::vector<std::string>>());
+  }
   for (const char* name : {"output", "size", "view", "up", "target", "distance", "frame",
                            "background", "font", "after", "frames", "rate", "timeout"}) {
     legal.add_options()(name, po::value<std::string>());
@@ -136,8 +139,9 @@ SnapshotOptions parse_snapshot_options(const std::vector<std::string>& arguments
   constexpr double kLongest = 1e6;  // [s], [m]
   const po::variables_map values = split(arguments);
   if (values.count("topic") > 0) options.topics = values["topic"].as<std::vector<std::string>>();
+  if (values.count("hide") > 0) options.hidden = values["hide"].as<std::vector<std::string>>();
   for (const auto& [name, any] : values) {
-    if (name == "topic") continue;
+    if (name == "topic" || name == "hide") continue;
     const auto& value = any.as<std::string>();
     if (name == "output") options.output = value;
     if (name == "size") set_size(value, options);
@@ -154,6 +158,12 @@ SnapshotOptions parse_snapshot_options(const std::vector<std::string>& arguments
     if (name == "timeout") options.timeout_sec = number(name, value, 0.0, kLongest);
   }
   return options;
+}
+
+bool is_hidden(const std::string& marker_namespace, const std::vector<std::string>& hidden) {
+  return std::any_of(hidden.begin(), hidden.end(), [&](const std::string& name) {
+    return (marker_namespace + "/").compare(0, name.size() + 1, name + "/") == 0;
+  });
 }
 
 std::string numbered_file(const std::string& file, int number) {
@@ -175,6 +185,8 @@ Waits for the first marker, then takes the picture and ends.
 What is shown:
   --topic NAME         a topic of type visualization_msgs/MarkerArray; may be given several times;
                        organ_collision/markers by default
+  --hide NAMESPACE     leaves out the markers of a namespace and of those in it: surface also hides
+                       surface/liver; may be given several times
   --frame NAME         the fixed frame, as in RViz; markers of other frames are placed by TF;
                        by default the frame of the first marker
   --after SECONDS      time from the first marker to the picture, so that all markers come; 0.5
@@ -191,7 +203,7 @@ The camera:
 The picture:
   --output FILE        snapshot.png
   --size WxH           width and height in pixels, each from 16 to 4096; 800x600
-  --background COLOUR  '#RRGGBB'; '#edf1f5'
+  --background COLOUR  '#RRGGBB'; '#282d36', as in the package's configuration of RViz
   --font FILE          a TrueType font for texts; DejaVu Sans (package fonts-dejavu-core)
 
 A sequence of pictures, for example for a video:

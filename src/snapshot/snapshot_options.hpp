@@ -18,14 +18,15 @@ class OptionError : public std::runtime_error {
 /// The options on the command line of snapshot.
 struct SnapshotOptions {
   std::vector<std::string> topics{"organ_collision/markers"};
+  std::vector<std::string> hidden;  ///< namespaces of markers
   std::string output = "snapshot.png";
   int width = 800, height = 600;           ///< [pixel]
   Eigen::Vector3d to_eye{1.0, -1.0, 0.8};  ///< direction from the target to the viewer
   Eigen::Vector3d up{0.0, 0.0, 1.0};
-  std::optional<Eigen::Vector3d> target;  ///< [m] none: the centre of the scene
-  std::optional<double> distance;         ///< [m] none: the whole scene is in the picture
-  std::string frame;                      ///< empty: the frame of the first marker
-  Colour background{0.93F, 0.945F, 0.96F, 1.0F};
+  std::optional<Eigen::Vector3d> target;            ///< [m] none: the centre of the scene
+  std::optional<double> distance;                   ///< [m] none: the whole scene is in the picture
+  std::string frame;                                ///< empty: the frame of the first marker
+  Colour background{0.157F, 0.176F, 0.212F, 1.0F};  ///< dark, because texts are white
   std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
   double after_sec = 0.5;     ///< from the first marker to the first picture
   int frames = 0;             ///< 0: one picture, which is no sequence
@@ -40,6 +41,9 @@ SnapshotOptions parse_snapshot_options(const std::vector<std::string>& arguments
 
 /// What --help prints.
 std::string snapshot_usage();
+
+/// Whether the namespace, or one that contains it, is hidden: "surface" contains "surface/liver".
+bool is_hidden(const std::string& marker_namespace, const std::vector<std::string>& hidden);
 
 /// The file of a picture of a sequence: number 1 of "frame.png" is "frame_0001.png".
 std::string numbered_file(const std::string& file, int number);

@@ -74,8 +74,8 @@ class InstallTest(unittest.TestCase):
         folder = os.path.join(self.prefix, 'lib', 'organ_collision')
         programs = os.listdir(folder)
         self.assertTrue({'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter',
-                         'query_offline', 'liver_simulator', 'demo_report', 'simulator.py', 'ask.py', 'grasper.py',
-                         'view.py'}
+                         'query_offline', 'snapshot', 'liver_simulator', 'demo_report', 'simulator.py', 'ask.py',
+                         'grasper.py', 'view.py'}
                         <= set(programs), programs)
         programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')

@@ -2,7 +2,7 @@
 """What each layer (geometry <- picking <- query <- ros) and each program includes and links.
 
 Usage: layers_test.py SOURCE_FOLDER GEOMETRY_LIBRARY PICKING_LIBRARY QUERY_LIBRARY ROS_LIBRARY
-                      CONTACT_ADAPTER MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER
+                      CONTACT_ADAPTER MESH_ADAPTER LIVER_SIMULATOR ROBOT_READER SNAPSHOT
 """
 
 import glob
@@ -21,7 +21,7 @@ ROOMS = {'geometry': ['organ', 'tool', 'distance'],
                  'publishing', 'node']}
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
-CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR, ROBOT_READER = sys.argv[6:10]
+CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR, ROBOT_READER, SNAPSHOT = sys.argv[6:11]
 ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_msgs|std_srvs)[_/]')
 GL = re.compile(r'\b(GL|EGL)/')
 GL_LIBRARIES = r'lib(OSMesa|GL|EGL)\.so'
@@ -80,6 +80,17 @@ class LayersTest(unittest.TestCase):
                 for path, included in includes(layer):
                     self.assertIsNone(GL.match(included), '%s: %s' % (path, included))
 
+    def test_snapshot_takes_gl_from_picking_and_nothing_from_query_and_the_node(self):
+        allowed = re.compile(r'picking/(gl/|volumes/camera_axes)')
+        found = set()
+        for path, included in includes('snapshot'):
+            if GL.match(included):
+                self.assertEqual(os.path.basename(path), 'render_functions.hpp')
+            if NODE.match(included):
+                self.assertRegex(included, allowed, path)
+                found.add(included)
+        self.assertIn('picking/gl/gl_context.hpp', found)
+
     def test_the_adapters_include_nothing_of_picking_query_and_the_node(self):
         for room in ('ros/interface', 'contact_adapter', 'mesh_adapter'):
             found = 0
@@ -124,6 +135,12 @@ class LayersTest(unittest.TestCase):
         self.assertRegex(libraries, PARSERS)
         self.assertNotRegex(libraries, GL_LIBRARIES)
         self.assertNotRegex(libraries, r'lib(roscpp|rosconsole|tf2|nodelet|xmlrpc)')
+
+    def test_snapshot_links_osmesa_and_no_other_gl_and_no_node(self):
+        libraries = linked(SNAPSHOT)
+        self.assertIn('libOSMesa.so', libraries)
+        self.assertNotRegex(libraries, r'lib(GL|EGL)\.so')
+        self.assertNotRegex(libraries, r'liborgan_collision_(?!geometry|picking)')
 
     def test_no_layer_before_ros_links_it(self):
         for library in LIBRARIES.values():

@@ -78,8 +78,8 @@ TEST(SnapshotOptions, HelpAloneMatters) {
   EXPECT_TRUE(parse({"--size", "nonsense", "--help"}).help);
   EXPECT_TRUE(parse({"-h"}).help);
   for (const char* option :
-       {"--topic", "--frame", "--after", "--timeout", "--view", "--up", "--target", "--distance",
-        "--output", "--size", "--background", "--font", "--frames", "--rate"}) {
+       {"--topic", "--hide", "--frame", "--after", "--timeout", "--view", "--up", "--target",
+        "--distance", "--output", "--size", "--background", "--font", "--frames", "--rate"}) {
     EXPECT_NE(snapshot_usage().find(option), std::string::npos) << option;
   }
 }
@@ -104,6 +104,17 @@ TEST(SnapshotOptions, IllegalOnesAreRefusedWithTheirValues) {
   EXPECT_NE(refusal({"--siz", "20x20"}).find("--siz"), std::string::npos);
   EXPECT_NE(refusal({"--size"}).find("--size"), std::string::npos);
   EXPECT_NE(refusal({"--size", "20x20", "--size", "20x20"}).find("--size"), std::string::npos);
+}
+
+TEST(SnapshotOptions, ANamespaceHidesThoseInIt) {
+  const SnapshotOptions options = parse({"--hide", "surface", "--hide=names"});
+  EXPECT_EQ(options.hidden, (Arguments{"surface", "names"}));
+  EXPECT_TRUE(is_hidden("surface", options.hidden));
+  EXPECT_TRUE(is_hidden("surface/liver", options.hidden));
+  EXPECT_TRUE(is_hidden("names", options.hidden));
+  EXPECT_FALSE(is_hidden("surfaces", options.hidden));
+  EXPECT_FALSE(is_hidden("touched", options.hidden));
+  EXPECT_FALSE(is_hidden("", options.hidden));
 }
 
 TEST(SnapshotOptions, PicturesOfASequenceAreNumbered) {
