@@ -13,7 +13,8 @@ import unittest
 SOURCE = sys.argv[1]
 SHOWN = {'cpp': '.cpp', 'python': '.py', 'xml': '.launch', 'yaml': '.yaml', 'cmake': '.txt'}
 # The pages that explain the interface. Their code blocks are parts of tested files.
-USER_PAGES = ('README.md', 'doc/interface.md', 'doc/robots.md', 'doc/meshes.md', 'doc/forces.md')
+USER_PAGES = ('README.md', 'doc/interface.md', 'doc/robots.md', 'doc/meshes.md', 'doc/forces.md', 'doc/python.md',
+              'doc/dvrk.md')
 
 
 def read(path):
