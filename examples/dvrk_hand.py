@@ -2,6 +2,7 @@
 """Sends the force of the tissue on an instrument to the hand that moves it: from the wrench of contact_adapter to the
 servo_cf of a dVRK's MTM. Sends no torque. If no wrench arrives any more, the force becomes zero."""
 
+import math
 import time
 
 from geometry_msgs.msg import Vector3, Wrench, WrenchStamped
@@ -11,11 +12,18 @@ from std_msgs.msg import Bool, Header
 import tf2_ros
 
 
+def positive(name, default):
+    value = rospy.get_param(name, default)
+    if not (isinstance(value, (int, float)) and 0 < value < math.inf):
+        raise SystemExit('%s is %r; must be a positive number' % (rospy.resolve_name(name), value))
+    return value
+
+
 class Hand:
     def __init__(self):
-        self.max_force = rospy.get_param('~max_force', 2.0)  # [N]
-        self.scale = rospy.get_param('~force_scale', 1.0)
-        self.timeout = rospy.get_param('~timeout', 0.1)  # [s] without a wrench, after which the force is zero
+        self.max_force = positive('~max_force', 2.0)  # [N]
+        self.scale = positive('~force_scale', 1.0)
+        self.timeout = positive('~timeout', 0.1)  # [s] without a wrench, after which the force is zero
         self.frame = rospy.get_param('~frame', 'ECM')  # The axes of the camera are those of the surgeon's display.
         self.last_wrench = None
         self.transforms = tf2_ros.Buffer()
@@ -34,8 +42,11 @@ class Hand:
             return rospy.logwarn_throttle(1, 'no force on the hand: %s' % error)
         q, f = transform.transform.rotation, wrench.wrench.force
         force = self.scale * (Rotation.Quaternion(q.x, q.y, q.z, q.w) * Vector(f.x, f.y, f.z))
-        if force.Norm() > self.max_force:
-            force *= self.max_force / force.Norm()
+        size = force.Norm()
+        if not math.isfinite(size):
+            return rospy.logwarn_throttle(1, 'no force on the hand: the wrench is not finite')
+        if size > self.max_force:
+            force *= self.max_force / size
         self.last_wrench = time.monotonic()
         self.send(force)
 

@@ -16,6 +16,7 @@ BUILD, PREFIX, COMPILER = sys.argv[1:4]
 HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCE = os.path.dirname(os.path.dirname(HERE))
 CONSUMER = os.path.join(HERE, 'consumer')
+PYTHON_OF_ROS = glob.glob('/opt/ros/*/lib/python3*/*-packages')  # Debian has it in the system's folders.
 PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
 
 
@@ -75,7 +76,7 @@ class InstallTest(unittest.TestCase):
         programs = os.listdir(folder)
         self.assertTrue({'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter',
                          'query_offline', 'snapshot', 'liver_simulator', 'demo_report', 'simulator.py', 'ask.py',
-                         'grasper.py', 'view.py'}
+                         'grasper.py', 'view.py', 'own_mesh.py', 'dvrk_hand.py'}
                         <= set(programs), programs)
         programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
@@ -89,12 +90,19 @@ class InstallTest(unittest.TestCase):
         said = run(os.path.join(lib, 'organ_collision', 'robot_reader'), urdf, 'no_such_link')
         self.assertIn("link 'no_such_link' is unknown", said)
 
+    def test_the_python_module_and_the_messages_share_a_package(self):
+        modules = glob.glob(os.path.join(self.prefix, 'lib/python3*/*-packages'))
+        said = run('/usr/bin/python3', '-c', 'from organ_collision import organ_mesh, Queries, read_mesh\n'
+                   'print(organ_mesh("organ", [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])._type)',
+                   PYTHONPATH=':'.join(modules + PYTHON_OF_ROS))
+        self.assertEqual(said.strip(), 'organ_collision/OrganMesh')
+
     def test_everything_that_the_package_ships_is_there(self):
         for path in ('package.xml', 'nodelet_plugins.xml', 'launch/organ_collision.launch',
                      'launch/demo.launch', 'launch/contact_adapter.launch',
                      'launch/organ_mesh_adapter.launch', 'config/tools.yaml', 'config/organs.yaml',
                      'examples/start.launch', 'examples/tools.yaml', 'examples/grasper.launch',
-                     'urdf/grasper.urdf', 'urdf/grasper.urdf.xacro', 'urdf/meshes/jaw.stl',
+                     'examples/dvrk.launch', 'urdf/psm.urdf', 'urdf/grasper.urdf', 'urdf/grasper.urdf.xacro', 'urdf/meshes/jaw.stl',
                      'msg/ContactArray.msg', 'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
             self.assertTrue(os.path.exists(os.path.join(self.prefix, 'share/organ_collision', path)),
                             path)

@@ -30,7 +30,8 @@ class AnswersTest(unittest.TestCase):
 
     def test_columns_have_a_row_for_each_contact(self):
         table = contact_table(ContactArray(contacts=[contact(3), contact(4), contact(5)]))
-        self.assertEqual((len(table), table.depth.shape, table.point.shape, table.vertices.shape), (3, (3,), (3, 3), (3, 3)))
+        self.assertEqual([column.shape for column in (table, table.depth, table.point, table.vertices)],
+                         [(3,), (3,), (3, 3), (3, 3)])
         self.assertEqual(table[table.behind].face.tolist(), [4])
 
     def test_without_contacts_the_columns_are_empty(self):

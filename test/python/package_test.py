@@ -22,7 +22,8 @@ class PackageTest(unittest.TestCase):
             organ_collision.organ_mehs
 
     def test_messages_load_without_rospy(self):
-        program = ('import sys; from organ_collision.msg import OrganMesh; from organ_collision.srv import QueryCollision;'
+        program = ('import sys; from organ_collision.msg import OrganMesh;'
+                   'from organ_collision.srv import QueryCollision;'
                    'assert not {"rospy", "meshio"} & set(sys.modules)')
         subprocess.check_call([sys.executable, '-c', program])
 

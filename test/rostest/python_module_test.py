@@ -31,6 +31,10 @@ def depth_at(z):
     return RADIUS - (TIP[2] - z)
 
 
+def example(name):
+    return roslib.packages.find_node('organ_collision', name)[0]
+
+
 class PythonModuleTest(unittest.TestCase):
 
     @classmethod
@@ -127,7 +131,7 @@ class PythonModuleTest(unittest.TestCase):
         self.assertAlmostEqual(contacts.depth.max(), depth_at(0), delta=1e-7)
 
     def test_the_example_prints_contacts_with_a_file(self):
-        program = roslib.packages.find_node('organ_collision', 'own_mesh.py')[0]
+        program = example('own_mesh.py')
         mesh = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'urdf/meshes/jaw.stl')
         process = subprocess.Popen([program, mesh, '--scale', '5'], stdout=subprocess.PIPE, universal_newlines=True)
         watchdog = threading.Timer(LIMIT, process.kill)
@@ -138,6 +142,15 @@ class PythonModuleTest(unittest.TestCase):
         process.send_signal(signal.SIGINT)
         process.communicate()
         self.assertEqual(process.returncode, 0)
+
+    def test_the_example_asks_about_many_places(self):
+        self.organ('tissue')
+        printed = subprocess.check_output([example('ask_many.py')], timeout=LIMIT, universal_newlines=True)
+        places = [-0.08, -0.06, -0.04, -0.02, 0.0, 0.02, 0.04, 0.06, 0.08]
+        expected = [self.queries.query('tissue', [x, 0.01, 0.1], [x, 0.01, 0], RADIUS).face for x in places]
+        self.assertEqual([int(word) for line in printed.splitlines() for word in line.split('faces')[1].split()],
+                         [face for faces in expected for face in faces])
+        self.assertEqual([len(faces) > 0 for faces in expected], [abs(x) < 0.051 for x in places])
 
     def test_another_frame(self):
         self.organ('sheet', 'table')
