@@ -1,4 +1,5 @@
 // The nodelet, in one process with the publisher of the organ.
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <organ_collision/ContactArray.h>
@@ -6,6 +7,7 @@
 #include <organ_collision/OrganVertices.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <boost/make_shared.hpp>
@@ -120,6 +122,28 @@ TEST_F(NodeletTest, AMeshOfANewPublisherOfTheSameProcessIsAnotherOrgan) {
   send_mesh({0, 1, 2});
   EXPECT_EQ(received_->status, ContactArray::OK) << received_->message;
   EXPECT_EQ(received_->mode, ContactArray::STATIC);
+}
+
+TEST_F(NodeletTest, ToolsAndParametersChangeWhileItRuns) {
+  nodelet::Loader loader(false);
+  ASSERT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
+  send_mesh({0, 1, 2, 0, 2, 3});
+  std_srvs::Trigger reload;
+  ASSERT_TRUE(ros::service::call("/organ_collision/reload_tools", reload));
+  EXPECT_TRUE(reload.response.success);
+  EXPECT_EQ(reload.response.message, "unchanged: 'probe'");
+
+  dynamic_reconfigure::Reconfigure change;
+  change.request.config.doubles.resize(1);
+  change.request.config.doubles[0].name = "rate";
+  change.request.config.doubles[0].value = 50.0;
+  ASSERT_TRUE(ros::service::call("/organ_collision/set_parameters", change));
+  EXPECT_TRUE(ros::param::del("/organ_collision/rate"));
+  for (int tick = 0; tick < 3; ++tick) {
+    received_.reset();
+    ASSERT_TRUE(wait_for([&] { return received_ != nullptr; })) << tick;
+    EXPECT_EQ(received_->mode, ContactArray::SWEPT);
+  }
 }
 
 TEST_F(NodeletTest, IsLoadedAgainAfterUnloading) {

@@ -3,7 +3,6 @@
 #include <dynamic_reconfigure/ConfigDescription.h>
 #include <ros/console.h>
 
-#include <limits>
 #include <sstream>
 
 namespace organ_collision {
@@ -20,16 +19,6 @@ bool is_flag(const LiveParameter& parameter) {
 double number(const XmlRpcValue& value) {
   return value.getType() == XmlRpcValue::TypeInt ? static_cast<const int&>(value)
                                                  : static_cast<const double&>(value);
-}
-
-bool is_same(const XmlRpcValue& a, const XmlRpcValue& b) {
-  const auto written = [](const XmlRpcValue& value) {
-    std::ostringstream text;
-    text.precision(std::numeric_limits<double>::max_digits10);
-    value.write(text);
-    return text.str();
-  };
-  return written(a) == written(b);
 }
 
 template <typename Value, typename Values>
@@ -143,7 +132,7 @@ bool LiveParameters::on_set(dynamic_reconfigure::Reconfigure::Request& request,
 
 void LiveParameters::take(LiveParameter& parameter, const XmlRpcValue& value) {
   const XmlRpcValue now = is_flag(parameter) ? value : XmlRpcValue(number(value));
-  if (is_same(now, parameter.value)) return;
+  if (now == parameter.value) return;
   parameter.value = now;
   private_node_.setParam(parameter.name, now);
   std::ostringstream written;
