@@ -69,8 +69,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                     transforms_, counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       organ_topics_(organs_, counters_.rejected, queue_),
-      surfaces_(background_),
-      organ_services_({organs_, organ_topics_, queue_, background_}),
+      surfaces_(background_.queue()),
+      organ_services_({organs_, organ_topics_, queue_, background_.queue()}),
       transform_topics_(transforms_, counters_.rejected),
       pose_topics_(
           loaded_.parameters.tools,
@@ -85,7 +85,6 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   pose_topics_.subscribe(node_);
   services_.advertise(private_node_);
   organ_services_.advertise(private_node_);
-  background_thread_.start();
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   if (loaded_.parameters.rate_hz > 0.0) {
     tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),

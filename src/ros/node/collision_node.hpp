@@ -2,12 +2,12 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
 #include <functional>
 #include <vector>
 
+#include "background_thread.hpp"
 #include "ros/motion/pose_topics.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/motion/transform_buffer.hpp"
@@ -53,8 +53,7 @@ class CollisionNode {
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   ros::CallbackQueue queue_;
-  ros::CallbackQueue background_;
-  ros::AsyncSpinner background_thread_{1, &background_};
+  BackgroundThread background_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
