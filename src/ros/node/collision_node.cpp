@@ -58,15 +58,14 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                     pipeline_.contact_query(), pipeline_.steps(), pipeline_.transforms(),
                     counters_}),
       updater_(node_, private_node_, private_node_.getNamespace()),
-      surfaces_(background_),
-      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), queue_, background_}),
-      tool_reload_(on_queue(private_node, background_), tools_,
+      surfaces_(background_.queue()),
+      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), queue_, background_.queue()}),
+      tool_reload_(on_queue(private_node, background_.queue()), tools_,
                    [this](LoadedToolList& loaded, const KeptTools& kept) {
                      run_in_thread_of(queue_, [&] { exchange_tools(loaded, kept); });
                    }),
-      live_parameters_(on_queue(private_node, background_), live_parameters(loaded_.parameters),
-                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }),
-      background_thread_(1, &background_) {
+      live_parameters_(on_queue(private_node, background_.queue()), live_parameters(loaded_.parameters),
+                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
   warn_of_settings();
   pipeline_.subscribe(node_, private_node_);
   services_.advertise(private_node_);
@@ -78,15 +77,15 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  background_thread_.start();
   ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
            pipeline_.contact_query().gl_version().c_str());
 }
 
-/// Ends the wait of the background thread for this thread.
+/// Ends the wait of the background thread for this thread, and then that thread, which uses members.
 CollisionNode::~CollisionNode() {
   queue_.disable();
   queue_.clear();
+  background_.stop();
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {

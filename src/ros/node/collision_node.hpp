@@ -2,12 +2,12 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <std_srvs/Empty.h>
 
 #include <functional>
 #include <vector>
 
+#include "background_thread.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
@@ -54,7 +54,7 @@ class CollisionNode {
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
   ros::CallbackQueue queue_;
-  ros::CallbackQueue background_;
+  BackgroundThread background_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
@@ -77,7 +77,6 @@ class CollisionNode {
   // What works in the background thread.
   ToolReload tool_reload_;
   LiveParameters live_parameters_;
-  ros::AsyncSpinner background_thread_;
 };
 
 }  // namespace organ_collision
