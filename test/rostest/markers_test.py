@@ -102,7 +102,8 @@ class MarkersTest(NodeStarter):
 
         self.check_late_viewer()
 
-        self.step(client, transforms, ABOVE)
+        self.step(client, transforms, ABOVE)  # This step begins with the contacts.
+        self.assertFalse(self.step(client, transforms, ABOVE).contacts)
         viewer.wait_for({'surface/sheet', 'tools', 'status'})
         client.reset()  # The tool has no pose any more.
         viewer.wait_for({'surface/sheet', 'status'})

@@ -16,7 +16,7 @@ using visualization_msgs::Marker;
 constexpr std::size_t kLongestReason = 100;  // [bytes]
 /// Shares of the organ's size.
 constexpr double kHeight = 0.03;
-constexpr double kDistance = 0.05;  ///< of the text from the organ's box
+constexpr double kDistance = 0.15;  ///< of the text from the organ's box
 constexpr double kLineSpacing = 0.09;
 
 std::string counted(std::size_t number, const std::string& what) {
