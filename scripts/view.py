@@ -24,7 +24,7 @@ from visualization_msgs.msg import MarkerArray
 import yaml
 
 CONFIGURATION = 'config/organ_collision.rviz'
-DISTANCE = 1.6  # of the camera from the organs, as a share of their diagonal
+DISTANCE = 1.5  # of the camera from the organs, as a share of their diagonal
 CELLS = 6  # of the grid, along that diagonal
 PATIENCE = 5.0  # [s] for a transform
 

@@ -6,7 +6,6 @@ import sys
 from organ_collision.msg import ContactArray
 import rospy
 import rostest
-from visualization_msgs.msg import MarkerArray
 
 from support import oracle, scenes
 from support.contact_case import faces_of
@@ -188,23 +187,6 @@ class StepsTest(ToolCase):
         result = self.node.contacts.wait_for(self.organ + '_2', 'grasper')
         self.assertEqual(result.mode, STATIC)
         self.assert_contacts(result, oracle.static_contacts(SHEET, inside, GRASPER))
-
-    def test_markers_are_shown_in_a_frame_of_tf(self):
-        markers = []
-        topic = rospy.Subscriber('/organ_collision/markers', MarkerArray, markers.append)
-        wait_until(lambda: topic.get_num_connections() > 0, 'the markers topic')
-        inside = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.002))
-
-        def touched_faces_are_shown():
-            """Moves step by step until markers arrive: the node makes them only once it knows of
-            the subscriber."""
-            self.step(SHEET, {'grasper': inside, 'hook': ASIDE})
-            return any(m.points for array in markers for m in array.markers)
-
-        wait_until(touched_faces_are_shown, 'markers of touched faces')
-        for array in markers:
-            for marker in array.markers:
-                self.assertIn(marker.header.frame_id, ('liver_frame', 'world'))
 
 
 if __name__ == '__main__':

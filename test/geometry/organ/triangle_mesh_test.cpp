@@ -135,6 +135,19 @@ TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
   EXPECT_FALSE(TriangleMesh(one_more, kTetrahedron).same_faces(mesh));
 }
 
+TEST(TriangleMesh, SharedFacesOutliveTheMesh) {
+  SharedFaces faces;
+  {
+    const TriangleMesh mesh(kCorners, kTetrahedron);
+    faces = mesh.shared_faces();
+    EXPECT_EQ(faces.get(), &mesh.faces());
+    EXPECT_EQ(faces, TriangleMesh(mesh).shared_faces());
+    EXPECT_NE(faces, TriangleMesh(kCorners, kTetrahedron).shared_faces());
+  }
+  ASSERT_EQ(faces->size(), kTetrahedron.size() / 3);
+  EXPECT_EQ((*faces)[1], (FaceIndices{kTetrahedron[3], kTetrahedron[4], kTetrahedron[5]}));
+}
+
 TEST(TriangleMesh, KnowsWhetherTrianglesAreItsOwn) {
   const TriangleMesh mesh(kCorners, kTetrahedron);
   EXPECT_TRUE(mesh.has_triangles(kTetrahedron));

@@ -76,6 +76,9 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.max_batch_bytes, 67'108'864);
   EXPECT_FALSE(p.publish_regions);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
+  EXPECT_EQ(p.markers.markers_rate_hz, 30.0);
+  EXPECT_EQ(p.markers.surface_rate_hz, 30.0);
+  EXPECT_EQ(p.markers.markers_depth, 0.01);
   EXPECT_TRUE(loaded.misspelt.empty());
 }
 
@@ -312,11 +315,25 @@ TEST(LiveNodeParameters, EachIsDescribed) {
   LiveNodeParameters now;
   now.rate_hz = 50.0;
   const std::vector<LiveParameter> all = live_parameters(now);
-  EXPECT_EQ(all.size(), 4u);
+  EXPECT_EQ(all.size(), 7u);
   for (LiveParameter parameter : all) {
     EXPECT_FALSE(parameter.text.empty()) << parameter.name;
     XmlRpcValue changes;
     changes[parameter.name] = parameter.value;
     EXPECT_NO_THROW(changed(now, changes)) << parameter.name;
   }
+}
+
+TEST(Parameters, OfMarkers) {
+  XmlRpcValue all = one_tool();
+  all["markers_rate"] = 60;
+  all["surface_rate"] = 0;
+  all["markers_depth"] = 0.02;
+  const MarkerSettings markers = parse_parameters(all).parameters.markers;
+  EXPECT_EQ(markers.markers_rate_hz, 60.0);
+  EXPECT_EQ(markers.surface_rate_hz, 0.0);
+  EXPECT_EQ(markers.markers_depth, 0.02);
+  expect_words(refusal("markers_rate", -1.0), {"markers_rate", "-1", "0", "1000"});
+  expect_words(refusal("surface_rate", 2000), {"surface_rate", "2000", "1000"});
+  expect_words(refusal("markers_depth", 0.0), {"markers_depth", "0"});
 }

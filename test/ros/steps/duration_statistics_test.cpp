@@ -31,6 +31,15 @@ TEST(DurationStatistics, NothingYet) {
   EXPECT_EQ(summary.worst, 0.0);
 }
 
+TEST(DurationStatistics, KnowsTheLatest) {
+  DurationStatistics statistics;
+  EXPECT_EQ(statistics.latest(), 0.0);
+  for (std::size_t i = 0; i <= DurationStatistics::kCapacity; ++i) {
+    statistics.add(1e-6 * i);
+    EXPECT_EQ(statistics.latest(), 1e-6 * i);
+  }
+}
+
 TEST(DurationStatistics, AgreesWithCounting) {
   std::mt19937 random(2);
   std::lognormal_distribution<double> duration(-9.0, 1.0);

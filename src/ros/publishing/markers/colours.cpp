@@ -35,7 +35,7 @@ std_msgs::ColorRGBA tissue(std::size_t number) {
   return tissues[number % tissues.size()];
 }
 
-std_msgs::ColorRGBA tool() { return rgba(0.75, 0.77, 0.80); }
+std_msgs::ColorRGBA tool() { return rgba(0.85, 0.87, 0.90); }
 std_msgs::ColorRGBA swept() { return rgba(0.20, 0.60, 1.00, 0.45); }
 std_msgs::ColorRGBA region() { return rgba(0.05, 0.05, 0.05); }
 std_msgs::ColorRGBA normal() { return rgba(0.20, 0.85, 0.45); }

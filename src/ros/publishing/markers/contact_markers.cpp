@@ -15,8 +15,8 @@ using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
 /// Shares of the organ's size.
-constexpr double kArrowLength = 0.08;
-constexpr double kNameDistance = 0.11;  ///< from the contact
+constexpr double kArrowLength = 0.12;
+constexpr double kNameDistance = 0.15;  ///< from the contact
 constexpr double kNameHeight = 0.03;
 
 /// The place at `distance` from a contact, on the side of the tool.

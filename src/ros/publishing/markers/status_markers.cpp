@@ -16,7 +16,8 @@ using visualization_msgs::Marker;
 constexpr std::size_t kLongestReason = 100;  // [bytes]
 /// Shares of the organ's size.
 constexpr double kHeight = 0.03;
-constexpr double kDistance = 0.15;  ///< above the organ's box
+constexpr double kDistance = 0.15;  ///< of the text from the organ's box
+constexpr double kLineSpacing = 0.09;
 
 std::string counted(std::size_t number, const std::string& what) {
   return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
@@ -59,7 +60,9 @@ void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec, M
 
   const Eigen::AlignedBox3d box = organ.box.cast<double>();
   Vector3d place = box.center();
-  place.z() = box.max().z() + kDistance * organ.size();
+  const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
+  // The place of a text is its centre.
+  place.z() = box.max().z() + (kDistance + 0.5 * kLineSpacing * lines) * organ.size();
   Marker status = make_marker(marker_names::kStatus, organ.frame, Marker::TEXT_VIEW_FACING,
                               failed ? colours::failure() : colours::text());
   status.text = std::move(text);

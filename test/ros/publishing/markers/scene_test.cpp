@@ -6,6 +6,12 @@
 
 using namespace organ_collision;
 
+namespace {
+
+const ToolPose kPose{{{0.0, 0.0, 2.0}, {0.0, 4.0, 2.0}}, {}};
+
+}  // namespace
+
 TEST(Scene, FindsOrgansByName) {
   Scene scene;
   scene.organs = {square("kidney"), square("liver")};
@@ -17,10 +23,10 @@ TEST(Scene, FindsOrgansByName) {
 TEST(Scene, AToolIsPlacedByTheFirstOrganThatKnowsItsPose) {
   Scene scene;
   scene.organs = {square("kidney"), square("liver")};
-  scene.pairs = {{"gone", 0, nullptr, ToolPose{}},
+  scene.pairs = {{"gone", 0, nullptr, kPose},
                  {"kidney", 0, nullptr, std::nullopt},
-                 {"kidney", 1, nullptr, ToolPose{}},
-                 {"liver", 0, nullptr, ToolPose{}}};
+                 {"kidney", 1, nullptr, kPose},
+                 {"liver", 0, nullptr, kPose}};
   ASSERT_TRUE(scene.placement(0));
   EXPECT_EQ(scene.placement(0)->organ, "liver");
   EXPECT_EQ(scene.placement(1)->organ, "kidney");
