@@ -2,6 +2,7 @@
 
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <iostream>
 #include <set>
 #include <stdexcept>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "camera.hpp"
+#include "geometry/concatenate.hpp"
 #include "marker_listener.hpp"
 #include "marker_picture.hpp"
 #include "renderer.hpp"
@@ -27,30 +29,49 @@ class Snapshot {
         renderer_(options.width, options.height) {}
 
   void take_all() {
-    wait_until([this] { return markers_.has_placed_marker(); }, options_.timeout_sec);
+    wait_for_marker();
     const ros::Time first = ros::Time::now() + ros::Duration(options_.after_sec);
     if (options_.frames == 0) return take(first, options_.output);
     for (int i = 0; i < options_.frames; ++i) {
       take(first + ros::Duration(i / options_.rate), numbered_file(options_.output, i + 1));
     }
+    if (latest_ > 1.0 / options_.rate) {
+      warn(concatenate("the machine is too slow for --rate ", options_.rate,
+                       ": pictures were taken up to ", latest_, " s too late"));
+    }
   }
 
  private:
-  template <typename Condition>
-  void wait_until(Condition condition, double seconds) {
-    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
-    do {
-      markers_.update();
-      if (condition()) return;
-      if (!ros::ok()) throw std::runtime_error("interrupted");
-    } while (ros::SteadyTime::now() < end);
-    throw std::runtime_error(why_no_scene());
+  void update() {
+    markers_.update();
+    if (!ros::ok()) throw std::runtime_error("interrupted");
+  }
+
+  void wait_for_marker() {
+    const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(options_.timeout_sec);
+    for (update(); !markers_.has_placed_marker(); update()) {
+      if (ros::SteadyTime::now() > end) throw std::runtime_error(why_no_marker());
+    }
+  }
+
+  /// Simulated time may be slow, but it must go on.
+  void wait_for(const ros::Time& time) {
+    ros::Time now = ros::Time::now();
+    ros::SteadyTime changed = ros::SteadyTime::now();
+    for (; now < time; update()) {
+      if (ros::Time::now() != now) changed = ros::SteadyTime::now();
+      now = ros::Time::now();
+      if ((ros::SteadyTime::now() - changed).toSec() > options_.timeout_sec) {
+        throw std::runtime_error("ROS time stands still: does a node publish /clock?");
+      }
+    }
   }
 
   /// Takes the picture at a time, or as soon as there is something to be seen.
   void take(const ros::Time& time, const std::string& file) {
-    wait_until([&] { return ros::Time::now() >= time && markers_.has_placed_marker(); },
-               options_.timeout_sec + options_.after_sec);
+    wait_for(time);
+    wait_for_marker();
+    latest_ = std::max(latest_, (ros::Time::now() - time).toSec());
     const PictureTriangles triangles = scene();
     if (triangles.empty()) throw std::runtime_error("the markers show nothing");
     if (!is_framed_) set_camera(triangles);
@@ -83,7 +104,7 @@ class Snapshot {
     is_framed_ = true;
   }
 
-  std::string why_no_scene() const {
+  std::string why_no_marker() const {
     std::string topics;
     for (const std::string& topic : options_.topics) topics += " " + ros::names::resolve(topic);
     if (!markers_.has_publisher()) {
@@ -108,6 +129,7 @@ class Snapshot {
   Renderer renderer_;
   Camera camera_;
   bool is_framed_ = false;
+  double latest_ = 0.0;  ///< [s] by which a picture was taken too late
   std::set<std::string> said_;
 };
 

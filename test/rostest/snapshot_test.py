@@ -81,11 +81,12 @@ class SnapshotTest(unittest.TestCase):
         )
 
     def take(self, *options):
-        """Takes pictures, with a timeout that suffices on a busy machine."""
+        """Takes pictures, with a timeout that suffices on a busy machine. Returns what was said."""
         done = self.run_snapshot(
             '--output', self.file, '--background=#ffffff', '--timeout=40', *CAMERA, *options
         )
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stderr
 
     def picture(self, file=None):
         with Image.open(file or self.file) as image:
@@ -111,7 +112,7 @@ class SnapshotTest(unittest.TestCase):
             lambda: [m for m in list(node.contacts.messages) if m.contacts], 'a contact'
         )[0]
 
-        self.take()
+        self.assertEqual(self.take(), '')
 
         image = self.picture()
         face = sheet.face(touch.contacts[0].face)
@@ -119,11 +120,14 @@ class SnapshotTest(unittest.TestCase):
         uncovered = min(face, key=lambda corner: (corner[1], -corner[0]))  # the tool is not in front
         touched = pixel(image, vectors.lerp(centroid, uncovered, 0.6))
         shaft = pixel(image, (0.013, 0.003, 0.06))
+        untouched = pixel(image, (-0.035, -0.035, 0.0))
         beside = pixel(image, (-0.06, 0.007, 0.06))
         self.assertEqual(beside, BACKGROUND)
         self.assertGreater(difference(shaft, BACKGROUND), 30)
         self.assertLess(max(shaft) - min(shaft), 40, 'a tool is grey')
         self.assertGreater(max(touched) - min(touched), 80, 'a touched face has a vivid colour')
+        self.assertGreater(difference(untouched, BACKGROUND), 60, 'the organ is not white')
+        self.assertGreater(difference(untouched, touched), 60, 'touched faces stand out')
         node.close()
 
     def test_a_sequence_places_frames_by_tf(self):
@@ -142,7 +146,7 @@ class SnapshotTest(unittest.TestCase):
         self.publish('/left', cube('room', (-0.04, 0.0, 0.02)))
         gone = cube('room', (0.0, 0.0, 0.02), id=1)
         self.publish('/right', cube('room', (0.04, 0.0, 0.02)), gone, deleted(gone))
-        self.take('--topic=/left', '--topic=/right')
+        self.assertEqual(self.take('--topic=/left', '--topic=/right'), '')
         image = self.picture()
         for x in (-0.04, 0.04):
             self.assertGreater(difference(pixel(image, (x, 0.0, 0.02)), BACKGROUND), 100)
