@@ -19,10 +19,6 @@ constexpr double kHeight = 0.03;
 constexpr double kDistance = 0.15;  ///< of the text from the organ's box
 constexpr double kLineSpacing = 0.09;
 
-std::string counted(std::size_t number, const std::string& what) {
-  return std::to_string(number) + " " + what + (number == 1 ? "" : "s");
-}
-
 std::string rounded(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
