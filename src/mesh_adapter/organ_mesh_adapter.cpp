@@ -6,6 +6,7 @@
 
 #include "message_error.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -38,7 +39,8 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
   // Random, because the collision node may still have meshes of an earlier adapter.
   const std::uint32_t last_topology = std::random_device()();
   for (const OrganParameters& organ : parameters_.organs) add_source(organ, last_topology);
-  ROS_INFO("ready: %zu organs, for %s", sources_.size(), collision_node.getNamespace().c_str());
+  ROS_INFO("ready: %s, for %s", counted(sources_.size(), "organ").c_str(),
+           collision_node.getNamespace().c_str());
 }
 
 void OrganMeshAdapter::add_source(const OrganParameters& organ, std::uint32_t last_topology) {
