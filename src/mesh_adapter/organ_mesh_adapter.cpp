@@ -6,6 +6,7 @@
 
 #include "message_error.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -46,7 +47,8 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
   diagnostic_timer_ =
       private_node.createWallTimer(ros::WallDuration(parameters_.diagnostic_period_sec),
                                    [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  ROS_INFO("ready: %zu organs, for %s", organs_.size(), collision_node.getNamespace().c_str());
+  ROS_INFO("ready: %s, for %s", counted(organs_.size(), "organ").c_str(),
+           collision_node.getNamespace().c_str());
 }
 
 void OrganMeshAdapter::add_organ(const OrganParameters& parameters, std::uint32_t last_topology) {

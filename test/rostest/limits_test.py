@@ -67,7 +67,8 @@ class LimitsTest(ContactCase):
             )[0]
             self.assert_refused(answer, 'organ', '256')
             wait_until(
-                lambda: [m for m in self.log if 'illegal name' in m.msg], 'a warning in the log'
+                lambda: [m for m in self.log if 'a name must be UTF-8' in m.msg],
+                'a warning in the log',
             )
         self.assertLess(max(len(m.msg) for m in self.log), SMALL)
         self.assertLess(max(map(len, self.node.diagnostics.values()), default=0), SMALL)
