@@ -25,6 +25,7 @@ import yaml
 
 CONFIGURATION = 'config/organ_collision.rviz'
 DISTANCE = 1.5  # of the camera from the organs, as a share of their diagonal
+TEXT_ROOM = 0.12  # the camera looks so far above the centre, because the status stands above the organ
 CELLS = 6  # of the grid, along that diagonal
 PATIENCE = 5.0  # [s] for a transform
 
@@ -97,7 +98,7 @@ def fit(configuration, low, high):
     manager = configuration['Visualization Manager']
     view = manager['Views']['Current']
     centre, size = (low + high) / 2, float(numpy.linalg.norm(high - low)) or 1.0
-    view['Focal Point'] = dict(zip('XYZ', map(float, centre)))
+    view['Focal Point'] = dict(zip('XYZ', map(float, centre + (0, 0, TEXT_ROOM * size))))
     view['Distance'] = DISTANCE * size
     view['Near Clip Distance'] = size / 100
     for display in manager['Displays']:
