@@ -52,9 +52,11 @@ for launch in organ_collision.launch nodelet.launch; do
 done
 
 say "The links of a URDF, which a separate program reads"
-timeout --signal=INT 30 roslaunch organ_collision grasper.launch >"$work/grasper.log" 2>&1 &
-expect "status: 0" timeout 25 rostopic echo -n 1 /organ_collision/contacts
-wait || true
+roslaunch organ_collision grasper.launch >"$work/grasper.log" 2>&1 &
+until rostopic list >/dev/null 2>&1; do sleep 1; done
+expect grasper_left_jaw timeout 60 rostopic echo -n 1 --filter "m.contacts" /organ_collision/contacts
+kill $!
+wait $! || true
 
 say "The development package: with catkin, and without ROS"
 install "$debs"/liborgan-collision-dev_*.deb build-essential cmake
