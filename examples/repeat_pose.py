@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Forwards the poses of a sender that is silent while nothing moves. Repeats the last one, with new stamps, meanwhile."""
+"""Forwards the poses of a sender that is silent while nothing moves. Meanwhile repeats the last one with new stamps."""
 
 import argparse
 import threading

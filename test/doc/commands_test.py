@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """The commands of the pages run as they stand.
 
-Each block of commands is typed into a terminal of its own page, from top to bottom, unless the paragraph before it says
-that it was run by hand. A command that runs until Ctrl-C must start a node. It must still run, or have ended without error, at
-the end of the page. Every other command ends without error. Of the scripts at the top of the repository, the options are checked.
+The commands of a page are typed from top to bottom, unless the paragraph before them says that they were run by hand.
+A command that runs until Ctrl-C must start a node. At the end of the page, it still runs or has ended without error.
+Every other command ends without error. Of the scripts at the top of the repository, only the options are checked.
 
 Usage: commands_test.py SOURCE_FOLDER DEVEL_FOLDER
 """
@@ -72,8 +72,8 @@ class Terminals:
 
     def start(self, command):
         shell = 'unset BASH_ENV; . %s/setup.bash; %s' % (shlex.quote(DEVEL), command)
-        process = subprocess.Popen(['bash', '-c', shell], cwd=self.folder, env=self.environment, stdin=subprocess.DEVNULL,
-                                   stdout=self.output, stderr=self.output, start_new_session=True)
+        process = subprocess.Popen(['bash', '-c', shell], cwd=self.folder, env=self.environment, start_new_session=True,
+                                   stdin=subprocess.DEVNULL, stdout=self.output, stderr=self.output)
         self.running.append((command, process))
         return process
 

@@ -45,8 +45,8 @@ def reasons():
 def log_lines():
     """The longest fixed text of each line that is logged."""
     for code in sources():
-        for literals in re.findall(r'\b(?:ROS|NODELET)_(?:DEBUG|INFO|WARN|ERROR|FATAL)\w*\(\s*(?:[\d.]+,\s*)?' + LITERALS,
-                                   code):
+        call = r'\b(?:ROS|NODELET)_(?:DEBUG|INFO|WARN|ERROR|FATAL)\w*\(\s*(?:[\d.]+,\s*)?'
+        for literals in re.findall(call + LITERALS, code):
             fragment = max(re.split(r'%[-+ #0\d.]*(?:l|z)*[a-z]', joined(literals)), key=len)
             if len(fragment) >= SHORTEST_FRAGMENT:
                 yield fragment
