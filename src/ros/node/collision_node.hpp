@@ -13,6 +13,7 @@
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/publishing/node_counters.hpp"
 #include "ros/steps/query_services.hpp"
+#include "ros/steps/wait_clock.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {
@@ -34,6 +35,7 @@ class CollisionNode {
  private:
   void report_last_diagnostics();
   void receive();
+  ros::WallDuration wait(SteadyTime now) const;
   bool call_one(ros::WallDuration wait);
   void guard(const std::function<void()>& action);
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
@@ -47,6 +49,8 @@ class CollisionNode {
 
   ContactPublisher publisher_;
   CollisionPipeline pipeline_;
+  WaitClock wait_clock_;
+  SteadyTime heard_until_;  ///< all messages that came before have been handled
   QueryServices services_;
   Diagnostics diagnostics_;
   diagnostic_updater::Updater updater_;
