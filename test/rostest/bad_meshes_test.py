@@ -29,6 +29,13 @@ class BadMeshesTest(ContactCase):
         wait_until(lambda: cls.log_subscriber.get_num_connections() > 0, 'the log')
         cls.node.send_mesh('good', SHEET, GOOD)
         cls.node.wait_for_shape('good', GOOD)
+        wait_until(cls.has_started, 'the end of the first moments')
+
+    @classmethod
+    def has_started(cls):
+        """In its first moments, the node does not count the vertices of unknown organs."""
+        cls.node.send_vertices('nobody', SHEET)
+        return 'rejected, unknown organ' in cls.node.diagnostics
 
     @classmethod
     def next_stamp(cls):

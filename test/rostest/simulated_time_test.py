@@ -3,6 +3,7 @@
 
 import sys
 import threading
+import time
 
 from organ_collision.msg import ContactArray
 import rospy
@@ -145,7 +146,7 @@ class SimulatedTimeTest(LinkCase):
         wait_until(lambda: self.node.diagnostics, 'diagnostics after the jump')
 
     def test_a_transform_is_awaited_no_longer_than_its_limit_when_the_clock_stands_still(self):
-        """tf_timeout_sec runs on the wall clock, so a paused simulator does not block the node."""
+        """A simulator may stop its clock until it has the answer. After 2 s, wall time counts."""
         self.jump(600)
         self.step(SHEET, {'grasper': ABOVE})
         with self.clock.lock:
@@ -153,6 +154,48 @@ class SimulatedTimeTest(LinkCase):
             self.node.send_vertices(self.organ, SHEET, stamp)
             result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
             self.assertEqual(result.status, ContactArray.NO_TRANSFORM)
+
+    def test_a_slow_simulator_is_waited_for(self):
+        """The node `ticking` waits 20 ms for transforms, but these are simulated ones."""
+        node = NodeClient('/ticking')
+        self.tf.wait_for(node)
+        self.jump(1100)
+        with self.clock.lock:
+            stamp = self.next_stamp()
+            node.send_mesh(self.organ, SHEET, stamp)
+            node.wait_for_shape(self.organ, stamp)
+            time.sleep(0.2)
+            self.place('grasper', (ABOVE, stamp))
+            result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+            self.assert_ok(result)
+
+    def test_the_time_of_the_simulator_is_over_before_that_of_the_wall(self):
+        """The clock goes on by 2 s, tf_timeout_sec, in a moment."""
+        self.jump(1200)
+        self.step(SHEET, {'grasper': ABOVE})
+        with self.clock.lock:
+            stamp = self.next_stamp()
+            self.node.send_vertices(self.organ, SHEET, stamp)
+            self.node.wait_for_shape(self.organ, stamp)
+            for _ in range(201):
+                self.clock.tick()
+            result = self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
+        self.assertEqual(result.status, ContactArray.NO_TRANSFORM)
+        self.assertRegex(result.message, r'is 10 ms behind the stamp .*; waited 2 s')
+
+    def test_superseded_shapes_are_counted(self):
+        def superseded():
+            return int(self.node.diagnostics['shapes superseded by newer ones'])
+
+        self.jump(1300)
+        wait_until(lambda: self.node.diagnostics, 'diagnostics')
+        before = superseded()
+        with self.clock.lock:
+            self.node.send_mesh(self.organ, SHEET, self.next_stamp())
+            for _ in range(4):
+                self.node.send_vertices(self.organ, SHEET, self.next_stamp())
+            # The first shape waits for both tools, the last one waits behind it.
+            wait_until(lambda: superseded() == before + 2 * 3, lambda: str(superseded()))
 
     def test_ticks_are_as_many_as_the_rate_says(self):
         """The rate counts in the simulator's time. The simulator waits if the machine is busy."""

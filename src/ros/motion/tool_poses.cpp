@@ -26,10 +26,11 @@ struct StampRange {
   }
 };
 
-std::string without_link(const Tool& tool, std::size_t link, const std::string& why_not) {
-  const std::string& joint = tool.joints[link];
+std::string without_link(const Tool& tool, std::size_t link,
+                         const Lookup<Eigen::Isometry3d>& lookup) {
+  const std::string joint = lookup.is_late ? "" : tool.joints[link];
   return "link '" + tool.links[link].name + "' of tool '" + tool.parameters.name + "'" +
-         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": " + why_not;
+         (joint.empty() ? "" : " (is joint '" + joint + "' published?)") + ": " + lookup.why_not;
 }
 
 bool is_near(const ToolPose& pose) {
@@ -133,7 +134,7 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
   for (std::size_t i = 0; i < tool.links.size(); ++i) {
     const auto link = look_up_frame(parameters.link_frame(tool.links[i].name));
     if (!link.found) {
-      return {std::nullopt, unless_silent(parameters, without_link(tool, i, link.why_not))};
+      return {std::nullopt, unless_silent(parameters, without_link(tool, i, link))};
     }
     pose.links.push_back(link.found->value);
   }

@@ -1,11 +1,64 @@
 #include "transform_lookup.hpp"
 
+#include <tf2/exceptions.h>
+
+#include <sstream>
 #include <stdexcept>
 
 #include "ros/interface/conversions.hpp"
+#include "ros/interface/duration_text.hpp"
 #include "ros/interface/plain_text.hpp"
 
 namespace organ_collision {
+namespace {
+
+using NotFound = Lookup<Eigen::Isometry3d>;
+
+/// [s] In whole nanoseconds, because ros::Duration overflows for extreme stamps.
+double elapsed_sec(ros::Time from, ros::Time to) {
+  return 1e-9 * static_cast<double>(to.toNSec() - from.toNSec());
+}
+
+/// The latest time at which the transform is known; zero if there is none.
+ros::Time latest(const tf2::BufferCore& buffer, const std::string& target,
+                 const std::string& source) {
+  try {
+    return buffer.lookupTransform(target, source, ros::Time(0)).header.stamp;
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+NotFound unknown(const std::string& frame) {
+  return {std::nullopt, "frame '" + frame + "' is unknown to TF"};
+}
+
+NotFound late(const std::string& target, const std::string& source, ros::Time latest,
+              ros::Time time) {
+  std::ostringstream text;
+  text << "TF from '" << source << "' to '" << target << "' is "
+       << duration_text(elapsed_sec(latest, time)) << " behind the stamp " << time;
+  return {std::nullopt, text.str(), true};
+}
+
+/// `error`: what tf2 threw.
+NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
+                   const std::string& source, ros::Time time, const std::runtime_error& error) {
+  if (!buffer._frameExists(source)) return unknown(source);
+  if (!buffer._frameExists(target)) return unknown(target);
+  if (dynamic_cast<const tf2::ConnectivityException*>(&error) != nullptr) {
+    return {std::nullopt, "frame '" + source + "' is not connected to '" + target + "' on TF"};
+  }
+  if (dynamic_cast<const tf2::ExtrapolationException*>(&error) != nullptr) {
+    const ros::Time newest = latest(buffer, target, source);
+    if (!newest.isZero() && newest < time) return late(target, source, newest, time);
+  }
+  // The text may be long: for a loop, tf2 lists all frames.
+  return {std::nullopt, "no transform from " + source + " to " + target + ": " +
+                            plain_text(error.what(), kLongestMessage)};
+}
+
+}  // namespace
 
 Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
                                   const std::string& source, ros::Time time) {
@@ -18,9 +71,7 @@ Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::stri
     }
     return {{{T_target_source, time.isZero() ? found.header.stamp : time}}, ""};
   } catch (const std::runtime_error& error) {  // From tf2, or from ros::Time for extreme stamps.
-    // The text may be long: for a loop, tf2 lists all frames.
-    return {std::nullopt, "no transform from " + source + " to " + target + ": " +
-                              plain_text(error.what(), kLongestMessage)};
+    return not_found(buffer, target, source, time, error);
   }
 }
 

@@ -21,6 +21,7 @@ template <typename T>
 struct Lookup {
   std::optional<Timed<T>> found;
   std::string why_not;
+  bool is_late = false;  ///< the transforms are known, but the newest is older than the time
 };
 
 /// T_target_source at a time; time zero means the latest common time. The frame names must have no

@@ -13,12 +13,18 @@
 namespace organ_collision {
 namespace {
 
+using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 
 /// The node waits at most this long for a callback, so that it notices a stop and a clock jump.
 constexpr std::chrono::milliseconds kLongestWait(10);
 /// The node calls callbacks for at most this long before it evaluates what they brought.
 constexpr std::chrono::milliseconds kLongestDrain(2);
+/// In simulated time, the node looks this often whether the deadline of a shape has passed.
+constexpr std::chrono::milliseconds kShortestSimulatedWait(1);
+/// If the node cannot keep up with its messages, shapes wait at most this much longer than
+/// tf_timeout_sec for their transforms.
+constexpr std::chrono::seconds kLongestBacklog(1);
 /// After a breakdown, the node waits this long for its last messages to leave.
 const ros::WallDuration kLastWords(1.0);
 
@@ -92,7 +98,7 @@ void CollisionNode::run(const std::function<bool()>& stop) {
   try {
     while (private_node_.ok() && !stop()) {
       receive();
-      pipeline_.evaluate(SteadyClock::now());
+      pipeline_.evaluate(heard_until_);
       surfaces_.update(pipeline_.organs(), SteadyClock::now());
       guard([this] { markers_.update(pipeline_.organs(), pipeline_.steps().history()); });
     }
@@ -115,14 +121,25 @@ void CollisionNode::report_last_diagnostics() {
 /// Waits for the first callback, but not beyond the deadline of a shape that waits for a transform.
 /// Then calls all callbacks that are there, for at most kLongestDrain.
 void CollisionNode::receive() {
-  SteadyClock::time_point until = SteadyClock::now() + kLongestWait;
-  if (const auto deadline = pipeline_.next_deadline()) until = std::min(until, *deadline);
-  const std::chrono::duration<double> wait = until - SteadyClock::now();
-
-  bool called = call_one(ros::WallDuration(std::max(0.0, wait.count())));
-  const SteadyClock::time_point end = SteadyClock::now() + kLongestDrain;
-  while (called && SteadyClock::now() < end) called = call_one(ros::WallDuration(0.0));
+  SteadyTime before = wait_clock_.now();
+  bool called = call_one(wait(before));
+  const SteadyTime end = SteadyClock::now() + kLongestDrain;
+  while (called && SteadyClock::now() < end) {
+    before = wait_clock_.now();
+    called = call_one(ros::WallDuration(0.0));
+  }
+  // A transform may be among the callbacks that are left. The time that they take does not count.
+  heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
   pipeline_.watch_clock();
+}
+
+/// How long to wait for the first callback.
+ros::WallDuration CollisionNode::wait(SteadyTime now) const {
+  std::chrono::nanoseconds wait = kLongestWait;
+  if (const auto deadline = pipeline_.next_deadline()) wait = std::min(wait, *deadline - now);
+  // Simulated time goes on in jumps, and no callback tells of them.
+  const auto shortest = ros::Time::isSimTime() ? kShortestSimulatedWait : 0ms;
+  return ros::WallDuration().fromNSec(std::max<std::chrono::nanoseconds>(wait, shortest).count());
 }
 
 /// Returns false if there was no callback.
@@ -130,7 +147,7 @@ bool CollisionNode::call_one(ros::WallDuration wait) {
   pipeline_.watch_clock();
   bool called = true;
   guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
-  guard([this] { pipeline_.apply_organ_messages(SteadyClock::now()); });
+  guard([this] { pipeline_.apply_organ_messages(wait_clock_.now()); });
   return called;
 }
 

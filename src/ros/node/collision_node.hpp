@@ -18,6 +18,7 @@
 #include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
 #include "ros/steps/query_services.hpp"
+#include "ros/steps/wait_clock.hpp"
 #include "ros/tools/tool.hpp"
 #include "tool_reload.hpp"
 
@@ -45,6 +46,7 @@ class CollisionNode {
  private:
   void report_last_diagnostics();
   void receive();
+  ros::WallDuration wait(SteadyTime now) const;
   bool call_one(ros::WallDuration wait);
   void guard(const std::function<void()>& action);
   void warn_of_settings() const;
@@ -64,6 +66,8 @@ class CollisionNode {
   ContactPublisher publisher_;
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
+  WaitClock wait_clock_;
+  SteadyTime heard_until_;  ///< all messages that came before have been handled
   QueryServices services_;
   Diagnostics diagnostics_;
   diagnostic_updater::Updater updater_;

@@ -1,6 +1,7 @@
 #include "organ_topics.hpp"
 
 #include <organ_collision/ContactArray.h>
+#include <ros/console.h>
 
 #include <boost/make_shared.hpp>
 #include <chrono>
@@ -15,6 +16,9 @@ namespace {
 /// [messages] For all organs together. If more wait while the node's thread is busy, roscpp drops
 /// the oldest.
 constexpr std::uint32_t kQueue = 100;
+
+/// Vertices may come this long before the mesh of their organ.
+constexpr std::chrono::seconds kStart(2);
 
 }  // namespace
 
@@ -60,11 +64,20 @@ std::optional<OrganUpdate> OrganTopics::next() {
       update.why_not = "organ '" + update.message.organ() + "' was removed";
     }
   } catch (const Rejection& rejection) {
-    rejected_.add(rejection.reason(), rejection.what(), std::chrono::steady_clock::now());
+    count(rejection);
     update.status = rejection.status();
     update.why_not = rejection.what();
   }
   return update;
+}
+
+void OrganTopics::count(const Rejection& rejection) {
+  const auto now = std::chrono::steady_clock::now();
+  if (rejection.status() == ContactArray::UNKNOWN_ORGAN && now - start_ < kStart) {
+    ROS_DEBUG("%s", rejection.what());
+  } else {
+    rejected_.add(rejection.reason(), rejection.what(), now);
+  }
 }
 
 OrganChange OrganTopics::apply(OrganMessage& message) {

@@ -3,6 +3,7 @@
 #include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -42,15 +43,18 @@ class OrganTopics {
   /// taken before. Throws Rejection if there is no such organ.
   void remove(const std::string& organ);
   /// Applies the next message that can be applied now. Returns std::nullopt if there is none. A
-  /// message that is refused is counted as rejected.
+  /// message that is refused is counted as rejected, except for vertices that come in the first 2 s
+  /// before the mesh of their organ: then a simulator is only starting.
   std::optional<OrganUpdate> next();
 
  private:
   OrganChange apply(OrganMessage& message);
+  void count(const Rejection& rejection);
 
   OrganRegistry& organs_;
   FailureLog& rejected_;
   OrganMessageQueue queue_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<ros::Subscriber> subscribers_;
 };
 

@@ -52,6 +52,8 @@ class CollisionPipeline {
   void watch_clock();
   /// Applies the organ messages that can be applied now. Their shapes become due.
   void apply_organ_messages(SteadyTime now);
+  /// From now on, no shape is replaced by a newer one before it was evaluated.
+  void keep_all_shapes() { steps_.keep_all_shapes(); }
   /// Makes every tool due.
   void add_tick() { steps_.add_tick(); }
   /// Evaluates what is due.

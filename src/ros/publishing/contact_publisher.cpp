@@ -1,6 +1,7 @@
 #include "contact_publisher.hpp"
 
 #include <organ_collision/ContactArray.h>
+#include <ros/console.h>
 
 #include <boost/make_shared.hpp>
 #include <chrono>
@@ -35,7 +36,12 @@ ContactPublisher::ContactPublisher(ros::NodeHandle private_node, const std::vect
       contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)) {}
 
 void ContactPublisher::publish(const EvaluatedStep& step) {
-  count_failure(counters_.failed, step.answer->status, step.answer->message);
+  if (step.is_starting) {
+    ++counters_.starting;
+    ROS_DEBUG("%s", step.answer->message.c_str());
+  } else {
+    count_failure(counters_.failed, step.answer->status, step.answer->message);
+  }
   contacts_.publish(step.answer);
   counters_.contacts.count();
 }

@@ -59,6 +59,8 @@ void Diagnostics::queries(DiagnosticStatusWrapper& status) {
   status.add("motion samples cut, farthest from the swept way [m]", sources_.steps.deviation_cut());
   status.add("transforms after their step", sources_.transforms.late());
   status.add("poses merged into later ones", sources_.steps.poses_merged());
+  status.add("shapes superseded by newer ones", sources_.steps.shapes_superseded());
+  status.add("steps while TF was starting", sources_.counters.starting);
   for (const std::string& sentence : sources_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }

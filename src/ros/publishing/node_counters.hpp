@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 
 #include "event_rate.hpp"
 #include "ros/interface/failure_log.hpp"
@@ -11,6 +12,7 @@ namespace organ_collision {
 struct NodeCounters {
   EventRate meshes{std::chrono::steady_clock::now()};    ///< accepted shapes of organs
   EventRate contacts{std::chrono::steady_clock::now()};  ///< answers to steps
+  std::uint64_t starting = 0;                            ///< steps without TF that may be starting
   FailureLog rejected;                                   ///< messages that were refused
   FailureLog failed;                                     ///< steps without an answer
   FailureLog refused;                                    ///< service calls without an answer

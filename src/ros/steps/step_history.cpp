@@ -4,14 +4,18 @@
 
 namespace organ_collision {
 
-void ShapeQueue::pop() {
-  waiting_ = std::move(newest_);
-  newest_.reset();
+bool ShapeQueue::push(Entry entry, bool keeps_all) {
+  const bool replaces = !keeps_all && waiting_.size() > 1;
+  if (replaces) {
+    waiting_.back() = std::move(entry);
+  } else {
+    waiting_.push_back(std::move(entry));
+  }
+  return replaces;
 }
 
-void ShapeQueue::clear() {
-  waiting_.reset();
-  newest_.reset();
+void ShapeQueue::pop() {
+  if (!waiting_.empty()) waiting_.erase(waiting_.begin());
 }
 
 const LastStep* StepHistory::last(const std::string& organ, std::size_t tool) const {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
@@ -17,7 +18,7 @@
 
 namespace organ_collision {
 
-/// Wall time that never jumps. It goes on while simulated time stands still.
+/// The time that a shape waits for its transforms. It never goes back (wait_clock.hpp).
 using SteadyTime = std::chrono::steady_clock::time_point;
 
 /// The end of the last successful step, where the next one begins.
@@ -28,9 +29,9 @@ struct LastStep {
 };
 
 /// The shapes of an organ against which one tool is still to be evaluated: the shape that waits for
-/// its transform, and the newest one behind it. A newer shape does not replace the one that waits.
-/// Otherwise no shape would ever be evaluated if transforms lag by more than the time between two
-/// shapes.
+/// its transform, and the newest one behind it, or all of them. A newer shape does not replace the
+/// one that waits. Otherwise no shape would ever be evaluated if transforms lag by more than the
+/// time between two shapes.
 class ShapeQueue {
  public:
   struct Entry {
@@ -38,15 +39,15 @@ class ShapeQueue {
     SteadyTime arrival;
   };
 
-  void push(Entry entry) { (waiting_ ? newest_ : waiting_) = std::move(entry); }
+  /// Adds a shape behind those that wait. Returns true if it replaced another one: the last but the
+  /// first, unless all are kept.
+  bool push(Entry entry, bool keeps_all = false);
   /// The shape to evaluate next; null if there is none.
-  const Entry* front() const { return waiting_ ? &*waiting_ : nullptr; }
+  const Entry* front() const { return waiting_.empty() ? nullptr : &waiting_.front(); }
   void pop();
-  void clear();
 
  private:
-  std::optional<Entry> waiting_;
-  std::optional<Entry> newest_;
+  std::vector<Entry> waiting_;  ///< few: a vector needs no memory for each step, as a deque does
 };
 
 /// The state of one pair of organ and tool.
@@ -57,6 +58,8 @@ struct OrganToolPair {
   /// To the last step, whether it succeeded or failed; null if there was none.
   ContactArrayConstPtr answer;
   ShapeQueue queue;
+  /// When a step first had no transform; empty before that.
+  std::optional<SteadyTime> first_without_transform;
 };
 
 /// The history of each pair of organ and tool.

@@ -6,9 +6,14 @@
 #include <utility>
 
 #include "contact_array.hpp"
+#include "ros/interface/duration_text.hpp"
 
 namespace organ_collision {
 namespace {
+
+/// How long the transforms of a tool and an organ may be missing before the first step. Nodes that
+/// start together need that long.
+constexpr std::chrono::seconds kStart(2);
 
 /// The shape from which the organ moves during a step; null if it rests.
 const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
@@ -43,14 +48,15 @@ void StepScheduler::add_pose(std::size_t tool) {
 void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
   evaluate_waiting(organs, now);
   for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
-    if (std::exchange(tool_is_due_[tool], false)) evaluate_latest(organs, tool);
+    if (std::exchange(tool_is_due_[tool], false)) evaluate_latest(organs, tool, now);
   }
-  if (std::exchange(tick_is_due_, false)) evaluate_tick(organs);
+  if (std::exchange(tick_is_due_, false)) evaluate_tick(organs, now);
 }
 
 void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-    history_.of(organ.name(), tool).queue.push({organ.latest(), now});
+    ShapeQueue& queue = history_.of(organ.name(), tool).queue;
+    if (queue.push({organ.latest(), now}, keeps_all_shapes_)) ++shapes_superseded_;
   }
 }
 
@@ -83,14 +89,13 @@ bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t too
   } else if (end.found) {
     evaluate_step(organ, tool, pair, *end.found);
   } else {
-    fail(organ, tool, pair, failure, ContactArray::NO_TRANSFORM, end.why_not);
+    fail_without_transform(organ, tool, pair, failure, end.why_not + waited(), now);
   }
   return true;
 }
 
 /// Evaluates all organs and tools with the latest poses.
-void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
-  const ros::Time now = ros::Time::now();
+void StepScheduler::evaluate_tick(const OrganRegistry& organs, SteadyTime now) {
   for (const auto& [name, organ] : organs.organs()) {
     for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
       evaluate_latest(organ, tool, now, false);
@@ -99,28 +104,28 @@ void StepScheduler::evaluate_tick(const OrganRegistry& organs) {
 }
 
 /// Evaluates all organs with the latest pose of one tool, unless that pose is answered already.
-void StepScheduler::evaluate_latest(const OrganRegistry& organs, std::size_t tool) {
-  const ros::Time now = ros::Time::now();
+void StepScheduler::evaluate_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now) {
   for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now, true);
 }
 
-void StepScheduler::evaluate_latest(const DeformableOrgan& organ, std::size_t tool, ros::Time now,
+void StepScheduler::evaluate_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now,
                                     bool only_new) {
   OrganToolPair& pair = history_.of(organ.name(), tool);
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  const ros::Time stamp = ros::Time::now();
   if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
-    return fail(organ, tool, pair, now, ContactArray::INVALID_TOOL, fault);
+    return fail(organ, tool, pair, stamp, ContactArray::INVALID_TOOL, fault);
   }
-  if (is_stale(organ.latest(), now, parameters_.mesh_timeout_sec)) {
-    return fail(organ, tool, pair, now, ContactArray::STALE_MESH,
-                stale_message(organ, now, parameters_.mesh_timeout_sec));
+  if (is_stale(organ.latest(), stamp, parameters_.mesh_timeout_sec)) {
+    return fail(organ, tool, pair, stamp, ContactArray::STALE_MESH,
+                stale_message(organ, stamp, parameters_.mesh_timeout_sec));
   }
   const auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (end.found) {
     if (only_new && is_answered(pair, end.found->stamp)) return;
     evaluate_step(organ, tool, pair, *end.found);
   } else {
-    fail(organ, tool, pair, now, ContactArray::NO_TRANSFORM, end.why_not);
+    fail_without_transform(organ, tool, pair, stamp, end.why_not, now);
   }
 }
 
@@ -210,11 +215,20 @@ void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToo
 }
 
 void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                         ros::Time stamp, std::uint8_t status, const std::string& message) {
+                         ros::Time stamp, std::uint8_t status, const std::string& message,
+                         bool is_starting) {
   const auto answer = answer_about_step(organ, tool, pair, stamp);
   set_failure(*answer, status, message);
   pair.answer = answer;
-  publish_({answer, tools_[tool], *pair.current.mesh, {}});
+  publish_({answer, tools_[tool], *pair.current.mesh, {}, 0.0, is_starting});
+}
+
+void StepScheduler::fail_without_transform(const DeformableOrgan& organ, std::size_t tool,
+                                            OrganToolPair& pair, ros::Time stamp,
+                                            const std::string& why, SteadyTime now) {
+  if (!pair.first_without_transform) pair.first_without_transform = now;
+  const bool is_starting = !pair.last && now - *pair.first_without_transform < kStart;
+  fail(organ, tool, pair, stamp, ContactArray::NO_TRANSFORM, why, is_starting);
 }
 
 ContactArrayPtr StepScheduler::answer_about_step(const DeformableOrgan& organ, std::size_t tool,
@@ -226,6 +240,10 @@ ContactArrayPtr StepScheduler::answer_about_step(const DeformableOrgan& organ, s
   set_organ(*answer, organ, pair.current);
   if (pair.last) answer->step_start = pair.last->stamp;
   return answer;
+}
+
+std::string StepScheduler::waited() const {
+  return "; waited " + duration_text(parameters_.tf_timeout_sec) + " (tf_timeout_sec)";
 }
 
 SteadyTime StepScheduler::deadline(const ShapeQueue::Entry& entry) const {

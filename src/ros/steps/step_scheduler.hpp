@@ -26,6 +26,9 @@ struct EvaluatedStep {
   const TriangleMesh& mesh;
   const ToolPath& path;    ///< empty if the step failed before the path was known
   double query_sec = 0.0;  ///< [s] that the query took; 0 if there was none
+  /// The step has no transform, and none had one before, but TF may still be starting: there is
+  /// nothing to warn of yet.
+  bool is_starting = false;
 };
 
 /// Decides which tool is evaluated against which organ, when, and from which pose: at each new
@@ -53,6 +56,9 @@ class StepScheduler {
   void add_pose(std::size_t tool);
   /// Makes every tool due.
   void add_tick() { tick_is_due_ = true; }
+
+  /// From now on, no shape is replaced by a newer one before it was evaluated.
+  void keep_all_shapes() { keeps_all_shapes_ = true; }
 
   /// Evaluates what is due: first the shapes whose transforms have come or are past their deadline,
   /// then the tools whose tips moved, then, at a tick, all tools. The latter two use the latest
@@ -82,15 +88,18 @@ class StepScheduler {
   double deviation_cut() const { return deviation_cut_; }
   /// Poses of tips that came while an earlier one was still due: one step covers both.
   std::size_t poses_merged() const { return poses_merged_; }
+  /// Shapes that a newer one replaced before a tool was evaluated against them; counted for each
+  /// tool.
+  std::size_t shapes_superseded() const { return shapes_superseded_; }
 
  private:
   void add_shape(const DeformableOrgan& organ, SteadyTime now);
   void evaluate_waiting(const OrganRegistry& organs, SteadyTime now);
-  void evaluate_tick(const OrganRegistry& organs);
-  void evaluate_latest(const OrganRegistry& organs, std::size_t tool);
+  void evaluate_tick(const OrganRegistry& organs, SteadyTime now);
+  void evaluate_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now);
   bool evaluate_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                       SteadyTime now);
-  void evaluate_latest(const DeformableOrgan& organ, std::size_t tool, ros::Time now,
+  void evaluate_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now,
                        bool only_new);
   void evaluate_step(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                      const Timed<ToolPose>& end);
@@ -98,10 +107,13 @@ class StepScheduler {
   void run(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair, Timed<ToolPose> end,
            ToolPath path);
   void fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair, ros::Time stamp,
-            std::uint8_t status, const std::string& message);
+            std::uint8_t status, const std::string& message, bool is_starting = false);
+  void fail_without_transform(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
+                              ros::Time stamp, const std::string& why, SteadyTime now);
   ContactArrayPtr answer_about_step(const DeformableOrgan& organ, std::size_t tool,
                                     const OrganToolPair& pair, ros::Time end) const;
   SteadyTime deadline(const ShapeQueue::Entry& entry) const;
+  std::string waited() const;
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;
@@ -111,6 +123,8 @@ class StepScheduler {
   StepHistory history_;
   std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
   bool tick_is_due_ = false;
+  bool keeps_all_shapes_ = false;
+  std::size_t shapes_superseded_ = 0;
   std::size_t poses_merged_ = 0;
   std::size_t samples_cut_ = 0;
   double deviation_cut_ = 0.0;

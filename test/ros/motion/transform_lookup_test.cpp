@@ -16,6 +16,13 @@ Isometry3d pose(double x, double angle) {
          Eigen::AngleAxisd(angle, Vector3d(0.3, -1.0, 0.4).normalized());
 }
 
+std::string why_not(const TransformBuffer& buffer, const std::string& target,
+                    const std::string& source, double time) {
+  const auto lookup = look_up(buffer, target, source, ros::Time(time));
+  EXPECT_FALSE(lookup.found);
+  return lookup.why_not;
+}
+
 }  // namespace
 
 TEST(LookUp, FollowsTheChain) {
@@ -55,12 +62,27 @@ TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
   TransformBuffer buffer;
   set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
   set_transform(buffer, "elsewhere", "tip", 3.0, pose(0.1, 0.5));
-  for (const char* frame : {"tip", "never_heard_of", "", "/world"}) {
-    const auto lookup = look_up(buffer, "liver", frame, ros::Time(3));
-    EXPECT_FALSE(lookup.found) << frame;
-    EXPECT_NE(lookup.why_not.find(std::string("from ") + frame + " to liver"), std::string::npos)
-        << lookup.why_not;
+  for (const char* frame : {"never_heard_of", "", "/world"}) {
+    const std::string unknown = "frame '" + std::string(frame) + "' is unknown to TF";
+    EXPECT_EQ(why_not(buffer, "liver", frame, 3.0), unknown);
+    EXPECT_EQ(why_not(buffer, frame, "liver", 3.0), unknown);
   }
+  EXPECT_EQ(why_not(buffer, "liver", "tip", 3.0), "frame 'tip' is not connected to 'liver' on TF");
+}
+
+TEST(LookUp, SaysHowLateTransformsAre) {
+  TransformBuffer buffer;
+  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
+  for (const double time : {3.0, 3.6}) set_transform(buffer, "b", "c", time, pose(time, 0.1));
+  EXPECT_EQ(why_not(buffer, "a", "c", 3.5073),
+            "TF from 'c' to 'a' is 7.3 ms behind the stamp 3.507300000");
+  EXPECT_EQ(why_not(buffer, "a", "c", 99.0),
+            "TF from 'c' to 'a' is 95.5 s behind the stamp 99.000000000");
+  EXPECT_TRUE(look_up(buffer, "a", "c", ros::Time(3.6)).is_late);
+  const auto early = look_up(buffer, "a", "c", ros::Time(2.9));
+  EXPECT_FALSE(early.found);
+  EXPECT_FALSE(early.is_late) << early.why_not;
+  EXPECT_NE(early.why_not.find("past"), std::string::npos) << early.why_not;
 }
 
 TEST(LookUp, ALoopAmongManyFramesIsToldInAShortMessage) {

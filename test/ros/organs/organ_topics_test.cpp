@@ -75,6 +75,14 @@ TEST_F(OrganTopicsTest, ARefusedMessageIsCountedAndSaysWhy) {
   EXPECT_EQ(organs_.at("liver").latest().mesh->vertex(0).z(), 0.0);
 }
 
+TEST_F(OrganTopicsTest, VerticesBeforeTheFirstMeshAreAnsweredButNotCountedAtTheStart) {
+  topics_.take_vertices(vertices(1));
+  const auto update = topics_.next();
+  ASSERT_TRUE(update);
+  EXPECT_EQ(update->status, ContactArray::UNKNOWN_ORGAN);
+  EXPECT_TRUE(rejected_.by_reason().empty());
+}
+
 TEST_F(OrganTopicsTest, ARemovedOrganHasNoMesh) {
   topics_.take_mesh(mesh());
   topics_.next();

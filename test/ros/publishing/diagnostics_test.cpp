@@ -60,6 +60,15 @@ TEST_F(DiagnosticsTest, MotionThatWasNotSweptThrough) {
   EXPECT_EQ(values(&Diagnostics::queries).at("transforms after their step"), "1");
 }
 
+TEST_F(DiagnosticsTest, ShapesThatNewerOnesReplacedAndStepsWhileTfWasStarting) {
+  for (const double time : {1.0, 2.0, 3.0, 4.0}) send_mesh(time, 0.0);
+  counters.starting = 3;
+  auto shown = values(&Diagnostics::queries);
+  EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(shown.at("shapes superseded by newer ones"), "2");
+  EXPECT_EQ(shown.at("steps while TF was starting"), "3");
+}
+
 TEST_F(DiagnosticsTest, RejectedMessagesByReason) {
   EXPECT_TRUE(values(&Diagnostics::messages).count("mesh rate [1/s]"));
   EXPECT_EQ(status.level, DiagnosticStatus::OK);

@@ -35,6 +35,20 @@ TEST(ShapeQueue, NewestReplacesTheOnesBehindTheFirst) {
   EXPECT_EQ(front(queue), 7);
 }
 
+TEST(ShapeQueue, TellsWhetherAShapeWasReplaced) {
+  ShapeQueue queue;
+  std::vector<bool> replaced;
+  for (int i = 1; i < 5; ++i) replaced.push_back(queue.push(entry(i)));
+  EXPECT_EQ(replaced, (std::vector<bool>{false, false, true, true}));
+}
+
+TEST(ShapeQueue, KeepsAllIfToldSo) {
+  ShapeQueue queue;
+  for (int i = 1; i < 5; ++i) EXPECT_FALSE(queue.push(entry(i), true));
+  for (int i = 1; i < 5; ++i, queue.pop()) EXPECT_EQ(front(queue), i);
+  EXPECT_EQ(front(queue), -1);
+}
+
 TEST(ShapeQueue, PopsNothingFromNothing) {
   ShapeQueue queue;
   queue.pop();

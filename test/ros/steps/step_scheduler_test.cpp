@@ -138,6 +138,54 @@ TEST_F(StepSchedulerTest, WaitingShapeIsNotReplacedByNewerOnes) {
   EXPECT_EQ(published[1].mesh_stamp, ros::Time(1.2));
 }
 
+TEST_F(StepSchedulerTest, CountsTheShapesThatNewerOnesReplace) {
+  send_mesh(1.0, 0.0);
+  for (int i = 1; i < 5; ++i) send_vertices(1.0 + 0.1 * i, 0.1f);
+  EXPECT_EQ(steps.shapes_superseded(), 3u);
+}
+
+TEST_F(StepSchedulerTest, KeepsAllShapesIfToldSo) {
+  steps.keep_all_shapes();
+  send_mesh(1.0, 0.0);
+  for (int i = 1; i < 5; ++i) send_vertices(1.0 + 0.1 * i, 0.1f);
+  send_tip(1.0, kAbove);
+  send_tip(1.5, kAbove);
+  EXPECT_EQ(evaluate().size(), 5u);
+  EXPECT_EQ(steps.shapes_superseded(), 0u);
+}
+
+TEST_F(StepSchedulerTest, SaysHowLateTransformsWereAndHowLongItWaited) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0073, 0.0);
+  EXPECT_EQ(evaluate(milliseconds(20)).at(0).message,
+            "TF from 'hook_tip' to 'liver_frame' is 7.3 ms behind the stamp 1.007300000; waited 20 "
+            "ms (tf_timeout_sec)");
+}
+
+TEST_F(StepSchedulerTest, TheFirstMomentsOfAPairAreTold) {
+  std::vector<bool> starting;
+  watch = [&](const EvaluatedStep& step) { starting.push_back(step.is_starting); };
+  send_mesh(1.0, 0.0);
+  evaluate(milliseconds(20));  // Its first failure.
+  tick();
+  evaluate(milliseconds(1999));
+  tick();
+  evaluate(milliseconds(1));
+  tick();
+  EXPECT_EQ(starting, (std::vector<bool>{true, true, true, false}));
+}
+
+TEST_F(StepSchedulerTest, AfterTheFirstStepAMissingTransformIsNoStart) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  evaluate();
+  bool starting = true;
+  watch = [&](const EvaluatedStep& step) { starting = step.is_starting; };
+  send_vertices(1.1, 0.0);
+  ASSERT_EQ(evaluate(milliseconds(20)).size(), 1u);
+  EXPECT_FALSE(starting);
+}
+
 TEST_F(StepSchedulerTest, OneToolWithoutTransformDoesNotHoldUpTheOther) {
   tools.push_back(shaft_tool("lost", 0.01));
   send_tip(1.0, kAbove);

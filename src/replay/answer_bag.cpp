@@ -1,0 +1,57 @@
+#include "answer_bag.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "offline/input_error.hpp"
+#include "ros/interface/rejection.hpp"
+
+namespace organ_collision {
+
+AnswerBag::AnswerBag(const std::string& file, std::string topic)
+    : file_(file), topic_(std::move(topic)), incomplete_(file + ".incomplete") {
+  try {
+    bag_.open(incomplete_, rosbag::bagmode::Write);
+  } catch (const rosbag::BagException& error) {
+    throw InputError(file + ": cannot be written: " + error.what());
+  }
+}
+
+AnswerBag::~AnswerBag() {
+  if (incomplete_.empty()) return;
+  try {
+    bag_.close();
+  } catch (const std::exception&) {  // For example, the disk is full. The file is removed anyway.
+  }
+  std::error_code ignored;
+  std::filesystem::remove(incomplete_, ignored);
+}
+
+void AnswerBag::add(const ContactArray& answer, ros::Time time) {
+  ++counts_[answer.status];
+  bag_.write(topic_, std::max(time, ros::TIME_MIN), answer);  // A bag has no time zero.
+}
+
+void AnswerBag::copy(const rosbag::MessageInstance& message) {
+  bag_.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+}
+
+void AnswerBag::complete() {
+  bag_.close();
+  std::filesystem::rename(incomplete_, file_);
+  incomplete_.clear();
+}
+
+std::string AnswerBag::summary() const {
+  std::size_t all = 0;
+  std::string by_status;
+  for (const auto& [status, count] : counts_) {
+    all += count;
+    by_status +=
+        (by_status.empty() ? ": " : ", ") + std::to_string(count) + " " + reason_of(status);
+  }
+  return std::to_string(all) + " answers on " + topic_ + by_status;
+}
+
+}  // namespace organ_collision

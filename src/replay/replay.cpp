@@ -1,0 +1,167 @@
+#include "replay.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/names.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "organ_collision/ros/names.hpp"
+#include "ros/steps/contact_array.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// rosbag record writes with several threads, so the times of recording may go back by a little
+/// although no clock jumped.
+const ros::Duration kDisorder(0.1);
+/// Through a longer gap in the bag, the node does not tick.
+const ros::Duration kLongestGap(10.0);
+
+SteadyTime steady(ros::Time time) { return SteadyTime(std::chrono::nanoseconds(time.toNSec())); }
+
+ros::Time ros_time(SteadyTime time) {
+  return ros::Time().fromNSec(
+      static_cast<std::uint64_t>(std::chrono::nanoseconds(time.time_since_epoch()).count()));
+}
+
+}  // namespace
+
+Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
+               const std::string& node, bool follows_clock, Answer answer)
+    : parameters_(parameters),
+      tools_(tools),
+      follows_clock_(follows_clock),
+      answer_(std::move(answer)),
+      pipeline_(parameters, tools,
+                {[this](const EvaluatedStep& step) { write(*step.answer); },
+                 [this](const OrganUpdate& update) { report(update); }, rejected_, callbacks_}) {
+  ros::Time::init();
+  ros::Time::setNow(now_);  // From now on, ROS time is that of the bag.
+  pipeline_.keep_all_shapes();
+  handle<OrganMesh>(node + "/" + names::kOrganMesh, [this](const auto& mesh, const auto& instance) {
+    pipeline_.organ_topics().take_mesh(mesh, instance.getConnectionHeader());
+    apply_organ_messages();
+  });
+  handle<OrganVertices>(node + "/" + names::kOrganVertices,
+                        [this](const auto& vertices, const auto&) {
+                          pipeline_.organ_topics().take_vertices(vertices);
+                          apply_organ_messages();
+                        });
+  for (const bool resting : {false, true}) {
+    handle<tf2_msgs::TFMessage>(resting ? "/tf_static" : "/tf",
+                                [this, resting](const auto& transforms, const auto& instance) {
+                                  pipeline_.transform_topics().take(
+                                      *transforms, instance.getCallerId(), resting);
+                                });
+  }
+  handle_poses(parameters.tools, node);
+  handle<rosgraph_msgs::Clock>("/clock", [](const auto&, const auto&) {});
+}
+
+template <typename Message>
+void Replay::handle(
+    const std::string& topic,
+    std::function<void(const boost::shared_ptr<const Message>&, const rosbag::MessageInstance&)>
+        handler) {
+  namespace traits = ros::message_traits;
+  topics_[topic] = {traits::datatype<Message>(), traits::md5sum<Message>()};
+  handlers_.emplace(topic, [handler = std::move(handler)](const rosbag::MessageInstance& instance) {
+    handler(instance.instantiate<Message>(), instance);
+  });
+}
+
+void Replay::handle_poses(const std::vector<ToolParameters>& tools, const std::string& node) {
+  using Pose = geometry_msgs::PoseStamped;
+  const auto handle_topic = [&](const std::string& topic, auto take, std::size_t tool) {
+    if (topic.empty()) return;
+    const std::string name = ros::names::resolve(ros::names::parentNamespace(node), topic, false);
+    handle<Pose>(name, [this, take, tool](const auto& pose, const auto&) {
+      (pipeline_.pose_topics().*take)(tool, *pose);
+    });
+  };
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    handle_topic(tools[tool].tip_pose_topic, &PoseTopics::take_tip, tool);
+    handle_topic(tools[tool].base_pose_topic, &PoseTopics::take_base, tool);
+  }
+}
+
+void Replay::take(const rosbag::MessageInstance& message) {
+  recorded_ = message.getTime();
+  if (!follows_clock_) {
+    go_to(recorded_);
+  } else if (message.getTopic() == "/clock") {
+    go_to(message.instantiate<rosgraph_msgs::Clock>()->clock);
+  }
+  const auto [first, last] = handlers_.equal_range(message.getTopic());
+  for (auto handler = first; handler != last; ++handler) handler->second(message);
+  // A shape whose time ends now may still get its transform from another message of this time.
+  pipeline_.evaluate(steady(now_) - std::chrono::nanoseconds(1));
+}
+
+/// A large mesh is built in another thread. The replay waits for it.
+void Replay::apply_organ_messages() {
+  is_applied_ = false;
+  while (true) {
+    pipeline_.apply_organ_messages(steady(now_));
+    if (is_applied_) return;
+    callbacks_.callAvailable(ros::WallDuration(0.1));
+  }
+}
+
+void Replay::finish() {
+  while (const auto deadline = pipeline_.next_deadline()) {
+    now_ = std::max(now_, ros_time(*deadline));
+    ros::Time::setNow(now_);
+    pipeline_.evaluate(*deadline);
+  }
+}
+
+void Replay::go_to(ros::Time time) {
+  if (time >= now_) {
+    if (!now_.isZero()) evaluate_before(time);
+    if (next_tick_.isZero() || time > next_tick_ + kLongestGap) next_tick_ = time;
+    now_ = time;
+  } else if (follows_clock_ || now_ - time > kDisorder) {
+    now_ = next_tick_ = time;
+  }
+  ros::Time::setNow(now_);
+  pipeline_.watch_clock();
+}
+
+/// Evaluates what is due between now and `time`: ticks, and shapes whose transforms did not come.
+void Replay::evaluate_before(ros::Time time) {
+  const bool ticks = parameters_.rate_hz > 0.0 && time <= next_tick_ + kLongestGap;
+  while (true) {
+    const auto deadline = pipeline_.next_deadline();
+    const bool is_tick = ticks && (!deadline || next_tick_ < ros_time(*deadline));
+    if (!is_tick && !deadline) return;
+    const ros::Time due = is_tick ? next_tick_ : ros_time(*deadline);
+    if (due >= time) return;
+    now_ = std::max(now_, due);
+    ros::Time::setNow(now_);
+    if (is_tick) {
+      pipeline_.add_tick();
+      next_tick_ += ros::Duration(1.0 / parameters_.rate_hz);
+    }
+    pipeline_.evaluate(steady(due));
+  }
+}
+
+void Replay::report(const OrganUpdate& update) {
+  is_applied_ = true;
+  if (update.status == ContactArray::OK) return;
+  for (const Tool& tool : tools_) {
+    write(failed_answer(update.message.organ(), tool.parameters, update.message.header(),
+                        update.status, update.why_not));
+  }
+}
+
+void Replay::write(const ContactArray& answer) {
+  answer_(answer, follows_clock_ ? recorded_ : now_);
+}
+
+}  // namespace organ_collision

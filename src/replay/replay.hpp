@@ -1,0 +1,76 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/time.h>
+#include <rosbag/message_instance.h>
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "ros/interface/failure_log.hpp"
+#include "ros/pipeline/collision_pipeline.hpp"
+
+namespace organ_collision {
+
+/// The node's pipeline, in the time of a bag. Each message is applied and answered before the next
+/// one, so the answers depend on nothing but the messages.
+class Replay {
+ public:
+  using Handler = std::function<void(const rosbag::MessageInstance&)>;
+  /// Gets each answer, with the time at which it was given.
+  using Answer = std::function<void(const ContactArray&, ros::Time)>;
+
+  /// `node`: the full name under which the node's topics were recorded. `follows_clock`: the bag
+  /// has /clock, which is the time; otherwise the time is that at which messages were recorded.
+  /// `parameters` and `tools` must outlive this. Throws GlError.
+  Replay(const NodeParameters& parameters, const std::vector<Tool>& tools, const std::string& node,
+         bool follows_clock, Answer answer);
+
+  /// Goes to the time of a message, and applies it if it is on a topic of the node.
+  void take(const rosbag::MessageInstance& message);
+  /// Answers the shapes that still wait for their transforms when the bag has ended.
+  void finish();
+
+  /// The message type of each topic that a replay reads: its name and its MD5 sum.
+  struct Type {
+    std::string name, md5sum;
+  };
+  const std::map<std::string, Type>& topics() const { return topics_; }
+  /// Whether TF, or a topic of poses, has told of a frame.
+  bool knows_frame(const std::string& frame) const {
+    return pipeline_.transforms()._frameExists(frame);
+  }
+
+ private:
+  template <typename Message>
+  void handle(
+      const std::string& topic,
+      std::function<void(const boost::shared_ptr<const Message>&, const rosbag::MessageInstance&)>
+          handler);
+  void handle_poses(const std::vector<ToolParameters>& tools, const std::string& node);
+  void apply_organ_messages();
+  void go_to(ros::Time time);
+  void evaluate_before(ros::Time time);
+  void report(const OrganUpdate& update);
+  void write(const ContactArray& answer);
+
+  const NodeParameters& parameters_;
+  const std::vector<Tool>& tools_;
+  bool follows_clock_;
+  Answer answer_;
+  std::map<std::string, Type> topics_;
+  std::multimap<std::string, Handler> handlers_;  ///< by topic
+
+  FailureLog rejected_;
+  ros::CallbackQueue callbacks_;
+  bool is_applied_ = true;  ///< false: an organ message waits for its mesh to be built
+  CollisionPipeline pipeline_;
+
+  ros::Time now_;
+  ros::Time recorded_;  ///< when the latest message was recorded
+  ros::Time next_tick_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,159 @@
+#include "yaml_parameters.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "offline/input_error.hpp"
+#include "ros/tools/link_description.hpp"
+
+namespace organ_collision {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+/// A file may contain itself, or contain one part very often.
+constexpr int kMostLevels = 50;
+constexpr int kMostNodes = 1'000'000;
+
+/// Converts yaml nodes to the types of the parameter server.
+class Converter {
+ public:
+  XmlRpcValue convert(const YAML::Node& node, int level = 0) {
+    if (level > kMostLevels || ++nodes_ > kMostNodes)
+      refuse(node, "nested too deeply, or too large");
+    const std::string& tag = node.Tag();
+    if (!tag.empty() && tag != "?" && tag != "!" && tag.rfind("tag:yaml.org,2002:", 0) != 0) {
+      refuse(node, "of the type " + in_quotes(tag) + ", which is not supported");
+    }
+    switch (node.Type()) {
+      case YAML::NodeType::Scalar:
+        return scalar(node);
+      case YAML::NodeType::Sequence:
+        return list(node, level);
+      case YAML::NodeType::Map:
+        return group(node, level);
+      default:
+        refuse(node, "empty; must be a value");
+    }
+  }
+
+ private:
+  [[noreturn]] static void refuse(const YAML::Node& node, const std::string& why) {
+    throw InputError("line " + std::to_string(node.Mark().line + 1) + ": the value is " + why);
+  }
+
+  static XmlRpcValue scalar(const YAML::Node& node) {
+    const std::string& text = node.Scalar();
+    const bool is_plain = node.Tag() != "!" && node.Tag() != "tag:yaml.org,2002:str";
+    bool flag = false;
+    int whole = 0;
+    double number = 0.0;
+    // The parameter server takes y and n, which YAML::convert takes for flags, as texts.
+    if (is_plain && text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
+    if (is_plain && YAML::convert<int>::decode(node, whole)) return whole;
+    if (is_plain && YAML::convert<double>::decode(node, number)) return number;
+    return text;
+  }
+
+  XmlRpcValue list(const YAML::Node& node, int level) {
+    XmlRpcValue values;
+    values.setSize(static_cast<int>(node.size()));
+    for (std::size_t i = 0; i < node.size(); ++i) {
+      values[static_cast<int>(i)] = convert(node[i], level + 1);
+    }
+    return values;
+  }
+
+  XmlRpcValue group(const YAML::Node& node, int level) {
+    XmlRpcValue members;
+    members.begin();  // Makes it a group, even if it is empty.
+    for (const auto& member : node) {
+      members[member.first.as<std::string>()] = convert(member.second, level + 1);
+    }
+    return members;
+  }
+
+  int nodes_ = 0;
+};
+
+XmlRpcValue read(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) throw InputError(file + ": cannot be opened: " + std::strerror(errno));
+  try {
+    const YAML::Node root = YAML::Load(stream);
+    if (!root.IsMap()) throw InputError("must be the node's parameters: names and their values");
+    return Converter().convert(root);
+  } catch (const InputError& error) {
+    throw InputError(file + ": " + error.what());
+  } catch (const YAML::Exception& error) {
+    throw InputError(file, static_cast<std::size_t>(error.mark.line + 1), error.msg);
+  }
+}
+
+/// The value with a name such as a/b below a group; null if there is none.
+const XmlRpcValue* find(const XmlRpcValue& group, const std::string& name) {
+  if (name.empty()) return &group;
+  const std::size_t slash = name.find('/');
+  const std::string first = name.substr(0, slash);
+  if (group.getType() != XmlRpcValue::TypeStruct || !group.hasMember(first)) return nullptr;
+  const XmlRpcValue& member = group[first];
+  return slash == std::string::npos ? &member : find(member, name.substr(slash + 1));
+}
+
+std::string without_slash(const std::string& name) {
+  return name.empty() || name.front() != '/' ? name : name.substr(1);
+}
+
+std::string first_part(const std::string& name) { return name.substr(0, name.find('/')); }
+
+XmlRpcValue without(const XmlRpcValue& group, const std::set<std::string>& names) {
+  XmlRpcValue rest;
+  rest.begin();
+  for (const auto& [name, value] : group) {
+    if (names.count(name) == 0) rest[name] = value;
+  }
+  return rest;
+}
+
+}  // namespace
+
+YamlParameters::YamlParameters(const std::string& file, const std::string& node)
+    : file_(file), tree_(read(file)) {
+  const XmlRpcValue* group = find(tree_, without_slash(node));
+  if (group && group->getType() == XmlRpcValue::TypeStruct) node_ = without_slash(node);
+}
+
+LoadedParameters YamlParameters::node_parameters() const {
+  const XmlRpcValue& group = *find(tree_, node_);
+  LoadedParameters loaded = parse_parameters(group);
+  if (!node_.empty()) return loaded;
+  // The descriptions of robots, which stand beside the node's parameters, are not misspelt.
+  std::set<std::string> robots;
+  for (const ToolParameters& tool : loaded.parameters.tools) {
+    robots.insert(first_part(without_slash(tool.robot_description)));
+  }
+  return parse_parameters(without(group, robots));
+}
+
+std::string YamlParameters::find_text(const std::string& parameter) const {
+  const std::string name = without_slash(parameter);
+  std::string space = name == parameter ? node_ : "";
+  while (true) {
+    const XmlRpcValue& group = *find(tree_, space);
+    if (find(group, first_part(name)) || space.empty()) {
+      const XmlRpcValue* value = find(group, name);
+      if (!value) throw ToolError("is not in " + file_ + "; add it, or give the tool's urdf");
+      if (value->getType() != XmlRpcValue::TypeString)
+        throw ToolError("is no text; must be a URDF");
+      return static_cast<const std::string&>(*value);
+    }
+    const std::size_t slash = space.rfind('/');
+    space = slash == std::string::npos ? "" : space.substr(0, slash);
+  }
+}
+
+}  // namespace organ_collision

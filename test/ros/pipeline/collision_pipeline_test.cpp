@@ -1,0 +1,108 @@
+#include "ros/pipeline/collision_pipeline.hpp"
+
+#include <gtest/gtest.h>
+#include <ros/callback_queue.h>
+
+#include <boost/make_shared.hpp>
+
+#include "test/ros/tools/hand_made_tools.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+class CollisionPipelineTest : public testing::Test {
+ protected:
+  CollisionPipelineTest() {
+    ros::Time::init();
+    go_to(50.0);
+  }
+
+  void go_to(double time) {
+    ros::Time::setNow(ros::Time(time));
+    pipeline_.watch_clock();
+  }
+
+  void send_mesh(double stamp, std::uint32_t topology = 1) {
+    OrganMesh mesh;
+    mesh.organ = "liver";
+    mesh.header.frame_id = "liver_frame";
+    mesh.header.stamp = ros::Time(stamp);
+    mesh.topology = topology;
+    mesh.vertices = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+    mesh.triangles = {0, 1, 2};
+    pipeline_.organ_topics().take_mesh(boost::make_shared<OrganMesh>(mesh));
+    pipeline_.apply_organ_messages(now_);
+  }
+
+  void send_tool(double stamp) {
+    tf2_msgs::TFMessage message;
+    for (const auto& [frame, z] : {std::pair("hook_trocar", 1.0), std::pair("hook_tip", -0.1)}) {
+      geometry_msgs::TransformStamped transform;
+      transform.header.frame_id = "liver_frame";
+      transform.header.stamp = ros::Time(stamp);
+      transform.child_frame_id = frame;
+      transform.transform.translation.z = z;
+      transform.transform.rotation.w = 1.0;
+      message.transforms.push_back(transform);
+    }
+    pipeline_.transform_topics().take(message, "test", false);
+  }
+
+  std::vector<ContactArray> evaluate() {
+    answers_.clear();
+    pipeline_.evaluate(now_);
+    return answers_;
+  }
+
+  NodeParameters parameters_;
+  std::vector<Tool> tools_ = {shaft_tool("hook", 0.01)};
+  FailureLog rejected_;
+  ros::CallbackQueue callbacks_;
+  std::vector<ContactArray> answers_;
+  std::vector<std::uint8_t> updates_;
+  SteadyTime now_{std::chrono::hours(1)};
+  CollisionPipeline pipeline_{
+      parameters_,
+      tools_,
+      {[this](const EvaluatedStep& step) { answers_.push_back(*step.answer); },
+       [this](const OrganUpdate& update) { updates_.push_back(update.status); }, rejected_,
+       callbacks_}};
+};
+
+}  // namespace
+
+TEST_F(CollisionPipelineTest, AnswersWithoutTopics) {
+  send_mesh(50.0);
+  EXPECT_EQ(updates_, std::vector<std::uint8_t>{ContactArray::OK});
+  EXPECT_TRUE(evaluate().empty());
+  ASSERT_TRUE(pipeline_.next_deadline());
+  send_tool(50.0);
+  const auto answers = evaluate();
+  ASSERT_EQ(answers.size(), 1u);
+  EXPECT_EQ(answers[0].status, ContactArray::OK) << answers[0].message;
+  EXPECT_EQ(answers[0].contacts.size(), 1u);
+  EXPECT_FALSE(pipeline_.next_deadline());
+}
+
+TEST_F(CollisionPipelineTest, AClockThatJumpsBackForgetsTheHistory) {
+  send_tool(50.0);
+  send_mesh(50.0);
+  EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
+  send_mesh(49.0);
+  EXPECT_EQ(evaluate().at(0).mode, ContactArray::SWEPT);
+  go_to(7.0);
+  send_mesh(7.0);
+  EXPECT_TRUE(evaluate().empty());  // The transforms are forgotten, too.
+  send_tool(7.0);
+  EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
+}
+
+TEST_F(CollisionPipelineTest, AResetKeepsTransforms) {
+  send_tool(50.0);
+  send_mesh(50.0);
+  evaluate();
+  pipeline_.reset();
+  send_mesh(50.0);
+  EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
+}
