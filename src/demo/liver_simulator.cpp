@@ -26,7 +26,7 @@ constexpr double kYield = 0.5;        // [1] share of the depth by which tissue 
 constexpr double kMostYield = 0.008;  // [m] in one step
 constexpr double kTfLeadSec =
     0.5;  // only TF is sent, so that listeners have it before the first shape
-constexpr double kRate = 125.0;      // [Hz] of shapes, by default
+constexpr double kRate = 125.0;  // [Hz] of shapes, by default
 constexpr char kCollisionNode[] = "/organ_collision";
 
 ProgramHelp help() {

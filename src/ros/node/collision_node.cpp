@@ -70,7 +70,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                    [this](LoadedToolList& loaded, const KeptTools& kept) {
                      run_in_thread_of(queue_, [&] { exchange_tools(loaded, kept); });
                    }),
-      live_parameters_(on_queue(private_node, background_.queue()), live_parameters(loaded_.parameters),
+      live_parameters_(on_queue(private_node, background_.queue()),
+                       live_parameters(loaded_.parameters),
                        [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
   warn_of_settings();
   pipeline_.subscribe(node_, private_node_);
@@ -87,7 +88,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
            pipeline_.contact_query().gl_version().c_str());
 }
 
-/// Ends the wait of the background thread for this thread, and then that thread, which uses members.
+/// Ends the wait of the background thread for this thread, and then that thread, which uses
+/// members.
 CollisionNode::~CollisionNode() {
   queue_.disable();
   queue_.clear();

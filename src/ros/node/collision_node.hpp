@@ -27,9 +27,9 @@ namespace organ_collision {
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
 /// (doc/architecture.md). One thread does all work of the steps through one callback queue. That
 /// thread owns the GL context and all state, so that the state needs no locks. Large meshes with
-/// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the background
-/// thread, inspects surfaces, and loads and checks new tools and parameters. The node's thread only
-/// exchanges them.
+/// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
+/// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
+/// thread only exchanges them.
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().

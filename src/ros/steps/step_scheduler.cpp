@@ -224,8 +224,8 @@ void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganTo
 }
 
 void StepScheduler::fail_without_transform(const DeformableOrgan& organ, std::size_t tool,
-                                            OrganToolPair& pair, ros::Time stamp,
-                                            const std::string& why, SteadyTime now) {
+                                           OrganToolPair& pair, ros::Time stamp,
+                                           const std::string& why, SteadyTime now) {
   if (!pair.first_without_transform) pair.first_without_transform = now;
   const bool is_starting = !pair.last && now - *pair.first_without_transform < kStart;
   fail(organ, tool, pair, stamp, ContactArray::NO_TRANSFORM, why, is_starting);
