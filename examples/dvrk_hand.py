@@ -2,6 +2,7 @@
 """Sends the force of the tissue on an instrument to the hand that moves it: from the wrench of contact_adapter to the
 servo_cf of a dVRK's MTM. Sends no torque. If no wrench arrives any more, the force becomes zero."""
 
+import argparse
 import math
 import time
 
@@ -64,6 +65,7 @@ class Hand:
 
 
 if __name__ == '__main__':
+    argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
     rospy.init_node('dvrk_hand')
     hand = Hand()
     while not rospy.is_shutdown():

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """In place of a tissue simulator: a breathing organ of the size of a liver, and its place before the camera."""
 
+import argparse
 import math
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
@@ -29,6 +30,7 @@ def ellipsoid(radii, rings=40, segments=80):
 
 
 if __name__ == '__main__':
+    argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
     rospy.init_node('dvrk_organ')
     place = tf2_ros.StaticTransformBroadcaster()
     place.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'ECM'), 'liver', PLACE))

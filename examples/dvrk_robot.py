@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """In place of a dVRK: publishes what the CRTK topics of two PSMs say while they dip open jaws into tissue."""
 
+import argparse
 import math
 
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
@@ -71,6 +72,7 @@ class Arm:
 
 
 if __name__ == '__main__':
+    argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
     rospy.init_node('dvrk_robot')
     arms = [Arm(name, *places) for name, places in ARMS.items()]
     rate = rospy.Rate(100)

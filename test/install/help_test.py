@@ -13,7 +13,7 @@ import sys
 import unittest
 
 SOURCE, DEVEL = sys.argv[1:3]
-SCRIPTS = [os.path.join(SOURCE, 'examples', name) for name in ('ask.py', 'grasper.py', 'simulator.py')]
+SCRIPTS = glob.glob(os.path.join(SOURCE, 'examples', '*.py')) + [os.path.join(SOURCE, 'scripts', 'view.py')]
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'paper_misses', 'collision_benchmark',
                'force_benchmark', 'end_to_end', 'echo_node')

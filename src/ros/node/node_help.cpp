@@ -4,10 +4,12 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <organ_collision/ContactArray.h>
+#include <organ_collision/ListOrgans.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
+#include <organ_collision/RemoveOrgan.h>
 #include <ros/service_traits.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
@@ -54,6 +56,8 @@ std::vector<HelpEntry> services() {
   return {
       {names::kQuery, service<QueryCollision>(), "what one motion, or one tool, would touch"},
       {names::kQueryBatch, service<QueryCollisionBatch>(), "what many motions would touch"},
+      {names::kListOrgans, service<ListOrgans>(), "the organs: faces, box, volume, closed or not"},
+      {names::kRemoveOrgan, service<RemoveOrgan>(), "removes an organ"},
       {names::kReset, service<std_srvs::Empty>(),
        "forgets all history: the next step of each tool is static"},
       {names::kReloadTools, service<std_srvs::Trigger>(), "reads the parameter tools again"},
