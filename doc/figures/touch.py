@@ -41,7 +41,7 @@ def draw_contact(axes):
     axes.set_ylim(-16, 48)
 
 
-def draw_behind(axes):
+def draw_pierced(axes):
     style.drawing(axes, 'Pressed deeper: the tip is past the face')
     trocar, tip = np.array([-9.0, 42.0]), np.array([0.0, -8.0])
     draw_shaft(axes, trocar, tip)
@@ -63,8 +63,29 @@ def draw_behind(axes):
     axes.set_ylim(-22, 48)
 
 
+def draw_behind(axes):
+    style.drawing(axes, 'Under the face: behind is true')
+    trocar, tip = np.array([-46.0, 14.0]), np.array([14.0, -3.0])
+    sheet = [np.array([x, 0.0]) for x in (6.0, 18.0, 30.0)]
+    draw_shaft(axes, trocar, tip)
+    draw_faces(axes, sheet, [0])
+    _, point, normal, _ = contact(trocar, tip, sheet[0:2])
+    axes.plot(*point, 'o', color=style.TEXT, ms=4)
+    style.arrow(axes, point, point + 15 * normal, style.BOUND, width=1.6)
+    style.label(axes, point + [-1, 17], 'normal: from the axis to the\npoint, here to the outside', style.BOUND,
+                ha='center')
+    style.arrow(axes, [26, 0], [26, 8], style.FACE)
+    style.label(axes, [27.5, 5], 'outside', style.FACE)
+    style.label(axes, [24, -5], 'inside', style.FACE)
+    style.label(axes, tip + [-6, -8], 'the nearest place on the axis\nis on the inner side', style.TOOL,
+                ha='center', va='top')
+    axes.set_xlim(-52, 44)
+    axes.set_ylim(-26, 44)
+
+
 def draw():
-    figure, (ordinary, behind) = style.panels(2, 10.5, 5.0)
+    figure, (ordinary, pierced, behind) = style.panels(3, 14, 4.8, [1, 1, 1.2])
     draw_contact(ordinary)
+    draw_pierced(pierced)
     draw_behind(behind)
     return figure
