@@ -51,6 +51,8 @@ void add_normals(const SceneOrgan& organ, const ContactArray& answer, double sha
   for (const Contact* contact : deepest(answer, kMostArrows)) {
     add_arrow(before(*contact, kArrowLength * organ.size()), before(*contact, 0.0), arrows);
   }
+  // RViz lights only markers without colours of their own. It would leave half of the arrows dark.
+  arrows.colors.assign(arrows.points.size(), arrows.color);
   sheet.add(std::move(arrows));
 }
 
