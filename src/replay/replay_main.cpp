@@ -15,10 +15,10 @@
 
 #include "answer_bag.hpp"
 #include "offline/input_error.hpp"
-#include "replay_options.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "recorded_messages.hpp"
 #include "replay.hpp"
+#include "replay_options.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "yaml_parameters.hpp"
 
