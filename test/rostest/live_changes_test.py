@@ -186,7 +186,9 @@ class LiveChangesTest(ToolCase):
     def test_parameters_are_described_with_their_limits(self):
         described = {p['name']: p for p in self.client.get_parameter_descriptions(LIMIT)}
         self.assertEqual(
-            sorted(described), ['mesh_timeout_sec', 'publish_regions', 'rate', 'tf_timeout_sec']
+            set(described),
+            {'mesh_timeout_sec', 'publish_regions', 'rate', 'tf_timeout_sec', 'markers_rate', 'surface_rate',
+             'markers_depth'},
         )
         self.assertEqual((described['rate']['min'], described['rate']['max']), (0.0, 10000.0))
         self.assertEqual(described['tf_timeout_sec']['default'], 0.02)

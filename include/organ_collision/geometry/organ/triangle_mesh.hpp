@@ -89,6 +89,7 @@ class TriangleMesh {
 
   /// All faces. The address is unchanged as long as the triangles are the same.
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
+  /// The same faces. They stay as they are even if the mesh ends.
   SharedFaces shared_faces() const { return {topology_, &topology_->faces}; }
   /// The same faces in spatially coherent groups.
   const FaceClusters& clusters() const { return topology_->clusters; }
