@@ -21,13 +21,6 @@ const ros::Duration kDisorder(0.1);
 /// Through a longer gap in the bag, the node does not tick.
 const ros::Duration kLongestGap(10.0);
 
-SteadyTime steady(ros::Time time) { return SteadyTime(std::chrono::nanoseconds(time.toNSec())); }
-
-ros::Time ros_time(SteadyTime time) {
-  return ros::Time().fromNSec(
-      static_cast<std::uint64_t>(std::chrono::nanoseconds(time.time_since_epoch()).count()));
-}
-
 }  // namespace
 
 Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
@@ -121,6 +114,7 @@ void Replay::finish() {
 }
 
 void Replay::go_to(ros::Time time) {
+  if (start_.isZero()) start_ = time;
   if (time >= now_) {
     if (!now_.isZero()) evaluate_before(time);
     if (next_tick_.isZero() || time > next_tick_ + kLongestGap) next_tick_ = time;
@@ -149,6 +143,18 @@ void Replay::evaluate_before(ros::Time time) {
     }
     pipeline_.evaluate(steady(due));
   }
+}
+
+/// The time that shapes wait. It begins with the first time of the bag: messages before the first
+/// /clock do not wait until then.
+SteadyTime Replay::steady(ros::Time time) const {
+  if (start_.isZero()) return {};
+  return SteadyTime(std::chrono::nanoseconds(time.toNSec() - start_.toNSec()));
+}
+
+ros::Time Replay::ros_time(SteadyTime time) const {
+  const auto since_start = std::chrono::nanoseconds(time.time_since_epoch()).count();
+  return ros::Time().fromNSec(start_.toNSec() + static_cast<std::uint64_t>(since_start));
 }
 
 void Replay::report(const OrganUpdate& update) {

@@ -53,6 +53,8 @@ class Replay {
   void apply_organ_messages();
   void go_to(ros::Time time);
   void evaluate_before(ros::Time time);
+  SteadyTime steady(ros::Time time) const;
+  ros::Time ros_time(SteadyTime time) const;
   void report(const OrganUpdate& update);
   void write(const ContactArray& answer);
 
@@ -68,6 +70,7 @@ class Replay {
   bool is_applied_ = true;  ///< false: an organ message waits for its mesh to be built
   CollisionPipeline pipeline_;
 
+  ros::Time start_;  ///< the first time of the bag; zero: it has not come yet
   ros::Time now_;
   ros::Time recorded_;  ///< when the latest message was recorded
   ros::Time next_tick_;

@@ -191,6 +191,17 @@ class SimulatedTimeTest(ReplayCase):
             for i, (time, _) in zip((0, 12, 23), answers):
                 self.assertAlmostEqual(time, 1000.0 + 0.01 * i / speed, places=6)
 
+    def test_messages_before_the_first_clock(self):
+        with self.record() as bag:
+            bag.resting(1000.0)
+            bag.mesh(5.0, SHEET, 1000.0)
+            bag.clock(5.0, 1001.0)
+            bag.clock(5.01, 1001.01)
+            bag.tool(5.0, at_height(-0.01), 1001.01)
+        ((time, answer),) = self.answers_of()
+        self.assert_contacts(answer, oracle.static_contacts(SHEET, at_height(-0.01), RADIUS))
+        self.assertAlmostEqual(time, 1001.01)
+
     def check_jump(self, answers):
         # rosbag returns them in the order of time.
         answers = sorted(answers, key=lambda answer: answer.header.stamp.to_sec() < 10.0)
