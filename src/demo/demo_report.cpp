@@ -6,14 +6,15 @@
 #include <organ_collision/OrganVertices.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include "end_node.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "static_comparison.hpp"
 
@@ -191,23 +192,26 @@ bool report(const std::string& collision_node, double seconds) {
   return report.print_summary(elapsed());
 }
 
+/// Ends roslaunch, which has started this program, as Ctrl-C does. If this program ended first,
+/// roslaunch would report the death of a required node as an error.
+void end_launch() {
+  kill(getppid(), SIGINT);
+  ros::waitForShutdown();
+}
+
 }  // namespace
 }  // namespace organ_collision
 
-/// Also ends the nodes that the parameter `ends` names, so that the whole demo ends.
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   ros::init(argc, argv, "demo_report");
   ros::NodeHandle private_node("~");
-  bool found_contacts = false;
-  try {
-    found_contacts = organ_collision::report(
-        private_node.param<std::string>("collision_node", "/organ_collision"),
-        private_node.param("seconds", 0.0));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS may be shut down by now
-  }
-  for (const std::string& name : private_node.param("ends", std::vector<std::string>())) {
-    if (ros::ok()) organ_collision::end_node(name);
-  }
-  return found_contacts ? 0 : 1;
+  const bool found_contacts =
+      organ_collision::report(private_node.param<std::string>("collision_node", "/organ_collision"),
+                              private_node.param("seconds", 0.0));
+  if (!found_contacts) return 1;
+  if (ros::ok() && private_node.param("ends_launch", false)) organ_collision::end_launch();
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS is shut down by now
+  return 1;
 }
