@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A quiet roslaunch for the demo: shows only errors and what the nodes print. The exit code is 1 if
-a node failed, and 0 otherwise.
+a required node failed, and 0 otherwise.
 
 Usage: launch_demo.py LAUNCH_FILE [ARGUMENT:=VALUE]...
 """
@@ -25,7 +25,7 @@ class ExitCodes(roslaunch.pmon.ProcessListener):
 
 
 def run(launch_file, arguments):
-    """Runs the launch file and returns the names of the nodes that failed."""
+    """Runs the launch file and returns the names of the required nodes that failed."""
     run_id = roslaunch.rlutil.get_or_generate_uuid(None, False)
     roslaunch.configure_logging(run_id)
     ended = ExitCodes()
@@ -34,7 +34,7 @@ def run(launch_file, arguments):
     launch.start()
     launch.spin()
     return [node.name for node in launch.config.nodes
-            if ended.by_name.get(node.name, 0) != 0]
+            if node.required and ended.by_name.get(node.name, 0) != 0]
 
 
 def main():

@@ -6,14 +6,15 @@
 #include <organ_collision/OrganVertices.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include "end_node.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/program_help.hpp"
 #include "ros/parameters/node_parameters.hpp"
@@ -39,7 +40,7 @@ ProgramHelp help() {
                      {"/diagnostics", "diagnostic_msgs/DiagnosticArray", "query times"}};
   help.parameters = {{"seconds", "0", "[s] how long it listens; 0: until it is stopped"},
                      {"collision_node", kCollisionNode, "name of the collision node"},
-                     {"ends", "[]", "names of nodes that it ends when it ends"}};
+                     {"ends_launch", "false", "true: when it ends, roslaunch ends, too"}};
   help.further = "roslaunch organ_collision demo.launch starts it.";
   return help;
 }
@@ -210,27 +211,30 @@ bool report(const std::string& collision_node, double seconds) {
   return report.print_summary(elapsed());
 }
 
+/// Ends roslaunch, which has started this program, as Ctrl-C does. If this program ended first,
+/// roslaunch would report the death of a required node as an error.
+void end_launch() {
+  kill(getppid(), SIGINT);
+  ros::waitForShutdown();
+}
+
 }  // namespace
 }  // namespace organ_collision
 
-/// Also ends the nodes that the parameter `ends` names, so that the whole demo ends.
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   if (const auto exit_code =
           organ_collision::answer_arguments(argc, argv, organ_collision::help())) {
     return *exit_code;
   }
   ros::init(argc, argv, "demo_report");
   ros::NodeHandle private_node("~");
-  bool found_contacts = false;
-  try {
-    found_contacts = organ_collision::report(
-        private_node.param<std::string>("collision_node", organ_collision::kCollisionNode),
-        private_node.param("seconds", 0.0));
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS may be shut down by now
-  }
-  for (const std::string& name : private_node.param("ends", std::vector<std::string>())) {
-    if (ros::ok()) organ_collision::end_node(name);
-  }
-  return found_contacts ? 0 : 1;
+  const bool found_contacts = organ_collision::report(
+      private_node.param<std::string>("collision_node", organ_collision::kCollisionNode),
+      private_node.param("seconds", 0.0));
+  if (!found_contacts) return 1;
+  if (ros::ok() && private_node.param("ends_launch", false)) organ_collision::end_launch();
+  return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS is shut down by now
+  return 1;
 }

@@ -38,7 +38,7 @@ TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
   const ContactArray answer =
       with_scarce_memory(sizeof(Contact) - 1, [&] { return services.query(request); });
   EXPECT_EQ(answer.status, ContactArray::PICKER_FAILED);
-  EXPECT_EQ(answer.message, "std::bad_alloc");
+  EXPECT_EQ(answer.message, "the query failed: std::bad_alloc");
   EXPECT_TRUE(answer.contacts.empty());
 
   QueryCollisionBatch::Request batch;
@@ -48,7 +48,7 @@ TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
   const QueryCollisionBatch::Response response = with_scarce_memory(
       100 * sizeof(ContactArray) - 1, [&] { return services.query_batch(batch); });
   EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);
-  EXPECT_EQ(response.message, "std::bad_alloc");
+  EXPECT_EQ(response.message, "the query failed: std::bad_alloc");
   EXPECT_TRUE(response.results.empty());
 
   EXPECT_EQ(services.query(request).contacts.size(), 1u);

@@ -26,7 +26,7 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
   expect_refused(ContactArray::INVALID_REQUEST, {"frame_id", "empty"});
   request = good;
   request.header.frame_id = "nowhere";
-  expect_refused(ContactArray::NO_TRANSFORM, {"nowhere", "liver_frame"});
+  expect_refused(ContactArray::NO_TRANSFORM, {"nowhere", "unknown to TF"});
   request = good;
   request.motion.radius = -0.25;
   expect_refused(ContactArray::INVALID_REQUEST, {"radius", "-0.25", "positive"});
