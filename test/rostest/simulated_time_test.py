@@ -188,10 +188,13 @@ class SimulatedTimeTest(LinkCase):
             return int(self.node.diagnostics['shapes superseded by newer ones'])
 
         self.jump(1300)
+        self.node.diagnostics.clear()
         wait_until(lambda: self.node.diagnostics, 'diagnostics')
         before = superseded()
         with self.clock.lock:
-            self.node.send_mesh(self.organ, SHEET, self.next_stamp())
+            stamp = self.next_stamp()
+            self.node.send_mesh(self.organ, SHEET, stamp)
+            self.node.wait_for_shape(self.organ, stamp)  # The vertices come over another connection.
             for _ in range(4):
                 self.node.send_vertices(self.organ, SHEET, self.next_stamp())
             # The first shape waits for both tools, the last one waits behind it.
