@@ -113,13 +113,14 @@ void check_organs(const rosbag::Bag& bag, const ReplayOptions& options) {
 void check_frames(const std::vector<Tool>& tools, const std::string& file, const Replay& replay) {
   for (const Tool& tool : tools) {
     const ToolParameters& parameters = tool.parameters;
+    const std::string of_tool = "' of tool '" + parameters.name + "' ";
     std::vector<std::string> frames;
     if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
     for (const std::string& link : parameters.links) frames.push_back(parameters.link_frame(link));
     for (const std::string& frame : frames) {
       if (replay.knows_frame(frame)) continue;
-      throw InputError(file + ": frame '" + frame + "' of tool '" + parameters.name +
-                       "' occurs neither on TF nor on a topic of poses");
+      const std::string named = ": frame '" + frame + of_tool;
+      throw InputError(file + named + "occurs neither on TF nor on a topic of poses");
     }
   }
 }

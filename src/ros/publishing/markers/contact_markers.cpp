@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
 /// Shares of the organ's size.
-constexpr double kArrowLength = 0.12;
+constexpr double kArrowLength = 0.07;
 constexpr double kNameDistance = 0.15;  ///< from the contact
 constexpr double kNameHeight = 0.03;
 

@@ -10,7 +10,7 @@
 namespace organ_collision {
 
 /// An answer has at most this many arrows: those of its deepest contacts.
-inline constexpr std::size_t kMostArrows = 100;
+inline constexpr std::size_t kMostArrows = 30;
 
 /// Adds an arrow for each contact, along its normal. The arrow ends at the contact's end point.
 /// `share`: how visible the arrows are, in [0, 1].
