@@ -80,12 +80,12 @@ class Drawing {
  public:
   Drawing(const Marker& marker, const Affine3d& T_picture_marker, const Eigen::Matrix3d& axes,
           PictureTriangles& picture)
-      : marker_(marker), T_picture_marker_(T_picture_marker), axes_(axes), picture_(picture) {}
+      : marker_(marker), marker_pose_(T_picture_marker), axes_(axes), picture_(picture) {}
 
   /// A shape in the marker's frame, lit, in one colour.
   void add_solid(const TrianglePoints& shape, const Affine3d& T_marker_shape,
                  const Colour& colour) {
-    const Affine3d T_picture_shape = T_picture_marker_ * T_marker_shape;
+    const Affine3d T_picture_shape = marker_pose_ * T_marker_shape;
     TrianglePoints points;
     for (const Vector3d& point : shape) points.push_back(T_picture_shape * point);
     if (T_picture_shape.linear().determinant() < 0.0) turn_inside_out(points);
@@ -118,7 +118,7 @@ class Drawing {
       for (const geometry_msgs::Point& point : marker_.points) points.push_back(to_eigen(point));
       return add_scaled(points);
     }
-    const Affine3d T_picture_points = T_picture_marker_ * Eigen::Scaling(to_eigen(marker_.scale));
+    const Affine3d T_picture_points = marker_pose_ * Eigen::Scaling(to_eigen(marker_.scale));
     for (std::size_t i = 0; i < marker_.points.size(); ++i) {
       add_flat(T_picture_points * to_eigen(marker_.points[i]), colour_at(marker_, i));
     }
@@ -128,8 +128,8 @@ class Drawing {
   void add_lines(std::size_t step) {
     check_colours(marker_);
     for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
-      const Vector3d a = T_picture_marker_ * to_eigen(marker_.points[i]);
-      const Vector3d b = T_picture_marker_ * to_eigen(marker_.points[i + 1]);
+      const Vector3d a = marker_pose_ * to_eigen(marker_.points[i]);
+      const Vector3d b = marker_pose_ * to_eigen(marker_.points[i + 1]);
       const Vector3d side = 0.5 * marker_.scale.x * (b - a).cross(axes_.col(2)).stableNormalized();
       add_quad({a - side, a + side, b + side, b - side},
                {colour_at(marker_, i), colour_at(marker_, i + 1)});
@@ -141,7 +141,7 @@ class Drawing {
     const Vector3d x = 0.5 * marker_.scale.x * axes_.col(0);
     const Vector3d y = 0.5 * marker_.scale.y * axes_.col(1);
     for (std::size_t i = 0; i < marker_.points.size(); ++i) {
-      const Vector3d p = T_picture_marker_ * to_eigen(marker_.points[i]);
+      const Vector3d p = marker_pose_ * to_eigen(marker_.points[i]);
       const Colour colour = colour_at(marker_, i);
       add_quad({p - x - y, p + x - y, p + x + y, p - x + y}, {colour, colour});
     }
@@ -169,7 +169,7 @@ class Drawing {
   }
 
   void add_text(const Font& font) {
-    const Vector3d centre = T_picture_marker_.translation();
+    const Vector3d centre = marker_pose_.translation();
     const auto at = [&](double x, double y) -> Vector3d {
       return centre + marker_.scale.z * (x * axes_.col(0) + y * axes_.col(1));
     };
@@ -197,7 +197,7 @@ class Drawing {
   }
 
   const Marker& marker_;
-  Affine3d T_picture_marker_;
+  Affine3d marker_pose_;  ///< in the picture's frame
   const Eigen::Matrix3d& axes_;
   PictureTriangles& picture_;
 };

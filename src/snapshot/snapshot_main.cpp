@@ -85,8 +85,8 @@ class Snapshot {
       try {
         picture_.add(entry.marker, *entry.T_fixed_header, triangles);
       } catch (const MarkerError& error) {
-        warn("marker " + key.ns + "/" + std::to_string(key.id) + " of " + key.topic +
-             " is left out: " + error.what());
+        const std::string named = "marker " + key.ns + "/" + std::to_string(key.id);
+        warn(named + " of " + key.topic + " is left out: " + error.what());
       }
     }
     for (const auto& [frame, error] : markers_.missing_transforms()) {

@@ -33,7 +33,7 @@ std::string fault(const PoseStamped& pose) {
   if (tf_frame(pose.header.frame_id).empty()) {
     text << "has no frame: header.frame_id is empty";
   } else if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
-    text << "is in the frame " << wrong;
+    text << "is in an illegal frame: " << wrong;
   } else if (!is_in_range(Eigen::Vector3d(p.x, p.y, p.z))) {
     text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite and within "
          << tolerance::kFarthest << " m";

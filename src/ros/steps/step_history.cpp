@@ -37,7 +37,7 @@ void StepHistory::renumber(const KeptTools& kept) {
     const auto now = std::find(kept.begin(), kept.end(), key.second);
     if (now == kept.end()) continue;
     const auto tool = static_cast<std::size_t>(now - kept.begin());
-    pairs_.insert({{key.first, tool}, std::move(pair)});
+    pairs_.emplace(std::make_pair(key.first, tool), std::move(pair));
   }
 }
 
