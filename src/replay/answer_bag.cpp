@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "offline/input_error.hpp"
@@ -9,8 +10,10 @@
 
 namespace organ_collision {
 
+std::string incomplete(const std::string& file) { return file + ".incomplete"; }
+
 AnswerBag::AnswerBag(const std::string& file, std::string topic)
-    : file_(file), topic_(std::move(topic)), incomplete_(file + ".incomplete") {
+    : file_(file), topic_(std::move(topic)), incomplete_(incomplete(file)) {
   try {
     bag_.open(incomplete_, rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {
@@ -30,11 +33,21 @@ AnswerBag::~AnswerBag() {
 
 void AnswerBag::add(const ContactArray& answer, ros::Time time) {
   ++counts_[answer.status];
-  bag_.write(topic_, std::max(time, ros::TIME_MIN), answer);  // A bag has no time zero.
+  write([&] { bag_.write(topic_, std::max(time, ros::TIME_MIN), answer); });  // No time is zero.
 }
 
 void AnswerBag::copy(const rosbag::MessageInstance& message) {
-  bag_.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  write([&] {
+    bag_.write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  });
+}
+
+void AnswerBag::write(const std::function<void()>& action) const {
+  try {
+    action();
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(file_ + ": cannot be written: " + error.what());
+  }
 }
 
 void AnswerBag::complete() {

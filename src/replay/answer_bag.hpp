@@ -5,10 +5,14 @@
 #include <rosbag/message_instance.h>
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 
 namespace organ_collision {
+
+/// The name of a bag before it is complete.
+std::string incomplete(const std::string& file);
 
 /// The bag that gets the answers. It has its name only when it is complete: before that it is
 /// NAME.incomplete, and a bag that is never completed is removed.
@@ -20,6 +24,7 @@ class AnswerBag {
   AnswerBag(const AnswerBag&) = delete;
   AnswerBag& operator=(const AnswerBag&) = delete;
 
+  /// These throw std::runtime_error if the file cannot be written.
   void add(const ContactArray& answer, ros::Time time);
   void copy(const rosbag::MessageInstance& message);
   void complete();
@@ -28,6 +33,8 @@ class AnswerBag {
   std::string summary() const;
 
  private:
+  void write(const std::function<void()>& action) const;
+
   std::string file_;
   std::string topic_;
   std::string incomplete_;

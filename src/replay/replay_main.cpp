@@ -48,9 +48,11 @@ class ReplayProgress {
 };
 
 void check_files(const ReplayOptions& options) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(options.in, options.out, ignored)) {
-    throw InputError("replay: " + options.out + " is also the input; name another OUT.bag");
+  for (const std::string& written : {options.out, incomplete(options.out)}) {
+    std::error_code ignored;
+    if (std::filesystem::equivalent(options.in, written, ignored)) {
+      throw InputError("replay: " + written + " is also the input; name another OUT.bag");
+    }
   }
 }
 
@@ -158,7 +160,7 @@ void replay(const ReplayOptions& options) {
   read(messages, options.in, [&](const rosbag::MessageInstance& message) {
     if (interrupted) throw std::runtime_error("interrupted");
     if (options.with_input) answers.copy(message);
-    replay.take(message);
+    if (replay.topics().count(message.getTopic()) > 0) replay.take(message);
     progress.count();
   });
   replay.finish();

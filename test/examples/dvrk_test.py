@@ -56,17 +56,16 @@ class DvrkTest(unittest.TestCase):
                 self.assertLess(abs(shape - 1).max(), BREATH + 0.01)
 
     def test_hands_feel_limited_forces_out_of_the_organ(self):
-        def pushed():
-            return [hand for hand in HANDS if any(force_of(m).any() for m in list(logs[hand].messages))]
+        def pushed_out():
+            """The forces of the first moments may point inward, because the jaws may begin inside the organ."""
+            return [hand for hand in HANDS if any(force_of(m) @ AXES[:, 2] > 0 for m in list(logs[hand].messages))]
         logs = {hand: Log('/%s/body/servo_cf' % hand, WrenchStamped) for hand in HANDS}
-        wait_until(lambda: len(pushed()) == 2, lambda: 'forces on both hands; there are those on %s' % pushed())
+        wait_until(lambda: len(pushed_out()) == 2, lambda: 'forces on both hands; there are those on %s' % pushed_out())
         for log in logs.values():
-            messages = list(log.messages)
-            for message in messages:
+            for message in list(log.messages):
                 self.assertEqual(message.header.frame_id, 'ECM')
                 self.assertLessEqual(np.linalg.norm(force_of(message)), MAX_FORCE + 1e-9)
                 self.assertEqual(message.wrench.torque, Vector3())
-            self.assertGreater(max((force_of(m) for m in messages), key=np.linalg.norm) @ AXES[:, 2], 0)
 
     def test_the_axes_of_forces_do_not_turn_with_the_hand(self):
         for hand in HANDS:

@@ -132,6 +132,14 @@ class ReplayInputTest(ReplayCase):
             self.assert_refused(run(*arguments), word)
         self.assertGreater(len(serialized(self.recorded)), 0)
 
+    def test_an_input_with_the_name_of_an_incomplete_output_is_kept(self):
+        self.record_scene()
+        file = self.write('parameters.yaml', TOOLS)
+        recorded = self.path('x.bag.incomplete')
+        os.rename(self.recorded, recorded)
+        self.assert_refused(run('--parameters', file, recorded, self.path('x.bag')), 'also the input')
+        self.assertGreater(len(serialized(recorded)), 0)
+
     def test_an_interrupted_replay_leaves_no_file(self):
         with self.record() as bag:
             bag.resting(1.0)

@@ -107,6 +107,21 @@ class ReplayRepeatsTest(ReplayCase):
         ((_, answer),) = messages(self.answers)
         self.assert_contacts(answer, oracle.static_contacts(SHEET, at_height(-0.01), RADIUS))
 
+    def test_a_copied_topic_does_not_set_the_time(self):
+        """A topic that the node does not hear may be recorded out of order, as in a merged bag."""
+        with self.record() as bag:
+            bag.resting(1.0)
+            for step in range(30):
+                time = 2.0 + 0.001 * step
+                bag.tool(time, at_height(self.height(step)))
+                (bag.vertices if step else bag.mesh)(time, SHEET)
+                bag.write('/other', ContactArray(), 1.5 if step % 2 else 2.5)
+        self.replay()
+        alone = serialized(self.answers)
+        self.assertEqual(len(alone), 30)
+        self.replay(options=['--with-input'])
+        self.assertEqual([m for m in serialized(self.answers) if m[0] == CONTACTS], alone)
+
     def test_the_output_can_be_replayed(self):
         with self.record() as bag:
             bag.resting(1.0)

@@ -183,6 +183,20 @@ class LiveChangesTest(ToolCase):
             lambda: self.node.summaries,
         )
 
+    def test_a_topic_of_another_type_changes_nothing(self):
+        """Subscriptions are the last thing that can fail, and must not leave half of the new list."""
+        self.reloaded(shaft('kept'), shaft('other'))
+        before = self.step(SHEET, {'kept': at_height(0.003), 'other': at_height(0.05)})
+        posed = shaft('posed')
+        del posed['tip_frame']
+        answer = self.reload(dict(posed, tip_pose_topic='/tf'))
+        self.assertFalse(answer.success)
+        self.assertIn('/tf', answer.message)
+        after = self.step(SHEET, {'kept': at_height(0.002), 'other': at_height(0.05)}, vertices=True)
+        for tool in ('kept', 'other'):
+            self.assertEqual((after[tool].status, after[tool].mode), (ContactArray.OK, SWEPT))
+            self.assertEqual(after[tool].step_start, before[tool].header.stamp)
+
     def test_parameters_are_described_with_their_limits(self):
         described = {p['name']: p for p in self.client.get_parameter_descriptions(LIMIT)}
         self.assertEqual(

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
 
 #include "geometry/coordinate_range.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
@@ -90,29 +91,47 @@ void PoseTopics::subscribe(const ros::NodeHandle& node) {
 
 void PoseTopics::change_tools(const std::vector<ToolParameters>& tools,
                               const ros::NodeHandle& node) {
-  std::vector<std::unique_ptr<Stream>> old = std::move(streams_);
-  streams_.clear();
-  for (const ToolParameters& tool : tools) {
-    const auto kept = std::find_if(old.begin(), old.end(), [&](const auto& stream) {
-      return stream && has_same_topics(stream->tool, tool);
-    });
-    const bool is_new = kept == old.end();
-    streams_.push_back(is_new ? std::make_unique<Stream>() : std::move(*kept));
-    streams_.back()->index = streams_.size() - 1;
-    streams_.back()->tool = tool;
-    if (is_new) subscribe(*streams_.back(), node);
+  std::vector<ToolParameters> parameters = tools;
+  std::vector<std::unique_ptr<Stream>> streams(tools.size());
+  std::vector<std::unique_ptr<Stream>*> kept(tools.size(), nullptr);
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    kept[tool] = find_stream(tools[tool]);
+    if (kept[tool]) continue;
+    streams[tool] = std::make_unique<Stream>();
+    streams[tool]->tool = tools[tool];
+    subscribe(*streams[tool], node);
   }
+  // From here on, nothing throws.
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    if (kept[tool]) streams[tool] = std::move(*kept[tool]);
+    streams[tool]->index = tool;
+    streams[tool]->tool = std::move(parameters[tool]);
+  }
+  streams_ = std::move(streams);
+}
+
+/// The stream whose subscriptions also serve this tool; null if there is none. Names of tools are
+/// unique, so no two tools have the same.
+std::unique_ptr<PoseTopics::Stream>* PoseTopics::find_stream(const ToolParameters& tool) {
+  const auto found = std::find_if(streams_.begin(), streams_.end(), [&](const auto& stream) {
+    return has_same_topics(stream->tool, tool);
+  });
+  return found == streams_.end() ? nullptr : &*found;
 }
 
 void PoseTopics::subscribe(Stream& stream, ros::NodeHandle node) {
   const auto subscribe_to = [&](const std::string& topic, auto take) {
     if (topic.empty()) return ros::Subscriber();
-    return node.subscribe<PoseStamped>(
-        topic, kQueue,
-        [this, take, &stream](const geometry_msgs::PoseStampedConstPtr& pose) {
-          (this->*take)(stream.index, *pose);
-        },
-        {}, ros::TransportHints().tcpNoDelay());
+    try {
+      return node.subscribe<PoseStamped>(
+          topic, kQueue,
+          [this, take, &stream](const geometry_msgs::PoseStampedConstPtr& pose) {
+            (this->*take)(stream.index, *pose);
+          },
+          {}, ros::TransportHints().tcpNoDelay());
+    } catch (const ros::Exception& error) {  // For example, this process knows it by another type.
+      throw std::runtime_error("cannot subscribe to '" + topic + "': " + error.what());
+    }
   };
   stream.tips = subscribe_to(stream.tool.tip_pose_topic, &PoseTopics::take_tip);
   stream.bases = subscribe_to(stream.tool.base_pose_topic, &PoseTopics::take_base);

@@ -34,7 +34,8 @@ class PoseTopics {
   /// Subscribes to the topics that the tools name; `node` resolves their names.
   void subscribe(const ros::NodeHandle& node);
   /// Takes a new list of tools. The subscriptions of tools with the same name, tip frame and topics
-  /// stay, so that no pose is lost.
+  /// stay, so that no pose is lost. Throws std::runtime_error if a topic cannot be subscribed to;
+  /// then nothing has changed.
   void change_tools(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node);
 
   /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal
@@ -55,6 +56,7 @@ class PoseTopics {
     ros::Subscriber tips, bases;
   };
   void subscribe(Stream& stream, ros::NodeHandle node);
+  std::unique_ptr<Stream>* find_stream(const ToolParameters& tool);
   void place_base(const Stream& stream);
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
   void reject(const std::string& frame, const std::string& wrong);

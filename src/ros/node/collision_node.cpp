@@ -73,6 +73,17 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       live_parameters_(on_queue(private_node, background_.queue()),
                        live_parameters(loaded_.parameters),
                        [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
+  try {
+    start();
+  } catch (...) {
+    end_background();
+    throw;
+  }
+}
+
+CollisionNode::~CollisionNode() { end_background(); }
+
+void CollisionNode::start() {
   warn_of_settings();
   pipeline_.subscribe(node_, private_node_);
   services_.advertise(private_node_);
@@ -90,7 +101,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
 
 /// Ends the wait of the background thread for this thread, and then that thread, which uses
 /// members.
-CollisionNode::~CollisionNode() {
+void CollisionNode::end_background() {
   queue_.disable();
   queue_.clear();
   background_.stop();
@@ -100,8 +111,9 @@ void CollisionNode::run(const std::function<bool()>& stop) {
   try {
     while (private_node_.ok() && !stop()) {
       receive();
+      if (broken_) std::rethrow_exception(broken_);
       pipeline_.evaluate(heard_until_);
-      surfaces_.update(pipeline_.organs(), SteadyClock::now());
+      guard([this] { surfaces_.update(pipeline_.organs(), SteadyClock::now()); });
       guard([this] { markers_.update(pipeline_.organs(), pipeline_.steps().history()); });
     }
   } catch (const std::exception& error) {
@@ -158,7 +170,7 @@ void CollisionNode::guard(const std::function<void()>& action) {
   try {
     action();
   } catch (const std::exception& error) {  // Usually std::bad_alloc.
-    counters_.rejected.add("exception", std::string("a message was dropped: ") + error.what(),
+    counters_.rejected.add("exception", std::string("something was left out: ") + error.what(),
                            SteadyClock::now());
   }
 }
@@ -182,13 +194,20 @@ void CollisionNode::start_ticks() {
 
 /// Runs in the node's thread.
 void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
-  std::swap(tools_, loaded.tools);
-  std::swap(loaded_.misspelt, loaded.misspelt);
-  loaded_.parameters.tools.clear();
-  for (const Tool& tool : tools_) loaded_.parameters.tools.push_back(tool.parameters);
-  pipeline_.change_tools(loaded_.parameters.tools, kept, node_);
-  markers_.set_tools(tools_);
-  warn_of_settings();
+  std::vector<ToolParameters> parameters;
+  for (const Tool& tool : loaded.tools) parameters.push_back(tool.parameters);
+  pipeline_.change_pose_topics(parameters, node_);
+  try {
+    std::swap(tools_, loaded.tools);
+    std::swap(loaded_.misspelt, loaded.misspelt);
+    std::swap(loaded_.parameters.tools, parameters);
+    pipeline_.change_tools(kept);
+    markers_.set_tools(tools_);
+    warn_of_settings();
+  } catch (...) {  // Usually std::bad_alloc. The node cannot go on with half of the exchange.
+    broken_ = std::current_exception();
+    throw;
+  }
 }
 
 /// Runs in the background thread.

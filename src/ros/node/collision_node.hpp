@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 #include <std_srvs/Empty.h>
 
+#include <exception>
 #include <functional>
 #include <vector>
 
@@ -29,7 +30,7 @@ namespace organ_collision {
 /// thread owns the GL context and all state, so that the state needs no locks. Large meshes with
 /// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
 /// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
-/// thread only exchanges them.
+/// thread only exchanges them. A fourth one draws markers (marker_publisher.hpp).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -44,6 +45,8 @@ class CollisionNode {
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:
+  void start();
+  void end_background();
   void report_last_diagnostics();
   void receive();
   ros::WallDuration wait(SteadyTime now) const;
@@ -61,6 +64,7 @@ class CollisionNode {
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
   std::vector<Tool> tools_;
+  std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
   NodeCounters counters_;
 
   ContactPublisher publisher_;

@@ -35,10 +35,10 @@ void SurfaceInspector::update(const OrganRegistry& organs, Time now) {
 }
 
 void SurfaceInspector::start(const DeformableOrgan& organ, Inspection& inspection) {
-  inspection.surface = organ.surface();
-  inspection.told = false;
   const std::weak_ptr<OrganSurface> surface = organ.surface();
   call_later(background_, [surface, name = organ.name()] { find_surface(surface, name); });
+  inspection.surface = organ.surface();  // Last, because the call may run out of memory.
+  inspection.told = false;
 }
 
 void SurfaceInspector::tell(const DeformableOrgan& organ, Inspection& inspection, Time now) {

@@ -59,12 +59,6 @@ void CollisionPipeline::reset() {
   steps_.reset();
 }
 
-void CollisionPipeline::change_tools(const std::vector<ToolParameters>& parameters,
-                                     const KeptTools& kept, const ros::NodeHandle& node) {
-  pose_topics_.change_tools(parameters, node);
-  steps_.change_tools(organs_, kept);
-}
-
 void CollisionPipeline::forget_organ_history() {
   organs_.forget_previous_shapes();
   organs_.forget_connections();

@@ -62,10 +62,13 @@ class CollisionPipeline {
   std::optional<SteadyTime> next_deadline() const { return steps_.next_deadline(); }
   /// Forgets all history: the next step of every tool is static.
   void reset();
-  /// Call it when the list of tools has changed. Kept tools keep their history. `parameters`: of
-  /// all tools; `node`: where their pose topics are.
-  void change_tools(const std::vector<ToolParameters>& parameters, const KeptTools& kept,
-                    const ros::NodeHandle& node);
+  /// Subscribes to the pose topics of a new list of tools; `node`: where these topics are. Throws
+  /// std::runtime_error if one cannot be subscribed to; then nothing has changed.
+  void change_pose_topics(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node) {
+    pose_topics_.change_tools(tools, node);
+  }
+  /// Call it when the list of tools has changed. Kept tools keep their history.
+  void change_tools(const KeptTools& kept) { steps_.change_tools(organs_, kept); }
 
   const OrganRegistry& organs() const { return organs_; }
   const TransformBuffer& transforms() const { return transforms_; }

@@ -206,12 +206,14 @@ void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToo
 
   const auto answer = answer_about_step(organ, tool, pair, end.stamp);
   contact_query_.evaluate(request, *answer);
-  if (answer->status == ContactArray::OK) {
+  const bool is_answered = answer->status == ContactArray::OK;
+  if (is_answered) {
     poses_.set_answered(tools_[tool], organ.frame(), end.stamp);
     pair.last = LastStep{std::move(end.value), end.stamp, pair.current.mesh};
   }
   pair.answer = answer;
-  publish_({answer, tools_[tool], mesh, request.path, contact_query_.query_times().latest()});
+  const double query_sec = is_answered ? contact_query_.query_times().latest() : 0.0;
+  publish_({answer, tools_[tool], mesh, request.path, query_sec});
 }
 
 void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,

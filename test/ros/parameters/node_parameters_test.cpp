@@ -324,6 +324,12 @@ TEST(LiveNodeParameters, EachIsDescribed) {
   }
 }
 
+TEST(Parameters, VerySlowRatesAreRefused) {
+  for (const char* name : {"rate", "markers_rate", "surface_rate"}) {
+    expect_words(refusal(name, 1e-10), {name, "1e-10", "0.001"});
+  }
+}
+
 TEST(Parameters, OfMarkers) {
   XmlRpcValue all = one_tool();
   all["markers_rate"] = 60;

@@ -64,7 +64,7 @@ void MarkerPainter::start_anew(const Scene& scene, const Publish& publish) {
 void MarkerPainter::remember(const Scene& scene) {
   touched_.forget_others(scene);
   for (const SceneStep& step : scene.steps) {
-    query_sec_.add(step.query_sec);
+    if (step.query_sec > 0.0) query_sec_.add(step.query_sec);
     const SceneOrgan* organ = scene.organ(step.answer->organ);
     if (!organ || step.faces != organ->faces) continue;
     trail_.push_back(step);

@@ -17,7 +17,7 @@ namespace {
 using visualization_msgs::MarkerArray;
 
 /// [messages] For each subscriber. A surface of two million faces has 245.
-constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kQueue = 300;
 /// If so many steps come between two pictures, the earlier ones leave no traces.
 constexpr std::size_t kMostSteps = 1000;
 /// After each message, so that roscpp's thread, which also receives organs and transforms, is never
@@ -58,7 +58,7 @@ MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const MarkerSetti
     anew_ = true;
   };
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher&) {
-    --subscribers_;
+    if (--subscribers_ == 0) steps_.clear();
   };
   markers_ = private_node.advertise<MarkerArray>(names::kMarkers, kQueue, come, gone);
   thread_ = std::thread([this] { draw(); });
