@@ -39,8 +39,8 @@ class PosesTest(ContactCase):
     def setUpClass(cls):
         cls.node = NodeClient()
         cls.tf = TfSender()
-        cls.arm = rospy.Publisher('/PSM1/measured_cp', PoseStamped, queue_size=1000)
-        cls.base = rospy.Publisher('/PSM1/base', PoseStamped, queue_size=10, latch=True)
+        cls.arm = rospy.Publisher('/PSM1/local/measured_cp', PoseStamped, queue_size=1000)
+        cls.base = rospy.Publisher('/SUJ/PSM1/measured_cp', PoseStamped, queue_size=10, latch=True)
         cls.stylus = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1000)
         for topic in (cls.arm, cls.base, cls.stylus):
             wait_until(lambda topic=topic: topic.get_num_connections() > 0, topic.name)
