@@ -160,14 +160,15 @@ class MeshAdapterTest(MeshAdapterCase):
     def test_diagnostics_count_messages(self):
         """Each organ's messages are counted, those that are refused by reason."""
         adapter = AdapterDiagnostics(self.adapter)
-        for _ in range(2):
+
+        def wait_for(key, count):
+            wait_until(lambda: int(adapter.values.get(key, 0)) >= count, lambda: adapter.values)
+
+        for count in (1, 2):  # One after the other: of points that wait, only the newest count.
             self.publish('/sim/unmeshed_points', cloud(SHEET.vertices, frame='liver_frame'))
+            wait_for('refused, /sim/unmeshed_points: no mesh', count)
         self.publish('/sim/framed', polygon_mesh(SHEET))
-        wait_until(
-            lambda: adapter.values.get('framed, messages converted', '0') >= '1'
-            and adapter.values.get('refused, /sim/unmeshed_points: no mesh', '0') >= '2',
-            lambda: adapter.values,
-        )
+        wait_for('framed, messages converted', 1)
         self.assertEqual(adapter.values['organs'], '7')
         self.assertGreaterEqual(int(adapter.values['framed, messages received']), 1)
         self.assertGreaterEqual(float(adapter.values['framed, age of last [s]']), 0.0)
