@@ -111,18 +111,21 @@ void check_organs(const rosbag::Bag& bag, const ReplayOptions& options) {
                               " (--node names the node whose topics are replayed)"));
 }
 
+[[noreturn]] void refuse_frame(const std::string& file, const std::string& frame,
+                               const std::string& tool) {
+  throw InputError(file + ": frame '" + frame + "' of tool '" + tool +
+                   "' occurs neither on TF nor on a topic of poses");
+}
+
 /// Throws InputError if the bag has never told of a frame of a tool.
 void check_frames(const std::vector<Tool>& tools, const std::string& file, const Replay& replay) {
   for (const Tool& tool : tools) {
     const ToolParameters& parameters = tool.parameters;
-    const std::string of_tool = "' of tool '" + parameters.name + "' ";
     std::vector<std::string> frames;
     if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
     for (const std::string& link : parameters.links) frames.push_back(parameters.link_frame(link));
     for (const std::string& frame : frames) {
-      if (replay.knows_frame(frame)) continue;
-      const std::string named = ": frame '" + frame + of_tool;
-      throw InputError(file + named + "occurs neither on TF nor on a topic of poses");
+      if (!replay.knows_frame(frame)) refuse_frame(file, frame, parameters.name);
     }
   }
 }

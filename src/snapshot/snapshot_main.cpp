@@ -78,6 +78,11 @@ class Snapshot {
     write_png(file, renderer_.render(triangles, camera_, options_.background));
   }
 
+  void warn_of_marker(const std::string& topic, const std::string& ns, int id,
+                      const std::string& error) {
+    warn("marker " + ns + "/" + std::to_string(id) + " of " + topic + " is left out: " + error);
+  }
+
   PictureTriangles scene() {
     PictureTriangles triangles;
     for (const auto& [key, entry] : markers_.markers().entries()) {
@@ -85,8 +90,7 @@ class Snapshot {
       try {
         picture_.add(entry.marker, *entry.T_fixed_header, triangles);
       } catch (const MarkerError& error) {
-        const std::string named = "marker " + key.ns + "/" + std::to_string(key.id);
-        warn(named + " of " + key.topic + " is left out: " + error.what());
+        warn_of_marker(key.topic, key.ns, key.id, error.what());
       }
     }
     for (const auto& [frame, error] : markers_.missing_transforms()) {
