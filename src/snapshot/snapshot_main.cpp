@@ -78,6 +78,10 @@ class Snapshot {
     write_png(file, renderer_.render(triangles, camera_, options_.background));
   }
 
+  void warn_of_frame(const std::string& frame, const std::string& error) {
+    warn("the markers of frame '" + frame + "' are left out: " + error);
+  }
+
   void warn_of_marker(const std::string& topic, const std::string& ns, int id,
                       const std::string& error) {
     warn("marker " + ns + "/" + std::to_string(id) + " of " + topic + " is left out: " + error);
@@ -94,7 +98,7 @@ class Snapshot {
       }
     }
     for (const auto& [frame, error] : markers_.missing_transforms()) {
-      warn("the markers of frame '" + frame + "' are left out: " + error);
+      warn_of_frame(frame, error);
     }
     return triangles;
   }
