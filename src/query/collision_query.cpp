@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <tuple>
+#include <utility>
 
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
@@ -42,6 +43,12 @@ void clear(CollisionResult& result) {
   result.contacts.clear();
   result.regions.clear();
   result.unresolved = 0;
+  result.near.clear();
+  result.near_left_out = 0;
+  result.near_unresolved = 0;
+  result.clearance = {};
+  result.placement.crossings.clear();  // They keep their memory.
+  result.placement = {{}, {}, std::move(result.placement.crossings), false, 0.0};
 }
 
 /// The faces in the paper's volumes, with their depth ranges and nothing else.

@@ -2,22 +2,27 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "organ_collision/geometry/organ/surface_topology.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/picking/picker_kind.hpp"
 #include "organ_collision/picking/region.hpp"
+#include "organ_collision/query/clearance.hpp"
 #include "organ_collision/query/contact.hpp"
+#include "organ_collision/query/placement.hpp"
 #include "organ_collision/query/query_mode.hpp"
 
 /// The libraries without ROS. Start at CollisionQuery.
 namespace organ_collision {
 
-/// One question: which faces of an organ does a tool touch, or did it touch during one step?
+/// One question: which faces of an organ does a tool touch, or did it touch during one step? On
+/// request also: how far is it, which faces are near, and on which side of the surface is it?
 ///
 /// All lengths are in metres. All positions and poses are in the organ's frame. A request refers to
 /// its meshes and links and does not own them: they must outlive the call of evaluate().
@@ -40,6 +45,20 @@ struct CollisionRequest {
   /// Whether to clip the face of each contact to the tool's viewing volume as well. Paper modes
   /// have no regions.
   bool regions = false;
+
+  /// [m] Asks for the clearance up to this distance. 0: not asked for.
+  double margin = 0.0;
+  /// Asks for the clearance without a limit.
+  bool clearance = false;
+  /// Asks for at most this many faces that are within the margin and not touched. 0: none.
+  std::size_t max_near = 0;
+
+  /// Asks on which side of the surface the tool is, and where its axis pierces the surface.
+  bool placement = false;
+  /// How the faces of `organ` join. Null: the placement has crossings, but its sides are unknown.
+  const SurfaceTopology* topology = nullptr;
+  /// For the placement of a tool without a shaft: its tip at the end of the step, if it has one.
+  std::optional<Eigen::Vector3d> tip;
 };
 
 /// The answer to a request.
@@ -51,6 +70,21 @@ struct CollisionResult {
   std::vector<Region> regions;
   /// Number of contacts with is_resolved == false; see FaceContact.
   std::size_t unresolved = 0;
+
+  /// If asked for: the faces within the margin that the tool does not touch during the step,
+  /// nearest first, at most CollisionRequest::max_near of them. Each face occurs once, with the
+  /// link that comes nearest to it. The fields are those of a contact, at the time of the closest
+  /// approach instead of the first touch. `depth` is minus the distance at that time.
+  std::vector<FaceContact> near;
+  /// The number of such faces that are not in `near`, because max_near nearer ones are.
+  std::size_t near_left_out = 0;
+  /// The number of faces that may be within the margin but were not measured, because the query
+  /// reached its work limit. They are in neither of the two above.
+  std::size_t near_unresolved = 0;
+  /// If asked for: how far the tool is from the organ.
+  ToolClearance clearance;
+  /// If asked for: on which side of the surface the tool is.
+  AxisPlacement placement;
 };
 
 /// Finds the faces of an organ that a tool touches. OpenGL picking finds the candidates, exact
@@ -105,7 +139,11 @@ class CollisionQuery {
   /// - the path is empty, or its fractions do not rise from 0 to 1;
   /// - a waypoint lacks the pose of a link, or has a pose whose linear part is not a rotation;
   /// - in a paper mode: the tool has no shaft, its trocar moves in a swept mode, or it is too short
-  ///   or too thin for the paper's volumes.
+  ///   or too thin for the paper's volumes;
+  /// - the margin is negative or not finite; or near faces are asked for, but no margin is given;
+  /// - clearance, near faces or placement are asked for in a paper mode;
+  /// - the placement's topology has another number of vertices than the organ, or the tip is not
+  ///   finite.
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
   /// The GL_VERSION of the query's OpenGL context.

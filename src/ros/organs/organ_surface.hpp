@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "geometry/organ/surface_topology.hpp"
+#include "organ_collision/geometry/organ/surface_topology.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 
 namespace organ_collision {

@@ -1,4 +1,4 @@
-#include "geometry/organ/surface_topology.hpp"
+#include "organ_collision/geometry/organ/surface_topology.hpp"
 
 #include <gtest/gtest.h>
 

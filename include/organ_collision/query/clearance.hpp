@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+namespace organ_collision {
+
+/// What is known of the distance between a tool and an organ. The values are those of
+/// msg/Clearance.msg.
+enum class ClearanceState : std::uint8_t {
+  kNotAsked = 0,
+  kBeyondMargin = 1,  ///< no face is within the margin, so the distance is larger
+  kKnown = 2
+};
+
+/// The distance between the surfaces of a tool and an organ, with the fields of msg/Clearance.msg.
+/// (The message's C++ type is already called organ_collision::Clearance.) Lengths are in metres,
+/// points and vectors in the organ's frame.
+///
+/// The core is a shaft's axis, the centre of a sphere, or a solid or surface link itself. The
+/// distance is the smallest one between a face and a core, minus the radius around that core. It
+/// is negative if a shaft or a sphere touches. A margin is never subtracted from it. It has no
+/// memory: the contacts tell what the tool passed through.
+///
+/// `distance` is exact to 1e-9 m. `least` is at most 1e-6 m above the smallest distance.
+struct ToolClearance {
+  /// If the state is not kKnown, none of the fields below `unlimited` is set.
+  ClearanceState state = ClearanceState::kNotAsked;
+  /// The margin that was asked for; 0 if `unlimited`.
+  double margin = 0.0;
+  /// Whether the nearest face of the whole organ was looked for.
+  bool unlimited = false;
+  /// At the end of the step.
+  double distance = 0.0;
+  /// The smallest distance at any time of the step; 0 if anything was touched during the step. In
+  /// a static query it equals `distance`.
+  double least = 0.0;
+  /// A time at which the distance is `least`, as a fraction of the step, in [0, 1]. If anything was
+  /// touched, the first touch.
+  double least_fraction = 0.0;
+  /// The face with the nearest point at the end of the step.
+  std::uint32_t face = 0;
+  /// The face's corners in the organ's vertices, in the order of `barycentric`.
+  std::array<std::uint32_t, 3> vertices = {};
+  /// Barycentric coordinates of `on_organ` in the face.
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  /// The nearest link, numbered as in FaceContact.
+  std::uint32_t link = 0;
+  /// The nearest point of the organ.
+  Eigen::Vector3d on_organ = Eigen::Vector3d::Zero();
+  /// The nearest point of the core plus the radius times `normal`, so that
+  /// on_organ - on_tool = distance * normal.
+  Eigen::Vector3d on_tool = Eigen::Vector3d::Zero();
+  /// Unit vector from the tool to the organ.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  /// False if core and face meet to within tolerance::kPierced. `normal` is then the face's normal
+  /// or its opposite, as in FaceContact.
+  bool normal_defined = false;
+  /// False if the query reached its work limit before it had measured all faces. The distances are
+  /// then upper bounds.
+  bool is_resolved = true;
+};
+
+}  // namespace organ_collision
