@@ -18,7 +18,13 @@ from support.tool_case import ToolCase
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
 NODE = '/organ_collision'
-AT_START = {'rate': 0.0, 'publish_regions': False, 'tf_timeout_sec': 5.0, 'mesh_timeout_sec': 0.0}
+AT_START = {
+    'rate': 0.0,
+    'publish_regions': False,
+    'publish_placement': True,
+    'tf_timeout_sec': 5.0,
+    'mesh_timeout_sec': 0.0,
+}
 
 
 def shaft(name, radius=0.005):
