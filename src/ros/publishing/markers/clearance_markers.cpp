@@ -19,7 +19,8 @@ constexpr double kFaintest = 0.15;
 /// Shares of the organ's size.
 constexpr double kLineWidth = 4e-3;
 constexpr double kTextHeight = 0.03;
-constexpr double kTextDistance = 0.06;  ///< from the line
+constexpr double kTextDistance = 0.10;  ///< from the line, at right angles to it
+constexpr double kTextLift = 0.06;      ///< from the organ
 
 std::string text_of(const Clearance& clearance) {
   char text[64];
@@ -28,8 +29,7 @@ std::string text_of(const Clearance& clearance) {
   return text;
 }
 
-/// The unit vector at right angles to `normal` that points up most, so that the text stands above
-/// the line.
+/// The unit vector at right angles to `normal` that points up most.
 Vector3d upward(const Vector3d& normal) {
   const Vector3d up = Vector3d::UnitZ() - normal.z() * normal;
   return up.norm() > 0.1 ? Vector3d(up.normalized()) : normal.unitOrthogonal();
@@ -63,8 +63,10 @@ void add_clearance(const SceneOrgan& organ, const ContactArray& answer, MarkerSh
 
   Marker text = make_marker(marker_names::kClearance, organ.frame, Marker::TEXT_VIEW_FACING,
                             colours::clearance());
-  const Vector3d place = 0.5 * (on_tool + on_organ) +
-                         kTextDistance * organ.size() * upward(to_eigen(clearance.normal));
+  // Beside the line and away from the organ, so that neither tool nor organ hides it.
+  const Vector3d normal = to_eigen(clearance.normal);
+  const Vector3d shift = kTextDistance * upward(normal) - kTextLift * normal;
+  const Vector3d place = 0.5 * (on_tool + on_organ) + organ.size() * shift;
   text.pose = pose_message(Eigen::Isometry3d(Eigen::Translation3d(place)));
   text.text = text_of(clearance);
   text.scale.z = kTextHeight * organ.size();

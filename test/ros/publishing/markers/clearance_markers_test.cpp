@@ -62,8 +62,8 @@ TEST(ClearanceMarkers, TheTextHasAPlaceForAnyNormal) {
     const Vector3d place = to_eigen(markers(add_clearance, *answer).at(1).pose.position);
     const Vector3d middle =
         0.5 * (to_eigen(answer->clearance.on_tool) + to_eigen(answer->clearance.on_organ));
-    EXPECT_NEAR((place - middle).dot(normal), 0.0, 1e-9);
-    EXPECT_NEAR((place - middle).norm(), 0.06 * square().size(), 1e-6);
+    EXPECT_NEAR((place - middle).dot(normal), -0.06 * square().size(), 1e-6);  // on the tool's side
+    EXPECT_NEAR((place - middle).cross(normal).norm(), 0.10 * square().size(), 1e-6);
   }
 }
 
