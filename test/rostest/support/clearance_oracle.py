@@ -5,9 +5,10 @@ axis, minus the radius.
 """
 
 from .oracle import nearest
-from .vectors import length, lerp, sub
+from .vectors import lerp
 
-TOLERANCE = 5e-7  # [m] of least distances
+SAMPLES = 64  # of a step
+GOLDEN = (5**0.5 - 1) / 2
 
 
 def distances(mesh, axis, radius):
@@ -17,24 +18,36 @@ def distances(mesh, axis, radius):
 
 def least_distance(face, motion, radius):
     """The least distance of a resting face during a step in which the axis moves from motion[0] to
-    motion[1]. Halves intervals of time until none can be lower: the distance changes at most as
-    fast as the faster end of the axis moves."""
+    motion[1]: the best of evenly spread times, and of what golden-section search finds around each
+    of them that is better than its neighbours."""
 
     def at(time):
         axis = tuple(lerp(a, b, time) for a, b in zip(*motion))
         return nearest(axis, face).distance - radius
 
-    speed = max(length(sub(b, a)) for a, b in zip(*motion))
-    least = min(at(0.0), at(1.0))
-    intervals = [(0.0, 1.0)]
-    while intervals:
-        start, end = intervals.pop()
-        middle = (start + end) / 2
-        distance = at(middle)
-        least = min(least, distance)
-        if distance - speed * (end - start) / 2 < least - TOLERANCE:
-            intervals += [(start, middle), (middle, end)]
+    found = [at(i / SAMPLES) for i in range(SAMPLES + 1)]
+    least = min(found)
+    for i in range(SAMPLES + 1):
+        low, high = max(0, i - 1), min(SAMPLES, i + 1)
+        if found[i] <= min(found[low], found[high]):
+            least = min(least, least_between(at, low / SAMPLES, high / SAMPLES))
     return least
+
+
+def least_between(function, low, high):
+    """The minimum of a function that falls and then rises."""
+    left, right = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+    at_left, at_right = function(left), function(right)
+    while high - low > 1e-6:
+        if at_left < at_right:
+            high, right, at_right = right, left, at_left
+            left = high - GOLDEN * (high - low)
+            at_left = function(left)
+        else:
+            low, left, at_left = left, right, at_right
+            right = low + GOLDEN * (high - low)
+            at_right = function(right)
+    return min(at_left, at_right)
 
 
 def least_distances(mesh, motion, radius):

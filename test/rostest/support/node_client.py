@@ -221,7 +221,7 @@ class NodeClient:
         tool='',
         frame=None,
         stamp=rospy.Time(),
-        **asked
+        **asked,
     ):
         """The answer of the service `query`. `asked`: other fields of the request."""
         request = QueryCollisionRequest(
