@@ -7,6 +7,7 @@
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
 #include "picking/volumes/paper_volumes.hpp"
+#include "placement_finder.hpp"
 #include "request_check.hpp"
 #include "rotation_subdivision.hpp"
 #include "step.hpp"
@@ -68,7 +69,7 @@ void pick_unrefined(const CollisionRequest& request, Picker& picker,
 
 struct CollisionQuery::State {
   explicit State(PickerKind kind)
-      : picker(make_picker(kind, context)), finder(*picker), regions(context) {
+      : picker(make_picker(kind, context)), finder(*picker), regions(context), placement(*picker) {
     context.release();
   }
 
@@ -78,6 +79,7 @@ struct CollisionQuery::State {
   std::unique_ptr<Picker> picker;
   ContactFinder finder;
   ContactRegions regions;
+  PlacementFinder placement;
   std::vector<Candidate> candidates;
   BlockBoxes boxes_before;
   ToolPath subdivided_path;
@@ -115,6 +117,7 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
     if (!contact.is_resolved) ++result.unresolved;
   }
   if (request.regions) regions.find(step, result.contacts, result.regions);
+  if (request.placement) placement.find(request, result.placement);
 }
 
 }  // namespace organ_collision

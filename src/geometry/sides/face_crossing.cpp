@@ -1,0 +1,72 @@
+#include "face_crossing.hpp"
+
+#include "determinant_sign.hpp"
+#include "exact_grid.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// On which side of the face's plane the moved point is: 1 on the outer side. 0 if the face is
+/// degenerate.
+int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
+  const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
+  const int side = triple_product_sign(first, second, {face[0], point});
+  return side != 0 ? side : cross_product_sign(first, second);
+}
+
+/// On which side of an edge the line along the moved axis passes. 0 if they are parallel.
+int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
+  const ExactVector along{axis.trocar, axis.tip};
+  const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
+  return side != 0 ? side : cross_product_sign(along, {from, to});
+}
+
+/// The equation trocar + shaft (tip - trocar) = corner 0 + barycentric 1 (corner 1 - corner 0) +
+/// barycentric 2 (corner 2 - corner 0), solved by Cramer's rule.
+template <std::size_t kLimbs>
+FaceCrossing solve(const ExactGrid& grid, const Triangle& face, const ShaftAxis& axis) {
+  using Integer = WideInteger<kLimbs>;
+  const WideVector<kLimbs> along = grid.difference<kLimbs>(axis.trocar, axis.tip);
+  const WideVector<kLimbs> first = grid.difference<kLimbs>(face[0], face[1]);
+  const WideVector<kLimbs> second = grid.difference<kLimbs>(face[0], face[2]);
+  const WideVector<kLimbs> to_trocar = grid.difference<kLimbs>(face[0], axis.trocar);
+  WideVector<kLimbs> normal = cross(first, second);
+  const WideVector<kLimbs> moment = cross(along, to_trocar);
+  Integer divisor = dot(normal, along), distance = -dot(normal, to_trocar);
+  Integer part1 = dot(second, moment), part2 = -dot(first, moment);
+  if (divisor.sign() < 0) {
+    for (Integer* const number : {&divisor, &distance, &part1, &part2}) *number = -*number;
+    for (Integer& component : normal) component = -component;
+  }
+  Eigen::Index longest;
+  (axis.tip - axis.trocar).cwiseAbs().maxCoeff(&longest);
+  const Integer length = along[longest].sign() < 0 ? -along[longest] : along[longest];
+  FaceCrossing crossing;
+  crossing.barycentric = {share(divisor - part1 - part2, divisor), share(part1, divisor),
+                          share(part2, divisor)};
+  crossing.shaft = share(distance, divisor);
+  for (std::size_t i = 0; i < 3; ++i) {
+    crossing.shaft_shift[i] = -rounded_ratio(normal[i] * length, divisor);
+  }
+  return crossing;
+}
+
+}  // namespace
+
+int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
+  const int tip = side_of_plane(face, axis.tip);
+  if (tip == 0 || tip == side_of_plane(face, axis.trocar)) return 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // An axis that goes the way of the normal has all edges on its left.
+    if (side_of_edge(face[i], face[(i + 1) % 3], axis) != tip) return 0;
+  }
+  return -tip;
+}
+
+FaceCrossing face_crossing(const Triangle& face, const ShaftAxis& axis) {
+  const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
+  return grid.is_coarse() ? solve<ExactGrid::kFewLimbs>(grid, face, axis)
+                          : solve<ExactGrid::kManyLimbs>(grid, face, axis);
+}
+
+}  // namespace organ_collision
