@@ -146,13 +146,11 @@ void PlacementFinder::find_crossings(const Surface& surface, const ShaftAxis& ax
     if (direction == 0) continue;
     found_.push_back({candidate.face, direction, face_crossing(face, axis)});
   }
-  const auto order = [](const FoundCrossing& found) {
-    const Vector3d& shift = found.place.shaft_shift;
-    return std::make_tuple(found.place.shaft, shift.x(), shift.y(), shift.z(), found.direction,
-                           found.face);
-  };
-  std::sort(found_.begin(), found_.end(),
-            [&](const FoundCrossing& a, const FoundCrossing& b) { return order(a) < order(b); });
+  std::sort(found_.begin(), found_.end(), [](const FoundCrossing& a, const FoundCrossing& b) {
+    if (a.place.precedes(b.place)) return true;
+    if (b.place.precedes(a.place)) return false;
+    return std::tie(a.direction, a.face) < std::tie(b.direction, b.face);
+  });
   for (const FoundCrossing& found : found_) {
     const Vector3d& barycentric = found.place.barycentric;
     crossings.push_back({found.face, surface.organ.faces()[found.face], barycentric,

@@ -35,7 +35,7 @@ class ExactGrid {
 
   /// Limbs that are enough for the triple products of most points, and of all legal points. If
   /// coordinates have b binary digits on the grid, the sum of three products of three differences
-  /// has less than 3 b + 6. 63 more are left for the sign and for share().
+  /// has less than 3 b + 6. 63 more are left for the sign and for ratio().
   static constexpr std::size_t kFewLimbs = 6, kManyLimbs = 56;
   /// Whether kFewLimbs are enough.
   bool is_coarse() const { return 3 * digits_ + 69 <= static_cast<int>(64 * kFewLimbs); }

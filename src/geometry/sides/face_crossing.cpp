@@ -1,5 +1,8 @@
 #include "face_crossing.hpp"
 
+#include <cmath>
+#include <cstdint>
+
 #include "determinant_sign.hpp"
 #include "exact_grid.hpp"
 
@@ -42,11 +45,16 @@ FaceCrossing solve(const ExactGrid& grid, const Triangle& face, const ShaftAxis&
   (axis.tip - axis.trocar).cwiseAbs().maxCoeff(&longest);
   const Integer length = along[longest].sign() < 0 ? -along[longest] : along[longest];
   FaceCrossing crossing;
-  crossing.barycentric = {share(divisor - part1 - part2, divisor), share(part1, divisor),
-                          share(part2, divisor)};
-  crossing.shaft = share(distance, divisor);
+  crossing.barycentric = {ratio(divisor - part1 - part2, divisor), ratio(part1, divisor),
+                          ratio(part2, divisor)};
+  constexpr int kDigits = 62;
+  const auto [digits, remainder] = divide(Integer(1, kDigits) * distance, divisor);
+  const auto leading = static_cast<double>(digits);
+  const auto rest = static_cast<double>(digits - static_cast<std::int64_t>(leading));
+  crossing.shaft = std::ldexp(leading, -kDigits);
+  crossing.shaft_rest = std::ldexp(rest + ratio(remainder, divisor), -kDigits);
   for (std::size_t i = 0; i < 3; ++i) {
-    crossing.shaft_shift[i] = -rounded_ratio(normal[i] * length, divisor);
+    crossing.shaft_shift[i] = -ratio(normal[i] * length, divisor);
   }
   return crossing;
 }

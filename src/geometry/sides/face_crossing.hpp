@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <tuple>
 
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "organ_collision/geometry/triangle.hpp"
@@ -24,10 +25,18 @@ struct FaceCrossing {
   Eigen::Vector3d barycentric;
   /// The place on the axis, in [0, 1] from trocar to tip.
   double shaft;
-  /// [1] The derivative of `shaft` by the displacement of the axis, times the largest extent of the
-  /// axis along a coordinate. Of several crossings at the same place, the moved axis has the one
-  /// with the lexicographically smallest derivative first.
+  /// What rounding took from `shaft`. Both together are right to 100 binary digits.
+  double shaft_rest;
+  /// [1] The derivative of the place by the displacement of the axis, times the largest extent of
+  /// the axis along a coordinate.
   Eigen::Vector3d shaft_shift;
+
+  /// Whether the moved axis meets this crossing first. Faces that lie on each other have no order.
+  bool precedes(const FaceCrossing& other) const {
+    return std::tie(shaft, shaft_rest, shaft_shift.x(), shaft_shift.y(), shaft_shift.z()) <
+           std::tie(other.shaft, other.shaft_rest, other.shaft_shift.x(), other.shaft_shift.y(),
+                    other.shaft_shift.z());
+  }
 };
 
 /// The crossing of a face whose crossing_direction() is not 0.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 namespace organ_collision {
 
@@ -96,34 +97,48 @@ class WideInteger {
   std::array<std::uint64_t, kLimbs> limbs_ = {};  ///< the lowest one first
 };
 
-/// A quotient with a relative error below 1e-15. The denominator is not zero.
 template <std::size_t kLimbs>
-double rounded_ratio(const WideInteger<kLimbs>& numerator, const WideInteger<kLimbs>& denominator) {
-  const auto above = numerator.rounded(), below = denominator.rounded();
-  return std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent);
-}
+struct Division {
+  std::int64_t quotient;  ///< rounded down
+  WideInteger<kLimbs> remainder;
+};
 
-/// A quotient between 0 and 1, rounded down to a multiple of 2^-62 and then to a double. Equal
-/// fractions are equal, and a larger one is not smaller. 0 <= numerator <= denominator > 0. Needs
-/// 62 bits more than the denominator has.
+/// numerator / denominator for numerator >= 0, denominator > 0 and a quotient below 2^63.
 template <std::size_t kLimbs>
-double share(const WideInteger<kLimbs>& numerator, const WideInteger<kLimbs>& denominator) {
-  constexpr int kDigits = 62;
-  const WideInteger<kLimbs> scaled = numerator * WideInteger<kLimbs>(1, kDigits);
-  auto quotient =
-      static_cast<std::int64_t>(std::ldexp(rounded_ratio(numerator, denominator), kDigits));
+Division<kLimbs> divide(const WideInteger<kLimbs>& numerator,
+                        const WideInteger<kLimbs>& denominator) {
+  const auto below = denominator.rounded();
   // The estimate is right to about 50 digits, and so is each correction to the rest.
+  std::int64_t quotient = 0;
   while (true) {
-    const WideInteger<kLimbs> remainder = scaled - WideInteger<kLimbs>(quotient) * denominator;
-    const double rest = std::floor(rounded_ratio(remainder, denominator));
-    if (remainder.sign() < 0) {
-      quotient += static_cast<std::int64_t>(std::min(rest, -1.0));
-    } else if ((remainder - denominator).sign() >= 0) {
-      quotient += static_cast<std::int64_t>(std::max(rest, 1.0));
+    const WideInteger<kLimbs> rest = numerator - WideInteger<kLimbs>(quotient) * denominator;
+    const auto above = rest.rounded();
+    const double correction =
+        std::floor(std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent));
+    if (rest.sign() < 0) {
+      quotient += static_cast<std::int64_t>(std::min(correction, -1.0));
+    } else if ((rest - denominator).sign() >= 0) {
+      quotient += static_cast<std::int64_t>(std::max(correction, 1.0));
     } else {
-      return std::ldexp(static_cast<double>(quotient), -kDigits);
+      return {quotient, rest};
     }
   }
+}
+
+/// A quotient to 61 binary digits, then rounded to a double. Equal fractions give equal numbers.
+/// The denominator is positive. Needs 62 bits more than the larger of both has.
+template <std::size_t kLimbs>
+double ratio(const WideInteger<kLimbs>& numerator, const WideInteger<kLimbs>& denominator) {
+  if (numerator.sign() == 0) return 0.0;
+  if (numerator.sign() < 0) return -ratio(-numerator, denominator);
+  const auto above = numerator.rounded(), below = denominator.rounded();
+  const int exponent =
+      std::ilogb(above.mantissa / below.mantissa) + above.exponent - below.exponent;
+  const int shift = 61 - exponent;
+  const WideInteger<kLimbs> power(1, std::abs(shift));
+  const std::int64_t quotient = shift > 0 ? divide(power * numerator, denominator).quotient
+                                          : divide(numerator, power * denominator).quotient;
+  return std::ldexp(static_cast<double>(quotient), -shift);
 }
 
 }  // namespace organ_collision
