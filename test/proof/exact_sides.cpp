@@ -117,8 +117,10 @@ std::vector<ExactCrossing> exact_crossings(const std::vector<Triangle>& faces,
 int exact_winding(const std::vector<Triangle>& faces, const Eigen::Vector3d& point) {
   const Vector start = moved(point);
   const Vector ray = exact(Eigen::Vector3d(0.318281828, -0.271828459, 0.577215664));
+  const Eigen::Vector3d end = point + 1e7 * Eigen::Vector3d(1.0, -1.0, 1.0);  // behind all faces
   int winding = 0;
   for (const Triangle& face : faces) {
+    if (!boxes_meet(face, point, end)) continue;
     const Meeting meeting(start, ray, face);
     if (!meeting.is_in_face() || CGAL::sign(meeting.place) < 0) continue;
     if (meeting.is_on_edge()) throw std::logic_error("the ray meets an edge");

@@ -178,7 +178,7 @@ class PlacementWith : public CollisionQueryWith {
       EXPECT_LE((crossing.point - axis.at(crossing.shaft)).norm(), 1e-14 * reach + 1e-12);
       sum += crossing.direction;
     }
-    EXPECT_EQ(winding + sum, oracle::exact_winding(faces, axis.tip));
+    EXPECT_EQ(winding + sum, oracle::exact_winding(faces, axis.tip)) << "of the oracle";
     EXPECT_TRUE(found.length_known);
     const double length = (axis.tip - axis.trocar).norm();
     EXPECT_NEAR(found.length_inside, expected_length(crossings, winding, length), 1e-12);

@@ -108,20 +108,22 @@ template <std::size_t kLimbs>
 Division<kLimbs> divide(const WideInteger<kLimbs>& numerator,
                         const WideInteger<kLimbs>& denominator) {
   const auto below = denominator.rounded();
-  // The estimate is right to about 50 digits, and so is each correction to the rest.
-  std::int64_t quotient = 0;
+  Division<kLimbs> division{0, numerator};
+  // Each estimate is right to about 50 digits of what is left.
   while (true) {
-    const WideInteger<kLimbs> rest = numerator - WideInteger<kLimbs>(quotient) * denominator;
-    const auto above = rest.rounded();
-    const double correction =
-        std::floor(std::ldexp(above.mantissa / below.mantissa, above.exponent - below.exponent));
-    if (rest.sign() < 0) {
-      quotient += static_cast<std::int64_t>(std::min(correction, -1.0));
-    } else if ((rest - denominator).sign() >= 0) {
-      quotient += static_cast<std::int64_t>(std::max(correction, 1.0));
+    const auto rest = division.remainder.rounded();
+    double part =
+        std::floor(std::ldexp(rest.mantissa / below.mantissa, rest.exponent - below.exponent));
+    if (division.remainder.sign() < 0) {
+      part = std::min(part, -1.0);
+    } else if ((division.remainder - denominator).sign() >= 0) {
+      part = std::max(part, 1.0);
     } else {
-      return {quotient, rest};
+      return division;
     }
+    const auto digits = static_cast<std::int64_t>(part);
+    division.quotient += digits;
+    division.remainder = division.remainder - WideInteger<kLimbs>(digits) * denominator;
   }
 }
 
