@@ -46,14 +46,14 @@ int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactV
   if (value > error) return 1;
   if (value < -error) return -1;
   const ExactGrid grid{u.from, u.to, v.from, v.to, w.from, w.to};
-  return grid.is_coarse() ? exact_triple_product_sign<ExactGrid::kFewLimbs>(grid, u, v, w)
-                          : exact_triple_product_sign<ExactGrid::kManyLimbs>(grid, u, v, w);
+  return grid.with_limbs(
+      [&](auto limbs) { return exact_triple_product_sign<decltype(limbs)::value>(grid, u, v, w); });
 }
 
 int cross_product_sign(const ExactVector& u, const ExactVector& v) {
   const ExactGrid grid{u.from, u.to, v.from, v.to};
-  return grid.is_coarse() ? exact_cross_product_sign<ExactGrid::kFewLimbs>(grid, u, v)
-                          : exact_cross_product_sign<ExactGrid::kManyLimbs>(grid, u, v);
+  return grid.with_limbs(
+      [&](auto limbs) { return exact_cross_product_sign<decltype(limbs)::value>(grid, u, v); });
 }
 
 }  // namespace organ_collision

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <limits>
+#include <type_traits>
 
 #include "wide_integer.hpp"
 
@@ -33,12 +35,18 @@ class ExactGrid {
   /// tolerance::kFarthest.
   explicit ExactGrid(std::initializer_list<Eigen::Vector3d> points);
 
-  /// Limbs that are enough for the triple products of most points, and of all legal points. If
+  /// Calls use(limbs) with a constant: how many limbs the triple products of these points need. If
   /// coordinates have b binary digits on the grid, the sum of three products of three differences
-  /// has less than 3 b + 6. 63 more are left for the sign and for ratio().
-  static constexpr std::size_t kFewLimbs = 6, kManyLimbs = 56;
-  /// Whether kFewLimbs are enough.
-  bool is_coarse() const { return 3 * digits_ + 69 <= static_cast<int>(64 * kFewLimbs); }
+  /// has less than 3 b + 6. 63 more are left for the sign and for ratio(). The first number is
+  /// enough for most points, the second one for points with a coordinate that is nearly zero, and
+  /// the last one for all legal points.
+  template <typename Use>
+  auto with_limbs(const Use& use) const {
+    const int bits = 3 * digits_ + 69;
+    if (bits <= 64 * 6) return use(Limbs<6>());
+    if (bits <= 64 * 12) return use(Limbs<12>());
+    return use(Limbs<56>());
+  }
 
   /// The vector from one of the points to another.
   template <std::size_t kLimbs>
@@ -50,18 +58,21 @@ class ExactGrid {
 
  private:
   template <std::size_t kLimbs>
+  using Limbs = std::integral_constant<std::size_t, kLimbs>;
+
+  template <std::size_t kLimbs>
   WideInteger<kLimbs> integer(double coordinate) const {
     int exponent;
-    const double fraction = std::frexp(coordinate, &exponent);
-    const int spacings = exponent - exponent_;
-    // A number below 2^53 spacings is an integer in double precision.
-    constexpr int kDigits = std::numeric_limits<double>::digits;
-    if (spacings <= kDigits) {
-      return WideInteger<kLimbs>(static_cast<std::int64_t>(std::ldexp(fraction, spacings)));
-    }
-    return WideInteger<kLimbs>(static_cast<std::int64_t>(std::ldexp(fraction, kDigits)),
-                               spacings - kDigits);
+    const auto digits = static_cast<std::int64_t>(kTwoToDigits * std::frexp(coordinate, &exponent));
+    const int shift = exponent - kDigits - exponent_;
+    if (shift >= 0) return WideInteger<kLimbs>(digits, shift);
+    // The last digits are zeros.
+    return WideInteger<kLimbs>(digits / (std::int64_t{1} << std::min(-shift, kDigits)));
   }
+
+  /// Of a double.
+  static constexpr int kDigits = std::numeric_limits<double>::digits;
+  static constexpr double kTwoToDigits = 0x1p53;
 
   int exponent_ = 0;  ///< the spacing is 2 to the power of this [m]
   int digits_ = 0;    ///< the number of binary digits of the largest coordinate

@@ -73,8 +73,8 @@ int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
 
 FaceCrossing face_crossing(const Triangle& face, const ShaftAxis& axis) {
   const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
-  return grid.is_coarse() ? solve<ExactGrid::kFewLimbs>(grid, face, axis)
-                          : solve<ExactGrid::kManyLimbs>(grid, face, axis);
+  return grid.with_limbs(
+      [&](auto limbs) { return solve<decltype(limbs)::value>(grid, face, axis); });
 }
 
 }  // namespace organ_collision

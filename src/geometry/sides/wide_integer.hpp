@@ -86,7 +86,7 @@ class WideInteger {
     while (top > 1 && limbs_[top] == 0) --top;
     const auto upper = static_cast<double>(limbs_[top]);
     const auto lower = static_cast<double>(limbs_[top - 1]);
-    return {std::ldexp(upper, 64) + lower, 64 * static_cast<int>(top - 1)};
+    return {0x1p64 * upper + lower, 64 * static_cast<int>(top - 1)};
   }
 
  private:

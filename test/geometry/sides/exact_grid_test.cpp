@@ -27,41 +27,46 @@ void expect_same_ratios(const Vector3d& difference, const WideVector<kLimbs>& in
   }
 }
 
+std::size_t limbs_of(const ExactGrid& grid) {
+  return grid.with_limbs([](auto limbs) { return decltype(limbs)::value; });
+}
+
 TEST(ExactGrid, DifferencesKeepTheirRatios) {
   Random random(51);
-  int coarse = 0;
+  int few = 0;
   for (int trial = 0; trial < 2000; ++trial) {
     const double size = random.scale(1e-12, 1e5);
     const Vector3d a = random.point(size), b = random.point(size), origin = Vector3d::Zero();
     const ExactGrid grid{a, b, origin};
-    coarse += grid.is_coarse();
+    few += limbs_of(grid) == 6;
     for (const auto& [from, to] : {std::pair{a, origin}, std::pair{origin, b}, std::pair{a, b}}) {
-      expect_same_ratios<ExactGrid::kManyLimbs>(to - from,
-                                                grid.difference<ExactGrid::kManyLimbs>(from, to));
-      if (!grid.is_coarse()) continue;
-      expect_same_ratios<ExactGrid::kFewLimbs>(to - from,
-                                               grid.difference<ExactGrid::kFewLimbs>(from, to));
+      grid.with_limbs([&, from = from, to = to](auto limbs) {
+        constexpr std::size_t kLimbs = decltype(limbs)::value;
+        expect_same_ratios<kLimbs>(to - from, grid.difference<kLimbs>(from, to));
+      });
     }
   }
-  EXPECT_GT(coarse, 1900) << "points of any size have few digits";
+  EXPECT_GT(few, 1900) << "points of any size have few digits";
 }
 
 TEST(ExactGrid, FromTheLargestToTheSmallestNumber) {
   const Vector3d large(1048575.9999999999, -1048575.0, 1e6), small(5e-324, 0.0, -1e-320);
-  const Vector3d origin = Vector3d::Zero();
+  const Vector3d origin = Vector3d::Zero(), noise(1e-18, 0.1, 0.2);
   const ExactGrid grid{large, small, origin};
-  EXPECT_FALSE(grid.is_coarse());
-  constexpr std::size_t kMany = ExactGrid::kManyLimbs;
-  const auto integers = grid.difference<kMany>(origin, small);
-  EXPECT_EQ((integers[0] - WideInteger<kMany>(1)).sign(), 0) << "the smallest number is one";
+  constexpr std::size_t kMany = 56;
+  EXPECT_EQ(limbs_of(grid), kMany);
+  EXPECT_EQ(limbs_of(ExactGrid{small, origin}), 6U);
+  EXPECT_EQ(limbs_of(ExactGrid{noise, origin}), 12U);
+  EXPECT_EQ(limbs_of(ExactGrid{origin}), 6U);
+  const auto tiny = grid.difference<kMany>(origin, small);
+  EXPECT_EQ((tiny[0] - WideInteger<kMany>(1)).sign(), 0) << "the smallest number is one";
   expect_same_ratios<kMany>(large, grid.difference<kMany>(origin, large));
-  const auto tiny = grid.difference<kMany>(origin, small),
-             huge = grid.difference<kMany>(large, small);
-  const WideInteger<kMany> square = dot(huge, cross(huge, tiny));
-  EXPECT_EQ(square.sign(), 0);
-  EXPECT_NE(dot(tiny, cross(huge, {tiny[2], tiny[0], tiny[1]})).sign(), 0);
-  EXPECT_TRUE((ExactGrid{small, origin}).is_coarse());
-  EXPECT_TRUE((ExactGrid{origin}).is_coarse());
+  const auto huge = grid.difference<kMany>(large, small);
+  EXPECT_EQ(dot(huge, cross(huge, tiny)).sign(), 0);
+  // The largest triple product that there is.
+  const auto product = huge[0] * huge[0] * huge[0];
+  EXPECT_EQ(product.sign(), -1);
+  EXPECT_EQ(ratio(WideInteger<kMany>() - product, WideInteger<kMany>() - product), 1.0);
 }
 
 }  // namespace
