@@ -33,7 +33,7 @@ class ExactGrid {
  public:
   /// The points are finite and their coordinates below 2^20 m, a little more than
   /// tolerance::kFarthest.
-  explicit ExactGrid(std::initializer_list<Eigen::Vector3d> points);
+  ExactGrid(std::initializer_list<Eigen::Vector3d> points);
 
   /// Calls use(limbs) with a constant: how many limbs the triple products of these points need. If
   /// coordinates have b binary digits on the grid, the sum of three products of three differences
