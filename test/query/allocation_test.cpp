@@ -64,6 +64,8 @@ class Simulation {
       }
     }
     request_.links = &links_;
+    request_.placement = true;
+    request_.topology = &topology_;
   }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -98,6 +100,7 @@ class Simulation {
   }
 
   TriangleMesh organ_, before_;
+  SurfaceTopology topology_{organ_.faces(), organ_.vertices()};
   std::vector<Link> links_;
   std::vector<SharedVertices> shapes_;
   std::vector<ToolPath> paths_;
