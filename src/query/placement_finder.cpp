@@ -146,10 +146,13 @@ void PlacementFinder::find_crossings(const Surface& surface, const ShaftAxis& ax
     if (direction == 0) continue;
     found_.push_back({candidate.face, direction, face_crossing(face, axis)});
   }
-  std::sort(found_.begin(), found_.end(), [](const FoundCrossing& a, const FoundCrossing& b) {
-    if (a.place.precedes(b.place)) return true;
-    if (b.place.precedes(a.place)) return false;
-    return std::tie(a.direction, a.face) < std::tie(b.direction, b.face);
+  std::sort(found_.begin(), found_.end(), [&](const FoundCrossing& a, const FoundCrossing& b) {
+    if (a.place.shaft != b.place.shaft) return a.place.shaft < b.place.shaft;
+    if (a.place.shaft_rest != b.place.shaft_rest) return a.place.shaft_rest < b.place.shaft_rest;
+    const Vector3d shift_a = crossing_shift(surface.face(a.face), axis);
+    const Vector3d shift_b = crossing_shift(surface.face(b.face), axis);
+    return std::tie(shift_a.x(), shift_a.y(), shift_a.z(), a.direction, a.face) <
+           std::tie(shift_b.x(), shift_b.y(), shift_b.z(), b.direction, b.face);
   });
   for (const FoundCrossing& found : found_) {
     const Vector3d& barycentric = found.place.barycentric;

@@ -15,23 +15,6 @@ constexpr double kRoundingShare = 16.0 / (1LL << 53);
 // 2^22 enlarge.
 constexpr double kUnderflow = 1e-300;
 
-template <std::size_t kLimbs>
-int exact_triple_product_sign(const ExactGrid& grid, const ExactVector& u, const ExactVector& v,
-                              const ExactVector& w) {
-  return dot(grid.difference<kLimbs>(u.from, u.to),
-             cross(grid.difference<kLimbs>(v.from, v.to), grid.difference<kLimbs>(w.from, w.to)))
-      .sign();
-}
-
-template <std::size_t kLimbs>
-int exact_cross_product_sign(const ExactGrid& grid, const ExactVector& u, const ExactVector& v) {
-  for (const WideInteger<kLimbs>& component :
-       cross(grid.difference<kLimbs>(u.from, u.to), grid.difference<kLimbs>(v.from, v.to))) {
-    if (component.sign() != 0) return component.sign();
-  }
-  return 0;
-}
-
 }  // namespace
 
 int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactVector& w) {
@@ -46,14 +29,18 @@ int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactV
   if (value > error) return 1;
   if (value < -error) return -1;
   const ExactGrid grid{u.from, u.to, v.from, v.to, w.from, w.to};
-  return grid.with_limbs(
-      [&](auto limbs) { return exact_triple_product_sign<decltype(limbs)::value>(grid, u, v, w); });
+  return dot(grid.difference(u.from, u.to),
+             cross(grid.difference(v.from, v.to), grid.difference(w.from, w.to)))
+      .sign();
 }
 
 int cross_product_sign(const ExactVector& u, const ExactVector& v) {
   const ExactGrid grid{u.from, u.to, v.from, v.to};
-  return grid.with_limbs(
-      [&](auto limbs) { return exact_cross_product_sign<decltype(limbs)::value>(grid, u, v); });
+  for (const ExactInteger& component :
+       cross(grid.difference(u.from, u.to), grid.difference(v.from, v.to))) {
+    if (component.sign() != 0) return component.sign();
+  }
+  return 0;
 }
 
 }  // namespace organ_collision

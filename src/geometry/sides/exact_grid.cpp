@@ -1,25 +1,42 @@
 #include "exact_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
 
 namespace organ_collision {
+namespace {
+
+/// A double as digits * 2^exponent. The last one of the digits is 1, except for zero.
+struct BinaryNumber {
+  explicit BinaryNumber(double number) {
+    constexpr int kDigits = std::numeric_limits<double>::digits;
+    if (number == 0.0) return;
+    digits = static_cast<std::int64_t>(std::ldexp(std::frexp(number, &exponent), kDigits));
+    const int zeros = std::ilogb(static_cast<double>(digits & -digits));
+    digits /= std::int64_t{1} << zeros;
+    exponent += zeros - kDigits;
+  }
+
+  std::int64_t digits = 0;
+  int exponent = 0;
+};
+
+}  // namespace
 
 ExactGrid::ExactGrid(std::initializer_list<Eigen::Vector3d> points) {
-  int lowest = std::numeric_limits<int>::max(), highest = std::numeric_limits<int>::min();
   for (const Eigen::Vector3d& point : points) {
     for (const double coordinate : {point.x(), point.y(), point.z()}) {
-      if (coordinate == 0.0) continue;
-      int exponent;
-      const auto digits =
-          static_cast<std::int64_t>(kTwoToDigits * std::frexp(coordinate, &exponent));
-      const int last_digit = std::ilogb(static_cast<double>(digits & -digits));
-      lowest = std::min(lowest, exponent - kDigits + last_digit);
-      highest = std::max(highest, exponent);
+      exponent_ = std::min(exponent_, BinaryNumber(coordinate).exponent);
     }
   }
-  if (lowest > highest) return;  // All points are the origin.
-  exponent_ = lowest;
-  digits_ = highest - lowest;
+}
+
+ExactInteger ExactGrid::integer(double coordinate) const {
+  const BinaryNumber number(coordinate);
+  if (number.digits == 0) return 0;
+  return ExactInteger(number.digits) << (number.exponent - exponent_);
 }
 
 }  // namespace organ_collision

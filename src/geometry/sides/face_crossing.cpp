@@ -24,41 +24,6 @@ int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const S
   return side != 0 ? side : cross_product_sign(along, {from, to});
 }
 
-/// The equation trocar + shaft (tip - trocar) = corner 0 + barycentric 1 (corner 1 - corner 0) +
-/// barycentric 2 (corner 2 - corner 0), solved by Cramer's rule.
-template <std::size_t kLimbs>
-FaceCrossing solve(const ExactGrid& grid, const Triangle& face, const ShaftAxis& axis) {
-  using Integer = WideInteger<kLimbs>;
-  const WideVector<kLimbs> along = grid.difference<kLimbs>(axis.trocar, axis.tip);
-  const WideVector<kLimbs> first = grid.difference<kLimbs>(face[0], face[1]);
-  const WideVector<kLimbs> second = grid.difference<kLimbs>(face[0], face[2]);
-  const WideVector<kLimbs> to_trocar = grid.difference<kLimbs>(face[0], axis.trocar);
-  WideVector<kLimbs> normal = cross(first, second);
-  const WideVector<kLimbs> moment = cross(along, to_trocar);
-  Integer divisor = dot(normal, along), distance = -dot(normal, to_trocar);
-  Integer part1 = dot(second, moment), part2 = -dot(first, moment);
-  if (divisor.sign() < 0) {
-    for (Integer* const number : {&divisor, &distance, &part1, &part2}) *number = -*number;
-    for (Integer& component : normal) component = -component;
-  }
-  Eigen::Index longest;
-  (axis.tip - axis.trocar).cwiseAbs().maxCoeff(&longest);
-  const Integer length = along[longest].sign() < 0 ? -along[longest] : along[longest];
-  FaceCrossing crossing;
-  crossing.barycentric = {ratio(divisor - part1 - part2, divisor), ratio(part1, divisor),
-                          ratio(part2, divisor)};
-  constexpr int kDigits = 62;
-  const auto [digits, remainder] = divide(Integer(1, kDigits) * distance, divisor);
-  const auto leading = static_cast<double>(digits);
-  const auto rest = static_cast<double>(digits - static_cast<std::int64_t>(leading));
-  crossing.shaft = std::ldexp(leading, -kDigits);
-  crossing.shaft_rest = std::ldexp(rest + ratio(remainder, divisor), -kDigits);
-  for (std::size_t i = 0; i < 3; ++i) {
-    crossing.shaft_shift[i] = -ratio(normal[i] * length, divisor);
-  }
-  return crossing;
-}
-
 }  // namespace
 
 int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
@@ -71,10 +36,48 @@ int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
   return -tip;
 }
 
+/// The solution of trocar + shaft (tip - trocar) = corner 0 + barycentric 1 (corner 1 - corner 0) +
+/// barycentric 2 (corner 2 - corner 0), by Cramer's rule.
 FaceCrossing face_crossing(const Triangle& face, const ShaftAxis& axis) {
   const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
-  return grid.with_limbs(
-      [&](auto limbs) { return solve<decltype(limbs)::value>(grid, face, axis); });
+  const IntegerVector along = grid.difference(axis.trocar, axis.tip);
+  const IntegerVector first = grid.difference(face[0], face[1]);
+  const IntegerVector second = grid.difference(face[0], face[2]);
+  const IntegerVector to_trocar = grid.difference(face[0], axis.trocar);
+  const IntegerVector normal = cross(first, second);
+  const IntegerVector moment = cross(along, to_trocar);
+  ExactInteger divisor = dot(normal, along), distance = -dot(normal, to_trocar);
+  ExactInteger part1 = dot(second, moment), part2 = -dot(first, moment);
+  if (divisor.sign() < 0) {
+    for (ExactInteger* const number : {&divisor, &distance, &part1, &part2}) *number = -*number;
+  }
+
+  FaceCrossing crossing;
+  crossing.barycentric = {ratio(divisor - part1 - part2, divisor), ratio(part1, divisor),
+                          ratio(part2, divisor)};
+  constexpr int kDigits = 62;
+  ExactInteger digits, remainder;
+  divide_qr(ExactInteger(distance << kDigits), divisor, digits, remainder);
+  const auto leading = static_cast<double>(static_cast<std::int64_t>(digits));
+  const auto rest =
+      static_cast<double>(static_cast<std::int64_t>(digits) - static_cast<std::int64_t>(leading));
+  crossing.shaft = std::ldexp(leading, -kDigits);
+  crossing.shaft_rest = std::ldexp(rest + ratio(remainder, divisor), -kDigits);
+  return crossing;
+}
+
+Eigen::Vector3d crossing_shift(const Triangle& face, const ShaftAxis& axis) {
+  const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
+  const IntegerVector along = grid.difference(axis.trocar, axis.tip);
+  const IntegerVector normal =
+      cross(grid.difference(face[0], face[1]), grid.difference(face[0], face[2]));
+  const ExactInteger divisor = dot(normal, along);
+  Eigen::Index longest;
+  (axis.tip - axis.trocar).cwiseAbs().maxCoeff(&longest);
+  const ExactInteger length = divisor.sign() * abs(along[longest]);
+  Eigen::Vector3d shift;
+  for (std::size_t i = 0; i < 3; ++i) shift[i] = -ratio(normal[i] * length, abs(divisor));
+  return shift;
 }
 
 }  // namespace organ_collision

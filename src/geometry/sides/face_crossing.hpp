@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <tuple>
 
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "organ_collision/geometry/triangle.hpp"
@@ -27,19 +26,14 @@ struct FaceCrossing {
   double shaft;
   /// What rounding took from `shaft`. Both together are right to 100 binary digits.
   double shaft_rest;
-  /// [1] The derivative of the place by the displacement of the axis, times the largest extent of
-  /// the axis along a coordinate.
-  Eigen::Vector3d shaft_shift;
-
-  /// Whether the moved axis meets this crossing first. Faces that lie on each other have no order.
-  bool precedes(const FaceCrossing& other) const {
-    return std::tie(shaft, shaft_rest, shaft_shift.x(), shaft_shift.y(), shaft_shift.z()) <
-           std::tie(other.shaft, other.shaft_rest, other.shaft_shift.x(), other.shaft_shift.y(),
-                    other.shaft_shift.z());
-  }
 };
 
 /// The crossing of a face whose crossing_direction() is not 0.
 FaceCrossing face_crossing(const Triangle& face, const ShaftAxis& axis);
+
+/// [1] The derivative of the crossing's place on the axis by the displacement of the axis, times
+/// the largest extent of the axis along a coordinate. If the axis crosses two faces at one place,
+/// it meets that one first whose shift is lexicographically smaller.
+Eigen::Vector3d crossing_shift(const Triangle& face, const ShaftAxis& axis);
 
 }  // namespace organ_collision
