@@ -27,10 +27,11 @@ constexpr char kOrgan[] = "tissue";  // its name and its frame
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kForces[] = "vertex_forces";
 constexpr char kImpulse[] = "impulse";
-constexpr double kStep = 0.004;          // [s]
-constexpr double kPeriod = 4.0;          // [s] in which the probe presses once
-constexpr double kHighest = 0.012;       // [m] of the tip above the tissue at rest
-constexpr double kLowest = -0.008;       // [m]
+constexpr double kStep = 0.004;     // [s]
+constexpr double kPeriod = 4.0;     // [s] in which the probe presses once
+constexpr double kHighest = 0.012;  // [m] of the tip above the tissue at rest
+constexpr double kLowest = -0.008;  // [m]
+const ros::WallDuration kTfLead(0.5);
 const ros::WallDuration kPatience(0.1);  // then the shape is sent again, with a new stamp
 
 ProgramHelp help() {
@@ -70,8 +71,19 @@ class FemTissue {
             ros::NodeHandle("~").advertise<geometry_msgs::WrenchStamped>(kImpulse, 100)),
         forces_subscriber_(node.subscribe<VertexForces>(
             kForces, 10, [this](const VertexForcesConstPtr& forces) { forces_ = forces; },
-            ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())) {
-    publish_mesh();
+            ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay())) {}
+
+  /// Sends poses of the probe for a while, so that they are known before the first shape, and then
+  /// the tissue at rest.
+  void begin() {
+    const ros::WallTime start = ros::WallTime::now();
+    while (ros::ok() && ros::WallTime::now() - start < kTfLead) {
+      publish_probe(ros::Time::now());
+      ros::WallDuration(kStep).sleep();
+    }
+    const ros::Time stamp = ros::Time::now();
+    publish_probe(stamp);
+    publish_mesh(stamp);
   }
 
   /// One step: sends the shape, waits for the forces on it, applies them. Without forces the tissue
@@ -92,9 +104,9 @@ class FemTissue {
     return node.advertise<Message>(ros::names::append(kCollisionNode, topic), 1, latch);
   }
 
-  void publish_mesh() {
+  void publish_mesh(const ros::Time& stamp) {
     const auto mesh = boost::make_shared<OrganMesh>();
-    mesh->header.stamp = ros::Time::now();
+    mesh->header.stamp = stamp;
     mesh->header.frame_id = mesh->organ = kOrgan;
     mesh->vertices = block_.vertices();
     for (const FaceIndices& face : block_.faces()) {
@@ -168,5 +180,6 @@ int main(int argc, char** argv) {
   nodelet::Loader collision_node(false);
   if (!collision_node.load(kCollisionNode, "organ_collision/CollisionNodelet", {}, {})) return 1;
   FemTissue tissue(node);
+  tissue.begin();
   for (ros::WallRate rate(1.0 / kStep); ros::ok(); rate.sleep()) tissue.step();
 }
