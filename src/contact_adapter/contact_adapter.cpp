@@ -104,7 +104,8 @@ ContactAdapter::Pair& ContactAdapter::pair_of(const std::string& organ, const st
   const auto known = pairs_.find({organ, tool});
   if (known != pairs_.end()) return known->second;
   if (!radius_of(tool)) {
-    ROS_INFO("the radius of tool '%s' is not known: past a face its depth stays", tool.c_str());
+    ROS_INFO("the radius of tool '%s' is not known: past a face its contacts tell the depth",
+             tool.c_str());
   }
   const std::string name = names_.of(organ, tool);
   const Pair pair{
