@@ -1,5 +1,10 @@
 #include "fem_block.hpp"
 
+// GCC 12 warns of code in Bullet's headers, where it inlines it.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
 #include <BulletSoftBody/btDeformableBodySolver.h>
 #include <BulletSoftBody/btDeformableLinearElasticityForce.h>
@@ -7,6 +12,9 @@
 #include <BulletSoftBody/btDeformableMultiBodyDynamicsWorld.h>
 #include <BulletSoftBody/btSoftBody.h>
 #include <BulletSoftBody/btSoftBodyRigidBodyCollisionConfiguration.h>
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic pop
+#endif
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -51,7 +59,7 @@ Grid make_grid() {
     for (int y = 0; y <= kCells.y(); ++y) {
       for (int x = 0; x <= kCells.x(); ++x) {
         const Vector3d share = Vector3d(x, y, z).cwiseQuotient(kCells.cast<double>());
-        grid.nodes.push_back(kSize.cwiseProduct(share - Vector3d(0.5, 0.5, 1.0)));
+        grid.nodes.emplace_back(kSize.cwiseProduct(share - Vector3d(0.5, 0.5, 1.0)));
       }
     }
   }
