@@ -126,7 +126,7 @@ TEST(VertexForces, AreMinusTheWrenchAlongATrajectory) {
                [&](const ContactArray& answer) -> Vector3d {
                  const auto forces = law.follow(answer, kSeconds, kStiffness, kRadius);
                  expect_minus_wrench(forces, [&](std::uint32_t v) { return organ.vertex(v); });
-                 const Vector3d force = to_eigen(wrench_of(forces).force);
+                 Vector3d force = to_eigen(wrench_of(forces).force);
                  greatest = std::max(greatest, force.norm());
                  return force;
                });
