@@ -61,6 +61,7 @@ std::vector<Isometry3d> way_through(const std::vector<Isometry3d>& corners) {
 std::vector<InsideStep> expect_limited(const std::string& what, const PlacedTool& tool,
                                        const std::vector<Isometry3d>& poses,
                                        const TriangleMesh& organ) {
+  const SurfaceTopology topology(organ.faces(), organ.vertices());
   CollisionQuery query;
   WrenchLaw law;
   KeptSides::Radius radius;
@@ -68,7 +69,7 @@ std::vector<InsideStep> expect_limited(const std::string& what, const PlacedTool
   std::vector<InsideStep> steps;
   for (const Isometry3d& pose : poses) {
     const auto from = steps.empty() ? std::optional<Isometry3d>() : steps.back().pose;
-    const ContactArray answer = answer_of(tool, from, pose, organ, query);
+    const ContactArray answer = answer_of(tool, from, pose, organ, topology, query);
     const auto wrench = wrench_of(law.follow(answer, kSeconds, kStiffness, radius));
     InsideStep step{pose, to_eigen(wrench.force), !answer.contacts.empty(),
                     answer.contacts.empty() && answer.placement.tip == ToolPlacement::INSIDE,
