@@ -21,6 +21,8 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <stdexcept>
+#include <string>
 
 namespace organ_collision {
 namespace {
@@ -197,6 +199,7 @@ std::vector<float> FemBlock::vertices() const {
 }
 
 FemBlock::Impulse FemBlock::push(std::size_t node, const Vector3d& force, double seconds) {
+  if (node >= vertex_count()) throw std::out_of_range("no node " + std::to_string(node));
   btSoftBody::Node& at = world_->body.m_nodes[static_cast<int>(node)];
   if (at.m_im == 0.0F) return {};
   const Vector3d before = to_eigen(at.m_v);

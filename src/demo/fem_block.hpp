@@ -32,7 +32,8 @@ class FemBlock {
     Eigen::Vector3d angular = Eigen::Vector3d::Zero();
   };
   /// Adds the impulse force * seconds [N, s] to a node. A node that is held takes none. Returns the
-  /// impulse by which the momentum of Bullet's node has changed.
+  /// impulse by which the momentum of Bullet's node has changed. Throws std::out_of_range if there
+  /// is no such node.
   Impulse push(std::size_t node, const Eigen::Vector3d& force, double seconds);
 
   /// Simulates `seconds` (> 0).

@@ -144,7 +144,7 @@ class FemTissue {
     FemBlock::Impulse sum;
     for (std::size_t i = 0; i < forces_->vertices.size(); ++i) {
       const FemBlock::Impulse given =
-          block_.push(forces_->vertices[i], to_eigen(forces_->forces[i]), kStep);
+          block_.push(forces_->vertices[i], to_eigen(forces_->forces.at(i)), kStep);
       sum.linear += given.linear;
       sum.angular += given.angular;
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 #include <utility>
 
 namespace organ_collision {
@@ -75,6 +76,7 @@ TEST_F(FemBlockTest, AnImpulseIsTheForceTimesTheTime) {
     block_.step(kStep);
   }
   EXPECT_EQ(block_.push(0, force, kStep).linear, Vector3d::Zero());  // held
+  EXPECT_THROW(block_.push(block_.vertex_count(), force, kStep), std::out_of_range);
 }
 
 TEST_F(FemBlockTest, ItYieldsToAForceAndComesBack) {
