@@ -1,73 +1,26 @@
 #include "options.hpp"
 
-#include <map>
 #include <stdexcept>
 
-#include "input_error.hpp"
+#include "command_line.hpp"
 
 namespace organ_collision {
-namespace {
-
-using Values = std::map<std::string, std::string>;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw InputError("query_offline: " + message + " (--help explains)");
-}
-
-bool is_option(const std::string& argument) { return argument.rfind("--", 0) == 0; }
-
-void check_name(const std::string& name, const Values& values) {
-  if (name != "--mesh" && name != "--motions" && name != "--mesh-before" && name != "--picker") {
-    refuse("unknown option " + in_quotes(name) +
-           "; legal are --mesh, --motions, --mesh-before, --picker and --help");
-  }
-  if (values.count(name) > 0) refuse("option " + name + " is given twice");
-}
-
-/// Written by hand because the messages of boost::program_options do not name a stray argument, and
-/// may have several lines.
-Values split(const std::vector<std::string>& arguments) {
-  Values values;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::size_t equals = arguments[i].find('=');
-    const std::string name = arguments[i].substr(0, equals);
-    check_name(name, values);
-    std::string value;
-    if (equals != std::string::npos) {
-      value = arguments[i].substr(equals + 1);
-    } else if (i + 1 < arguments.size() && !is_option(arguments[i + 1])) {
-      value = arguments[++i];
-    }
-    if (value.empty()) refuse("option " + name + " has no value");
-    values[name] = value;
-  }
-  return values;
-}
-
-std::string required(const std::string& name, const Values& values) {
-  const auto found = values.find(name);
-  if (found == values.end()) refuse("option " + name + " is missing");
-  return found->second;
-}
-
-}  // namespace
 
 Options parse_options(const std::vector<std::string>& arguments) {
   Options options;
-  for (const std::string& argument : arguments) {
-    options.help = options.help || argument == "--help" || argument == "-h";
-  }
+  options.help = asks_for_help(arguments);
   if (options.help) return options;
 
-  const Values values = split(arguments);
-  options.mesh = required("--mesh", values);
-  options.motions = required("--motions", values);
-  if (values.count("--mesh-before") > 0) options.mesh_before = values.at("--mesh-before");
-  if (values.count("--picker") > 0) {
+  const CommandLine given({"query_offline", {"--mesh", "--motions", "--mesh-before", "--picker"}},
+                          arguments);
+  options.mesh = given.required("--mesh");
+  options.motions = given.required("--motions");
+  options.mesh_before = given.value("--mesh-before");
+  if (given.has("--picker")) {
     try {
-      options.picker = picker_kind(values.at("--picker"));
+      options.picker = picker_kind(given.value("--picker"));
     } catch (const std::invalid_argument& error) {
-      refuse(error.what());
+      given.refuse(error.what());
     }
   }
   return options;
