@@ -85,8 +85,10 @@ TEST(ContactsCsv, repeats_added_columns_in_each_line_of_a_motion) {
   append_contacts(motion, result, plain);
   append_contacts(motion, result, csv, {true, true});
   std::string expected;
-  for (const char character : plain)
-    expected += character == '\n' ? added + '\n' : std::string{character};
+  for (const char character : plain) {
+    if (character == '\n') expected += added;
+    expected += character;
+  }
   EXPECT_EQ(csv, expected);
 }
 
