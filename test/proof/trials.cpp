@@ -1,6 +1,7 @@
 #include "trials.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -243,6 +244,11 @@ Trial make_trial(std::size_t kind, Random& random) {
 Triangle rounded(const Triangle& face) {
   const auto round = [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); };
   return {round(face[0]), round(face[1]), round(face[2])};
+}
+
+double largest_coordinate(const TriangleMesh& mesh) {
+  const Eigen::AlignedBox3f& box = mesh.box();
+  return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
 std::string to_line(const Trial& trial) {

@@ -50,6 +50,9 @@ Trial make_trial(std::size_t kind, Random& random);
 /// The face with its corners rounded to 32-bit floats, as in a mesh.
 Triangle rounded(const Triangle& face);
 
+/// [m] The largest coordinate of a mesh.
+double largest_coordinate(const TriangleMesh& mesh);
+
 /// One line of a file in test/data: trocar, previous tip, tip, corners and radius. It has 17
 /// digits, so the trial can be repeated exactly.
 std::string to_line(const Trial& trial);
