@@ -4,8 +4,10 @@
 #include <tuple>
 #include <utility>
 
+#include "clearance_finder.hpp"
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
+#include "near_finder.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 #include "request_check.hpp"
 #include "rotation_subdivision.hpp"
@@ -78,6 +80,8 @@ struct CollisionQuery::State {
   std::unique_ptr<Picker> picker;
   ContactFinder finder;
   ContactRegions regions;
+  ClearanceFinder clearance;
+  NearFinder near;
   std::vector<Candidate> candidates;
   BlockBoxes boxes_before;
   ToolPath subdivided_path;
@@ -102,7 +106,8 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
   }
 }
 
-/// The pipeline: contacts of all parts and legs, one for each face and link, then their regions.
+/// The pipeline: contacts of all parts and legs, one for each face and link; then what else the
+/// request asks for.
 void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionResult& result) {
   if (is_paper_mode(request.mode)) {
     return pick_unrefined(request, *picker, candidates, result.contacts);
@@ -115,6 +120,10 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
     if (!contact.is_resolved) ++result.unresolved;
   }
   if (request.regions) regions.find(step, result.contacts, result.regions);
+  if (asks_for_clearance(request)) {
+    result.clearance = clearance.find(step, request, result.contacts);
+  }
+  if (request.max_near > 0) near.find(step, request, result);
 }
 
 }  // namespace organ_collision

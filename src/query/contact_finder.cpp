@@ -6,62 +6,31 @@
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
-namespace {
-
-/// Calls use(part_leg) with a part that moves along the chord of a span. The part leg refers to a
-/// motion that lives only during the call.
-template <typename Use>
-void with_part_leg(const Step& step, const LegSpan& span, const LinkPart* shape, std::size_t link,
-                   Use use) {
-  if (!shape) return use(PartLeg{step.shaft_motion(span), step.radius(), step.shaft_end(), 0});
-  const RigidMotion motion = step.link_motion(span, link);
-  use(PartLeg{{shape->core, motion}, shape->radius, step.link_end(link), step.link_number(link)});
-}
-
-}  // namespace
-
 void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
   budget_ = {};
   touched_leg_.resize(step.organ().face_count());
+  std::uint32_t link = 0;
+  std::size_t begin = contacts.size();
   try {
-    if (step.has_shaft()) find_shaft_contacts(step, contacts);
-    for (std::size_t link = 0; link < step.link_count(); ++link) {
-      find_link_contacts(step, link, contacts);
-    }
+    for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
+      if (part.number(step) != link) {
+        forget_touched_legs(contacts, begin);
+        link = part.number(step);
+        begin = contacts.size();
+      }
+      find_part_contacts(step, span, part, contacts);
+    });
+    forget_touched_legs(contacts, begin);
   } catch (...) {
     touched_leg_.clear();
     throw;
   }
 }
 
-void ContactFinder::find_shaft_contacts(const Step& step, std::vector<FaceContact>& contacts) {
-  const std::size_t begin = contacts.size();
-  for (std::size_t leg = 0; leg < step.leg_count();) {
-    const LegSpan span = step.shaft_span(leg);
-    find_part_contacts(step, span, {}, contacts);
-    leg = span.end;
-  }
-  forget_touched_legs(contacts, begin);
-}
-
-void ContactFinder::find_link_contacts(const Step& step, std::size_t link,
-                                       std::vector<FaceContact>& contacts) {
-  const std::size_t begin = contacts.size();
-  const LinkBall ball = ball_around(step.link(link));
-  for (std::size_t leg = 0; leg < step.leg_count();) {
-    const LegSpan span = step.link_span(leg, link, ball);
-    for (const LinkPart& part : step.link(link).parts) {
-      find_part_contacts(step, span, {&part, link}, contacts);
-    }
-    leg = span.end;
-  }
-  forget_touched_legs(contacts, begin);
-}
-
 /// The method, for one part of the tool. A viewing volume is built around the space that the part
 /// sweeps, GL draws the organ in a picking mode, and exact distances decide on the faces that
 /// survive clipping.
-void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const Part& part,
+void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                                        std::vector<FaceContact>& contacts) {
   pick(step, span, part);
   budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
@@ -84,7 +53,7 @@ void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, co
   }
 }
 
-void ContactFinder::pick(const Step& step, const LegSpan& span, const Part& part) {
+void ContactFinder::pick(const Step& step, const LegSpan& span, const ToolPart& part) {
   const OrganMotion organ = step.organ_motion(span);
   if (!part.shape) {
     const ShaftMotion chord = step.shaft_motion(span);
@@ -99,13 +68,14 @@ void ContactFinder::pick(const Step& step, const LegSpan& span, const Part& part
 /// Drops the faces that stay too far from the part's motion along the span's chord to touch on any
 /// of the span's legs. Finds for each of the others the first leg on which it may touch. See
 /// doc/geometry.md, Spans of legs.
-void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span, const Part& part) {
+void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
+                                          const ToolPart& part) {
   const OrganMotion organ = step.organ_motion(span);
   touches_.clear();
   for (const PendingFace& pending : pending_faces_) {
     touches_.push_back({pending.face, organ.face(step.organ().faces()[pending.face]), {}});
   }
-  with_part_leg(step, span, part.shape, part.link, [&](const PartLeg& on_chord) {
+  with_part_leg(step, span, part, [&](const PartLeg& on_chord) {
     find_touches(on_chord, part.shape, on_chord.radius + span.deviation + tolerance::kTouch);
   });
   pending_faces_.clear();
@@ -120,12 +90,12 @@ void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
 }
 
 /// Decides by exact distances which pending faces touch on a leg.
-void ContactFinder::find_contacts_on_leg(const Step& step, std::size_t leg, const Part& part,
+void ContactFinder::find_contacts_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
                                          std::vector<FaceContact>& contacts) {
   const auto is_due = [leg](const PendingFace& pending) { return pending.leg <= leg; };
   if (std::none_of(pending_faces_.begin(), pending_faces_.end(), is_due)) return;
   const OrganMotion organ = step.organ_motion(step.span_of(leg));
-  with_part_leg(step, step.span_of(leg), part.shape, part.link, [&](const PartLeg& on_leg) {
+  with_part_leg(step, step.span_of(leg), part, [&](const PartLeg& on_leg) {
     touches_.clear();
     for (const PendingFace& pending : pending_faces_) {
       if (!is_due(pending)) continue;

@@ -9,6 +9,7 @@
 #include "organ_collision/query/contact.hpp"
 #include "picking/pickers/picker.hpp"
 #include "step.hpp"
+#include "tool_part.hpp"
 
 namespace organ_collision {
 
@@ -25,15 +26,6 @@ class ContactFinder {
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
  private:
-  /// The shaft, or a part of a link.
-  struct Part {
-    const LinkPart* shape = nullptr;  ///< null: the shaft
-    std::size_t link = 0;
-
-    bool is_surface() const { return shape && shape->surface; }
-    /// A surface counts as one convex part for each of its triangles.
-    std::size_t convex_count() const { return is_surface() ? shape->surface->faces().size() : 1; }
-  };
   /// A candidate face that the part may touch on some leg, but not before `leg`.
   struct PendingFace {
     std::uint32_t face;
@@ -42,13 +34,11 @@ class ContactFinder {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
-  void find_shaft_contacts(const Step& step, std::vector<FaceContact>& contacts);
-  void find_link_contacts(const Step& step, std::size_t link, std::vector<FaceContact>& contacts);
-  void find_part_contacts(const Step& step, const LegSpan& span, const Part& part,
+  void find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                           std::vector<FaceContact>& contacts);
-  void pick(const Step& step, const LegSpan& span, const Part& part);
-  void keep_faces_near_chord(const Step& step, const LegSpan& span, const Part& part);
-  void find_contacts_on_leg(const Step& step, std::size_t leg, const Part& part,
+  void pick(const Step& step, const LegSpan& span, const ToolPart& part);
+  void keep_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
+  void find_contacts_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
                             std::vector<FaceContact>& contacts);
   void find_touches(const PartLeg& part, const LinkPart* shape, double radius);
   bool is_pending(std::uint32_t face, std::size_t leg) const;

@@ -1,5 +1,6 @@
 #include "request_check.hpp"
 
+#include <cmath>
 #include <stdexcept>
 
 #include "geometry/concatenate.hpp"
@@ -75,6 +76,19 @@ void check_radius(const CollisionRequest& request) {
   }
 }
 
+void check_clearance(const CollisionRequest& request) {
+  if (!(request.margin >= 0.0) || std::isinf(request.margin)) {
+    refuse("margin is ", request.margin, " m; must be 0 (off) or positive, and finite");
+  }
+  if (request.max_near > 0 && request.margin == 0.0) {
+    refuse("max_near is ", request.max_near,
+           " and margin is 0; faces are near within a margin, which must be positive then");
+  }
+  if (is_paper_mode(request.mode) && asks_for_clearance(request)) {
+    refuse("the paper's modes have no clearance and no near faces; the modes static and swept do");
+  }
+}
+
 }  // namespace
 
 void check(const CollisionRequest& request) {
@@ -84,6 +98,7 @@ void check(const CollisionRequest& request) {
   }
   check_radius(request);
   check_path(request);
+  check_clearance(request);
   if (needs_resting_trocar(request.mode) &&
       request.path.front().axis.trocar != request.path.back().axis.trocar) {
     refuse("the trocar moves by ",

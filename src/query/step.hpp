@@ -20,6 +20,10 @@ class Step {
   /// later one.
   Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& boxes);
 
+  /// The step of zero duration at the end of this one, or at its start.
+  Step at_end() const { return {organ_, *this, last()}; }
+  Step at_start() const { return {organ_before_ ? *organ_before_ : organ_, *this, waypoints_[0]}; }
+
   const TriangleMesh& organ() const { return organ_; }
   bool has_shaft() const { return radius_ > 0.0; }
   double radius() const { return radius_; }  ///< [m] of the shaft
@@ -32,6 +36,10 @@ class Step {
 
   /// Number of legs. A tool at rest has one leg, without motion.
   std::size_t leg_count() const { return waypoint_count_ > 1 ? waypoint_count_ - 1 : 1; }
+  /// The fraction of the step at a time of a leg, in [0, 1].
+  double fraction_at(std::size_t leg, double time) const {
+    return begin(span_of(leg)) + time * (finish(span_of(leg)) - begin(span_of(leg)));
+  }
   /// The leg at a fraction of the step; at a waypoint, the earlier one.
   std::size_t leg_at(double fraction) const;
 
@@ -60,6 +68,14 @@ class Step {
   PartEnd link_end(std::size_t link) const { return {{}, &(*links_)[link], last().links[link]}; }
 
  private:
+  Step(const TriangleMesh& organ, const Step& step, const ToolWaypoint& waypoint)
+      : organ_(organ),
+        organ_before_(nullptr),
+        radius_(step.radius_),
+        links_(step.links_),
+        waypoints_(&waypoint),
+        waypoint_count_(1) {}
+
   const ToolWaypoint& last() const { return waypoints_[waypoint_count_ - 1]; }
   const ToolWaypoint& from(const LegSpan& span) const { return waypoints_[span.begin]; }
   const ToolWaypoint& to(const LegSpan& span) const {

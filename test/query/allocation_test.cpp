@@ -44,7 +44,8 @@ std::vector<Link> some_links() {
           {"plate", {LinkPart::mesh(wavy_mesh(16, 0.4).surface())}}};
 }
 
-/// An organ that repeats a cycle of shapes, and a tool that repeats a cycle of paths.
+/// An organ that repeats a cycle of shapes, and a tool that repeats a cycle of paths. It asks for
+/// everything that a query can tell.
 class Simulation {
  public:
   Simulation(bool shuffle, bool trocar_moves, std::vector<Link> links)
@@ -64,6 +65,8 @@ class Simulation {
       }
     }
     request_.links = &links_;
+    request_.margin = 0.004;
+    request_.max_near = 20;
   }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

@@ -14,6 +14,10 @@ inline constexpr double kTouch = 1e-10;
 /// coordinates above 12.5 km.
 inline constexpr double kRounding = 8e-15;
 
+/// [m] While tool or organ move, the smallest distance that is found is at most this much above the
+/// true one. A fraction of the step at which it occurs is therefore not unique.
+inline constexpr double kApproach = 5e-7;
+
 /// [m] Axis and face count as piercing up to this distance. The direction between their nearest
 /// points is then noise, so the normal of the face is used instead.
 inline constexpr double kPierced = 1e-9;

@@ -61,6 +61,11 @@ struct CollisionRequest {
   std::optional<Eigen::Vector3d> tip;
 };
 
+/// Whether a request asks how far the tool is from the organ.
+inline bool asks_for_clearance(const CollisionRequest& request) {
+  return request.clearance || request.margin > 0.0;
+}
+
 /// The answer to a request.
 struct CollisionResult {
   /// One contact for each face and link that touch, sorted by face, then link.

@@ -59,4 +59,20 @@ double SweptBox::clear_until(const FaceMotion& face) const {
                              project_box(start_), project_box(end_), reach_));
 }
 
+double SweptBox::distance_bound(const FaceMotion& face) const {
+  const Vector3d low = this->low(), high = this->high();
+  Vector3d gap;
+  for (int i = 0; i < 3; ++i) {
+    const ProjectionInterval start = project_onto(axes_.col(i), face.start);
+    const ProjectionInterval end = project_onto(axes_.col(i), face.end);
+    gap[i] = std::max(
+        {std::min(start.low, end.low) - high[i], low[i] - std::max(start.high, end.high), 0.0});
+  }
+  return gap.norm();
+}
+
+OrientedBox SweptBox::bounds() const {
+  return {axes_ * (0.5 * (low() + high())), axes_, 0.5 * (high() - low())};
+}
+
 }  // namespace organ_collision

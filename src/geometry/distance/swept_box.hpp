@@ -27,6 +27,10 @@ class SweptBox {
   /// above 1 if it does so during the whole leg. Tests fixed planes: those at right angles to
   /// axes(), and the face's own plane at the start.
   double clear_until(const FaceMotion& face) const;
+  /// [m] A lower bound of the distance between the covered space and the face during the leg.
+  double distance_bound(const FaceMotion& face) const;
+  /// A box around the covered space.
+  OrientedBox bounds() const;
 
  private:
   /// The box at one end of the leg.

@@ -28,6 +28,8 @@ class WorkBudget {
 
   void add_pairs(std::uint64_t count) { pairs_ += count; }
   void spend(std::uint64_t steps) { spent_ += steps; }
+  /// The number of steps so far.
+  std::uint64_t spent() const { return spent_; }
   bool is_used_up() const {
     return is_limited_ && spent_ >= kStepsForEachPair * std::clamp(pairs_, kLeastPairs, kMostPairs);
   }

@@ -31,6 +31,10 @@ struct LinkPart {
   /// A mesh whose vertices are in the link's frame.
   static LinkPart mesh(ToolSurface surface);
 
+  /// [m] The radius of a ball. 0 for the other shapes, whose radius is only the convex margin: the
+  /// clearance is measured from these shapes themselves.
+  double ball_radius() const { return !surface && core.count == 1 ? radius : 0.0; }
+
   /// The greatest direction · point of the core or the surface, without the radius.
   double support_value(const Eigen::Vector3d& direction) const;
 };

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <optional>
+
+#include "closest_points.hpp"
+#include "geometry/organ/face_motion.hpp"
+#include "geometry/tool/core_motion.hpp"
+#include "geometry/tool/rigid_motion.hpp"
+#include "organ_collision/geometry/tool/tool_surface.hpp"
+#include "work_budget.hpp"
+
+namespace organ_collision {
+
+/// Where and when a part of a tool comes nearest to a face.
+struct ClosestApproach {
+  double time;  ///< in [0, 1] of the leg
+  ClosestPoints closest;
+};
+
+/// The closest approach of a core and a face during a leg: a global minimum of their distance, to
+/// within tolerance::kApproach. If neither moves, it is the closest points, without that tolerance.
+/// Returns nothing if the distance stays above `distance_bound` [m], and perhaps also if it falls
+/// below that by less than the tolerance.
+///
+/// If `budget` runs out, the result is an upper bound, or nothing.
+///
+/// Method: the leg is halved until a turning plane, or the speed of the motion, shows for each
+/// interval that the distance cannot be smaller in it. See doc/geometry.md, Closest approach.
+std::optional<ClosestApproach> closest_approach(const CoreMotion& core, const FaceMotion& face,
+                                                double distance_bound, WorkBudget& budget);
+
+/// The same for the surface of a link, whose tree of boxes leads to the nearest triangles.
+std::optional<ClosestApproach> closest_approach(const ToolSurface& surface,
+                                                const RigidMotion& motion, const FaceMotion& face,
+                                                double distance_bound, WorkBudget& budget);
+
+}  // namespace organ_collision

@@ -1,0 +1,117 @@
+#include "face_search.hpp"
+
+#include <limits>
+#include <utility>
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Array4f;
+
+/// [1] Allowance for rounding, as a share of the largest coordinates. About ten operations in 32
+/// bits, each with a relative error of 2^-24, lead to a squared distance.
+constexpr double kRounding = 2e-6;
+
+Array4f padded(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
+}
+
+/// Orders a heap whose front is the nearest.
+constexpr auto is_farther = [](const auto& a, const auto& b) {
+  return a.squared_distance > b.squared_distance;
+};
+
+}  // namespace
+
+void FaceSearch::start(const OrganMotion& organ, const OrientedBox& box) {
+  organ_.emplace(organ);
+  center_ = padded(box.center);
+  half_size_ = padded(box.half_size);
+  for (Eigen::Index i = 0; i < 3; ++i) rows_[i] = padded(box.axes.row(i));
+  placed_.resize(std::max(placed_.size(), organ.after().vertex_count()));
+  block_is_placed_.assign(clusters().block_count(), 0);
+  slack_ = kRounding *
+           (organ.extent(box.center) + box.center.cwiseAbs().maxCoeff() + box.half_size.maxCoeff());
+}
+
+void FaceSearch::rank_sections(float squared_bound) {
+  sections_.clear();
+  const std::vector<Box>& after = organ_->after().block_boxes().sections();
+  const std::vector<Box>& before = organ_->boxes_before().sections();
+  for (std::uint32_t section = 0; section < clusters().section_count(); ++section) {
+    const Box box = box_around(clusters().sections(section), after, before);
+    push(section, squared_distance(box), squared_bound, sections_);
+  }
+}
+
+void FaceSearch::rank_blocks(std::uint32_t section, float squared_bound) {
+  blocks_.clear();
+  const std::vector<Box>& after = organ_->after().block_boxes().blocks();
+  const std::vector<Box>& before = organ_->boxes_before().blocks();
+  const auto count = static_cast<std::uint32_t>(clusters().block_count());
+  const std::uint32_t begin = section * FaceClusters::kRun;
+  const std::uint32_t end = std::min<std::uint32_t>(begin + FaceClusters::kRun, count);
+  for (std::uint32_t block = begin; block < end; ++block) {
+    const Box box = box_around(clusters().blocks(block), after, before);
+    push(block, squared_distance(box), squared_bound, blocks_);
+  }
+}
+
+void FaceSearch::place_vertices(std::uint32_t block) {
+  const auto in_box = [&](const TriangleMesh& shape, std::uint32_t vertex) {
+    const float* const xyz = &shape.vertices()[3 * std::size_t{vertex}];
+    return Array4f(rows_[0] * (xyz[0] - center_[0]) + rows_[1] * (xyz[1] - center_[1]) +
+                   rows_[2] * (xyz[2] - center_[2]));
+  };
+  for (const std::uint32_t part : clusters().blocks(block)) {
+    if (std::exchange(block_is_placed_[part], 1) != 0) continue;
+    const std::uint32_t* const vertices = clusters().vertices(part);
+    for (std::size_t i = 0; i < FaceClusters::kRun; ++i) {
+      const Array4f after = in_box(organ_->after(), vertices[i]);
+      const Array4f before = organ_->rests() ? after : in_box(organ_->before(), vertices[i]);
+      placed_[vertices[i]] = {after.min(before), after.max(before)};
+    }
+  }
+}
+
+void FaceSearch::push(std::uint32_t index, float squared_distance, float squared_bound,
+                      Ranking& ranking) {
+  if (!(squared_distance <= squared_bound)) return;
+  ranking.push_back({squared_distance, index});
+  std::push_heap(ranking.begin(), ranking.end(), is_farther);
+}
+
+std::optional<std::uint32_t> FaceSearch::pop_nearest(Ranking& ranking, float squared_bound) {
+  if (ranking.empty() || ranking.front().squared_distance > squared_bound) return std::nullopt;
+  std::pop_heap(ranking.begin(), ranking.end(), is_farther);
+  const std::uint32_t nearest = ranking.back().index;
+  ranking.pop_back();
+  return nearest;
+}
+
+/// The box around the given sections or blocks during the whole motion. Empty if there are none.
+FaceSearch::Box FaceSearch::box_around(const Parts& parts, const std::vector<Box>& after,
+                                       const std::vector<Box>& before) const {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  Box box{Array4f::Constant(kMost), Array4f::Constant(-kMost)};
+  for (const std::uint32_t part : parts) {
+    box = {box.min.min(after[part].min), box.max.max(after[part].max)};
+    if (!organ_->rests()) box = {box.min.min(before[part].min), box.max.max(before[part].max)};
+  }
+  return box;
+}
+
+/// Infinite for an empty box.
+float FaceSearch::squared_distance(const Box& box) const {
+  if (box.min[0] > box.max[0]) return std::numeric_limits<float>::infinity();
+  const Array4f middle = 0.5F * box.min + 0.5F * box.max - center_;
+  const Array4f half = 0.5F * box.max - 0.5F * box.min;
+  Array4f center = Array4f::Zero(), spread = half_size_;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    center += rows_[i] * middle[i];
+    spread += rows_[i].abs() * half[i];
+  }
+  return (center.abs() - spread).max(0.0F).square().sum();
+}
+
+}  // namespace organ_collision
