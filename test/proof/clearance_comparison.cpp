@@ -33,17 +33,22 @@ CollisionRequest request_for(const ClearanceTrial& trial) {
 /// The error that the doubles of the trial's coordinates explain [m].
 double rounding(const ToolStep& step) { return 1e-15 * largest_coordinate(step.now); }
 
-/// Whether the nearest points belong together, to the face and to the core.
+/// Whether the nearest points belong together, to the face and to the core. If core and face meet,
+/// the normal is that of the face, and the point of the core is off by their distance.
 bool pair_is_consistent(const ToolStep& step, const ToolClearance& found) {
   const double band = kAtRest + rounding(step);
   const Triangle face = face_at(step, found.face, 1.0);
   Vector3d point = Vector3d::Zero();
   for (int i = 0; i < 3; ++i) point += found.barycentric[i] * face[i];
+  const double from_core = found.distance + surface_radius(step);
+  const Vector3d on_core = found.on_organ - from_core * found.normal;
+  const bool defined = from_core > tolerance::kPierced;
   return found.vertices == step.now.faces()[found.face] && found.barycentric.minCoeff() >= 0.0 &&
          std::abs(found.barycentric.sum() - 1.0) <= 1e-12 &&
          (point - found.on_organ).norm() <= band && std::abs(found.normal.norm() - 1.0) <= 1e-12 &&
+         found.normal_defined == defined &&
          (found.on_organ - found.on_tool - found.distance * found.normal).norm() <= band &&
-         is_near_core(step, found.on_tool - surface_radius(step) * found.normal, band);
+         is_near_core(step, on_core, defined ? band : band + 2.0 * from_core);
 }
 
 /// Whether the distance at the end is that of the nearest face, to within the tolerance.

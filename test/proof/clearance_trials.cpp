@@ -56,6 +56,18 @@ double close_to(double value, Random& random) {
   return value * (1.0 + random.sign() * std::pow(10.0, -random.integer(3, 12)));
 }
 
+/// Gives half of the shafts and spheres a radius with which they come close to a face, or touch it
+/// only a little.
+double make_radius(const ToolStep& step, Random& random) {
+  const double radius = surface_radius(step);
+  if (random.chance(0.5)) return radius;
+  double closest = INFINITY;
+  for (int i = 0; i <= 32; ++i) closest = std::min(closest, rounded_distance(step, i / 32.0));
+  closest += surface_radius(step);
+  if (closest < 1e-5) return radius;
+  return random.chance(0.3) ? close_to(closest, random) : closest * random.uniform(0.1, 1.0);
+}
+
 /// A limit of any size, none, or one close to the distance at the end.
 double make_margin(const ToolStep& step, Random& random) {
   if (random.chance(0.5)) return 0.0;
@@ -129,7 +141,8 @@ ClearanceTrial make_moving_shaft(std::size_t kind, Random& random) {
     }
   }
   const std::vector<Triangle> faces = some_faces(trial.face, random);
-  const ToolStep step{mesh_of(earlier(faces, random)), mesh_of(faces), path, trial.radius, {}};
+  ToolStep step{mesh_of(earlier(faces, random)), mesh_of(faces), path, trial.radius, {}};
+  step.radius = make_radius(step, random);
   return {step, make_margin(step, random)};
 }
 
@@ -162,11 +175,12 @@ ClearanceTrial make_moving_link(std::size_t kind, std::size_t part, Random& rand
     path.push_back({fraction, kNoShaft, {pose}});
   }
   const std::vector<Triangle> faces = some_faces(trial.face, random);
-  const ToolStep step{mesh_of(earlier(faces, random)),
-                      mesh_of(faces),
-                      path,
-                      0.0,
-                      {{"link", {part_of(trial, random)}}}};
+  ToolStep step{mesh_of(earlier(faces, random)),
+                mesh_of(faces),
+                path,
+                0.0,
+                {{"link", {part_of(trial, random)}}}};
+  if (surface_radius(step) > 0.0) step.links[0].parts[0].radius = make_radius(step, random);
   return {step, make_margin(step, random)};
 }
 
