@@ -158,7 +158,7 @@ ClosedSurface make_closed_surface(Random& random) {
     surface = moved(surface, random.scale(1e-3, 1.0), random.point(0.2));
     if (random.chance(0.1)) surface = moved(surface, 1.0, 1e3 * random.direction());
   }
-  for (Vector3d& vertex : surface.vertices) vertex = vertex.cast<float>().cast<double>();
+  for (Vector3d& vertex : surface.vertices) vertex = rounded(vertex);
   return surface;
 }
 

@@ -97,9 +97,8 @@ double exact_place(const ShaftAxis& axis, const Triangle& face) {
 
 }  // namespace
 
-std::vector<ExactCrossing> exact_crossings(const ShaftAxis& axis,
-                                           const std::vector<Triangle>& faces) {
-  std::vector<ExactCrossing> crossings;
+std::vector<CrossedFace> crossed_faces(const ShaftAxis& axis, const std::vector<Triangle>& faces) {
+  std::vector<CrossedFace> crossings;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const int direction = exact_direction(axis, faces[i]);
     if (direction != 0) crossings.push_back({i, direction, exact_place(axis, faces[i])});
@@ -109,14 +108,14 @@ std::vector<ExactCrossing> exact_crossings(const ShaftAxis& axis,
   return crossings;
 }
 
-int exact_winding(const Eigen::Vector3d& point, const Eigen::Vector3d& outside,
-                  const std::vector<Triangle>& faces) {
+int winding_number(const Eigen::Vector3d& point, const Eigen::Vector3d& outside,
+                   const std::vector<Triangle>& faces) {
   int winding = 0;
   for (const Triangle& face : faces) winding -= exact_direction({point, outside}, face);
   return winding;
 }
 
-bool is_exactly_on(const Eigen::Vector3d& point, const std::vector<Triangle>& faces) {
+bool lies_on(const Eigen::Vector3d& point, const std::vector<Triangle>& faces) {
   return std::any_of(faces.begin(), faces.end(), [&](const Triangle& face) {
     return within({point, point, point}, face, 0.0);
   });

@@ -31,7 +31,7 @@ TEST(ExactPlacement, winds_as_often_as_the_solid_angles_say) {
     const Vector3d middle = trial.organ.box().center().cast<double>();
     const double size = trial.organ.box().sizes().cast<double>().norm();
     const Vector3d far = middle + 3.0 * size * random.direction();
-    const int winding = exact_winding(trial.axis.tip, far, trial.faces);
+    const int winding = winding_number(trial.axis.tip, far, trial.faces);
     EXPECT_NEAR(winding, solid_angles(trial.axis.tip, trial.faces), 1e-6) << trial;
     inside += winding != 0;
     twice += std::abs(winding) == 2;
@@ -49,10 +49,10 @@ TEST(ExactPlacement, crosses_as_often_as_the_winding_numbers_say) {
       const Eigen::AlignedBox3d box = trial.organ.box().cast<double>();
       const auto winding = [&](const Vector3d& point) {
         const Vector3d far = box.center() + 3.0 * box.sizes().norm() * random.direction();
-        return exact_winding(point, far, trial.faces);
+        return winding_number(point, far, trial.faces);
       };
       int sum = 0;
-      for (const ExactCrossing& crossing : exact_crossings(trial.axis, trial.faces)) {
+      for (const CrossedFace& crossing : crossed_faces(trial.axis, trial.faces)) {
         sum += crossing.direction;
         EXPECT_GE(crossing.place, 0.0) << trial;
         EXPECT_LE(crossing.place, 1.0) << trial;
@@ -71,7 +71,7 @@ TEST(ExactPlacement, decides_a_corner_like_an_axis_beside_it) {
   std::vector<Triangle> roof;
   for (int i = 0; i < 4; ++i) roof.push_back({rim[i], rim[(i + 1) % 4], top});
   const auto crossed = [&](const Vector3d& beside) {
-    return exact_crossings({Vector3d(0, 0, 3) + beside, beside}, roof);
+    return crossed_faces({Vector3d(0, 0, 3) + beside, beside}, roof);
   };
   const auto exact = crossed(Vector3d::Zero());
   ASSERT_EQ(exact.size(), 1U);
@@ -89,7 +89,7 @@ TEST(ExactPlacement, tells_points_on_faces_from_points_beside_them) {
     int on = 0, beside = 0;
     for (int i = 0; i < 1000; ++i) {
       const PlacementTrial trial = make_placement_trial(kind, random);
-      ++(is_exactly_on(trial.axis.tip, trial.faces) ? on : beside);
+      ++(lies_on(trial.axis.tip, trial.faces) ? on : beside);
     }
     EXPECT_GT(on, 50) << placement_trial_kinds()[kind];
     EXPECT_GT(beside, 300) << placement_trial_kinds()[kind];

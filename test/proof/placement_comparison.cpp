@@ -18,12 +18,12 @@ constexpr double kBand = 1e-9;  // [m] the largest error of a place
 /// What exact arithmetic says.
 struct ExactPlacement {
   Side tip, trocar;
-  std::vector<ExactCrossing> crossings;
+  std::vector<CrossedFace> crossings;
   double length_inside;  ///< [m]
 };
 
 Side side_of(const Vector3d& point, int winding, const PlacementTrial& trial) {
-  if (is_exactly_on(point, trial.faces)) return Side::kOnSurface;
+  if (lies_on(point, trial.faces)) return Side::kOnSurface;
   return winding != 0 ? Side::kInside : Side::kOutside;
 }
 
@@ -31,14 +31,14 @@ ExactPlacement exact_placement(const PlacementTrial& trial, Random& random) {
   const Eigen::AlignedBox3d box = trial.organ.box().cast<double>();
   const Vector3d outside = box.center() + (2.0 * box.sizes().norm() + 1e-3) * random.direction();
   const auto winding = [&](const Vector3d& point) {
-    return exact_winding(point, outside, trial.faces);
+    return winding_number(point, outside, trial.faces);
   };
   const auto& [trocar, tip] = trial.axis;
   int enclosed = winding(trocar);
   ExactPlacement exact{side_of(tip, winding(tip), trial), side_of(trocar, enclosed, trial),
-                       exact_crossings(trial.axis, trial.faces), 0.0};
+                       crossed_faces(trial.axis, trial.faces), 0.0};
   double place = 0.0, inside = 0.0;
-  for (const ExactCrossing& crossing : exact.crossings) {
+  for (const CrossedFace& crossing : exact.crossings) {
     if (enclosed != 0) inside += crossing.place - place;
     enclosed += crossing.direction;
     place = crossing.place;
@@ -67,13 +67,13 @@ bool is_consistent(const AxisCrossing& found, const PlacementTrial& trial, doubl
          (trial.axis.at(found.shaft) - found.point).norm() <= band;
 }
 
-void compare_crossings(const PlacementTrial& trial, const std::vector<ExactCrossing>& exact,
+void compare_crossings(const PlacementTrial& trial, const std::vector<CrossedFace>& exact,
                        const std::vector<AxisCrossing>& found, double band, PlacementTally& tally) {
   const double length = (trial.axis.tip - trial.axis.trocar).norm();
   std::vector<bool> is_found(exact.size(), false);
   double last = 0.0;
   for (const AxisCrossing& crossing : found) {
-    const auto same = std::find_if(exact.begin(), exact.end(), [&](const ExactCrossing& other) {
+    const auto same = std::find_if(exact.begin(), exact.end(), [&](const CrossedFace& other) {
       return other.face == crossing.face && other.direction == crossing.direction;
     });
     const auto index = static_cast<std::size_t>(same - exact.begin());

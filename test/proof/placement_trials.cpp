@@ -15,8 +15,6 @@ using Eigen::Vector3d;
 /// How far vertices that are welded may be apart in a trial [m]; legal is 1e-6 m.
 constexpr double kSeam = 9e-7;
 
-Vector3d rounded(const Vector3d& point) { return point.cast<float>().cast<double>(); }
-
 /// Moves each vertex a little that is welded to an earlier one.
 void open_seams(ClosedSurface& surface, const SurfaceTopology& topology, Random& random) {
   for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
