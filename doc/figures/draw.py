@@ -15,7 +15,7 @@ import style
 
 FIGURES = ['touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
            'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'chord_deviation', 'swept_box',
-           'spans', 'distances', 'piercing', 'winding', 'work']
+           'spans', 'distances', 'piercing', 'winding', 'sides', 'work']
 
 
 def main():

@@ -9,6 +9,7 @@
 #include "contact_regions.hpp"
 #include "near_finder.hpp"
 #include "picking/volumes/paper_volumes.hpp"
+#include "placement_finder.hpp"
 #include "request_check.hpp"
 #include "rotation_subdivision.hpp"
 #include "step.hpp"
@@ -70,7 +71,7 @@ void pick_unrefined(const CollisionRequest& request, Picker& picker,
 
 struct CollisionQuery::State {
   explicit State(PickerKind kind)
-      : picker(make_picker(kind, context)), finder(*picker), regions(context) {
+      : picker(make_picker(kind, context)), finder(*picker), regions(context), placement(*picker) {
     context.release();
   }
 
@@ -82,6 +83,7 @@ struct CollisionQuery::State {
   ContactRegions regions;
   ClearanceFinder clearance;
   NearFinder near;
+  PlacementFinder placement;
   std::vector<Candidate> candidates;
   BlockBoxes boxes_before;
   ToolPath subdivided_path;
@@ -124,6 +126,7 @@ void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionR
     result.clearance = clearance.find(step, request, result.contacts);
   }
   if (request.max_near > 0) near.find(step, request, result);
+  if (request.placement) placement.find(request, result.placement);
 }
 
 }  // namespace organ_collision

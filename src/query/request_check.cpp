@@ -89,6 +89,19 @@ void check_clearance(const CollisionRequest& request) {
   }
 }
 
+void check_placement(const CollisionRequest& request) {
+  if (is_paper_mode(request.mode)) refuse("placement is asked for; the paper's modes have none");
+  const SurfaceTopology* const topology = request.topology;
+  if (topology && topology->welded().size() != request.organ->vertex_count()) {
+    refuse("the placement's topology has ", topology->welded().size(),
+           " vertices; must be as many as the organ has, ", request.organ->vertex_count());
+  }
+  if (request.tip && !is_in_range(*request.tip)) {
+    refuse("the placement's tip is (", request.tip->x(), ", ", request.tip->y(), ", ",
+           request.tip->z(), "); must be finite and within ", tolerance::kFarthest, " m");
+  }
+}
+
 }  // namespace
 
 void check(const CollisionRequest& request) {
@@ -109,6 +122,7 @@ void check(const CollisionRequest& request) {
     refuse("the organ's earlier shape has ", request.organ_before->face_count(),
            " other faces than the present one, which has ", request.organ->face_count());
   }
+  if (request.placement) check_placement(request);
 }
 
 }  // namespace organ_collision

@@ -15,7 +15,7 @@ import unittest
 SOURCE = sys.argv[1]
 LAYERS = ['geometry', 'picking', 'query', 'ros']
 # The folders of a layer, in the order in which data flows through them.
-ROOMS = {'geometry': ['organ', 'tool', 'distance'],
+ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],
          'picking': ['volumes', 'culling', 'gl', 'pickers'],
          'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'steps', 'pipeline',
                  'publishing', 'node']}

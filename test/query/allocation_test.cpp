@@ -67,6 +67,8 @@ class Simulation {
     request_.links = &links_;
     request_.margin = 0.004;
     request_.max_near = 20;
+    request_.placement = true;
+    request_.topology = &topology_;
   }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
@@ -101,6 +103,7 @@ class Simulation {
   }
 
   TriangleMesh organ_, before_;
+  SurfaceTopology topology_{organ_.faces(), organ_.vertices()};
   std::vector<Link> links_;
   std::vector<SharedVertices> shapes_;
   std::vector<ToolPath> paths_;

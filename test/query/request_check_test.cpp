@@ -111,6 +111,29 @@ TEST_P(RequestCheckWith, LinksWithoutAnswerAreRefusedByName) {
   EXPECT_NO_THROW(query_.evaluate(scene.request, result_));
 }
 
+TEST_P(RequestCheckWith, PlacementsWithoutAnswerAreRefusedByName) {
+  Random random(18);
+  const Soup soup = scattered_faces(3, random);
+  const TriangleMesh organ = mesh(soup);
+  const SurfaceTopology topology(organ.faces(), organ.vertices());
+  CollisionRequest good = swept(organ, resting_path({random_axis(random)}), 5e-3);
+  good.placement = true;
+  good.topology = &topology;
+  good.tip = Eigen::Vector3d(0.1, 0.2, 0.3);  // not used by a shaft
+  const auto expect_refused = [&](const char* word, const auto& spoil) {
+    expect_refused_after(good, word, spoil);
+    EXPECT_TRUE(result_.placement.crossings.empty());
+  };
+  using Request = CollisionRequest;
+  const SurfaceTopology other({{0, 1, 2}}, {0, 0, 0, 1, 0, 0, 0, 1, 0});
+  expect_refused("3 vertices", [&](Request& r) { r.topology = &other; });
+  expect_refused("tip is (nan", [](Request& r) { r.tip->x() = NAN; });
+  expect_refused("inf, 0.3)", [](Request& r) { r.tip->y() = INFINITY; });
+  expect_refused("-1.1e+06", [](Request& r) { r.tip->z() = -1.1 * tolerance::kFarthest; });
+  expect_refused("paper", [](Request& r) { r.mode = QueryMode::kPaperStatic; });
+  expect_refused("paper", [](Request& r) { r.mode = QueryMode::kPaperSwept; });
+}
+
 INSTANTIATE_TEST_SUITE_P(Pickers, RequestCheckWith,
                          testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
 

@@ -36,6 +36,11 @@ inline constexpr double kTie = 1e-12;
 /// longest edge.
 inline constexpr double kParallel = 1e-12;
 
+/// [m] Vertices that were at one place in the mesh message count as one vertex as long as they are
+/// within this of each other. Where they are farther apart, the surface has a gap, and the sides of
+/// points are unknown.
+inline constexpr double kSeam = 1e-6;
+
 /// [m] The largest legal coordinate. An organ farther away is a mistake of units. At this distance,
 /// neighbouring 32-bit coordinates differ by 6 cm.
 inline constexpr double kFarthest = 1e6;

@@ -44,7 +44,8 @@ struct AxisPlacement {
   Side tip = Side::kUnknown;
   /// The side of the trocar, if the tool has a shaft.
   Side trocar = Side::kUnknown;
-  /// The crossings from trocar to tip. Also for a surface that is not closed.
+  /// The crossings from trocar to tip. Of faces that lie on each other, those that the axis leaves
+  /// come first. Also for a surface that is not closed.
   std::vector<AxisCrossing> crossings;
   /// Whether the sides of tip and trocar are known.
   bool length_known = false;

@@ -35,6 +35,14 @@ Numbers weld(const std::vector<float>& vertices) {
   return welded;
 }
 
+std::vector<SeamVertex> find_seams(const Numbers& welded) {
+  std::vector<SeamVertex> seams;
+  for (std::uint32_t vertex = 0; vertex < welded.size(); ++vertex) {
+    if (welded[vertex] != vertex) seams.push_back({vertex, welded[vertex]});
+  }
+  return seams;
+}
+
 /// An edge as its end with the lower number sees it.
 struct Edge {
   std::uint32_t higher;    ///< the other end
@@ -95,7 +103,9 @@ Eigen::Vector3d vertex(const std::vector<float>& vertices, std::size_t i) {
 
 SurfaceTopology::SurfaceTopology(const std::vector<FaceIndices>& faces,
                                  const std::vector<float>& vertices)
-    : welded_(weld(vertices)), open_edges_(count_open_edges(faces, welded_)) {}
+    : welded_(weld(vertices)),
+      seams_(std::make_shared<std::vector<SeamVertex>>(find_seams(welded_))),
+      open_edges_(count_open_edges(faces, welded_)) {}
 
 /// The sum of the tetrahedra between the faces and one vertex. A vertex of the surface is taken,
 /// and not the origin, so that little is lost to rounding if the organ is far from the origin.

@@ -1,31 +1,19 @@
 #include "handover.hpp"
 
-#include <boost/make_shared.hpp>
 #include <future>
+#include <memory>
 #include <stdexcept>
+#include <utility>
+
+#include "function_callback.hpp"
 
 namespace organ_collision {
-namespace {
-
-/// If the queue drops it, its task is destroyed, which ends the wait.
-class Task : public ros::CallbackInterface {
- public:
-  explicit Task(std::packaged_task<void()> task) : task_(std::move(task)) {}
-  CallResult call() override {
-    task_();
-    return Success;
-  }
-
- private:
-  std::packaged_task<void()> task_;
-};
-
-}  // namespace
 
 void run_in_thread_of(ros::CallbackQueue& queue, const std::function<void()>& action) {
-  std::packaged_task<void()> task(action);
-  std::future<void> end = task.get_future();
-  queue.addCallback(boost::make_shared<Task>(std::move(task)));
+  auto task = std::make_shared<std::packaged_task<void()>>(action);
+  std::future<void> end = task->get_future();
+  // The callback alone owns the task. If the queue drops it, the task ends, and with it the wait.
+  call_later(queue, [task = std::move(task)] { (*task)(); });
   try {
     end.get();
   } catch (const std::future_error&) {

@@ -1,14 +1,12 @@
 #include "background_thread.hpp"
 
-#include <sys/resource.h>
-
 #include <new>
+
+#include "ros/interface/thread_priority.hpp"
 
 namespace organ_collision {
 namespace {
 
-/// From 0 (ordinary) to 19: how much the thread yields to others.
-constexpr int kNiceness = 10;
 /// How soon the thread notices that it is to end.
 const ros::WallDuration kLongestWait(0.05);
 
@@ -24,9 +22,7 @@ void BackgroundThread::stop() {
 }
 
 void BackgroundThread::work() {
-  // On Linux, the niceness belongs to the calling thread alone. If it cannot be set, the thread
-  // works all the same.
-  setpriority(PRIO_PROCESS, 0, kNiceness);
+  lower_priority_of_this_thread();
   while (!stop_) {
     try {
       queue_.callOne(kLongestWait);

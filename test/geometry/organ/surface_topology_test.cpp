@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 #include <utility>
 #include <vector>
 
-#include "test/grid_surface.hpp"
+#include "test/closed_surfaces.hpp"
 
 using namespace organ_collision;
 
@@ -70,10 +71,6 @@ double volume_of(const GridSurface& surface) {
   return signed_volume(topology_of(surface), surface.faces, surface.vertices);
 }
 
-void add_vertex(GridSurface& surface, const Place& at) {
-  surface.vertices.insert(surface.vertices.end(), at.begin(), at.end());
-}
-
 /// A tetrahedron that points outward, with a place for each of its corners.
 GridSurface tetrahedron(Random& random) {
   std::uniform_real_distribution<float> coordinate(-0.3F, 0.7F);
@@ -86,61 +83,6 @@ GridSurface tetrahedron(Random& random) {
     for (FaceIndices& face : solid.faces) std::swap(face[1], face[2]);
   }
   return solid;
-}
-
-/// A closed, wavy torus: a grid whose opposite sides are joined. It points outward.
-GridSurface torus(int around, int along, double radius, double phase) {
-  GridSurface solid;
-  for (int i = 0; i < along; ++i) {
-    for (int k = 0; k < around; ++k) {
-      const double u = 2 * M_PI * i / along, v = 2 * M_PI * k / around;
-      const double thickness = radius * (0.3 + 0.05 * std::sin(3 * u + phase));
-      const double r = radius + thickness * std::cos(v);
-      add_vertex(solid, {static_cast<float>(r * std::cos(u)), static_cast<float>(r * std::sin(u)),
-                         static_cast<float>(thickness * std::sin(v))});
-    }
-  }
-  const auto at = [=](int i, int k) {
-    return static_cast<std::uint32_t>(i % along * around + k % around);
-  };
-  for (int i = 0; i < along; ++i) {
-    for (int k = 0; k < around; ++k) {
-      solid.faces.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
-      solid.faces.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
-    }
-  }
-  return solid;
-}
-
-GridSurface turned_over(GridSurface surface) {
-  for (FaceIndices& face : surface.faces) std::swap(face[0], face[2]);
-  return surface;
-}
-
-GridSurface moved(GridSurface surface, float distance) {
-  for (float& coordinate : surface.vertices) coordinate += distance;
-  return surface;
-}
-
-GridSurface joined(const GridSurface& one, const GridSurface& other) {
-  GridSurface both = one;
-  const auto first = static_cast<std::uint32_t>(one.vertices.size() / 3);
-  both.vertices.insert(both.vertices.end(), other.vertices.begin(), other.vertices.end());
-  for (const FaceIndices& face : other.faces) {
-    both.faces.push_back({face[0] + first, face[1] + first, face[2] + first});
-  }
-  return both;
-}
-
-/// The same surface, with three vertices of its own for each face, as in an STL file.
-GridSurface unwelded(const GridSurface& surface) {
-  GridSurface soup;
-  for (const FaceIndices& face : surface.faces) {
-    const auto first = static_cast<std::uint32_t>(soup.vertices.size() / 3);
-    for (const std::uint32_t corner : face) add_vertex(soup, place(surface, corner));
-    soup.faces.push_back({first, first + 1, first + 2});
-  }
-  return soup;
 }
 
 void expect_as_defined(const GridSurface& surface, const char* what) {
@@ -178,6 +120,22 @@ TEST(SurfaceTopology, WeldingFollowsTheDefinition) {
     }
     EXPECT_EQ(topology_of(surface).welded(), expected) << "trial " << trial;
   }
+}
+
+TEST(SurfaceTopology, SeamsAreTheVerticesThatAreWeldedToOthers) {
+  const GridSurface soup = shuffled(unwelded(torus(5, 7, 0.1, 0.2)), 8);
+  const SurfaceTopology topology = topology_of(soup);
+  std::vector<std::uint32_t> welded(soup.vertices.size() / 3);
+  std::iota(welded.begin(), welded.end(), 0U);
+  for (const SeamVertex& seam : *topology.seams()) {
+    EXPECT_LT(seam.first, seam.vertex);
+    welded[seam.vertex] = seam.first;
+  }
+  EXPECT_EQ(welded, topology.welded());
+  EXPECT_EQ(topology.seams()->size(), 5U * 7U * 5U) << "each place has six vertices";
+  const SurfaceTopology copy = topology;
+  EXPECT_EQ(copy.seams(), topology.seams());
+  EXPECT_TRUE(topology_of(torus(5, 7, 0.1, 0.2)).seams()->empty());
 }
 
 TEST(SurfaceTopology, ClosedSurfacesInAnyOrderAndAnyVertices) {
@@ -287,7 +245,8 @@ TEST(SurfaceTopology, AFanOfManyFacesAroundOneVertex) {
 
 TEST(SignedVolume, FarFromTheOrigin) {
   const GridSurface near = torus(12, 17, 0.12, 0.4);
-  const GridSurface far = moved(near, 512.0F);  // Vertices are rounded to 6e-5 m here.
+  const GridSurface far =
+      moved(near, {512.0F, 512.0F, 512.0F});  // Vertices are rounded to 6e-5 m here.
   EXPECT_NEAR(volume_of(far), volume_of(near), 1e-3 * volume_of(near));
 }
 

@@ -2,11 +2,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 
 namespace organ_collision {
+
+/// A vertex that is not the first one at its place.
+struct SeamVertex {
+  std::uint32_t vertex;  ///< its index
+  std::uint32_t first;   ///< the first vertex at the same place
+};
 
 /// How the faces of a mesh join. Vertices that are at the same place when this is made count as
 /// one vertex, and stay one when the mesh deforms.
@@ -31,9 +38,13 @@ class SurfaceTopology {
   FaceIndices welded(const FaceIndices& face) const {
     return {welded_[face[0]], welded_[face[1]], welded_[face[2]]};
   }
+  /// All vertices that are not the first ones at their places, by rising index. Copies of a
+  /// topology share the list.
+  const std::shared_ptr<const std::vector<SeamVertex>>& seams() const { return seams_; }
 
  private:
   std::vector<std::uint32_t> welded_;
+  std::shared_ptr<const std::vector<SeamVertex>> seams_;
   std::size_t open_edges_;
 };
 

@@ -1,15 +1,12 @@
 #include "marker_publisher.hpp"
 
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <exception>
 #include <new>
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/thread_priority.hpp"
 
 namespace organ_collision {
 namespace {
@@ -23,15 +20,8 @@ constexpr std::size_t kMostSteps = 1000;
 /// After each message, so that roscpp's thread, which also receives organs and transforms, is never
 /// busy with markers for long.
 constexpr std::chrono::microseconds kPause(500);
-/// The drawing thread's niceness. If all processors are busy, the node's thread comes first.
-constexpr int kNiceness = 10;
 /// With markers_rate 0, an empty scene is drawn at this rate. It deletes what is still shown.
 constexpr double kEmptyRate = 1.0;
-
-/// Linux has a priority for each thread.
-void lower_priority_of_this_thread() {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
-}
 
 SceneOrgan scene_organ(const DeformableOrgan& organ) {
   const TriangleMesh& mesh = *organ.latest().mesh;

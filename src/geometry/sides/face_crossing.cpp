@@ -1,0 +1,83 @@
+#include "face_crossing.hpp"
+
+#include <cmath>
+#include <cstdint>
+
+#include "determinant_sign.hpp"
+#include "exact_grid.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// On which side of the face's plane the moved point is: 1 on the outer side. 0 if the face is
+/// degenerate.
+int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
+  const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
+  const int side = triple_product_sign(first, second, {face[0], point});
+  return side != 0 ? side : cross_product_sign(first, second);
+}
+
+/// On which side of an edge the line along the moved axis passes. 0 if they are parallel.
+int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
+  const ExactVector along{axis.trocar, axis.tip};
+  const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
+  return side != 0 ? side : cross_product_sign(along, {from, to});
+}
+
+}  // namespace
+
+int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
+  const int tip = side_of_plane(face, axis.tip);
+  if (tip == 0 || tip == side_of_plane(face, axis.trocar)) return 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    // An axis that goes the way of the normal has all edges on its left.
+    if (side_of_edge(face[i], face[(i + 1) % 3], axis) != tip) return 0;
+  }
+  return -tip;
+}
+
+/// The solution of trocar + shaft (tip - trocar) = corner 0 + barycentric 1 (corner 1 - corner 0) +
+/// barycentric 2 (corner 2 - corner 0), by Cramer's rule.
+FaceCrossing face_crossing(const Triangle& face, const ShaftAxis& axis) {
+  const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
+  const IntegerVector along = grid.difference(axis.trocar, axis.tip);
+  const IntegerVector first = grid.difference(face[0], face[1]);
+  const IntegerVector second = grid.difference(face[0], face[2]);
+  const IntegerVector to_trocar = grid.difference(face[0], axis.trocar);
+  const IntegerVector normal = cross(first, second);
+  const IntegerVector moment = cross(along, to_trocar);
+  ExactInteger divisor = dot(normal, along), distance = -dot(normal, to_trocar);
+  ExactInteger part1 = dot(second, moment), part2 = -dot(first, moment);
+  if (divisor.sign() < 0) {
+    for (ExactInteger* const number : {&divisor, &distance, &part1, &part2}) *number = -*number;
+  }
+
+  FaceCrossing crossing;
+  crossing.barycentric = {ratio(divisor - part1 - part2, divisor), ratio(part1, divisor),
+                          ratio(part2, divisor)};
+  constexpr int kDigits = 62;
+  ExactInteger digits, remainder;
+  divide_qr(ExactInteger(distance << kDigits), divisor, digits, remainder);
+  const auto leading = static_cast<double>(static_cast<std::int64_t>(digits));
+  const auto rest =
+      static_cast<double>(static_cast<std::int64_t>(digits) - static_cast<std::int64_t>(leading));
+  crossing.shaft = std::ldexp(leading, -kDigits);
+  crossing.shaft_rest = std::ldexp(rest + ratio(remainder, divisor), -kDigits);
+  return crossing;
+}
+
+Eigen::Vector3d crossing_shift(const Triangle& face, const ShaftAxis& axis) {
+  const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
+  const IntegerVector along = grid.difference(axis.trocar, axis.tip);
+  const IntegerVector normal =
+      cross(grid.difference(face[0], face[1]), grid.difference(face[0], face[2]));
+  const ExactInteger divisor = dot(normal, along);
+  Eigen::Index longest;
+  (axis.tip - axis.trocar).cwiseAbs().maxCoeff(&longest);
+  const ExactInteger length = divisor.sign() * abs(along[longest]);
+  Eigen::Vector3d shift;
+  for (std::size_t i = 0; i < 3; ++i) shift[i] = -ratio(normal[i] * length, abs(divisor));
+  return shift;
+}
+
+}  // namespace organ_collision

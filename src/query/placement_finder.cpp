@@ -1,0 +1,188 @@
+#include "placement_finder.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <optional>
+#include <tuple>
+
+#include "geometry/sides/point_on_face.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::AlignedBox3d;
+using Eigen::Vector3d;
+
+/// [m] The radius of the volume in which faces near an axis are picked. GL draws the faces without
+/// welding, which moves them by up to tolerance::kSeam. A thinner volume than this share of the
+/// organ would be lost in 32-bit clipping, so that DrawList would leave the faces undrawn.
+double picking_radius(const AlignedBox3d& box) {
+  constexpr double kShare = 2e-4;
+  return 2.0 * tolerance::kSeam + kShare * box.sizes().maxCoeff();
+}
+
+/// The part of an axis within a box, or nothing. The box is larger than what counts by far more
+/// than rounding.
+std::optional<ShaftAxis> clip(const ShaftAxis& axis, const AlignedBox3d& box) {
+  const Vector3d along = axis.tip - axis.trocar;
+  double begin = 0.0, end = 1.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double low = box.min()[i] - axis.trocar[i], high = box.max()[i] - axis.trocar[i];
+    if (along[i] == 0.0) {
+      if (low > 0.0 || high < 0.0) return std::nullopt;
+      continue;
+    }
+    const auto [enter, leave] = std::minmax({low / along[i], high / along[i]});
+    begin = std::max(begin, enter);
+    end = std::min(end, leave);
+  }
+  if (begin > end) return std::nullopt;
+  return ShaftAxis{begin > 0.0 ? axis.at(begin) : axis.trocar, end < 1.0 ? axis.at(end) : axis.tip};
+}
+
+/// The shortest way, along a coordinate, from a point in a box to a point outside of it.
+struct WayOut {
+  WayOut(const Vector3d& point, const AlignedBox3d& box) : end(point) {
+    const Vector3d below = point - box.min(), above = box.max() - point;
+    Eigen::Index i;
+    length = below.cwiseMin(above).minCoeff(&i);
+    end[i] = below[i] < above[i] ? box.min()[i] - picking_radius(box)
+                                 : box.max()[i] + picking_radius(box);
+  }
+
+  Vector3d end;
+  double length;  ///< [m] to the box
+};
+
+int sum_of_directions(const std::vector<AxisCrossing>& crossings) {
+  int sum = 0;
+  for (const AxisCrossing& crossing : crossings) sum += crossing.direction;
+  return sum;
+}
+
+Side side(bool is_on_surface, int winding) {
+  if (is_on_surface) return Side::kOnSurface;
+  return winding != 0 ? Side::kInside : Side::kOutside;
+}
+
+/// [1] The share of the axis about whose points the winding number is not zero.
+double share_inside(const std::vector<AxisCrossing>& crossings, int trocar_winding) {
+  double share = 0.0, place = 0.0;
+  int winding = trocar_winding;
+  for (const AxisCrossing& crossing : crossings) {
+    if (winding != 0) share += crossing.shaft - place;
+    place = crossing.shaft;
+    winding += crossing.direction;
+  }
+  return winding != 0 ? share + (1.0 - place) : share;
+}
+
+}  // namespace
+
+void PlacementFinder::find(const CollisionRequest& request, AxisPlacement& placement) {
+  const Surface surface = surface_of(request);
+  if (request.radius > 0.0) {
+    find_axis(surface, request.path.back().axis, placement);
+  } else if (request.tip && surface.has_sides) {
+    find_tip(surface, *request.tip, placement);
+  }
+}
+
+PlacementFinder::Surface PlacementFinder::surface_of(const CollisionRequest& request) {
+  const SurfaceTopology* const topology = request.topology;
+  if (!topology || !seam_check_.seams_hold(*topology, *request.organ)) {
+    return {*request.organ, nullptr, false};
+  }
+  return {*request.organ, topology, topology->is_closed()};
+}
+
+void PlacementFinder::find_tip(const Surface& surface, const Vector3d& tip,
+                               AxisPlacement& placement) {
+  const int winding = winding_number(surface, tip);
+  placement.tip = side(is_on_candidate(surface, tip), winding);
+}
+
+/// The crossings tell how the winding number changes along the axis. So it is needed at one end
+/// only, and it is zero at an end outside of the organ's box.
+void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
+                                AxisPlacement& placement) {
+  pick_near(axis, surface.organ);
+  find_crossings(surface, axis, placement.crossings);
+  if (!surface.has_sides) return;
+  const bool is_trocar_on = is_on_candidate(surface, axis.trocar);
+  const bool is_tip_on = is_on_candidate(surface, axis.tip);
+  const int change = sum_of_directions(placement.crossings);
+  const AlignedBox3d box = surface.organ.box().cast<double>();
+  const bool from_trocar = WayOut(axis.trocar, box).length <= WayOut(axis.tip, box).length;
+  const int trocar_winding = from_trocar ? winding_number(surface, axis.trocar)
+                                         : winding_number(surface, axis.tip) - change;
+  placement.trocar = side(is_trocar_on, trocar_winding);
+  placement.tip = side(is_tip_on, trocar_winding + change);
+  placement.length_known = true;
+  placement.length_inside =
+      share_inside(placement.crossings, trocar_winding) * (axis.tip - axis.trocar).stableNorm();
+}
+
+/// Replaces candidates_ by the faces that may meet an axis.
+void PlacementFinder::pick_near(const ShaftAxis& axis, const TriangleMesh& organ) {
+  candidates_.clear();
+  const AlignedBox3d box = organ.box().cast<double>();
+  const double radius = picking_radius(box);
+  const Vector3d margin = Vector3d::Constant(radius);
+  const auto clipped = clip(axis, {box.min() - margin, box.max() + margin});
+  if (!clipped) return;
+  const ShaftMotion at_rest{*clipped, *clipped};
+  picker_.pick(PartSweep(at_rest, radius), OrganMotion(organ), candidates_);
+}
+
+/// Sorts the crossings as the axis meets them after its infinitesimal displacement.
+void PlacementFinder::find_crossings(const Surface& surface, const ShaftAxis& axis,
+                                     std::vector<AxisCrossing>& crossings) {
+  found_.clear();
+  for (const Candidate& candidate : candidates_) {
+    const Triangle face = surface.face(candidate.face);
+    const int direction = crossing_direction(face, axis);
+    if (direction == 0) continue;
+    found_.push_back({candidate.face, direction, face_crossing(face, axis)});
+  }
+  std::sort(found_.begin(), found_.end(), [&](const FoundCrossing& a, const FoundCrossing& b) {
+    if (a.place.shaft != b.place.shaft) return a.place.shaft < b.place.shaft;
+    if (a.place.shaft_rest != b.place.shaft_rest) return a.place.shaft_rest < b.place.shaft_rest;
+    const Vector3d shift_a = crossing_shift(surface.face(a.face), axis);
+    const Vector3d shift_b = crossing_shift(surface.face(b.face), axis);
+    return std::tie(shift_a.x(), shift_a.y(), shift_a.z(), a.direction, a.face) <
+           std::tie(shift_b.x(), shift_b.y(), shift_b.z(), b.direction, b.face);
+  });
+  for (const FoundCrossing& found : found_) {
+    const Vector3d& barycentric = found.place.barycentric;
+    crossings.push_back({found.face, surface.organ.faces()[found.face], barycentric,
+                         found.place.shaft, point_at(surface.face(found.face), barycentric),
+                         static_cast<std::int8_t>(found.direction)});
+  }
+}
+
+/// The winding number of a closed surface about a point, which is moved like the axis. Outside of
+/// the organ's box it is zero. From within, a ray to the outside tells it. The candidates are then
+/// the faces near that ray.
+int PlacementFinder::winding_number(const Surface& surface, const Vector3d& point) {
+  const AlignedBox3d box = surface.organ.box().cast<double>();
+  candidates_.clear();
+  if (!box.contains(point)) return 0;
+  const ShaftAxis ray{point, WayOut(point, box).end};
+  pick_near(ray, surface.organ);
+  int change = 0;
+  for (const Candidate& candidate : candidates_) {
+    change += crossing_direction(surface.face(candidate.face), ray);
+  }
+  return -change;
+}
+
+/// Whether the point is exactly on one of the candidates.
+bool PlacementFinder::is_on_candidate(const Surface& surface, const Vector3d& point) const {
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+    return is_on_face(surface.face(candidate.face), point);
+  });
+}
+
+}  // namespace organ_collision
