@@ -6,7 +6,7 @@
 #include <iomanip>
 #include <iostream>
 
-#include "exact_placement.hpp"
+#include "exact_sides.hpp"
 
 namespace organ_collision::oracle {
 namespace {
@@ -18,30 +18,28 @@ constexpr double kBand = 1e-9;  // [m] the largest error of a place
 /// What exact arithmetic says.
 struct ExactPlacement {
   Side tip, trocar;
-  std::vector<CrossedFace> crossings;
+  std::vector<ExactCrossing> crossings;
   double length_inside;  ///< [m]
 };
 
 Side side_of(const Vector3d& point, int winding, const PlacementTrial& trial) {
-  if (lies_on(point, trial.faces)) return Side::kOnSurface;
+  const bool is_on = std::any_of(trial.faces.begin(), trial.faces.end(),
+                                 [&](const Triangle& face) { return is_exactly_on(face, point); });
+  if (is_on) return Side::kOnSurface;
   return winding != 0 ? Side::kInside : Side::kOutside;
 }
 
-ExactPlacement exact_placement(const PlacementTrial& trial, Random& random) {
-  const Eigen::AlignedBox3d box = trial.organ.box().cast<double>();
-  const Vector3d outside = box.center() + (2.0 * box.sizes().norm() + 1e-3) * random.direction();
-  const auto winding = [&](const Vector3d& point) {
-    return winding_number(point, outside, trial.faces);
-  };
+ExactPlacement exact_placement(const PlacementTrial& trial) {
   const auto& [trocar, tip] = trial.axis;
-  int enclosed = winding(trocar);
-  ExactPlacement exact{side_of(tip, winding(tip), trial), side_of(trocar, enclosed, trial),
-                       crossed_faces(trial.axis, trial.faces), 0.0};
+  int enclosed = exact_winding(trial.faces, trocar);
+  ExactPlacement exact{side_of(tip, exact_winding(trial.faces, tip), trial),
+                       side_of(trocar, enclosed, trial), exact_crossings(trial.faces, trial.axis),
+                       0.0};
   double place = 0.0, inside = 0.0;
-  for (const CrossedFace& crossing : exact.crossings) {
-    if (enclosed != 0) inside += crossing.place - place;
+  for (const ExactCrossing& crossing : exact.crossings) {
+    if (enclosed != 0) inside += crossing.shaft - place;
     enclosed += crossing.direction;
-    place = crossing.place;
+    place = crossing.shaft;
   }
   if (enclosed != 0) inside += 1.0 - place;
   exact.length_inside = inside * (tip - trocar).norm();
@@ -67,13 +65,13 @@ bool is_consistent(const AxisCrossing& found, const PlacementTrial& trial, doubl
          (trial.axis.at(found.shaft) - found.point).norm() <= band;
 }
 
-void compare_crossings(const PlacementTrial& trial, const std::vector<CrossedFace>& exact,
+void compare_crossings(const PlacementTrial& trial, const std::vector<ExactCrossing>& exact,
                        const std::vector<AxisCrossing>& found, double band, PlacementTally& tally) {
   const double length = (trial.axis.tip - trial.axis.trocar).norm();
   std::vector<bool> is_found(exact.size(), false);
   double last = 0.0;
   for (const AxisCrossing& crossing : found) {
-    const auto same = std::find_if(exact.begin(), exact.end(), [&](const CrossedFace& other) {
+    const auto same = std::find_if(exact.begin(), exact.end(), [&](const ExactCrossing& other) {
       return other.face == crossing.face && other.direction == crossing.direction;
     });
     const auto index = static_cast<std::size_t>(same - exact.begin());
@@ -82,10 +80,10 @@ void compare_crossings(const PlacementTrial& trial, const std::vector<CrossedFac
       continue;
     }
     is_found[index] = true;
-    const double error = std::abs(crossing.shaft - same->place) * length;
+    const double error = std::abs(crossing.shaft - same->shaft) * length;
     tally.place = std::max(tally.place, error);
-    const bool in_order = same->place * length >= last - band;
-    last = std::max(last, same->place * length);
+    const bool in_order = same->shaft * length >= last - band;
+    last = std::max(last, same->shaft * length);
     if (error > band || !in_order || !is_consistent(crossing, trial, band)) tally.wrong = 1;
   }
   tally.missed = std::count(is_found.begin(), is_found.end(), false);
@@ -125,10 +123,10 @@ void print(const std::string& name, const PlacementTally& tally) {
   std::cout << " |" << std::endl;
 }
 
-PlacementTally PlacementComparison::compare(const PlacementTrial& trial, Random& random) {
+PlacementTally PlacementComparison::compare(const PlacementTrial& trial) {
   query_.evaluate(request_for(trial), result_);
   const AxisPlacement& found = result_.placement;
-  const ExactPlacement exact = exact_placement(trial, random);
+  const ExactPlacement exact = exact_placement(trial);
   const double band = kBand + 1e-15 * largest_coordinate(trial.organ);
 
   PlacementTally tally;

@@ -33,7 +33,7 @@ void print(const std::string& name, const PlacementTally& tally);
 /// Asks the library and exact arithmetic where a tool is. Prints every trial in which they differ.
 class PlacementComparison {
  public:
-  PlacementTally compare(const PlacementTrial& trial, Random& random);
+  PlacementTally compare(const PlacementTrial& trial);
 
  private:
   CollisionQuery query_;

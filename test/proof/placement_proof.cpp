@@ -29,7 +29,7 @@ bool prove_placement(long pairs, unsigned long seed, Progress& progress) {
     for (long i = 0; i < each; ++i) {
       progress.show("placement, " + kinds[kind], i, each);
       const PlacementTrial trial = make_placement_trial(kind, random);
-      placements[kind].add(comparison.compare(trial, random));
+      placements[kind].add(comparison.compare(trial));
       clearances[kind].add(clearance_comparison.compare(clearance_of(trial, random)));
     }
     all.add(placements[kind]);

@@ -1,7 +1,8 @@
-#include "test/proof/exact_placement.hpp"
+#include "test/proof/exact_sides.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "test/proof/placement_trials.hpp"
@@ -23,15 +24,12 @@ double solid_angles(const Vector3d& point, const std::vector<Triangle>& faces) {
   return sum / (4.0 * M_PI);
 }
 
-TEST(ExactPlacement, winds_as_often_as_the_solid_angles_say) {
+TEST(ExactSides, winds_as_often_as_the_solid_angles_say) {
   Random random(3);
   int inside = 0, twice = 0;
   for (int i = 0; i < 3000; ++i) {
     const PlacementTrial trial = make_placement_trial(0, random);
-    const Vector3d middle = trial.organ.box().center().cast<double>();
-    const double size = trial.organ.box().sizes().cast<double>().norm();
-    const Vector3d far = middle + 3.0 * size * random.direction();
-    const int winding = winding_number(trial.axis.tip, far, trial.faces);
+    const int winding = exact_winding(trial.faces, trial.axis.tip);
     EXPECT_NEAR(winding, solid_angles(trial.axis.tip, trial.faces), 1e-6) << trial;
     inside += winding != 0;
     twice += std::abs(winding) == 2;
@@ -40,22 +38,18 @@ TEST(ExactPlacement, winds_as_often_as_the_solid_angles_say) {
   EXPECT_GT(twice, 10);
 }
 
-TEST(ExactPlacement, crosses_as_often_as_the_winding_numbers_say) {
+TEST(ExactSides, crosses_as_often_as_the_winding_numbers_say) {
   for (std::size_t kind = 0; kind < placement_trial_kinds().size(); ++kind) {
     Random random(kind);
     std::size_t crossings = 0;
     for (int i = 0; i < 1000; ++i) {
       const PlacementTrial trial = make_placement_trial(kind, random);
-      const Eigen::AlignedBox3d box = trial.organ.box().cast<double>();
-      const auto winding = [&](const Vector3d& point) {
-        const Vector3d far = box.center() + 3.0 * box.sizes().norm() * random.direction();
-        return winding_number(point, far, trial.faces);
-      };
+      const auto winding = [&](const Vector3d& point) { return exact_winding(trial.faces, point); };
       int sum = 0;
-      for (const CrossedFace& crossing : crossed_faces(trial.axis, trial.faces)) {
+      for (const ExactCrossing& crossing : exact_crossings(trial.faces, trial.axis)) {
         sum += crossing.direction;
-        EXPECT_GE(crossing.place, 0.0) << trial;
-        EXPECT_LE(crossing.place, 1.0) << trial;
+        EXPECT_GE(crossing.shaft, 0.0) << trial;
+        EXPECT_LE(crossing.shaft, 1.0) << trial;
         ++crossings;
       }
       EXPECT_EQ(winding(trial.axis.tip) - winding(trial.axis.trocar), sum) << trial;
@@ -65,13 +59,13 @@ TEST(ExactPlacement, crosses_as_often_as_the_winding_numbers_say) {
 }
 
 /// An axis through the corner that four faces share, and the same axis moved by hand.
-TEST(ExactPlacement, decides_a_corner_like_an_axis_beside_it) {
+TEST(ExactSides, decides_a_corner_like_an_axis_beside_it) {
   const Vector3d top(0, 0, 1);
   const Vector3d rim[] = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
   std::vector<Triangle> roof;
   for (int i = 0; i < 4; ++i) roof.push_back({rim[i], rim[(i + 1) % 4], top});
   const auto crossed = [&](const Vector3d& beside) {
-    return crossed_faces({Vector3d(0, 0, 3) + beside, beside}, roof);
+    return exact_crossings(roof, {Vector3d(0, 0, 3) + beside, beside});
   };
   const auto exact = crossed(Vector3d::Zero());
   ASSERT_EQ(exact.size(), 1U);
@@ -80,16 +74,19 @@ TEST(ExactPlacement, decides_a_corner_like_an_axis_beside_it) {
   EXPECT_EQ(exact[0].face, moved[0].face);
   EXPECT_EQ(exact[0].direction, 1);
   EXPECT_EQ(moved[0].direction, 1);
-  EXPECT_EQ(exact[0].place, 2.0 / 3.0);
+  EXPECT_EQ(exact[0].shaft, 2.0 / 3.0);
 }
 
-TEST(ExactPlacement, tells_points_on_faces_from_points_beside_them) {
+TEST(ExactSides, tells_points_on_faces_from_points_beside_them) {
   for (std::size_t kind = 1; kind <= 3; ++kind) {
     Random random(kind);
     int on = 0, beside = 0;
     for (int i = 0; i < 1000; ++i) {
       const PlacementTrial trial = make_placement_trial(kind, random);
-      ++(lies_on(trial.axis.tip, trial.faces) ? on : beside);
+      const bool is_on = std::any_of(trial.faces.begin(), trial.faces.end(), [&](const auto& face) {
+        return is_exactly_on(face, trial.axis.tip);
+      });
+      ++(is_on ? on : beside);
     }
     EXPECT_GT(on, 50) << placement_trial_kinds()[kind];
     EXPECT_GT(beside, 300) << placement_trial_kinds()[kind];
