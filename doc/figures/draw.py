@@ -14,8 +14,8 @@ import sys
 import style
 
 FIGURES = ['touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
-           'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'chord_deviation', 'swept_box',
-           'spans', 'distances', 'piercing', 'winding', 'sides', 'work']
+           'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'closest_approach', 'chord_deviation',
+           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'work']
 
 
 def main():

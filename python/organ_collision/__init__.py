@@ -8,7 +8,10 @@ import importlib
 
 _MODULES = {
     'CollisionError': 'answers',
+    'clearance_record': 'answers',
     'contact_table': 'answers',
+    'crossing_table': 'answers',
+    'near_table': 'answers',
     'MeshFileError': 'mesh_file_error',
     'read_mesh': 'mesh_files',
     'organ_mesh': 'messages',

@@ -8,11 +8,18 @@ _STATUSES = ('OK', 'NO_MESH', 'NO_TRANSFORM', 'STALE_MESH', 'INVALID_REQUEST', '
              'PICKER_FAILED', 'INVALID_TOOL')
 _NAMES = {getattr(ContactArray, name): name for name in _STATUSES}
 
-# The fields of Contact.msg.
+_PLACE = [('face', np.uint32), ('vertices', np.uint32, 3), ('barycentric', float, 3)]
+# The fields of Contact.msg, Crossing.msg and Clearance.msg, in their order.
 _CONTACT = np.dtype([
     ('face', np.uint32), ('vertices', np.uint32, 3), ('link', np.uint32), ('fraction', float), ('point', float, 3),
     ('normal', float, 3), ('barycentric', float, 3), ('shaft', float), ('depth', float), ('behind', bool),
     ('end_point', float, 3), ('view_min', float), ('view_max', float)])
+_CROSSING = np.dtype(_PLACE + [('shaft', float), ('point', float, 3), ('direction', np.int8)])
+_CLEARANCE = np.dtype(
+    [('state', np.uint8), ('margin', float), ('unlimited', bool), ('distance', float), ('least', float),
+     ('least_fraction', float)] + _PLACE +
+    [('link', np.uint32), ('on_organ', float, 3), ('on_tool', float, 3), ('normal', float, 3),
+     ('normal_defined', bool), ('unresolved', bool)])
 
 
 class CollisionError(RuntimeError):
@@ -30,14 +37,55 @@ def contact_table(answer):
     are in metres, vectors in the frame answer.header.frame_id. contacts.link counts in answer.links. Raises
     CollisionError if the status is not OK: then nothing is known about contacts.
     """
+    return _table(answer, answer.contacts, _CONTACT, _contact_row)
+
+
+def near_table(answer):
+    """The faces within the margin that are not touched, nearest first, as a table like that of contact_table().
+
+    -near.depth is the distance of each face at its closest approach. The table is empty unless the query or the tool
+    has `max_near`. answer.near_left_out counts the faces that it leaves out. Raises CollisionError if the status is
+    not OK.
+    """
+    return _table(answer, answer.near, _CONTACT, _contact_row)
+
+
+def crossing_table(answer):
+    """Where the shaft's axis pierces the organ, from trocar to tip, as a numpy record array.
+
+    Its columns are the fields of Crossing.msg: crossings.point has the shape (k, 3), crossings.direction is +1 where
+    the axis enters and -1 where it leaves. Raises CollisionError if the status is not OK.
+    """
+    return _table(answer, answer.placement.crossings, _CROSSING, _crossing_row)
+
+
+def clearance_record(answer):
+    """How far the tool is from the organ: a numpy record with the fields of Clearance.msg.
+
+    Only if clearance.state is Clearance.KNOWN, clearance.distance and what belongs to it are set. clearance.on_tool
+    and clearance.on_organ have the shape (3,). Raises CollisionError if the status is not OK.
+    """
+    return _table(answer, [answer.clearance], _CLEARANCE, _clearance_row)[0]
+
+
+def _table(answer, messages, columns, row):
     if answer.status != ContactArray.OK:
         raise CollisionError(answer.status, answer.message)
-    return np.array([_row(contact) for contact in answer.contacts], dtype=_CONTACT).view(np.recarray)
+    return np.array([row(message) for message in messages], dtype=columns).view(np.recarray)
 
 
-def _row(c):
+def _contact_row(c):
     return (c.face, c.vertices, c.link, c.fraction, _xyz(c.point), _xyz(c.normal), c.barycentric, c.shaft, c.depth,
             c.behind, _xyz(c.end_point), c.view_min, c.view_max)
+
+
+def _crossing_row(c):
+    return (c.face, c.vertices, c.barycentric, c.shaft, _xyz(c.point), c.direction)
+
+
+def _clearance_row(c):
+    return (c.state, c.margin, c.unlimited, c.distance, c.least, c.least_fraction, c.face, c.vertices, c.barycentric,
+            c.link, _xyz(c.on_organ), _xyz(c.on_tool), _xyz(c.normal), c.normal_defined, c.unresolved)
 
 
 def _xyz(point):

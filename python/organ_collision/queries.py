@@ -37,9 +37,20 @@ class Queries:
         previous_trocar, previous_tip  where they were before: the shaft is swept from there. None: that end rests
         frame                          frame of these points; None: the frame has the name of the organ
         """
+        return contact_table(self.answer(organ, trocar, tip, radius, previous_trocar, previous_tip, frame))
+
+    def answer(self, organ, trocar, tip, radius, previous_trocar=None, previous_tip=None, frame=None, **asked):
+        """The whole ContactArray, for near_table(), crossing_table() and clearance_record().
+
+        asked  what to ask for besides contacts, by the names of QueryCollision.srv: margin [m], clearance, max_near,
+               placement, regions
+        """
         mode = _mode(previous_trocar, previous_tip)
         motion = shaft_motion(trocar, tip, radius, previous_trocar, previous_tip)
-        return contact_table(self._query(header=_header(organ, frame), organ=organ, motion=motion, mode=mode).result)
+        answer = self._query(header=_header(organ, frame), organ=organ, motion=motion, mode=mode, **asked).result
+        if answer.status != ContactArray.OK:
+            raise CollisionError(answer.status, answer.message)
+        return answer
 
     def query_many(self, organ, trocars, tips, radius, previous_trocars=None, previous_tips=None, frame=None):
         """The same for k motions in one call. Points are k x 3 arrays. Returns a list of k tables."""

@@ -1,5 +1,7 @@
 #include "contact_adapter.hpp"
 
+#include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/VertexForces.h>
 #include <ros/names.h>
 #include <ros/param.h>
 #include <std_msgs/UInt32MultiArray.h>
@@ -12,6 +14,7 @@
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
 #include "shaft_radius.hpp"
+#include "vertex_forces.hpp"
 
 namespace organ_collision {
 namespace {
@@ -61,25 +64,31 @@ void ContactAdapter::on_contacts(const ContactArray& message) {
 }
 
 void ContactAdapter::publish(const ContactArray& contacts, Pair& pair) {
-  if (has_geometry(contacts)) pair.wrench.publish(wrench_of(contacts, pair));
+  std::vector<FaceForce> forces;
+  if (has_geometry(contacts)) {
+    forces = forces_of(contacts, pair);
+    geometry_msgs::WrenchStamped wrench;
+    wrench.header = contacts.header;
+    wrench.wrench = wrench_of(forces);
+    pair.wrench.publish(wrench);
+  }
   pair.faces.publish(face_list(contacts));
+  if (has_geometry(contacts)) pair.vertex_forces.publish(vertex_forces(contacts, forces));
 }
 
-geometry_msgs::WrenchStamped ContactAdapter::wrench_of(const ContactArray& contacts, Pair& pair) {
+std::vector<FaceForce> ContactAdapter::forces_of(const ContactArray& contacts, Pair& pair) {
   const auto now = std::chrono::steady_clock::now();
   const double seconds = std::chrono::duration<double>(now - pair.evaluated).count();
   pair.evaluated = now;
-  geometry_msgs::WrenchStamped stamped;
-  stamped.header = contacts.header;
-  stamped.wrench =
+  std::vector<FaceForce> forces =
       pair.law.follow(contacts, seconds, parameters_.stiffness, radius_of(contacts.tool));
-  if (limit_force(stamped.wrench, parameters_.max_force)) {
+  if (limit_force(forces, parameters_.max_force)) {
     clipped_.add("max_force",
                  "organ '" + contacts.organ + "', tool '" + contacts.tool +
                      "': the force is clipped to " + std::to_string(parameters_.max_force) + " N",
                  std::chrono::steady_clock::now());
   }
-  return stamped;
+  return forces;
 }
 
 /// Reads the parameters of the node that publishes the contacts. The cached look-up notices changes
@@ -95,13 +104,17 @@ ContactAdapter::Pair& ContactAdapter::pair_of(const std::string& organ, const st
   const auto known = pairs_.find({organ, tool});
   if (known != pairs_.end()) return known->second;
   if (!radius_of(tool)) {
-    ROS_INFO("the radius of tool '%s' is not known: past a face its depth stays", tool.c_str());
+    ROS_INFO("the radius of tool '%s' is not known: past a face its contacts tell the depth",
+             tool.c_str());
   }
   const std::string name = names_.of(organ, tool);
-  const Pair pair{private_node_.advertise<std_msgs::UInt32MultiArray>(
-                      ros::names::append(name, names::kFaces), kQueue),
-                  private_node_.advertise<geometry_msgs::WrenchStamped>(
-                      ros::names::append(name, names::kWrench), kQueue)};
+  const Pair pair{
+      private_node_.advertise<std_msgs::UInt32MultiArray>(ros::names::append(name, names::kFaces),
+                                                          kQueue),
+      private_node_.advertise<geometry_msgs::WrenchStamped>(
+          ros::names::append(name, names::kWrench), kQueue),
+      private_node_.advertise<VertexForces>(ros::names::append(name, names::kVertexForces), kQueue),
+      WrenchLaw(parameters_.way_out)};
   return pairs_.insert({{organ, tool}, pair}).first->second;
 }
 

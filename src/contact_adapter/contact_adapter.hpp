@@ -1,7 +1,6 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
-#include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <ros/node_handle.h>
 
@@ -10,6 +9,7 @@
 #include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "contact_adapter_parameters.hpp"
 #include "pair_names.hpp"
@@ -18,10 +18,10 @@
 
 namespace organ_collision {
 
-/// The node: turns the collision node's contacts into a wrench and a list of faces for each pair of
-/// organ and tool. It logs and counts an answer that reports a failure, but publishes nothing for
-/// it, because the contacts are unknown then. All its work is done in the callbacks of the node's
-/// queue, which must be called from one thread.
+/// The node: turns the collision node's contacts into a wrench, forces on vertices and a list of
+/// faces for each pair of organ and tool. It logs and counts an answer that reports a failure, but
+/// publishes nothing for it, because the contacts are unknown then. All its work is done in the
+/// callbacks of the node's queue, which must be called from one thread.
 class ContactAdapter {
  public:
   /// Throws ParameterError.
@@ -31,7 +31,8 @@ class ContactAdapter {
   struct Pair {
     ros::Publisher faces;
     ros::Publisher wrench;
-    WrenchLaw law = {};
+    ros::Publisher vertex_forces;
+    WrenchLaw law;
     /// When the law was last evaluated. Steady time, because the stamps of a tool stop advancing if
     /// its poses are not published while it rests.
     std::chrono::steady_clock::time_point evaluated = {};
@@ -39,7 +40,7 @@ class ContactAdapter {
 
   void on_contacts(const ContactArray& message);
   void publish(const ContactArray& contacts, Pair& pair);
-  geometry_msgs::WrenchStamped wrench_of(const ContactArray& contacts, Pair& pair);
+  std::vector<FaceForce> forces_of(const ContactArray& contacts, Pair& pair);
   Pair& pair_of(const std::string& organ, const std::string& tool);
   KeptSides::Radius radius_of(const std::string& tool) const;
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);

@@ -4,6 +4,7 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
+#include <organ_collision/VertexForces.h>
 #include <ros/names.h>
 #include <ros/service_traits.h>
 #include <std_msgs/UInt32MultiArray.h>
@@ -18,8 +19,9 @@ ProgramHelp contact_adapter_help() {
   const ContactAdapterParameters defaults;
   const std::string pair = "~ORGAN/TOOL";
   ProgramHelp help{names::kContactAdapter,
-                   "Turns the contacts of the collision node into a wrench and a list of faces for "
-                   "each organ and tool. The force has no upper limit unless max_force is set."};
+                   "Turns the contacts of the collision node into a wrench, forces on vertices and "
+                   "a list of faces for each organ and tool. The force has no upper limit unless "
+                   "max_force is set."};
   help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
                       ros::message_traits::datatype<ContactArray>(),
                       "remap it if the collision node has another name"}};
@@ -27,6 +29,9 @@ ProgramHelp contact_adapter_help() {
       {ros::names::append(pair, names::kWrench),
        ros::message_traits::datatype<geometry_msgs::WrenchStamped>(),
        "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
+      {ros::names::append(pair, names::kVertexForces),
+       ros::message_traits::datatype<VertexForces>(),
+       "forces of the tool on the tissue's vertices [N]; together, minus the wrench"},
       {ros::names::append(pair, names::kFaces),
        ros::message_traits::datatype<std_msgs::UInt32MultiArray>(),
        "the numbers of the touched faces"},
@@ -39,6 +44,8 @@ ProgramHelp contact_adapter_help() {
   help.parameters = {
       {names::kStiffness, shown(defaults.stiffness), "[N/m] force for each metre of depth"},
       {names::kMaxForce, "no limit", "[N] larger forces are clipped to it"},
+      {names::kWayOut, shown(defaults.way_out),
+       "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"}};
   help.further =

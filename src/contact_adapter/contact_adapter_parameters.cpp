@@ -23,11 +23,12 @@ void parse_live(const ParameterGroup& group, LiveContactAdapterParameters& p) {
 }  // namespace
 
 ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all) {
-  const ParameterGroup group("~", all,
-                             {names::kStiffness, names::kMaxForce, names::kDiagnosticPeriod});
+  const ParameterGroup group(
+      "~", all, {names::kStiffness, names::kMaxForce, names::kWayOut, names::kDiagnosticPeriod});
   ContactAdapterParameters p;
   p.misspelt = group.misspelt();
   parse_live(group, p);
+  p.way_out = group.flag(names::kWayOut, p.way_out);
   p.diagnostic_period_sec =
       group.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kTimerPeriod);
   return p;

@@ -20,7 +20,8 @@ struct LiveContactAdapterParameters {
 
 /// The validated parameters of the node, with the documented defaults.
 struct ContactAdapterParameters : LiveContactAdapterParameters {
-  double diagnostic_period_sec = 1.0;   ///< in wall time
+  bool way_out = true;                 ///< a tool wholly inside is pushed along the nearest way out
+  double diagnostic_period_sec = 1.0;  ///< in wall time
   std::vector<std::string> misspelt{};  ///< a sentence for each unknown name
 };
 

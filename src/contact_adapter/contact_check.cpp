@@ -42,6 +42,19 @@ void check_geometry(const Contact& contact) {
   }
 }
 
+void check_clearance(const Clearance& clearance) {
+  const Eigen::Vector3d place = to_eigen(clearance.on_organ), normal = to_eigen(clearance.normal);
+  if (!std::isfinite(clearance.distance)) {
+    refuse("distance of the clearance is ", clearance.distance, "; must be finite");
+  }
+  if (!place.allFinite()) {
+    refuse("on_organ of the clearance is ", place.transpose(), "; must be finite");
+  }
+  if (!(std::abs(normal.norm() - 1.0) <= kUnitTolerance)) {
+    refuse("normal of the clearance is ", normal.transpose(), "; must be unit");
+  }
+}
+
 }  // namespace
 
 bool has_geometry(const ContactArray& contacts) {
@@ -67,6 +80,7 @@ void check_contacts(const ContactArray& contacts) {
   }
   if (!has_geometry(contacts)) return;
   for (const Contact& contact : contacts.contacts) check_geometry(contact);
+  if (contacts.clearance.state == Clearance::KNOWN) check_clearance(contacts.clearance);
 }
 
 }  // namespace organ_collision

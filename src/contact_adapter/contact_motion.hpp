@@ -27,23 +27,28 @@ namespace organ_collision {
 /// - A face that the axis pierces in both answers counts with the change of the tip's depth. For a
 ///   face that is pierced in only one answer, the distance of the tip beyond the face does not
 ///   count.
-/// - For links, and for a shaft of unknown radius, only the change of depth counts.
+/// - For links, and for a shaft of unknown radius, only the change of depth counts, and only while
+///   the contact's normal stays. If a face pierces a link with flat faces, the normal and the depth
+///   jump to those of the whole link.
+/// - If the clearance is known, so does its change. The distance to the nearest face changes by at
+///   most the motion.
 class ContactMotion {
  public:
   /// [m] A lower bound of the motion since the answer of the last call. std::nullopt if this answer
   /// is the first one, is static, or has another topology. `pushes`: one for each contact of the
-  /// answer. `shaft_radius`: as for KeptSides::follow().
+  /// answer; others may follow them. `shaft_radius`: as for KeptSides::follow().
   std::optional<double> follow(const ContactArray& answer, const std::vector<Push>& pushes,
                                const KeptSides::Radius& shaft_radius);
 
  private:
   struct Pierced {
-    Eigen::Vector3d normal;  ///< Contact.normal
-    double depth;            ///< [m] Contact.depth
-    double push;             ///< [m] Push.depth: at most the radius if the axis came from the side
+    double depth;  ///< [m] Contact.depth
+    double push;   ///< [m] Push.depth: at most the radius if the axis came from the side
   };
   struct Place {
+    Eigen::Vector3d normal;                 ///< Contact.normal
     double depth;                           ///< [m] Contact.depth, for a shaft at most its radius
+    bool is_new;                            ///< touched in this step, not when it began
     std::optional<Eigen::Vector3d> offset;  ///< [m] axis to face; unset: the radius is unknown
     std::optional<Pierced> pierced;         ///< if the axis is past the face and the push counts
   };
@@ -52,8 +57,10 @@ class ContactMotion {
 
   static Place place_of(const Contact& contact, const Push& push, const KeptSides::Radius& radius);
   static double path_length_between(const Place& before, const Place& now);
+  static double path_length_to(const Contact& contact, const Place& now);
 
   std::optional<Places> last_;
+  std::optional<double> last_distance_;  ///< [m] Clearance.distance; unset: not known
   std::uint32_t topology_ = 0;
 };
 

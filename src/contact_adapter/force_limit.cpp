@@ -2,17 +2,14 @@
 
 #include <Eigen/Core>
 
-#include "ros/interface/conversions.hpp"
-
 namespace organ_collision {
 
-bool limit_force(geometry_msgs::Wrench& wrench, double max_force) {
-  const Eigen::Vector3d force = to_eigen(wrench.force);
-  const Eigen::Vector3d torque = to_eigen(wrench.torque);
-  const double magnitude = force.stableNorm();
+bool limit_force(std::vector<FaceForce>& forces, double max_force) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const FaceForce& at : forces) sum += at.force;
+  const double magnitude = sum.stableNorm();
   if (magnitude <= max_force) return false;
-  wrench.force = to_vector(max_force / magnitude * force);
-  wrench.torque = to_vector(max_force / magnitude * torque);
+  for (FaceForce& at : forces) at.force *= max_force / magnitude;
   return true;
 }
 

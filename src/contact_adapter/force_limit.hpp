@@ -1,11 +1,13 @@
 #pragma once
 
-#include <geometry_msgs/Wrench.h>
+#include <vector>
+
+#include "face_force.hpp"
 
 namespace organ_collision {
 
-/// If the force exceeds `max_force` [N], scales force and torque so that the force has this
+/// If the sum of the forces exceeds `max_force` [N], scales all of them so that their sum has this
 /// magnitude. Returns whether it scaled them.
-bool limit_force(geometry_msgs::Wrench& wrench, double max_force);
+bool limit_force(std::vector<FaceForce>& forces, double max_force);
 
 }  // namespace organ_collision

@@ -64,12 +64,29 @@ KeptSides::Kept KeptSides::first_touch(const Contact& contact, const Radius& rad
   return kept;
 }
 
+KeptSides::Kept KeptSides::first_touch_from_inside(const Contact& contact, double depth_inside) {
+  Kept kept;
+  kept.normal = -to_eigen(contact.normal);
+  kept.depth_in_plane = 0.5 * depth_inside;
+  kept.depth = depth_inside - contact.depth;
+  kept.behind = false;
+  kept.is_past = contact.depth <= kept.depth_in_plane;
+  return kept;
+}
+
 void KeptSides::move_on(const Contact& contact, Kept& kept) {
   const Vector3d now = to_eigen(contact.normal);
+  const bool was_past = kept.is_past;
   kept.is_past = now.dot(kept.normal) < 0.0;
-  if (kept.is_past) return;
-  kept.normal = now;
-  kept.depth = contact.depth;
+  if (kept.is_past) {
+    // The depth continues from its last value.
+    if (!was_past) kept.depth_in_plane = 0.5 * (kept.depth + contact.depth);
+    const double distance = kept.depth_in_plane - contact.depth;
+    kept.depth = kept.depth_in_plane - distance * kept.normal.dot(now);
+  } else {
+    kept.normal = now;
+    kept.depth = contact.depth;
+  }
 }
 
 void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
@@ -97,9 +114,14 @@ void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
   kept.depth = kept.depth_in_plane - distance * kept.normal.dot(now);
 }
 
-KeptSides::Kept KeptSides::kept_now(const Contact& contact, const Radius& radius) const {
+KeptSides::Kept KeptSides::kept_now(const Contact& contact, const Radius& radius,
+                                    const DepthsInside& inside) const {
   const Kept* before = find(contact);
-  if (!before) return first_touch(contact, radius);
+  if (!before) {
+    const auto depth = inside.find(contact.link);
+    return depth == inside.end() ? first_touch(contact, radius)
+                                 : first_touch_from_inside(contact, depth->second);
+  }
   Kept kept = *before;
   if (radius) {
     move_on(contact, *radius, kept);
@@ -109,7 +131,8 @@ KeptSides::Kept KeptSides::kept_now(const Contact& contact, const Radius& radius
   return kept;
 }
 
-std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& shaft_radius) {
+std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& shaft_radius,
+                                    const DepthsInside& inside) {
   if (answer.mode == ContactArray::STATIC || answer.topology != topology_) kept_.clear();
   topology_ = answer.topology;
 
@@ -120,7 +143,7 @@ std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& sh
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (basins[i] != i) continue;
     const Kept* before = find(contacts[i]);
-    nearest[i] = kept_now(contacts[i], radius_at(contacts[i], answer, shaft_radius));
+    nearest[i] = kept_now(contacts[i], radius_at(contacts[i], answer, shaft_radius), inside);
     nearest[i].is_nearest = true;
     passed[i] = nearest[i].is_past || (before && before->is_past);
   }

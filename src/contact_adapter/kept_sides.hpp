@@ -9,15 +9,9 @@
 #include <utility>
 #include <vector>
 
-namespace organ_collision {
+#include "push.hpp"
 
-/// How one contact pushes the tool. Lengths in metres, vectors in the organ's frame.
-struct Push {
-  Eigen::Vector3d place;   ///< Contact.end_point
-  Eigen::Vector3d normal;  ///< unit; from the side of first touch into the tissue
-  double depth;            ///< along the normal; negative if the tool has left the face
-  bool counts;             ///< whether it has a spring: a local minimum, or a face of another side
-};
+namespace organ_collision {
 
 /// Remembers on which side a tool first touched each face of an organ, with each of its links.
 ///
@@ -34,14 +28,23 @@ struct Push {
 /// - A face that the axis pierces has the contact's depth if the tip pierced it and the two normals
 ///   agree. If the axis moved into the face from the side, the depth is s: the distance of the tip
 ///   beyond the face does not matter.
-/// - For links, and for a shaft of unknown radius, the depth does not change past the face.
+/// - For links, and for a shaft of unknown radius, half the sum of the depths just before and after
+///   passing the face takes the place of s. For a sphere, this is its radius. For a link with flat
+///   faces, it is half its thickness.
+/// - A face that is first touched from inside, by a link that was inside the organ, has the outer
+///   side. There the depth is the link's depth just below the surface, less the contact's depth.
 class KeptSides {
  public:
   using Radius = std::optional<double>;  ///< [m]
+  /// [m] By link: with which depth it is pushed when it is wholly inside, just below the surface.
+  /// Twice the radius of a shaft or a sphere.
+  using DepthsInside = std::map<std::uint32_t, double>;
 
   /// One push for each contact, in the order of the contacts. `answer`: the next answer about the
-  /// same organ and tool. `shaft_radius`: unset if it is unknown.
-  std::vector<Push> follow(const ContactArray& answer, const Radius& shaft_radius);
+  /// same organ and tool. `shaft_radius`: unset if it is unknown. `inside`: the links that were
+  /// inside the organ when the step began.
+  std::vector<Push> follow(const ContactArray& answer, const Radius& shaft_radius,
+                           const DepthsInside& inside = {});
 
  private:
   struct Kept {
@@ -56,10 +59,11 @@ class KeptSides {
   using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
 
   static Kept first_touch(const Contact& contact, const Radius& radius);
+  static Kept first_touch_from_inside(const Contact& contact, double depth_inside);
   static void move_on(const Contact& contact, Kept& kept);
   static void move_on(const Contact& contact, double radius, Kept& kept);
   const Kept* find(const Contact& contact) const;
-  Kept kept_now(const Contact& contact, const Radius& radius) const;
+  Kept kept_now(const Contact& contact, const Radius& radius, const DepthsInside& inside) const;
 
   std::map<FaceAndLink, Kept> kept_;
   std::uint32_t topology_ = 0;

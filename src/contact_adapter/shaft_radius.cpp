@@ -34,10 +34,13 @@ std::optional<double> shaft_radius(const XmlRpcValue& tools, const std::string& 
   return std::nullopt;
 }
 
+bool is_shaft(std::uint32_t link, const ContactArray& answer) {
+  return link < answer.links.size() && answer.links[link].empty();
+}
+
 std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
                                 const std::optional<double>& shaft_radius) {
-  const bool is_shaft = contact.link < answer.links.size() && answer.links[contact.link].empty();
-  return is_shaft ? shaft_radius : std::nullopt;
+  return is_shaft(contact.link, answer) ? shaft_radius : std::nullopt;
 }
 
 }  // namespace organ_collision

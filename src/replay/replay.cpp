@@ -35,6 +35,7 @@ Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
   ros::Time::init();
   ros::Time::setNow(now_);  // From now on, ROS time is that of the bag.
   pipeline_.keep_all_shapes();
+  pipeline_.inspect_surfaces_at_once();
   handle<OrganMesh>(node + "/" + names::kOrganMesh, [this](const auto& mesh, const auto& instance) {
     pipeline_.organ_topics().take_mesh(mesh, instance.getConnectionHeader());
     apply_organ_messages();

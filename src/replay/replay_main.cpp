@@ -124,6 +124,7 @@ void check_frames(const std::vector<Tool>& tools, const std::string& file, const
     std::vector<std::string> frames;
     if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
     for (const std::string& link : parameters.links) frames.push_back(parameters.link_frame(link));
+    if (parameters.has_tip_of_links()) frames.push_back(parameters.tip_frame);
     for (const std::string& frame : frames) {
       if (!replay.knows_frame(frame)) refuse_frame(file, frame, parameters.name);
     }

@@ -34,6 +34,7 @@ TEST(ContactAdapterParameters, DefaultsAreTheDocumentedOnes) {
   const ContactAdapterParameters p = parse_contact_adapter_parameters(group());
   EXPECT_EQ(p.stiffness, 300.0);
   EXPECT_EQ(p.max_force, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(p.way_out);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_TRUE(p.misspelt.empty());
 }
@@ -42,10 +43,12 @@ TEST(ContactAdapterParameters, AllAreRead) {
   XmlRpcValue all = group();
   all["stiffness"] = 500;
   all["max_force"] = 7.5;
+  all["way_out"] = false;
   all["diagnostic_period"] = 0.25;
   const ContactAdapterParameters p = parse_contact_adapter_parameters(all);
   EXPECT_EQ(p.stiffness, 500.0);
   EXPECT_EQ(p.max_force, 7.5);
+  EXPECT_FALSE(p.way_out);
   EXPECT_EQ(p.diagnostic_period_sec, 0.25);
 }
 
@@ -58,6 +61,7 @@ TEST(ContactAdapterParameters, IllegalOnesAreRefused) {
   EXPECT_EQ(refusal("max_force", 0), "~max_force is '0'; must be a number, more than 0, or .inf");
   EXPECT_EQ(refusal("max_force", std::numeric_limits<double>::infinity()), "accepted");
   EXPECT_NE(refusal("max_force", -std::numeric_limits<double>::infinity()), "accepted");
+  EXPECT_NE(refusal("way_out", 1), "accepted");
   EXPECT_NE(refusal("diagnostic_period", 0.0), "accepted");
 }
 

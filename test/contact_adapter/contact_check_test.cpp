@@ -83,6 +83,22 @@ TEST(ContactCheck, NormalsMustBeUnit) {
   EXPECT_NE(refusal(contacts), "accepted");
 }
 
+TEST(ContactCheck, AKnownClearanceMustBeFiniteAndItsNormalUnit) {
+  ContactArray contacts = good();
+  contacts.clearance.distance = kNan;  // not read, because the clearance was not asked for
+  EXPECT_EQ(refusal(contacts), "accepted");
+  contacts.clearance.state = Clearance::KNOWN;
+  contacts.clearance.normal.y = 1.0;
+  EXPECT_EQ(refusal(contacts), "distance of the clearance is nan; must be finite");
+  contacts.clearance.distance = 0.02;
+  EXPECT_EQ(refusal(contacts), "accepted");
+  contacts.clearance.on_organ.z = kInfinity;
+  EXPECT_NE(refusal(contacts).find("on_organ of the clearance is"), std::string::npos);
+  contacts.clearance.on_organ.z = 0.0;
+  contacts.clearance.normal.y = 0.99;
+  EXPECT_NE(refusal(contacts).find("normal of the clearance is"), std::string::npos);
+}
+
 TEST(ContactCheck, AsManyRegionsAsContacts) {
   ContactArray contacts = good();
   contacts.regions.resize(3);

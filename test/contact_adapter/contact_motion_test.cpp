@@ -73,9 +73,52 @@ TEST(ContactMotion, ANormalThatTurnsIsHalfAWay) {
 
 TEST(ContactMotion, OfAnUnknownRadiusOnlyTheDepthShows) {
   ContactMotion motion;
-  follow(motion, {of_depth(0.002, {0.0, 0.0, -1.0})}, std::nullopt);
-  EXPECT_NEAR(follow(motion, {of_depth(0.003, {1.0, 0.0, 0.0})}, std::nullopt).value(), 0.001,
-              1e-12);
+  const Vector3d down(0.0, 0.0, -1.0), turned(0.0, 0.01, -1.0);
+  follow(motion, {of_depth(0.002, down)}, std::nullopt);
+  EXPECT_NEAR(follow(motion, {of_depth(0.003, turned)}, std::nullopt).value(), 0.001, 1e-12);
+  EXPECT_EQ(follow(motion, {of_depth(0.0028, -turned)}, std::nullopt).value(), 0.0);
+}
+
+TEST(ContactMotion, OfALinkThatIsPiercedFromTheSideTheDepthIsNoWay) {
+  // The normal and the depth of the whole link replace those of the first touch.
+  ContactMotion motion;
+  follow(motion, {of_depth(0.0001, {1.0, 0.0, 0.0})}, std::nullopt);
+  EXPECT_EQ(follow(motion, {of_depth(0.02, {0.0, 0.0, -1.0})}, std::nullopt).value(), 0.0);
+  EXPECT_EQ(follow(motion, {}, std::nullopt).value(), 0.0);
+  EXPECT_EQ(follow(motion, {of_depth(0.02, {0.0, 0.0, -1.0})}, std::nullopt).value(), 0.0);
+  Contact touched_now = of_depth(0.0003);
+  touched_now.fraction = 0.4;
+  follow(motion, {}, std::nullopt);
+  EXPECT_NEAR(follow(motion, {touched_now}, std::nullopt).value(), 0.0003, 1e-12);
+  EXPECT_EQ(follow(motion, {of_depth(0.001, {0.0, 0.01, -1.0})}, std::nullopt).value(), 0.0);
+}
+
+TEST(ContactMotion, AFaceThatTheShaftPassedAndLeftIsNoWay) {
+  ContactMotion motion;
+  follow(motion, {});
+  follow(motion, {of_depth(0.06)});
+  EXPECT_EQ(follow(motion, {}).value(), 0.0);
+}
+
+TEST(ContactMotion, AClearanceThatChangesIsAWay) {
+  ContactArray answer = touched({});
+  answer.clearance.state = Clearance::KNOWN;
+  ContactMotion motion;
+  std::vector<double> ways;
+  for (const double distance : {0.02, 0.0207, 0.0198, 0.0198}) {
+    answer.clearance.distance = distance;
+    ways.push_back(motion.follow(answer, {}, kRadius).value_or(-1.0));
+  }
+  EXPECT_EQ(ways[0], -1.0);
+  EXPECT_NEAR(ways[1], 0.0007, 1e-12);
+  EXPECT_NEAR(ways[2], 0.0009, 1e-12);
+  EXPECT_EQ(ways[3], 0.0);
+  answer.clearance.distance = 0.5;
+  answer.clearance.unresolved = true;
+  EXPECT_EQ(motion.follow(answer, {}, kRadius).value(), 0.0);
+  answer.clearance.unresolved = false;
+  answer.clearance.state = Clearance::BEYOND_MARGIN;
+  EXPECT_EQ(motion.follow(answer, {}, kRadius).value(), 0.0);
 }
 
 TEST(ContactMotion, AStaticAnswerAndAnotherTopologyBeginAnew) {

@@ -107,6 +107,27 @@ TEST(KeptSides, OfAnUnknownRadiusTheDepthStaysPastTheFace) {
   expect_push(follow(sides, at_height(0.002), std::nullopt), -1.0, 0.003);
 }
 
+TEST(KeptSides, OfALinkTheDepthGrowsOnPastTheFaceAsItChanges) {
+  KeptSides sides;
+  for (const double height : {0.001, 0.0001, -0.0001, -0.003, -0.0049, -0.002, 0.002}) {
+    expect_push(follow(sides, at_height(height), std::nullopt), -1.0,
+                height > 0.0 ? kRadius - height : kRadius - height - 0.0002);
+  }
+}
+
+TEST(KeptSides, TouchedFromInsideByALinkThatWasInsideItIsPushedOut) {
+  // It goes on out through the face. Its last push inside had twice the radius as depth.
+  for (const KeptSides::Radius& radius : {KeptSides::Radius(kRadius), KeptSides::Radius()}) {
+    KeptSides sides;
+    const KeptSides::DepthsInside inside = {{0, 2.0 * kRadius}};
+    const auto push = sides.follow(touched({at_height(-0.0049)}), radius, inside).at(0);
+    expect_push(push, -1.0, kRadius + 0.0049);
+    for (const double height : {-0.003, -0.0001, 0.0001, 0.003}) {
+      expect_push(sides.follow(touched({at_height(height)}), radius).at(0), -1.0, kRadius - height);
+    }
+  }
+}
+
 TEST(KeptSides, OnlyWhatTheTipPiercedIsDeeperThanTheRadius) {
   for (const double shaft : {1.0, 0.5}) {
     KeptSides sides;

@@ -8,6 +8,7 @@
 
 #include "contact_adapter/wrench_law.hpp"
 #include "force_trajectory.hpp"
+#include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
 
@@ -18,8 +19,7 @@ constexpr double kCells[] = {0.02, 0.005, 0.00125};  // [m] sizes of the organ's
 /// The package's force law, which remembers earlier answers. Its memory begins empty.
 inline ForceLaw remembering_law(const KeptSides::Radius& radius = kRadius) {
   return [radius, law = WrenchLaw()](const ContactArray& answer) mutable {
-    const auto force = law.follow(answer, kSeconds, kStiffness, radius).force;
-    return Eigen::Vector3d(force.x, force.y, force.z);
+    return to_eigen(wrench_of(law.follow(answer, kSeconds, kStiffness, radius)).force);
   };
 }
 

@@ -41,8 +41,7 @@ ContactArray answer_of(const std::vector<Contact>& contacts) {
 }
 
 Vector3d force(WrenchLaw& law, const ContactArray& answer, double seconds = kSeconds) {
-  const auto f = law.follow(answer, seconds, kStiffness, kRadius).force;
-  return {f.x, f.y, f.z};
+  return to_eigen(wrench_of(law.follow(answer, seconds, kStiffness, kRadius)).force);
 }
 
 void expect_near(const Vector3d& found, const Vector3d& expected) {
@@ -78,10 +77,10 @@ TEST(WrenchLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
 TEST(WrenchLaw, TheTorqueFollowsInTheSameShare) {
   WrenchLaw law;
   const ContactArray hidden = answer_of({floor_at(0.003), hidden_wall(0.002)});
-  const auto before = law.follow(hidden, kSeconds, kStiffness, kRadius);
+  const auto before = wrench_of(law.follow(hidden, kSeconds, kStiffness, kRadius));
   const ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
-  const auto half = law.follow(appeared, 0.02, kStiffness, kRadius);
-  const auto whole = law.follow(appeared, 1.0, kStiffness, kRadius);
+  const auto half = wrench_of(law.follow(appeared, 0.02, kStiffness, kRadius));
+  const auto whole = wrench_of(law.follow(appeared, 1.0, kStiffness, kRadius));
   EXPECT_NEAR(half.force.x, 0.5 * (before.force.x + whole.force.x), 1e-9);
   EXPECT_NEAR(half.torque.y, 0.5 * (before.torque.y + whole.torque.y), 1e-9);
   EXPECT_GT(std::abs(whole.torque.y - before.torque.y), 0.1);
@@ -114,7 +113,7 @@ TEST(WrenchLaw, LinksThatShareAFaceAreOneSpring) {
   ContactArray answer = touched({left, right});
   answer.links = {"left_jaw", "right_jaw"};
   WrenchLaw law;
-  const auto wrench = law.follow(answer, kSeconds, kStiffness, std::nullopt);
+  const auto wrench = wrench_of(law.follow(answer, kSeconds, kStiffness, std::nullopt));
   EXPECT_NEAR(wrench.force.z, 3.0, 1e-9);
   EXPECT_NEAR(wrench.torque.y, -3.0 * 0.03, 1e-9);
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Tables have all fields of Contact.msg, with their values; other statuses than OK are exceptions."""
+"""Tables have all fields of their messages, with their values; other statuses than OK are exceptions."""
 
 import re
 import unittest
@@ -7,8 +7,8 @@ import unittest
 from geometry_msgs.msg import Point, Vector3
 import numpy as np
 
-from organ_collision import CollisionError, contact_table
-from organ_collision.msg import Contact, ContactArray
+from organ_collision import CollisionError, clearance_record, contact_table, crossing_table, near_table
+from organ_collision.msg import Clearance, Contact, ContactArray, Crossing, ToolPlacement
 
 
 def contact(face):
@@ -17,16 +17,44 @@ def contact(face):
                    end_point=Point(4, 5, 6), view_min=0.1, view_max=0.2)
 
 
+def crossing(direction):
+    return Crossing(face=7, vertices=[5, 6, 8], barycentric=[0.5, 0.2, 0.3], shaft=0.75, point=Point(4, 5, 6),
+                    direction=direction)
+
+
+CLEARANCE = Clearance(state=Clearance.KNOWN, margin=0.02, unlimited=True, distance=0.011, least=0.003,
+                      least_fraction=0.25, face=4, vertices=[4, 8, 9], barycentric=[0.2, 0.3, 0.5], link=2,
+                      on_organ=Point(1, 2, 3), on_tool=Point(4, 5, 6), normal=Vector3(0, 0.6, 0.8),
+                      normal_defined=True, unresolved=True)
+
+
 class AnswersTest(unittest.TestCase):
 
+    def assert_is_row(self, row, given):
+        self.assertEqual(list(row.dtype.names), type(given).__slots__)
+        for field in row.dtype.names:
+            value = getattr(given, field)
+            numbers = [value.x, value.y, value.z] if hasattr(value, 'x') else value
+            np.testing.assert_array_equal(row[field], numbers, field)
+
     def test_columns_are_the_fields_of_contact_msg(self):
-        table = contact_table(ContactArray(contacts=[contact(3), contact(4)]))
-        self.assertEqual(list(table.dtype.names), Contact.__slots__)
-        for row, given in zip(table, (contact(3), contact(4))):
-            for field in Contact.__slots__:
-                value = getattr(given, field)
-                numbers = [value.x, value.y, value.z] if hasattr(value, 'x') else value
-                np.testing.assert_array_equal(row[field], numbers, field)
+        answer = ContactArray(contacts=[contact(3), contact(4)], near=[contact(6)])
+        for table, messages in ((contact_table(answer), answer.contacts), (near_table(answer), answer.near)):
+            self.assertEqual(len(table), len(messages))
+            for row, given in zip(table, messages):
+                self.assert_is_row(row, given)
+
+    def test_columns_are_the_fields_of_crossing_msg(self):
+        given = [crossing(1), crossing(-1)]
+        table = crossing_table(ContactArray(placement=ToolPlacement(crossings=given)))
+        self.assertEqual((len(table), table.point.shape, table.direction.tolist()), (2, (2, 3), [1, -1]))
+        for row, message in zip(table, given):
+            self.assert_is_row(row, message)
+
+    def test_a_record_has_the_fields_of_clearance_msg(self):
+        record = clearance_record(ContactArray(clearance=CLEARANCE))
+        self.assert_is_row(record, CLEARANCE)
+        self.assertEqual((record.distance, record.on_tool.tolist()), (0.011, [4, 5, 6]))
 
     def test_columns_have_a_row_for_each_contact(self):
         table = contact_table(ContactArray(contacts=[contact(3), contact(4), contact(5)]))
@@ -37,6 +65,7 @@ class AnswersTest(unittest.TestCase):
     def test_without_contacts_the_columns_are_empty(self):
         table = contact_table(ContactArray())
         self.assertEqual((len(table), table.point.shape), (0, (0, 3)))
+        self.assertEqual((len(near_table(ContactArray())), len(crossing_table(ContactArray()))), (0, 0))
 
     def test_each_status_but_ok_is_an_exception_with_its_name(self):
         definition = ContactArray._full_text.split('# modes')[0]
@@ -47,6 +76,9 @@ class AnswersTest(unittest.TestCase):
             with self.assertRaisesRegex(CollisionError, '^%s: what was wrong$' % name) as raised:
                 contact_table(ContactArray(status=int(number), message='what was wrong', contacts=[contact(3)]))
             self.assertEqual(raised.exception.status, int(number))
+            for view in (near_table, crossing_table, clearance_record):
+                with self.assertRaisesRegex(CollisionError, name):
+                    view(ContactArray(status=int(number)))
 
 
 if __name__ == '__main__':

@@ -7,9 +7,9 @@ import subprocess
 import sys
 import unittest
 
-from organ_collision.msg import ContactArray
+from organ_collision.msg import ContactArray, ToolPlacement
 from support import oracle
-from support.scenes import sheet
+from support.scenes import Mesh, box, sheet
 from support.tool_over_sheet import RADIUS, SHEET, at_height
 
 from recording import CONTACTS, TOOLS, messages, run, serialized
@@ -90,6 +90,23 @@ class ReplayRepeatsTest(ReplayCase):
         for answer in succeeded[-20:]:
             self.assertEqual(answer.mode, ContactArray.SWEPT)
         self.assertTrue(any(answer.contacts for answer in succeeded))
+
+    def test_sides_are_known_from_the_first_answer_on(self):
+        """The node inspects new surfaces in the background; replay waits for that."""
+        both_sides = Mesh(LARGE.vertices, LARGE.faces + [face[::-1] for face in LARGE.faces])
+        with self.record() as bag:
+            bag.resting(1.0)
+            for step in range(6):
+                time = 2.0 + 0.001 * step
+                bag.tool(time, at_height(0.003))
+                bag.mesh(time, box((0.3, 0.2, 0.1)), topology=step)
+                bag.mesh(time, both_sides, organ='large', topology=step)
+        self.replay()
+        placements = {'liver': [], 'large': []}
+        for _, answer in messages(self.answers):
+            placements[answer.organ].append(answer.placement.tip)
+        self.assertEqual(placements['liver'], 6 * [ToolPlacement.INSIDE])
+        self.assertEqual(placements['large'], 6 * [ToolPlacement.OUTSIDE])
 
     def test_a_copy_of_the_input(self):
         with self.record() as bag:

@@ -5,11 +5,19 @@ names that ROS does not allow."""
 import math
 import sys
 
-from organ_collision.msg import Contact, ContactArray
+from organ_collision.msg import Clearance, Contact, ContactArray, ToolPlacement
 import rospy
 import rostest
 
-from support.contact_adapter_case import CLEAR, PRESSED, SHEET, ContactAdapterCase, Diagnostics
+from support.contact_adapter_case import (
+    CLEAR,
+    PRESSED,
+    SHEET,
+    TOLERANCE,
+    ContactAdapterCase,
+    Diagnostics,
+)
+from support.contact_case import xyz
 from support.node_client import wait_until
 
 
@@ -63,6 +71,64 @@ class ContactAdapterInputTest(ContactAdapterCase):
         self.assertGreater(found.wrench.force.z, 0.0)
         self.assertEqual(outputs.of(stamp), [])
         self.assertTrue(all(math.isfinite(w.wrench.force.z) for w in outputs.wrenches))
+        sender.unregister()
+
+    def inside(self, state, distance=0.002):
+        """An answer about a tool that is wholly inside. The nearest way out is along (0.6, 0, 0.8)."""
+        answer = ContactArray(organ=self.organ, tool='probe', mode=ContactArray.SWEPT, links=[''])
+        answer.header.frame_id, answer.header.stamp = 'liver_frame', self.next_stamp()
+        answer.placement.tip = answer.placement.trocar = ToolPlacement.INSIDE
+        clearance = answer.clearance
+        clearance.state, clearance.distance, clearance.normal_defined = state, distance, True
+        clearance.normal.x, clearance.normal.z = 0.6, 0.8
+        clearance.face, clearance.vertices, clearance.barycentric = 7, [9, 2, 5], [0.5, 0.3, 0.2]
+        clearance.on_organ.y = 0.25
+        return answer
+
+    def test_a_tool_wholly_inside_is_pushed_out(self):
+        """The force ends at max_force. Beyond the margin, the way out is unknown, and nothing is
+        published."""
+        outputs, diagnostics = self.connect(), Diagnostics()
+        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wait_until(
+            lambda: '/contact_adapter' in [info[1] for info in sender.impl.get_stats_info()],
+            'the adapter to listen',
+        )
+        lost = self.inside(Clearance.BEYOND_MARGIN)
+        sender.publish(lost)
+        diagnostics.wait_for_count('unpublished, way out unknown', 1)
+        self.assertEqual(outputs.of(lost.header.stamp), [])
+
+        def whole_force_comes():
+            """The force rises by stiffness * 0.05 m/s, up to the limit of the example."""
+            answer = self.inside(Clearance.KNOWN)
+            sender.publish(answer)
+            found = outputs.wait_for(answer.header.stamp)
+            return found if found.wrench.force.z > 2.4 - 1e-9 else None
+
+        found = wait_until(whole_force_comes, 'the whole force')
+        self.assert_wrench(found, (1.8, 0.0, 2.4), (0.6, 0.0, -0.45))
+        forces = outputs.wait_for_vertex_forces(found.header.stamp)
+        self.assertEqual(list(forces.vertices), [2, 5, 9])
+        for share, force in zip((0.3, 0.2, 0.5), forces.forces):
+            self.assert_near(xyz(force), (-1.8 * share, 0.0, -2.4 * share), TOLERANCE, 'force')
+        sender.unregister()
+
+    def test_contacts_without_barycentric_coordinates_have_no_vertex_forces(self):
+        outputs, diagnostics = self.connect(), Diagnostics()
+        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wait_until(
+            lambda: '/contact_adapter' in [info[1] for info in sender.impl.get_stats_info()],
+            'the adapter to listen',
+        )
+        answer = ContactArray(organ=self.organ, tool='probe', contacts=[Contact(depth=0.001)])
+        answer.header.frame_id, answer.header.stamp = 'liver_frame', self.next_stamp()
+        answer.contacts[0].normal.z = -1.0
+        sender.publish(answer)
+        self.assert_wrench(outputs.wait_for(answer.header.stamp), (0.0, 0.0, 0.5), (0.0, 0.0, 0.0))
+        diagnostics.wait_for_count('unpublished, no barycentric coordinates', 1)
+        stamps = [forces.header.stamp for forces in outputs.vertex_forces]
+        self.assertNotIn(answer.header.stamp, stamps)
         sender.unregister()
 
     def test_the_papers_modes_have_faces_alone(self):

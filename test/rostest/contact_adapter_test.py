@@ -54,6 +54,29 @@ class ContactAdapterTest(ContactAdapterCase):
         place = (TROCAR[0], TROCAR[1], 0.0)
         self.assert_wrench(outputs.wait_for(self.stamp), force, cross(place, force))
 
+    def test_vertex_forces_are_minus_the_wrench(self):
+        """Also where the force is clipped, and when the tool leaves the tissue."""
+        outputs = self.connect()
+        lying = {'probe': ((-0.03, 0.007, 0.001), (0.03, 0.007, 0.0005))}
+        count = 0
+        for tools in (PRESSED, at_height(0.0007), lying, at_height(-0.01), CLEAR, CLEAR):
+            contacts = self.step(SHEET, tools, vertices=True)['probe']
+            wrench = outputs.wait_for(self.stamp).wrench
+            found = outputs.wait_for_vertex_forces(self.stamp)
+            self.assertEqual((found.organ, found.tool), (self.organ, 'probe'))
+            self.assertEqual(found.header.frame_id, 'liver_frame')
+            self.assertEqual(found.topology, contacts.topology)
+            self.assertEqual(list(found.vertices), sorted(set(found.vertices)))
+            forces = [xyz(force) for force in found.forces]
+            places = [SHEET.vertices[vertex] for vertex in found.vertices]
+            torques = [cross(*both) for both in zip(places, forces)]
+            for vectors, minus in ((forces, wrench.force), (torques, wrench.torque)):
+                total = [sum(axis) for axis in zip((0.0, 0.0, 0.0), *vectors)]
+                self.assert_near(total, [-x for x in xyz(minus)], 1e-9, 'sum')
+            count += len(forces)
+        self.assertGreater(count, 10)
+        self.assertEqual(list(found.vertices), [])  # clear of the tissue
+
     def test_a_finer_mesh_gives_the_same_force(self):
         """The tool presses, then rests in the tissue, straight or leaning; the sheet has 2 to 7200
         faces."""

@@ -18,7 +18,13 @@ from support.tool_case import ToolCase
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
 NODE = '/organ_collision'
-AT_START = {'rate': 0.0, 'publish_regions': False, 'tf_timeout_sec': 5.0, 'mesh_timeout_sec': 0.0}
+AT_START = {
+    'rate': 0.0,
+    'publish_regions': False,
+    'publish_placement': True,
+    'tf_timeout_sec': 5.0,
+    'mesh_timeout_sec': 0.0,
+}
 
 
 def shaft(name, radius=0.005):
@@ -201,8 +207,7 @@ class LiveChangesTest(ToolCase):
         described = {p['name']: p for p in self.client.get_parameter_descriptions(LIMIT)}
         self.assertEqual(
             set(described),
-            {'mesh_timeout_sec', 'publish_regions', 'rate', 'tf_timeout_sec', 'markers_rate', 'surface_rate',
-             'markers_depth'},
+            set(AT_START) | {'markers_rate', 'surface_rate', 'markers_depth'},
         )
         self.assertEqual((described['rate']['min'], described['rate']['max']), (0.0, 10000.0))
         self.assertEqual(described['tf_timeout_sec']['default'], 0.02)
@@ -239,6 +244,21 @@ class LiveChangesTest(ToolCase):
             self.node.contacts.wait_for(self.organ, 'hook', status=ContactArray.STALE_MESH)
         finally:
             self.client.update_configuration({'mesh_timeout_sec': 0.0, 'rate': 0.0})
+
+    def test_placement_is_switched_off_and_on(self):
+        self.reloaded(shaft('hook'))
+        axis = {'hook': at_height(-0.003)}
+
+        def crossings(vertices=True):
+            return self.step(SHEET, axis, vertices=vertices)['hook'].placement.crossings
+
+        self.assertEqual(len(crossings(vertices=False)), 1)
+        try:
+            self.client.update_configuration({'publish_placement': False})
+            self.assertEqual(crossings(), [])
+        finally:
+            self.client.update_configuration({'publish_placement': True})
+        self.assertEqual(len(crossings()), 1)
 
     def check_force(self, depth):
         """The force of a tool that rests at this depth follows the adapter's live parameters."""

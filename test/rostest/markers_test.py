@@ -19,12 +19,16 @@ TOOL = {
     'trocar_frame': 'probe_trocar',
     'tip_frame': 'probe_tip',
     'radius': 0.005,
+    'margin': 0.02,
+    'max_near': 50,
 }
 SHEET = scenes.sheet(0.1, 4)
 NO_TURN = (0.0, 0.0, 0.0, 1.0)
 TROCAR = Pose(NO_TURN, (0.01, 0.02, 0.3))
 TOUCHING, ABOVE = -0.302, -0.2  # [m] z coordinate of the tip, relative to the trocar
-FULL = {'surface/sheet', 'tools', 'touched', 'normals', 'names', 'status'}
+FULL = {
+    'surface/sheet', 'tools', 'touched', 'normals', 'names', 'near', 'clearance', 'crossings', 'status'
+}
 
 
 class Viewer:

@@ -9,7 +9,8 @@ import threading
 import unittest
 
 import numpy as np
-from organ_collision import CollisionError, contact_table, Organ, organ_mesh, Queries
+from organ_collision import (CollisionError, clearance_record, contact_table, crossing_table, near_table, Organ,
+                             organ_mesh, Queries)
 from organ_collision.msg import ContactArray
 import roslib.packages
 import rospy
@@ -75,6 +76,21 @@ class PythonModuleTest(unittest.TestCase):
         contacts = self.queries.query('sheet', TROCAR, below, RADIUS, previous_tip=above)
         self.assertGreater(len(contacts), 0)
         self.assertTrue(((contacts.fraction > 0) & (contacts.fraction < 1)).all())
+
+    def test_how_far_and_where_a_shaft_is(self):
+        self.organ('sheet')
+        above, below = TIP + [0, 0, 0.01], TIP - [0, 0, 0.01]
+        near = self.queries.answer('sheet', TROCAR, above, RADIUS, margin=0.05, max_near=3)
+        self.assertEqual(len(contact_table(near)), 0)
+        clearance = clearance_record(near)
+        self.assertAlmostEqual(clearance.distance, 0.01 - depth_at(0), delta=1e-7)
+        np.testing.assert_allclose(clearance.on_organ, [*TIP[:2], 0.0], atol=1e-7)
+        faces = near_table(near)
+        self.assertEqual(len(faces), 3)
+        self.assertAlmostEqual(-faces.depth[0], clearance.distance, delta=1e-7)
+        pierced = self.queries.answer('sheet', TROCAR, below, RADIUS, placement=True)
+        (crossing,) = crossing_table(pierced)
+        self.assertEqual((abs(crossing.direction), crossing.point[2]), (1, 0.0))
 
     def test_many_motions_at_once(self):
         self.organ('sheet')

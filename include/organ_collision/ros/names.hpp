@@ -39,6 +39,7 @@ inline constexpr char kMaxFaces[] = "max_faces";
 inline constexpr char kMaxBatch[] = "max_batch";
 inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
 inline constexpr char kPublishRegions[] = "publish_regions";
+inline constexpr char kPublishPlacement[] = "publish_placement";
 inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
 inline constexpr char kMarkersRate[] = "markers_rate";
 inline constexpr char kSurfaceRate[] = "surface_rate";
@@ -57,6 +58,8 @@ inline constexpr char kLinks[] = "links";
 inline constexpr char kRobotDescription[] = "robot_description";
 inline constexpr char kUrdf[] = "urdf";
 inline constexpr char kTfPrefix[] = "tf_prefix";
+inline constexpr char kMargin[] = "margin";
+inline constexpr char kMaxNear[] = "max_near";
 ///@}
 
 }  // namespace organ_collision::names

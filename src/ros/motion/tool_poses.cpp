@@ -71,8 +71,8 @@ void add_even_times(ros::Time from, ros::Time to, std::size_t count,
   }
 }
 
-/// The frames that determine the pose of a tool.
-TransformBuffer::Frames frames_of(const Tool& tool) {
+/// The frames that determine the pose of what is swept.
+TransformBuffer::Frames swept_frames(const Tool& tool) {
   const ToolParameters& parameters = tool.parameters;
   TransformBuffer::Frames frames;
   if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
@@ -83,7 +83,7 @@ TransformBuffer::Frames frames_of(const Tool& tool) {
 }  // namespace
 
 void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time) {
-  buffer_.set_answered(organ_frame, frames_of(tool), time);
+  buffer_.set_answered(organ_frame, swept_frames(tool), time);
 }
 
 /// The stamps that TF received, and evenly spaced times between stamps that are further apart than
@@ -91,7 +91,7 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
 std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
                                                ros::Time from, ros::Time to,
                                                std::size_t& cut) const {
-  std::vector<ros::Time> stamps = buffer_.stamps_between(organ_frame, frames_of(tool), from, to);
+  std::vector<ros::Time> stamps = buffer_.stamps_between(organ_frame, swept_frames(tool), from, to);
   const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
   cut = thin_out(stamps, std::max(kMostRead, samples_max));
   if (cut > 0) return stamps;
@@ -115,6 +115,19 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
 
 Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame,
                                  ros::Time time) const {
+  return look_up_pose(tool, organ_frame, time, TipOfLinks::kNeeded);
+}
+
+bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
+  TransformBuffer::Frames frames = swept_frames(tool);
+  if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
+  return std::all_of(frames.begin(), frames.end(), [&](const std::string& frame) {
+    return has_transform(buffer_, organ_frame, frame, time);
+  });
+}
+
+Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& organ_frame,
+                                         ros::Time time, TipOfLinks tip_of_links) const {
   const ToolParameters& parameters = tool.parameters;
   ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
   StampRange stamps;
@@ -138,9 +151,19 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
     }
     pose.links.push_back(link.found->value);
   }
+  if (tip_of_links == TipOfLinks::kNeeded && parameters.has_tip_of_links()) {
+    const auto tip = look_up_frame(parameters.tip_frame);
+    if (!tip.found) {
+      return {std::nullopt,
+              unless_silent(parameters, "tip of tool '" + parameters.name + "': " + tip.why_not)};
+    }
+    pose.tip = tip.found->value.translation();
+  }
   // For time zero, each frame was looked up at its own latest time, but all poses must be of the
   // same time.
-  if (stamps.earliest != stamps.latest) return this->pose(tool, organ_frame, stamps.earliest);
+  if (stamps.earliest != stamps.latest) {
+    return look_up_pose(tool, organ_frame, stamps.earliest, tip_of_links);
+  }
   return {{{std::move(pose), stamps.earliest}}, ""};
 }
 
@@ -157,7 +180,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   std::size_t samples_cut = 0;
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, samples_cut)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
-    if (const auto between = pose(tool, organ_frame, time);
+    if (const auto between = look_up_pose(tool, organ_frame, time, TipOfLinks::kUnused);
         between.found && is_near(between.found->value)) {
       path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
     }

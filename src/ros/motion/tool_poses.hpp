@@ -34,6 +34,9 @@ class ToolPoses {
 
   /// The pose at a time. Time zero means the latest time at which all its frames are known.
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
+  /// Whether TF has all frames of the tool at a time; time zero: each at any time. Costs less than
+  /// a pose() that is not found, see has_transform().
+  bool has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
   /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
@@ -48,6 +51,10 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
+  /// The tip of links is not swept: a sample of their motion does not need it.
+  enum class TipOfLinks { kNeeded, kUnused };
+  Lookup<ToolPose> look_up_pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
+                                TipOfLinks tip) const;
   /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,

@@ -75,4 +75,13 @@ Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::stri
   }
 }
 
+bool has_transform(const tf2::BufferCore& buffer, const std::string& target,
+                   const std::string& source, ros::Time time) {
+  try {
+    return target == source || buffer.canTransform(target, source, time);
+  } catch (const std::runtime_error&) {  // From ros::Time for extreme stamps.
+    return false;
+  }
+}
+
 }  // namespace organ_collision

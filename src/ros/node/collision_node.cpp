@@ -55,7 +55,11 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                    publisher_.publish(step);
                    markers_.add(step);
                  },
-                 [this](const OrganUpdate& update) { publisher_.report(update); },
+                 [this](const OrganUpdate& update) {
+                   publisher_.report(update);
+                   // At once, because the next callback may be a query that waits for the surface.
+                   surfaces_.update(pipeline_.organs(), SteadyClock::now());
+                 },
                  counters_.rejected, queue_}),
       services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
                  pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),

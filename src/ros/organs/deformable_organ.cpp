@@ -14,17 +14,17 @@ void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time r
   const std::shared_ptr<TriangleMesh> shape = unused_shape();
   shape->move_vertices(std::move(vertices));
   previous_ = std::move(latest_);
-  latest_ = {shape, stamp, received};
+  latest_ = {shape, stamp, received, previous_.surface};
 }
 
 void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time received) {
   // First what may fail for lack of memory, so that the organ then stays as it was.
   std::vector<std::shared_ptr<TriangleMesh>> shapes{
       std::make_shared<TriangleMesh>(std::move(mesh))};
-  surface_ = std::make_shared<OrganSurface>(*shapes.front());
+  auto surface = std::make_shared<OrganSurface>(*shapes.front());
   shapes_ = std::move(shapes);
   previous_ = {};
-  latest_ = {shapes_.front(), stamp, received};
+  latest_ = {shapes_.front(), stamp, received, std::move(surface)};
 }
 
 std::shared_ptr<TriangleMesh> DeformableOrgan::unused_shape() {

@@ -16,6 +16,12 @@ struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
   ros::Time stamp;                           ///< as sent; zero: unstamped
   ros::Time received;
+  std::shared_ptr<OrganSurface> surface = {};  ///< of the mesh's triangles; null: no shape
+
+  /// How the mesh's faces join. Null as long as that is not found.
+  const SurfaceTopology* topology() const {
+    return surface->is_found() ? &surface->topology() : nullptr;
+  }
 
   /// [s] The time since the stamp, or since the message came if it has no stamp. Negative if the
   /// stamp is in the future.
@@ -38,7 +44,7 @@ class DeformableOrgan {
   const OrganShape& previous() const { return previous_; }
 
   /// What is known of the surface. Another object if the triangles change.
-  const std::shared_ptr<OrganSurface>& surface() const { return surface_; }
+  const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
   /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if they do
   /// not fit. Reuses a released shape, and allocates only if there is none.
@@ -56,7 +62,6 @@ class DeformableOrgan {
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
-  std::shared_ptr<OrganSurface> surface_;
   std::vector<std::shared_ptr<TriangleMesh>>
       shapes_;  ///< all shapes of the present topology, in use or released
 };

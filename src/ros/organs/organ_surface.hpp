@@ -1,7 +1,10 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -22,6 +25,9 @@ class OrganSurface {
   void find();
   /// Whether find() is done. Any thread may call this.
   bool is_found() const { return found_; }
+  /// Waits until find() has ended in another thread, but at most for `longest`. Returns
+  /// is_found(), which is false after that time, and if find() threw an exception.
+  bool wait_until_found(std::chrono::milliseconds longest) const;
 
   // For any thread, once is_found().
 
@@ -34,11 +40,18 @@ class OrganSurface {
   }
 
  private:
+  void find_all();
+  void set_ended();
+
   SharedFaces faces_;
   SharedVertices vertices_;  ///< of the message; released when everything is found
   std::optional<SurfaceTopology> topology_;
   bool inward_ = false;
   std::atomic<bool> found_{false};
+
+  mutable std::mutex mutex_;
+  mutable std::condition_variable has_ended_;
+  bool ended_ = false;  ///< find() has succeeded or failed; guarded by mutex_
 };
 
 }  // namespace organ_collision

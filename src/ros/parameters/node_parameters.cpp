@@ -26,6 +26,8 @@ const NumberRange kMeshTimeoutRange{0.0, kUnlimited};
 constexpr double kSlowest = 0.001;           // [Hz]
 const NumberRange kFrameRates{0.0, 1000.0};  // [Hz]
 const NumberRange kPositive{0.0, kUnlimited, false};
+const NumberRange kMarginRange{0.0, kUnlimited};
+const NumberRange kMaxNearRange{0, 1'000'000};
 
 const std::string kShaft = "trocar_frame, tip_frame and radius";
 
@@ -102,14 +104,23 @@ void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
   if (tool.has(names::kTfPrefix)) parsed.tf_prefix = tf_prefix(tool);
 }
 
+void parse_clearance(const ParameterGroup& tool, ToolParameters& parsed) {
+  parsed.margin = tool.number(names::kMargin, parsed.margin, kMarginRange);
+  parsed.max_near = tool.whole_number(names::kMaxNear, parsed.max_near, kMaxNearRange);
+  if (parsed.max_near > 0 && parsed.margin == 0.0) {
+    tool.refuse(names::kMaxNear, "must be 0 unless the tool has a margin above 0");
+  }
+}
+
 ToolParameters parse_tool(const ParameterGroup& tool) {
   ToolParameters parsed;
   parsed.name = tool.text(names::kToolName);
   tool.check_name(names::kToolName, parsed.name);
   const bool has_links = tool.has(names::kLinks);
   const bool has_poses = tool.has(names::kTipPoseTopic) || tool.has(names::kBasePoseTopic);
+  const bool has_tip = tool.has(names::kTipFrame) || has_poses;
   const bool has_shaft = tool.has(names::kTrocarFrame) || tool.has(names::kRadius) ||
-                         (tool.has(names::kTipFrame) && !has_poses);
+                         (tool.has(names::kTipFrame) && !has_poses && !has_links);
   if (!has_links && !has_shaft) {
     tool.refuse_missing(names::kLinks, "a tool needs links, or " + kShaft + ", or all of them");
   }
@@ -121,9 +132,10 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   }
   if (has_shaft) {
     parse_shaft(tool, parsed);
-  } else if (has_poses) {
+  } else if (has_tip) {
     parse_tip(tool, parsed.link_frame(parsed.links.front()), parsed);
   }
+  parse_clearance(tool, parsed);
   return parsed;
 }
 
@@ -136,7 +148,7 @@ LoadedTools parse_tools(const ParameterGroup& all) {
         all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
         {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kTipPoseTopic,
          names::kBasePoseTopic, names::kRadius, names::kLinks, names::kRobotDescription,
-         names::kUrdf, names::kTfPrefix});
+         names::kUrdf, names::kTfPrefix, names::kMargin, names::kMaxNear});
     const ToolParameters tool = parse_tool(group);
     for (const ToolParameters& other : loaded.tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
@@ -153,8 +165,8 @@ ParameterGroup node_group(const XmlRpcValue& private_namespace) {
       private_namespace,
       {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
        names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
-       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kDiagnosticPeriod,
-       names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth}};
+       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kPublishPlacement,
+       names::kDiagnosticPeriod, names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth}};
 }
 
 /// A rate may be zero, but not so small that its period is longer than ROS timers accept.
@@ -178,6 +190,7 @@ void parse_live(const ParameterGroup& all, LiveNodeParameters& p) {
   p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, kTfTimeoutRange);
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kMeshTimeoutRange);
   p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);
+  p.publish_placement = all.flag(names::kPublishPlacement, p.publish_placement);
   parse_markers(all, p.markers);
 }
 
@@ -229,6 +242,8 @@ std::vector<LiveParameter> live_parameters(const LiveNodeParameters& p) {
                  kMeshTimeoutRange),
           LiveParameter{names::kPublishRegions, text_of(help, names::kPublishRegions),
                         p.publish_regions, defaults.publish_regions},
+          LiveParameter{names::kPublishPlacement, text_of(help, names::kPublishPlacement),
+                        p.publish_placement, defaults.publish_placement},
           number(names::kMarkersRate, p.markers.markers_rate_hz, defaults.markers.markers_rate_hz,
                  kFrameRates),
           number(names::kSurfaceRate, p.markers.surface_rate_hz, defaults.markers.surface_rate_hz,

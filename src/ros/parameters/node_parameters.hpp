@@ -16,17 +16,21 @@ namespace organ_collision {
 /// frame to the origin of another.
 struct ToolParameters {
   std::string name;
-  std::string trocar_frame;  ///< empty: no shaft
-  std::string tip_frame;     ///< without a shaft: the frame that tip_pose_topic places, or empty
-  double radius = 0.0;       ///< [m] of the shaft; 0: no shaft
+  std::string trocar_frame;          ///< empty: no shaft
+  std::string tip_frame;             ///< empty: no tip
+  double radius = 0.0;               ///< [m] of the shaft; 0: no shaft
   std::string tip_pose_topic = {};   ///< PoseStamped of tip_frame; empty: TF has its pose
   std::string base_pose_topic = {};  ///< PoseStamped of the frame in which tip poses are; or empty
   std::vector<std::string> links = {};  ///< links of the robot's URDF, each once; empty: no links
   std::string robot_description = {};   ///< parameter that holds the URDF, if `urdf` is empty
   std::string urdf = {};                ///< file or URL of the URDF, or empty
   std::string tf_prefix = {};           ///< TF frames of links are PREFIX/LINK; empty: LINK
+  double margin = 0.0;  ///< [m] steps measure the clearance up to this distance; 0: they do not
+  int max_near = 0;     ///< steps list at most this many near faces
 
   bool has_shaft() const { return radius > 0.0; }
+  /// Whether the origin of tip_frame counts as the tip of the links.
+  bool has_tip_of_links() const { return !has_shaft() && !tip_frame.empty(); }
   /// The TF frame of a link.
   std::string link_frame(const std::string& link) const;
 };
@@ -44,6 +48,7 @@ struct LiveNodeParameters {
   double tf_timeout_sec = 0.02;
   double mesh_timeout_sec = 0.0;  ///< 0: never stale
   bool publish_regions = false;
+  bool publish_placement = true;
   MarkerSettings markers;
 };
 

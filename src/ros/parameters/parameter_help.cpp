@@ -31,6 +31,8 @@ std::vector<HelpEntry> parameter_help() {
        "bytes of all results of one call of query_batch"},
       {names::kPublishRegions, shown(defaults.publish_regions),
        "true: each contact has the polygon in which its face meets the tool's viewing volume"},
+      {names::kPublishPlacement, shown(defaults.publish_placement),
+       "true: each answer tells on which side of the organ's surface the tool is"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},
       {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),

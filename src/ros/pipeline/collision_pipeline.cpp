@@ -49,6 +49,9 @@ void CollisionPipeline::watch_clock() {
 
 void CollisionPipeline::apply_organ_messages(SteadyTime now) {
   while (const auto update = organ_topics_.next()) {
+    if (inspects_surfaces_ && update->status == ContactArray::OK) {
+      organs_.at(update->message.organ()).surface()->find();
+    }
     steps_.add(organs_, *update, now);
     update_(*update);
   }

@@ -54,6 +54,9 @@ class CollisionPipeline {
   void apply_organ_messages(SteadyTime now);
   /// From now on, no shape is replaced by a newer one before it was evaluated.
   void keep_all_shapes() { steps_.keep_all_shapes(); }
+  /// From now on, the surface of an organ is inspected as soon as its mesh is applied. The answers
+  /// then do not depend on when a background thread is done, but a large mesh takes longer.
+  void inspect_surfaces_at_once() { inspects_surfaces_ = true; }
   /// Makes every tool due.
   void add_tick() { steps_.add_tick(); }
   /// Evaluates what is due.
@@ -80,6 +83,7 @@ class CollisionPipeline {
   void forget_organ_history();
 
   std::function<void(const OrganUpdate&)> update_;
+  bool inspects_surfaces_ = false;
   OrganRegistry organs_;
   TransformBuffer transforms_;
   ToolPoses poses_;

@@ -37,6 +37,11 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.message = plain_text(message, kLongestMessage);
   answer.contacts.clear();
   answer.regions.clear();
+  answer.unresolved = 0;
+  answer.near.clear();
+  answer.near_left_out = answer.near_unresolved = 0;
+  answer.clearance = {};
+  answer.placement = {};
 }
 
 ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,

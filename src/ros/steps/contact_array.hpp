@@ -25,8 +25,8 @@ void set_links(ContactArray& answer, const ToolParameters& tool);
 /// Sets frame, topology and mesh stamp to those of the shape that the answer is about.
 void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape);
 
-/// Sets status and message, and drops contacts and regions. The message becomes plain text of at
-/// most kLongestMessage bytes.
+/// Sets status and message, and drops all that was found. The message becomes plain text of at most
+/// kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
 /// The answer about an organ that could not be evaluated at all, for example because its mesh was

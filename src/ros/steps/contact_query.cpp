@@ -2,11 +2,22 @@
 
 #include <chrono>
 #include <stdexcept>
+#include <vector>
 
 #include "contact_array.hpp"
 #include "query_conversions.hpp"
 
 namespace organ_collision {
+namespace {
+
+std::vector<Contact> to_messages(const std::vector<FaceContact>& contacts) {
+  std::vector<Contact> messages;
+  messages.reserve(contacts.size());
+  for (const FaceContact& contact : contacts) messages.push_back(to_message(contact));
+  return messages;
+}
+
+}  // namespace
 
 ContactQuery::ContactQuery(PickerKind picker) : query_(picker) {
   const TriangleMesh face({-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f}, {0, 1, 2});
@@ -37,9 +48,13 @@ void ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answe
 
   answer.status = ContactArray::OK;
   answer.unresolved = static_cast<std::uint32_t>(result_.unresolved);
-  for (const FaceContact& contact : result_.contacts)
-    answer.contacts.push_back(to_message(contact));
+  answer.contacts = to_messages(result_.contacts);
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));
+  answer.near = to_messages(result_.near);
+  answer.near_left_out = static_cast<std::uint32_t>(result_.near_left_out);
+  answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
+  answer.clearance = to_message(result_.clearance);
+  answer.placement = to_message(result_.placement);
 }
 
 }  // namespace organ_collision

@@ -17,7 +17,8 @@ class ContactQuery {
   /// steps. Throws GlError if GL picking does not work on this machine.
   explicit ContactQuery(PickerKind picker);
 
-  /// Sets contacts, regions, unresolved, status and message of `answer`.
+  /// Sets the status and the message of `answer`, and all that the query finds: from contacts to
+  /// placement.
   void evaluate(const CollisionRequest& request, ContactArray& answer);
 
   const std::string& gl_version() const { return query_.gl_version(); }

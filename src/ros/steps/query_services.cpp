@@ -2,6 +2,7 @@
 
 #include <ros/serialization.h>
 
+#include <chrono>
 #include <cmath>
 #include <exception>
 
@@ -17,6 +18,10 @@
 namespace organ_collision {
 namespace {
 
+/// A query waits at most this long until the background thread has inspected a new surface. The
+/// steps wait with it.
+constexpr std::chrono::milliseconds kLongestInspection(200);
+
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
   throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", concatenate(parts...));
@@ -26,22 +31,12 @@ void refuse_unless(bool is_default, const char* field) {
   if (!is_default) refuse(field, " is set, which this version of the node does not serve");
 }
 
-template <typename Request>
-void check_served_by_all(const Request& request) {
-  refuse_unless(request.margin == 0.0, "margin");
-  refuse_unless(!request.clearance, "clearance");
-  refuse_unless(!request.placement, "placement");
-}
-
 void check_served(const QueryCollision::Request& request) {
-  check_served_by_all(request);
   refuse_unless(request.link_motion.previous.empty() && request.link_motion.links.empty(),
                 "link_motion");
-  refuse_unless(request.max_near == 0, "max_near");
 }
 
 void check_served(const QueryCollisionBatch::Request& request) {
-  check_served_by_all(request);
   refuse_unless(request.tool.empty(), "tool");
   refuse_unless(request.link_motions.empty(), "link_motions");
   refuse_unless(!request.stop_at_first_contact, "stop_at_first_contact");
@@ -56,6 +51,30 @@ static_assert(ContactArray::STATIC == static_cast<int>(QueryMode::kStatic) &&
 QueryMode checked_mode(std::uint8_t mode) {
   if (mode <= ContactArray::PAPER_NAIVE) return static_cast<QueryMode>(mode);
   refuse("mode is ", static_cast<int>(mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
+}
+
+std::size_t max_near(const QueryCollision::Request& request) { return request.max_near; }
+/// A batch has no near faces.
+std::size_t max_near(const QueryCollisionBatch::Request&) { return 0; }
+
+/// Checks what is asked besides contacts. CollisionQuery would refuse the same, but for each motion
+/// of a batch.
+template <typename Request>
+void check_extras(const Request& request, QueryMode mode) {
+  if (!std::isfinite(request.margin) || request.margin < 0.0) {
+    refuse("margin is ", request.margin,
+           " m; must be positive and finite, or 0 for no clearance within a margin");
+  }
+  if (max_near(request) > 0 && request.margin == 0.0) {
+    refuse("max_near is ", max_near(request),
+           ", and margin is 0; near faces need a margin above 0");
+  }
+  const bool has_extras = request.margin > 0.0 || request.clearance || request.placement;
+  if (has_extras && is_paper_mode(mode)) {
+    refuse("mode is ", static_cast<int>(mode),
+           ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
+           "1 (SWEPT)");
+  }
 }
 
 void check_point(const char* name, const geometry_msgs::Point& point) {
@@ -97,12 +116,23 @@ ros::Time stamp_or_now(const std_msgs::Header& header) {
   return header.stamp.isZero() ? ros::Time::now() : header.stamp;
 }
 
-CollisionRequest collision_with(const DeformableOrgan& organ, QueryMode mode, bool organ_motion) {
+/// The request without the motion. If it asks for sides, waits until they can be told.
+template <typename Request>
+CollisionRequest collision_with(const DeformableOrgan& organ, QueryMode mode,
+                                const Request& request) {
   CollisionRequest collision;
   collision.organ = organ.latest().mesh.get();
-  const bool moves = organ_motion && mode == QueryMode::kSwept;
+  const bool moves = request.organ_motion && mode == QueryMode::kSwept;
   if (moves) collision.organ_before = organ.previous().mesh.get();
   collision.mode = mode;
+  collision.margin = request.margin;
+  collision.clearance = request.clearance;
+  collision.max_near = max_near(request);
+  collision.placement = request.placement;
+  if (request.placement) {
+    organ.surface()->wait_until_found(kLongestInspection);
+    collision.topology = organ.latest().topology();
+  }
   return collision;
 }
 
@@ -174,12 +204,13 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   if (tool) set_links(answer, tool->parameters);
   check_served(request);
   const QueryMode mode = checked_mode(request.mode);
+  check_extras(request, mode);
   if (tool) check_tool(*tool, mode);
   const DeformableOrgan& organ = find_organ(request.organ);
   set_organ(answer, organ, organ.latest());
   check_age(organ);
 
-  CollisionRequest collision = collision_with(organ, mode, request.organ_motion);
+  CollisionRequest collision = collision_with(organ, mode, request);
   collision.regions = request.regions;
   if (tool) {
     set_tool_motion(request, organ, *tool, collision, answer);
@@ -195,6 +226,7 @@ void QueryServices::answer(const QueryCollisionBatch::Request& request,
                            QueryCollisionBatch::Response& response) const {
   check_served(request);
   const QueryMode mode = checked_mode(request.mode);
+  check_extras(request, mode);
   check_size(request.motions.size());
   const DeformableOrgan& organ = find_organ(request.organ);
   check_age(organ);
@@ -203,7 +235,7 @@ void QueryServices::answer(const QueryCollisionBatch::Request& request,
       answer_about(request.organ, "", request.mode, stamp_or_now(request.header));
   set_organ(unanswered, organ, organ.latest());
 
-  CollisionRequest collision = collision_with(organ, mode, request.organ_motion);
+  CollisionRequest collision = collision_with(organ, mode, request);
   std::size_t bytes = ros::serialization::serializationLength(response);
   response.results.reserve(request.motions.size());
   for (const ToolMotion& motion : request.motions) {
@@ -268,6 +300,7 @@ void QueryServices::set_tool_motion(const QueryCollision::Request& request,
   if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
   collision.radius = tool.parameters.radius;
   collision.links = &tool.links;
+  collision.tip = end.found->value.tip;
   if (!end.found->stamp.isZero()) answer.header.stamp = end.found->stamp;
   answer.step_start = answer.header.stamp;
 

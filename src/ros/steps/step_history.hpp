@@ -37,6 +37,7 @@ class ShapeQueue {
   struct Entry {
     OrganShape shape;
     SteadyTime arrival;
+    bool waits = false;  ///< for its transforms, which were missing when it was due
   };
 
   /// Adds a shape behind those that wait. Returns true if it replaced another one: the last but the
@@ -44,6 +45,8 @@ class ShapeQueue {
   bool push(Entry entry, bool keeps_all = false);
   /// The shape to evaluate next; null if there is none.
   const Entry* front() const { return waiting_.empty() ? nullptr : &waiting_.front(); }
+  /// Notes that the shape to evaluate next waits. There must be one.
+  void set_waiting() { waiting_.front().waits = true; }
   void pop();
 
  private:

@@ -70,14 +70,21 @@ void StepScheduler::evaluate_waiting(const OrganRegistry& organs, SteadyTime now
 /// Returns false if the shape still waits for its transform.
 bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t tool,
                                    OrganToolPair& pair, SteadyTime now) {
-  const ShapeQueue::Entry entry = *pair.queue.front();
+  const ShapeQueue::Entry& entry = *pair.queue.front();
   const ros::Time stamp = entry.shape.stamp;
+  const bool may_wait = now < deadline(entry);
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
   if (!late && !faulty) {
+    if (may_wait && entry.waits && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) {
+      return false;
+    }
     end = poses_.pose(tools_[tool], organ.frame(), stamp);
-    if (!end.found && now < deadline(entry)) return false;
+    if (!end.found && may_wait) {
+      pair.queue.set_waiting();
+      return false;
+    }
   }
   pair.current = entry.shape;
   pair.queue.pop();
@@ -203,6 +210,11 @@ void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToo
   request.links = &tools_[tool].links;
   request.mode = static_cast<QueryMode>(mode_of(pair));
   request.regions = parameters_.publish_regions;
+  request.margin = tools_[tool].parameters.margin;
+  request.max_near = static_cast<std::size_t>(tools_[tool].parameters.max_near);
+  request.placement = parameters_.publish_placement;
+  request.topology = pair.current.topology();
+  request.tip = end.value.tip;
 
   const auto answer = answer_about_step(organ, tool, pair, end.stamp);
   contact_query_.evaluate(request, *answer);
@@ -213,7 +225,7 @@ void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToo
   }
   pair.answer = answer;
   const double query_sec = is_answered ? contact_query_.query_times().latest() : 0.0;
-  publish_({answer, tools_[tool], mesh, request.path, query_sec});
+  publish_({answer, mesh, request.path, query_sec});
 }
 
 void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
@@ -222,7 +234,7 @@ void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganTo
   const auto answer = answer_about_step(organ, tool, pair, stamp);
   set_failure(*answer, status, message);
   pair.answer = answer;
-  publish_({answer, tools_[tool], *pair.current.mesh, {}, 0.0, is_starting});
+  publish_({answer, *pair.current.mesh, {}, 0.0, is_starting});
 }
 
 void StepScheduler::fail_without_transform(const DeformableOrgan& organ, std::size_t tool,

@@ -22,7 +22,6 @@ namespace organ_collision {
 /// The answer to one step of one tool against one organ, and the tool's path in that step.
 struct EvaluatedStep {
   ContactArrayPtr answer;
-  const Tool& tool;
   const TriangleMesh& mesh;
   const ToolPath& path;    ///< empty if the step failed before the path was known
   double query_sec = 0.0;  ///< [s] that the query took; 0 if there was none

@@ -28,7 +28,8 @@ bool is_same(const LinkPart& a, const LinkPart& b) {
 bool is_same(const ToolParameters& a, const ToolParameters& b) {
   const auto members = [](const ToolParameters& p) {
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
-                    p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix);
+                    p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix, p.margin,
+                    p.max_near);
   };
   return members(a) == members(b);
 }

@@ -178,3 +178,54 @@ TEST_F(LinkPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
   EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.25);
   EXPECT_DOUBLE_EQ(sampled.path[2].fraction, 0.75);
 }
+
+/// The grasper, whose links have a tip in a frame of its own.
+class TipOfLinksTest : public LinkPosesTest {
+ protected:
+  TipOfLinksTest() { tool_.parameters.tip_frame = "jaw_tip"; }
+
+  static Vector3d tip(double time) { return {0.1 + 0.2 * time, 0.3, -0.1 * time}; }
+  void send_tip(double time) { set_point(buffer_, "world", "jaw_tip", time, tip(time)); }
+
+  Tool tool_ = grasper();
+};
+
+TEST_F(TipOfLinksTest, IsInTheOrgansFrame) {
+  send(1.0);
+  send_tip(1.0);
+  const auto lookup = poses_.pose(tool_, "liver", ros::Time(1.0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  ASSERT_TRUE(lookup.found->value.tip);
+  EXPECT_LT((*lookup.found->value.tip - kWorldLiver.inverse() * tip(1.0)).norm(), 1e-9);
+  EXPECT_TRUE(poses_.has_pose(tool_, "liver", ros::Time(1.0)));
+  EXPECT_FALSE(poses_.pose(grasper_, "liver", ros::Time(1.0)).found->value.tip);
+}
+
+TEST_F(TipOfLinksTest, IsNeededAndNamedIfItIsMissing) {
+  send(1.0);
+  const auto lookup = poses_.pose(tool_, "liver", ros::Time(1.0));
+  EXPECT_FALSE(lookup.found);
+  EXPECT_EQ(lookup.why_not, "tip of tool 'grasper': frame 'jaw_tip' is unknown to TF");
+  EXPECT_FALSE(poses_.has_pose(tool_, "liver", ros::Time(1.0)));
+  EXPECT_TRUE(poses_.has_pose(grasper_, "liver", ros::Time(1.0)));
+}
+
+TEST_F(TipOfLinksTest, TakesPartInTheLatestTime) {
+  for (const double time : {1.0, 1.5, 2.0}) send(time);
+  for (const double time : {1.0, 1.5}) send_tip(time);
+  const auto lookup = poses_.pose(tool_, "liver", ros::Time(0));
+  ASSERT_TRUE(lookup.found) << lookup.why_not;
+  EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
+  EXPECT_LT((*lookup.found->value.tip - kWorldLiver.inverse() * tip(1.5)).norm(), 1e-9);
+}
+
+TEST_F(TipOfLinksTest, PathsDoNotNeedIt) {
+  for (int i = 0; i <= 10; ++i) send(1.0 + 0.01 * i);
+  const auto path = [&](const Tool& tool) {
+    return poses_
+        .path(tool, "liver", {pose_at(1.0), ros::Time(1.0)}, {pose_at(1.1), ros::Time(1.1)})
+        .path;
+  };
+  EXPECT_EQ(path(tool_).size(), path(grasper_).size());
+  EXPECT_GT(path(tool_).size(), 2u);
+}

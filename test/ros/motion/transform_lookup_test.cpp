@@ -106,3 +106,18 @@ TEST(LookUp, NothingOutsideTheKnownTimes) {
   EXPECT_FALSE(look_up(buffer, "a", "b", ros::Time(3.6)).found);
   EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(3.2)).found);
 }
+
+TEST(HasTransform, AgreesWithLookUp) {
+  TransformBuffer buffer;
+  for (const double time : {3.0, 3.5})
+    set_transform(buffer, "world", "liver", time, pose(0.1, 0.5));
+  set_transform(buffer, "world", "trocar", 0.0, pose(0.4, -1.1), true);
+  set_transform(buffer, "elsewhere", "tip", 3.0, pose(0.1, 0.5));
+  for (const char* source : {"trocar", "tip", "liver", "never_heard_of"}) {
+    for (const double time : {0.0, 2.9, 3.0, 3.2, 3.5, 3.6, 4294967295.0}) {
+      const bool found = look_up(buffer, "liver", source, ros::Time(time)).found.has_value();
+      EXPECT_EQ(has_transform(buffer, "liver", source, ros::Time(time)), found)
+          << source << " at " << time;
+    }
+  }
+}

@@ -95,6 +95,22 @@ TEST(DeformableOrgan, TheSurfaceIsThatOfTheTriangles) {
   EXPECT_NE(liver.surface(), first);
 }
 
+TEST(DeformableOrgan, EachShapeKeepsTheSurfaceOfItsOwnTriangles) {
+  DeformableOrgan liver = organ();
+  liver.move(shared(triangle_at(5)), ros::Time(3), ros::Time(3));
+  const OrganShape before = liver.latest();
+  EXPECT_EQ(liver.previous().surface, before.surface);
+  before.surface->find();
+  liver.replace(TriangleMesh({0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1}, {0, 2, 1}, 4), ros::Time(5),
+                ros::Time(5));
+  ASSERT_NE(before.topology(), nullptr);
+  EXPECT_EQ(before.topology()->welded().size(), before.mesh->vertex_count());
+  EXPECT_EQ(liver.latest().topology(), nullptr);
+  liver.surface()->find();
+  ASSERT_NE(liver.latest().topology(), nullptr);
+  EXPECT_EQ(liver.latest().topology()->welded().size(), 4u);
+}
+
 TEST(DeformableOrgan, AgeOfAnUnstampedShapeIsSinceItsArrival) {
   EXPECT_EQ((OrganShape{nullptr, ros::Time(3), ros::Time(4)}.age(ros::Time(10))), 7.0);
   EXPECT_EQ((OrganShape{nullptr, ros::Time(0), ros::Time(4)}.age(ros::Time(10))), 6.0);

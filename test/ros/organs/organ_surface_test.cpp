@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 #include "test/ros/organs/solids.hpp"
 
 using namespace organ_collision;
@@ -42,4 +44,17 @@ TEST(OrganSurface, InwardIsAVolumeBelowZero) {
   OrganSurface open(tetrahedron({0, 1, 2}));
   open.find();
   EXPECT_FALSE(open.is_inward());
+}
+
+TEST(OrganSurface, AnotherThreadMayWaitForIt) {
+  const std::chrono::milliseconds none(0);
+  const std::chrono::seconds long_enough(60);
+  OrganSurface surface(tetrahedron());
+  EXPECT_FALSE(surface.wait_until_found(none));
+  bool found = false;
+  std::thread waiting([&] { found = surface.wait_until_found(long_enough); });
+  surface.find();
+  waiting.join();
+  EXPECT_TRUE(found);
+  EXPECT_TRUE(surface.wait_until_found(none));
 }

@@ -75,6 +75,9 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.max_batch, 1000);
   EXPECT_EQ(p.max_batch_bytes, 67'108'864);
   EXPECT_FALSE(p.publish_regions);
+  EXPECT_TRUE(p.publish_placement);
+  EXPECT_EQ(p.tools.at(0).margin, 0.0);
+  EXPECT_EQ(p.tools.at(0).max_near, 0);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_EQ(p.markers.markers_rate_hz, 30.0);
   EXPECT_EQ(p.markers.surface_rate_hz, 30.0);
@@ -97,6 +100,9 @@ TEST(Parameters, EveryValueIsTaken) {
   all["max_batch"] = 20'000;
   all["max_batch_bytes"] = 4096;
   all["publish_regions"] = true;
+  all["publish_placement"] = false;
+  all["tools"][1]["margin"] = 0.02;
+  all["tools"][1]["max_near"] = 50;
   all["diagnostic_period"] = 0.25;
   const NodeParameters p = parse_parameters(all).parameters;
   ASSERT_EQ(p.tools.size(), 2u);
@@ -115,6 +121,10 @@ TEST(Parameters, EveryValueIsTaken) {
   EXPECT_EQ(p.max_batch, 20'000);
   EXPECT_EQ(p.max_batch_bytes, 4096);
   EXPECT_TRUE(p.publish_regions);
+  EXPECT_FALSE(p.publish_placement);
+  EXPECT_EQ(p.tools[0].margin, 0.0);
+  EXPECT_EQ(p.tools[1].margin, 0.02);
+  EXPECT_EQ(p.tools[1].max_near, 50);
   EXPECT_EQ(p.diagnostic_period_sec, 0.25);
 }
 
@@ -133,6 +143,7 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   expect_words(refusal("max_batch", 0), {"~max_batch", "at least 1", "1000000"});
   expect_words(refusal("max_batch_bytes", 0), {"~max_batch_bytes", "at least 1", "1000000000"});
   expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
+  expect_words(refusal("publish_placement", 1), {"~publish_placement", "'1'", "true or false"});
   expect_words(refusal("diagnostic_period", 0.0), {"~diagnostic_period", "'0'", "at least 0.01"});
   expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
 }
@@ -187,6 +198,30 @@ TEST(Parameters, ToolsMayBeLinks) {
   EXPECT_EQ(both.trocar_frame, "hook_trocar");
 }
 
+TEST(Parameters, LinksMayHaveATip) {
+  XmlRpcValue all;
+  all["tools"][0]["name"] = "PSM1";
+  all["tools"][0]["links"][0] = "jaw";
+  EXPECT_FALSE(parse_parameters(all).parameters.tools[0].has_tip_of_links());
+  all["tools"][0]["tip_frame"] = "/jaw_tip";
+  const ToolParameters tool = parse_parameters(all).parameters.tools[0];
+  EXPECT_EQ(tool.tip_frame, "jaw_tip");
+  EXPECT_TRUE(tool.has_tip_of_links());
+  EXPECT_FALSE(tool.has_shaft());
+  EXPECT_FALSE(parse_parameters(one_tool()).parameters.tools[0].has_tip_of_links());
+}
+
+TEST(Parameters, IllegalMarginsAreNamed) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  expect_words(refusal_of_tool("margin", -0.25), {"~tools[0]/margin", "-0.25", "at least 0"});
+  expect_words(refusal_of_tool("margin", nan), {"~tools[0]/margin", "nan", "at least 0"});
+  expect_words(refusal_of_tool("margin", infinity), {"~tools[0]/margin", "inf", "at least 0"});
+  expect_words(refusal_of_tool("margin", "wide"), {"~tools[0]/margin", "wide", "number"});
+  expect_words(refusal_of_tool("max_near", -1), {"~tools[0]/max_near", "-1", "at least 0"});
+  expect_words(refusal_of_tool("max_near", 0.5), {"~tools[0]/max_near", "0.5", "whole"});
+  expect_words(refusal_of_tool("max_near", 7), {"~tools[0]/max_near", "'7'", "margin"});
+}
+
 TEST(Parameters, IllegalLinksAreNamed) {
   XmlRpcValue empty, twice, unnamed;
   empty.setSize(0);
@@ -210,7 +245,6 @@ TEST(Parameters, WhatDoesNotGoTogetherIsNamed) {
   expect_words(refusal("tools", tools), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
   expect_words(refusal_of_links("radius", 0.01), {"~tools[0]/trocar_frame", "missing"});
   expect_words(refusal_of_links("trocar_frame", "a"), {"~tools[0]/radius", "missing"});
-  expect_words(refusal_of_links("tip_frame", "a"), {"~tools[0]/trocar_frame", "missing"});
   expect_words(refusal_of_links("base_pose_topic", "/base"),
                {"~tools[0]/base_pose_topic", "'/base'", "tip_pose_topic"});
   for (const char* name : {"robot_description", "urdf", "tf_prefix"}) {
@@ -292,11 +326,13 @@ TEST(LiveNodeParameters, ChangesKeepTheRest) {
   XmlRpcValue changes;
   changes["tf_timeout_sec"] = 1;
   changes["publish_regions"] = true;
+  changes["publish_placement"] = false;
   const LiveNodeParameters after = changed(before, changes);
   EXPECT_EQ(after.rate_hz, 50.0);
   EXPECT_EQ(after.tf_timeout_sec, 1.0);
   EXPECT_EQ(after.mesh_timeout_sec, before.mesh_timeout_sec);
   EXPECT_TRUE(after.publish_regions);
+  EXPECT_FALSE(after.publish_placement);
 }
 
 TEST(LiveNodeParameters, IllegalChangesAreRefused) {
@@ -315,7 +351,7 @@ TEST(LiveNodeParameters, EachIsDescribed) {
   LiveNodeParameters now;
   now.rate_hz = 50.0;
   const std::vector<LiveParameter> all = live_parameters(now);
-  EXPECT_EQ(all.size(), 7u);
+  EXPECT_EQ(all.size(), 8u);
   for (LiveParameter parameter : all) {
     EXPECT_FALSE(parameter.text.empty()) << parameter.name;
     XmlRpcValue changes;

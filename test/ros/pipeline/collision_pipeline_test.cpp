@@ -106,3 +106,11 @@ TEST_F(CollisionPipelineTest, AResetKeepsTransforms) {
   send_mesh(50.0);
   EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
 }
+
+TEST_F(CollisionPipelineTest, InspectsSurfacesAtOnceIfItIsTold) {
+  send_mesh(50.0);
+  EXPECT_FALSE(pipeline_.organs().at("liver").surface()->is_found());
+  pipeline_.inspect_surfaces_at_once();
+  send_mesh(50.0, 2);
+  EXPECT_TRUE(pipeline_.organs().at("liver").surface()->is_found());
+}

@@ -47,11 +47,25 @@ TEST(Answers, AFailureIsEmpty) {
   ContactArray answer = answer_about("liver", "hook", ContactArray::STATIC, ros::Time(11));
   answer.contacts.resize(3);
   answer.regions.resize(3);
+  answer.unresolved = 1;
+  answer.near.resize(2);
+  answer.near_left_out = 4;
+  answer.near_unresolved = 5;
+  answer.clearance.state = Clearance::KNOWN;
+  answer.placement.tip = ToolPlacement::INSIDE;
+  answer.placement.crossings.resize(1);
   set_failure(answer, ContactArray::NO_TRANSFORM, "no transform from a to b");
   EXPECT_EQ(answer.status, ContactArray::NO_TRANSFORM);
   EXPECT_EQ(answer.message, "no transform from a to b");
   EXPECT_TRUE(answer.contacts.empty());
   EXPECT_TRUE(answer.regions.empty());
+  EXPECT_EQ(answer.unresolved, 0u);
+  EXPECT_TRUE(answer.near.empty());
+  EXPECT_EQ(answer.near_left_out, 0u);
+  EXPECT_EQ(answer.near_unresolved, 0u);
+  EXPECT_EQ(answer.clearance.state, Clearance::NOT_ASKED);
+  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
+  EXPECT_TRUE(answer.placement.crossings.empty());
 }
 
 TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {

@@ -76,7 +76,7 @@ TEST_F(LinkToolsTest, AnswersNameTheLinks) {
 
 TEST_F(LinkToolsTest, StepsSweepTheLinksAcrossAGap) {
   watch = [this](const EvaluatedStep& step) {
-    if (step.tool.parameters.name == "hook") paths.push_back(step.path);
+    if (step.answer->tool == "hook") paths.push_back(step.path);
   };
   send_jaw(1.0, kAbove);
   send_mesh(1.0, 0.0);

@@ -50,6 +50,71 @@ TEST(QueryConversions, EveryFieldOfAContact) {
   EXPECT_EQ(message.view_max, 0.02);
 }
 
+TEST(QueryConversions, EveryFieldOfAClearance) {
+  ToolClearance clearance;
+  clearance.state = ClearanceState::kKnown;
+  clearance.margin = 0.02;
+  clearance.unlimited = true;
+  clearance.distance = 0.011;
+  clearance.least = 0.003;
+  clearance.least_fraction = 0.4;
+  clearance.face = 4000000001u;
+  clearance.vertices = {7, 5, 6};
+  clearance.barycentric = {0.2, 0.3, 0.5};
+  clearance.link = 3;
+  clearance.on_organ = {1.0, 2.0, 3.0};
+  clearance.on_tool = {4.0, 5.0, 6.5};
+  clearance.normal = {0.6, 0.0, -0.8};
+  clearance.normal_defined = true;
+  clearance.is_resolved = false;
+  const Clearance message = to_message(clearance);
+  EXPECT_EQ(message.state, Clearance::KNOWN);
+  EXPECT_EQ(message.margin, 0.02);
+  EXPECT_TRUE(message.unlimited);
+  EXPECT_EQ(message.distance, 0.011);
+  EXPECT_EQ(message.least, 0.003);
+  EXPECT_EQ(message.least_fraction, 0.4);
+  EXPECT_EQ(message.face, 4000000001u);
+  EXPECT_EQ(message.vertices, (Clearance::_vertices_type{7, 5, 6}));
+  EXPECT_EQ(message.barycentric, (Clearance::_barycentric_type{0.2, 0.3, 0.5}));
+  EXPECT_EQ(message.link, 3u);
+  EXPECT_EQ(to_eigen(message.on_organ), clearance.on_organ);
+  EXPECT_EQ(to_eigen(message.on_tool), clearance.on_tool);
+  EXPECT_EQ(to_eigen(message.normal), clearance.normal);
+  EXPECT_TRUE(message.normal_defined);
+  EXPECT_TRUE(message.unresolved);
+  EXPECT_EQ(to_message(ToolClearance()), Clearance());
+}
+
+TEST(QueryConversions, EveryFieldOfAPlacement) {
+  AxisCrossing crossing;
+  crossing.face = 4000000002u;
+  crossing.vertices = {3, 9, 4};
+  crossing.barycentric = {0.1, 0.2, 0.7};
+  crossing.shaft = 0.75;
+  crossing.point = {1.0, -2.0, 3.0};
+  crossing.direction = -1;
+  AxisPlacement placement;
+  placement.tip = Side::kInside;
+  placement.trocar = Side::kOnSurface;
+  placement.crossings = {AxisCrossing(), crossing};
+  placement.length_known = true;
+  placement.length_inside = 0.032;
+  const ToolPlacement message = to_message(placement);
+  EXPECT_EQ(message.tip, ToolPlacement::INSIDE);
+  EXPECT_EQ(message.trocar, ToolPlacement::ON_SURFACE);
+  EXPECT_TRUE(message.length_known);
+  EXPECT_EQ(message.length_inside, 0.032);
+  ASSERT_EQ(message.crossings.size(), 2u);
+  EXPECT_EQ(message.crossings[0], Crossing());
+  EXPECT_EQ(message.crossings[1].face, 4000000002u);
+  EXPECT_EQ(message.crossings[1].vertices, (Crossing::_vertices_type{3, 9, 4}));
+  EXPECT_EQ(message.crossings[1].barycentric, (Crossing::_barycentric_type{0.1, 0.2, 0.7}));
+  EXPECT_EQ(message.crossings[1].shaft, 0.75);
+  EXPECT_EQ(to_eigen(message.crossings[1].point), crossing.point);
+  EXPECT_EQ(message.crossings[1].direction, -1);
+}
+
 TEST(QueryConversions, RegionKeepsItsCorners) {
   const geometry_msgs::Polygon polygon = to_message(Region{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.5}});
   ASSERT_EQ(polygon.points.size(), 2u);

@@ -102,10 +102,6 @@ TEST_F(QueryServicesTest, WhatIsNotServedIsRefusedByName) {
     expect_refused(ContactArray::INVALID_REQUEST, {field});
   };
   using Single = QueryCollision::Request;
-  refuses("margin", [](Single& r) { r.margin = 0.01; });
-  refuses("clearance", [](Single& r) { r.clearance = true; });
-  refuses("placement", [](Single& r) { r.placement = true; });
-  refuses("max_near", [](Single& r) { r.max_near = 1; });
   refuses("link_motion", [](Single& r) { r.link_motion.links.resize(1); });
 
   const auto batch_refuses = [&](const char* field, auto set) {
@@ -120,10 +116,49 @@ TEST_F(QueryServicesTest, WhatIsNotServedIsRefusedByName) {
     EXPECT_TRUE(response.results.empty());
   };
   using Batch = QueryCollisionBatch::Request;
-  batch_refuses("margin", [](Batch& b) { b.margin = 0.01; });
-  batch_refuses("clearance", [](Batch& b) { b.clearance = true; });
-  batch_refuses("placement", [](Batch& b) { b.placement = true; });
   batch_refuses("tool", [](Batch& b) { b.tool = "probe"; });
   batch_refuses("link_motions", [](Batch& b) { b.link_motions.resize(1); });
   batch_refuses("stop_at_first_contact", [](Batch& b) { b.stop_at_first_contact = true; });
+}
+
+TEST_F(QueryServicesTest, IllegalMarginsAreRefusedWithTheirValue) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  for (const auto& [margin, word] :
+       {std::pair(-0.25, "-0.25"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
+    request.margin = margin;
+    expect_refused(ContactArray::INVALID_REQUEST, {"margin", word, "positive and finite"});
+    QueryCollisionBatch::Request batch;
+    batch.header = request.header;
+    batch.organ = request.organ;
+    batch.motions = {request.motion};
+    batch.margin = margin;
+    const QueryCollisionBatch::Response response = services.query_batch(batch);
+    EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
+    EXPECT_NE(response.message.find(word), std::string::npos) << response.message;
+    EXPECT_TRUE(response.results.empty());
+  }
+}
+
+TEST_F(QueryServicesTest, NearFacesNeedAMargin) {
+  request.max_near = 7;
+  expect_refused(ContactArray::INVALID_REQUEST, {"max_near", "7", "margin"});
+  request.clearance = true;
+  expect_refused(ContactArray::INVALID_REQUEST, {"max_near", "7", "margin"});
+}
+
+TEST_F(QueryServicesTest, ThePapersModesHaveOnlyContacts) {
+  const QueryCollision::Request good = request;
+  const auto refuses = [&](auto set) {
+    for (const std::uint8_t mode :
+         {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
+      request = good;
+      request.mode = mode;
+      EXPECT_EQ(services.query(request).status, ContactArray::OK);
+      set(request);
+      expect_refused(ContactArray::INVALID_REQUEST, {"mode is " + std::to_string(mode), "1"});
+    }
+  };
+  refuses([](auto& r) { r.margin = 0.01; });
+  refuses([](auto& r) { r.clearance = true; });
+  refuses([](auto& r) { r.placement = true; });
 }

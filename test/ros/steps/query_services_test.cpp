@@ -111,3 +111,11 @@ TEST_F(QueryServicesTest, RegionsOnRequest) {
   request.regions = true;
   EXPECT_EQ(services.query(request).regions.size(), 1u);
 }
+
+TEST_F(QueryServicesTest, ASurfaceThatIsNeverInspectedHasCrossingsButNoSides) {
+  request.placement = true;
+  const ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
+  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
+  EXPECT_EQ(answer.placement.crossings.size(), 1u);
+}

@@ -377,3 +377,45 @@ TEST_F(StepSchedulerTest, ARemovedToolIsNotEvaluated) {
   EXPECT_TRUE(tick().empty());
   EXPECT_EQ(steps.next_deadline(), std::nullopt);
 }
+
+/// The shape that waits is older than the organ's newest triangles, whose surface is known already.
+TEST_F(StepSchedulerTest, AWaitingShapeIsPlacedByTheSurfaceOfItsOwnTriangles) {
+  send_mesh(1.0, 0.0);
+  organs.at("liver").surface()->find();
+  OrganMesh tetrahedron;
+  tetrahedron.organ = "liver";
+  tetrahedron.header.frame_id = "liver_frame";
+  tetrahedron.header.stamp = ros::Time(1.1);
+  tetrahedron.topology = 2;
+  tetrahedron.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2, 5, 5, 5};
+  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  organ_topics.take_mesh(boost::make_shared<OrganMesh>(tetrahedron));
+  apply_organ_messages();
+  organs.at("liver").surface()->find();
+  for (const double time : {1.0, 1.1}) send_tip(time, {0.1, 0.15, -0.4});
+  const auto published = evaluate();
+  ASSERT_EQ(published.size(), 2u);
+  EXPECT_EQ(published[0].status, ContactArray::OK) << published[0].message;
+  EXPECT_EQ(published[0].topology, 1u);
+  EXPECT_EQ(published[0].placement.tip, ToolPlacement::UNKNOWN);
+  EXPECT_EQ(published[1].status, ContactArray::OK) << published[1].message;
+  EXPECT_EQ(published[1].topology, 2u);
+  EXPECT_EQ(published[1].placement.tip, ToolPlacement::INSIDE);
+}
+
+TEST_F(StepSchedulerTest, StepsAskForWhatTheParametersSay) {
+  send_tip(1.0, {0.1, 0.2, 0.03});
+  send_mesh(1.0, 0.0);
+  const ContactArray plain = evaluate().at(0);
+  EXPECT_EQ(plain.clearance.state, Clearance::NOT_ASKED);
+  tools[0].parameters.margin = 0.1;
+  tools[0].parameters.max_near = 1;
+  const ContactArray measured = tick().at(0);
+  EXPECT_EQ(measured.clearance.state, Clearance::KNOWN);
+  EXPECT_NEAR(measured.clearance.distance, 0.02, 1e-9);
+  EXPECT_EQ(measured.near.size(), 1u);
+  send_tip(1.1, kBelow);
+  EXPECT_EQ(tick().at(0).placement.crossings.size(), 1u);
+  parameters.publish_placement = false;
+  EXPECT_TRUE(tick().at(0).placement.crossings.empty());
+}

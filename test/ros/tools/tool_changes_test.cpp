@@ -53,6 +53,8 @@ TEST(ToolChanges, EachParameterCounts) {
       [](Tool& tool) { tool.parameters.robot_description = "robot"; },
       [](Tool& tool) { tool.parameters.urdf = "robot.urdf"; },
       [](Tool& tool) { tool.parameters.tf_prefix = "leg"; },
+      [](Tool& tool) { tool.parameters.margin = 0.01; },
+      [](Tool& tool) { tool.parameters.max_near = 1; },
       [](Tool& tool) { tool.joints[0] = "wrist_joint"; },
       [](Tool& tool) { tool.fault = "no file"; },
       [](Tool& tool) { tool.links.pop_back(); },

@@ -3,6 +3,7 @@ publishes."""
 
 import diagnostic_msgs.msg
 from geometry_msgs.msg import WrenchStamped
+from organ_collision.msg import VertexForces
 import rospy
 from std_msgs.msg import UInt32MultiArray
 
@@ -31,9 +32,12 @@ class Outputs:
     """Everything that the adapter publishes about one organ and tool, in order."""
 
     def __init__(self, pair, node='/contact_adapter'):
-        self.wrenches, self.faces = [], []
+        self.wrenches, self.vertex_forces, self.faces = [], [], []
         self.subscribers = [
             rospy.Subscriber('%s/%s/wrench' % (node, pair), WrenchStamped, self.wrenches.append),
+            rospy.Subscriber(
+                '%s/%s/vertex_forces' % (node, pair), VertexForces, self.vertex_forces.append
+            ),
             rospy.Subscriber('%s/%s/faces' % (node, pair), UInt32MultiArray, self.faces.append),
         ]
 
@@ -43,6 +47,13 @@ class Outputs:
     def wait_for(self, stamp):
         """Waits for the wrench with this stamp."""
         return wait_until(lambda: self.of(stamp), 'the wrench of %s' % stamp)[0]
+
+    def wait_for_vertex_forces(self, stamp):
+        """Waits for the vertex forces with this stamp."""
+        return wait_until(
+            lambda: [forces for forces in self.vertex_forces if forces.header.stamp == stamp],
+            'the vertex forces of %s' % stamp,
+        )[0]
 
 
 class Diagnostics:
@@ -72,11 +83,11 @@ class ContactAdapterCase(ToolCase):
         step, so this sends steps until the outputs arrive."""
         outputs = Outputs(pair or self.organ + '/probe')
 
-        def both_come():
+        def all_come():
             self.step(shape, CLEAR)
-            return outputs.wrenches and outputs.faces
+            return outputs.wrenches and outputs.vertex_forces and outputs.faces
 
-        wait_until(both_come, 'outputs of ' + self.organ)
+        wait_until(all_come, 'outputs of ' + self.organ)
         outputs.wait_for(self.stamp)  # From now on, no earlier wrench can arrive.
         return outputs
 

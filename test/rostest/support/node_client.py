@@ -221,27 +221,19 @@ class NodeClient:
         tool='',
         frame=None,
         stamp=rospy.Time(),
-        organ_motion=False,
-        regions=False,
+        **asked,
     ):
+        """The answer of the service `query`. `asked`: other fields of the request."""
         request = QueryCollisionRequest(
-            organ=organ,
-            tool=tool,
-            motion=motion or ToolMotion(),
-            mode=mode,
-            organ_motion=organ_motion,
-            regions=regions,
+            organ=organ, tool=tool, motion=motion or ToolMotion(), mode=mode, **asked
         )
         request.header.frame_id = self.frame if frame is None else frame
         request.header.stamp = stamp
         return self.query_service(request).result
 
-    def answer_batch(
-        self, organ, motions, mode=ContactArray.STATIC, frame=None, organ_motion=False
-    ):
-        request = QueryCollisionBatchRequest(
-            organ=organ, motions=motions, mode=mode, organ_motion=organ_motion
-        )
+    def answer_batch(self, organ, motions, mode=ContactArray.STATIC, frame=None, **asked):
+        """The answer of the service `query_batch`. `asked`: other fields of the request."""
+        request = QueryCollisionBatchRequest(organ=organ, motions=motions, mode=mode, **asked)
         request.header.frame_id = self.frame if frame is None else frame
         return self.batch_service(request)
 

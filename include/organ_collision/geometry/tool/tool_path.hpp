@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <vector>
 
 #include "organ_collision/geometry/tool/shaft.hpp"
@@ -11,6 +12,7 @@ namespace organ_collision {
 struct ToolPose {
   ShaftAxis axis;                             ///< of the shaft; unused if the tool has none
   std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each link
+  std::optional<Eigen::Vector3d> tip = {};    ///< of a tool without a shaft, if it has one
 };
 
 /// The pose of a tool at `fraction` in [0, 1] of the step, in the organ's frame [m].

@@ -43,14 +43,24 @@ void add_arrow(const Vector3d& tail, const Vector3d& head, visualization_msgs::M
   const Vector3d neck = head - kHeadLength * length * axis;
   const Ring start = ring(tail, axis, kShaftRadius * length);
   const Ring end = ring(neck, axis, kShaftRadius * length);
-  const Ring rim = ring(neck, axis, kHeadRadius * length);
   for (int i = 0; i < kSides; ++i) {
     const int next = (i + 1) % kSides;
     add_triangle(tail, start[next], start[i], list);
     add_triangle(start[i], start[next], end[next], list);
     add_triangle(start[i], end[next], end[i], list);
-    add_triangle(neck, rim[next], rim[i], list);
-    add_triangle(rim[i], rim[next], head, list);
+  }
+  add_arrow_head(neck, head, kHeadRadius * length, list);
+}
+
+void add_arrow_head(const Vector3d& base, const Vector3d& apex, double radius,
+                    visualization_msgs::Marker& list) {
+  const double length = (apex - base).norm();
+  if (!(length > 0.0)) return;
+  const Ring rim = ring(base, (apex - base) / length, radius);
+  for (int i = 0; i < kSides; ++i) {
+    const int next = (i + 1) % kSides;
+    add_triangle(base, rim[next], rim[i], list);
+    add_triangle(rim[i], rim[next], apex, list);
   }
 }
 

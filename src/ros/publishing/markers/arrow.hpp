@@ -11,4 +11,9 @@ namespace organ_collision {
 void add_arrow(const Eigen::Vector3d& tail, const Eigen::Vector3d& head,
                visualization_msgs::Marker& list);
 
+/// Adds the head alone: a solid cone around the line from `base` to `apex`, whose base has this
+/// radius.
+void add_arrow_head(const Eigen::Vector3d& base, const Eigen::Vector3d& apex, double radius,
+                    visualization_msgs::Marker& list);
+
 }  // namespace organ_collision

@@ -39,6 +39,10 @@ std_msgs::ColorRGBA tool() { return rgba(0.85, 0.87, 0.90); }
 std_msgs::ColorRGBA swept() { return rgba(0.20, 0.60, 1.00, 0.45); }
 std_msgs::ColorRGBA region() { return rgba(0.05, 0.05, 0.05); }
 std_msgs::ColorRGBA normal() { return rgba(0.20, 0.85, 0.45); }
+std_msgs::ColorRGBA near_face() { return rgba(0.35, 0.85, 0.95, 0.80); }
+std_msgs::ColorRGBA clearance() { return rgba(0.35, 0.95, 1.00); }
+std_msgs::ColorRGBA entering() { return rgba(1.00, 0.65, 0.10); }
+std_msgs::ColorRGBA leaving() { return rgba(0.25, 0.45, 1.00); }
 std_msgs::ColorRGBA text() { return rgba(0.95, 0.95, 0.95); }
 std_msgs::ColorRGBA failure() { return rgba(1.00, 0.45, 0.35); }
 

@@ -17,6 +17,11 @@ std_msgs::ColorRGBA tool();
 std_msgs::ColorRGBA swept();
 std_msgs::ColorRGBA region();
 std_msgs::ColorRGBA normal();
+std_msgs::ColorRGBA near_face();
+std_msgs::ColorRGBA clearance();
+/// Where a shaft's axis enters and leaves an organ. Both differ also for the colour-blind.
+std_msgs::ColorRGBA entering();
+std_msgs::ColorRGBA leaving();
 std_msgs::ColorRGBA text();
 std_msgs::ColorRGBA failure();
 

@@ -6,8 +6,10 @@
 #include <iterator>
 #include <utility>
 
+#include "clearance_markers.hpp"
 #include "colours.hpp"
 #include "contact_markers.hpp"
+#include "crossing_markers.hpp"
 #include "status_markers.hpp"
 #include "surface_markers.hpp"
 #include "swept_markers.hpp"
@@ -72,8 +74,8 @@ void MarkerPainter::remember(const Scene& scene) {
     touched_.add(*organ, *step.answer, step.time);
     contacts_[{organ->name, step.answer->tool}] = {step.time, step.answer, step.faces};
   }
-  for (const ScenePair& pair :
-       scene.pairs) {  // A contact lasts as long as the latest answer has it.
+  // A contact lasts as long as the latest answer has it.
+  for (const ScenePair& pair : scene.pairs) {
     const SceneOrgan* organ = scene.organ(pair.organ);
     if (!organ || !pair.answer || pair.answer->contacts.empty()) continue;
     touched_.add(*organ, *pair.answer, scene.time);
@@ -131,6 +133,7 @@ MarkerSheet MarkerPainter::paint_rest(const Scene& scene) {
   MarkerSheet sheet;
   add_tools(scene, sheet);
   for (const SceneOrgan& organ : scene.organs) touched_.add_markers(scene, organ, sheet);
+  for (const ScenePair& pair : scene.pairs) add_surroundings(scene, pair, sheet);
   add_contacts(scene, sheet);
   const double query_sec = query_sec_.at(scene.time);
   for (const SceneOrgan& organ : scene.organs) add_status(scene, organ, query_sec, sheet);
@@ -154,6 +157,18 @@ void MarkerPainter::add_tools(const Scene& scene, MarkerSheet& sheet) const {
   }
 }
 
+/// Adds what the latest answer tells besides contacts.
+void MarkerPainter::add_surroundings(const Scene& scene, const ScenePair& pair,
+                                     MarkerSheet& sheet) {
+  const SceneOrgan* organ = scene.organ(pair.organ);
+  if (!organ || !pair.answer) return;
+  add_near_faces(*organ, *pair.answer, sheet);
+  add_clearance(*organ, *pair.answer, sheet);
+  if (!pair.pose) return;
+  const double radius = (*scene.tools)[pair.tool].parameters.radius;
+  add_crossings(*organ, pair.pose->axis, radius, pair.answer->placement, sheet);
+}
+
 void MarkerPainter::add_contacts(const Scene& scene, MarkerSheet& sheet) const {
   for (const auto& [names, last] : contacts_) {
     const SceneOrgan* organ = scene.organ(names.first);
@@ -165,8 +180,8 @@ void MarkerPainter::add_contacts(const Scene& scene, MarkerSheet& sheet) const {
   }
 }
 
-void MarkerPainter::publish_rest(const MarkerSheet& sheet, const Publish& publish) {
-  const auto array = boost::make_shared<MarkerArray>(sheet.markers());
+void MarkerPainter::publish_rest(MarkerSheet sheet, const Publish& publish) {
+  const auto array = boost::make_shared<MarkerArray>(sheet.take());
   ShownMarkers::Groups now;
   for (Marker& marker : array->markers) {
     marker.lifetime = ros::Duration(kLifetimes * kRefreshSec);

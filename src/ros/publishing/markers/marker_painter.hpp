@@ -53,7 +53,8 @@ class MarkerPainter {
   MarkerSheet paint_rest(const Scene& scene);
   void add_contacts(const Scene& scene, MarkerSheet& sheet) const;
   void add_tools(const Scene& scene, MarkerSheet& sheet) const;
-  void publish_rest(const MarkerSheet& sheet, const Publish& publish);
+  static void add_surroundings(const Scene& scene, const ScenePair& pair, MarkerSheet& sheet);
+  void publish_rest(MarkerSheet sheet, const Publish& publish);
 
   ShownMarkers shown_;  ///< without those of surfaces
   ShownMarkers shown_surfaces_;

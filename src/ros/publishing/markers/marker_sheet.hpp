@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <utility>
 
 namespace organ_collision {
 
@@ -17,6 +18,9 @@ inline constexpr char kTouched[] = "touched";
 inline constexpr char kRegions[] = "regions";
 inline constexpr char kNormals[] = "normals";
 inline constexpr char kNames[] = "names";
+inline constexpr char kNear[] = "near";
+inline constexpr char kClearance[] = "clearance";
+inline constexpr char kCrossings[] = "crossings";
 inline constexpr char kStatus[] = "status";
 }  // namespace marker_names
 
@@ -36,6 +40,8 @@ class MarkerSheet {
   /// Drops lists without points, which RViz would report as errors.
   void add(visualization_msgs::Marker marker);
   const visualization_msgs::MarkerArray& markers() const { return array_; }
+  /// Takes the markers out of the sheet, which is then empty.
+  visualization_msgs::MarkerArray take() { return std::exchange(array_, {}); }
 
  private:
   visualization_msgs::MarkerArray array_;

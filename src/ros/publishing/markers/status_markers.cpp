@@ -31,6 +31,26 @@ double deepest(const ContactArray& answer) {
   return deepest;
 }
 
+/// ", 3.2 mm away"; empty if nothing is known.
+std::string distance_text(const Clearance& clearance) {
+  if (clearance.state == Clearance::KNOWN) {
+    return rounded(", %.1f mm away", 1e3 * clearance.distance);
+  }
+  if (clearance.state != Clearance::BEYOND_MARGIN) return "";
+  return rounded(", more than %.1f mm away", 1e3 * clearance.margin);
+}
+
+/// ", tip inside, 32.1 mm of its axis inside"; empty if nothing is inside, or known to be.
+std::string side_text(const ToolPlacement& placement) {
+  std::string text;
+  if (placement.tip == ToolPlacement::INSIDE) text += ", tip inside";
+  if (placement.tip == ToolPlacement::ON_SURFACE) text += ", tip on the surface";
+  if (placement.length_inside > 0.0) {
+    text += rounded(", %.1f mm of its axis inside", 1e3 * placement.length_inside);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
@@ -39,9 +59,11 @@ std::string status_line(const std::string& tool, const ContactArrayConstPtr& ans
     return tool + ": " + reason_of(answer->status) + ": " +
            plain_text(answer->message, kLongestReason);
   }
-  if (answer->contacts.empty()) return tool + ": touches nothing";
-  return tool + ": " + counted(answer->contacts.size(), "contact") +
-         rounded(", %.1f mm deep", 1e3 * deepest(*answer));
+  const std::string contacts = answer->contacts.empty()
+                                   ? "touches nothing" + distance_text(answer->clearance)
+                                   : counted(answer->contacts.size(), "contact") +
+                                         rounded(", %.1f mm deep", 1e3 * deepest(*answer));
+  return tool + ": " + contacts + side_text(answer->placement);
 }
 
 void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec, MarkerSheet& sheet) {

@@ -7,7 +7,7 @@
 
 namespace organ_collision {
 
-/// "probe: 3 contacts, 1.2 mm deep"; "probe: no transform: ..." if there is no answer.
+/// "probe: 3 contacts, 1.2 mm deep, tip inside"; "probe: no transform: ..." if there is no answer.
 std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer);
 
 /// Adds a text above the organ: its name, a line for each tool, and the query time [s] if it is

@@ -3,28 +3,16 @@
 #include <algorithm>
 
 #include "colours.hpp"
+#include "lifted_face.hpp"
 #include "swept_markers.hpp"
 
 namespace organ_collision {
 namespace {
 
-using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
-/// Shares of the organ's size.
-constexpr double kLift = 1e-3;  ///< Touched faces are drawn this far from the organ, on both sides.
+/// A share of the organ's size.
 constexpr double kRegionWidth = 2e-3;
-
-/// Both sides of a face, because a tool may be on either.
-void add_face(const Triangle& face, double lift, const std_msgs::ColorRGBA& colour, Marker& list) {
-  const Vector3d up = lift * (face[1] - face[0]).cross(face[2] - face[0]).normalized();
-  for (const Vector3d& shift : {up, Vector3d(-up)}) {
-    for (const Vector3d& corner : face) {
-      add_point(list, corner + shift);
-      list.colors.push_back(colour);
-    }
-  }
-}
 
 }  // namespace
 
@@ -52,8 +40,7 @@ void TouchedFaces::add_markers(const Scene& scene, const SceneOrgan& organ, Mark
       continue;
     }
     const double depth = touch.depth / scene.settings.markers_depth;
-    add_face(organ.triangle(face), kLift * organ.size(),
-             colours::faded(colours::depth(depth), share), faces);
+    add_lifted_face(organ, face, colours::faded(colours::depth(depth), share), faces);
     ++entry;
   }
   sheet.add(std::move(faces));

@@ -33,3 +33,22 @@ TEST(Arrow, HasNoTrianglesWithoutLength) {
   add_arrow(Vector3d::Ones(), Vector3d::Ones(), list);
   EXPECT_TRUE(list.points.empty());
 }
+
+TEST(ArrowHead, EndsAtItsApex) {
+  const Vector3d base(0.3, -0.2, 0.1), apex(0.5, 0.4, -0.6);
+  visualization_msgs::Marker list;
+  add_arrow_head(base, apex, 0.05, list);
+  const Vector3d axis = (apex - base).normalized();
+  double farthest = 0.0, widest = 0.0;
+  for (std::size_t i = 0; i < list.points.size(); ++i) {
+    const double along = axis.dot(point(list, i) - base);
+    EXPECT_GE(along, -1e-12);
+    farthest = std::max(farthest, along);
+    widest = std::max(widest, axis.cross(point(list, i) - base).norm());
+  }
+  EXPECT_NEAR(farthest, (apex - base).norm(), 1e-12);
+  EXPECT_NEAR(widest, 0.05, 1e-12);
+  visualization_msgs::Marker none;
+  add_arrow_head(base, base, 0.05, none);
+  EXPECT_TRUE(none.points.empty());
+}

@@ -74,6 +74,22 @@ TEST_F(Painter, ShowsTheWholeScene) {
                                                  "normals", "names", "status"}));
 }
 
+TEST_F(Painter, WhatIsNearAndCrossedIsShownAsLongAsTheLatestAnswerHasIt) {
+  Scene scene = resting(0.0);
+  const auto answer = answer_with({});
+  answer->clearance.state = Clearance::KNOWN;
+  answer->clearance.margin = 0.05;
+  answer->clearance.normal.z = -1.0;
+  answer->near = {contact_at(1, -0.01, 0.3, 0.3)};
+  answer->placement.crossings.resize(1);
+  scene.pairs[0].answer = answer;
+  paint(scene);
+  EXPECT_EQ(namespaces(), (std::set<std::string>{"surface/liver", "tools", "near", "clearance",
+                                                 "crossings", "status"}));
+  paint(resting(0.01));
+  EXPECT_EQ(namespaces(), (std::set<std::string>{"surface/liver", "tools", "status"}));
+}
+
 TEST_F(Painter, TracesVanishAfterTheContact) {
   paint(touching(0.0));
   paint(resting(0.1));

@@ -31,6 +31,13 @@ TEST(MarkerSheet, DropsEmptyLists) {
   EXPECT_EQ(sheet.markers().markers[0].points[0].z, 2.0);
 }
 
+TEST(MarkerSheet, IsEmptyWhenItsMarkersAreTaken) {
+  MarkerSheet sheet;
+  sheet.add(make_marker("a", "liver", Marker::CUBE, colours::tool()));
+  EXPECT_EQ(sheet.take().markers.size(), 1u);
+  EXPECT_TRUE(sheet.markers().markers.empty());
+}
+
 TEST(MarkerSheet, MarkersFollowTheLatestTransformOfTheirFrame) {
   const Marker marker = make_marker("a", "liver", Marker::SPHERE, colours::tool());
   EXPECT_EQ(marker.header.frame_id, "liver");

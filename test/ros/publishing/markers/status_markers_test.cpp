@@ -16,6 +16,30 @@ TEST(StatusLine, CountsContactsAndGivesTheGreatestDepth) {
   EXPECT_EQ(status_line("hook", two), "hook: 2 contacts, 34.9 mm deep");
 }
 
+TEST(StatusLine, TellsTheDistanceWhereNothingIsTouched) {
+  const auto answer = answer_with({});
+  answer->clearance.margin = 0.02;
+  answer->clearance.state = Clearance::BEYOND_MARGIN;
+  EXPECT_EQ(status_line("hook", answer), "hook: touches nothing, more than 20.0 mm away");
+  answer->clearance.state = Clearance::KNOWN;
+  answer->clearance.distance = 0.0032;
+  EXPECT_EQ(status_line("hook", answer), "hook: touches nothing, 3.2 mm away");
+  answer->contacts = {contact_at(0, 0.0012, 0, 0)};
+  EXPECT_EQ(status_line("hook", answer), "hook: 1 contact, 1.2 mm deep");
+}
+
+TEST(StatusLine, TellsWhatIsInside) {
+  const auto answer = answer_with({});
+  answer->placement.tip = ToolPlacement::OUTSIDE;
+  EXPECT_EQ(status_line("hook", answer), "hook: touches nothing");
+  answer->placement.tip = ToolPlacement::ON_SURFACE;
+  EXPECT_EQ(status_line("hook", answer), "hook: touches nothing, tip on the surface");
+  answer->placement.tip = ToolPlacement::INSIDE;
+  answer->placement.length_inside = 0.0321;
+  EXPECT_EQ(status_line("hook", answer),
+            "hook: touches nothing, tip inside, 32.1 mm of its axis inside");
+}
+
 TEST(StatusLine, SaysWhyThereIsNoAnswer) {
   const auto answer = answer_with({});
   answer->status = ContactArray::NO_TRANSFORM;

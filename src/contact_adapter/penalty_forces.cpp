@@ -1,11 +1,12 @@
-#include "penalty_wrench.hpp"
+#include "penalty_forces.hpp"
+
+#include <organ_collision/ContactArray.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "ros/interface/conversions.hpp"
 #include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
@@ -23,8 +24,8 @@ constexpr int kSweeps = 200;
 
 struct Spring {
   Vector3d normal;
-  double depth;         ///< [m] d_i in penalty_wrench.hpp
-  double length = 0.0;  ///< [m] l_i in penalty_wrench.hpp
+  double depth;         ///< [m] d_i in penalty_forces.hpp
+  double length = 0.0;  ///< [m] l_i in penalty_forces.hpp
   double lack = 0.0;    ///< [m] the part of the depth that the springs do not cover
 };
 
@@ -100,36 +101,44 @@ std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
   return used;
 }
 
-/// Where a spring acts: the weighted mean place of the pushes in its direction.
-Vector3d place_of(const Spring& spring, const std::vector<Push>& pushes) {
-  Vector3d sum = Vector3d::Zero();
+/// How much of the spring's force acts at this push, up to a factor.
+double weight_of(const Push& push, const Spring& spring) {
+  return std::max(0.0, push.depth) * agreement(push.normal, spring.normal);
+}
+
+/// Adds the force of a spring to the forces of the pushes in its direction.
+void share(const Spring& spring, const Vector3d& force, const std::vector<Push>& pushes,
+           std::vector<Vector3d>& forces) {
   double weights = 0.0;
-  for (const Push& push : pushes) {
-    const double weight = std::max(0.0, push.depth) * agreement(push.normal, spring.normal);
-    sum += weight * push.place;
-    weights += weight;
+  for (const Push& push : pushes) weights += weight_of(push, spring);
+  for (std::size_t j = 0; j < pushes.size(); ++j) {
+    forces[j] += weight_of(pushes[j], spring) / weights * force;
   }
-  return sum / weights;
+}
+
+/// Whether all torques together, and so all forces, are finite.
+bool is_finite(const std::vector<Vector3d>& forces, const std::vector<Push>& pushes) {
+  Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
+  for (std::size_t j = 0; j < pushes.size(); ++j) {
+    sum += forces[j];
+    torque += pushes[j].place.cross(forces[j]);
+  }
+  return sum.allFinite() && torque.allFinite();
 }
 
 }  // namespace
 
-geometry_msgs::Wrench penalty_wrench(const std::vector<Push>& pushes, double stiffness) {
+std::vector<Vector3d> penalty_forces(const std::vector<Push>& pushes, double stiffness) {
   std::vector<Spring> springs = springs_of(pushes);
-  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+  std::vector<Vector3d> forces(pushes.size(), Vector3d::Zero());
   for (const std::size_t i : find_lengths(springs)) {
-    const Vector3d part = -stiffness * springs[i].length * springs[i].normal;
-    force += part;
-    torque += place_of(springs[i], pushes).cross(part);
+    share(springs[i], -stiffness * springs[i].length * springs[i].normal, pushes, forces);
   }
-  if (!force.allFinite() || !torque.allFinite()) {
+  if (!is_finite(forces, pushes)) {
     throw Rejection(ContactArray::INVALID_REQUEST, "force not finite",
                     "the force of " + std::to_string(springs.size()) + " contacts is not finite");
   }
-  geometry_msgs::Wrench wrench;
-  wrench.force = to_vector(force);
-  wrench.torque = to_vector(torque);
-  return wrench;
+  return forces;
 }
 
 }  // namespace organ_collision

@@ -1,4 +1,4 @@
-#include "contact_adapter/penalty_wrench.hpp"
+#include "contact_adapter/penalty_forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,8 +27,13 @@ Push push(const Vector3d& place, const Vector3d& normal, double depth) {
 }
 
 Wrench wrench(const std::vector<Push>& pushes, double stiffness = kStiffness) {
-  const auto w = penalty_wrench(pushes, stiffness);
-  return {{w.force.x, w.force.y, w.force.z}, {w.torque.x, w.torque.y, w.torque.z}};
+  const std::vector<Vector3d> forces = penalty_forces(pushes, stiffness);
+  Wrench sum{Vector3d::Zero(), Vector3d::Zero()};
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    sum.force += forces[i];
+    sum.torque += pushes[i].place.cross(forces[i]);
+  }
+  return sum;
 }
 
 void expect_near(const Vector3d& found, const Vector3d& expected, double tolerance = 1e-12) {
@@ -55,26 +60,26 @@ std::vector<Push> scattered_pushes(std::mt19937& random, int count) {
 
 }  // namespace
 
-TEST(PenaltyWrench, OneContactIsASpring) {
+TEST(PenaltyForces, OneContactIsASpring) {
   const Wrench found = wrench({push({0.1, 0.2, 0.3}, {0.0, 0.0, -1.0}, 0.004)});
   expect_near(found.force, {0.0, 0.0, 1.0});  // 250 N/m * 4 mm, against the normal
   expect_near(found.torque, {0.2, -0.1, 0.0});
 }
 
-TEST(PenaltyWrench, NothingTouchedOrAllLeftIsZero) {
+TEST(PenaltyForces, NothingTouchedOrAllLeftIsZero) {
   expect_same(wrench({}), {Vector3d::Zero(), Vector3d::Zero()}, 0.0);
   const Push left = push({0.1, 0.2, 0.3}, {1.0, 0.5, 0.0}, -0.002);
   const Push grazed = push({0.1, 0.2, 0.3}, {1.0, 0.5, 0.0}, 0.0);
   expect_same(wrench({left, grazed}), {Vector3d::Zero(), Vector3d::Zero()}, 0.0);
 }
 
-TEST(PenaltyWrench, WhatWasLeftDoesNotCount) {
+TEST(PenaltyForces, WhatWasLeftDoesNotCount) {
   const Push deep = push({0.1, 0.2, 0.3}, {0.3, 0.5, -1.0}, 0.004);
   const Push left = push({0.12, 0.2, 0.29}, {1.0, 0.5, 0.0}, -0.05);
   expect_same(wrench({left, deep}), wrench({deep}), 0.0);
 }
 
-TEST(PenaltyWrench, SplittingSomeFacesMoreThanOthersChangesNoForce) {
+TEST(PenaltyForces, SplittingSomeFacesMoreThanOthersChangesNoForce) {
   // Two walls and a floor. Each consists of several pushes in one plane.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> way(-0.002, 0.002);
@@ -96,7 +101,7 @@ TEST(PenaltyWrench, SplittingSomeFacesMoreThanOthersChangesNoForce) {
   }
 }
 
-TEST(PenaltyWrench, SplittingAllFacesAlikeChangesNothing) {
+TEST(PenaltyForces, SplittingAllFacesAlikeChangesNothing) {
   std::mt19937 random(4);
   for (int i = 0; i < 50; ++i) {
     const std::vector<Push> whole = scattered_pushes(random, 10);
@@ -106,7 +111,7 @@ TEST(PenaltyWrench, SplittingAllFacesAlikeChangesNothing) {
   }
 }
 
-TEST(PenaltyWrench, OrderDoesNotMatter) {
+TEST(PenaltyForces, OrderDoesNotMatter) {
   std::mt19937 random(6);
   for (int i = 0; i < 50; ++i) {
     std::vector<Push> pushes = scattered_pushes(random, 10);
@@ -117,7 +122,7 @@ TEST(PenaltyWrench, OrderDoesNotMatter) {
   }
 }
 
-TEST(PenaltyWrench, TurnsWithTheContacts) {
+TEST(PenaltyForces, TurnsWithTheContacts) {
   std::mt19937 random(7);
   for (int i = 0; i < 50; ++i) {
     std::vector<Push> pushes = scattered_pushes(random, 10);
@@ -132,7 +137,7 @@ TEST(PenaltyWrench, TurnsWithTheContacts) {
   }
 }
 
-TEST(PenaltyWrench, MovedContactsAddTheLeverAlone) {
+TEST(PenaltyForces, MovedContactsAddTheLeverAlone) {
   std::mt19937 random(8);
   const Vector3d shift(0.3, -0.2, 0.1);
   std::vector<Push> pushes = scattered_pushes(random, 10);
@@ -141,26 +146,26 @@ TEST(PenaltyWrench, MovedContactsAddTheLeverAlone) {
   expect_same(wrench(pushes), {before.force, before.torque + shift.cross(before.force)}, 1e-12);
 }
 
-TEST(PenaltyWrench, IsProportionalToTheStiffness) {
+TEST(PenaltyForces, IsProportionalToTheStiffness) {
   std::mt19937 random(9);
   const std::vector<Push> pushes = scattered_pushes(random, 10);
   const Wrench soft = wrench(pushes, 1.0);
   expect_same(wrench(pushes, 800.0), {800.0 * soft.force, 800.0 * soft.torque}, 1e-12);
 }
 
-TEST(PenaltyWrench, OppositeEqualContactsCancel) {
+TEST(PenaltyForces, OppositeEqualContactsCancel) {
   const Push right = push({0.004, 0.01, 0.0}, {1.0, 0.0, 0.0}, 0.001);
   const Push left = push({-0.004, 0.01, 0.0}, {-1.0, 0.0, 0.0}, 0.001);
   expect_same(wrench({right, left}), {Vector3d::Zero(), Vector3d::Zero()});
 }
 
-TEST(PenaltyWrench, OppositeWallsAreSpringsOfTheirOwn) {
+TEST(PenaltyForces, OppositeWallsAreSpringsOfTheirOwn) {
   const Push right = push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
   const Push left = push({-0.002, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 0.003);
   expect_near(wrench({right, left}).force, {kStiffness * 0.002, 0.0, 0.0});
 }
 
-TEST(PenaltyWrench, OppositePushesAtTwoPlacesTurnTheTool) {
+TEST(PenaltyForces, OppositePushesAtTwoPlacesTurnTheTool) {
   const Push right = push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
   const Push left = push({-0.004, 0.0, 0.1}, {-1.0, 0.0, 0.0}, 0.001);
   const Wrench found = wrench({right, left});
@@ -168,13 +173,13 @@ TEST(PenaltyWrench, OppositePushesAtTwoPlacesTurnTheTool) {
   expect_near(found.torque, {0.0, kStiffness * 0.001 * 0.1, 0.0});
 }
 
-TEST(PenaltyWrench, WallsAtRightAnglesAreSpringsOfTheirOwn) {
+TEST(PenaltyForces, WallsAtRightAnglesAreSpringsOfTheirOwn) {
   const Push wall = push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
   const Push floor = push({0.0, 0.0, -0.003}, {0.0, 0.0, -1.0}, 0.002);
   expect_near(wrench({wall, floor}).force, {-kStiffness * 0.001, 0.0, kStiffness * 0.002});
 }
 
-TEST(PenaltyWrench, InACreaseTheForceIsOfTheSmallestShiftThatLeavesBothSides) {
+TEST(PenaltyForces, InACreaseTheForceIsOfTheSmallestShiftThatLeavesBothSides) {
   // Both sides rise by 30 degrees. To leave both, the ball must rise by depth / cos(30 degrees).
   const double radius = 0.005, depth = 0.001, angle = M_PI / 6.0;
   const Vector3d a(std::sin(angle), 0.0, -std::cos(angle)), b(-a.x(), 0.0, a.z());
@@ -183,7 +188,7 @@ TEST(PenaltyWrench, InACreaseTheForceIsOfTheSmallestShiftThatLeavesBothSides) {
   expect_near(wrench(sides).force, {0.0, 0.0, kStiffness * depth / std::cos(angle)}, kSearched);
 }
 
-TEST(PenaltyWrench, InADentOfTheToolsShapeTheForceIsOneContacts) {
+TEST(PenaltyForces, InADentOfTheToolsShapeTheForceIsOneContacts) {
   // A half ball that is pressed down by `shift`. The depths are the components along the normals.
   const double radius = 0.005, shift = 0.0002;
   for (const int rings : {2, 5, 20}) {
@@ -201,7 +206,7 @@ TEST(PenaltyWrench, InADentOfTheToolsShapeTheForceIsOneContacts) {
   }
 }
 
-TEST(PenaltyWrench, AShaftThatLiesOnTheTissueIsPushedAtItsMiddle) {
+TEST(PenaltyForces, AShaftThatLiesOnTheTissueIsPushedAtItsMiddle) {
   std::vector<Push> pushes;
   for (int i = 0; i <= 10; ++i) pushes.push_back(push({0.01 * i, 0.0, 0.0}, {0, 0, -1}, 0.001));
   const Wrench found = wrench(pushes);
@@ -209,7 +214,7 @@ TEST(PenaltyWrench, AShaftThatLiesOnTheTissueIsPushedAtItsMiddle) {
   expect_near(found.torque, {0.0, -0.05 * 0.25, 0.0});
 }
 
-TEST(PenaltyWrench, ALinkThatCoversAnotherAddsNothing) {
+TEST(PenaltyForces, ALinkThatCoversAnotherAddsNothing) {
   std::mt19937 random(10);
   for (int i = 0; i < 50; ++i) {
     std::vector<Push> pushes = scattered_pushes(random, 10);
@@ -219,7 +224,7 @@ TEST(PenaltyWrench, ALinkThatCoversAnotherAddsNothing) {
   }
 }
 
-TEST(PenaltyWrench, WhatDoesNotCountMovesThePlaceAlone) {
+TEST(PenaltyForces, WhatDoesNotCountMovesThePlaceAlone) {
   Push beside = push({0.02, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.001);
   beside.counts = false;
   const Wrench found = wrench({push({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.001), beside});
@@ -227,7 +232,7 @@ TEST(PenaltyWrench, WhatDoesNotCountMovesThePlaceAlone) {
   expect_near(found.torque, {0.0, -0.01 * 0.25, 0.0});
 }
 
-TEST(PenaltyWrench, JawsThatCloseOnTissueAreSpringsOfTheirOwn) {
+TEST(PenaltyForces, JawsThatCloseOnTissueAreSpringsOfTheirOwn) {
   Push left = push({-0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
   Push right = push({0.004, 0.0, 0.02}, {-1.0, 0.0, 0.0}, 0.003);
   const Wrench found = wrench({left, right});
@@ -235,8 +240,21 @@ TEST(PenaltyWrench, JawsThatCloseOnTissueAreSpringsOfTheirOwn) {
   expect_near(found.torque, {0.0, kStiffness * 0.003 * 0.02, 0.0});
 }
 
-TEST(PenaltyWrench, AForceThatIsNotFiniteIsRefused) {
+TEST(PenaltyForces, EachPushHasAShareOfTheForce) {
+  // The second push is twice as deep, and leans by 60 degrees. The third one has been left.
+  const std::vector<Vector3d> forces =
+      penalty_forces({push({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.004),
+                      push({0.1, 0.0, 0.0}, {std::sqrt(0.75), 0.0, -0.5}, 0.002),
+                      push({0.2, 0.0, 0.0}, {0.0, 0.0, -1.0}, -0.001)},
+                     kStiffness);
+  ASSERT_EQ(forces.size(), 3u);
+  expect_near(forces[0], {0.0, 0.0, 0.8});
+  expect_near(forces[1], {0.0, 0.0, 0.2});
+  expect_near(forces[2], Vector3d::Zero());
+}
+
+TEST(PenaltyForces, AForceThatIsNotFiniteIsRefused) {
   const Push deep = push({0.1, 0.2, 0.3}, {0.0, 0.0, -1.0}, 1e300);
-  EXPECT_THROW(penalty_wrench({deep}, 1e300), Rejection);
-  EXPECT_THROW(penalty_wrench({deep, deep}, 1e300), Rejection);
+  EXPECT_THROW(penalty_forces({deep}, 1e300), Rejection);
+  EXPECT_THROW(penalty_forces({deep, deep}, 1e300), Rejection);
 }

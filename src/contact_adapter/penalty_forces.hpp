@@ -1,30 +1,30 @@
 #pragma once
 
-#include <geometry_msgs/Wrench.h>
-
+#include <Eigen/Core>
 #include <vector>
 
-#include "kept_sides.hpp"
+#include "push.hpp"
 
 namespace organ_collision {
 
-/// The force [N] of the tissue on the tool, and its torque [N m] about the origin of the organ's
-/// frame, by a penalty law of `stiffness` [N/m]. Both are zero if there are no pushes.
+/// The forces [N] of the tissue on the tool by a penalty law of `stiffness` [N/m]: one for each
+/// push, which acts at its place. All are zero if no push has a depth.
 ///
 /// A single push is a spring with the force -stiffness * depth * normal. If each face had a spring,
 /// the force would grow with the resolution of the mesh. Therefore only pushes that count have a
 /// spring. With normals n and depths d, the lengths l of the springs are chosen so that they cover
 /// each depth and none is longer than needed:
 ///   sum_j l_j max(0, n_j . n_i) >= d_i and l_i >= 0 for all i, one of the two with equality,
-///   force = -stiffness * sum_i l_i n_i.
+///   sum of the forces = -stiffness * sum_i l_i n_i.
 /// Two walls at right angles, opposite walls, and closing jaws have a spring each. Links side by
 /// side on flat tissue share one spring. In a crease the force is -stiffness times the smallest
 /// displacement of the tool out of both sides. Up to a millionth of the greatest depth may stay
 /// uncovered.
 ///
-/// A spring acts at the mean place of all pushes, weighted by d_j max(0, n_j . n_i). For a shaft
-/// that lies on the tissue, this is the middle of the touching part. Takes O(n) time for n pushes.
-/// Throws Rejection if the result is not finite.
-geometry_msgs::Wrench penalty_wrench(const std::vector<Push>& pushes, double stiffness);
+/// The force of spring i is shared among all pushes j, in proportion to d_j max(0, n_j . n_i). For
+/// a shaft that lies on the tissue, the sum therefore acts at the middle of the touching part.
+/// Takes O(n) time for n pushes. Throws Rejection if a force or the sum of the torques is not
+/// finite.
+std::vector<Eigen::Vector3d> penalty_forces(const std::vector<Push>& pushes, double stiffness);
 
 }  // namespace organ_collision
