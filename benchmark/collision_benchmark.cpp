@@ -23,6 +23,7 @@ int main(int argc, char** argv) {
       add_engine_cases(cache, key);
       add_contact_cases(cache, key);
       add_vertex_pass_cases(cache, key);
+      if (faces > 4 && !shuffled) add_where_cases(cache, key);
     }
   }
   add_grasper_cases(cache);

@@ -17,6 +17,11 @@ ENGINES = ['ours', 'ours_no_clusters', 'select_paper', 'scan', 'bullet', 'bullet
 PARTS = ['step', 'update', 'static', 'swept', 'static_rigid', 'swept_rigid']
 CONTACT_PARTS = ['contacts', 'step_contacts', 'contacts_moving', 'step_moving']
 
+WHERE = {'ours': 'ours: contacts, clearance up to 20 mm, placement',
+         'ours_unlimited': 'ours_unlimited: contacts, clearance without a limit, placement',
+         'ours_near': 'ours_near: contacts, 100 faces within 20 mm', 'fcl': 'fcl: distance of the shaft',
+         'embree': 'embree: distance of the tip up to 20 mm', 'cgal': 'cgal: side of the tip'}
+
 
 class Results:
     """Medians in microseconds and counters, both by (part, engine, faces, shuffled): see cases/registration.hpp."""
@@ -97,6 +102,17 @@ def grasper_table(results):
     return table(['a grasper of four links', 'static, µs', 'swept, µs'], rows)
 
 
+def where_table(results):
+    """A new shape, and where the tool is then. A peer tells only a part of that."""
+    sizes = [faces for faces in results.sizes if ('where', 'ours', faces, False) in results.median]
+    rows = [[what] + [microseconds(results.median.get(('where', engine, faces, False))) for faces in sizes]
+            for engine, what in WHERE.items()]
+    rows += [[f'{engine} / ours'] + [ratio(results, 'where', engine, 'ours', faces) for faces in sizes]
+             for engine in ('ours_unlimited', 'fcl', 'embree', 'cgal')]
+    wrong = sum(results.counters['where', engine, faces, False]['wrong'] for engine in WHERE for faces in sizes)
+    return table(['where the tool is, µs'] + sizes, rows) + f'\nWrong answers in all: {wrong:.0f}.\n'
+
+
 def error_table(results):
     rows = []
     for engine in ENGINES:
@@ -147,6 +163,7 @@ def write_table(results, path):
             '## Times\n', *(part_table(results, part, False) for part in PARTS),
             'Vertices and faces in random order:\n', *(part_table(results, part, True) for part in PARTS),
             '## Contacts with full geometry\n', contact_table(results),
+            '## Where the tool is\n', where_table(results),
             '## A grasper\n', grasper_table(results),
             "## The paper's figures 11 and 12\n", paper_table(results),
             '## Answers against the oracle, in all steps together\n', error_table(results)]

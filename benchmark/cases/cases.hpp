@@ -12,6 +12,8 @@ void add_engine_cases(MeasurementCache& cache, const SceneKey& key);
 void add_contact_cases(MeasurementCache& cache, const SceneKey& key);
 /// Lower bounds for a step: one pass over the new vertices.
 void add_vertex_pass_cases(MeasurementCache& cache, const SceneKey& key);
+/// Where a tool is: its distance from the organ, and the side of its tip.
+void add_where_cases(MeasurementCache& cache, const SceneKey& key);
 /// A grasper with three links.
 void add_grasper_cases(MeasurementCache& cache);
 /// Motion that is not smooth.

@@ -1,27 +1,13 @@
 #include <embree3/rtcore.h>
 
 #include <algorithm>
-#include <stdexcept>
 
+#include "embree_device.hpp"
 #include "engine.hpp"
 #include "exact_clip.hpp"
 
 namespace organ_collision::bench {
 namespace {
-
-class Device {
- public:
-  Device() : device_(rtcNewDevice("threads=1,set_affinity=0")) {
-    if (!device_) throw std::runtime_error("Embree gives no device");
-  }
-  ~Device() { rtcReleaseDevice(device_); }
-  Device(const Device&) = delete;
-  Device& operator=(const Device&) = delete;
-  RTCDevice get() const { return device_; }
-
- private:
-  RTCDevice device_;
-};
 
 /// A scene with one user geometry, whose primitives are boxes: rtcCollide accepts no other kind.
 class BoxScene {
@@ -111,7 +97,7 @@ class Embree : public Engine {
     for (unsigned i = 0; i < count; ++i) faces.push_back(collisions[i].primID0);
   }
 
-  Device device_;
+  EmbreeDevice device_;
   BoxScene organ_scene_;
   BoxScene tool_scene_;
   const OrganSurface* organ_ = nullptr;

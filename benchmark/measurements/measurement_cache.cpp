@@ -42,6 +42,16 @@ GrasperMeasurement& MeasurementCache::grasper() {
   return *grasper_;
 }
 
+WhereMeasurement& MeasurementCache::where(const std::string& locator,
+                                          std::unique_ptr<Locator> (*make)(), const SceneKey& key) {
+  std::unique_ptr<WhereMeasurement>& measurement = where_[{locator, key}];
+  if (!measurement) {
+    measurement = std::make_unique<WhereMeasurement>(make(), scene(key));
+    report_check(locator + ", where the tool is", key, measurement->summary());
+  }
+  return *measurement;
+}
+
 void MeasurementCache::report_check(const std::string& name, const SceneKey& key,
                                     const CheckSummary& summary) {
   const auto& [missed, wrong] = summary.errors;

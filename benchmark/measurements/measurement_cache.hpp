@@ -10,6 +10,7 @@
 #include "contact_measurement.hpp"
 #include "engine_measurement.hpp"
 #include "grasper_measurement.hpp"
+#include "where_measurement.hpp"
 
 namespace organ_collision::bench {
 
@@ -34,6 +35,9 @@ class MeasurementCache {
                             const SceneKey& key, bool rigid);
   ContactMeasurement& contacts(const SceneKey& key);
   GrasperMeasurement& grasper();
+  /// `make` creates the locator called `locator`.
+  WhereMeasurement& where(const std::string& locator, std::unique_ptr<Locator> (*make)(),
+                          const SceneKey& key);
 
   /// Number of faces that the package itself has missed or found wrongly so far.
   std::size_t own_errors() const { return own_errors_; }
@@ -45,6 +49,7 @@ class MeasurementCache {
   std::map<std::tuple<std::string, SceneKey, bool>, std::unique_ptr<EngineMeasurement>> engines_;
   std::map<SceneKey, std::unique_ptr<ContactMeasurement>> contacts_;
   std::unique_ptr<GrasperMeasurement> grasper_;
+  std::map<std::pair<std::string, SceneKey>, std::unique_ptr<WhereMeasurement>> where_;
   std::size_t own_errors_ = 0;
 };
 

@@ -7,12 +7,20 @@
 
 namespace organ_collision {
 
-/// The header line of the contacts, with its line end.
-std::string contacts_header();
+/// The columns that follow those of the contacts.
+struct AddedColumns {
+  bool clearance = false;
+  bool placement = false;
+};
 
-/// Appends a line for each contact of a motion, with the columns of contacts_header(). Numbers
-/// after the face have 17 significant digits. In the paper modes the columns after the face are
-/// empty.
-void append_contacts(const Motion& motion, const CollisionResult& result, std::string& csv);
+/// The header line, with its line end.
+std::string contacts_header(AddedColumns added = {});
+
+/// Appends the lines of a motion, with the columns of contacts_header(): a line for each contact.
+/// With added columns, which are the same in all lines of a motion, a motion without contact has
+/// one line, too. Numbers except those of faces have 17 significant digits. In the paper modes the
+/// columns after the face are empty.
+void append_contacts(const Motion& motion, const CollisionResult& result, std::string& csv,
+                     AddedColumns added = {});
 
 }  // namespace organ_collision

@@ -1,80 +1,55 @@
 #include "options.hpp"
 
-#include <map>
+#include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "command_line.hpp"
 #include "input_error.hpp"
+#include "text_reader.hpp"
 
 namespace organ_collision {
 namespace {
 
-using Values = std::map<std::string, std::string>;
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw InputError("query_offline: " + message + " (--help explains)");
-}
-
-bool is_option(const std::string& argument) { return argument.rfind("--", 0) == 0; }
-
-void check_name(const std::string& name, const Values& values) {
-  if (name != "--mesh" && name != "--motions" && name != "--mesh-before" && name != "--picker") {
-    refuse("unknown option " + in_quotes(name) +
-           "; legal are --mesh, --motions, --mesh-before, --picker and --help");
+PickerKind picker_of(const CommandLine& given) {
+  try {
+    return picker_kind(given.value("--picker"));
+  } catch (const std::invalid_argument& error) {
+    given.refuse(error.what());
   }
-  if (values.count(name) > 0) refuse("option " + name + " is given twice");
 }
 
-/// Written by hand because the messages of boost::program_options do not name a stray argument, and
-/// may have several lines.
-Values split(const std::vector<std::string>& arguments) {
-  Values values;
-  for (std::size_t i = 0; i < arguments.size(); ++i) {
-    const std::size_t equals = arguments[i].find('=');
-    const std::string name = arguments[i].substr(0, equals);
-    check_name(name, values);
-    std::string value;
-    if (equals != std::string::npos) {
-      value = arguments[i].substr(equals + 1);
-    } else if (i + 1 < arguments.size() && !is_option(arguments[i + 1])) {
-      value = arguments[++i];
-    }
-    if (value.empty()) refuse("option " + name + " has no value");
-    values[name] = value;
-  }
-  return values;
-}
-
-std::string required(const std::string& name, const Values& values) {
-  const auto found = values.find(name);
-  if (found == values.end()) refuse("option " + name + " is missing");
-  return found->second;
+double margin_of(const CommandLine& given) {
+  const std::optional<double> margin = parse_number(given.value("--margin"));
+  if (margin && std::isfinite(*margin) && *margin > 0.0) return *margin;
+  given.refuse("--margin is " + in_quotes(given.value("--margin")) +
+               "; must be a finite number above 0, in metres");
 }
 
 }  // namespace
 
 Options parse_options(const std::vector<std::string>& arguments) {
   Options options;
-  for (const std::string& argument : arguments) {
-    options.help = options.help || argument == "--help" || argument == "-h";
-  }
+  options.help = asks_for_help(arguments);
   if (options.help) return options;
 
-  const Values values = split(arguments);
-  options.mesh = required("--mesh", values);
-  options.motions = required("--motions", values);
-  if (values.count("--mesh-before") > 0) options.mesh_before = values.at("--mesh-before");
-  if (values.count("--picker") > 0) {
-    try {
-      options.picker = picker_kind(values.at("--picker"));
-    } catch (const std::invalid_argument& error) {
-      refuse(error.what());
-    }
-  }
+  const CommandLine given({"query_offline",
+                           {"--mesh", "--motions", "--mesh-before", "--picker", "--margin"},
+                           {"--clearance", "--placement"}},
+                          arguments);
+  options.mesh = given.required("--mesh");
+  options.motions = given.required("--motions");
+  options.mesh_before = given.value("--mesh-before");
+  if (given.has("--picker")) options.picker = picker_of(given);
+  if (given.has("--margin")) options.margin = margin_of(given);
+  options.clearance = given.has("--clearance");
+  options.placement = given.has("--placement");
   return options;
 }
 
 std::string usage() {
   return R"(Usage: query_offline --mesh FILE --motions FILE [--mesh-before FILE] [--picker NAME]
+                     [--margin METRES] [--clearance] [--placement]
 
 Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
 
@@ -89,12 +64,41 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
   --mesh-before FILE  the same faces at the start of the step: swept motions then meet the organ
                       moving linearly from there to --mesh; without it the organ rests
   --picker NAME       feedback (default), or select: the same contacts, much slower on large meshes
+  --margin METRES     adds the distance between tool and organ, if it is at most this; above 0
+  --clearance         adds the distance without a limit; a margin then changes nothing
+  --placement         adds on which side of the organ the tool is, and where its axis crosses it
   --help              this text
 
 Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
 sorted by query (integers by value, names as text), then face. A face's number is its place among
 the mesh's f lines, from 0; a polygon is cut into a fan and counts as so many faces. A motion without
 contact has no line. In the paper's modes the columns after face are empty.
+
+With --margin, --clearance or --placement each motion has at least one line. Further columns follow,
+which are the same in all lines of a motion. A motion without contact has one line, in which the
+columns from face to normal_z are empty. In the paper's modes the further columns are empty.
+
+With --margin or --clearance:
+  clearance           known; beyond_margin: the distance is larger than the margin, and the columns
+                      below are empty; upper_bound: the query reached its work limit, and the true
+                      distances may be smaller than those below
+  distance            at the end of the step; negative while a shaft touches
+  least               the smallest distance during the step; 0 if anything was touched
+  least_fraction      when that was, from 0 to 1; the first touch if there was one
+  nearest_face        the face with the nearest point at the end of the step
+  on_organ_x,_y,_z    this point
+  on_tool_x,_y,_z     the nearest point of the tool
+  clearance_normal_x,_y,_z   unit vector from the tool to the organ
+  normal_defined      0 if the axis and the face meet, so that this is the face's normal; else 1
+
+With --placement, at the end of the step:
+  tip_side            inside, outside, on_surface (exactly), or unknown: the organ is not closed
+  trocar_side         the same for the trocar
+  crossings           how often the axis crosses the organ's surface
+  crossed_faces       the crossed faces from trocar to tip, separated by blanks: +12 if the axis
+                      enters the organ through face 12, -12 if it leaves
+  crossing_places     their places on the axis, from 0 at the trocar to 1 at the tip
+  length_inside       length of the axis within the organ; empty if a side is unknown
 
 Exit status: 0 done; 2 bad input, with one line on stderr and nothing on stdout; 1 other failures.
 )";

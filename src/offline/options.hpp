@@ -13,12 +13,15 @@ struct Options {
   std::string mesh_before;  ///< empty: the organ rests
   std::string motions;
   PickerKind picker = PickerKind::kFeedback;
+  double margin = 0.0;     ///< [m] up to which the clearance is asked for; 0: not asked for
+  bool clearance = false;  ///< whether the clearance is asked for without a limit
+  bool placement = false;  ///< whether sides and crossings are asked for
   bool help = false;
 };
 
-/// Reads the command line. `arguments` exclude the program's name. Options are given as `--name
-/// value` or `--name=value`. Throws InputError for options that are unknown, repeated, without
-/// value or missing. If --help is among them, the others are not checked.
+/// Reads the command line. `arguments` exclude the program's name. Throws InputError for options
+/// that are unknown, repeated, without value or missing, and for illegal values. If --help is among
+/// them, the others are not checked.
 Options parse_options(const std::vector<std::string>& arguments);
 
 /// What --help prints.

@@ -20,34 +20,58 @@
 namespace organ_collision {
 namespace {
 
-/// The contacts of all motions as CSV. They are printed only after all input has proved legal.
-std::string evaluate(const Options& options) {
-  const ObjMesh organ = read_obj(options.mesh);
+/// The shapes of the organ that all motions meet.
+struct Organ {
+  ObjMesh now;
   std::optional<ObjMesh> before;
+  std::optional<SurfaceTopology> topology;  ///< only if the placement is asked for
+};
+
+Organ read_organ(const Options& options) {
+  Organ organ{read_obj(options.mesh), {}, {}};
   if (!options.mesh_before.empty()) {
-    before = read_obj(options.mesh_before);
-    check_same_faces(*before, organ);
+    organ.before = read_obj(options.mesh_before);
+    check_same_faces(*organ.before, organ.now);
   }
+  if (options.placement) {
+    organ.topology.emplace(organ.now.mesh.faces(), organ.now.mesh.vertices());
+  }
+  return organ;
+}
+
+CollisionRequest request_of(const Motion& motion, const Organ& organ, const Options& options) {
+  CollisionRequest request;
+  request.organ = &organ.now.mesh;
+  request.organ_before = organ.before ? &organ.before->mesh : nullptr;
+  request.path = motion.path;
+  request.radius = motion.radius;
+  request.mode = motion.mode;
+  if (is_paper_mode(motion.mode)) return request;
+  request.margin = options.margin;
+  request.clearance = options.clearance;
+  request.placement = options.placement;
+  request.topology = organ.topology ? &*organ.topology : nullptr;
+  return request;
+}
+
+/// The answers to all motions as CSV. They are printed only after all input has proved legal.
+std::string evaluate(const Options& options) {
+  const Organ organ = read_organ(options);
   const std::vector<Motion> motions = read_motions(options.motions);
 
   CollisionQuery query(options.picker);
   CollisionResult result;
   Progress progress(motions.size());
-  std::string csv = contacts_header();
+  const AddedColumns added{options.margin > 0.0 || options.clearance, options.placement};
+  std::string csv = contacts_header(added);
   for (std::size_t i = 0; i < motions.size(); ++i) {
     progress.report(i);
-    CollisionRequest request;
-    request.organ = &organ.mesh;
-    request.organ_before = before ? &before->mesh : nullptr;
-    request.path = motions[i].path;
-    request.radius = motions[i].radius;
-    request.mode = motions[i].mode;
     try {
-      query.evaluate(request, result);
+      query.evaluate(request_of(motions[i], organ, options), result);
     } catch (const std::invalid_argument& error) {
       throw InputError(options.motions, motions[i].line, error.what());
     }
-    append_contacts(motions[i], result, csv);
+    append_contacts(motions[i], result, csv, added);
   }
   return csv;
 }

@@ -2,65 +2,17 @@
 
 #include <ros/names.h>
 
-#include <algorithm>
-#include <map>
-
+#include "offline/command_line.hpp"
 #include "offline/input_error.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
 namespace {
 
-constexpr char kParameters[] = "--parameters";
-constexpr char kNodeName[] = "--node";
-constexpr char kWithInput[] = "--with-input";
-
-struct Arguments {
-  std::map<std::string, std::string> options;
-  std::vector<std::string> files;
-};
-
-[[noreturn]] void refuse(const std::string& message) {
-  throw InputError("replay: " + message + " (--help explains)");
-}
-
-bool is_option(const std::string& argument) { return argument.rfind("--", 0) == 0; }
-
-void check_option(const std::string& name, const Arguments& arguments) {
-  if (name != kParameters && name != kNodeName && name != kWithInput) {
-    refuse("unknown option " + in_quotes(name) + "; legal are " + kParameters + ", " + kNodeName +
-           ", " + kWithInput + " and --help");
-  }
-  if (arguments.options.count(name) > 0) refuse("option " + name + " is given twice");
-}
-
-Arguments split(const std::vector<std::string>& words) {
-  Arguments arguments;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    if (!is_option(words[i])) {
-      arguments.files.push_back(words[i]);
-      continue;
-    }
-    const std::size_t equals = words[i].find('=');
-    const std::string name = words[i].substr(0, equals);
-    check_option(name, arguments);
-    std::string& value = arguments.options[name];
-    if (name == kWithInput) {
-      if (equals != std::string::npos) refuse("option " + name + " has no value");
-    } else if (equals != std::string::npos) {
-      value = words[i].substr(equals + 1);
-    } else if (i + 1 < words.size() && !is_option(words[i + 1])) {
-      value = words[++i];
-    }
-    if (name != kWithInput && value.empty()) refuse("option " + name + " needs a value");
-  }
-  return arguments;
-}
-
-std::string full_name(const std::string& node) {
+std::string full_name(const std::string& node, const CommandLine& given) {
   std::string error;
   if (!ros::names::validate(node, error) || node.find('~') != std::string::npos) {
-    refuse(std::string(kNodeName) + " is " + in_quotes(node) + "; must be the name of a node");
+    given.refuse("--node is " + in_quotes(node) + "; must be the name of a node");
   }
   return ros::names::resolve("/", node, false);
 }
@@ -69,23 +21,20 @@ std::string full_name(const std::string& node) {
 
 ReplayOptions parse_replay_options(const std::vector<std::string>& arguments) {
   ReplayOptions options;
-  options.help = std::any_of(arguments.begin(), arguments.end(), [](const std::string& word) {
-    return word == "--help" || word == "-h";
-  });
+  options.help = asks_for_help(arguments);
   if (options.help) return options;
 
-  Arguments given = split(arguments);
-  if (given.files.size() != 2) {
-    refuse("needs two files, IN.bag and OUT.bag; " + std::to_string(given.files.size()) +
-           " are given");
+  const CommandLine given({"replay", {"--parameters", "--node"}, {"--with-input"}, true},
+                          arguments);
+  if (given.files().size() != 2) {
+    given.refuse("needs two files, IN.bag and OUT.bag; " + std::to_string(given.files().size()) +
+                 " are given");
   }
-  options.in = given.files[0];
-  options.out = given.files[1];
-  options.parameters = given.options[kParameters];
-  if (options.parameters.empty()) refuse(std::string("option ") + kParameters + " is missing");
-  const std::string& node = given.options[kNodeName];
-  options.node = full_name(node.empty() ? names::kNode : node);
-  options.with_input = given.options.count(kWithInput) > 0;
+  options.in = given.files()[0];
+  options.out = given.files()[1];
+  options.parameters = given.required("--parameters");
+  options.node = full_name(given.has("--node") ? given.value("--node") : names::kNode, given);
+  options.with_input = given.has("--with-input");
   return options;
 }
 

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "offline/clearance_csv.hpp"
+#include "offline/placement_csv.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -51,6 +56,50 @@ TEST(ContactsCsv, leaves_empty_what_paper_modes_do_not_say) {
 
 TEST(ContactsCsv, has_no_line_for_a_motion_without_contact) {
   EXPECT_EQ(csv_of(QueryMode::kSwept, {}), "before\n");
+}
+
+TEST(ContactsCsv, appends_the_columns_that_are_asked_for) {
+  const std::string columns = contacts_header().substr(0, contacts_header().size() - 1);
+  EXPECT_EQ(contacts_header({true, false}), columns + clearance_columns() + "\n");
+  EXPECT_EQ(contacts_header({false, true}), columns + placement_columns() + "\n");
+  EXPECT_EQ(contacts_header({true, true}),
+            columns + clearance_columns() + placement_columns() + "\n");
+}
+
+TEST(ContactsCsv, repeats_added_columns_in_each_line_of_a_motion) {
+  CollisionResult result;
+  result.clearance.state = ClearanceState::kKnown;
+  result.placement.tip = Side::kInside;
+  std::string added;
+  append_clearance(result.clearance, added);
+  append_placement(&result.placement, added);
+  Motion motion;
+  motion.query = "17";
+  motion.mode = QueryMode::kSwept;
+  std::string without_contact;
+  append_contacts(motion, result, without_contact, {true, true});
+  EXPECT_EQ(without_contact, "17,,,,,,,,," + added + "\n");
+
+  result.contacts = {contact(3), contact(4)};
+  std::string plain, csv;
+  append_contacts(motion, result, plain);
+  append_contacts(motion, result, csv, {true, true});
+  std::string expected;
+  for (const char character : plain) {
+    if (character == '\n') expected += added;
+    expected += character;
+  }
+  EXPECT_EQ(csv, expected);
+}
+
+TEST(ContactsCsv, leaves_added_columns_empty_in_paper_modes) {
+  Motion motion;
+  motion.query = "17";
+  motion.mode = QueryMode::kPaperSwept;
+  std::string csv;
+  append_contacts(motion, {}, csv, {true, true});
+  const std::string header = contacts_header({true, true});
+  EXPECT_EQ(csv, "17" + std::string(std::count(header.begin(), header.end(), ','), ',') + "\n");
 }
 
 }  // namespace

@@ -26,10 +26,39 @@ TEST(Options, takes_the_earlier_mesh_and_the_picker) {
   EXPECT_EQ(options.picker, PickerKind::kSelect);
 }
 
+TEST(Options, asks_for_clearance_and_placement) {
+  const Arguments files{"--mesh=a.obj", "--motions=m.csv"};
+  const auto options_with = [&](Arguments arguments) {
+    arguments.insert(arguments.end(), files.begin(), files.end());
+    return parse_options(arguments);
+  };
+  const Options none = options_with({});
+  EXPECT_EQ(none.margin, 0.0);
+  EXPECT_FALSE(none.clearance);
+  EXPECT_FALSE(none.placement);
+  EXPECT_EQ(options_with({"--margin", "0.02"}).margin, 0.02);
+  EXPECT_EQ(options_with({"--margin=1e4"}).margin, 1e4);
+  const Options all = options_with({"--clearance", "--placement", "--margin", "1e-9"});
+  EXPECT_EQ(all.margin, 1e-9);
+  EXPECT_TRUE(all.clearance);
+  EXPECT_TRUE(all.placement);
+}
+
+TEST(Options, refuses_an_illegal_margin_with_its_value) {
+  for (const std::string text : {"-0.01", "0", "nan", "inf", "-inf", "1e999", "2mm", "1,5"}) {
+    EXPECT_EQ(input_error([&] {
+                parse_options({"--mesh=a.obj", "--motions=m.csv", "--margin=" + text});
+              }),
+              "query_offline: --margin is \"" + text +
+                  "\"; must be a finite number above 0, in metres (--help explains)");
+  }
+}
+
 TEST(Options, needs_nothing_else_for_help) {
   EXPECT_TRUE(parse_options({"--help"}).help);
   EXPECT_TRUE(parse_options({"--mesh", "a.obj", "-h"}).help);
-  for (const char* name : {"--mesh ", "--motions ", "--mesh-before ", "--picker ", "--help "}) {
+  for (const char* name : {"--mesh ", "--motions ", "--mesh-before ", "--picker ", "--margin ",
+                           "--clearance ", "--placement ", "--help "}) {
     EXPECT_NE(usage().find(name), std::string::npos) << name;
   }
 }
@@ -42,7 +71,8 @@ TEST(Options, refuses_what_it_cannot_use) {
     return input_error([&] { parse_options(arguments); });
   };
   const std::string legal =
-      "; legal are --mesh, --motions, --mesh-before, --picker and --help (--help explains)";
+      "; legal are --mesh, --motions, --mesh-before, --picker, --margin, --clearance, --placement "
+      "and --help (--help explains)";
   EXPECT_EQ(refusal({"--mseh", "b.obj"}), "query_offline: unknown option \"--mseh\"" + legal);
   EXPECT_EQ(refusal({"b.obj"}), "query_offline: unknown option \"b.obj\"" + legal);
   EXPECT_EQ(refusal({""}), "query_offline: unknown option \"\"" + legal);

@@ -1,6 +1,7 @@
 #include "trials.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
@@ -180,6 +181,9 @@ void far_away(Trial& trial, Random& random) {
   random_face(trial, random);
 }
 
+/// Never inlined: where GCC 12 sees the way to floats and back, its vectorizer leaves both out.
+[[gnu::noinline]] Eigen::Vector3f to_floats(const Vector3d& point) { return point.cast<float>(); }
+
 struct Kind {
   const char* name;
   void (*place)(Trial&, Random&);
@@ -240,9 +244,15 @@ Trial make_trial(std::size_t kind, Random& random) {
   return trial;
 }
 
+Vector3d rounded(const Vector3d& point) { return to_floats(point).cast<double>(); }
+
 Triangle rounded(const Triangle& face) {
-  const auto round = [](const Vector3d& v) { return Vector3d(v.cast<float>().cast<double>()); };
-  return {round(face[0]), round(face[1]), round(face[2])};
+  return {rounded(face[0]), rounded(face[1]), rounded(face[2])};
+}
+
+double largest_coordinate(const TriangleMesh& mesh) {
+  const Eigen::AlignedBox3f& box = mesh.box();
+  return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());
 }
 
 std::string to_line(const Trial& trial) {

@@ -47,8 +47,13 @@ const std::vector<std::string>& trial_kinds();
 /// the face and the swept axis by only 1e-3 to 1e-12 of that distance.
 Trial make_trial(std::size_t kind, Random& random);
 
+/// The point rounded to 32-bit floats, as in a mesh.
+Eigen::Vector3d rounded(const Eigen::Vector3d& point);
 /// The face with its corners rounded to 32-bit floats, as in a mesh.
 Triangle rounded(const Triangle& face);
+
+/// [m] The largest coordinate of a mesh.
+double largest_coordinate(const TriangleMesh& mesh);
 
 /// One line of a file in test/data: trocar, previous tip, tip, corners and radius. It has 17
 /// digits, so the trial can be repeated exactly.

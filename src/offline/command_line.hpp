@@ -1,0 +1,47 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace organ_collision {
+
+/// The words behind a program's name, split into options and files. An option is given as `--name
+/// value` or `--name=value`, and a flag as `--name`.
+class CommandLine {
+ public:
+  /// What a program understands, besides --help.
+  struct Grammar {
+    std::string program;               ///< named in each refusal
+    std::vector<std::string> options;  ///< with a value
+    std::vector<std::string> flags = {};
+    bool has_files = false;  ///< whether words that belong to no option are files
+  };
+
+  /// Throws InputError for options that are unknown, repeated or without value.
+  CommandLine(Grammar grammar, const std::vector<std::string>& words);
+
+  /// Whether an option or a flag is given.
+  bool has(const std::string& name) const { return values_.count(name) > 0; }
+  /// The value of an option; empty if it is not given.
+  std::string value(const std::string& name) const;
+  /// The value of an option. Throws InputError if it is not given.
+  std::string required(const std::string& name) const;
+  const std::vector<std::string>& files() const { return files_; }
+
+  /// Throws InputError with this message.
+  [[noreturn]] void refuse(const std::string& message) const;
+
+ private:
+  void check_name(const std::string& name) const;
+  bool is_flag(const std::string& name) const;
+
+  Grammar grammar_;
+  std::map<std::string, std::string> values_;
+  std::vector<std::string> files_;
+};
+
+/// Whether --help or -h is among the words.
+bool asks_for_help(const std::vector<std::string>& words);
+
+}  // namespace organ_collision
