@@ -22,7 +22,7 @@ class OurLocator : public Locator {
   Location locate(const ShaftAxis& axis, double radius) override {
     CollisionRequest request = asked_;
     request.organ = &*mesh_;
-    request.topology = &*topology_;
+    request.surface_topology = &*topology_;
     request.path = resting_path({axis, {}});
     request.radius = radius;
     query_.evaluate(request, result_);

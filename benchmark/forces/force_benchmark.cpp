@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "contact_adapter/wrench_law.hpp"
+#include "contact_adapter/force_law.hpp"
 #include "ros/interface/conversions.hpp"
 
 namespace organ_collision::bench {
@@ -43,7 +43,7 @@ ContactArray half_sphere(std::uint32_t count, bool is_tight) {
 
 void run(benchmark::State& state, bool is_tight) {
   const ContactArray answer = half_sphere(static_cast<std::uint32_t>(state.range(0)), is_tight);
-  WrenchLaw law;
+  ForceLaw law;
   for ([[maybe_unused]] const auto _ : state) {
     benchmark::DoNotOptimize(law.follow(answer, 0.001, 300.0, kRadius));
   }

@@ -114,7 +114,7 @@ ContactAdapter::Pair& ContactAdapter::pair_of(const std::string& organ, const st
       private_node_.advertise<geometry_msgs::WrenchStamped>(
           ros::names::append(name, names::kWrench), kQueue),
       private_node_.advertise<VertexForces>(ros::names::append(name, names::kVertexForces), kQueue),
-      WrenchLaw(parameters_.way_out)};
+      ForceLaw(parameters_.way_out)};
   return pairs_.insert({{organ, tool}, pair}).first->second;
 }
 

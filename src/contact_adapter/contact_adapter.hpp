@@ -14,7 +14,7 @@
 #include "contact_adapter_parameters.hpp"
 #include "pair_names.hpp"
 #include "ros/interface/failure_log.hpp"
-#include "wrench_law.hpp"
+#include "force_law.hpp"
 
 namespace organ_collision {
 
@@ -32,7 +32,7 @@ class ContactAdapter {
     ros::Publisher faces;
     ros::Publisher wrench;
     ros::Publisher vertex_forces;
-    WrenchLaw law;
+    ForceLaw law;
     /// When the law was last evaluated. Steady time, because the stamps of a tool stop advancing if
     /// its poses are not published while it rests.
     std::chrono::steady_clock::time_point evaluated = {};

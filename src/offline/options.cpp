@@ -95,8 +95,8 @@ With --placement, at the end of the step:
   tip_side            inside, outside, on_surface (exactly), or unknown: the organ is not closed
   trocar_side         the same for the trocar
   crossings           how often the axis crosses the organ's surface
-  crossed_faces       the crossed faces from trocar to tip, separated by blanks: +12 if the axis
-                      enters the organ through face 12, -12 if it leaves
+  crossed_faces       the crossed faces from trocar to tip, separated by blanks
+  crossing_directions 1 where the axis enters, against the face's outward normal; -1 where it leaves
   crossing_places     their places on the axis, from 0 at the trocar to 1 at the tip
   length_inside       length of the axis within the organ; empty if a side is unknown
 

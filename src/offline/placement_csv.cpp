@@ -7,7 +7,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kColumns = 6;
+constexpr std::size_t kColumns = 7;
 
 std::string name_of(Side side) {
   switch (side) {
@@ -26,7 +26,8 @@ std::string name_of(Side side) {
 }  // namespace
 
 std::string placement_columns() {
-  return ",tip_side,trocar_side,crossings,crossed_faces,crossing_places,length_inside";
+  return ",tip_side,trocar_side,crossings,crossed_faces,crossing_directions,crossing_places,"
+         "length_inside";
 }
 
 void append_placement(const AxisPlacement* placement, std::string& csv) {
@@ -34,19 +35,22 @@ void append_placement(const AxisPlacement* placement, std::string& csv) {
     append_empty_cells(kColumns, csv);
     return;
   }
-  std::string faces, places;
+  std::string faces, directions, places;
   for (const AxisCrossing& crossing : placement->crossings) {
     if (!faces.empty()) {
       faces += ' ';
+      directions += ' ';
       places += ' ';
     }
-    faces += (crossing.direction > 0 ? '+' : '-') + std::to_string(crossing.face);
+    faces += std::to_string(crossing.face);
+    directions += std::to_string(int{crossing.direction});
     places += number_text(crossing.shaft);
   }
   append_cell(name_of(placement->tip), csv);
   append_cell(name_of(placement->trocar), csv);
   append_cell(std::to_string(placement->crossings.size()), csv);
   append_cell(faces, csv);
+  append_cell(directions, csv);
   append_cell(places, csv);
   append_cell(placement->length_known ? number_text(placement->length_inside) : "", csv);
 }

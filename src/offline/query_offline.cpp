@@ -50,7 +50,7 @@ CollisionRequest request_of(const Motion& motion, const Organ& organ, const Opti
   request.margin = options.margin;
   request.clearance = options.clearance;
   request.placement = options.placement;
-  request.topology = organ.topology ? &*organ.topology : nullptr;
+  request.surface_topology = organ.topology ? &*organ.topology : nullptr;
   return request;
 }
 

@@ -41,9 +41,9 @@ std::optional<ShaftAxis> clip(const ShaftAxis& axis, const AlignedBox3d& box) {
   return ShaftAxis{begin > 0.0 ? axis.at(begin) : axis.trocar, end < 1.0 ? axis.at(end) : axis.tip};
 }
 
-/// The shortest way, along a coordinate, from a point in a box to a point outside of it.
-struct WayOut {
-  WayOut(const Vector3d& point, const AlignedBox3d& box) : end(point) {
+/// The shortest ray, along a coordinate, from a point in a box to a point outside of it.
+struct ExitRay {
+  ExitRay(const Vector3d& point, const AlignedBox3d& box) : end(point) {
     const Vector3d below = point - box.min(), above = box.max() - point;
     Eigen::Index i;
     length = below.cwiseMin(above).minCoeff(&i);
@@ -90,7 +90,7 @@ void PlacementFinder::find(const CollisionRequest& request, AxisPlacement& place
 }
 
 PlacementFinder::Surface PlacementFinder::surface_of(const CollisionRequest& request) {
-  const SurfaceTopology* const topology = request.topology;
+  const SurfaceTopology* const topology = request.surface_topology;
   if (!topology || !seam_check_.seams_hold(*topology, *request.organ)) {
     return {*request.organ, nullptr, false};
   }
@@ -114,7 +114,7 @@ void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
   const bool is_tip_on = is_on_candidate(surface, axis.tip);
   const int change = sum_of_directions(placement.crossings);
   const AlignedBox3d box = surface.organ.box().cast<double>();
-  const bool from_trocar = WayOut(axis.trocar, box).length <= WayOut(axis.tip, box).length;
+  const bool from_trocar = ExitRay(axis.trocar, box).length <= ExitRay(axis.tip, box).length;
   const int trocar_winding = from_trocar ? winding_number(surface, axis.trocar)
                                          : winding_number(surface, axis.tip) - change;
   placement.trocar = side(is_trocar_on, trocar_winding);
@@ -169,7 +169,7 @@ int PlacementFinder::winding_number(const Surface& surface, const Vector3d& poin
   const AlignedBox3d box = surface.organ.box().cast<double>();
   candidates_.clear();
   if (!box.contains(point)) return 0;
-  const ShaftAxis ray{point, WayOut(point, box).end};
+  const ShaftAxis ray{point, ExitRay(point, box).end};
   pick_near(ray, surface.organ);
   int change = 0;
   for (const Candidate& candidate : candidates_) {

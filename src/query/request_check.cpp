@@ -91,7 +91,7 @@ void check_clearance(const CollisionRequest& request) {
 
 void check_placement(const CollisionRequest& request) {
   if (is_paper_mode(request.mode)) refuse("placement is asked for; the paper's modes have none");
-  const SurfaceTopology* const topology = request.topology;
+  const SurfaceTopology* const topology = request.surface_topology;
   if (topology && topology->welded().size() != request.organ->vertex_count()) {
     refuse("the placement's topology has ", topology->welded().size(),
            " vertices; must be as many as the organ has, ", request.organ->vertex_count());

@@ -56,7 +56,7 @@ TEST(ForceTrajectory, AtRestItComesToThePushes) {
   poses.insert(poses.end(), 30, poses.back());
   KeptSides sides;
   std::vector<double> lags;
-  WrenchLaw law;
+  ForceLaw law;
   const auto steps = forces_along(poses, organ, [&](const ContactArray& answer) {
     const Vector3d now =
         to_eigen(wrench_of(law.follow(answer, kSeconds, kStiffness, kRadius)).force);

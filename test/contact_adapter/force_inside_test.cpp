@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "closed_organs.hpp"
-#include "contact_adapter/wrench_law.hpp"
+#include "contact_adapter/force_law.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "placed_tool.hpp"
 #include "test/proof/trials.hpp"
@@ -63,7 +63,7 @@ std::vector<InsideStep> expect_limited(const std::string& what, const PlacedTool
                                        const TriangleMesh& organ) {
   const SurfaceTopology topology(organ.faces(), organ.vertices());
   CollisionQuery query;
-  WrenchLaw law;
+  ForceLaw law;
   KeptSides::Radius radius;
   if (tool.radius > 0.0) radius = tool.radius;
   std::vector<InsideStep> steps;

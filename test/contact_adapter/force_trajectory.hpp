@@ -54,7 +54,7 @@ inline TriangleMesh folded_sheet(double left, double right, double cell) {
 }
 
 /// A force law: maps each answer of a sequence to a force [N]. It may remember earlier answers.
-using ForceLaw = std::function<Eigen::Vector3d(const ContactArray&)>;
+using ForceOf = std::function<Eigen::Vector3d(const ContactArray&)>;
 
 struct ForceStep {
   ShaftAxis axis;
@@ -66,7 +66,7 @@ struct ForceStep {
 /// The forces on a shaft that moves through `poses`, with the organ at rest. The queries are those
 /// of the node: the first is static, the others are swept.
 inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
-                                           const TriangleMesh& organ, const ForceLaw& law) {
+                                           const TriangleMesh& organ, const ForceOf& law) {
   CollisionQuery query;
   CollisionResult result;
   std::vector<ForceStep> steps;

@@ -79,7 +79,7 @@ inline ContactArray answer_of(const PlacedTool& tool, const std::optional<Eigen:
   request.path = {tool.waypoint(0.0, from.value_or(to)), tool.waypoint(1.0, to)};
   request.clearance = true;
   request.placement = true;
-  request.topology = &topology;
+  request.surface_topology = &topology;
   if (!tool.links.empty()) request.tip = to * tool.tip;
   CollisionResult result;
   query.evaluate(request, result);

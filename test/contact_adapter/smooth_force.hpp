@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "contact_adapter/wrench_law.hpp"
+#include "contact_adapter/force_law.hpp"
 #include "force_trajectory.hpp"
 #include "ros/interface/conversions.hpp"
 
@@ -17,8 +17,8 @@ constexpr double kSeconds = 1e-3;                    // [s] duration of a step
 constexpr double kCells[] = {0.02, 0.005, 0.00125};  // [m] sizes of the organ's grid cells
 
 /// The package's force law, which remembers earlier answers. Its memory begins empty.
-inline ForceLaw remembering_law(const KeptSides::Radius& radius = kRadius) {
-  return [radius, law = WrenchLaw()](const ContactArray& answer) mutable {
+inline ForceOf remembering_law(const KeptSides::Radius& radius = kRadius) {
+  return [radius, law = ForceLaw()](const ContactArray& answer) mutable {
     return to_eigen(wrench_of(law.follow(answer, kSeconds, kStiffness, radius)).force);
   };
 }

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "contact_adapter/force_limit.hpp"
-#include "contact_adapter/wrench_law.hpp"
+#include "contact_adapter/force_law.hpp"
 #include "contact_arrays.hpp"
 #include "ros/interface/rejection.hpp"
 #include "smooth_force.hpp"
@@ -102,7 +102,7 @@ TEST(VertexForces, AreMinusTheWrenchForRandomContactsThatMove) {
   // The forces lag, are clipped, and lose faces. Tool and tissue move from answer to answer.
   oracle::Random random(5);
   for (int i = 0; i < 40; ++i) {
-    WrenchLaw law;
+    ForceLaw law;
     std::vector<Vector3d> cloud;
     for (int k = 0; k < 40; ++k) cloud.push_back(random.point(0.2));
     for (int step = 0; step < 50; ++step) {
@@ -120,7 +120,7 @@ TEST(VertexForces, AreMinusTheWrenchForRandomContactsThatMove) {
 TEST(VertexForces, AreMinusTheWrenchAlongATrajectory) {
   const TriangleMesh organ = folded_sheet(M_PI / 5, -M_PI / 7, 0.005);
   const auto at = [](double x, double z) { return lying(x, z, 0.03); };
-  WrenchLaw law;
+  ForceLaw law;
   double greatest = 0.0;
   forces_along(way_through({at(-0.01, 0.02), at(0.001, -0.004), at(0.012, 0.001)}, 3e-4), organ,
                [&](const ContactArray& answer) -> Vector3d {
@@ -138,7 +138,7 @@ TEST(VertexForces, DoNotDependOnTheOrderOfTheContacts) {
   for (int i = 0; i < 60; ++i) {
     std::vector<Vector3d> cloud;
     for (int k = 0; k < 40; ++k) cloud.push_back(random.point(0.2));
-    WrenchLaw one, other;
+    ForceLaw one, other;
     for (int step = 0; step < 5; ++step) {
       ContactArray answer = random_answer(cloud, random);
       const VertexForces expected = vertex_forces(answer, one.follow(answer, 0.001, 1000.0, 0.005));

@@ -51,6 +51,7 @@ class ExamplesTest(unittest.TestCase):
             said = subprocess.check_output([example(asker)], text=True, timeout=LIMIT)
             self.assertEqual(said.splitlines()[0].strip(), 'status 0')
             self.assertTrue(0.9 < max(depths(said)) < 3.1, said)
+            self.assertRegex(said, r'\ndistance -\d\.\d mm\n')
         finally:
             simulation.send_signal(signal.SIGINT)
             self.assertEqual(simulation.wait(LIMIT), 0)

@@ -29,15 +29,15 @@ TEST(PlacementCsv, prints_crossings_in_their_order) {
   placement.length_known = true;
   placement.length_inside = 0.1;
   EXPECT_EQ(cells(placement),
-            ",outside,on_surface,3,+12 -0 +7,0.10000000000000001 0.5 1,0.10000000000000001");
+            ",outside,on_surface,3,12 0 7,1 -1 1,0.10000000000000001 0.5 1,0.10000000000000001");
 }
 
 TEST(PlacementCsv, leaves_empty_what_is_not_known) {
   AxisPlacement placement;
-  EXPECT_EQ(cells(placement), ",unknown,unknown,0,,,");
+  EXPECT_EQ(cells(placement), ",unknown,unknown,0,,,,");
   placement.tip = placement.trocar = Side::kInside;
   placement.length_known = true;
-  EXPECT_EQ(cells(placement), ",inside,inside,0,,,0");
+  EXPECT_EQ(cells(placement), ",inside,inside,0,,,,0");
 }
 
 TEST(PlacementCsv, has_a_cell_for_each_column) {

@@ -173,8 +173,9 @@ class PlacementTest(ProgramCase):
                 self.assertEqual(row[name], 'inside' if end else 'outside')
             right = crossings(axis, liver)
             self.assertEqual(row['crossings'], str(len(right)))
-            self.assertEqual(row['crossed_faces'],
-                             ' '.join('%s%d' % (sign, face) for _, face, sign in right))
+            self.assertEqual(row['crossed_faces'], ' '.join(str(face) for _, face, _ in right))
+            self.assertEqual(row['crossing_directions'],
+                             ' '.join(sign + '1' for _, _, sign in right).replace('+', ''))
             places = [float(word) for word in row['crossing_places'].split()]
             for place, (expected, _, _) in zip(places, right):
                 self.assertAlmostEqual(place, expected, delta=EXACT)
@@ -191,7 +192,7 @@ class PlacementTest(ProgramCase):
         for row in self.rows('--placement'):
             self.assertEqual((row['tip_side'], row['trocar_side']), ('unknown', 'unknown'))
             self.assertEqual((row['crossings'], row['length_inside']), ('1', ''))
-            self.assertEqual(row['crossed_faces'][0], '+')
+            self.assertEqual(row['crossing_directions'], '1')
 
     def test_paper_modes_beside_others(self):
         """A file may have both; the rows of paper modes have no added cells."""

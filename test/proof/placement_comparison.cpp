@@ -52,7 +52,7 @@ CollisionRequest request_for(const PlacementTrial& trial) {
   request.path = resting_path({trial.axis, {}});
   request.radius = 1e-4;
   request.placement = true;
-  request.topology = &trial.topology;
+  request.surface_topology = &trial.topology;
   return request;
 }
 

@@ -68,7 +68,7 @@ class Simulation {
     request_.margin = 0.004;
     request_.max_near = 20;
     request_.placement = true;
-    request_.topology = &topology_;
+    request_.surface_topology = &topology_;
   }
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

@@ -37,7 +37,7 @@ CollisionRequest placement_of(const ShaftAxis& axis, const TriangleMesh& organ,
   request.path = resting_path({axis});
   request.radius = 1e-3;
   request.placement = true;
-  request.topology = topology;
+  request.surface_topology = topology;
   return request;
 }
 
@@ -292,7 +292,7 @@ TEST_P(PlacementWith, ATipWithoutAShaft) {
     request.placement = true;
     for (int trial = 0; trial < 30; ++trial) {
       SCOPED_TRACE(name + ", trial " + std::to_string(trial));
-      request.topology = &topology;
+      request.surface_topology = &topology;
       request.tip = some_point(organ, random);
       query_.evaluate(request, result_);
       EXPECT_EQ(result_.placement.tip, expected_side(faces, *request.tip));
@@ -300,10 +300,10 @@ TEST_P(PlacementWith, ATipWithoutAShaft) {
       EXPECT_TRUE(result_.placement.crossings.empty());
       EXPECT_FALSE(result_.placement.length_known);
     }
-    request.topology = nullptr;
+    request.surface_topology = nullptr;
     query_.evaluate(request, result_);
     EXPECT_EQ(result_.placement.tip, Side::kUnknown);
-    request.topology = &topology;
+    request.surface_topology = &topology;
     request.tip.reset();
     query_.evaluate(request, result_);
     EXPECT_EQ(result_.placement.tip, Side::kUnknown);

@@ -118,7 +118,7 @@ TEST_P(RequestCheckWith, PlacementsWithoutAnswerAreRefusedByName) {
   const SurfaceTopology topology(organ.faces(), organ.vertices());
   CollisionRequest good = swept(organ, resting_path({random_axis(random)}), 5e-3);
   good.placement = true;
-  good.topology = &topology;
+  good.surface_topology = &topology;
   good.tip = Eigen::Vector3d(0.1, 0.2, 0.3);  // not used by a shaft
   const auto expect_refused = [&](const char* word, const auto& spoil) {
     expect_refused_after(good, word, spoil);
@@ -126,7 +126,7 @@ TEST_P(RequestCheckWith, PlacementsWithoutAnswerAreRefusedByName) {
   };
   using Request = CollisionRequest;
   const SurfaceTopology other({{0, 1, 2}}, {0, 0, 0, 1, 0, 0, 0, 1, 0});
-  expect_refused("3 vertices", [&](Request& r) { r.topology = &other; });
+  expect_refused("3 vertices", [&](Request& r) { r.surface_topology = &other; });
   expect_refused("tip is (nan", [](Request& r) { r.tip->x() = NAN; });
   expect_refused("inf, 0.3)", [](Request& r) { r.tip->y() = INFINITY; });
   expect_refused("-1.1e+06", [](Request& r) { r.tip->z() = -1.1 * tolerance::kFarthest; });

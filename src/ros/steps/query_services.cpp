@@ -131,7 +131,7 @@ CollisionRequest collision_with(const DeformableOrgan& organ, QueryMode mode,
   collision.placement = request.placement;
   if (request.placement) {
     organ.surface()->wait_until_found(kLongestInspection);
-    collision.topology = organ.latest().topology();
+    collision.surface_topology = organ.latest().topology();
   }
   return collision;
 }

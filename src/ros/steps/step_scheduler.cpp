@@ -213,7 +213,7 @@ void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToo
   request.margin = tools_[tool].parameters.margin;
   request.max_near = static_cast<std::size_t>(tools_[tool].parameters.max_near);
   request.placement = parameters_.publish_placement;
-  request.topology = pair.current.topology();
+  request.surface_topology = pair.current.topology();
   request.tip = end.value.tip;
 
   const auto answer = answer_about_step(organ, tool, pair, end.stamp);

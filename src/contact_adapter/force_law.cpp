@@ -1,4 +1,4 @@
-#include "wrench_law.hpp"
+#include "force_law.hpp"
 
 #include <optional>
 
@@ -50,8 +50,8 @@ void spread(const Vector3d& force, const std::vector<double>& weights,
 
 }  // namespace
 
-/// Interpolates from the last forces to `forces`: 0 for the last ones, 1 for `forces`.
-void WrenchLaw::blend_with_last(std::vector<FaceForce>& forces, double share) {
+/// Interpolates from the last forces to `forces`. `share`: 0 gives the last ones, 1 gives `forces`.
+void ForceLaw::blend_with_last(std::vector<FaceForce>& forces, double share) {
   std::vector<double> weights;
   for (FaceForce& at : forces) {
     weights.push_back(at.force.stableNorm());
@@ -66,8 +66,8 @@ void WrenchLaw::blend_with_last(std::vector<FaceForce>& forces, double share) {
   spread(lost, weights, forces);
 }
 
-std::vector<FaceForce> WrenchLaw::follow(const ContactArray& answer, double seconds,
-                                         double stiffness, const KeptSides::Radius& shaft_radius) {
+std::vector<FaceForce> ForceLaw::follow(const ContactArray& answer, double seconds,
+                                        double stiffness, const KeptSides::Radius& shaft_radius) {
   const std::vector<Push> pushes = way_out_.follow(answer, shaft_radius);
   const std::optional<double> way = motion_.follow(answer, pushes, shaft_radius);
   const std::vector<Vector3d> penalties = penalty_forces(pushes, stiffness);

@@ -22,15 +22,15 @@ namespace organ_collision {
 /// linearly from the last one towards the penalty law's, and their sum changes in a step by at most
 ///   stiffness * (4 * motion + 0.05 m/s * seconds),
 /// with the motion that ContactMotion finds. Because of the second term, the force reaches the
-/// penalty law's force while the tool rests: a lag of stiffness * 1 mm ends within 20 ms. Without
-/// pushes there is no force at once.
+/// penalty law's force while the tool rests: a lag of stiffness * 1 mm ends within 20 ms. If there
+/// is no push, the force becomes zero at once.
 ///
 /// Forces act only on faces of the answer, where the present places are known. The last force of a
 /// face that is no longer among them is shared among those that are.
-class WrenchLaw {
+class ForceLaw {
  public:
   /// `way_out`: whether a tool that is wholly inside is pushed out, see WayOut.
-  explicit WrenchLaw(bool way_out = true) : way_out_(way_out) {}
+  explicit ForceLaw(bool way_out = true) : way_out_(way_out) {}
 
   /// One force for each push of WayOut. `answer`: the next answer about the same organ and tool.
   /// `seconds`: time since the last call. The limit does not apply to the first answer, a static

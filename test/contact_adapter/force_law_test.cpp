@@ -1,4 +1,4 @@
-#include "contact_adapter/wrench_law.hpp"
+#include "contact_adapter/force_law.hpp"
 
 #include <gtest/gtest.h>
 #include <tf2_eigen/tf2_eigen.h>
@@ -40,7 +40,7 @@ ContactArray answer_of(const std::vector<Contact>& contacts) {
   return answer;
 }
 
-Vector3d force(WrenchLaw& law, const ContactArray& answer, double seconds = kSeconds) {
+Vector3d force(ForceLaw& law, const ContactArray& answer, double seconds = kSeconds) {
   return to_eigen(wrench_of(law.follow(answer, seconds, kStiffness, kRadius)).force);
 }
 
@@ -51,17 +51,17 @@ void expect_near(const Vector3d& found, const Vector3d& expected) {
 
 }  // namespace
 
-TEST(WrenchLaw, ADepthThatGrowsIsFollowedAtOnce) {
-  WrenchLaw law;
+TEST(ForceLaw, ADepthThatGrowsIsFollowedAtOnce) {
+  ForceLaw law;
   force(law, touched({}));
   for (const double depth : {0.0001, 0.002, 0.003, 0.0005}) {
     expect_near(force(law, answer_of({floor_at(depth)}), 0.0), {0.0, 0.0, kStiffness * depth});
   }
 }
 
-TEST(WrenchLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
+TEST(ForceLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   const Vector3d up(0.0, 0.0, 0.003 * kStiffness), left(-0.002 * kStiffness, 0.0, 0.0);
-  WrenchLaw law;
+  ForceLaw law;
   expect_near(force(law, answer_of({floor_at(0.003), hidden_wall(0.002)})), up);
   const ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
   for (int step = 1; step <= 40; ++step) {
@@ -74,8 +74,8 @@ TEST(WrenchLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   expect_near(moved, up + left + 4.0 * kStiffness * 0.0001 * back.normalized());
 }
 
-TEST(WrenchLaw, TheTorqueFollowsInTheSameShare) {
-  WrenchLaw law;
+TEST(ForceLaw, TheTorqueFollowsInTheSameShare) {
+  ForceLaw law;
   const ContactArray hidden = answer_of({floor_at(0.003), hidden_wall(0.002)});
   const auto before = wrench_of(law.follow(hidden, kSeconds, kStiffness, kRadius));
   const ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
@@ -86,10 +86,10 @@ TEST(WrenchLaw, TheTorqueFollowsInTheSameShare) {
   EXPECT_GT(std::abs(whole.torque.y - before.torque.y), 0.1);
 }
 
-TEST(WrenchLaw, WhatBeginsAnewHasNoLimit) {
+TEST(ForceLaw, WhatBeginsAnewHasNoLimit) {
   const Vector3d left(-0.002 * kStiffness, 0.0, 0.0), up(0.0, 0.0, 0.003 * kStiffness);
   ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
-  WrenchLaw law;
+  ForceLaw law;
   force(law, answer_of({floor_at(0.003), hidden_wall(0.002)}));
   appeared.topology = 1;
   expect_near(force(law, appeared, 0.0), up + left);
@@ -98,13 +98,13 @@ TEST(WrenchLaw, WhatBeginsAnewHasNoLimit) {
   expect_near(force(law, appeared, 0.0), up);
 }
 
-TEST(WrenchLaw, WithoutContactsItIsZeroAtOnce) {
-  WrenchLaw law;
+TEST(ForceLaw, WithoutContactsItIsZeroAtOnce) {
+  ForceLaw law;
   force(law, answer_of({floor_at(0.003), wall_at(0.002)}));
   expect_near(force(law, touched({}), 0.0), Vector3d::Zero());
 }
 
-TEST(WrenchLaw, LinksThatShareAFaceAreOneSpring) {
+TEST(ForceLaw, LinksThatShareAFaceAreOneSpring) {
   // Both contacts lie on one face. Their spring has the larger depth and acts between them.
   Contact left = floor_at(0.001), right = floor_at(0.003);
   left.end_point = tf2::toMsg(Eigen::Vector3d(0.0, 0.0, 0.0));
@@ -112,14 +112,14 @@ TEST(WrenchLaw, LinksThatShareAFaceAreOneSpring) {
   right.link = 1;
   ContactArray answer = touched({left, right});
   answer.links = {"left_jaw", "right_jaw"};
-  WrenchLaw law;
+  ForceLaw law;
   const auto wrench = wrench_of(law.follow(answer, kSeconds, kStiffness, std::nullopt));
   EXPECT_NEAR(wrench.force.z, 3.0, 1e-9);
   EXPECT_NEAR(wrench.torque.y, -3.0 * 0.03, 1e-9);
 }
 
-TEST(WrenchLaw, OfLinksTheForceDoesNotJumpEither) {
-  WrenchLaw law;
+TEST(ForceLaw, OfLinksTheForceDoesNotJumpEither) {
+  ForceLaw law;
   ContactArray hidden = answer_of({floor_at(0.003), hidden_wall(0.002)});
   ContactArray appeared = answer_of({floor_at(0.003), wall_at(0.002)});
   hidden.links = appeared.links = {"jaw"};
