@@ -54,7 +54,7 @@ std::string usage() {
 Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
 
   --mesh FILE         the organ, an OBJ file in metres; vertices are rounded to 32-bit floats
-  --motions FILE      CSV file, a motion a line:
+  --motions FILE      CSV file, one motion in each line:
                       query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,
                       tip_x,tip_y,tip_z,radius
                       query: a number or a name, each once
@@ -71,19 +71,23 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
 
 Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
 sorted by query (integers by value, names as text), then face. A face's number is its place among
-the mesh's f lines, from 0; a polygon is cut into a fan and counts as so many faces. A motion without
-contact has no line. In the paper's modes the columns after face are empty.
+the mesh's f lines, from 0; a polygon is cut into a fan and counts as so many faces. Without the
+options below, a motion without contact has no line. In the paper's modes the columns after face
+are empty.
 
 With --margin, --clearance or --placement each motion has at least one line. Further columns follow,
 which are the same in all lines of a motion. A motion without contact has one line, in which the
 columns from face to normal_z are empty. In the paper's modes the further columns are empty.
 
 With --margin or --clearance:
-  clearance           known; beyond_margin: the distance is larger than the margin, and the columns
-                      below are empty; upper_bound: the query reached its work limit, and the true
-                      distances may be smaller than those below
+  clearance           known; beyond_margin: no face was found within the margin at the end of the
+                      step, and the columns below are empty; upper_bound: the query reached its work
+                      limit, and the true distances may be smaller than those below. If it reached
+                      this limit and found no face, it says beyond_margin, too: a face may then still
+                      be within the margin
   distance            at the end of the step; negative while a shaft touches
-  least               the smallest distance during the step; 0 if anything was touched
+  least               the smallest distance during the step; 0 if anything was touched during a swept
+                      motion, even if distance is negative
   least_fraction      when that was, from 0 to 1; the first touch if there was one
   nearest_face        the face with the nearest point at the end of the step
   on_organ_x,_y,_z    this point

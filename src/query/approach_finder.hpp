@@ -33,8 +33,8 @@ class ApproachSink {
 };
 
 /// Finds how near the faces of an organ come to the parts of a tool during a step. The clusters'
-/// boxes lead to the faces; GL is not needed, since a distance clips nothing. Keeps its memory
-/// between steps.
+/// boxes lead to the faces. Measuring a distance needs no clipping, so GL is not used. Keeps its
+/// memory between steps.
 class ApproachFinder {
  public:
   /// Adds to `sink` an approach for each part, leg and accepted face whose distance falls to the

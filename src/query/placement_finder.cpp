@@ -136,7 +136,7 @@ void PlacementFinder::pick_near(const ShaftAxis& axis, const TriangleMesh& organ
   picker_.pick(PartSweep(at_rest, radius), OrganMotion(organ), candidates_);
 }
 
-/// Sorts the crossings as the axis meets them after its infinitesimal displacement.
+/// Finds the crossings, in the order in which the moved axis meets them.
 void PlacementFinder::find_crossings(const Surface& surface, const ShaftAxis& axis,
                                      std::vector<AxisCrossing>& crossings) {
   found_.clear();

@@ -53,6 +53,8 @@ class InstallTest(unittest.TestCase):
         program = os.path.join(build, 'consumer')
 
         self.assertEqual(run(program).split(), ['0', '1'])
+        self.assertEqual(run(os.path.join(build, 'placement')).splitlines(),
+                         ['clearance 0.015 m', 'inside', '3 near faces'])
 
         linked = run('ldd', program)
         self.assertIn(self.prefix + '/lib/liborgan_collision_query', linked)

@@ -164,9 +164,11 @@ class PythonModuleTest(unittest.TestCase):
         printed = subprocess.check_output([example('ask_many.py')], timeout=LIMIT, universal_newlines=True)
         places = [-0.08, -0.06, -0.04, -0.02, 0.0, 0.02, 0.04, 0.06, 0.08]
         expected = [self.queries.query('tissue', [x, 0.01, 0.1], [x, 0.01, 0], RADIUS).face for x in places]
-        self.assertEqual([int(word) for line in printed.splitlines() for word in line.split('faces')[1].split()],
+        *places_lines, clearance_line = printed.splitlines()
+        self.assertEqual([int(word) for line in places_lines for word in line.split('faces')[1].split()],
                          [face for faces in expected for face in faces])
         self.assertEqual([len(faces) > 0 for faces in expected], [abs(x) < 0.051 for x in places])
+        self.assertEqual(clearance_line, 'x = -0.08 m: 25.0 mm away')
 
     def test_another_frame(self):
         self.organ('sheet', 'table')

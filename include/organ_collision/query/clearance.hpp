@@ -10,7 +10,7 @@ namespace organ_collision {
 /// msg/Clearance.msg.
 enum class ClearanceState : std::uint8_t {
   kNotAsked = 0,
-  kBeyondMargin = 1,  ///< no face is within the margin, so the distance is larger
+  kBeyondMargin = 1,  ///< no face was found within the margin at the end of the step
   kKnown = 2
 };
 
@@ -25,7 +25,8 @@ enum class ClearanceState : std::uint8_t {
 ///
 /// `distance` is exact to 1e-9 m. `least` is at most 1e-6 m above the smallest distance.
 struct ToolClearance {
-  /// If the state is not kKnown, none of the fields below `unlimited` is set.
+  /// If the state is not kKnown, only `is_resolved` is set of the fields below `unlimited`. If that
+  /// is false, a face may still be within the margin.
   ClearanceState state = ClearanceState::kNotAsked;
   /// The margin that was asked for; 0 if `unlimited`.
   double margin = 0.0;
@@ -33,8 +34,8 @@ struct ToolClearance {
   bool unlimited = false;
   /// At the end of the step.
   double distance = 0.0;
-  /// The smallest distance at any time of the step; 0 if anything was touched during the step. In
-  /// a static query it equals `distance`.
+  /// The smallest distance at any time of the step. In a static query it equals `distance`. If
+  /// anything was touched during a swept step, it is 0, even if `distance` is negative.
   double least = 0.0;
   /// A time at which the distance is `least`, as a fraction of the step, in [0, 1]. If anything was
   /// touched, the first touch.

@@ -55,7 +55,8 @@ struct CollisionRequest {
 
   /// Asks on which side of the surface the tool is, and where its axis pierces the surface.
   bool placement = false;
-  /// How the faces of `organ` join. Null: the placement has crossings, but its sides are unknown.
+  /// How the faces of `organ` join. Make it once for each mesh, not for each shape. Null: the
+  /// placement has crossings, but its sides are unknown.
   const SurfaceTopology* surface_topology = nullptr;
   /// For the placement of a tool without a shaft: its tip at the end of the step, if it has one.
   std::optional<Eigen::Vector3d> tip;

@@ -9,7 +9,10 @@ namespace organ_collision {
 
 /// On which side of an organ's surface a point is. The values are those of msg/ToolPlacement.msg.
 enum class Side : std::uint8_t {
-  kUnknown = 0,   ///< not asked for, there is no such point, or the surface is not closed
+  /// Not asked for, there is no such point, the surface is not closed, or vertices that were at one
+  /// place are farther apart than tolerance::kSeam. In the node also: new triangles are not
+  /// inspected yet.
+  kUnknown = 0,
   kOutside = 1,   ///< the winding number of the surface about the point is zero
   kInside = 2,    ///< it is not zero
   kOnSurface = 3  ///< the point is exactly on a face
@@ -27,7 +30,8 @@ struct AxisCrossing {
   double shaft = 0.0;
   /// [m] In the organ's frame.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  /// +1: the axis enters here, against the face's outward normal. -1: it leaves.
+  /// +1: the axis enters here, against the face's outward normal. -1: it leaves. Reversed if the
+  /// faces point inward.
   std::int8_t direction = 0;
 };
 

@@ -73,7 +73,8 @@ class FaceSearch {
   }
   // Lower bounds [m^2] without that allowance.
   float squared_distance(const Box& box) const;
-  /// The distance of the box around the face whose edges are parallel to those of the search's box.
+  /// [m^2] To the box around the face. The edges of that box are parallel to those of the search's
+  /// box.
   float squared_distance(const FaceIndices& corners) const {
     const PlacedVertex &a = placed_[corners[0]], &b = placed_[corners[1]], &c = placed_[corners[2]];
     const Eigen::Array4f low = a.low.min(b.low).min(c.low);

@@ -45,7 +45,8 @@ std::vector<HelpEntry> subscribed_topics() {
 std::vector<HelpEntry> published_topics() {
   return {
       {names::kContacts, message<ContactArray>(),
-       "what each tool touches, for each shape or pose, also if it is nothing"},
+       "what each tool touches, how far it is if it has a margin, and whether it is inside; for "
+       "each shape or pose"},
       {names::kMarkers, message<visualization_msgs::MarkerArray>(), "what RViz shows"},
       {"/diagnostics", message<diagnostic_msgs::DiagnosticArray>(),
        "query times, age of meshes, refused messages"},
@@ -54,8 +55,10 @@ std::vector<HelpEntry> published_topics() {
 
 std::vector<HelpEntry> services() {
   return {
-      {names::kQuery, service<QueryCollision>(), "what one motion, or one tool, would touch"},
-      {names::kQueryBatch, service<QueryCollisionBatch>(), "what many motions would touch"},
+      {names::kQuery, service<QueryCollision>(),
+       "what one motion, or one tool, would touch; on request, how far and on which side it is"},
+      {names::kQueryBatch, service<QueryCollisionBatch>(),
+       "what many motions would touch; on request, how far and on which side the tool is"},
       {names::kListOrgans, service<ListOrgans>(), "the organs: faces, box, volume, closed or not"},
       {names::kRemoveOrgan, service<RemoveOrgan>(), "removes an organ"},
       {names::kReset, service<std_srvs::Empty>(),

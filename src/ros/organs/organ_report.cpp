@@ -39,8 +39,8 @@ std::vector<std::string> doubts(const DeformableOrgan& organ) {
   if (!size.empty()) sentences.push_back(size);
   if (organ.surface()->is_found() && organ.surface()->is_inward()) {
     sentences.push_back("the faces of organ '" + organ.name() +
-                        "' point inward, so that its inside and `behind` are reversed: swap two "
-                        "vertices of each triangle");
+                        "' point inward, so that `behind` and the direction of crossings are "
+                        "reversed: swap two vertices of each triangle");
   }
   return sentences;
 }
