@@ -1,5 +1,6 @@
 #include "vertex_forces.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -10,15 +11,17 @@
 namespace organ_collision {
 namespace {
 
-constexpr double kSumTolerance = 1e-6;  // [1]
+constexpr double kTolerance = 1e-6;  // [1]
 
 void check_barycentric(const FaceForce& at) {
   const auto& b = at.barycentric;
-  if (std::abs(b[0] + b[1] + b[2] - 1.0) <= kSumTolerance) return;
+  const bool is_in_face = std::min({b[0], b[1], b[2]}) >= -kTolerance;
+  if (is_in_face && std::abs(b[0] + b[1] + b[2] - 1.0) <= kTolerance) return;
   throw Rejection(
       ContactArray::INVALID_REQUEST, "no barycentric coordinates",
       concatenate("the barycentric coordinates of face ", at.face, " are ", b[0], " ", b[1], " ",
-                  b[2], "; their sum must be 1, else no vertex forces follow"));
+                  b[2],
+                  "; must not be negative, and their sum must be 1, else no vertex forces follow"));
 }
 
 }  // namespace

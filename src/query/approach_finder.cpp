@@ -14,11 +14,25 @@ OrientedBox box_around(const Step& step, const LegSpan& span, const ToolPart& pa
   return SweptBox(part.shape->bounds, step.link_motion(span, part.link), 0.0).bounds();
 }
 
-std::optional<ClosestApproach> approach_of(const ToolPart& part, const PartLeg& leg,
-                                           const FaceMotion& face, double distance_bound,
-                                           WorkBudget& budget) {
-  if (!part.is_surface()) return closest_approach(leg.core, face, distance_bound, budget);
-  return closest_approach(*part.shape->surface, *leg.core.link(), face, distance_bound, budget);
+/// The closest approach of a part and a face, unless the budget is used up. Tells the sink if it
+/// may be missing or too far.
+std::optional<ClosestApproach> measured(const ToolPart& part, const PartLeg& leg,
+                                        const OrganMotion& organ, std::uint32_t face,
+                                        double distance_bound, WorkBudget& budget,
+                                        ApproachSink& sink) {
+  const FaceMotion motion = organ.face(organ.after().faces()[face]);
+  const std::uint64_t cuts = budget.cuts();
+  std::optional<ClosestApproach> approach;
+  if (budget.is_used_up()) {
+    budget.add_cut();
+  } else if (part.is_surface()) {
+    approach =
+        closest_approach(*part.shape->surface, *leg.core.link(), motion, distance_bound, budget);
+  } else {
+    approach = closest_approach(leg.core, motion, distance_bound, budget);
+  }
+  if (budget.cuts() != cuts) sink.add_unresolved(face);
+  return approach;
 }
 
 }  // namespace
@@ -44,9 +58,7 @@ void ApproachFinder::find_near_chord(const Step& step, const LegSpan& span, cons
   with_part_leg(step, span, part, [&](const PartLeg& on_chord) {
     search_.visit(organ, box_around(step, span, part), bound, [&](std::uint32_t face) {
       if (!sink.accepts(face)) return;
-      const FaceMotion motion = organ.face(step.organ().faces()[face]);
-      const auto approach = approach_of(part, on_chord, motion, bound(), budget);
-      if (budget.is_used_up()) sink.add_unresolved(face);
+      const auto approach = measured(part, on_chord, organ, face, bound(), budget, sink);
       if (!approach) return;
       if (span.leg_count() > 1) return faces_.push_back(face);
       sink.add({approach->closest.distance - radius, face, part, span.begin, *approach});
@@ -61,9 +73,9 @@ void ApproachFinder::find_on_leg(const Step& step, std::size_t leg, const ToolPa
   const double radius = part.surface_radius(step);
   with_part_leg(step, step.span_of(leg), part, [&](const PartLeg& on_leg) {
     for (const std::uint32_t face : faces_) {
-      const FaceMotion motion = organ.face(step.organ().faces()[face]);
-      const auto approach = approach_of(part, on_leg, motion, sink.bound() + radius, budget);
-      if (budget.is_used_up()) sink.add_unresolved(face);
+      if (!sink.accepts(face)) continue;
+      const auto approach =
+          measured(part, on_leg, organ, face, sink.bound() + radius, budget, sink);
       if (approach) {
         sink.add({approach->closest.distance - radius, face, part, leg, *approach});
       }

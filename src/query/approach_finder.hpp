@@ -28,7 +28,8 @@ class ApproachSink {
   virtual double bound() const = 0;
   virtual bool accepts(std::uint32_t /*face*/) const { return true; }
   virtual void add(const PartApproach& approach) = 0;
-  /// The work budget was used up before it was known whether this face comes within the bound.
+  /// The work budget was used up before this face was measured. It may come nearer than its
+  /// approaches tell, if there are any.
   virtual void add_unresolved(std::uint32_t /*face*/) {}
 };
 

@@ -15,7 +15,10 @@ class Nearest : public ApproachSink {
   explicit Nearest(double distance_bound) : bound_(distance_bound) {}
 
   double bound() const override { return bound_; }
+  /// Of faces at the same distance, the one with the smallest number is kept.
   void add(const PartApproach& approach) override {
+    const bool is_tie = nearest_ && approach.distance == nearest_->distance;
+    if (is_tie && approach.face > nearest_->face) return;
     nearest_ = approach;
     bound_ = approach.distance;
   }
@@ -49,8 +52,8 @@ void set_end(const Step& step, const PartApproach& nearest, ToolClearance& clear
 }  // namespace
 
 ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& request,
-                                    const std::vector<FaceContact>& contacts) {
-  budget_ = {};
+                                    const std::vector<FaceContact>& contacts, WorkBudget budget) {
+  budget_ = budget;
   ToolClearance clearance;
   clearance.unlimited = request.clearance;
   clearance.margin = request.clearance ? 0.0 : request.margin;
@@ -60,7 +63,7 @@ ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& re
     set_end(step.at_end(), *end, clearance);
     set_least(step, request, contacts, clearance);
   }
-  clearance.is_resolved = !budget_.is_used_up();
+  if (budget_.cuts() > 0) clearance.is_resolved = false;
   return clearance;
 }
 
@@ -78,6 +81,7 @@ void ClearanceFinder::set_least(const Step& step, const CollisionRequest& reques
                          [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
     clearance.least = 0.0;
     clearance.least_fraction = first->fraction;
+    clearance.is_resolved = first->is_resolved;
     return;
   }
   if (const auto start = nearest(step.at_start(), clearance.least)) {

@@ -17,7 +17,8 @@ class ClearanceFinder {
  public:
   /// The clearance that the request asks for. `contacts`: those of the step.
   ToolClearance find(const Step& step, const CollisionRequest& request,
-                     const std::vector<FaceContact>& contacts);
+                     const std::vector<FaceContact>& contacts,
+                     WorkBudget budget = WorkBudget::for_approaches());
 
  private:
   std::optional<PartApproach> nearest(const Step& step, double distance_bound);

@@ -7,7 +7,7 @@
 
 namespace organ_collision {
 void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
-  budget_ = {};
+  budget_ = WorkBudget();
   touched_leg_.resize(step.organ().face_count());
   std::uint32_t link = 0;
   std::size_t begin = contacts.size();

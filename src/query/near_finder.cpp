@@ -28,26 +28,27 @@ FaceContact contact_of(const Step& step, const PartApproach& near) {
 
 }  // namespace
 
-/// Keeps for each face the approach with the smallest distance.
+/// Keeps for each face the approach with the smallest distance, unless it may come nearer.
 class NearFinder::Collector : public ApproachSink {
  public:
   Collector(double margin, NearFinder& finder)
       : margin_(margin), nearest_(finder.nearest_), places_(finder.places_) {}
 
   double bound() const override { return margin_; }
-  bool accepts(std::uint32_t face) const override { return places_[face] != kTouched; }
+  bool accepts(std::uint32_t face) const override {
+    return places_[face] != kTouched && places_[face] != kUnresolved;
+  }
   void add(const PartApproach& approach) override {
     std::uint32_t& place = places_[approach.face];
-    if (place >= kUnresolved) {
+    if (place == kUnresolved) return;
+    if (place == kNothing) {
       place = static_cast<std::uint32_t>(nearest_.size());
       nearest_.push_back(approach);
     } else if (approach.distance < nearest_[place].distance) {
       nearest_[place] = approach;
     }
   }
-  void add_unresolved(std::uint32_t face) override {
-    if (places_[face] == kNothing) places_[face] = kUnresolved;
-  }
+  void add_unresolved(std::uint32_t face) override { places_[face] = kUnresolved; }
 
  private:
   double margin_;  ///< [m]
@@ -55,14 +56,18 @@ class NearFinder::Collector : public ApproachSink {
   std::vector<std::uint32_t>& places_;
 };
 
-void NearFinder::find(const Step& step, const CollisionRequest& request, CollisionResult& result) {
+void NearFinder::find(const Step& step, const CollisionRequest& request, CollisionResult& result,
+                      WorkBudget budget) {
   nearest_.clear();
   places_.assign(step.organ().face_count(), kNothing);
   for (const FaceContact& contact : result.contacts) places_[contact.face] = kTouched;
-  WorkBudget budget;
   Collector collector(request.margin, *this);
   approaches_.find(step, budget, collector);
 
+  const auto is_unresolved = [&](const PartApproach& near) {
+    return places_[near.face] == kUnresolved;
+  };
+  nearest_.erase(std::remove_if(nearest_.begin(), nearest_.end(), is_unresolved), nearest_.end());
   const std::size_t count = std::min(request.max_near, nearest_.size());
   const auto end = nearest_.begin() + static_cast<std::ptrdiff_t>(count);
   std::partial_sort(nearest_.begin(), end, nearest_.end(), [](const auto& a, const auto& b) {

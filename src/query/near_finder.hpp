@@ -14,7 +14,8 @@ namespace organ_collision {
 class NearFinder {
  public:
   /// Sets what `result` tells about near faces. The contacts in it are those of the step.
-  void find(const Step& step, const CollisionRequest& request, CollisionResult& result);
+  void find(const Step& step, const CollisionRequest& request, CollisionResult& result,
+            WorkBudget budget = WorkBudget::for_approaches());
 
  private:
   class Collector;

@@ -132,33 +132,6 @@ TEST_F(WorkLimit, OfLinksReportsWhatIsNotResolved) {
   }
 }
 
-// Each face within the margin is listed, counted as left out or counted as unresolved.
-TEST_F(WorkLimit, OfNearFacesCountsWhatIsNotResolved) {
-  const std::vector<Link> links = {
-      {"link", {LinkPart::box(Isometry3d::Identity(), {kFar, 1e-6 * kFar, 0.01 * kFar})}}};
-  request_.links = &links;
-  request_.margin = 0.3 * kFar;
-  request_.max_near = 100;
-  contacts();
-  EXPECT_GT(result_.near_unresolved, 0U);
-  EXPECT_EQ(result_.near.size(), request_.max_near);
-  for (const FaceContact& near : result_.near) expect_finite(near);
-  const std::size_t known = result_.near.size() + result_.near_left_out + result_.near_unresolved;
-  EXPECT_LE(known, organ_.face_count());
-  const RigidMotion rest(request_.path[1].links[0], request_.path[1].links[0]);
-  std::size_t certainly_near = 0;
-  for (std::uint32_t face = 0; face < organ_.face_count(); ++face) {
-    const ConvexCore core = CoreMotion(links[0].parts[0].core, rest).end();
-    const bool is_near = closest_points(core, organ_.triangle(face)).distance <= request_.margin;
-    const auto contact =
-        std::lower_bound(result_.contacts.begin(), result_.contacts.end(), face,
-                         [](const FaceContact& c, std::uint32_t f) { return c.face < f; });
-    const bool is_touched = contact != result_.contacts.end() && contact->face == face;
-    if (is_near && !is_touched) ++certainly_near;
-  }
-  EXPECT_GE(known, certainly_near);
-}
-
 // The same request costs the same work. The answer does not depend on earlier requests.
 TEST_F(WorkLimit, IsTheSameForEveryQuery) {
   const std::vector<Link> links = {

@@ -84,8 +84,8 @@ struct CollisionResult {
   std::vector<FaceContact> near;
   /// The number of such faces that are not in `near`, because max_near nearer ones are.
   std::size_t near_left_out = 0;
-  /// The number of faces that may be within the margin but were not measured, because the query
-  /// reached its work limit. They are in neither of the two above.
+  /// The number of faces that may be within the margin but were not measured to the end, because
+  /// the query reached its work limit. They are in neither of the two above.
   std::size_t near_unresolved = 0;
   /// If asked for: how far the tool is from the organ.
   ToolClearance clearance;

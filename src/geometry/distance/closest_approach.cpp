@@ -64,9 +64,10 @@ class ApproachSearch {
   /// that the limit falls soon.
   void search(const Instant& from, const Instant& to, int halvings) {
     constexpr int kMaxHalvings = 60;  // The speed alone ends the search earlier.
-    if (limit() <= 0.0 || halvings == kMaxHalvings || budget_.is_used_up()) return;
+    if (limit() <= 0.0 || halvings == kMaxHalvings) return;
     budget_.spend(1);
     if (stays_above_limit(from, to)) return;
+    if (budget_.is_used_up()) return budget_.add_cut();
     const Instant middle(0.5 * (from.time + to.time), core_, face_);
     consider(middle);
     const bool begins_early = from.closest.distance < to.closest.distance;
@@ -103,7 +104,8 @@ class SurfaceSearch {
   }
 
   void visit(std::uint32_t index, double distance_bound_of_node) {
-    if (distance_bound_of_node > least_ || budget_.is_used_up()) return;
+    if (distance_bound_of_node > least_) return;
+    if (budget_.is_used_up()) return budget_.add_cut();
     const ToolSurface::Node& node = surface_.nodes()[index];
     const bool is_leaf = node.second == 0;
     if (is_leaf) {

@@ -68,7 +68,8 @@ class FaceSearch {
 
   /// [m^2] The square of a bound, with the allowance for rounding.
   float squared(double bound) const {
-    const auto grown = static_cast<float>(std::max(bound, 0.0) + slack_);
+    constexpr double kMost = 1e18;  // [m] Its square is still a 32-bit number.
+    const auto grown = static_cast<float>(std::clamp(bound, 0.0, kMost) + slack_);
     return grown * grown;
   }
   // Lower bounds [m^2] without that allowance.

@@ -19,6 +19,14 @@ class WorkBudget {
   /// Queries with more pairs get the budget of this many: about two seconds.
   static constexpr std::uint64_t kMostPairs = 10'000'000;
 
+  /// Closest approaches get this many steps for each pair, because each takes several distances.
+  /// The most that a query gets is the same.
+  static constexpr std::uint64_t kApproachStepsForEachPair = 20;
+
+  explicit WorkBudget(std::uint64_t steps_for_each_pair = kStepsForEachPair)
+      : steps_for_each_pair_(steps_for_each_pair) {}
+  /// The budget of a query's closest approaches.
+  static WorkBudget for_approaches() { return WorkBudget(kApproachStepsForEachPair); }
   /// A budget that is never used up.
   static WorkBudget unlimited() {
     WorkBudget budget;
@@ -31,11 +39,19 @@ class WorkBudget {
   /// The number of steps so far.
   std::uint64_t spent() const { return spent_; }
   bool is_used_up() const {
-    return is_limited_ && spent_ >= kStepsForEachPair * std::clamp(pairs_, kLeastPairs, kMostPairs);
+    constexpr std::uint64_t kMostSteps = kStepsForEachPair * kMostPairs;
+    return is_limited_ &&
+           spent_ >= std::min(kMostSteps,
+                              steps_for_each_pair_ * std::clamp(pairs_, kLeastPairs, kMostPairs));
   }
 
+  /// Notes that a search ended early because the budget was used up.
+  void add_cut() { ++cuts_; }
+  std::uint64_t cuts() const { return cuts_; }
+
  private:
-  std::uint64_t pairs_ = 0, spent_ = 0;
+  std::uint64_t steps_for_each_pair_;
+  std::uint64_t pairs_ = 0, spent_ = 0, cuts_ = 0;
   bool is_limited_ = true;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -8,8 +10,8 @@
 
 namespace organ_collision {
 
-/// Checks whether vertices that count as one are still at one place. Remembers the last shape that
-/// it checked, so that only the first query of a shape looks at all seams.
+/// Checks whether vertices that count as one are still at one place. Remembers the last shape of
+/// each of some organs, so that only the first query of a shape looks at all seams.
 class SeamCheck {
  public:
   /// Whether each vertex is within tolerance::kSeam of the first vertex that was at its place when
@@ -17,10 +19,17 @@ class SeamCheck {
   bool seams_hold(const SurfaceTopology& topology, const TriangleMesh& mesh);
 
  private:
-  // They share the ownership of what was checked, so that nothing else can take its address.
-  std::shared_ptr<const std::vector<SeamVertex>> seams_;
-  SharedVertices vertices_;
-  bool hold_ = true;
+  /// The last check of one topology. It owns nothing, but notices the end of what it names.
+  struct Checked {
+    std::weak_ptr<const std::vector<SeamVertex>> seams;
+    std::weak_ptr<const std::vector<float>> vertices;
+    bool hold = true;
+  };
+  /// The place of a topology. If all are taken, topologies replace each other in turn.
+  Checked& checked(const std::shared_ptr<const std::vector<SeamVertex>>& seams);
+
+  std::array<Checked, 32> checked_;
+  std::size_t next_ = 0;
 };
 
 }  // namespace organ_collision

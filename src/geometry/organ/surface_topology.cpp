@@ -11,20 +11,32 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// For each vertex, the first vertex at its place.
-Numbers weld(const std::vector<float>& vertices) {
+/// Each vertex for itself.
+Numbers unwelded(std::size_t count) {
+  Numbers numbers(count);
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  return numbers;
+}
+
+/// For each vertex that a face uses, the first such vertex at its place.
+Numbers weld(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
   struct Place {
     float x, y, z;
     std::uint32_t vertex;
   };
-  std::vector<Place> places(vertices.size() / 3);
-  for (std::uint32_t i = 0; i < places.size(); ++i) {
-    places[i] = {vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2], i};
+  Numbers welded = unwelded(vertices.size() / 3);
+  std::vector<char> is_used(welded.size(), 0);
+  for (const FaceIndices& face : faces) {
+    for (const std::uint32_t corner : face) is_used[corner] = 1;
+  }
+  std::vector<Place> places;
+  for (std::uint32_t i = 0; i < welded.size(); ++i) {
+    if (is_used[i] == 0) continue;
+    places.push_back({vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2], i});
   }
   std::sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
     return std::tie(a.x, a.y, a.z, a.vertex) < std::tie(b.x, b.y, b.z, b.vertex);
   });
-  Numbers welded(places.size());
   const Place* first = places.data();
   for (const Place& place : places) {
     if (std::tie(place.x, place.y, place.z) != std::tie(first->x, first->y, first->z)) {
@@ -103,9 +115,13 @@ Eigen::Vector3d vertex(const std::vector<float>& vertices, std::size_t i) {
 
 SurfaceTopology::SurfaceTopology(const std::vector<FaceIndices>& faces,
                                  const std::vector<float>& vertices)
-    : welded_(weld(vertices)),
-      seams_(std::make_shared<std::vector<SeamVertex>>(find_seams(welded_))),
-      open_edges_(count_open_edges(faces, welded_)) {}
+    : welded_(unwelded(vertices.size() / 3)), open_edges_(count_open_edges(faces, welded_)) {
+  if (open_edges_ > 0) {
+    welded_ = weld(faces, vertices);
+    open_edges_ = count_open_edges(faces, welded_);
+  }
+  seams_ = std::make_shared<std::vector<SeamVertex>>(find_seams(welded_));
+}
 
 /// The sum of the tetrahedra between the faces and one vertex. A vertex of the surface is taken,
 /// and not the origin, so that little is lost to rounding if the organ is far from the origin.

@@ -97,7 +97,8 @@ void expect_as_defined(const GridSurface& surface, const char* what) {
 }  // namespace
 
 TEST(SurfaceTopology, VerticesAtOnePlaceAreTheFirstOfThem) {
-  const GridSurface surface{{1, 2, 3, 0, 0, 7, 1, 2, 3, -0.0F, 0, 7, 1, 2, 4}, {{2, 3, 4}}};
+  const GridSurface surface{{1, 2, 3, 0, 0, 7, 1, 2, 3, -0.0F, 0, 7, 1, 2, 4},
+                            {{2, 3, 4}, {0, 1, 4}}};
   const SurfaceTopology topology = topology_of(surface);
   EXPECT_EQ(topology.welded(), (std::vector<std::uint32_t>{0, 1, 0, 1, 4}));
   EXPECT_EQ(topology.welded(surface.faces[0]), (FaceIndices{0, 1, 4}));
@@ -112,7 +113,7 @@ TEST(SurfaceTopology, WeldingFollowsTheDefinition) {
       const auto draw = [&] { return 0.1F * static_cast<float>(coordinate(random)); };
       add_vertex(surface, {draw(), draw(), draw()});
     }
-    surface.faces = {{0, 1, 2}};
+    for (std::uint32_t i = 0; i < 300; i += 3) surface.faces.push_back({i, i + 1, i + 2});
     std::map<Place, std::uint32_t> first;
     std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < 300; ++i) {
@@ -120,6 +121,26 @@ TEST(SurfaceTopology, WeldingFollowsTheDefinition) {
     }
     EXPECT_EQ(topology_of(surface).welded(), expected) << "trial " << trial;
   }
+}
+
+/// Two bodies that happen to touch in a corner may part again.
+TEST(SurfaceTopology, WhatIsClosedByItsIndicesIsNotWelded) {
+  Random random(12);
+  GridSurface two = tetrahedron(random);
+  const std::vector<FaceIndices> first = two.faces;
+  two.vertices.insert(two.vertices.end(), two.vertices.begin(), two.vertices.begin() + 12);
+  for (std::size_t i = 15; i < two.vertices.size(); ++i) two.vertices[i] += 1.0F;
+  for (const FaceIndices& face : first)
+    two.faces.push_back({face[0] + 4, face[1] + 4, face[2] + 4});
+  const SurfaceTopology topology = topology_of(two);
+  EXPECT_TRUE(topology.is_closed());
+  EXPECT_TRUE(topology.seams()->empty());
+  EXPECT_EQ(topology.welded()[4], 4U) << "its place is that of vertex 0";
+}
+
+TEST(SurfaceTopology, VerticesWithoutAFaceAreNotWelded) {
+  const GridSurface surface{{1, 2, 3, 1, 2, 3, 0, 0, 7, 1, 2, 4, 1, 2, 3}, {{1, 2, 3}, {4, 3, 2}}};
+  EXPECT_EQ(topology_of(surface).welded(), (std::vector<std::uint32_t>{0, 1, 2, 3, 1}));
 }
 
 TEST(SurfaceTopology, SeamsAreTheVerticesThatAreWeldedToOthers) {

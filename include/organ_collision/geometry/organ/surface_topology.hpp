@@ -9,14 +9,14 @@
 
 namespace organ_collision {
 
-/// A vertex that is not the first one at its place.
+/// A vertex that counts as another one at the same place.
 struct SeamVertex {
   std::uint32_t vertex;  ///< its index
-  std::uint32_t first;   ///< the first vertex at the same place
+  std::uint32_t first;   ///< the first vertex at that place
 };
 
-/// How the faces of a mesh join. Vertices that are at the same place when this is made count as
-/// one vertex, and stay one when the mesh deforms.
+/// How the faces of a mesh join. If the surface is not closed by its indices alone, vertices that
+/// are at the same place when this is made count as one vertex, and stay one when the mesh deforms.
 ///
 /// Any triangles are allowed: several components, cavities, degenerate faces and faces that occur
 /// more than once.
@@ -31,15 +31,15 @@ class SurfaceTopology {
   /// The number of edges that occur more often in one direction than in the other.
   std::size_t open_edge_count() const { return open_edges_; }
 
-  /// For each vertex, the first vertex at its place. Where a deformed mesh has both at different
-  /// places, the first one counts.
+  /// For each vertex, the first one of those that count as one: itself, if there is no other. Where
+  /// a deformed mesh has them at different places, the first one counts. Vertices that no face uses
+  /// are left out.
   const std::vector<std::uint32_t>& welded() const { return welded_; }
   /// The same face, between welded vertices.
   FaceIndices welded(const FaceIndices& face) const {
     return {welded_[face[0]], welded_[face[1]], welded_[face[2]]};
   }
-  /// All vertices that are not the first ones at their places, by rising index. Copies of a
-  /// topology share the list.
+  /// All vertices that count as another one, by rising index. Copies of a topology share the list.
   const std::shared_ptr<const std::vector<SeamVertex>>& seams() const { return seams_; }
 
  private:
