@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "approach_scenes.hpp"
-#include "organ_collision/geometry/tolerances.hpp"
 #include "query/clearance_finder.hpp"
 #include "query/near_finder.hpp"
 
@@ -17,9 +16,6 @@ namespace organ_collision {
 namespace {
 
 using oracle::Random;
-
-/// [m] As in the tests of clearance.
-constexpr double kMoving = 2.0 * tolerance::kApproach;
 
 /// Keeps all that it gets.
 class Recorder : public ApproachSink {

@@ -6,8 +6,14 @@
 
 #include "geometry/distance/closest_approach.hpp"
 #include "link_scenes.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
+
+/// [m] At rest, distances agree to this.
+constexpr double kExact = 1e-9;
+/// [m] While something moves, both the search and the measurement may be this much too large.
+constexpr double kMoving = 2.0 * tolerance::kApproach;
 
 /// How near each face comes to a tool, by measuring every face with every convex part on every leg,
 /// without boxes and bounds.

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "approach_scenes.hpp"
-#include "organ_collision/geometry/tolerances.hpp"
 #include "test/grid_surface.hpp"
 
 namespace organ_collision {
@@ -13,11 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 using oracle::Random;
-
-/// [m] At rest, distances agree to this.
-constexpr double kExact = 1e-9;
-/// [m] While something moves, both the search and the measurement may be this much too large.
-constexpr double kMoving = 2.0 * tolerance::kApproach;
 
 CollisionResult answer(const CollisionRequest& request) {
   static CollisionQuery query;

@@ -5,16 +5,11 @@
 #include <algorithm>
 
 #include "approach_scenes.hpp"
-#include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
 namespace {
 
 using oracle::Random;
-
-// [m] As in the tests of clearance.
-constexpr double kExact = 1e-9;
-constexpr double kMoving = 2.0 * tolerance::kApproach;
 
 CollisionResult answer(const CollisionRequest& request) {
   static CollisionQuery query;
