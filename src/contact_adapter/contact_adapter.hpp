@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "contact_adapter_parameters.hpp"
+#include "force_law.hpp"
 #include "pair_names.hpp"
 #include "ros/interface/failure_log.hpp"
-#include "force_law.hpp"
 
 namespace organ_collision {
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <map>
 
-#include "contact_adapter/force_limit.hpp"
 #include "contact_adapter/force_law.hpp"
+#include "contact_adapter/force_limit.hpp"
 #include "contact_arrays.hpp"
 #include "ros/interface/rejection.hpp"
 #include "smooth_force.hpp"
