@@ -16,11 +16,6 @@ Array4f padded(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
 }
 
-/// Orders a heap whose front is the nearest.
-constexpr auto is_farther = [](const auto& a, const auto& b) {
-  return a.squared_distance > b.squared_distance;
-};
-
 }  // namespace
 
 void FaceSearch::start(const OrganMotion& organ, const OrientedBox& box) {

@@ -52,7 +52,11 @@ class FaceSearch {
     float squared_distance;
     std::uint32_t index;
   };
-  /// A heap, with the nearest one in front.
+  /// Orders a heap whose front is the nearest one.
+  static bool is_farther(const Ranked& a, const Ranked& b) {
+    return a.squared_distance > b.squared_distance;
+  }
+  /// Such a heap.
   using Ranking = std::vector<Ranked>;
 
   const FaceClusters& clusters() const { return organ_->after().clusters(); }
