@@ -22,8 +22,8 @@ struct ClosestApproach {
 /// Returns nothing if the distance stays above `distance_bound` [m], and perhaps also if it falls
 /// below that by less than the tolerance.
 ///
-/// If `budget` runs out before the search is done, the search is a cut of the budget, and the
-/// result is an upper bound, or nothing.
+/// If `budget` runs out before the search is done, the budget counts a cut (WorkBudget::cuts()),
+/// and the result is an upper bound, or nothing.
 ///
 /// Method: the leg is halved until a turning plane, or the speed of the motion, shows for each
 /// interval that the distance cannot be smaller in it. See doc/geometry.md, Closest approach.
