@@ -242,9 +242,9 @@ void HapticProxy::State::describe(const ProxyPlace& now, const ToolPose& hand) {
   solver.solve(back, holding);
   for (std::size_t i = 0; i < holding.size(); ++i) answer.contacts[i].load = solver.load(i);
   if (nearest < ProxyClearance{clearance}.least()) {
-    answer.state = ProxyState::kSqueezed;
+    answer.state = ProxyStatus::kSqueezed;
   } else {
-    answer.state = back.isZero(0.0) ? ProxyState::kFree : ProxyState::kTouching;
+    answer.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
 }
 
