@@ -19,9 +19,8 @@ const ros::WallDuration kLastWords(1.0);
 }  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : loop_(counters_.rejected,
-            {[this] { pipeline_.watch_clock(); },
-             [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }}),
+    : loop_(counters_.rejected, {[this] { pipeline_.watch_clock(); },
+                                 [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }}),
       node_(on_queue(node, loop_.queue())),
       private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_parameters(private_node_)),
@@ -42,17 +41,20 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
                  pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),
                  counters_.refused}),
-      diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, pipeline_.organs(),
-                    pipeline_.contact_query(), pipeline_.steps(), pipeline_.transforms(),
-                    counters_}),
+      query_diagnostics_({loaded_.misspelt, pipeline_.contact_query(), pipeline_.steps(),
+                          pipeline_.transforms(), counters_}),
+      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
+                          counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_.queue()),
-      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), loop_.queue(), background_.queue()}),
-      tool_reload_(on_queue(private_node, background_.queue()), tools_,
-                   [this] { return load_tool_parameters(private_node_); },
-                   [this](LoadedToolList& loaded, const KeptTools& kept) {
-                     run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
-                   }),
+      organ_services_(
+          {pipeline_.organs(), pipeline_.organ_topics(), loop_.queue(), background_.queue()}),
+      tool_reload_(
+          on_queue(private_node, background_.queue()), tools_,
+          [this] { return load_tool_parameters(private_node_); },
+          [this](LoadedToolList& loaded, const KeptTools& kept) {
+            run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
+          }),
       live_parameters_(on_queue(private_node, background_.queue()),
                        live_parameters(loaded_.parameters),
                        [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
@@ -73,7 +75,9 @@ void CollisionNode::start() {
   organ_services_.advertise(private_node_);
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
-  diagnostics_.add_to(updater_);
+  updater_.setHardwareID("none");
+  query_diagnostics_.add_to(updater_);
+  inbox_diagnostics_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),

@@ -15,9 +15,10 @@
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/pipeline/collision_pipeline.hpp"
 #include "ros/publishing/contact_publisher.hpp"
-#include "ros/publishing/diagnostics.hpp"
+#include "ros/publishing/inbox_diagnostics.hpp"
 #include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
+#include "ros/publishing/query_diagnostics.hpp"
 #include "ros/steps/query_services.hpp"
 #include "ros/tools/tool.hpp"
 #include "tool_reload.hpp"
@@ -65,7 +66,8 @@ class CollisionNode {
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
-  Diagnostics diagnostics_;
+  QueryDiagnostics query_diagnostics_;
+  InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 
   SurfaceInspector surfaces_;
