@@ -13,9 +13,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "benchmark/measurements/durations.hpp"
 #include "benchmark/scenes/organ_surface.hpp"
 #include "benchmark/scenes/tool_motions.hpp"
-#include "latency.hpp"
 
 namespace organ_collision::bench {
 
@@ -26,7 +26,7 @@ struct LatencyReport {
   std::size_t skipped = 0;  ///< shapes for which not all tools' contacts arrived
   std::size_t failed = 0;   ///< answers whose status is not OK
   bool late = false;        ///< whether the simulator failed to publish at that rate
-  Latencies latencies;      ///< from publishing a shape to receiving the contacts of the last tool
+  Durations latencies;      ///< from publishing a shape to receiving the contacts of the last tool
 };
 
 /// A simulator without physics. It publishes a deforming organ and the poses of tools that pierce
