@@ -12,6 +12,7 @@ ProxyMeasurement::ProxyMeasurement(const ProxyTask& task)
       lap_(sliding_lap(task.tool, task.depth)),
       organ_(task.faces),
       shapes_{std::make_shared<TriangleMesh>(organ_.middle().vertices, organ_.middle().triangles)},
+      topology_(shapes_[0]->faces(), shapes_[0]->vertices()),
       proxy_(tool_, {}) {
   shapes_[1] = task.is_moving ? std::make_shared<TriangleMesh>(*shapes_[0]) : shapes_[0];
   check();
@@ -39,7 +40,7 @@ CollisionRequest ProxyMeasurement::request(ToolPath path) const {
 ProxyMeasurement::Tick ProxyMeasurement::follow() {
   const double update = move_organ();
   const ToolPose& hand = lap_[tick_++ % kLap];
-  const std::vector<ProxyOrgan> organs = {{"organ", shapes_[0]}};
+  const std::vector<ProxyOrgan> organs = this->organs();
   Stopwatch watch;
   proxy_.follow(hand, organs);
   return {update, watch.lap()};
@@ -60,7 +61,7 @@ ProxyMeasurement::Tick ProxyMeasurement::penalty() {
 void ProxyMeasurement::check() {
   for (std::size_t i = 0; i < kLap; ++i) {
     move_organ();
-    const ProxyAnswer& answer = proxy_.follow(lap_[tick_++ % kLap], {{"organ", shapes_[0]}});
+    const ProxyAnswer& answer = proxy_.follow(lap_[tick_++ % kLap], organs());
     query_.evaluate(request(resting_path(answer.proxy)), result_);
     summary_.errors.wrong += !result_.contacts.empty() && answer.state != ProxyState::kSqueezed;
     summary_.hits += static_cast<double>(answer.contacts.size()) / kLap;

@@ -45,6 +45,7 @@ class ProxyMeasurement {
  private:
   double move_organ();
   void check();
+  std::vector<ProxyOrgan> organs() const { return {{"organ", shapes_[0], &topology_}}; }
   CollisionRequest request(ToolPath path) const;
 
   ProxyTask task_;
@@ -52,6 +53,7 @@ class ProxyMeasurement {
   std::vector<ToolPose> lap_;
   WavingOrgan organ_;
   std::array<std::shared_ptr<TriangleMesh>, 2> shapes_;  ///< the latest one first
+  SurfaceTopology topology_;
   HapticProxy proxy_;
   CollisionQuery query_;
   CollisionResult result_;

@@ -45,7 +45,7 @@ ToolPose place(HandTool tool, const Vector3d& tip) {
     case HandTool::kShaft:
       return {{tip - kShaftLength * direction, tip}};
     case HandTool::kBall:
-      return {{}, {Eigen::Isometry3d(Eigen::Translation3d(tip))}};
+      return {{tip, tip}, {Eigen::Isometry3d(Eigen::Translation3d(tip))}};
     case HandTool::kGrasper: {
       constexpr double kOpening = 0.3;  // [rad]
       const ToolWaypoint grasper =
