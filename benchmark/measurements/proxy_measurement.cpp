@@ -63,9 +63,9 @@ void ProxyMeasurement::check() {
     move_organ();
     const ProxyAnswer& answer = proxy_.follow(lap_[tick_++ % kLap], organs());
     query_.evaluate(request(resting_path(answer.proxy)), result_);
-    summary_.errors.wrong += !result_.contacts.empty() && answer.state != ProxyState::kSqueezed;
+    summary_.errors.wrong += !result_.contacts.empty() && answer.state != ProxyStatus::kSqueezed;
     summary_.hits += static_cast<double>(answer.contacts.size()) / kLap;
-    held_ += (answer.state != ProxyState::kFree) / static_cast<double>(kLap);
+    held_ += (answer.state != ProxyStatus::kFree) / static_cast<double>(kLap);
   }
 }
 
