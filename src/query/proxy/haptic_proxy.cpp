@@ -64,7 +64,7 @@ struct HapticProxy::State {
   void move_proxy(Tick& tick);
   Needle::Settings needle_settings() const;
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs) const;
-  bool has_new_organ(const std::vector<OrganTick>& ticks) const;
+  bool is_in_new_tissue(Tick& tick);
   double way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
 
@@ -183,8 +183,10 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   } else if (tick.hand_way > settings.jump) {
     tick.answer.message = "the hand jumped " + std::to_string(tick.hand_way) + " m";
     tick.place.reset();
+  } else if (tick.place && is_in_new_tissue(tick)) {
+    tick.answer.message = "new tissue is where the proxy was";
+    tick.place.reset();
   } else if (tick.place) {
-    if (has_new_organ(tick.motions)) tick.place->clearance = ProxyPlace().clearance;
     tick.place = motion.give_way(*tick.place, hand, tick.motions);
     if (!tick.place) tick.answer.message = "tissue moved through the proxy";
   }
@@ -231,9 +233,14 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
   return ticks;
 }
 
-bool HapticProxy::State::has_new_organ(const std::vector<OrganTick>& ticks) const {
-  return std::any_of(ticks.begin(), ticks.end(),
-                     [](const OrganTick& organ) { return !organ.before; });
+/// Whether the proxy is inside an organ or across its surface, because an organ is new or has new
+/// faces. If it is not, its clearance from them is still unknown.
+bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
+  const bool has_new = std::any_of(tick.motions.begin(), tick.motions.end(),
+                                   [](const OrganTick& organ) { return !organ.before; });
+  if (!has_new) return false;
+  tick.place->clearance = ProxyPlace().clearance;
+  return tissue.is_inside(tick.place->pose, mobility->center(tick.place->pose));
 }
 
 /// [m] How far the hand moved since the last tick.
