@@ -3,20 +3,9 @@
 #include <string>
 
 #include "marker_sheet.hpp"
-#include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/tools/tool.hpp"
+#include "scene.hpp"
 
 namespace organ_collision {
-
-/// What one picture shows of a hand and its proxy.
-struct ProxyView {
-  Tool tool;
-  std::string frame;             ///< the proxy's frame
-  std::optional<ToolPose> hand;  ///< in this frame; not set: it is not known
-  ProxyAnswer answer;            ///< to this hand
-  double force = 0.0;            ///< [N] the magnitude of the force on the hand
-  double size = 0.1;             ///< [m] of the scene: widths and heights of texts are shares of it
-};
 
 /// The name of a state, as in msg/ProxyState.msg.
 std::string name_of(ProxyState state);
