@@ -60,8 +60,9 @@ void check_settings(const ProxyTool& tool, const ProxySettings& settings) {
 }
 
 void check_hand(const ProxyTool& tool, const ToolPose& hand) {
+  const bool has_shaft = tool.radius > 0.0;
   const bool is_finite =
-      hand.axis.trocar.allFinite() && hand.axis.tip.allFinite() &&
+      (!has_shaft || (hand.axis.trocar.allFinite() && hand.axis.tip.allFinite())) &&
       std::all_of(hand.links.begin(), hand.links.end(),
                   [](const Eigen::Isometry3d& link) { return link.matrix().allFinite(); });
   check(is_finite, "the hand's pose has a value that is not finite");
@@ -215,7 +216,7 @@ void HapticProxy::State::hold(Tick& tick, Needle&& held) const {
   pose = mobility->combine(pose, tick.hand);
   tick.place = ProxyPlace{pose, ProxyPlace().clearance};
   tick.way = 0.0;
-  tick.answer.state = ProxyState::kPunctured;
+  tick.answer.state = ProxyStatus::kPunctured;
   tick.answer.proxy = pose;
   tick.answer.pull = held.axis().tip - tick.hand.axis.tip;
   tick.answer.contacts.clear();
@@ -224,7 +225,7 @@ void HapticProxy::State::hold(Tick& tick, Needle&& held) const {
 }
 
 void HapticProxy::State::pierce(Tick& tick) {
-  if (!settings.puncture || tick.answer.state != ProxyState::kTouching) return;
+  if (!settings.puncture || tick.answer.state != ProxyStatus::kTouching) return;
   auto pierced = Needle::pierce(tick.answer.proxy.axis, tick.hand.axis, tick.answer.contacts,
                                 tick.organs, needle_settings(), tissue);
   if (pierced) hold(tick, std::move(*pierced));
@@ -253,9 +254,10 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   }
   ProxyPlace& now = *tick.place;
   const ToolPose start = now.pose;
-  const bool is_clear = now.clearance >= settings.clearance;
   const double reach = 2.0 * std::max(tick.hand_way, last_way);
-  if (!is_clear || !motion.fly(now, hand)) motion.slide(now, hand, reach);
+  const bool was_free = tick.answer.is_placed_anew || answer.state == ProxyStatus::kFree;
+  const bool may_fly = was_free && now.clearance >= settings.clearance;
+  if (!may_fly || !motion.fly(now, hand)) motion.slide(now, hand, reach);
   if (!tick.answer.is_placed_anew) {
     tick.way = mobility->longest_way(hand, mobility->between(start, now.pose));
   }
@@ -324,9 +326,9 @@ void HapticProxy::State::describe(Tick& tick) {
   solver.solve(back, holding);
   for (std::size_t i = 0; i < holding.size(); ++i) said.contacts[i].load = solver.load(i);
   if (nearest < ProxyClearance{settings.clearance}.least()) {
-    said.state = ProxyState::kSqueezed;
+    said.state = ProxyStatus::kSqueezed;
   } else {
-    said.state = back.isZero(0.0) ? ProxyState::kFree : ProxyState::kTouching;
+    said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
 }
 
