@@ -48,17 +48,17 @@ std_msgs::ColorRGBA load() { return rgba(1.00, 0.80, 0.15); }
 std_msgs::ColorRGBA text() { return rgba(0.95, 0.95, 0.95); }
 std_msgs::ColorRGBA failure() { return rgba(1.00, 0.45, 0.35); }
 
-std_msgs::ColorRGBA proxy(ProxyState state) {
+std_msgs::ColorRGBA proxy(ProxyStatus state) {
   switch (state) {
-    case ProxyState::kFree:
+    case ProxyStatus::kFree:
       return text();
-    case ProxyState::kTouching:
+    case ProxyStatus::kTouching:
       return rgba(0.30, 0.95, 0.50);
-    case ProxyState::kSqueezed:
+    case ProxyStatus::kSqueezed:
       return rgba(1.00, 0.65, 0.10);
-    case ProxyState::kPunctured:
+    case ProxyStatus::kPunctured:
       return rgba(0.80, 0.50, 1.00);
-    case ProxyState::kNoAnswer:
+    case ProxyStatus::kNoAnswer:
       break;
   }
   return failure();

@@ -27,7 +27,7 @@ std_msgs::ColorRGBA leaving();
 /// A tool where the hand has it, while tissue holds its proxy back.
 std_msgs::ColorRGBA hand();
 /// What a proxy does: its text, and the line between hand and proxy.
-std_msgs::ColorRGBA proxy(ProxyState state);
+std_msgs::ColorRGBA proxy(ProxyStatus state);
 /// The force of a proxy on the tissue.
 std_msgs::ColorRGBA load();
 std_msgs::ColorRGBA text();

@@ -84,17 +84,17 @@ void add_state(const ProxyView& view, MarkerSheet& sheet) {
 
 }  // namespace
 
-std::string name_of(ProxyState state) {
+std::string name_of(ProxyStatus state) {
   switch (state) {
-    case ProxyState::kFree:
+    case ProxyStatus::kFree:
       return "FREE";
-    case ProxyState::kTouching:
+    case ProxyStatus::kTouching:
       return "TOUCHING";
-    case ProxyState::kSqueezed:
+    case ProxyStatus::kSqueezed:
       return "SQUEEZED";
-    case ProxyState::kPunctured:
+    case ProxyStatus::kPunctured:
       return "PUNCTURED";
-    case ProxyState::kNoAnswer:
+    case ProxyStatus::kNoAnswer:
       break;
   }
   return "NO_ANSWER";
@@ -102,7 +102,7 @@ std::string name_of(ProxyState state) {
 
 std::string state_line(const ProxyView& view) {
   const std::string line = view.tool.parameters.name + ": " + name_of(view.answer.state);
-  if (view.answer.state == ProxyState::kNoAnswer) {
+  if (view.answer.state == ProxyStatus::kNoAnswer) {
     return line + ": " + plain_text(view.answer.message, kLongestReason);
   }
   char force[32];
@@ -111,8 +111,8 @@ std::string state_line(const ProxyView& view) {
 }
 
 void add_proxy(const ProxyView& view, MarkerSheet& sheet) {
-  const bool has_proxy = view.answer.state != ProxyState::kNoAnswer;
-  const bool is_held = view.answer.state != ProxyState::kFree;
+  const bool has_proxy = view.answer.state != ProxyStatus::kNoAnswer;
+  const bool is_held = view.answer.state != ProxyStatus::kFree;
   if (view.hand && is_held) {
     add_tool(view.tool, *view.hand, view.frame, sheet, {marker_names::kHand, colours::hand()});
   }

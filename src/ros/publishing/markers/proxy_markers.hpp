@@ -8,7 +8,7 @@
 namespace organ_collision {
 
 /// The name of a state, as in msg/ProxyState.msg.
-std::string name_of(ProxyState state);
+std::string name_of(ProxyStatus state);
 
 /// "probe: TOUCHING, 1.2 N"; "probe: NO_ANSWER: ..." with the reason if there is no answer.
 std::string state_line(const ProxyView& view);

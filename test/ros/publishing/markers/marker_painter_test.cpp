@@ -205,7 +205,7 @@ TEST_F(Painter, AProxyNeedsNoOrgan) {
   scene.proxies.resize(1);
   scene.proxies[0].tool = shaft_tool("hook", 0.25);
   scene.proxies[0].frame = "room";
-  scene.proxies[0].answer.state = ProxyState::kFree;
+  scene.proxies[0].answer.state = ProxyStatus::kFree;
   scene.proxies[0].answer.proxy = ToolPose{{{0.0, 0.0, 2.0}, {0.0, 4.0, 2.0}}, {}};
   paint(scene);
   EXPECT_EQ(namespaces(), (std::set<std::string>{"proxy", "state"}));

@@ -20,7 +20,7 @@ ProxyView held_hook() {
   view.tool = shaft_tool("hook", 0.005);
   view.frame = "liver_frame";
   view.hand = ToolPose{{{0.1, 0.2, 0.3}, {0.1, 0.2, -0.015}}};
-  view.answer.state = ProxyState::kTouching;
+  view.answer.state = ProxyStatus::kTouching;
   view.answer.proxy = ToolPose{{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.005}}};
   view.answer.center = view.hand->axis.tip;
   view.answer.pull = {0.0, 0.0, 0.02};
@@ -75,7 +75,7 @@ TEST(ProxyMarkers, TheSpringJoinsHandAndProxy) {
   ASSERT_EQ(spring.points.size(), 2u);
   EXPECT_TRUE(point(spring, 0).isApprox(Vector3d(0.1, 0.2, -0.015), 1e-12));
   EXPECT_TRUE(point(spring, 1).isApprox(Vector3d(0.1, 0.2, 0.005), 1e-12));
-  EXPECT_EQ(spring.color, colours::proxy(ProxyState::kTouching));
+  EXPECT_EQ(spring.color, colours::proxy(ProxyStatus::kTouching));
 }
 
 TEST(ProxyMarkers, AnArrowShowsEachLoadAndTheLongestOneTheGreatest) {
@@ -97,7 +97,7 @@ TEST(ProxyMarkers, AnArrowShowsEachLoadAndTheLongestOneTheGreatest) {
 
 TEST(ProxyMarkers, ANeedleLoadsTheTissueWhereItCrosses) {
   ProxyView view = held_hook();
-  view.answer.state = ProxyState::kPunctured;
+  view.answer.state = ProxyStatus::kPunctured;
   view.answer.contacts.clear();
   view.answer.crossings = {{0, 7, {0.2, 0.3, 0.5}, {0.1, 0.2, 0.0}, {0.0, 0.0, -0.01}}};
   const Marker arrows = find_marker(markers_of(view), "loads");
@@ -106,7 +106,7 @@ TEST(ProxyMarkers, ANeedleLoadsTheTissueWhereItCrosses) {
 
 TEST(ProxyMarkers, AFreeProxyHidesItsHand) {
   ProxyView view = held_hook();
-  view.answer.state = ProxyState::kFree;
+  view.answer.state = ProxyStatus::kFree;
   view.answer.proxy = *view.hand;
   view.answer.pull.setZero();
   view.answer.contacts.front().load = 0.0;
@@ -115,7 +115,7 @@ TEST(ProxyMarkers, AFreeProxyHidesItsHand) {
 
 TEST(ProxyMarkers, WithoutAnAnswerThereIsOnlyTheHandAndTheReason) {
   ProxyView view = held_hook();
-  view.answer.state = ProxyState::kNoAnswer;
+  view.answer.state = ProxyStatus::kNoAnswer;
   view.answer.message = "there is no organ";
   const MarkerArray all = markers_of(view);
   EXPECT_EQ(names_of(all), (std::set<std::string>{"hand", "state"}));
@@ -148,8 +148,8 @@ TEST(ProxyMarkers, EachStateHasAColourAndAName) {
   std::set<std::string> names;
   std::set<float> colours;
   for (int state = 0; state <= 4; ++state) {
-    names.insert(name_of(static_cast<ProxyState>(state)));
-    colours.insert(colours::proxy(static_cast<ProxyState>(state)).b);
+    names.insert(name_of(static_cast<ProxyStatus>(state)));
+    colours.insert(colours::proxy(static_cast<ProxyStatus>(state)).b);
   }
   EXPECT_EQ(names,
             (std::set<std::string>{"NO_ANSWER", "FREE", "TOUCHING", "SQUEEZED", "PUNCTURED"}));
