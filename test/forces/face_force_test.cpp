@@ -1,4 +1,4 @@
-#include "contact_adapter/face_force.hpp"
+#include "forces/face_force.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "contact_adapter/vertex_forces.hpp"
+#include "forces/vertex_forces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,10 +6,10 @@
 #include <map>
 
 #include "contact_adapter/force_law.hpp"
-#include "contact_adapter/force_limit.hpp"
-#include "contact_arrays.hpp"
+#include "forces/force_limit.hpp"
+#include "test/contact_adapter/contact_arrays.hpp"
 #include "ros/interface/rejection.hpp"
-#include "smooth_force.hpp"
+#include "test/contact_adapter/smooth_force.hpp"
 #include "test/proof/trials.hpp"
 
 using namespace organ_collision;

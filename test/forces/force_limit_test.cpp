@@ -1,4 +1,4 @@
-#include "contact_adapter/force_limit.hpp"
+#include "forces/force_limit.hpp"
 
 #include <gtest/gtest.h>
 

@@ -21,8 +21,10 @@ std::string graph_name(std::string name, const std::string& prefix) {
 
 }  // namespace
 
+std::string tool_graph_name(const std::string& tool) { return graph_name(tool, "tool_"); }
+
 std::string PairNames::of(const std::string& organ, const std::string& tool) {
-  std::string name = graph_name(organ, "organ_") + "/" + graph_name(tool, "tool_");
+  std::string name = graph_name(organ, "organ_") + "/" + tool_graph_name(tool);
   const auto& owner = owners_.insert({name, {organ, tool}}).first->second;
   if (owner != std::make_pair(organ, tool)) {
     throw Rejection(ContactArray::INVALID_REQUEST, "name taken",

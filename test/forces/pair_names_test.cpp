@@ -1,4 +1,4 @@
-#include "contact_adapter/pair_names.hpp"
+#include "forces/pair_names.hpp"
 
 #include <gtest/gtest.h>
 #include <ros/names.h>
