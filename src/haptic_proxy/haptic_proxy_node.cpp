@@ -239,14 +239,13 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, Time now) {
 void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   Hand& hand = hands_[tool];
   const bool is_fading = hand.proxy && hand.proxy->is_fading();
-  const bool is_told = hand.why_not && std::string(hand.why_not->what()) == why.what() &&
-                       now - hand.told < kRepetition;
-  hand.why_not = why;
-  if (is_told && !is_fading) return;
+  const bool is_known = hand.why_not && std::string(hand.why_not->what()) == why.what();
+  if (is_known && !is_fading && now - hand.told < kRepetition) return;
   const ToolParameters& parameters = tools_[tool].parameters;
-  if (!is_told && (hand.had_answer || now - started_ > kStart)) {
+  if (!is_known && (hand.had_answer || now - started_ > kStart)) {
     counters_.failed.add(why.reason(), "tool '" + parameters.name + "': " + why.what(), now);
   }
+  hand.why_not = why;
   if (hand.proxy) {
     publisher_.publish(hand.proxy->lose(why.status(), why.what(), frame_.name(), now));
   } else {
@@ -354,6 +353,12 @@ void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("poses merged into later ones", counters_.poses_merged);
   for (const std::string& sentence : loaded_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    const std::optional<Rejection>& why_not = hands_[tool].why_not;
+    if (!why_not) continue;
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "tool '" + tools_[tool].parameters.name + "': " + why_not->what());
   }
   show_failures("unanswered", counters_.failed, status);
   show_failures("clipped", counters_.clipped, status);
