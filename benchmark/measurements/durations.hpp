@@ -5,7 +5,7 @@
 namespace organ_collision::bench {
 
 /// A collection of durations [s].
-class Latencies {
+class Durations {
  public:
   void add(double seconds) { seconds_.push_back(seconds); }
   std::size_t count() const { return seconds_.size(); }

@@ -1,10 +1,10 @@
-#include "latency.hpp"
+#include "durations.hpp"
 
 #include <algorithm>
 
 namespace organ_collision::bench {
 
-double Latencies::quantile(double share) const {
+double Durations::quantile(double share) const {
   if (seconds_.empty()) return 0.0;
   std::vector<double> sorted = seconds_;
   const auto place = static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + 0.5);
