@@ -1,0 +1,145 @@
+#include "haptic_proxy/proxy_forces.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <random>
+
+using namespace organ_collision;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kStiffness = 170.0;
+
+class ProxyForcesTest : public testing::Test {
+ protected:
+  Vector3d random_vector(double size) {
+    std::uniform_real_distribution<double> in(-size, size);
+    return {in(random_), in(random_), in(random_)};
+  }
+
+  ProxyContact contact(std::size_t organ, double load, double shaft) {
+    ProxyContact at;
+    at.organ = organ;
+    at.load = load;
+    at.contact.face = 0;
+    at.contact.vertices = {0, 1, 2};
+    at.contact.barycentric = {0.2, 0.3, 0.5};
+    at.contact.point = random_vector(0.1);
+    at.contact.normal = random_vector(1.0).normalized();
+    at.contact.shaft = shaft;
+    return at;
+  }
+
+  std::vector<OrganForce> forces(ProxyFreedom freedom, const Vector3d& damping = Vector3d::Zero()) {
+    return proxy_forces(answer_, organs_, freedom, true, kStiffness, damping);
+  }
+
+  static void expect_near(const Vector3d& found, const Vector3d& expected) {
+    EXPECT_LT((found - expected).norm(), 1e-12)
+        << found.transpose() << ", not " << expected.transpose();
+  }
+
+  std::mt19937 random_{7};
+  std::shared_ptr<const TriangleMesh> face_ = std::make_shared<TriangleMesh>(
+      std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, std::vector<std::uint32_t>{0, 1, 2}, 5);
+  std::vector<ProxyOrgan> organs_{
+      {"liver", face_, nullptr, Eigen::Isometry3d::Identity()},
+      {"kidney", face_, nullptr,
+       Eigen::Translation3d(0.3, -0.1, 0.7) *
+           Eigen::AngleAxisd(0.8, Vector3d(0.2, 0.9, -0.4).normalized())}};
+  ProxyAnswer answer_;
+};
+
+}  // namespace
+
+TEST_F(ProxyForcesTest, WithoutContactsThereIsNoForce) {
+  answer_.pull = {0.01, 0.02, 0.03};
+  for (const OrganForce& of_organ : forces(ProxyFreedom::kFree)) {
+    EXPECT_TRUE(of_organ.force.isZero(0.0));
+    EXPECT_TRUE(of_organ.torque.isZero(0.0));
+    EXPECT_TRUE(of_organ.on_faces.empty());
+    EXPECT_EQ(of_organ.topology, 5U);
+  }
+}
+
+TEST_F(ProxyForcesTest, OfAFreeToolTheForcesOnFacesAddUpToTheWrenches) {
+  answer_.contacts = {contact(0, 0.003, 0.2), contact(1, 0.001, 0.9), contact(1, 0.0, 1.0)};
+  answer_.pull = random_vector(0.01);
+  answer_.twist = random_vector(1e-4);
+  answer_.center = random_vector(0.2);
+  const Vector3d damping = random_vector(0.5);
+  const std::vector<OrganForce> found = forces(ProxyFreedom::kFree, damping);
+  ASSERT_EQ(found.size(), 2U);
+  Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
+  for (std::size_t organ = 0; organ < 2; ++organ) {
+    Vector3d on_faces = Vector3d::Zero();
+    for (const FaceForce& at : found[organ].on_faces) on_faces += at.force;
+    expect_near(on_faces, organs_[organ].T_organ_proxy.linear() * found[organ].force);
+    sum += found[organ].force;
+    torque += found[organ].torque;
+  }
+  const Vector3d whole = kStiffness * answer_.pull + damping;
+  expect_near(sum, whole);
+  expect_near(torque, answer_.center.cross(whole) + kStiffness * answer_.twist);
+}
+
+TEST_F(ProxyForcesTest, EachOrganPushesAlongItsOwnNormals) {
+  answer_.contacts = {contact(0, 0.003, 1.0), contact(1, 0.001, 1.0)};
+  for (const ProxyContact& at : answer_.contacts) answer_.pull -= at.load * at.contact.normal;
+  const std::vector<OrganForce> found = forces(ProxyFreedom::kFree);
+  for (std::size_t i = 0; i < 2; ++i) {
+    expect_near(found[i].force,
+                -kStiffness * answer_.contacts[i].load * answer_.contacts[i].contact.normal);
+  }
+}
+
+TEST_F(ProxyForcesTest, ThroughATrocarTheForceActsAtTheTipWithTheLeverOfTheContact) {
+  answer_.contacts = {contact(0, 0.004, 0.25), contact(1, 0.002, 1.0)};
+  for (const ProxyContact& at : answer_.contacts) {
+    answer_.pull -= at.load * at.contact.shaft * at.contact.normal;
+  }
+  answer_.center = random_vector(0.2);
+  const std::vector<OrganForce> found = forces(ProxyFreedom::kTrocar);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ProxyContact& at = answer_.contacts[i];
+    const Vector3d on_tissue = kStiffness * at.load * at.contact.normal;
+    expect_near(found[i].force, -at.contact.shaft * on_tissue);
+    expect_near(found[i].torque, answer_.center.cross(found[i].force));
+    ASSERT_EQ(found[i].on_faces.size(), 1U);
+    expect_near(found[i].on_faces[0].force, -(organs_[i].T_organ_proxy.linear() * on_tissue));
+    expect_near(found[i].on_faces[0].place, organs_[i].T_organ_proxy * at.contact.point);
+  }
+}
+
+TEST_F(ProxyForcesTest, CrossingsLoadTheTissue) {
+  ProxyCrossing crossing;
+  crossing.organ = 1;
+  crossing.face = 0;
+  crossing.barycentric = {0.1, 0.6, 0.3};
+  crossing.point = random_vector(0.1);
+  crossing.load = random_vector(0.01);
+  answer_.crossings = {crossing};
+  answer_.pull = -crossing.load;
+  const std::vector<OrganForce> found = forces(ProxyFreedom::kTrocar);
+  expect_near(found[1].force, -kStiffness * crossing.load);
+  EXPECT_TRUE(found[0].force.isZero(0.0));
+  ASSERT_EQ(found[1].on_faces.size(), 1U);
+  EXPECT_EQ(found[1].on_faces[0].vertices[2], 2U);
+  EXPECT_EQ(found[1].on_faces[0].barycentric[1], 0.6);
+}
+
+TEST_F(ProxyForcesTest, ScalingScalesAll) {
+  answer_.contacts = {contact(1, 0.004, 1.0)};
+  answer_.pull = random_vector(0.01);
+  answer_.center = random_vector(0.2);
+  OrganForce scaled = forces(ProxyFreedom::kFree)[1];
+  const OrganForce whole = scaled;
+  scaled.scale(0.25);
+  expect_near(scaled.force, 0.25 * whole.force);
+  expect_near(scaled.torque, 0.25 * whole.torque);
+  expect_near(scaled.on_faces[0].force, 0.25 * whole.on_faces[0].force);
+  expect_near(scaled.on_faces[0].place, whole.on_faces[0].place);
+}

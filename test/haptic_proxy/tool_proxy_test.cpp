@@ -1,0 +1,183 @@
+#include "haptic_proxy/tool_proxy.hpp"
+
+#include <gtest/gtest.h>
+#include <organ_collision/ContactArray.h>
+
+#include <Eigen/Geometry>
+#include <numeric>
+
+#include "test/ros/tools/hand_made_tools.hpp"
+
+using namespace organ_collision;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kRadius = 0.004;
+
+/// A tool above a sheet at z = 0.
+class ToolProxyTest : public testing::Test {
+ protected:
+  ToolProxyTest() {
+    ros::Time::init();
+    tool_.parameters.freedom = ProxyFreedom::kTrocar;
+  }
+
+  /// The hand's tip is at a height [m], some milliseconds later.
+  ProxyReport follow(ToolProxy& proxy, double height, double milliseconds = 20.0) {
+    pass(milliseconds);
+    const Vector3d tip(0.011, -0.007, height);
+    return proxy.follow({{{trocar_, tip}}, stamp_}, scene_, now_);
+  }
+  ProxyReport lose(ToolProxy& proxy, double milliseconds) {
+    pass(milliseconds);
+    return proxy.lose(ContactArray::STALE_MESH, "the mesh is old", "liver_frame", now_);
+  }
+  void pass(double milliseconds) {
+    now_ += std::chrono::duration_cast<ToolProxy::Time::duration>(
+        std::chrono::duration<double, std::milli>(milliseconds));
+    stamp_ += ros::Duration(1e-3 * milliseconds);
+  }
+
+  static double force(const ProxyReport& report) {
+    return std::accumulate(
+        report.forces.begin(), report.forces.end(), 0.0,
+        [](double sum, const OrganForce& of_organ) { return sum + of_organ.force.z(); });
+  }
+  /// The force after the proxy stopped at its clearance from the sheet [N].
+  double spring(double height) const {
+    return parameters_.stiffness * (kRadius + parameters_.clearance - height);
+  }
+  /// The hand reaches a height, and the whole force is there.
+  void press(ToolProxy& proxy, double height) {
+    for (const double at : {0.03, 0.01, height, height}) follow(proxy, at);
+  }
+
+  const Vector3d trocar_{0.02, 0.01, 0.3};
+  Tool tool_ = shaft_tool("hook", kRadius);
+  HapticProxyParameters parameters_;
+  DeformableOrgan organ_{
+      "liver", "liver_frame",
+      TriangleMesh({-0.3F, -0.2F, 0.0F, 0.3F, -0.2F, 0.0F, 0.0F, 0.4F, 0.0F}, {0, 1, 2}),
+      ros::Time(1), ros::Time(1)};
+  ProxyScene scene_{"liver_frame",
+                    {{"liver", organ_.latest().mesh, nullptr, Eigen::Isometry3d::Identity()}},
+                    {&organ_}};
+  ToolProxy::Time now_{std::chrono::hours(3)};
+  ros::Time stamp_{50.0};
+};
+
+}  // namespace
+
+TEST_F(ToolProxyTest, AHandInTheAirFeelsNothing) {
+  ToolProxy proxy(tool_, parameters_);
+  EXPECT_TRUE(follow(proxy, 0.05).answer->is_placed_anew);
+  const ProxyReport report = follow(proxy, 0.03);
+  EXPECT_EQ(report.status, ContactArray::OK);
+  EXPECT_EQ(report.answer->state, ProxyStatus::kFree);
+  EXPECT_EQ(force(report), 0.0);
+  EXPECT_EQ(report.stamp, stamp_);
+  EXPECT_EQ(report.proxy->axis.tip, report.hand->axis.tip);
+}
+
+TEST_F(ToolProxyTest, AHandThatStabsIsPushedBackByStiffnessTimesDepth) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.01);
+  const ProxyReport report = follow(proxy, -0.02);
+  EXPECT_EQ(report.answer->state, ProxyStatus::kTouching);
+  EXPECT_NEAR(force(report), spring(-0.02), 1e-6);
+  EXPECT_GT(report.proxy->axis.tip.z(), kRadius);
+  EXPECT_FALSE(report.is_clipped);
+  ASSERT_EQ(report.forces[0].on_faces.size(), 1U);
+  EXPECT_EQ(report.forces[0].frame, "liver_frame");
+}
+
+TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  const double whole = spring(-0.01);
+  EXPECT_NEAR(force(lose(proxy, 1.0)), whole, 1e-6) << "the moment of the loss";
+  EXPECT_TRUE(proxy.is_fading());
+  const ProxyReport fading = lose(proxy, 4.0);
+  EXPECT_NEAR(force(fading), 0.6 * whole, 1e-6);
+  EXPECT_EQ(fading.status, ContactArray::STALE_MESH);
+  EXPECT_EQ(fading.message, "the mesh is old");
+  EXPECT_EQ(fading.answer, nullptr);
+  ASSERT_EQ(fading.forces[0].on_faces.size(), 1U) << "the tissue is let go in the same way";
+  const ProxyReport gone = lose(proxy, 7.0);
+  ASSERT_EQ(gone.forces.size(), 1U) << "the zero is told";
+  EXPECT_EQ(force(gone), 0.0);
+  EXPECT_FALSE(proxy.is_fading());
+  EXPECT_TRUE(lose(proxy, 100.0).forces.empty());
+
+  EXPECT_EQ(force(follow(proxy, -0.01, 500.0)), 0.0);
+  EXPECT_NEAR(force(follow(proxy, -0.01, 3.0)), 0.3 * whole, 1e-6);
+  EXPECT_NEAR(force(follow(proxy, -0.01, 30.0)), whole, 1e-6);
+}
+
+TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewItsOldForceFadesFirst) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  const double whole = spring(-0.01);
+  const ProxyReport jumped = follow(proxy, 0.2, 1.0);
+  EXPECT_TRUE(jumped.answer->is_placed_anew);
+  EXPECT_NE(jumped.message, "");
+  EXPECT_NEAR(force(jumped), whole, 1e-6);
+  EXPECT_NEAR(force(follow(proxy, 0.2, 5.0)), 0.5 * whole, 1e-6);
+  EXPECT_EQ(force(follow(proxy, 0.2, 6.0)), 0.0);
+  EXPECT_EQ(force(follow(proxy, 0.2, 6.0)), 0.0);
+}
+
+TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissue) {
+  parameters_.max_force = 0.5;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  EXPECT_TRUE(report.is_clipped);
+  EXPECT_NEAR(force(report), 0.5, 1e-9);
+  const OrganForce& of_organ = report.forces[0];
+  const Vector3d torque = report.answer->center.cross(of_organ.force);
+  EXPECT_LT((of_organ.torque - torque).norm(), 1e-9);
+  EXPECT_NEAR(of_organ.on_faces[0].force.z(), 0.5, 1e-6);
+  for (int tick = 0; tick < 5; ++tick) follow(proxy, 0.02);
+  EXPECT_FALSE(follow(proxy, 0.02).is_clipped);
+}
+
+TEST_F(ToolProxyTest, DampingResistsTheMotionButNeverPullsTheHandIn) {
+  parameters_.damping = 2.0;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  const double velocity = 0.1;  // [m/s]
+  const ProxyReport inward = follow(proxy, -0.001, 10.0);
+  EXPECT_NEAR(force(inward), spring(-0.001) + 2.0 * velocity, 1e-6);
+  EXPECT_NEAR(force(follow(proxy, -0.001, 10.0)), spring(-0.001), 1e-6);
+  const ProxyReport outward = follow(proxy, 0.0, 10.0);
+  EXPECT_NEAR(force(outward), spring(0.0) - 2.0 * velocity, 1e-6);
+  const ProxyReport fast = follow(proxy, 0.004, 1.0);
+  EXPECT_NEAR(force(fast), 0.0, 1e-9) << "2 N s/m times 4 m/s is more than the spring has";
+}
+
+TEST_F(ToolProxyTest, ResetPlacesTheProxyAnew) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.01);
+  EXPECT_FALSE(follow(proxy, 0.01).answer->is_placed_anew);
+  proxy.reset();
+  EXPECT_TRUE(follow(proxy, 0.01).answer->is_placed_anew);
+}
+
+TEST_F(ToolProxyTest, AnIllegalHandIsRefusedAndTheProxyStays) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  EXPECT_THROW(follow(proxy, std::nan("")), std::invalid_argument);
+  EXPECT_NEAR(force(follow(proxy, -0.01)), spring(-0.01), 1e-6);
+}
+
+TEST_F(ToolProxyTest, ChangedSettingsAreUsed) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  parameters_.clearance = 5e-4;
+  parameters_.stiffness = 100.0;
+  proxy.update_settings();
+  for (int tick = 0; tick < 5; ++tick) follow(proxy, -0.01);
+  EXPECT_NEAR(force(follow(proxy, -0.01)), spring(-0.01), 1e-5);
+}

@@ -1,0 +1,350 @@
+#!/usr/bin/python3
+"""haptic_proxy, the node and the nodelet, as its users see it. Each hand is moved in small steps
+at a few hundred poses a second. No test depends on how fast they are answered."""
+
+import math
+import sys
+import time
+import unittest
+
+from diagnostic_msgs.msg import DiagnosticArray
+from dynamic_reconfigure.msg import DoubleParameter
+from dynamic_reconfigure.srv import Reconfigure, ReconfigureRequest
+from geometry_msgs.msg import PoseStamped, WrenchStamped
+from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
+from organ_collision.srv import ListOrgans, RemoveOrgan
+import rospy
+import rostest
+from std_srvs.srv import Empty, Trigger
+from tf2_msgs.msg import TFMessage
+
+from support import scenes
+from support.node_client import LIMIT, TfSender, is_heard, wait_until
+
+NODE = '/haptic_proxy'
+FRAME = 'liver_frame'
+STIFFNESS = 200.0  # [N/m]
+CLEARANCE = 1e-4  # [m]
+RADIUS = {'needle': 0.003, 'probe': 0.005, 'stylus': 0.004}  # [m]
+SHEET = scenes.sheet(0.1, 4)
+X, Y = 0.013, 0.007  # [m] where the hands stab
+TROCAR = (0.02, -0.01, 0.3)
+
+
+class Log:
+    """All messages of a topic, in order."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=1000)
+
+    def last(self, wanted=lambda message: True):
+        """The last such message; None if there is none."""
+        return next((message for message in self.messages[::-1] if wanted(message)), None)
+
+
+def vector(message):
+    return (message.x, message.y, message.z)
+
+
+def tip_pose(tip):
+    message = PoseStamped()
+    message.header.frame_id, message.header.stamp = FRAME, rospy.Time.now()
+    p = message.pose.position
+    p.x, p.y, p.z = tip
+    message.pose.orientation.w = 1.0
+    return message
+
+
+class HapticProxyTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.process = rospy.get_param('~process', NODE)
+        rospy.wait_for_service(NODE + '/reload_tools', LIMIT)
+        cls.meshes = rospy.Publisher(NODE + '/organ_mesh', OrganMesh, queue_size=10)
+        cls.hands = {
+            tool: rospy.Publisher(tool + '/pose', PoseStamped, queue_size=1000)
+            for tool in ('needle', 'stylus')
+        }
+        cls.tf = TfSender()
+        cls.states = {
+            tool: Log('%s/%s/state' % (NODE, tool), ProxyState)
+            for tool in ('needle', 'probe', 'stylus', 'grasper')
+        }
+        cls.proxies = Log(NODE + '/needle/proxy', PoseStamped)
+        cls.contacts = Log(NODE + '/contacts', ContactArray)
+        cls.frames = Log('/tf', TFMessage)
+        cls.diagnostics = Log('/diagnostics', DiagnosticArray)
+        wait_until(
+            lambda: all(is_heard(topic, cls.process) for topic in [cls.meshes, *cls.hands.values()]),
+            'connections',
+        )
+        cls.tf.wait_for(cls)
+        base = scenes.Pose((0, 0, 0, 1), TROCAR)
+        cls.tf.send_resting(
+            *((FRAME, frame, base) for frame in ('needle_trocar', 'probe_trocar', 'stylus_base'))
+        )
+
+    def setUp(self):
+        self.organ = self.id().split('.')[-1]
+        self.tips = {}
+
+    def tearDown(self):
+        rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(self.organ)
+        wait_until(lambda: self.organ not in self.organs(), 'removal')
+
+    @staticmethod
+    def organs():
+        return [organ.name for organ in rospy.ServiceProxy(NODE + '/list_organs', ListOrgans)().organs]
+
+    def send_sheet(self):
+        mesh = OrganMesh(
+            organ=self.organ,
+            topology=1,
+            vertices=SHEET.flat_vertices(),
+            triangles=SHEET.flat_faces(),
+        )
+        mesh.header.frame_id = FRAME
+        self.meshes.publish(mesh)
+        wait_until(lambda: self.organ in self.organs(), 'the organ')
+
+    def hold(self, tool, tip):
+        """Sends one pose of a hand."""
+        self.tips[tool] = tip
+        if tool in self.hands:
+            self.hands[tool].publish(tip_pose(tip))
+        else:
+            self.tf.send((FRAME, tool + '_tip', scenes.Pose((0, 0, 0, 1), tip), rospy.Time.now()))
+
+    def hold_until(self, tool, tip, condition, what):
+        """Holds the hand there until the condition holds for the tool's last state. Returns it."""
+
+        def holds():
+            self.hold(tool, tip)
+            time.sleep(0.002)
+            state = self.states[tool].last()
+            return state if state and condition(state) else None
+
+        return wait_until(holds, lambda: '%s; the last state is %s' % (what, self.states[tool].last()))
+
+    def move(self, tool, tip):
+        """Moves a hand straight to a tip position, in steps of at most 1 mm."""
+        start = self.tips[tool]
+        steps = max(1, math.ceil(math.dist(start, tip) / 1e-3))
+        for i in range(1, steps + 1):
+            self.hold(tool, tuple(a + (b - a) * i / steps for a, b in zip(start, tip)))
+            time.sleep(0.001)
+
+    def stab(self, tool, depth):
+        """Moves a hand from the air to a depth below the sheet, and waits for the whole force there.
+        Returns the state."""
+        self.hold_until(
+            tool, (X, Y, 0.03), lambda state: state.state == ProxyState.FREE, tool + ' in the air'
+        )
+        self.move(tool, (X, Y, -depth))
+        expected = self.spring(tool, -depth)
+        return self.hold_until(
+            tool,
+            (X, Y, -depth),
+            lambda state: abs(state.wrench.force.z - expected) < 1e-3,
+            '%g N of %s' % (expected, tool),
+        )
+
+    def spring(self, tool, height):
+        """[N] on a hand that would have its tip there, while the proxy stays above the sheet."""
+        return STIFFNESS * (RADIUS[tool] + CLEARANCE - height)
+
+    def check_stab(self, tool):
+        wrenches = Log('%s/%s/%s/wrench' % (NODE, self.organ, tool), WrenchStamped)
+        state = self.stab(tool, 0.02)
+        self.assertEqual((state.state, state.header.frame_id), (ProxyState.TOUCHING, FRAME))
+        self.assertGreater(state.proxy.position.z, RADIUS[tool])
+        self.assertAlmostEqual(state.hand.position.z, -0.02, delta=1e-9)
+        self.assertAlmostEqual(state.pull.z, self.spring(tool, -0.02) / STIFFNESS, delta=1e-6)
+        self.assertFalse(state.clipped)
+
+        def last_wrench():
+            self.hold(tool, self.tips[tool])
+            time.sleep(0.002)
+            return wrenches.last(lambda wrench: abs(wrench.wrench.force.z - state.wrench.force.z) < 1e-3)
+
+        wrench = wait_until(last_wrench, 'the wrench of ' + tool)
+        self.assertEqual(wrench.header.frame_id, FRAME)
+        force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
+        if tool != 'stylus':  # The force acts at the tip.
+            self.assertAlmostEqual(torque[0], Y * force[2], delta=1e-3)
+            self.assertAlmostEqual(torque[1], -X * force[2], delta=1e-3)
+
+    def test_a_hand_on_a_pose_topic_that_stabs_is_held(self):
+        self.send_sheet()
+        self.check_stab('needle')
+
+    def test_a_hand_on_tf_that_stabs_is_held(self):
+        self.send_sheet()
+        self.check_stab('probe')
+
+    def test_a_hand_in_the_air_is_free_and_feels_nothing(self):
+        self.send_sheet()
+        state = self.hold_until(
+            'needle', (X, Y, 0.04), lambda state: state.state == ProxyState.FREE, 'free'
+        )
+        self.assertEqual(vector(state.wrench.force), (0.0, 0.0, 0.0))
+        self.assertEqual(vector(state.hand.position), vector(state.proxy.position))
+        proxy = wait_until(
+            lambda: self.proxies.last(lambda pose: abs(pose.pose.position.z - 0.04) < 1e-9), 'proxy'
+        )
+        self.assertEqual(proxy.header.frame_id, FRAME)
+        wait_until(
+            lambda: self.frames.last(
+                lambda message: message.transforms[0].child_frame_id == 'needle_proxy'
+                and message.transforms[0].header.frame_id == FRAME
+            ),
+            'frame needle_proxy',
+        )
+
+    def test_of_a_free_tool_the_forces_on_vertices_are_minus_the_wrench(self):
+        self.send_sheet()
+        pair = '%s/%s/stylus' % (NODE, self.organ)
+        wrenches = Log(pair + '/wrench', WrenchStamped)
+        forces = Log(pair + '/vertex_forces', VertexForces)
+        self.stab('stylus', 0.004)
+
+        def both():
+            self.hold('stylus', self.tips['stylus'])
+            time.sleep(0.002)
+            wrench = wrenches.last(lambda wrench: wrench.wrench.force.z > 0.5)
+            same = wrench and forces.last(lambda on: on.header.stamp == wrench.header.stamp)
+            return (wrench, same) if same else None
+
+        wrench, on_tissue = wait_until(both, 'wrench and vertex forces of one stamp')
+        self.assertEqual((on_tissue.organ, on_tissue.tool), (self.organ, 'stylus'))
+        self.assertEqual((on_tissue.topology, on_tissue.header.frame_id), (1, FRAME))
+        for axis in 'xyz':
+            total = sum(getattr(force, axis) for force in on_tissue.forces)
+            self.assertAlmostEqual(total, -getattr(wrench.wrench.force, axis), delta=1e-6)
+
+    def test_the_proxys_contacts_are_published(self):
+        self.send_sheet()
+        self.stab('needle', 0.01)
+
+        def touched():
+            self.hold('needle', self.tips['needle'])
+            time.sleep(0.002)
+            return self.contacts.last(
+                lambda answer: answer.organ == self.organ
+                and answer.tool == 'needle'
+                and answer.status == ContactArray.OK
+                and answer.contacts
+            )
+
+        answer = wait_until(touched, 'contacts')
+        self.assertEqual((answer.header.frame_id, answer.topology), (FRAME, 1))
+        contact = answer.contacts[0]
+        self.assertAlmostEqual(contact.depth, -CLEARANCE, delta=1e-6)
+        self.assertAlmostEqual(contact.normal.z, -1.0, delta=1e-6)
+
+    def test_when_poses_stop_the_force_fades(self):
+        self.send_sheet()
+        self.stab('needle', 0.02)
+        state = wait_until(
+            lambda: self.states['needle'].last(
+                lambda state: state.state == ProxyState.NO_ANSWER
+                and 'pose_timeout_sec' in state.message
+                and state.wrench.force.z == 0.0
+            ),
+            'the force is gone',
+        )
+        fading = [
+            other.wrench.force.z
+            for other in self.states['needle'].messages
+            if other.state == ProxyState.NO_ANSWER and other.message == state.message
+        ]
+        self.assertEqual(fading, sorted(fading, reverse=True), 'the force must only fall')
+        wait_until(
+            lambda: self.diagnostics.last(
+                lambda message: any(
+                    'pose_timeout_sec' in status.message for status in message.status
+                )
+            ),
+            'the reason on /diagnostics',
+        )
+        # The force comes back.
+        self.stab('needle', 0.02)
+
+    def test_without_an_organ_there_is_no_answer(self):
+        self.send_sheet()
+        self.stab('needle', 0.02)
+        self.assertTrue(rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(self.organ).success)
+        state = self.hold_until(
+            'needle',
+            (X, Y, -0.02),
+            lambda state: state.state == ProxyState.NO_ANSWER and state.wrench.force.z == 0.0,
+            'no answer',
+        )
+        self.assertIn('there is no organ', state.message)
+
+    def test_a_hand_that_jumps_has_its_proxy_placed_anew(self):
+        self.send_sheet()
+        self.stab('needle', 0.02)
+        del self.states['needle'].messages[:]
+        self.hold_until(
+            'needle',
+            (X + 0.03, Y, 0.15),
+            lambda state: state.state == ProxyState.FREE and state.wrench.force.z == 0.0,
+            'free after the jump',
+        )
+        placed = [state for state in self.states['needle'].messages if state.placed_anew]
+        self.assertEqual(len(placed), 1)
+        self.assertNotEqual(placed[0].message, '')
+
+    def test_reset_places_proxies_anew(self):
+        self.send_sheet()
+        self.stab('needle', 0.001)
+        del self.states['needle'].messages[:]
+        rospy.ServiceProxy(NODE + '/reset', Empty)()
+        self.hold_until('needle', (X, Y, 0.03), lambda state: state.placed_anew, 'placed anew')
+
+    def test_a_tool_without_links_says_so(self):
+        state = wait_until(self.states['grasper'].last, 'the state of the grasper')
+        self.assertEqual(state.state, ProxyState.NO_ANSWER)
+        self.assertIn('no_such_robot', state.message)
+
+    def test_parameters_can_be_changed(self):
+        self.send_sheet()
+        change = rospy.ServiceProxy(NODE + '/set_parameters', Reconfigure)
+
+        def set_max_force(value):
+            request = ReconfigureRequest()
+            request.config.doubles = [DoubleParameter('max_force', value)]
+            return {number.name: number.value for number in change(request).config.doubles}
+
+        self.stab('needle', 0.02)
+        self.assertEqual(set_max_force(1.5)['max_force'], 1.5)
+        state = self.hold_until(
+            'needle', (X, Y, -0.02), lambda state: state.clipped, 'the force is clipped'
+        )
+        self.assertAlmostEqual(state.wrench.force.z, 1.5, delta=1e-6)
+        self.assertEqual(set_max_force(-1.0)['max_force'], 1.5, 'an illegal value is refused')
+        set_max_force(math.inf)
+
+    def test_reloaded_tools_keep_their_proxies(self):
+        self.send_sheet()
+        self.stab('needle', 0.02)
+        tools = rospy.get_param(NODE + '/tools')
+        rospy.set_param(NODE + '/tools', tools[::-1][1:])  # Without the grasper, in another order.
+        try:
+            answer = rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+            self.assertTrue(answer.success, answer.message)
+            self.assertIn("removed: 'grasper'", answer.message)
+            del self.states['needle'].messages[:]
+            state = self.hold_until('needle', (X, Y, -0.02), lambda state: True, 'a state')
+            self.assertFalse(state.placed_anew)
+            self.stab('needle', 0.01)
+        finally:
+            rospy.set_param(NODE + '/tools', tools)
+            rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+
+
+if __name__ == '__main__':
+    rospy.init_node('haptic_proxy_test')
+    rostest.rosrun('organ_collision', 'haptic_proxy', HapticProxyTest, sys.argv)
