@@ -126,7 +126,7 @@ def main():
     manager = configuration['Visualization Manager']
     manager['Global Options']['Fixed Frame'] = fixed_frame = options.fixed_frame or picture.frame
     for display in manager['Displays']:
-        if display['Class'] == 'rviz/MarkerArray':
+        if display['Name'] == 'Organs and tools':
             display['Marker Topic'] = topic
     if picture.corners:
         fit(configuration, *box_in(fixed_frame, picture.frame, picture.corners))

@@ -1,9 +1,11 @@
-/// Prints what the collision node finds: one line each second, and a summary at the end.
+/// Prints what the collision node finds and what the palpator's proxy does: one line each second,
+/// and a summary at the end.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
+#include <organ_collision/ProxyState.h>
 #include <ros/ros.h>
 #include <tf2_ros/transform_listener.h>
 #include <unistd.h>
@@ -16,6 +18,7 @@
 #include <sstream>
 
 #include "organ_collision/ros/names.hpp"
+#include "proxy_tally.hpp"
 #include "ros/interface/program_help.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "static_comparison.hpp"
@@ -28,18 +31,24 @@ constexpr double kPatienceSec = 10.0;       // between two answers
 constexpr std::size_t kFacesListed = 4;
 constexpr double kMicroseconds = 1e6;
 constexpr char kCollisionNode[] = "/organ_collision";
+constexpr char kHapticNode[] = "/haptic_proxy";
+constexpr char kProxyTopic[] = "palpator/state";
 
 ProgramHelp help() {
   ProgramHelp help{"demo_report",
-                   "Prints what the collision node finds: one line each second, and a summary at "
-                   "the end. Names of topics are below that node's."};
+                   "Prints what the collision node finds and what the palpator's proxy does: one "
+                   "line each second, and a summary at the end. Names of topics are below the "
+                   "collision node's, unless they begin with /."};
   help.subscribed = {{names::kContacts, "organ_collision/ContactArray", "the answers"},
                      {names::kOrganMesh, "organ_collision/OrganMesh", "the organ"},
                      {names::kOrganVertices, "organ_collision/OrganVertices", "its shapes"},
+                     {std::string(kHapticNode) + "/" + kProxyTopic, "organ_collision/ProxyState",
+                      "what the palpator's proxy does"},
                      {"/tf, /tf_static", "tf2_msgs/TFMessage", "where the tools are"},
                      {"/diagnostics", "diagnostic_msgs/DiagnosticArray", "query times"}};
   help.parameters = {{"seconds", "0", "[s] how long it listens; 0: until it is stopped"},
                      {"collision_node", kCollisionNode, "name of the collision node"},
+                     {"haptic_node", kHapticNode, "name of the node that has the proxy"},
                      {"ends_launch", "false", "true: when it ends, roslaunch ends, too"}};
   help.further = "roslaunch organ_collision demo.launch starts it.";
   return help;
@@ -70,13 +79,14 @@ struct QueryTime {
 
 class DemoReport {
  public:
-  DemoReport(ros::NodeHandle node, ros::NodeHandle collision_node)
+  DemoReport(ros::NodeHandle node, ros::NodeHandle collision_node, ros::NodeHandle haptic_node)
       : transform_listener_(transforms_),
         comparison_(load_parameters(collision_node).parameters.tools, transforms_),
         subscribers_{
             collision_node.subscribe("organ_mesh", 10, &DemoReport::on_mesh, this),
             collision_node.subscribe("organ_vertices", 1000, &DemoReport::on_vertices, this),
             collision_node.subscribe("contacts", 1000, &DemoReport::on_contacts, this),
+            haptic_node.subscribe(kProxyTopic, 1000, &ProxyTally::add, &proxy_),
             node.subscribe("/diagnostics", 10, &DemoReport::on_diagnostics, this)} {
     for (const auto& [tool, tally] : comparison_.tallies()) touched_[tool];
   }
@@ -95,14 +105,15 @@ class DemoReport {
       faces.clear();
     }
     if (query_time_.median > 0.0) std::printf("  query %.0f us", query_time_.median);
-    std::printf("\n");
+    std::printf("  palpator %s\n", proxy_.take_line(seconds).c_str());
     if (!failure_.empty()) std::printf("        %s\n", failure_.c_str());
     std::fflush(stdout);
     shapes_ = answers_ = 0;
     failure_.clear();
   }
 
-  /// Prints the summary. Returns false if there were no contacts. `time` [s]: since the start.
+  /// Prints the summary. Returns false if there were no contacts, or if the proxy gave no answer.
+  /// `time` [s]: since the start.
   bool print_summary(double time) {
     std::size_t contacts = 0, missed = 0;
     for (const auto& [tool, tally] : comparison_.tallies()) {
@@ -126,8 +137,9 @@ class DemoReport {
     std::printf("From shape to answer, through ROS: median %.0f us, 99%% within %.0f us.\n",
                 kMicroseconds * percentile(delays_, 50.0),
                 kMicroseconds * percentile(delays_, 99.0));
+    std::printf("The palpator's hand: %s.\n", proxy_.summary().c_str());
     std::fflush(stdout);
-    return contacts > 0;
+    return contacts > 0 && proxy_.answered() > 0;
   }
 
  private:
@@ -167,6 +179,7 @@ class DemoReport {
     }
   }
 
+  ProxyTally proxy_;
   TransformBuffer transforms_;
   tf2_ros::TransformListener transform_listener_;
   StaticComparison comparison_;
@@ -181,10 +194,11 @@ class DemoReport {
   std::vector<ros::Subscriber> subscribers_;
 };
 
-/// Reports for `seconds`, or without end if that is 0. Returns false if there were no contacts.
-/// Throws std::runtime_error if the collision node does not answer.
-bool report(const std::string& collision_node, double seconds) {
-  DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node)};
+/// Reports for `seconds`, or without end if that is 0. Returns false if there were no contacts, or
+/// if the proxy gave no answer. Throws std::runtime_error if the collision node does not answer.
+bool report(const std::string& collision_node, const std::string& haptic_node, double seconds) {
+  DemoReport report{ros::NodeHandle(), ros::NodeHandle(collision_node),
+                    ros::NodeHandle(haptic_node)};
   const auto now = [] { return ros::WallTime::now(); };
   const auto listen = [&] {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.02));
@@ -228,10 +242,11 @@ int main(int argc, char** argv) try {
   }
   ros::init(argc, argv, "demo_report");
   ros::NodeHandle private_node("~");
-  const bool found_contacts = organ_collision::report(
+  const bool has_answers = organ_collision::report(
       private_node.param<std::string>("collision_node", organ_collision::kCollisionNode),
+      private_node.param<std::string>("haptic_node", organ_collision::kHapticNode),
       private_node.param("seconds", 0.0));
-  if (!found_contacts) return 1;
+  if (!has_answers) return 1;
   if (ros::ok() && private_node.param("ends_launch", false)) organ_collision::end_launch();
   return 0;
 } catch (const std::exception& error) {

@@ -24,7 +24,7 @@ double front_of_liver(double x, double y) {
 }
 
 Vector3d palpator_tip(double seconds) {
-  constexpr double kLift = 0.003, kPress = 0.009;  // [m] from first touch upwards and downwards
+  constexpr double kLift = 0.003, kPress = 0.022;  // [m] from first touch upwards and downwards
   const double x = -0.045 + 0.022 * wave(seconds, 11.0);
   const double y = -0.004 + 0.020 * wave(seconds, 7.0);
   const double press = 0.5 - 0.5 * wave(seconds + 0.75, 3.0);

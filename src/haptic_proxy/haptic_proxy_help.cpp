@@ -16,6 +16,7 @@
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include "haptic_proxy_names.hpp"
 #include "haptic_proxy_parameters.hpp"
@@ -57,6 +58,8 @@ std::vector<HelpEntry> published_topics() {
        "forces of the proxy on the tissue's vertices [N]"},
       {names::kContacts, message<ContactArray>(),
        "where tissue is near the proxy, for each organ and tool"},
+      {names::kMarkers, message<visualization_msgs::MarkerArray>(),
+       "what RViz shows: hands, proxies, forces, states and organs"},
       {"/tf", message<tf2_msgs::TFMessage>(), "the frames TOOL_proxy"},
       {"/diagnostics", message<diagnostic_msgs::DiagnosticArray>(),
        "times of ticks, what had no answer, clipped forces, refused messages"},
@@ -70,8 +73,8 @@ std::vector<HelpEntry> services() {
       {names::kReset, service<std_srvs::Empty>(), "places all proxies anew"},
       {names::kReloadTools, service<std_srvs::Trigger>(), "reads the parameter tools again"},
       {"set_parameters", service<dynamic_reconfigure::Reconfigure>(),
-       "changes stiffness, damping, max_force, clearance, jump, puncture_force and friction while "
-       "the node runs"},
+       "changes stiffness, damping, max_force, clearance, jump, puncture_force, friction, "
+       "markers_rate and surface_rate while the node runs"},
   };
 }
 
@@ -103,6 +106,10 @@ std::vector<HelpEntry> parameters() {
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},
       {names::kPublishTf, shown(defaults.publish_tf), "false: no frames TOOL_proxy on /tf"},
+      {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),
+       "[Hz] how often markers are published; 0: never"},
+      {names::kSurfaceRate, shown(defaults.markers.surface_rate_hz),
+       "[Hz] how often the surface of an organ that moves is published; 0: never"},
   };
 }
 

@@ -65,6 +65,7 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       hands_(make_hands(tools_, KeptTools(tools_.size()))),
       started_(SteadyClock::now()),
       publisher_(private_node_, inbox_.organs(), counters_.failed, loaded_.parameters.publish_tf),
+      markers_(private_node_, loaded_.parameters.markers),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
                           counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
@@ -122,6 +123,7 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
       loop_.receive(next_deadline());
       if (broken_) std::rethrow_exception(broken_);
       follow_hands();
+      loop_.guard([this] { markers_.update(inbox_.organs(), [this] { return views(); }); });
       loop_.guard([this] { surfaces_.update(inbox_.organs(), SteadyClock::now()); });
     }
   } catch (const std::exception& error) {
@@ -281,6 +283,26 @@ void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   hand.told = now;
 }
 
+/// What RViz shows of each tool.
+std::vector<ProxyView> HapticProxyNode::views() const {
+  std::vector<ProxyView> views;
+  if (frame_.name().empty()) return views;
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    const Hand& hand = hands_[tool];
+    ProxyView view;
+    view.tool = tools_[tool];
+    view.frame = frame_.name();
+    if (hand.proxy) {
+      view.hand = hand.proxy->hand();
+      view.force = hand.proxy->force();
+      if (const ProxyAnswer* answer = hand.proxy->answer()) view.answer = *answer;
+    }
+    if (hand.why_not) view.answer.message = hand.why_not->what();
+    views.push_back(std::move(view));
+  }
+  return views;
+}
+
 /// When the node has something to do even if no message comes, as a time of the loop.
 std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   const Time now = SteadyClock::now();
@@ -349,6 +371,7 @@ void HapticProxyNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
     for (Hand& hand : hands_) {
       if (hand.proxy) hand.proxy->update_settings();
     }
+    markers_.set_settings(parameters.markers);
   });
 }
 

@@ -26,6 +26,7 @@
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
 #include "ros/publishing/inbox_diagnostics.hpp"
+#include "ros/publishing/markers/proxy_marker_publisher.hpp"
 #include "ros/tools/tool.hpp"
 #include "tool_proxy.hpp"
 
@@ -72,6 +73,7 @@ class HapticProxyNode {
   void follow_hand(std::size_t tool, Time now);
   std::optional<Timed<ToolPose>> new_pose(std::size_t tool, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, Time now);
+  std::vector<ProxyView> views() const;
   void lose(std::size_t tool, const Rejection& why, Time now);
   std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
@@ -98,6 +100,7 @@ class HapticProxyNode {
   Time started_;
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
+  ProxyMarkerPublisher markers_;
   InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 

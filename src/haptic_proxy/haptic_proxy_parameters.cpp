@@ -37,6 +37,7 @@ void parse_live(const ParameterGroup& all, LiveHapticProxyParameters& p) {
   for (const LiveNumber& live : kLiveNumbers) {
     p.*live.member = all.number(live.name, p.*live.member, live.range);
   }
+  parse_marker_rates(all, p.markers);
 }
 
 /// Topics of tools have their names in the ROS graph, so these must differ.
@@ -61,7 +62,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
       {names::kTools, names::kFrame, names::kStiffness, names::kDamping, names::kMaxForce,
        names::kClearance, names::kJump, names::kPunctureForce, names::kFriction,
        names::kPoseTimeoutSec, names::kMeshTimeoutSec, names::kPicker, names::kMaxFaces,
-       names::kDiagnosticPeriod, names::kPublishTf});
+       names::kDiagnosticPeriod, names::kPublishTf, names::kMarkersRate, names::kSurfaceRate});
   LoadedTools tools = parse_tools(all);
   LoadedHapticProxyParameters loaded{{}, std::move(tools.misspelt)};
   HapticProxyParameters& p = loaded.parameters;
@@ -87,10 +88,16 @@ std::vector<LiveParameter> live_parameters(const LiveHapticProxyParameters& p) {
   const std::vector<HelpEntry> help = haptic_proxy_help().parameters;
   const LiveHapticProxyParameters defaults;
   std::vector<LiveParameter> parameters;
+  const auto add = [&](const char* name, double value, double fallback, const NumberRange& range) {
+    parameters.push_back({name, text_of(help, name), value, fallback, range});
+  };
   for (const LiveNumber& live : kLiveNumbers) {
-    parameters.push_back(
-        {live.name, text_of(help, live.name), p.*live.member, defaults.*live.member, live.range});
+    add(live.name, p.*live.member, defaults.*live.member, live.range);
   }
+  add(names::kMarkersRate, p.markers.markers_rate_hz, defaults.markers.markers_rate_hz,
+      kFrameRates);
+  add(names::kSurfaceRate, p.markers.surface_rate_hz, defaults.markers.surface_rate_hz,
+      kFrameRates);
   return parameters;
 }
 

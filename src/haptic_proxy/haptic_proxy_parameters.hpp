@@ -9,6 +9,7 @@
 
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "ros/interface/live_parameters.hpp"
+#include "ros/parameters/marker_settings.hpp"
 #include "ros/parameters/shared_parameters.hpp"
 #include "ros/parameters/tool_parameters.hpp"
 
@@ -24,6 +25,7 @@ struct LiveHapticProxyParameters {
   double jump = 0.05;                           ///< [m] ProxySettings::jump
   double puncture_force = 0.0;                  ///< [N] a needle pierces tissue at it; 0: never
   double friction = 0.0;                        ///< [N] along a needle that has pierced tissue
+  MarkerSettings markers;                       ///< without the depth
 };
 
 /// The validated parameters of the node, with the documented defaults.

@@ -43,6 +43,7 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   const Vector3d damping_force = damping(answer, stamp);
   is_lost_ = false;
   hand_ = hand.value;
+  answer_ = &answer;
   held_ = answer.proxy;
   if (answer.is_placed_anew && ramp_.share() > 0.0) is_released_ = true;
   if (is_released_ && ramp_.fall(now) == 0.0) is_released_ = false;
@@ -79,6 +80,12 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
   return report;
 }
 
+double ToolProxy::force() const {
+  Vector3d sum = Vector3d::Zero();
+  for (const OrganForce& of_organ : forces_) sum += of_organ.force;
+  return ramp_.share() * sum.norm();
+}
+
 void ToolProxy::set_forces(ProxyReport& report, double share) const {
   report.forces = forces_;
   for (OrganForce& of_organ : report.forces) of_organ.scale(share);
@@ -106,6 +113,7 @@ Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
 
 void ToolProxy::reset() {
   proxy_.reset();
+  answer_ = nullptr;
   pull_.reset();
 }
 

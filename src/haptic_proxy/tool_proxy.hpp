@@ -40,6 +40,13 @@ class ToolProxy {
   /// Whether lose() has to be called soon, because a force is still there.
   bool is_fading() const { return is_lost_ && ramp_.share() > 0.0; }
 
+  /// The last pose of the hand that had an answer.
+  const std::optional<ToolPose>& hand() const { return hand_; }
+  /// To the last pose; null if there is none. Valid until the next call of follow() or reset().
+  const ProxyAnswer* answer() const { return is_lost_ ? nullptr : answer_; }
+  /// [N] The magnitude of the force on the hand, as it was published last.
+  double force() const;
+
   /// The next tick places the proxy anew.
   void reset();
   /// Call it when the parameters have changed.
@@ -55,6 +62,7 @@ class ToolProxy {
   ForceRamp ramp_;
   bool is_lost_ = true;       ///< there was no answer at the last call
   bool is_released_ = false;  ///< the proxy was placed anew; the force of its last place fades
+  const ProxyAnswer* answer_ = nullptr;
   std::vector<OrganForce> forces_;  ///< of the last answer, limited
   bool is_clipped_ = false;
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy

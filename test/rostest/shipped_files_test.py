@@ -120,7 +120,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
                 for urdf_file in urdf_files:
                     self.check_robot(urdf_file)
                 if '/liver_simulator' in launched.nodes:
-                    self.check_scene()
+                    self.check_scene(proxies='/haptic_proxy' in launched.nodes)
                     scenes_shown += 1
             wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
             self.assertNotIn('has died', launched.printed, path)
@@ -166,7 +166,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
             path = mesh.get('filename').replace('package://organ_collision', PACKAGE)
             self.assertTrue(os.path.exists(path), path)
 
-    def check_scene(self):
+    def check_scene(self, proxies):
         """Checks that the organ and the tools move and touch, and that the RViz configuration for
         this scene shows only existing topics and frames."""
         node = NodeClient()
@@ -178,9 +178,10 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         self.assertTrue(all(m.status == ContactArray.OK for m in touched))
         manager = self.fitted_configuration()['Visualization Manager']
         shown = self.shown_topics(manager['Displays'])
-        self.assertEqual(shown, {'/organ_collision/markers'})
+        self.assertEqual(shown, {'/organ_collision/markers', '/haptic_proxy/markers'})
         topics = {topic for topic, _ in rospy.get_published_topics()}
-        self.assertEqual(shown - topics, set())
+        without_proxy = set() if proxies else {'/haptic_proxy/markers'}
+        self.assertEqual(shown - topics, without_proxy)
         frames, fixed = FrameLog(), manager['Global Options']['Fixed Frame']
         wait_until(lambda: fixed in frames.names, 'the fixed frame ' + fixed)
         frames.close()

@@ -17,8 +17,6 @@ constexpr double kMostMessageBytes = 1e9;
 
 const NumberRange kRateRange{0.0, 10'000.0};
 const NumberRange kTfTimeoutRange{0.0, 60.0};
-constexpr double kSlowest = 0.001;           // [Hz]
-const NumberRange kFrameRates{0.0, 1000.0};  // [Hz]
 const NumberRange kPositive{0.0, kUnlimited, false};
 
 ParameterGroup node_group(const XmlRpcValue& private_namespace) {
@@ -31,24 +29,15 @@ ParameterGroup node_group(const XmlRpcValue& private_namespace) {
        names::kDiagnosticPeriod, names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth}};
 }
 
-/// A rate may be zero, but not so small that its period is longer than ROS timers accept.
-double rate(const ParameterGroup& all, const char* name, double fallback,
-            const NumberRange& range) {
-  const double rate = all.number(name, fallback, range);
-  if (rate > 0.0 && rate < kSlowest) all.refuse(name, "must be 0 or at least 0.001");
-  return rate;
-}
-
 /// Missing members keep their values.
 void parse_markers(const ParameterGroup& all, MarkerSettings& markers) {
-  markers.markers_rate_hz = rate(all, names::kMarkersRate, markers.markers_rate_hz, kFrameRates);
-  markers.surface_rate_hz = rate(all, names::kSurfaceRate, markers.surface_rate_hz, kFrameRates);
+  parse_marker_rates(all, markers);
   markers.markers_depth = all.number(names::kMarkersDepth, markers.markers_depth, kPositive);
 }
 
 /// Missing members keep their values.
 void parse_live(const ParameterGroup& all, LiveNodeParameters& p) {
-  p.rate_hz = rate(all, names::kRate, p.rate_hz, kRateRange);
+  p.rate_hz = parse_rate(all, names::kRate, p.rate_hz, kRateRange);
   p.tf_timeout_sec = all.number(names::kTfTimeoutSec, p.tf_timeout_sec, kTfTimeoutRange);
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kMeshTimeoutRange);
   p.publish_regions = all.flag(names::kPublishRegions, p.publish_regions);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "marker_settings.hpp"
 #include "organ_collision/picking/picker_kind.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/interface/parameter_group.hpp"
@@ -13,13 +14,6 @@
 #include "tool_parameters.hpp"
 
 namespace organ_collision {
-
-/// How markers are published and drawn.
-struct MarkerSettings {
-  double markers_rate_hz = 30.0;  ///< 0: no markers
-  double surface_rate_hz = 30.0;  ///< of the surface of each organ; 0: no surfaces
-  double markers_depth = 0.01;    ///< [m] deeper contacts all have the last colour of the map
-};
 
 /// The parameters that can be changed while the node runs. The defaults are the documented ones.
 struct LiveNodeParameters {
