@@ -20,8 +20,8 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// Nodes that start together need this long until hands and organs are there.
 constexpr std::chrono::seconds kStart(2);
-/// In a batch of messages, the node makes ticks for at most this long. Poses that come while it lags
-/// behind are merged: one tick covers them.
+/// In a batch of messages, the node makes ticks for at most this long. Poses that come while it
+/// lags behind are merged: one tick covers them.
 constexpr std::chrono::milliseconds kLongestLag(1);
 /// While a force fades, it is published this often.
 constexpr std::chrono::milliseconds kFadeStep(1);
@@ -45,12 +45,11 @@ SteadyClock::duration duration(double seconds) {
 }  // namespace
 
 HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : loop_(counters_.rejected,
-            {[this] { watch_clock(); },
-             [this](SteadyTime) {
-               apply_organ_messages();
-               follow_waiting_hands();
-             }}),
+    : loop_(counters_.rejected, {[this] { watch_clock(); },
+                                 [this](SteadyTime) {
+                                   apply_organ_messages();
+                                   follow_waiting_hands();
+                                 }}),
       node_(on_queue(node, loop_.queue())),
       private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_haptic_proxy_parameters(private_node_)),
