@@ -246,6 +246,7 @@ class HapticProxyTest(unittest.TestCase):
     def test_when_poses_stop_the_force_fades(self):
         self.send_sheet()
         self.stab('needle', 0.02)
+        del self.states['needle'].messages[:]
         state = wait_until(
             lambda: self.states['needle'].last(
                 lambda state: state.state == ProxyState.NO_ANSWER
