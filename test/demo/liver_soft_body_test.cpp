@@ -91,6 +91,27 @@ TEST_F(LiverSoftBodyTest, GivesWayInTheDirectionOfThePush) {
   }
 }
 
+TEST_F(LiverSoftBodyTest, AVertexThatIsPushedGivesWay) {
+  const std::uint32_t vertex_pushed = surface_.faces[face_nearest({-0.05, 0.0, 0.04})][0];
+  LiverSoftBody unpushed(surface_);
+  const Vector3d displacement(0.001, -0.002, -0.003);
+  unpushed.step(kStep, {});
+  liver_.step(kStep, {}, {{vertex_pushed, displacement}});
+  const std::vector<float> before = unpushed.vertices();
+  const Vector3d moved =
+      vertex(vertex_pushed) -
+      Eigen::Map<const Eigen::Vector3f>(&before[3 * vertex_pushed]).cast<double>();
+  EXPECT_GT(moved.dot(displacement), 0.2 * displacement.squaredNorm());
+  EXPECT_GT(moved.dot(displacement), 0.8 * moved.norm() * displacement.norm());
+}
+
+TEST_F(LiverSoftBodyTest, APushWithoutWayChangesNothing) {
+  LiverSoftBody unpushed(surface_);
+  unpushed.step(kStep, {});
+  liver_.step(kStep, {}, {{7, Vector3d::Zero()}});
+  EXPECT_EQ(liver_.vertices(), unpushed.vertices());
+}
+
 TEST_F(LiverSoftBodyTest, ReturnsWhenLetGo) {
   const std::uint32_t face = face_nearest({-0.05, 0.0, 0.04});
   for (int step = 0; step < 25; ++step) liver_.step(kStep, {push(face, {0.0, 0.0, -0.001})});

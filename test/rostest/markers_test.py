@@ -3,13 +3,13 @@
 of what is gone."""
 
 import sys
-import threading
 
 import rospy
 import rostest
-from visualization_msgs.msg import Marker, MarkerArray
+from visualization_msgs.msg import Marker
 
 from support import scenes
+from support.marker_viewer import Viewer
 from support.node_client import NodeClient, TfSender, wait_until
 from support.node_starter import NodeStarter
 from support.scenes import Pose
@@ -29,45 +29,6 @@ TOUCHING, ABOVE = -0.302, -0.2  # [m] z coordinate of the tip, relative to the t
 FULL = {
     'surface/sheet', 'tools', 'touched', 'normals', 'names', 'near', 'clearance', 'crossings', 'status'
 }
-
-
-class Viewer:
-    """Keeps the markers of a topic as RViz does."""
-
-    def __init__(self, topic):
-        self.lock = threading.Lock()
-        self.markers, self.surfaces = {}, 0
-        self.subscriber = rospy.Subscriber(topic, MarkerArray, self._show, queue_size=1000)
-
-    def _show(self, array):
-        with self.lock:
-            for marker in array.markers:
-                assert marker.header.frame_id and marker.header.stamp.is_zero()
-                if marker.action == Marker.DELETEALL:
-                    self.markers.clear()
-                elif marker.action == Marker.DELETE:
-                    self.markers.pop((marker.ns, marker.id), None)
-                else:
-                    assert marker.lifetime > rospy.Duration(0)
-                    self.markers[marker.ns, marker.id] = marker
-                    self.surfaces += marker.ns.startswith('surface/')
-
-    def namespaces(self):
-        with self.lock:
-            return {name for name, _ in self.markers}
-
-    def of(self, namespace):
-        with self.lock:
-            return [m for (name, _), m in sorted(self.markers.items()) if name == namespace]
-
-    def wait_for(self, namespaces):
-        wait_until(
-            lambda: self.namespaces() == namespaces,
-            lambda: 'the markers %s; there are %s' % (namespaces, self.namespaces()),
-        )
-
-    def close(self):
-        self.subscriber.unregister()
 
 
 class MarkersTest(NodeStarter):
