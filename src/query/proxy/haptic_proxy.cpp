@@ -257,16 +257,17 @@ void HapticProxy::State::describe(Tick& tick) {
   Displacement back = mobility->between(now.pose, tick.hand);
   if (back.norm() < kSamePlace) back.setZero();
   said.proxy = back.isZero(0.0) ? tick.hand : now.pose;
-  said.pull = -back.head<3>();
-  said.twist = -said.size * back.tail<3>();
+  said.pull -= back.head<3>();
+  said.twist -= said.size * back.tail<3>();
   double nearest = now.clearance;
   for (const TissueContact& near : motion.contacts()) nearest = std::min(nearest, near.distance);
   // What the proxy rests on: it may hover a little if it did not reach its place in this tick.
   const double resting = kResting * std::max(settings.clearance, nearest);
+  const double told = std::max(2.0 * settings.clearance, resting);
   std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
-    if (near.distance >= 2.0 * settings.clearance) continue;
+    if (near.distance >= told) continue;
     ProxyContact contact{near.organ, near.contact, 0.0};
     contact.contact.fraction = 0.0;
     contact.contact.depth = -near.distance;

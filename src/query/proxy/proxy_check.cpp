@@ -7,11 +7,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "query/request_check.hpp"
+
 namespace organ_collision {
 namespace {
-
-/// [1] How far the columns of a rotation may be from unit vectors at right angles.
-constexpr double kRotation = 1e-9;
 
 void check(bool is_legal, const std::string& what) {
   if (!is_legal) throw std::invalid_argument(what);
@@ -64,7 +63,7 @@ void check_organs(const std::vector<ProxyOrgan>& organs) {
   for (const ProxyOrgan& organ : organs) {
     check(organ.shape != nullptr, "organ '" + organ.name + "' has no shape");
     const Eigen::Matrix3d turned = organ.T_organ_proxy.linear();
-    check(organ.T_organ_proxy.matrix().allFinite() && turned.isUnitary(kRotation) &&
+    check(organ.T_organ_proxy.matrix().allFinite() && turned.isUnitary(kRotationTolerance) &&
               turned.determinant() > 0.0,
           "the frame of organ '" + organ.name +
               "' has a pose that is not finite, or whose linear part is not a rotation");
