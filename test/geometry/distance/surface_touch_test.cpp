@@ -167,8 +167,8 @@ ToolMesh flat_mesh(std::uint32_t side) {
   return mesh;
 }
 
-// Every triangle comes within the convex margin of every face at the same time, and none pierces it:
-// the tree rules out none of the million pairs.
+// Every triangle comes within the convex margin of every face at the same time, and none pierces
+// it: the tree rules out none of the million pairs.
 TEST(SurfaceTouch, DescendsNoFurtherOnceTheBudgetIsUsedUp) {
   const auto face_at = [](double height) {
     return Triangle{Vector3d(-0.1, -0.1, height), Vector3d(0.3, -0.1, height),
