@@ -29,6 +29,13 @@ double clear_until(const FaceMotion& triangle, const FaceMotion& face, double re
 /// The time after which further touches of the face do not matter: its first touch so far.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
 
+/// [m] How much closer than `radius` another triangle has to be, to matter: only nearer ones do
+/// once the face is touched when the leg begins.
+double closer(const FaceTouch& face, double radius) {
+  if (!face.first || face.first->time > 0.0) return 0.0;
+  return std::max(0.0, radius - face.first->closest.distance);
+}
+
 /// Whether no other triangle can touch the face earlier or deeper. All triangles that pierce a face
 /// when the leg begins count as equally deep.
 bool is_settled(const FaceTouch& face) {
@@ -56,7 +63,8 @@ class Descent {
     const SweptBox box(node.box, motion_, radius_);
     budget_.spend(static_cast<std::uint64_t>(end - begin));
     const Iterator kept = std::partition(begin, end, [&](const FaceTouch& face) {
-      return !is_settled(face) && box.clear_until(face.motion) <= latest(face);
+      return !is_settled(face) &&
+             box.clear_until(face.motion, closer(face, radius_)) <= latest(face);
     });
     if (kept == begin) return;
     if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, kept);
@@ -93,7 +101,8 @@ class Descent {
       }
       const double until = latest(*face);
       budget_.spend(1);
-      if (clear_until(triangle, face->motion, reach) > until) continue;
+      const double nearer = reach - closer(*face, radius_);
+      if (clear_until(triangle, face->motion, nearer) > until) continue;
       const auto found = first_touch(core, face->motion, radius_, budget_, until);
       if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
     }

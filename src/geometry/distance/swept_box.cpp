@@ -38,14 +38,15 @@ SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d&
   return place;
 }
 
-double SweptBox::clear_until(const FaceMotion& face) const {
+double SweptBox::clear_until(const FaceMotion& face, double closer) const {
+  const double reach = reach_ - closer;
   double until = 0.0;
   for (int i = 0; i < 3 && until <= 1.0; ++i) {
     const Vector3d axis = axes_.col(i);
     until =
         std::max(until, organ_collision::clear_until(
                             project_onto(axis, face.start), project_onto(axis, face.end),
-                            {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach_));
+                            {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach));
   }
   if (until > 1.0) return until;
   const Vector3d normal = plane_normal(face.start);
@@ -56,7 +57,7 @@ double SweptBox::clear_until(const FaceMotion& face) const {
   };
   return std::max(until, organ_collision::clear_until(
                              project_onto(normal, face.start), project_onto(normal, face.end),
-                             project_box(start_), project_box(end_), reach_));
+                             project_box(start_), project_box(end_), reach));
 }
 
 double SweptBox::distance_bound(const FaceMotion& face) const {

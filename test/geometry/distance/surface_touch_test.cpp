@@ -167,14 +167,15 @@ ToolMesh flat_mesh(std::uint32_t side) {
   return mesh;
 }
 
-// Every triangle is within the convex margin of every face, and none pierces it: the tree rules out
-// none of the million pairs.
+// Every triangle comes within the convex margin of every face at the same time, and none pierces
+// it: the tree rules out none of the million pairs.
 TEST(SurfaceTouch, DescendsNoFurtherOnceTheBudgetIsUsedUp) {
-  constexpr double kGap = 5e-9;  // [m]
+  const auto face_at = [](double height) {
+    return Triangle{Vector3d(-0.1, -0.1, height), Vector3d(0.3, -0.1, height),
+                    Vector3d(-0.1, 0.3, height)};
+  };
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const Triangle corners = {Vector3d(-0.1, -0.1, kGap), Vector3d(0.3, -0.1, kGap),
-                            Vector3d(-0.1, 0.3, kGap)};
-  std::vector<FaceTouch> faces(200, {0, {corners, corners}, {}});
+  std::vector<FaceTouch> faces(200, {0, {face_at(1e-3), face_at(5e-9)}, {}});
   WorkBudget budget;
   find_first_touches(flat_mesh(50).surface(), RigidMotion(pose, pose), tolerance::kConvexMargin,
                      budget, faces);

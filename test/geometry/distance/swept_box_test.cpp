@@ -139,6 +139,10 @@ TEST(SweptBox, StaysClearOfAFaceOverACorner) {
   const double touching = 0.3 + 0.01 * std::sqrt(3.0);
   EXPECT_GT(SweptBox(box, motion, 0.01).clear_until(face(touching + 1e-9)), 1.0);
   EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until(face(touching - 1e-9)), 0.0);
+  constexpr double kCloser = 0.004;  // [m]
+  const double nearer = touching - kCloser * std::sqrt(3.0);
+  EXPECT_GT(SweptBox(box, motion, 0.01).clear_until(face(nearer + 1e-9), kCloser), 1.0);
+  EXPECT_EQ(SweptBox(box, motion, 0.01).clear_until(face(nearer - 1e-9), kCloser), 0.0);
 }
 
 // For a degenerate face only the planes across the box's axes can separate the two.
