@@ -13,7 +13,7 @@
 namespace organ_collision {
 
 inline void add_vertex(GridSurface& surface, const std::array<float, 3>& at) {
-  surface.vertices.insert(surface.vertices.end(), at.begin(), at.end());
+  for (const float coordinate : at) surface.vertices.push_back(coordinate);
 }
 
 /// A closed, wavy torus: a grid whose opposite sides are joined. It points outward.

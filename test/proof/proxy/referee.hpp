@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "organ_oracle.hpp"
+#include "proxy_tally.hpp"
+
+namespace organ_collision::oracle {
+
+/// Checks each tick of a proxy with oracles that share nothing with it but the mesh.
+class Referee {
+ public:
+  /// Receives a sentence about each broken promise.
+  using Report = std::function<void(const std::string&)>;
+
+  Referee(ProxyTool tool, const ProxySettings& settings, Report report);
+
+  /// `jumped`: the hand moved farther than the settings' jump. `is_closed`: of each organ.
+  void check(const ToolPose& hand, bool jumped, const std::vector<ProxyOrgan>& organs,
+             const std::vector<bool>& is_closed, const ProxyAnswer& answer);
+
+  /// Without the times.
+  const ProxyTally& tally() const { return tally_; }
+
+ private:
+  /// An organ, and the tool's middle lines in its frame at the last tick.
+  struct Organ {
+    OrganOracle oracle;
+    std::vector<ShaftAxis> lines;
+  };
+
+  void count_state(bool jumped, const ProxyAnswer& answer);
+  void check_values(const ToolPose& hand, const ProxyAnswer& answer);
+  void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyState state);
+  void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
+  void check_side(const std::vector<ShaftAxis>& lines, const Organ& organ);
+  void blame(long& count, const std::string& what);
+
+  ProxyTool tool_;
+  ProxySettings settings_;
+  Report report_;
+  ProxyTally tally_;
+  std::vector<Organ> organs_;
+};
+
+}  // namespace organ_collision::oracle
