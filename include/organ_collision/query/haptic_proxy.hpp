@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "organ_collision/geometry/organ/surface_topology.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
@@ -68,6 +69,9 @@ struct ProxyOrgan {
   std::string name;
   /// The organ's shape, in the organ's frame. Required. The proxy keeps it until the next tick.
   std::shared_ptr<const TriangleMesh> shape;
+  /// How the faces of the shape join. Only for placing a free tool anew. Null: a free tool that
+  /// touches nothing is taken to be outside.
+  const SurfaceTopology* topology = nullptr;
   /// From the proxy's frame to the organ's.
   Eigen::Isometry3d T_organ_proxy = Eigen::Isometry3d::Identity();
 };

@@ -1,0 +1,209 @@
+#include "mobility.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/tool/rigid_motion.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Quaterniond;
+using Eigen::Translation3d;
+using Eigen::Vector3d;
+
+/// [m] A shorter axis has no direction: it is a ball.
+constexpr double kShortestAxis = 1e-9;
+
+Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
+
+bool has_direction(const ShaftAxis& axis) { return along(axis).norm() > kShortestAxis; }
+
+/// The smallest rotation that turns one axis into the direction of another.
+Quaterniond turn(const ShaftAxis& from, const ShaftAxis& to) {
+  if (!has_direction(from) || !has_direction(to)) return Quaterniond::Identity();
+  return Quaterniond::FromTwoVectors(along(from), along(to));
+}
+
+/// The pose moved rigidly.
+ToolPose operator*(const Isometry3d& motion, const ToolPose& pose) {
+  ToolPose result{{motion * pose.axis.trocar, motion * pose.axis.tip}, {}, {}};
+  for (const Isometry3d& link : pose.links) {
+    Isometry3d moved(Quaterniond((motion * link).linear()).normalized());
+    moved.translation() = motion * link.translation();
+    result.links.push_back(moved);
+  }
+  if (pose.tip) result.tip = motion * *pose.tip;
+  return result;
+}
+
+/// [m] The farthest distance of a link's points from a point in the organ's frame.
+double farthest(const Link& link, const Isometry3d& pose, const Vector3d& center) {
+  double most = 0.0;
+  for (const LinkPart& part : link.parts) {
+    const double to_middle = (pose * part.bounds.center - center).norm();
+    most = std::max(most, to_middle + part.bounds.half_size.norm() + part.radius);
+  }
+  return most;
+}
+
+/// A tool through a trocar. The coordinates are those of the tip; the last three are unused.
+class TrocarMobility : public Mobility {
+ public:
+  explicit TrocarMobility(const ProxyTool& tool) : tool_(tool) {}
+
+  ToolPose combine(const ToolPose& free, const ToolPose& hand) const override {
+    return at(free.axis.tip, hand);
+  }
+  Displacement between(const ToolPose& from, const ToolPose& to) const override {
+    Displacement result = Displacement::Zero();
+    result.head<3>() = to.axis.tip - from.axis.tip;
+    return result;
+  }
+  ToolPose moved(const ToolPose& pose, const Displacement& displacement,
+                 const ToolPose& hand) const override {
+    return at(pose.axis.tip + displacement.head<3>(), hand);
+  }
+  Displacement row(const ToolPose& pose, const FaceContact& contact) const override {
+    Displacement result = Displacement::Zero();
+    if (contact.link == 0) {
+      result.head<3>() = contact.shaft * contact.normal;
+    } else {
+      // The links turn with the shaft by (along x displacement) / length^2.
+      result.head<3>() = contact.normal;
+      if (has_direction(pose.axis)) {
+        const Vector3d arm = contact.point - pose.axis.tip;
+        result.head<3>() +=
+            arm.cross(contact.normal).cross(along(pose.axis)) / along(pose.axis).squaredNorm();
+      }
+    }
+    return result;
+  }
+  double longest_way(const ToolPose& pose, const Displacement& displacement) const override {
+    double arm = 0.0;
+    for (std::size_t link = 0; link < pose.links.size(); ++link) {
+      arm = std::max(arm, farthest(tool_.links[link], pose.links[link], pose.axis.tip));
+    }
+    const double length = along(pose.axis).norm();
+    return displacement.norm() * (length > kShortestAxis ? 1.0 + arm / length : 1.0);
+  }
+  Vector3d center(const ToolPose& pose) const override { return pose.axis.tip; }
+
+ private:
+  /// The hand's tool, turned and moved along so that its tip is there.
+  static ToolPose at(const Vector3d& tip, const ToolPose& hand) {
+    const ShaftAxis axis{hand.axis.trocar, tip};
+    if (tip == hand.axis.tip) return hand;
+    ToolPose result = Translation3d(tip) * Isometry3d(turn(hand.axis, axis)) *
+                      Translation3d(-hand.axis.tip) * hand;
+    result.axis = axis;
+    return result;
+  }
+
+  const ProxyTool& tool_;
+};
+
+/// A free tool. The coordinates are the translation of its centre, and the rotation vector times
+/// its size.
+class FreeMobility : public Mobility {
+ public:
+  explicit FreeMobility(const ProxyTool& tool) : tool_(tool) {}
+
+  /// The centre is the middle of the shaft or, of a tool of links, the mean of the middles of its
+  /// links. The size is the radius of gyration of a rod, or about that of the links.
+  void measure(const ToolPose& hand) override {
+    if (tool_.links.empty()) {
+      extent_ = 0.5 * along(hand.axis).norm() + tool_.radius;
+    } else {
+      Vector3d sum = Vector3d::Zero();
+      std::size_t count = 0;
+      for (std::size_t link = 0; link < hand.links.size(); ++link) {
+        for (const LinkPart& part : tool_.links[link].parts) {
+          sum += hand.links[link] * part.bounds.center;
+          ++count;
+        }
+      }
+      const Vector3d middle = count > 0 ? Vector3d(sum / static_cast<double>(count))
+                                        : Vector3d(hand.links[0].translation());
+      center_in_base_ = hand.links[0].inverse() * middle;
+      extent_ = tool_.radius > 0.0 ? std::max((hand.axis.tip - middle).norm(),
+                                              (hand.axis.trocar - middle).norm()) +
+                                         tool_.radius
+                                   : 0.0;
+      for (std::size_t link = 0; link < hand.links.size(); ++link) {
+        extent_ = std::max(extent_, farthest(tool_.links[link], hand.links[link], middle));
+      }
+    }
+    size_ = extent_ / std::sqrt(3.0);
+  }
+
+  ToolPose combine(const ToolPose& free, const ToolPose& hand) const override {
+    return at(center(free), rotation(hand, free), hand);
+  }
+  Displacement between(const ToolPose& from, const ToolPose& to) const override {
+    const Eigen::AngleAxisd turned(rotation(from, to));
+    Displacement result;
+    // The shorter of both ways round.
+    const double angle = std::remainder(turned.angle(), 2.0 * M_PI);
+    result << center(to) - center(from), size_ * angle * turned.axis();
+    return result;
+  }
+  ToolPose moved(const ToolPose& pose, const Displacement& displacement,
+                 const ToolPose& hand) const override {
+    const Vector3d turned = displacement.tail<3>() / size_;
+    const double angle = turned.norm();
+    const Quaterniond further = angle > 0.0 ? Quaterniond(Eigen::AngleAxisd(angle, turned / angle))
+                                            : Quaterniond::Identity();
+    return at(center(pose) + displacement.head<3>(), further * rotation(hand, pose), hand);
+  }
+  Displacement row(const ToolPose& pose, const FaceContact& contact) const override {
+    Displacement result;
+    result << contact.normal, (contact.point - center(pose)).cross(contact.normal) / size_;
+    return result;
+  }
+  double longest_way(const ToolPose&, const Displacement& displacement) const override {
+    return displacement.head<3>().norm() + displacement.tail<3>().norm() * extent_ / size_;
+  }
+  Vector3d center(const ToolPose& pose) const override {
+    if (tool_.links.empty()) return pose.axis.at(0.5);
+    return pose.links[0] * center_in_base_;
+  }
+  double size() const override { return size_; }
+
+ private:
+  /// The rotation from the base of one pose to that of another: its first link or, for a shaft
+  /// alone, its axis.
+  Quaterniond rotation(const ToolPose& from, const ToolPose& to) const {
+    if (tool_.links.empty()) return turn(from.axis, to.axis);
+    return Quaterniond(to.links[0].linear() * from.links[0].linear().transpose()).normalized();
+  }
+  /// The hand's tool, turned about its centre, and moved so that the centre is there.
+  ToolPose at(const Vector3d& where, const Quaterniond& turned, const ToolPose& hand) const {
+    return Translation3d(where) * Isometry3d(turned) * Translation3d(-center(hand)) * hand;
+  }
+
+  const ProxyTool& tool_;
+  Vector3d center_in_base_ = Vector3d::Zero();
+  double extent_ = 1.0;  ///< [m] farthest distance of a point of the tool from the centre
+  double size_ = 1.0;
+};
+
+}  // namespace
+
+std::unique_ptr<Mobility> make_mobility(const ProxyTool& tool) {
+  if (tool.freedom == ProxyFreedom::kTrocar) return std::make_unique<TrocarMobility>(tool);
+  return std::make_unique<FreeMobility>(tool);
+}
+
+ToolPose interpolate(const ToolPose& from, const ToolPose& to, double time) {
+  const ShaftMotion motion{from.axis, to.axis};
+  ToolPose result{motion.at(time), {}, {}};
+  for (std::size_t link = 0; link < from.links.size(); ++link) {
+    result.links.push_back(RigidMotion(from.links[link], to.links[link]).at(time));
+  }
+  if (from.tip && to.tip) result.tip = *from.tip + time * (*to.tip - *from.tip);
+  return result;
+}
+
+}  // namespace organ_collision

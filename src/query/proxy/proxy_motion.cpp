@@ -1,0 +1,193 @@
+#include "proxy_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "organ_pieces.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// A proxy that cannot give way in one piece tries it in this many.
+constexpr int kPieces = 4;
+/// How often a motion may meet a new wall before it is given up.
+constexpr int kMostAttempts = 5;
+/// How often the walls are looked at anew on the way along curved tissue.
+constexpr int kMostLooks = 8;
+
+// All as shares of the clearance at rest.
+
+/// A smaller motion is none.
+constexpr double kConverged = 0.01;
+/// How far around the proxy walls are looked for.
+constexpr double kShortestReach = 1.0;
+constexpr double kLongestReach = 50.0;
+
+/// [m] A motion keeps this much less distance than its start has, because of rounding.
+constexpr double kRoundingRoom = 1e-9;
+/// [m] Poses that differ by less are the same: far below any clearance, and far above rounding.
+constexpr double kSamePose = 1e-12;
+
+bool is_same(const ToolPose& a, const ToolPose& b) {
+  const auto is_near = [](const auto& x, const auto& y) {
+    return (x - y).cwiseAbs().maxCoeff() < kSamePose;
+  };
+  if (!is_near(a.axis.trocar, b.axis.trocar) || !is_near(a.axis.tip, b.axis.tip)) return false;
+  return std::equal(a.links.begin(), a.links.end(), b.links.begin(),
+                    [&](const auto& x, const auto& y) { return is_near(x.matrix(), y.matrix()); });
+}
+
+/// The pose at a fraction of a way, whose legs take equally long.
+ToolPose pose_at(const std::vector<ToolPose>& way, double fraction) {
+  const std::size_t legs = way.size() - 1;
+  const double along = fraction * static_cast<double>(legs);
+  const std::size_t leg = std::min(static_cast<std::size_t>(along), legs - 1);
+  return interpolate(way[leg], way[leg + 1], along - static_cast<double>(leg));
+}
+
+}  // namespace
+
+std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
+                                                const std::vector<OrganTick>& organs) {
+  tissue_.set_organs(organs);
+  const bool rests = std::none_of(organs.begin(), organs.end(),
+                                  [](const OrganTick& organ) { return organ.is_moving(); });
+  const ToolPose given = mobility_.combine(start.pose, hand);
+  if (rests && is_same(start.pose, given)) return start;
+  for (const Level level : {Level::kSwept, Level::kLeast}) {
+    if (level == Level::kSwept && start.clearance < clearance_.least()) continue;
+    for (const int pieces : {1, kPieces}) {
+      if (const auto place = give_way(start, hand, organs, level, pieces)) {
+        tissue_.set_organs(organs);
+        return place;
+      }
+    }
+  }
+  tissue_.set_organs(organs);
+  return std::nullopt;
+}
+
+std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
+                                                const std::vector<OrganTick>& organs, Level level,
+                                                int pieces) {
+  const OrganPieces motion(organs, pieces);
+  const ToolPose given = mobility_.combine(start.pose, hand);
+  std::optional<ProxyPlace> place = start;
+  for (int i = 0; i < pieces && place; ++i) {
+    const std::vector<OrganTick> piece = motion.piece(i);
+    tissue_.set_organs(piece);
+    const double end = static_cast<double>(i + 1) / pieces;
+    place = give_way(*place, i + 1 < pieces ? interpolate(start.pose, given, end) : hand, level);
+  }
+  return place;
+}
+
+/// Sweeps the proxy while the organs move. What it meets becomes a wall, and the motion is bent so
+/// that it ends beyond all walls.
+std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
+                                                Level level) {
+  const ToolPose given = mobility_.combine(start.pose, hand);
+  tissue_.sweep_with_organs(start.pose, given, clearance_.rest, met_);
+  if (met_.empty()) return ProxyPlace{given, clearance_.rest};
+  walls_.clear();
+  add_walls(given, given, met_);
+  const double growth =
+      level == Level::kSwept ? growth_from(start.clearance) : tissue_.least_growth();
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    solver_.solve(Displacement::Zero(), walls_);
+    const ToolPose pose = mobility_.moved(given, solver_.displacement(), hand);
+    tissue_.sweep_with_organs(start.pose, pose, growth, met_);
+    if (!first_touch(growth)) {
+      return ProxyPlace{pose, level == Level::kSwept ? growth : ProxyPlace().clearance};
+    }
+    add_walls(given, pose, met_);
+  }
+  return std::nullopt;
+}
+
+bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
+  straight_ = {place.pose, hand};
+  tissue_.sweep(straight_, clearance_.rest, met_);
+  const auto touch = first_touch(clearance_.rest);
+  if (touch) {
+    place.pose = pose_at(straight_, *touch);
+  } else {
+    place = {hand, clearance_.rest};
+    contacts_.clear();
+    walls_.clear();
+  }
+  return !touch;
+}
+
+void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
+  way_ = {place.pose};
+  double clearance = place.clearance;
+  bool is_there = false;
+  for (int look = 0; look < kMostLooks; ++look) {
+    reach = std::clamp(reach, kShortestReach * clearance_.rest, kLongestReach * clearance_.rest);
+    look_around(place, reach);
+    if (look == 0) clearance = place.clearance;
+    solver_.solve(mobility_.between(place.pose, hand), walls_);
+    const double way = mobility_.longest_way(place.pose, solver_.displacement());
+    is_there = way < kConverged * clearance_.rest;
+    if (is_there) break;
+    if (solver_.is_held()) {
+      const double share = std::min(1.0, reach / way);
+      place.pose = mobility_.moved(place.pose, share * solver_.displacement(), hand);
+    } else if (way <= reach) {
+      place.pose = hand;
+    } else {
+      fly(place, hand);
+    }
+    way_.push_back(place.pose);
+    reach = 2.0 * way;
+  }
+  if (way_.size() == 1) return;
+  const double growth = growth_from(clearance);
+  tissue_.sweep(way_, growth, met_);
+  const auto touch = first_touch(growth);
+  if (touch) place.pose = pose_at(way_, *touch);
+  if (touch || !is_there) look_around(place, kShortestReach * clearance_.rest);
+}
+
+/// Finds the walls around the proxy, and its clearance.
+void ProxyMotion::look_around(ProxyPlace& place, double reach) {
+  const double growth = clearance_.rest + reach;
+  tissue_.touch(place.pose, growth, contacts_);
+  walls_.clear();
+  add_walls(place.pose, place.pose, contacts_);
+  place.clearance = growth;
+  for (const TissueContact& contact : contacts_) {
+    place.clearance = std::min(place.clearance, contact.distance);
+  }
+}
+
+/// Adds a wall for each contact: the tool must be at the clearance from the face at the end.
+/// `given`: where displacements begin; `pose`: the end of the motion that met the contacts.
+void ProxyMotion::add_walls(const ToolPose& given, const ToolPose& pose,
+                            const std::vector<TissueContact>& contacts) {
+  const Displacement so_far = mobility_.between(given, pose);
+  for (const TissueContact& found : contacts) {
+    const Displacement row = mobility_.row(pose, found.contact);
+    walls_.push_back({row, found.distance - clearance_.rest + row.dot(so_far)});
+  }
+}
+
+/// [m] By how much the tool is grown for motions from a place with a clearance.
+double ProxyMotion::growth_from(double clearance) const {
+  return std::max(tissue_.least_growth(), std::min(clearance_.swept(), clearance - kRoundingRoom));
+}
+
+/// When the last motion first touched tissue, in [0, 1]. With the least growth, the faces that the
+/// tool touches from the start do not count: it could not leave them otherwise.
+std::optional<double> ProxyMotion::first_touch(double growth) const {
+  std::optional<double> first;
+  for (const TissueContact& met : met_) {
+    const double fraction = met.contact.fraction;
+    if (growth <= tissue_.least_growth() && fraction == 0.0) continue;
+    if (!first || fraction < *first) first = fraction;
+  }
+  return first;
+}
+
+}  // namespace organ_collision

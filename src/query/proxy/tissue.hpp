@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "organ_collision/query/collision_query.hpp"
+#include "organ_collision/query/haptic_proxy.hpp"
+
+namespace organ_collision {
+
+/// How an organ moves in one tick. The organ does not own its shapes.
+struct OrganTick {
+  const TriangleMesh* before = nullptr;  ///< null: the organ has no earlier shape to move from
+  const TriangleMesh* now = nullptr;
+  const SurfaceTopology* topology = nullptr;  ///< of the shape now; null: its sides are unknown
+  Eigen::Isometry3d T_before = Eigen::Isometry3d::Identity();  ///< T_organ_proxy
+  Eigen::Isometry3d T_now = Eigen::Isometry3d::Identity();
+
+  bool is_moving() const {
+    return (before && before != now) || T_before.matrix() != T_now.matrix();
+  }
+};
+
+/// A contact in the proxy's frame, and whose it is.
+struct TissueContact {
+  std::size_t organ = 0;
+  FaceContact contact;
+  /// [m] From the tool, without its growth, to the face at the end of the motion, along the normal.
+  double distance = 0.0;
+};
+
+/// Answers what a tool touches of all organs. The tool may be grown: then it touches whatever comes
+/// within that distance of it. All poses and contacts are in the proxy's frame.
+class Tissue {
+ public:
+  /// `tool` must outlive this. Throws GlError.
+  Tissue(const ProxyTool& tool, PickerKind picker);
+
+  /// The organs at this tick; they must stay as long as this is used.
+  void set_organs(const std::vector<OrganTick>& organs) { organs_ = &organs; }
+
+  /// What the tool touches at a pose, against the organs' shapes now. `growth` [m].
+  void touch(const ToolPose& pose, double growth, std::vector<TissueContact>& contacts);
+  /// What the tool touches on its way along the poses, with the organs at rest in their shapes now.
+  void sweep(const std::vector<ToolPose>& way, double growth, std::vector<TissueContact>& contacts);
+  /// What the tool touches on its way from one pose to another while the organs move.
+  void sweep_with_organs(const ToolPose& from, const ToolPose& to, double growth,
+                         std::vector<TissueContact>& contacts);
+
+  /// Whether the shaft or a point of the tool is inside an organ, as far as that is known, or the
+  /// shaft's axis crosses a surface.
+  bool is_inside(const ToolPose& pose, const Eigen::Vector3d& point);
+
+  /// [m] The most negative growth. The shaft is then its axis, and links are as they are.
+  double least_growth() const;
+
+ private:
+  void grow(double growth);
+  double growth_of(std::uint32_t link) const;
+  void evaluate(const OrganTick& organ, QueryMode mode, bool moves);
+  void collect(std::size_t organ, const Eigen::Isometry3d& T_organ_proxy,
+               std::vector<TissueContact>& contacts);
+
+  const ProxyTool& tool_;
+  std::vector<Link> grown_links_;
+  double growth_ = 0.0;  ///< [m]
+  const std::vector<OrganTick>* organs_ = nullptr;
+  CollisionQuery query_;
+  CollisionRequest request_;
+  CollisionResult result_;
+};
+
+}  // namespace organ_collision
