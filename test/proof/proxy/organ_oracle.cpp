@@ -48,7 +48,7 @@ void OrganOracle::set_shape(std::shared_ptr<const TriangleMesh> shape) {
   if (!last_) last_ = shape_;
   balls_.clear();
   for (std::size_t face = 0; face < shape_->face_count(); ++face) {
-    const Triangle corners = shape_->triangle(face), old = before(face);
+    const Triangle corners = shape_->triangle(face), old = last_->triangle(face);
     Ball ball{(corners[0] + corners[1] + corners[2]) / 3.0, 0.0};
     for (int i = 0; i < 3; ++i) {
       ball.radius = std::max(ball.radius, (corners[i] - ball.center).norm());
@@ -58,7 +58,12 @@ void OrganOracle::set_shape(std::shared_ptr<const TriangleMesh> shape) {
   }
 }
 
-Triangle OrganOracle::before(std::size_t face) const { return last_->triangle(face); }
+Triangle OrganOracle::at(std::size_t face, double time) const {
+  Triangle corners = last_->triangle(face);
+  const Triangle now = shape_->triangle(face);
+  for (int i = 0; i < 3; ++i) corners[i] += time * (now[i] - corners[i]);
+  return corners;
+}
 
 double OrganOracle::distance(const std::vector<PlacedCore>& tool, double bound) const {
   double least = bound;
@@ -73,7 +78,8 @@ double OrganOracle::distance(const std::vector<PlacedCore>& tool, double bound) 
   return least;
 }
 
-bool OrganOracle::is_passed(const std::vector<ShaftMotion>& segments) const {
+bool OrganOracle::is_passed(const std::vector<ShaftMotion>& segments, double begin,
+                            double end) const {
   for (const ShaftMotion& segment : segments) {
     const double motion = motion_ + std::max((segment.end.trocar - segment.start.trocar).norm(),
                                              (segment.end.tip - segment.start.tip).norm());
@@ -81,7 +87,7 @@ bool OrganOracle::is_passed(const std::vector<ShaftMotion>& segments) const {
       if (distance_to(segment.end, balls_[face].center) - balls_[face].radius > motion + 1e-6) {
         continue;
       }
-      if (passes(segment, before(face), shape_->triangle(face))) return true;
+      if (passes(segment, at(face, begin), at(face, end))) return true;
     }
   }
   return false;

@@ -20,9 +20,10 @@ class OrganOracle {
   /// but at most `bound`.
   double distance(const std::vector<PlacedCore>& tool, double bound) const;
 
-  /// Whether one of the segments passes through the surface while the organ moves linearly from its
-  /// last shape to this one. If the triangles are others, the organ rests.
-  bool is_passed(const std::vector<ShaftMotion>& segments) const;
+  /// Whether one of the segments passes through the surface from time `begin` to `end` while the
+  /// organ moves linearly from its last shape, at time 0, to this one, at time 1. If the triangles
+  /// are others, the organ rests.
+  bool is_passed(const std::vector<ShaftMotion>& segments, double begin, double end) const;
 
   /// How often the surface encloses a point. Exact, and slow.
   int winding(const Eigen::Vector3d& point) const;
@@ -33,7 +34,7 @@ class OrganOracle {
     Eigen::Vector3d center;
     double radius;
   };
-  Triangle before(std::size_t face) const;
+  Triangle at(std::size_t face, double time) const;
 
   std::shared_ptr<const TriangleMesh> shape_, last_;
   std::vector<Ball> balls_;  ///< around each face

@@ -16,12 +16,12 @@ struct ProxyTally {
   long overrun = 0;         ///< placed anew because tissue moved through the proxy
   long no_answer = 0;       ///< NO_ANSWER
   long near = 0;            ///< nearer than half the clearance, but not SQUEEZED
-  long through = 0;         ///< a middle line of the tool passed through tissue
+  long through = 0;         ///< no way leads around the tissue that a middle line met
   long inside = 0;          ///< a middle line begins or ends inside a closed organ
   long inconsistent = 0;    ///< FREE but not at the hand, or values that contradict each other
   double least = INFINITY;  ///< [m] the smallest distance up to the clearance
   double least_squeezed = INFINITY;  ///< [m] the same, where SQUEEZED
-  std::vector<float> seconds;        ///< that each tick took
+  std::vector<float> seconds;        ///< of processor time that each tick took
 
   long broken() const { return overrun + no_answer + near + through + inside + inconsistent; }
   void add(const ProxyTally& other);

@@ -4,6 +4,8 @@
 #include <sstream>
 #include <utility>
 
+#include "detour.hpp"
+
 namespace organ_collision::oracle {
 namespace {
 
@@ -89,9 +91,10 @@ void Referee::check_distance(const std::vector<PlacedCore>& tool, const Organ& o
 }
 
 void Referee::check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ) {
-  std::vector<ShaftMotion> motions;
-  for (std::size_t i = 0; i < lines.size(); ++i) motions.push_back({organ.lines[i], lines[i]});
-  if (organ.oracle.is_passed(motions)) blame(tally_.through, "passed through tissue");
+  const bool holds_trocar = tool_.freedom == ProxyFreedom::kTrocar;
+  if (!has_detour(organ.oracle, organ.lines, lines, holds_trocar, random_)) {
+    blame(tally_.through, "passed through tissue");
+  }
 }
 
 void Referee::check_side(const std::vector<ShaftAxis>& lines, const Organ& organ) {

@@ -7,6 +7,7 @@
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_oracle.hpp"
 #include "proxy_tally.hpp"
+#include "test/proof/trials.hpp"
 
 namespace organ_collision::oracle {
 
@@ -44,6 +45,7 @@ class Referee {
   Report report_;
   ProxyTally tally_;
   std::vector<Organ> organs_;
+  Random random_{1};
 };
 
 }  // namespace organ_collision::oracle

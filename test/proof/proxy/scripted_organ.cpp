@@ -34,7 +34,8 @@ OrganMotion random_motion(double speed, double reach, Random& random) {
 ScriptedOrgan::ScriptedOrgan(std::string name, const GridSurface& rest, const OrganMotion& motion)
     : rest_(rest),
       motion_(motion),
-      is_closed_(SurfaceTopology(rest.faces, rest.vertices).is_closed()) {
+      topology_(std::make_shared<SurfaceTopology>(rest.faces, rest.vertices)) {
+  organ_.topology = topology_.get();
   organ_.name = std::move(name);
   organ_.shape = std::make_shared<TriangleMesh>(rest.vertices, rest.triangles());
   move_vertices(0.0);

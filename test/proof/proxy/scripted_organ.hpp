@@ -35,11 +35,11 @@ class ScriptedOrgan {
  public:
   ScriptedOrgan(std::string name, const GridSurface& rest, const OrganMotion& motion = {});
 
-  /// The organ at a tick. Ticks may not fall.
+  /// The organ at a tick. Ticks may not fall. It refers to a part of this object.
   ProxyOrgan at(long tick);
 
   /// Whether the surface is closed, so that it has an inside.
-  bool is_closed() const { return is_closed_; }
+  bool is_closed() const { return topology_->is_closed(); }
 
  private:
   void move_vertices(double seconds);
@@ -47,7 +47,7 @@ class ScriptedOrgan {
 
   GridSurface rest_;
   OrganMotion motion_;
-  bool is_closed_;
+  std::shared_ptr<const SurfaceTopology> topology_;
   ProxyOrgan organ_;
   long shape_ = 0;  ///< the number of the present shape
 };
