@@ -18,7 +18,7 @@
 namespace organ_collision {
 
 /// What a proxy does. The values are those of msg/ProxyState.msg.
-enum class ProxyState : std::uint8_t {
+enum class ProxyStatus : std::uint8_t {
   kNoAnswer = 0,  ///< there is no proxy
   kFree = 1,      ///< the proxy is where the hand is
   kTouching = 2,  ///< tissue holds the proxy back
@@ -101,7 +101,7 @@ struct ProxyCrossing {
 
 /// The answer to one tick. Lengths are in metres, points and vectors in the proxy's frame.
 struct ProxyAnswer {
-  ProxyState state = ProxyState::kNoAnswer;
+  ProxyStatus state = ProxyStatus::kNoAnswer;
   /// Where the proxy is. Its joints, its trocar and its links' order are those of the hand.
   ToolPose proxy;
   /// Whether the proxy was placed anew in this tick: the first one, the hand jumped, or the tissue

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include "mobility.hpp"
+#include "needle.hpp"
 #include "proxy_entry.hpp"
 #include "proxy_motion.hpp"
 #include "tissue.hpp"
@@ -16,6 +18,8 @@ namespace {
 
 /// [m] A proxy that is nearer to the hand is where the hand is: this is rounding.
 constexpr double kSamePlace = 1e-12;
+/// [1] The proxy rests on faces whose distance is at most this many times the smallest.
+constexpr double kResting = 1.02;
 
 /// Whether the organ moved from its last shape to this one.
 bool is_same_organ(const TriangleMesh& before, const TriangleMesh& now) {
@@ -56,8 +60,9 @@ void check_settings(const ProxyTool& tool, const ProxySettings& settings) {
 }
 
 void check_hand(const ProxyTool& tool, const ToolPose& hand) {
+  const bool has_shaft = tool.radius > 0.0;
   const bool is_finite =
-      hand.axis.trocar.allFinite() && hand.axis.tip.allFinite() &&
+      (!has_shaft || (hand.axis.trocar.allFinite() && hand.axis.tip.allFinite())) &&
       std::all_of(hand.links.begin(), hand.links.end(),
                   [](const Eigen::Isometry3d& link) { return link.matrix().allFinite(); });
   check(is_finite, "the hand's pose has a value that is not finite");
@@ -88,26 +93,46 @@ struct HapticProxy::State {
     set_settings(its_settings);
   }
 
+  ProxyTool tool;
+  ProxySettings settings;
+  // As the last tick left them.
+  std::optional<ProxyPlace> place;
+  std::optional<Needle> needle;  ///< if the proxy has pierced tissue
+  ProxyAnswer answer;
+
   void set_settings(const ProxySettings& its_settings);
   void follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs);
+
+ private:
+  /// What is known of a tick, until all of it has worked.
+  struct Tick {
+    const ToolPose& hand;
+    const std::vector<ProxyOrgan>& organs;
+    std::vector<OrganTick> motions;
+    double hand_way;  ///< [m] since the last tick
+    ProxyAnswer answer = {};
+    std::optional<ProxyPlace> place = {};
+    std::optional<Needle> needle = {};
+    double way = 0.0;  ///< [m] of the proxy
+  };
+  bool move_needle(Tick& tick);
+  void hold(Tick& tick, Needle&& held) const;
+  void pierce(Tick& tick);
+  void move_proxy(Tick& tick);
+  Needle::Settings needle_settings() const;
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs) const;
   bool has_new_organ(const std::vector<OrganTick>& ticks) const;
   double way_of(const ToolPose& hand) const;
-  void describe(const ProxyPlace& now, const ToolPose& hand);
+  void describe(Tick& tick);
 
-  ProxyTool tool;
-  ProxySettings settings;
   std::unique_ptr<Mobility> mobility;
   Tissue tissue;
   ProxyMotion motion;
   LeastConstraint solver;
 
-  // As the last tick left them.
-  std::optional<ProxyPlace> place;
   ToolPose last_hand;
   double last_way = 0.0;  ///< [m] of the proxy
   std::vector<ProxyOrgan> last_organs;
-  ProxyAnswer answer;
 };
 
 HapticProxy::HapticProxy(ProxyTool tool, const ProxySettings& settings, PickerKind picker) {
@@ -129,6 +154,7 @@ const ProxyAnswer& HapticProxy::follow(const ToolPose& hand,
 
 void HapticProxy::reset() {
   state_->place.reset();
+  state_->needle.reset();
   state_->answer = {};
 }
 
@@ -142,49 +168,104 @@ void HapticProxy::State::set_settings(const ProxySettings& its_settings) {
   motion.set_clearance(settings.clearance);
 }
 
-/// One tick: the proxy gives way to the tissue that moved, and then follows the hand.
+/// One tick. A needle in tissue moves with it. Any other proxy gives way to the tissue that moved,
+/// and then follows the hand.
 void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs) {
-  const std::vector<OrganTick> ticks = match(organs);
-  tissue.set_organs(ticks);
+  Tick tick{hand, organs, match(organs), place ? way_of(hand) : 0.0};
+  tissue.set_organs(tick.motions);
   mobility->measure(hand);
-  std::string why_anew;
-  std::optional<ProxyPlace> now;
-  double hand_way = 0.0;
-  if (!place) {
-    why_anew = "there was no proxy";
-  } else if (hand_way = way_of(hand); hand_way > settings.jump) {
-    why_anew = "the hand jumped " + shown(hand_way) + " m";
-  } else {
-    ProxyPlace start = *place;
-    if (has_new_organ(ticks)) start.clearance = ProxyPlace().clearance;
-    now = motion.give_way(start, hand, ticks);
-    if (!now) why_anew = "tissue moved through the proxy";
+  tick.answer.proxy = hand;
+  tick.answer.center = mobility->center(hand);
+  tick.answer.size = mobility->size();
+  if (!move_needle(tick)) {
+    move_proxy(tick);
+    if (tick.place) describe(tick);
+    pierce(tick);
   }
-  const bool is_placed_anew = !now;
-  if (!now) {
-    const ProxyEntry entry = enter(tool, *mobility, hand, settings.clearance, ticks, tissue);
-    now = entry.place;
-    if (!now) why_anew += ", and " + entry.why_not;
-  }
-  double way = 0.0;
-  if (now) {
-    const ToolPose start = now->pose;
-    const bool is_clear = now->clearance >= settings.clearance;
-    const double reach = 2.0 * std::max(hand_way, last_way);
-    if (!is_clear || !motion.fly(*now, hand)) motion.slide(*now, hand, reach);
-    way = mobility->longest_way(hand, mobility->between(start, now->pose));
-  }
-  answer = {};
-  answer.is_placed_anew = is_placed_anew;
-  answer.message = why_anew;
-  answer.proxy = hand;
-  answer.center = mobility->center(hand);
-  answer.size = mobility->size();
-  if (now) describe(*now, hand);
-  place = std::move(now);
-  last_way = is_placed_anew ? 0.0 : way;
+  answer = std::move(tick.answer);
+  place = std::move(tick.place);
+  needle = std::move(tick.needle);
+  last_way = tick.way;
   last_hand = hand;
   last_organs = organs;
+}
+
+/// Returns whether a needle is in tissue.
+bool HapticProxy::State::move_needle(Tick& tick) {
+  tick.place = place;
+  if (!needle || tick.hand_way > settings.jump) return false;
+  Needle moved = *needle;
+  const Needle::Fate fate = moved.follow(tick.hand.axis, tick.organs, needle_settings(), tissue);
+  if (fate == Needle::Fate::kHeld) {
+    hold(tick, std::move(moved));
+    return true;
+  }
+  tick.place->pose.axis = moved.axis();
+  tick.place->clearance = ProxyPlace().clearance;
+  if (fate == Needle::Fate::kLost) {
+    tick.answer.message = "the face that the needle entered is gone";
+    tick.place.reset();
+  }
+  return false;
+}
+
+/// The proxy becomes, or stays, a needle in tissue.
+void HapticProxy::State::hold(Tick& tick, Needle&& held) const {
+  ToolPose pose = tick.hand;
+  pose.axis = held.axis();
+  pose = mobility->combine(pose, tick.hand);
+  tick.place = ProxyPlace{pose, ProxyPlace().clearance};
+  tick.way = 0.0;
+  tick.answer.state = ProxyStatus::kPunctured;
+  tick.answer.proxy = pose;
+  tick.answer.pull = held.axis().tip - tick.hand.axis.tip;
+  tick.answer.contacts.clear();
+  tick.answer.crossings = held.crossings();
+  tick.needle = std::move(held);
+}
+
+void HapticProxy::State::pierce(Tick& tick) {
+  if (!settings.puncture || tick.answer.state != ProxyStatus::kTouching) return;
+  auto pierced = Needle::pierce(tick.answer.proxy.axis, tick.hand.axis, tick.answer.contacts,
+                                tick.organs, needle_settings(), tissue);
+  if (pierced) hold(tick, std::move(*pierced));
+}
+
+void HapticProxy::State::move_proxy(Tick& tick) {
+  const ToolPose& hand = tick.hand;
+  if (!place) {
+    tick.answer.message = "there was no proxy";
+  } else if (tick.hand_way > settings.jump) {
+    tick.answer.message = "the hand jumped " + shown(tick.hand_way) + " m";
+    tick.place.reset();
+  } else if (tick.place) {
+    if (has_new_organ(tick.motions)) tick.place->clearance = ProxyPlace().clearance;
+    tick.place = motion.give_way(*tick.place, hand, tick.motions);
+    if (!tick.place) tick.answer.message = "tissue moved through the proxy";
+  }
+  tick.answer.is_placed_anew = !tick.place;
+  if (!tick.place) {
+    ProxyEntry entry = enter(tool, *mobility, hand, settings.clearance, tick.motions, tissue);
+    tick.place = std::move(entry.place);
+    if (!tick.place) {
+      tick.answer.message += ", and " + entry.why_not;
+      return;
+    }
+  }
+  ProxyPlace& now = *tick.place;
+  const ToolPose start = now.pose;
+  const double reach = 2.0 * std::max(tick.hand_way, last_way);
+  const bool was_free = tick.answer.is_placed_anew || answer.state == ProxyStatus::kFree;
+  const bool may_fly = was_free && now.clearance >= settings.clearance;
+  if (!may_fly || !motion.fly(now, hand)) motion.slide(now, hand, reach);
+  if (!tick.answer.is_placed_anew) {
+    tick.way = mobility->longest_way(hand, mobility->between(start, now.pose));
+  }
+}
+
+Needle::Settings HapticProxy::State::needle_settings() const {
+  const double never = std::numeric_limits<double>::infinity();
+  return {settings.puncture.value_or(never), settings.friction, settings.clearance};
 }
 
 /// How each organ moved since the last tick.
@@ -218,33 +299,36 @@ double HapticProxy::State::way_of(const ToolPose& hand) const {
 }
 
 /// Says in the answer where the proxy is, what holds it, and how it pulls the hand.
-void HapticProxy::State::describe(const ProxyPlace& now, const ToolPose& hand) {
-  Displacement back = mobility->between(now.pose, hand);
+void HapticProxy::State::describe(Tick& tick) {
+  const ProxyPlace& now = *tick.place;
+  ProxyAnswer& said = tick.answer;
+  Displacement back = mobility->between(now.pose, tick.hand);
   if (back.norm() < kSamePlace) back.setZero();
-  answer.proxy = back.isZero(0.0) ? hand : now.pose;
-  answer.pull = -back.head<3>();
-  answer.twist = -answer.size * back.tail<3>();
-  const double clearance = settings.clearance;
-  std::vector<Wall> holding;
+  said.proxy = back.isZero(0.0) ? tick.hand : now.pose;
+  said.pull = -back.head<3>();
+  said.twist = -said.size * back.tail<3>();
   double nearest = now.clearance;
+  for (const TissueContact& near : motion.contacts()) nearest = std::min(nearest, near.distance);
+  // What the proxy rests on: it may hover a little if it did not reach its place in this tick.
+  const double resting = kResting * std::max(settings.clearance, nearest);
+  std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
-    nearest = std::min(nearest, near.distance);
-    if (near.distance >= 2.0 * clearance) continue;
+    if (near.distance >= 2.0 * settings.clearance) continue;
     ProxyContact contact{near.organ, near.contact, 0.0};
     contact.contact.fraction = 0.0;
     contact.contact.depth = -near.distance;
-    answer.contacts.push_back(contact);
-    // Only walls that the proxy has reached bear a load. A row of zeros bears none.
-    const bool holds = near.distance <= 1.02 * clearance;
+    said.contacts.push_back(contact);
+    const bool holds = near.distance <= resting;
+    // A row of zeros bears no load.
     holding.push_back({holds ? motion.walls()[i].row : Displacement(Displacement::Zero()), 0.0});
   }
   solver.solve(back, holding);
-  for (std::size_t i = 0; i < holding.size(); ++i) answer.contacts[i].load = solver.load(i);
-  if (nearest < ProxyClearance{clearance}.least()) {
-    answer.state = ProxyState::kSqueezed;
+  for (std::size_t i = 0; i < holding.size(); ++i) said.contacts[i].load = solver.load(i);
+  if (nearest < ProxyClearance{settings.clearance}.least()) {
+    said.state = ProxyStatus::kSqueezed;
   } else {
-    answer.state = back.isZero(0.0) ? ProxyState::kFree : ProxyState::kTouching;
+    said.state = back.isZero(0.0) ? ProxyStatus::kFree : ProxyStatus::kTouching;
   }
 }
 

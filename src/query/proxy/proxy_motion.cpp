@@ -21,7 +21,7 @@ constexpr int kMostLooks = 8;
 constexpr double kConverged = 0.01;
 /// How far around the proxy walls are looked for.
 constexpr double kShortestReach = 1.0;
-constexpr double kLongestReach = 50.0;
+constexpr double kLongestReach = 20.0;
 
 /// [m] A motion keeps this much less distance than its start has, because of rounding.
 constexpr double kRoundingRoom = 1e-9;

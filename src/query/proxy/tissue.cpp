@@ -21,28 +21,7 @@ ToolWaypoint waypoint(double fraction, const Eigen::Isometry3d& T_organ_proxy,
 }  // namespace
 
 Tissue::Tissue(const ProxyTool& tool, PickerKind picker)
-    : tool_(tool), grown_links_(tool.links), query_(picker) {
-  if (!grown_links_.empty()) request_.links = &grown_links_;
-}
-
-bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
-  grow(0.0);
-  request_.placement = true;
-  bool is_inside = false;
-  for (const OrganTick& organ : *organs_) {
-    request_.path = {waypoint(0.0, organ.T_now, pose)};
-    request_.surface_topology = organ.topology;
-    request_.tip = organ.T_now * point;
-    evaluate(organ, QueryMode::kStatic, false);
-    const AxisPlacement& placement = result_.placement;
-    is_inside = is_inside || placement.tip == Side::kInside || placement.trocar == Side::kInside ||
-                !placement.crossings.empty();
-  }
-  request_.placement = false;
-  request_.surface_topology = nullptr;
-  request_.tip.reset();
-  return is_inside;
-}
+    : tool_(tool), grown_links_(tool.links), query_(picker) {}
 
 double Tissue::least_growth() const {
   return tool_.radius > 0.0 ? std::min(0.0, kAxisRadius - tool_.radius) : 0.0;
@@ -53,9 +32,10 @@ void Tissue::touch(const ToolPose& pose, double growth, std::vector<TissueContac
   grow(growth);
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    request_.path = {waypoint(0.0, tick.T_now, pose)};
-    evaluate(tick, QueryMode::kStatic, false);
-    collect(organ, tick.T_now, contacts);
+    CollisionRequest question = request(tick, QueryMode::kStatic);
+    question.path = {waypoint(0.0, tick.T_now, pose)};
+    query_.evaluate(question, result_);
+    collect(organ, contacts);
   }
 }
 
@@ -66,13 +46,12 @@ void Tissue::sweep(const std::vector<ToolPose>& way, double growth,
   const double legs = static_cast<double>(way.size() - 1);
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    request_.path.clear();
+    CollisionRequest question = request(tick, QueryMode::kSwept);
     for (std::size_t i = 0; i < way.size(); ++i) {
-      const double fraction = legs > 0.0 ? static_cast<double>(i) / legs : 0.0;
-      request_.path.push_back(waypoint(fraction, tick.T_now, way[i]));
+      question.path.push_back(waypoint(static_cast<double>(i) / legs, tick.T_now, way[i]));
     }
-    evaluate(tick, QueryMode::kSwept, false);
-    collect(organ, tick.T_now, contacts);
+    query_.evaluate(question, result_);
+    collect(organ, contacts);
   }
 }
 
@@ -82,40 +61,78 @@ void Tissue::sweep_with_organs(const ToolPose& from, const ToolPose& to, double 
   grow(growth);
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    request_.path = {waypoint(0.0, tick.T_before, from), waypoint(1.0, tick.T_now, to)};
-    evaluate(tick, QueryMode::kSwept, true);
-    collect(organ, tick.T_now, contacts);
+    CollisionRequest question = request(tick, QueryMode::kSwept);
+    if (tick.before != tick.now) question.organ_before = tick.before;
+    question.path = {waypoint(0.0, tick.T_before, from), waypoint(1.0, tick.T_now, to)};
+    query_.evaluate(question, result_);
+    collect(organ, contacts);
   }
 }
 
+bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
+  grow(0.0);
+  return std::any_of(organs_->begin(), organs_->end(), [&](const OrganTick& organ) {
+    CollisionRequest question = request(organ, QueryMode::kStatic);
+    question.path = {waypoint(0.0, organ.T_now, pose)};
+    question.placement = true;
+    question.surface_topology = organ.topology;
+    question.tip = organ.T_now * point;
+    query_.evaluate(question, result_);
+    const AxisPlacement& placement = result_.placement;
+    return placement.tip == Side::kInside || placement.trocar == Side::kInside ||
+           !placement.crossings.empty();
+  });
+}
+
+void Tissue::cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings) {
+  crossings.clear();
+  grow(least_growth());
+  for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
+    const Eigen::Isometry3d& T_organ_proxy = (*organs_)[organ].T_now;
+    CollisionRequest question = request((*organs_)[organ], QueryMode::kStatic);
+    question.links = nullptr;
+    question.path = {waypoint(0.0, T_organ_proxy, {axis, {}, {}})};
+    question.placement = true;
+    query_.evaluate(question, result_);
+    for (AxisCrossing crossing : result_.placement.crossings) {
+      crossing.point = T_organ_proxy.inverse() * crossing.point;
+      crossings.push_back({organ, crossing});
+    }
+  }
+  std::stable_sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
+    return a.crossing.shaft < b.crossing.shaft;
+  });
+}
+
 void Tissue::grow(double growth) {
-  growth_ = growth;
-  request_.radius = tool_.radius > 0.0 ? std::max(kAxisRadius, tool_.radius + growth) : 0.0;
+  growth_ = std::max(0.0, growth);
+  radius_ = tool_.radius > 0.0 ? std::max(kAxisRadius, tool_.radius + growth) : 0.0;
   for (std::size_t link = 0; link < grown_links_.size(); ++link) {
-    for (std::size_t part = 0; part < grown_links_[link].parts.size(); ++part) {
-      grown_links_[link].parts[part].radius =
-          tool_.links[link].parts[part].radius + std::max(0.0, growth);
+    const std::vector<LinkPart>& parts = tool_.links[link].parts;
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      grown_links_[link].parts[part].radius = parts[part].radius + growth_;
     }
   }
 }
 
-/// [m] By how much a link has grown. Links do not shrink.
+/// [m] By how much a link has grown. Links do not shrink, but the shaft does.
 double Tissue::growth_of(std::uint32_t link) const {
-  const bool is_shaft = tool_.radius > 0.0 && link == 0;
-  return is_shaft ? request_.radius - tool_.radius : std::max(0.0, growth_);
+  return tool_.radius > 0.0 && link == 0 ? radius_ - tool_.radius : growth_;
 }
 
-void Tissue::evaluate(const OrganTick& organ, QueryMode mode, bool moves) {
-  request_.organ = organ.now;
-  request_.organ_before = moves && organ.before != organ.now ? organ.before : nullptr;
-  request_.mode = mode;
-  query_.evaluate(request_, result_);
+/// A question about an organ at rest in its shape now, without the tool's path.
+CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
+  CollisionRequest request;
+  request.organ = organ.now;
+  request.radius = radius_;
+  request.links = grown_links_.empty() ? nullptr : &grown_links_;
+  request.mode = mode;
+  return request;
 }
 
-/// Adds the contacts, in the proxy's frame.
-void Tissue::collect(std::size_t organ, const Eigen::Isometry3d& T_organ_proxy,
-                     std::vector<TissueContact>& contacts) {
-  const Eigen::Isometry3d T_proxy_organ = T_organ_proxy.inverse();
+/// Adds the contacts of the last answer, in the proxy's frame.
+void Tissue::collect(std::size_t organ, std::vector<TissueContact>& contacts) {
+  const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
   for (const FaceContact& found : result_.contacts) {
     TissueContact contact{organ, found, growth_of(found.link) - found.depth};
     contact.contact.point = T_proxy_organ * found.point;

@@ -29,6 +29,12 @@ struct TissueContact {
   double distance = 0.0;
 };
 
+/// Where an axis crosses an organ's surface, in the proxy's frame, and whose it is.
+struct TissueCrossing {
+  std::size_t organ = 0;
+  AxisCrossing crossing;
+};
+
 /// Answers what a tool touches of all organs. The tool may be grown: then it touches whatever comes
 /// within that distance of it. All poses and contacts are in the proxy's frame.
 class Tissue {
@@ -51,22 +57,24 @@ class Tissue {
   /// shaft's axis crosses a surface.
   bool is_inside(const ToolPose& pose, const Eigen::Vector3d& point);
 
+  /// Where an axis crosses the organs' surfaces, from its trocar to its tip.
+  void cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings);
+
   /// [m] The most negative growth. The shaft is then its axis, and links are as they are.
   double least_growth() const;
 
  private:
   void grow(double growth);
   double growth_of(std::uint32_t link) const;
-  void evaluate(const OrganTick& organ, QueryMode mode, bool moves);
-  void collect(std::size_t organ, const Eigen::Isometry3d& T_organ_proxy,
-               std::vector<TissueContact>& contacts);
+  CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
+  void collect(std::size_t organ, std::vector<TissueContact>& contacts);
 
   const ProxyTool& tool_;
+  double growth_ = 0.0;  ///< [m] of the links
+  double radius_ = 0.0;  ///< [m] of the grown shaft; 0: no shaft
   std::vector<Link> grown_links_;
-  double growth_ = 0.0;  ///< [m]
   const std::vector<OrganTick>* organs_ = nullptr;
   CollisionQuery query_;
-  CollisionRequest request_;
   CollisionResult result_;
 };
 

@@ -1,0 +1,123 @@
+#include "needle.hpp"
+
+#include <algorithm>
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// [1] The tip presses on a face if the cosine of the angle between the axis and the contact's
+/// normal is larger.
+constexpr double kPressing = 0.5;
+
+Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
+
+bool presses(const ProxyContact& held, const Vector3d& direction) {
+  return held.load > 0.0 && held.contact.link == 0 && held.contact.shaft == 1.0 &&
+         held.contact.normal.dot(direction) > kPressing;
+}
+
+}  // namespace
+
+std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
+                                     const std::vector<ProxyContact>& contacts,
+                                     const std::vector<ProxyOrgan>& organs,
+                                     const Settings& settings, Tissue& tissue) {
+  const Vector3d direction = along(proxy).normalized();
+  const double excess = direction.dot(hand.tip - proxy.tip);
+  const bool is_pressing = std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
+    return presses(contact, direction);
+  });
+  if (!is_pressing || !(excess >= settings.puncture)) return std::nullopt;
+  const ShaftAxis ahead{proxy.trocar, proxy.tip + excess * direction};
+  std::vector<TissueCrossing> crossings;
+  tissue.cross(ahead, crossings);
+  const double tip = along(proxy).norm() / along(ahead).norm();
+  const auto entry =
+      std::find_if(crossings.begin(), crossings.end(),
+                   [&](const TissueCrossing& found) { return found.crossing.shaft >= tip; });
+  if (entry == crossings.end()) return std::nullopt;
+  const ProxyOrgan& organ = organs[entry->organ];
+  Needle needle(organ.name,
+                {entry->organ, entry->crossing.face, entry->crossing.barycentric,
+                 entry->crossing.point, Vector3d::Zero()},
+                organ.shape->faces()[entry->crossing.face]);
+  const bool is_held = needle.follow(hand, organs, settings, tissue) == Fate::kHeld;
+  return is_held ? std::optional<Needle>(needle) : std::nullopt;
+}
+
+Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>& organs,
+                            const Settings& settings, Tissue& tissue) {
+  if (!find_entry(organs)) return Fate::kLost;
+  const Vector3d to_entry = entry_.point - hand.trocar;
+  const Vector3d direction = to_entry.normalized();
+  const double entry = to_entry.norm();
+  const double hand_tip = direction.dot(hand.tip - hand.trocar);
+  const double wanted =
+      std::clamp(entry + inserted_, hand_tip - settings.friction, hand_tip + settings.friction);
+  axis_ = {hand.trocar, hand.trocar + wanted * direction};
+  const double tip = stop_at_faces(entry + inserted_, hand_tip, settings, tissue);
+  inserted_ = tip - entry;
+  axis_.tip = hand.trocar + tip * direction;
+  if (inserted_ < 0.0) return Fate::kPulledOut;
+  describe(hand, tissue);
+  return Fate::kHeld;
+}
+
+/// Finds the point that was entered in the organ's shape now. Returns false if its face is gone.
+bool Needle::find_entry(const std::vector<ProxyOrgan>& organs) {
+  const auto organ = std::find_if(organs.begin(), organs.end(), [&](const ProxyOrgan& candidate) {
+    return candidate.name == organ_;
+  });
+  if (organ == organs.end()) return false;
+  const TriangleMesh& shape = *organ->shape;
+  if (entry_.face >= shape.face_count() || shape.faces()[entry_.face] != corners_) return false;
+  entry_.organ = static_cast<std::size_t>(organ - organs.begin());
+  entry_.point =
+      organ->T_organ_proxy.inverse() * point_at(shape.triangle(entry_.face), entry_.barycentric);
+  return true;
+}
+
+/// [m] From the trocar to the tip, if the tip moves from `from` to that of axis_, and stops at each
+/// face on its way that it does not pierce.
+double Needle::stop_at_faces(double from, double hand_tip, const Settings& settings,
+                             Tissue& tissue) const {
+  const double to = along(axis_).norm();
+  if (!(to > from)) return to;
+  const Vector3d direction = along(axis_) / to;
+  const ShaftAxis ahead{axis_.trocar, axis_.tip + settings.clearance * direction};
+  const double length = to + settings.clearance;
+  std::vector<TissueCrossing> crossings;
+  tissue.cross(ahead, crossings);
+  for (const TissueCrossing& found : crossings) {
+    const double face = found.crossing.shaft * length;
+    const double stop = face - settings.clearance;
+    const bool is_entry =
+        found.organ == entry_.organ && found.crossing.face == entry_.face && inserted_ == 0.0;
+    if (face <= from || is_entry || hand_tip - stop >= settings.puncture) continue;
+    return std::clamp(stop, from, to);
+  }
+  return to;
+}
+
+void Needle::describe(const ShaftAxis& hand, Tissue& tissue) {
+  const double length = along(axis_).norm();
+  const Vector3d direction = along(axis_) / length;
+  const double place = (entry_.point - axis_.trocar).norm() / length;
+  const Vector3d pull = axis_.tip - hand.tip;
+  const Vector3d lengthwise = direction.dot(pull) * direction;
+  // The axis is a lever about the trocar.
+  entry_.load = -(lengthwise + (pull - lengthwise) / place);
+  crossings_ = {entry_};
+  std::vector<TissueCrossing> found;
+  tissue.cross(axis_, found);
+  for (const TissueCrossing& further : found) {
+    const bool is_entry = further.organ == entry_.organ && further.crossing.face == entry_.face;
+    if (is_entry || further.crossing.shaft <= place) continue;
+    crossings_.push_back({further.organ, further.crossing.face, further.crossing.barycentric,
+                          further.crossing.point, Vector3d::Zero()});
+  }
+}
+
+}  // namespace organ_collision
