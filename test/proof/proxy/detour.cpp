@@ -65,7 +65,12 @@ class Search {
 
 bool has_detour(const OrganOracle& organ, const std::vector<ShaftAxis>& from,
                 const std::vector<ShaftAxis>& to, bool holds_trocar, Random& random) {
-  return Search(organ, holds_trocar, random).is_way({from, 0.0}, {to, 1.0}, 2);
+  Search search(organ, holds_trocar, random);
+  const Stop start{from, 0.0}, end{to, 1.0};
+  if (search.is_way(start, end, 2)) return true;
+  if (!holds_trocar || from.size() > 1) return false;
+  const Stop withdrawn{{{from.front().trocar, from.front().trocar}}, 0.5};
+  return search.is_way(start, withdrawn, 0) && search.is_way(withdrawn, end, 2);
 }
 
 }  // namespace organ_collision::oracle

@@ -44,9 +44,9 @@ void Referee::blame(long& count, const std::string& what) {
 void Referee::count_state(bool jumped, const ProxyAnswer& answer) {
   const bool is_first = tally_.ticks++ == 0;
   if (jumped) ++tally_.jumps;
-  if (answer.state == ProxyState::kTouching) ++tally_.touching;
-  if (answer.state == ProxyState::kSqueezed) ++tally_.squeezed;
-  if (answer.state == ProxyState::kNoAnswer) {
+  if (answer.state == ProxyStatus::kTouching) ++tally_.touching;
+  if (answer.state == ProxyStatus::kSqueezed) ++tally_.squeezed;
+  if (answer.state == ProxyStatus::kNoAnswer) {
     blame(tally_.no_answer, "no answer: " + answer.message);
   }
   const bool is_due = is_first || jumped;
@@ -62,10 +62,10 @@ void Referee::check_values(const ToolPose& hand, const ProxyAnswer& answer) {
   if (!(away < 1e3) || !answer.pull.allFinite() || !answer.twist.allFinite()) {
     return blame(tally_.inconsistent, "a value that is not finite");
   }
-  if (answer.state == ProxyState::kFree && away > kRounding) {
+  if (answer.state == ProxyStatus::kFree && away > kRounding) {
     blame(tally_.inconsistent, in_mm("FREE, but away from the hand by", away));
   }
-  if (answer.state == ProxyState::kFree && answer.pull.norm() > kRounding) {
+  if (answer.state == ProxyStatus::kFree && answer.pull.norm() > kRounding) {
     blame(tally_.inconsistent, in_mm("FREE, but with a pull of", answer.pull.norm()));
   }
   if (tool_.freedom != ProxyFreedom::kTrocar) return;
@@ -78,9 +78,9 @@ void Referee::check_values(const ToolPose& hand, const ProxyAnswer& answer) {
 }
 
 void Referee::check_distance(const std::vector<PlacedCore>& tool, const Organ& organ,
-                             ProxyState state) {
+                             ProxyStatus state) {
   const double distance = organ.oracle.distance(tool, settings_.clearance);
-  if (state == ProxyState::kSqueezed) {
+  if (state == ProxyStatus::kSqueezed) {
     tally_.least_squeezed = std::min(tally_.least_squeezed, distance);
     return;
   }
@@ -110,7 +110,7 @@ void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOr
   organs_.resize(organs.size());
   for (std::size_t i = 0; i < organs.size(); ++i) organs_[i].oracle.set_shape(organs[i].shape);
   count_state(jumped, answer);
-  if (answer.state == ProxyState::kNoAnswer) {
+  if (answer.state == ProxyStatus::kNoAnswer) {
     for (Organ& organ : organs_) organ.lines.clear();
     return;
   }

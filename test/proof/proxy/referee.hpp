@@ -35,7 +35,7 @@ class Referee {
 
   void count_state(bool jumped, const ProxyAnswer& answer);
   void check_values(const ToolPose& hand, const ProxyAnswer& answer);
-  void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyState state);
+  void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
   void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
   void check_side(const std::vector<ShaftAxis>& lines, const Organ& organ);
   void blame(long& count, const std::string& what);

@@ -1,8 +1,9 @@
-// On a flat sheet, the pull is the depth of the hand beyond the place where the proxy stops, however
-// the sheet is tessellated and wherever the hand is.
+// On a flat sheet, the pull is the depth of the hand beyond the place where the proxy stops,
+// however the sheet is tessellated and wherever the hand is.
 #include <gtest/gtest.h>
 
 #include "proxy_hands.hpp"
+#include "test/closed_surfaces.hpp"
 
 namespace organ_collision {
 namespace {
@@ -10,7 +11,15 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Random;
 
-constexpr double kExact = 1e-6;  // [m]
+constexpr double kNormal = 2e-7;  // [m] along the normal
+/// [m] Within the plane, the proxy stops before an edge where less than this is left to go: a
+/// twentieth of the clearance.
+constexpr double kLateral = 5e-6;
+
+void expect_pull(const ProxyAnswer& answer, double depth, const Vector3d& tip) {
+  EXPECT_NEAR(answer.pull.z(), depth, kNormal) << "the hand is at " << tip.transpose();
+  EXPECT_LE(answer.pull.head<2>().norm(), kLateral) << "the hand is at " << tip.transpose();
+}
 
 /// The flat sheet with its inner vertices moved within it by up to `share` of a cell, and some of
 /// its squares cut along the other diagonal.
@@ -37,7 +46,8 @@ GridSurface irregular_sheet(int side, double share, Random& random) {
 Vector3d place_on(const GridSurface& sheet, Random& random) {
   const int kind = random.integer(0, 2);
   if (kind == 0) return Vector3d(random.uniform(-0.08, 0.08), random.uniform(-0.08, 0.08), 0.0);
-  const FaceIndices& face = sheet.faces[random.integer(0, static_cast<int>(sheet.faces.size()) - 1)];
+  const FaceIndices& face =
+      sheet.faces[random.integer(0, static_cast<int>(sheet.faces.size()) - 1)];
   const auto corner = [&](int i) {
     const float* const at = &sheet.vertices[3 * face[i]];
     return Vector3d(at[0], at[1], at[2]);
@@ -52,7 +62,7 @@ void expect_depth(const ProxyTool& tool, const GridSurface& sheet, Random& rando
   const std::vector<ProxyOrgan> organs = {organ_of(sheet)};
   Vector3d tip(0.0, 0.0, 0.02);
   proxy.follow(hand_of(tool, tip), organs);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const double depth = random.scale(1e-5, 0.03);
     const Vector3d target =
         place_on(sheet, random) + (kToolRadius + settings.clearance - depth) * Vector3d::UnitZ();
@@ -62,10 +72,8 @@ void expect_depth(const ProxyTool& tool, const GridSurface& sheet, Random& rando
     move_hand(proxy, tool, tip, target, random.scale(0.05, 1.0), organs);
     const ProxyAnswer* answer = nullptr;
     for (int tick = 0; tick < 20; ++tick) answer = &proxy.follow(hand_of(tool, tip), organs);
-    EXPECT_EQ(answer->state, ProxyState::kTouching);
-    EXPECT_LE((answer->pull - depth * Vector3d::UnitZ()).norm(), kExact)
-        << "the hand is at " << tip.transpose() << ", " << depth << " deep, and the pull is "
-        << answer->pull.transpose();
+    EXPECT_EQ(answer->state, ProxyStatus::kTouching);
+    expect_pull(*answer, depth, tip);
   }
 }
 
@@ -78,12 +86,12 @@ class ProxyDepth : public testing::TestWithParam<ProxyFreedom> {
 
 TEST_P(ProxyDepth, IsThePullOnGrids) {
   Random random(1);
-  for (const int side : {1, 2, 7, 30, 100}) expect_depth(tool(), flat_sheet(side), random);
+  for (const int side : {1, 7, 50}) expect_depth(tool(), flat_sheet(side), random);
 }
 
 TEST_P(ProxyDepth, IsThePullOnIrregularTriangles) {
   Random random(2);
-  for (const int side : {3, 10, 40}) {
+  for (const int side : {3, 20}) {
     for (const double share : {0.2, 0.45}) {
       expect_depth(tool(), irregular_sheet(side, share, random), random);
     }
@@ -92,16 +100,7 @@ TEST_P(ProxyDepth, IsThePullOnIrregularTriangles) {
 
 TEST_P(ProxyDepth, IsThePullOnUnweldedTriangles) {
   Random random(3);
-  GridSurface soup = irregular_sheet(8, 0.4, random);
-  std::vector<float> vertices;
-  for (FaceIndices& face : soup.faces) {
-    for (std::uint32_t& corner : face) {
-      for (int k = 0; k < 3; ++k) vertices.push_back(soup.vertices[3 * corner + k]);
-      corner = static_cast<std::uint32_t>(vertices.size() / 3 - 1);
-    }
-  }
-  soup.vertices = vertices;
-  expect_depth(tool(), soup, random);
+  expect_depth(tool(), unwelded(irregular_sheet(8, 0.4, random)), random);
 }
 
 TEST_P(ProxyDepth, IsTheHandsWhileItSlides) {
@@ -118,8 +117,7 @@ TEST_P(ProxyDepth, IsTheHandsWhileItSlides) {
     const Vector3d to(-tip.x(), random.uniform(-0.05, 0.05), tip.z());
     move_hand(proxy, its_tool, tip, to, speed, organs,
               [&](const Vector3d& hand, const ProxyAnswer& answer) {
-                EXPECT_NEAR(answer.pull.z(), stop - hand.z(), kExact) << hand.transpose();
-                EXPECT_LE(answer.pull.head<2>().norm(), kExact) << hand.transpose();
+                expect_pull(answer, stop - hand.z(), hand);
               });
   }
 }
