@@ -27,6 +27,7 @@ int main(int argc, char** argv) {
     }
   }
   add_grasper_cases(cache);
+  add_proxy_cases(cache);
   add_rough_motion_cases();
   SilentReporter display;
   PlainJsonReporter file;

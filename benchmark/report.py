@@ -22,12 +22,16 @@ WHERE = {'ours': 'ours: contacts, clearance up to 20 mm, placement',
          'ours_near': 'ours_near: contacts, 100 faces within 20 mm', 'fcl': 'fcl: distance of the shaft',
          'embree': 'embree: distance of the tip up to 20 mm', 'cgal': 'cgal: side of the tip'}
 
+PROXY = {'proxy_slide': 'trocar, organ rests', 'proxy_slide_moving': 'trocar', 'proxy_flight_moving': 'trocar, free flight',
+         'proxy_shaft_moving': 'free shaft', 'proxy_ball_moving': 'free ball', 'proxy_grasper_moving': 'free grasper'}
+
 
 class Results:
-    """Medians in microseconds and counters, both by (part, engine, faces, shuffled): see cases/registration.hpp."""
+    """Medians in microseconds, counters, and medians of counters, by (part, engine, faces, shuffled): see
+    cases/registration.hpp."""
 
     def __init__(self, path):
-        self.median, self.counters = {}, {}
+        self.median, self.counters, self.median_counters = {}, {}, {}
         data = json.loads(path.read_text())
         self.context = data['context']
         for run in data['benchmarks']:
@@ -37,6 +41,7 @@ class Results:
                 self.counters[key] = run
             if run.get('aggregate_name') == 'median' or run['repetitions'] == 1:
                 self.median[key] = run['real_time']
+                self.median_counters[key] = run
         self.sizes = sorted({faces for _, _, faces, _ in self.median})
 
     def engines(self, part, shuffled=False):
@@ -113,6 +118,20 @@ def where_table(results):
     return table(['where the tool is, µs'] + sizes, rows) + f'\nWrong answers in all: {wrong:.0f}.\n'
 
 
+def proxy_table(results):
+    """A tick of a haptic proxy. The penalty law needs at least one swept query a tick."""
+    rows = []
+    for part, what in PROXY.items():
+        for faces in results.sizes:
+            ours, penalty = (results.median_counters.get((part, engine, faces, False)) for engine in ('ours', 'penalty'))
+            if ours:
+                rows.append([f'{what}, {faces} faces'] + [microseconds(ours[name]) for name in ('median', 'p99', 'p99_9')]
+                            + [microseconds(ours['update']) if ours['update'] else '', microseconds(penalty['median']),
+                               f"{ours['median'] / penalty['median']:.1f}", f"{ours['contacts']:.1f}"])
+    return table(['a tick, µs', 'median', '99th percentile', '99.9th percentile', 'move_vertices, median',
+                  'one swept query, median', 'ratio', 'contacts'], rows)
+
+
 def error_table(results):
     rows = []
     for engine in ENGINES:
@@ -164,6 +183,7 @@ def write_table(results, path):
             'Vertices and faces in random order:\n', *(part_table(results, part, True) for part in PARTS),
             '## Contacts with full geometry\n', contact_table(results),
             '## Where the tool is\n', where_table(results),
+            '## A haptic proxy\n', proxy_table(results),
             '## A grasper\n', grasper_table(results),
             "## The paper's figures 11 and 12\n", paper_table(results),
             '## Answers against the oracle, in all steps together\n', error_table(results)]

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <geometry_msgs/PoseStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganVertices.h>
 #include <ros/callback_queue.h>
@@ -10,20 +11,22 @@
 
 namespace organ_collision::bench {
 
-/// Stands in for the node, to measure how long the messages alone take. It answers each shape at
-/// once with one empty ContactArray for each tool. Like the nodelet, it answers in its own thread.
+/// Stands in for both nodes, to measure how long the messages alone take. It answers each shape for
+/// /organ_collision at once with one empty ContactArray for each tool, and each pose of a hand with
+/// a wrench of /haptic_proxy. Like the nodelets, it answers in its own thread.
 class Echo {
  public:
   explicit Echo(std::size_t tools);
 
  private:
-  void answer(const OrganVerticesConstPtr& shape);
+  void answer_shape(const OrganVerticesConstPtr& shape);
+  void answer_pose(const geometry_msgs::PoseStampedConstPtr& pose);
 
   std::size_t tools_;
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
-  ros::Publisher contacts_;
-  ros::Subscriber vertices_;
+  ros::Publisher contacts_, wrenches_;
+  ros::Subscriber vertices_, poses_;
   ros::AsyncSpinner spinner_{1, &queue_};
 };
 

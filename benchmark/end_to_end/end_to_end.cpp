@@ -13,17 +13,8 @@ namespace {
 
 using organ_collision::bench::Echo;
 using organ_collision::bench::LatencyReport;
+using organ_collision::bench::print;
 using organ_collision::bench::Simulator;
-
-void print(const char* what, const LatencyReport& report) {
-  constexpr double kMicro = 1e6;
-  std::cout << "{\"what\": \"" << what << "\", \"rate\": " << report.rate
-            << ", \"sent\": " << report.sent << ", \"skipped\": " << report.skipped
-            << ", \"failed\": " << report.failed
-            << ", \"median\": " << kMicro * report.latencies.quantile(0.5)
-            << ", \"p99\": " << kMicro * report.latencies.quantile(0.99)
-            << ", \"worst\": " << kMicro * report.latencies.quantile(1.0) << "}" << std::endl;
-}
 
 /// The highest of several rates that the node sustains for a second without skipping a shape [Hz].
 /// 10 Hz if it sustains no other.

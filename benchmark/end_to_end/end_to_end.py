@@ -3,7 +3,7 @@
 
 Usage: end_to_end.py PROGRAM FOLDER SECONDS [FACES ...]
 
-PROGRAM is the built end_to_end; the setup.bash of its workspace must be sourced. The script starts its own ROS master
+PROGRAM is the built end_to_end, with its other programs beside it; the setup.bash of its workspace must be sourced. The script starts its own ROS master
 and writes end_to_end.json and end_to_end.md into FOLDER. Each measurement takes SECONDS."""
 
 import contextlib
@@ -19,6 +19,9 @@ import xmlrpc.client
 
 TOOLS = (1, 4)
 RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # [m]; the same as SceneScale in tool_motions.cpp
+HAND_TOOL = {'name': 'tool0', 'trocar_frame': 'tool0_trocar', 'tip_pose_topic': '/hand/pose', 'radius': 1.5e-3}
+HAND_SIZES = (1224, 100_000)
+WHAT = {'shapes': 'shape to contacts', 'service': 'service call', 'poses': 'pose to wrench'}
 
 
 def free_port():
@@ -69,10 +72,9 @@ def resident_bytes(process):
     return 1024 * int(status.split('VmRSS:')[1].split()[0])
 
 
-def measure(kind, program, answerer, faces, tools, seconds, settled=lambda: None):
-    """Runs PROGRAM and returns its reports. Calls settled() after the node has received some shapes at a low rate."""
+def run(arguments, settled, **about):
+    """Runs a program and returns its reports, with what they are about. Calls settled() at its report of settling."""
     reports = []
-    arguments = [program, answerer, str(faces), str(tools), str(seconds)]
     with subprocess.Popen(arguments, stdout=subprocess.PIPE, universal_newlines=True) as process:
         for line in process.stdout:
             if not line.startswith('{'):
@@ -81,10 +83,21 @@ def measure(kind, program, answerer, faces, tools, seconds, settled=lambda: None
             if report['what'] == 'settling':
                 settled()
             else:
-                reports.append(dict(report, kind=kind, faces=faces, tools=tools))
+                reports.append(dict(report, **about))
     if process.returncode != 0:
         sys.exit(f'end_to_end.py: {" ".join(map(str, arguments))} failed')
     return reports
+
+
+def measure(kind, program, answerer, faces, tools, seconds, settled=lambda: None):
+    """From shapes to contacts. Calls settled() after the node has received some shapes at a low rate."""
+    return run([program, answerer, str(faces), str(tools), str(seconds)], settled, kind=kind, faces=faces, tools=tools)
+
+
+def measure_hand(kind, program, answerer, faces, seconds):
+    """From the poses of a hand to wrenches."""
+    arguments = [program.with_name('pose_to_wrench'), answerer, str(faces), str(seconds)]
+    return run(arguments, lambda: None, kind=kind, faces=faces, tools=1)
 
 
 @contextlib.contextmanager
@@ -112,11 +125,20 @@ def measure_node(master, program, faces, tools, seconds):
         return [dict(report, bytes_per_face=(memory[0] - idle) / faces) for report in reports]
 
 
+def measure_hands(program, faces, seconds):
+    with running(program.with_name('haptic_proxy')):
+        reports = measure_hand('haptic_proxy, node', program, 'external', faces, seconds)
+    reports += measure_hand('haptic_proxy, nodelet', program, 'nodelet', faces, seconds)
+    with running(program.with_name('echo_node'), '1'):
+        reports += measure_hand('messages between processes', program, 'external', faces, seconds)
+    return reports + measure_hand('messages in one process', program, 'echo', faces, seconds)
+
+
 def table(reports):
     lines = ['| | faces | tools | rate, Hz | sent | skipped | median, µs | 99th percentile | worst | bytes a face |',
              '|---|---|---|---|---|---|---|---|---|---|']
     for r in reports:
-        what = f"{r['kind']}, {'shape to contacts' if r['what'] == 'shapes' else 'service call'}"
+        what = f"{r['kind']}, {WHAT[r['what']]}"
         memory = f"{r['bytes_per_face']:.0f}" if 'bytes_per_face' in r and r['what'] == 'shapes' else ''
         rate = f"{r['rate']:.0f}" if r['rate'] else ''
         lines.append(f"| {what} | {r['faces']} | {r['tools']} | {rate} | {r['sent']} | {r['skipped'] + r['failed']} "
@@ -131,7 +153,11 @@ def main():
     with tempfile.TemporaryDirectory() as home:
         os.environ['ROS_HOME'] = home
         with Master() as master:
+            master.proxy.setParam('/end_to_end', '/haptic_proxy', {'tools': [HAND_TOOL]})
             for faces in sizes:
+                if faces in HAND_SIZES:
+                    print(f'{faces} faces, a hand', flush=True)
+                    reports += measure_hands(program, faces, seconds)
                 for tools in TOOLS:
                     master.set_tools(tools, RADIUS[faces])
                     print(f'{faces} faces, {tools} tools', flush=True)

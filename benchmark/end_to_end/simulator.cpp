@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "answer_until.hpp"
+
 namespace organ_collision::bench {
 namespace {
 
@@ -78,7 +80,7 @@ void Simulator::start() {
   mesh.triangles = organ_.triangles;
   mesh_.publish(mesh);
 
-  LatencyReport report{};
+  LatencyReport report;
   report_ = &report;
   const ros::SteadyTime give_up = ros::SteadyTime::now() + ros::WallDuration(30.0);
   while (report.latencies.count() == 0) {
@@ -92,13 +94,13 @@ void Simulator::start() {
     const auto message = next_shape(stamp);
     waiting_[stamp.toNSec()] = {ros::SteadyTime::now(), 0};
     vertices_.publish(message);
-    answer_until(ros::Time::now() + ros::Duration(0.1));
+    answer_until(ros::Time::now() + ros::Duration(0.1), queue_);
   }
   waiting_.clear();
 }
 
 LatencyReport Simulator::run(double rate, double seconds) {
-  LatencyReport report{};
+  LatencyReport report;
   report.rate = rate;
   report_ = &report;
   const ros::Duration period(1.0 / rate);
@@ -108,15 +110,15 @@ LatencyReport Simulator::run(double rate, double seconds) {
     // The answer to the last shape has half a period to arrive. Then come the poses and the next
     // shape, in this order, because a simulator knows a tool's pose before the shape that the tool
     // causes.
-    answer_until(tick - period * 0.5);
+    answer_until(tick - period * 0.5, queue_);
     send_poses(tick);
     const auto message = next_shape(tick);
-    answer_until(tick);
+    answer_until(tick, queue_);
     waiting_[tick.toNSec()] = {ros::SteadyTime::now(), 0};
     vertices_.publish(message);
   }
   report.late = ros::Time::now() > tick + period;
-  answer_until(ros::Time::now() + ros::Duration(0.5));
+  answer_until(ros::Time::now() + ros::Duration(0.5), queue_);
   report.skipped = waiting_.size();
   waiting_.clear();
   return report;
@@ -130,7 +132,7 @@ LatencyReport Simulator::ask(double seconds) {
   query.request.organ = kOrgan;
   query.request.mode = ContactArray::STATIC;
   query.request.motion.radius = radius_;
-  LatencyReport report{};
+  LatencyReport report;
   const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(seconds);
   while (ros::ok() && ros::SteadyTime::now() < end) {
     const ShaftAxis& axis = tools_[report.sent++ % tools_.size()].end;
@@ -180,13 +182,6 @@ void Simulator::on_contacts(const ContactArrayConstPtr& contacts) {
   if (++sent->second.answers < tools_.size()) return;
   report_->latencies.add((ros::SteadyTime::now() - sent->second.time).toSec());
   waiting_.erase(sent);
-}
-
-/// Handles contacts as they arrive, until `time`.
-void Simulator::answer_until(ros::Time time) {
-  for (ros::Time now = ros::Time::now(); now < time && ros::ok(); now = ros::Time::now()) {
-    queue_.callOne(ros::WallDuration((time - now).toSec()));
-  }
 }
 
 }  // namespace organ_collision::bench

@@ -15,19 +15,9 @@
 
 #include "benchmark/scenes/organ_surface.hpp"
 #include "benchmark/scenes/tool_motions.hpp"
-#include "latency.hpp"
+#include "latency_report.hpp"
 
 namespace organ_collision::bench {
-
-/// The latencies of a run, and how many answers were missing or wrong.
-struct LatencyReport {
-  double rate;  ///< [Hz] of published shapes; 0 for service calls, which have no set rate
-  std::size_t sent = 0;
-  std::size_t skipped = 0;  ///< shapes for which not all tools' contacts arrived
-  std::size_t failed = 0;   ///< answers whose status is not OK
-  bool late = false;        ///< whether the simulator failed to publish at that rate
-  Latencies latencies;      ///< from publishing a shape to receiving the contacts of the last tool
-};
 
 /// A simulator without physics. It publishes a deforming organ and the poses of tools that pierce
 /// it to the node `/organ_collision`, which has the tools `tool0`, `tool1` ...
@@ -52,7 +42,6 @@ class Simulator {
   void send_poses(ros::Time stamp);
   boost::shared_ptr<OrganVertices> next_shape(ros::Time stamp);
   void on_contacts(const ContactArrayConstPtr& contacts);
-  void answer_until(ros::Time time);
 
   OrganSurface organ_;
   std::vector<std::vector<float>> shapes_;

@@ -42,6 +42,15 @@ GrasperMeasurement& MeasurementCache::grasper() {
   return *grasper_;
 }
 
+ProxyMeasurement& MeasurementCache::proxy(const std::string& part, const ProxyTask& task) {
+  std::unique_ptr<ProxyMeasurement>& measurement = proxies_[{part, task.faces}];
+  if (!measurement) {
+    measurement = std::make_unique<ProxyMeasurement>(task);
+    report_check("ours, " + part, {task.faces, false}, measurement->summary());
+  }
+  return *measurement;
+}
+
 WhereMeasurement& MeasurementCache::where(const std::string& locator,
                                           std::unique_ptr<Locator> (*make)(), const SceneKey& key) {
   std::unique_ptr<WhereMeasurement>& measurement = where_[{locator, key}];

@@ -10,6 +10,7 @@
 #include "contact_measurement.hpp"
 #include "engine_measurement.hpp"
 #include "grasper_measurement.hpp"
+#include "proxy_measurement.hpp"
 #include "where_measurement.hpp"
 
 namespace organ_collision::bench {
@@ -35,6 +36,8 @@ class MeasurementCache {
                             const SceneKey& key, bool rigid);
   ContactMeasurement& contacts(const SceneKey& key);
   GrasperMeasurement& grasper();
+  /// `part`: the task's name.
+  ProxyMeasurement& proxy(const std::string& part, const ProxyTask& task);
   /// `make` creates the locator called `locator`.
   WhereMeasurement& where(const std::string& locator, std::unique_ptr<Locator> (*make)(),
                           const SceneKey& key);
@@ -49,6 +52,7 @@ class MeasurementCache {
   std::map<std::tuple<std::string, SceneKey, bool>, std::unique_ptr<EngineMeasurement>> engines_;
   std::map<SceneKey, std::unique_ptr<ContactMeasurement>> contacts_;
   std::unique_ptr<GrasperMeasurement> grasper_;
+  std::map<std::pair<std::string, std::size_t>, std::unique_ptr<ProxyMeasurement>> proxies_;
   std::map<std::pair<std::string, SceneKey>, std::unique_ptr<WhereMeasurement>> where_;
   std::size_t own_errors_ = 0;
 };

@@ -9,12 +9,12 @@
 #include "contact_adapter_names.hpp"
 #include "contact_check.hpp"
 #include "face_list.hpp"
-#include "force_limit.hpp"
+#include "forces/force_limit.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
 #include "shaft_radius.hpp"
-#include "vertex_forces.hpp"
+#include "forces/vertex_forces.hpp"
 
 namespace organ_collision {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "contact_adapter_parameters.hpp"
 #include "force_law.hpp"
-#include "pair_names.hpp"
+#include "forces/pair_names.hpp"
 #include "ros/interface/failure_log.hpp"
 
 namespace organ_collision {

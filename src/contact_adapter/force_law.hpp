@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "contact_motion.hpp"
-#include "face_force.hpp"
+#include "forces/face_force.hpp"
 #include "kept_sides.hpp"
 #include "way_out.hpp"
 

@@ -17,7 +17,7 @@ LAYERS = ['geometry', 'picking', 'query', 'ros']
 # The folders of a layer, in the order in which data flows through them.
 ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],
          'picking': ['volumes', 'culling', 'gl', 'pickers'],
-         'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'steps', 'pipeline',
+         'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'inbox', 'steps', 'pipeline',
                  'publishing', 'node']}
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
@@ -29,7 +29,7 @@ PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
 # The layers that the adapters must not use, and the folders of the node. The names of the modes are
 # allowed: that header links nothing.
 NODE = re.compile(r'(organ_collision/)?(picking|query)/(?!query_mode\.hpp)'
-                  r'|ros/(node|motion|organs|parameters|pipeline|publishing|steps|tools)/')
+                  r'|ros/(node|inbox|motion|organs|parameters|pipeline|publishing|steps|tools)/')
 
 
 def includes(room, files='*'):
@@ -92,7 +92,7 @@ class LayersTest(unittest.TestCase):
         self.assertIn('picking/gl/gl_context.hpp', found)
 
     def test_the_adapters_include_nothing_of_picking_query_and_the_node(self):
-        for room in ('ros/interface', 'contact_adapter', 'mesh_adapter'):
+        for room in ('ros/interface', 'forces', 'contact_adapter', 'mesh_adapter'):
             found = 0
             for path, included in includes(room):
                 found += 1

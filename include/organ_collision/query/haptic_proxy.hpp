@@ -40,9 +40,9 @@ enum class ProxyFreedom : std::uint8_t {
 
 /// The tool that a proxy stands for.
 struct ProxyTool {
-  double radius = 0.0;           ///< [m] of the shaft; 0: the tool has no shaft
-  std::vector<Link> links = {};  ///< in the order of ToolPose::links
-  ProxyFreedom freedom = ProxyFreedom::kTrocar;
+  double radius = 0.0;                           ///< [m] of the shaft; 0: the tool has no shaft
+  std::vector<Link> links = {};                  ///< in the order of ToolPose::links
+  ProxyFreedom freedom = ProxyFreedom::kTrocar;  ///< kTrocar needs a shaft
 };
 
 /// How a proxy behaves. It is pure geometry: a force is a stiffness [N/m] times a length, so forces
@@ -101,11 +101,11 @@ struct ProxyCrossing {
 
 /// The answer to one tick. Lengths are in metres, points and vectors in the proxy's frame.
 struct ProxyAnswer {
-  ProxyStatus state = ProxyStatus::kNoAnswer;
+  ProxyStatus state = ProxyStatus::kNoAnswer;  ///< what the proxy does
   /// Where the proxy is. Its joints, its trocar and its links' order are those of the hand.
   ToolPose proxy;
-  /// Whether the proxy was placed anew in this tick: the first one, the hand jumped, or the tissue
-  /// moved through the proxy.
+  /// Whether the proxy was placed anew in this tick: the first one, the hand jumped, tissue moved
+  /// through the proxy, or new tissue came where it was.
   bool is_placed_anew = false;
   /// Why, if it was; or why there is no proxy. A sentence.
   std::string message;
@@ -143,7 +143,9 @@ class HapticProxy {
   HapticProxy(ProxyTool tool, const ProxySettings& settings,
               PickerKind picker = PickerKind::kFeedback);
   ~HapticProxy();
+  /// A proxy from which another one was moved may only be destroyed or assigned to.
   HapticProxy(HapticProxy&&) noexcept;
+  /// Destroys this proxy's OpenGL context and takes over that of the other one.
   HapticProxy& operator=(HapticProxy&&) noexcept;
 
   /// Moves the proxy. `hand`: the hand's pose in the proxy's frame, with a pose for each link;

@@ -60,6 +60,7 @@ inline constexpr char kUrdf[] = "urdf";
 inline constexpr char kTfPrefix[] = "tf_prefix";
 inline constexpr char kMargin[] = "margin";
 inline constexpr char kMaxNear[] = "max_near";
+inline constexpr char kFreedom[] = "freedom";
 ///@}
 
 }  // namespace organ_collision::names

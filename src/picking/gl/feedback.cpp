@@ -3,8 +3,8 @@
 #include <limits>
 #include <string>
 
+#include "clip_to.hpp"
 #include "gl_functions.hpp"
-#include "scoped_volume.hpp"
 
 namespace organ_collision {
 
@@ -13,7 +13,7 @@ std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
   if (vertices.empty()) return 0;
   context.make_current();
   const GlFunctions& gl = context.functions();
-  const ScopedVolume scoped_volume(gl, volume);
+  clip_to(volume, gl);
   constexpr GLsizei kStride = sizeof(DrawVertex);
   static_assert(offsetof(DrawVertex, number) == offsetof(DrawVertex, barycentric) + 8,
                 "barycentric and number make one texture coordinate");

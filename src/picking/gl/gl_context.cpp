@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl_functions.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
 
@@ -53,6 +54,8 @@ GlContext::GlContext(const GlFramebuffer& framebuffer)
   // They stay enabled, because each switch costs as much time as a face.
   state_->functions.EnableClientState(GL_VERTEX_ARRAY);
   state_->functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
+  for (GLenum i = 0; i < ViewingVolume::kMaxUserPlanes; ++i)
+    state_->functions.Enable(GL_CLIP_PLANE0 + i);
 }
 
 GlContext::~GlContext() = default;

@@ -3,8 +3,8 @@
 #include <limits>
 
 #include "candidates.hpp"
+#include "picking/gl/clip_to.hpp"
 #include "picking/gl/gl_functions.hpp"
-#include "picking/gl/scoped_volume.hpp"
 
 namespace organ_collision {
 namespace {
@@ -82,7 +82,7 @@ void SelectPicker::select(const ViewingVolume& volume, Draw draw_named,
                           std::vector<Candidate>& candidates) {
   context_.make_current();
   const GlFunctions& gl = context_.functions();
-  const ScopedVolume scoped_volume(gl, volume);
+  clip_to(volume, gl);
   const ScopedDepthRange scoped_depth_range(gl);
   GLint hits = -1;
   while (hits < 0) {

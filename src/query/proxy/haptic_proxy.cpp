@@ -1,14 +1,13 @@
 #include "organ_collision/query/haptic_proxy.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "mobility.hpp"
 #include "needle.hpp"
+#include "proxy_check.hpp"
 #include "proxy_entry.hpp"
 #include "proxy_motion.hpp"
 #include "tissue.hpp"
@@ -24,62 +23,6 @@ constexpr double kResting = 1.02;
 /// Whether the organ moved from its last shape to this one.
 bool is_same_organ(const TriangleMesh& before, const TriangleMesh& now) {
   return before.topology() == now.topology() && before.same_faces(now);
-}
-
-void check(bool is_legal, const std::string& what) {
-  if (!is_legal) throw std::invalid_argument(what);
-}
-
-std::string shown(double value) {
-  std::ostringstream text;
-  text << value;
-  return text.str();
-}
-
-void check_tool(const ProxyTool& tool) {
-  check(
-      std::isfinite(tool.radius) && tool.radius >= 0.0,
-      "the radius of the proxy's tool is " + shown(tool.radius) + " m; it must be >= 0 and finite");
-  check(tool.radius > 0.0 || !tool.links.empty(),
-        "the proxy's tool has neither a shaft nor links; give it a radius > 0 or links");
-  check(tool.radius > 0.0 || tool.freedom == ProxyFreedom::kFree,
-        "the proxy's tool has no shaft (its radius is 0), so it cannot go through a trocar; let it "
-        "be free");
-}
-
-void check_settings(const ProxyTool& tool, const ProxySettings& settings) {
-  check(std::isfinite(settings.clearance) && settings.clearance > 0.0,
-        "the clearance is " + shown(settings.clearance) + " m; it must be > 0 and finite");
-  check(settings.jump > 0.0, "the jump is " + shown(settings.jump) + " m; it must be > 0");
-  check(!settings.puncture || *settings.puncture > 0.0,
-        "the puncture is " + shown(settings.puncture.value_or(0.0)) + " m; it must be > 0");
-  check(!settings.puncture || tool.freedom == ProxyFreedom::kTrocar,
-        "a puncture is set for a free tool; only a shaft through a trocar can pierce tissue");
-  check(std::isfinite(settings.friction) && settings.friction >= 0.0,
-        "the friction is " + shown(settings.friction) + " m; it must be >= 0 and finite");
-}
-
-void check_hand(const ProxyTool& tool, const ToolPose& hand) {
-  const bool has_shaft = tool.radius > 0.0;
-  const bool is_finite =
-      (!has_shaft || (hand.axis.trocar.allFinite() && hand.axis.tip.allFinite())) &&
-      std::all_of(hand.links.begin(), hand.links.end(),
-                  [](const Eigen::Isometry3d& link) { return link.matrix().allFinite(); });
-  check(is_finite, "the hand's pose has a value that is not finite");
-  check(hand.links.size() == tool.links.size(),
-        "the hand's pose has " + std::to_string(hand.links.size()) + " links; the tool has " +
-            std::to_string(tool.links.size()));
-}
-
-void check_organs(const std::vector<ProxyOrgan>& organs) {
-  for (const ProxyOrgan& organ : organs) {
-    check(organ.shape != nullptr, "organ '" + organ.name + "' has no shape");
-    check(organ.T_organ_proxy.matrix().allFinite(),
-          "the frame of organ '" + organ.name + "' has a pose that is not finite");
-    check(std::count_if(organs.begin(), organs.end(),
-                        [&](const ProxyOrgan& other) { return other.name == organ.name; }) == 1,
-          "two organs have the name '" + organ.name + "'");
-  }
 }
 
 }  // namespace
@@ -121,7 +64,7 @@ struct HapticProxy::State {
   void move_proxy(Tick& tick);
   Needle::Settings needle_settings() const;
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs) const;
-  bool has_new_organ(const std::vector<OrganTick>& ticks) const;
+  bool is_in_new_tissue(Tick& tick);
   double way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
 
@@ -148,7 +91,9 @@ const ProxyAnswer& HapticProxy::follow(const ToolPose& hand,
                                        const std::vector<ProxyOrgan>& organs) {
   check_hand(state_->tool, hand);
   check_organs(organs);
-  state_->follow(hand, organs);
+  ToolPose checked = hand;
+  if (state_->tool.radius == 0.0) checked.axis = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  state_->follow(checked, organs);
   return state_->answer;
 }
 
@@ -236,10 +181,12 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   if (!place) {
     tick.answer.message = "there was no proxy";
   } else if (tick.hand_way > settings.jump) {
-    tick.answer.message = "the hand jumped " + shown(tick.hand_way) + " m";
+    tick.answer.message = "the hand jumped " + std::to_string(tick.hand_way) + " m";
+    tick.place.reset();
+  } else if (tick.place && is_in_new_tissue(tick)) {
+    tick.answer.message = "new tissue is where the proxy was";
     tick.place.reset();
   } else if (tick.place) {
-    if (has_new_organ(tick.motions)) tick.place->clearance = ProxyPlace().clearance;
     tick.place = motion.give_way(*tick.place, hand, tick.motions);
     if (!tick.place) tick.answer.message = "tissue moved through the proxy";
   }
@@ -286,9 +233,14 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
   return ticks;
 }
 
-bool HapticProxy::State::has_new_organ(const std::vector<OrganTick>& ticks) const {
-  return std::any_of(ticks.begin(), ticks.end(),
-                     [](const OrganTick& organ) { return !organ.before; });
+/// Whether the proxy is inside an organ or across its surface, because an organ is new or has new
+/// faces. If it is not, its clearance from them is still unknown.
+bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
+  const bool has_new = std::any_of(tick.motions.begin(), tick.motions.end(),
+                                   [](const OrganTick& organ) { return !organ.before; });
+  if (!has_new) return false;
+  tick.place->clearance = ProxyPlace().clearance;
+  return tissue.is_inside(tick.place->pose, mobility->center(tick.place->pose));
 }
 
 /// [m] How far the hand moved since the last tick.

@@ -12,6 +12,8 @@ namespace {
 constexpr int kPieces = 4;
 /// How often a motion may meet a new wall before it is given up.
 constexpr int kMostAttempts = 5;
+/// [1] A proxy gives way by at most this many times the depth to which tissue would enter it.
+constexpr double kLongestGiveWay = 10.0;
 /// How often the walls are looked at anew on the way along curved tissue.
 constexpr int kMostLooks = 8;
 
@@ -95,7 +97,8 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
       level == Level::kSwept ? growth_from(start.clearance) : tissue_.least_growth();
   for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
     solver_.solve(Displacement::Zero(), walls_);
-    const ToolPose pose = mobility_.moved(given, solver_.displacement(), hand);
+    const ToolPose pose =
+        mobility_.moved(given, share_of_give_way(given) * solver_.displacement(), hand);
     tissue_.sweep_with_organs(start.pose, pose, growth, met_);
     if (!first_touch(growth)) {
       return ProxyPlace{pose, level == Level::kSwept ? growth : ProxyPlace().clearance};
@@ -105,14 +108,24 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   return std::nullopt;
 }
 
-bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
+/// [1] How much of the solution is still giving way. Walls that nearly contradict each other have a
+/// solution far away: the tool would leap out of the tissue, although tissue squeezes it.
+double ProxyMotion::share_of_give_way(const ToolPose& given) const {
+  double deepest = 0.0;
+  for (const Wall& wall : walls_) deepest = std::max(deepest, -wall.bound);
+  const double way = mobility_.longest_way(given, solver_.displacement());
+  const double longest = kLongestGiveWay * deepest;
+  return way > longest ? longest / way : 1.0;
+}
+
+bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand, double growth) {
   straight_ = {place.pose, hand};
-  tissue_.sweep(straight_, clearance_.rest, met_);
-  const auto touch = first_touch(clearance_.rest);
+  tissue_.sweep(straight_, growth, met_);
+  const auto touch = first_touch(growth);
   if (touch) {
     place.pose = pose_at(straight_, *touch);
   } else {
-    place = {hand, clearance_.rest};
+    place = {hand, growth};
     contacts_.clear();
     walls_.clear();
   }
@@ -137,7 +150,7 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
     } else if (way <= reach) {
       place.pose = hand;
     } else {
-      fly(place, hand);
+      fly(place, hand, growth_from(clearance));
     }
     way_.push_back(place.pose);
     reach = 2.0 * way;

@@ -42,7 +42,7 @@ class ProxyMotion {
                                      const std::vector<OrganTick>& organs);
 
   /// The proxy moves straight to the hand, until it meets tissue. Returns whether it arrived.
-  bool fly(ProxyPlace& place, const ToolPose& hand);
+  bool fly(ProxyPlace& place, const ToolPose& hand) { return fly(place, hand, clearance_.rest); }
 
   /// The proxy slides along the tissue to the place nearest the hand. `reach` [m]: about how far
   /// that may be. The hand prescribes the same as before.
@@ -59,6 +59,8 @@ class ProxyMotion {
   std::optional<ProxyPlace> give_way(const ProxyPlace& start, const ToolPose& hand,
                                      const std::vector<OrganTick>& organs, Level level, int pieces);
   std::optional<ProxyPlace> give_way(const ProxyPlace& start, const ToolPose& hand, Level level);
+  bool fly(ProxyPlace& place, const ToolPose& hand, double growth);
+  double share_of_give_way(const ToolPose& given) const;
   void look_around(ProxyPlace& place, double reach);
   void add_walls(const ToolPose& given, const ToolPose& pose,
                  const std::vector<TissueContact>& contacts);

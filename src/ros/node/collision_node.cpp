@@ -1,6 +1,5 @@
 #include "collision_node.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <utility>
@@ -8,44 +7,22 @@
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/handover.hpp"
 #include "ros/interface/plain_text.hpp"
-#include "ros/interface/plausible_size.hpp"
 
 namespace organ_collision {
 namespace {
 
-using namespace std::chrono_literals;
 using SteadyClock = std::chrono::steady_clock;
 
-/// The node waits at most this long for a callback, so that it notices a stop and a clock jump.
-constexpr std::chrono::milliseconds kLongestWait(10);
-/// The node calls callbacks for at most this long before it evaluates what they brought.
-constexpr std::chrono::milliseconds kLongestDrain(2);
-/// In simulated time, the node looks this often whether the deadline of a shape has passed.
-constexpr std::chrono::milliseconds kShortestSimulatedWait(1);
-/// If the node cannot keep up with its messages, shapes wait at most this much longer than
-/// tf_timeout_sec for their transforms.
-constexpr std::chrono::seconds kLongestBacklog(1);
 /// After a breakdown, the node waits this long for its last messages to leave.
 const ros::WallDuration kLastWords(1.0);
-
-ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
-  node.setCallbackQueue(&queue);
-  return node;
-}
-
-void warn_of_implausible_sizes(const std::vector<Tool>& tools) {
-  for (const Tool& tool : tools) {
-    if (!tool.parameters.has_shaft()) continue;
-    const std::string doubt = doubt_about_radius(tool.parameters.name, tool.parameters.radius);
-    if (!doubt.empty()) ROS_WARN("%s", doubt.c_str());
-  }
-}
 
 }  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : node_(on_queue(node, queue_)),
-      private_node_(on_queue(private_node, queue_)),
+    : loop_(counters_.rejected, {[this] { pipeline_.watch_clock(); },
+                                 [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }}),
+      node_(on_queue(node, loop_.queue())),
+      private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_parameters(private_node_)),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
       publisher_(private_node_, tools_, counters_),
@@ -60,20 +37,24 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                    // At once, because the next callback may be a query that waits for the surface.
                    surfaces_.update(pipeline_.organs(), SteadyClock::now());
                  },
-                 counters_.rejected, queue_}),
+                 counters_.rejected, loop_.queue()}),
       services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
                  pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),
                  counters_.refused}),
-      diagnostics_({loaded_.parameters, tools_, loaded_.misspelt, pipeline_.organs(),
-                    pipeline_.contact_query(), pipeline_.steps(), pipeline_.transforms(),
-                    counters_}),
+      query_diagnostics_({loaded_.misspelt, pipeline_.contact_query(), pipeline_.steps(),
+                          pipeline_.transforms(), counters_}),
+      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
+                          counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_.queue()),
-      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), queue_, background_.queue()}),
-      tool_reload_(on_queue(private_node, background_.queue()), tools_,
-                   [this](LoadedToolList& loaded, const KeptTools& kept) {
-                     run_in_thread_of(queue_, [&] { exchange_tools(loaded, kept); });
-                   }),
+      organ_services_(
+          {pipeline_.organs(), pipeline_.organ_topics(), loop_.queue(), background_.queue()}),
+      tool_reload_(
+          on_queue(private_node, background_.queue()), tools_,
+          [this] { return load_tool_parameters(private_node_); },
+          [this](LoadedToolList& loaded, const KeptTools& kept) {
+            run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
+          }),
       live_parameters_(on_queue(private_node, background_.queue()),
                        live_parameters(loaded_.parameters),
                        [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
@@ -88,13 +69,15 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
 CollisionNode::~CollisionNode() { end_background(); }
 
 void CollisionNode::start() {
-  warn_of_settings();
+  warn_of_settings(tools_, loaded_.misspelt);
   pipeline_.subscribe(node_, private_node_);
   services_.advertise(private_node_);
   organ_services_.advertise(private_node_);
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
-  diagnostics_.add_to(updater_);
+  updater_.setHardwareID("none");
+  query_diagnostics_.add_to(updater_);
+  inbox_diagnostics_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
@@ -106,19 +89,18 @@ void CollisionNode::start() {
 /// Ends the wait of the background thread for this thread, and then that thread, which uses
 /// members.
 void CollisionNode::end_background() {
-  queue_.disable();
-  queue_.clear();
+  loop_.end();
   background_.stop();
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {
   try {
     while (private_node_.ok() && !stop()) {
-      receive();
+      loop_.receive(pipeline_.next_deadline());
       if (broken_) std::rethrow_exception(broken_);
-      pipeline_.evaluate(heard_until_);
-      guard([this] { surfaces_.update(pipeline_.organs(), SteadyClock::now()); });
-      guard([this] { markers_.update(pipeline_.organs(), pipeline_.steps().history()); });
+      pipeline_.evaluate(loop_.heard_until());
+      loop_.guard([this] { surfaces_.update(pipeline_.organs(), SteadyClock::now()); });
+      loop_.guard([this] { markers_.update(pipeline_.organs(), pipeline_.steps().history()); });
     }
   } catch (const std::exception& error) {
     publisher_.report_breakdown(pipeline_.organs(), error.what());
@@ -134,58 +116,6 @@ void CollisionNode::report_last_diagnostics() {
     updater_.force_update();
   } catch (const std::exception&) {  // Usually std::bad_alloc. There is nowhere left to report it.
   }
-}
-
-/// Waits for the first callback, but not beyond the deadline of a shape that waits for a transform.
-/// Then calls all callbacks that are there, for at most kLongestDrain.
-void CollisionNode::receive() {
-  SteadyTime before = wait_clock_.now();
-  bool called = call_one(wait(before));
-  const SteadyTime end = SteadyClock::now() + kLongestDrain;
-  while (called && SteadyClock::now() < end) {
-    before = wait_clock_.now();
-    called = call_one(ros::WallDuration(0.0));
-  }
-  // A transform may be among the callbacks that are left. The time that they take does not count.
-  heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
-  pipeline_.watch_clock();
-}
-
-/// How long to wait for the first callback.
-ros::WallDuration CollisionNode::wait(SteadyTime now) const {
-  std::chrono::nanoseconds wait = kLongestWait;
-  if (const auto deadline = pipeline_.next_deadline()) wait = std::min(wait, *deadline - now);
-  // Simulated time goes on in jumps, and no callback tells of them.
-  const auto shortest = ros::Time::isSimTime() ? kShortestSimulatedWait : 0ms;
-  return ros::WallDuration().fromNSec(std::max<std::chrono::nanoseconds>(wait, shortest).count());
-}
-
-/// Returns false if there was no callback.
-bool CollisionNode::call_one(ros::WallDuration wait) {
-  pipeline_.watch_clock();
-  bool called = true;
-  guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
-  guard([this] { pipeline_.apply_organ_messages(wait_clock_.now()); });
-  return called;
-}
-
-/// Runs an action. If it throws, the exception is counted, and the node goes on.
-void CollisionNode::guard(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {  // Usually std::bad_alloc.
-    counters_.rejected.add("exception", std::string("something was left out: ") + error.what(),
-                           SteadyClock::now());
-  }
-}
-
-void CollisionNode::warn_of_settings() const {
-  for (const std::string& sentence : loaded_.misspelt) ROS_WARN("%s", sentence.c_str());
-  for (const Tool& tool : tools_) {
-    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
-  }
-  if (tools_.empty()) ROS_WARN("%s", kNoTools);
-  warn_of_implausible_sizes(tools_);
 }
 
 /// Also called when the rate has changed.
@@ -207,7 +137,7 @@ void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept
     std::swap(loaded_.parameters.tools, parameters);
     pipeline_.change_tools(kept);
     markers_.set_tools(tools_);
-    warn_of_settings();
+    warn_of_settings(tools_, loaded_.misspelt);
   } catch (...) {  // Usually std::bad_alloc. The node cannot go on with half of the exchange.
     broken_ = std::current_exception();
     throw;
@@ -218,7 +148,7 @@ void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept
 void CollisionNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
   // Only this thread ever makes the node's thread change them.
   const LiveNodeParameters now = changed(loaded_.parameters, changes);
-  run_in_thread_of(queue_, [&] {
+  run_in_thread_of(loop_.queue(), [&] {
     LiveNodeParameters& parameters = loaded_.parameters;
     const bool same_rate = parameters.rate_hz == now.rate_hz;
     parameters = now;

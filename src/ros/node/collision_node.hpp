@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Empty.h>
 
@@ -9,25 +8,26 @@
 #include <vector>
 
 #include "background_thread.hpp"
+#include "message_loop.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/pipeline/collision_pipeline.hpp"
 #include "ros/publishing/contact_publisher.hpp"
-#include "ros/publishing/diagnostics.hpp"
+#include "ros/publishing/inbox_diagnostics.hpp"
 #include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
+#include "ros/publishing/query_diagnostics.hpp"
 #include "ros/steps/query_services.hpp"
-#include "ros/steps/wait_clock.hpp"
 #include "ros/tools/tool.hpp"
 #include "tool_reload.hpp"
 
 namespace organ_collision {
 
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
-/// (doc/architecture.md). One thread does all work of the steps through one callback queue. That
-/// thread owns the GL context and all state, so that the state needs no locks. Large meshes with
+/// (doc/architecture.md). One thread does all work of the steps (message_loop.hpp) and owns the GL
+/// context. Large meshes with
 /// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
 /// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
 /// thread only exchanges them. A fourth one draws markers (marker_publisher.hpp).
@@ -48,32 +48,26 @@ class CollisionNode {
   void start();
   void end_background();
   void report_last_diagnostics();
-  void receive();
-  ros::WallDuration wait(SteadyTime now) const;
-  bool call_one(ros::WallDuration wait);
-  void guard(const std::function<void()>& action);
-  void warn_of_settings() const;
   void start_ticks();
   void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
   void change_parameters(const XmlRpc::XmlRpcValue& changes);
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
 
-  ros::CallbackQueue queue_;
+  NodeCounters counters_;
+  MessageLoop loop_;
   BackgroundThread background_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
   std::vector<Tool> tools_;
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
-  NodeCounters counters_;
 
   ContactPublisher publisher_;
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
-  WaitClock wait_clock_;
-  SteadyTime heard_until_;  ///< all messages that came before have been handled
   QueryServices services_;
-  Diagnostics diagnostics_;
+  QueryDiagnostics query_diagnostics_;
+  InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 
   SurfaceInspector surfaces_;

@@ -7,6 +7,7 @@
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/plain_text.hpp"
+#include "ros/interface/plausible_size.hpp"
 #include "ros/tools/link_description.hpp"
 
 namespace organ_collision {
@@ -30,10 +31,24 @@ std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
   return tools;
 }
 
-ToolReload::ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools,
+void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt) {
+  for (const std::string& sentence : misspelt) ROS_WARN("%s", sentence.c_str());
+  for (const Tool& tool : tools) {
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
+  }
+  if (tools.empty()) ROS_WARN("%s", kNoTools);
+  for (const Tool& tool : tools) {
+    if (!tool.parameters.has_shaft()) continue;
+    const std::string doubt = doubt_about_radius(tool.parameters.name, tool.parameters.radius);
+    if (!doubt.empty()) ROS_WARN("%s", doubt.c_str());
+  }
+}
+
+ToolReload::ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools, Load load,
                        Exchange exchange)
     : private_node_(private_node),
       tools_(tools),
+      load_(std::move(load)),
       exchange_(std::move(exchange)),
       server_(private_node.advertiseService(names::kReloadTools, &ToolReload::on_reload, this)) {}
 
@@ -51,7 +66,7 @@ bool ToolReload::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
 
 /// Returns which tools are new, changed, unchanged and removed.
 std::string ToolReload::reload() {
-  LoadedTools parameters = load_tool_parameters(private_node_);
+  LoadedTools parameters = load_();
   LoadedToolList loaded{load_tools(parameters.tools, private_node_),
                         std::move(parameters.misspelt)};
   const ToolChanges changes = compare_tools(tools_, loaded.tools);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/parameters/node_parameters.hpp"
+#include "ros/parameters/tool_parameters.hpp"
 #include "ros/tools/tool.hpp"
 #include "ros/tools/tool_changes.hpp"
 
@@ -22,6 +22,10 @@ struct LoadedToolList {
 std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
                              const ros::NodeHandle& private_node);
 
+/// Logs what is doubtful about the parameters of a node: unknown names, tools that do not work, and
+/// implausible sizes.
+void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt);
+
 /// Serves `reload_tools`. Robots' files may take seconds to load. Therefore the node handle must
 /// have a callback queue with a thread of its own: the node's thread only exchanges the lists.
 class ToolReload {
@@ -29,8 +33,12 @@ class ToolReload {
   /// Exchanges the node's lists for `loaded`, which then has the old ones.
   using Exchange = std::function<void(LoadedToolList& loaded, const KeptTools& kept)>;
 
+  /// Reads the tools that the parameter server has now. Throws ParameterError.
+  using Load = std::function<LoadedTools()>;
+
   /// `tools`: the node's list, which only `exchange` may change.
-  ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools, Exchange exchange);
+  ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools, Load load,
+             Exchange exchange);
 
  private:
   bool on_reload(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -38,6 +46,7 @@ class ToolReload {
 
   ros::NodeHandle private_node_;
   const std::vector<Tool>& tools_;
+  Load load_;
   Exchange exchange_;
   ros::ServiceServer server_;
 };

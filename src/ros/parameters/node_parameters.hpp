@@ -9,31 +9,10 @@
 #include "organ_collision/picking/picker_kind.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/interface/parameter_group.hpp"
+#include "shared_parameters.hpp"
+#include "tool_parameters.hpp"
 
 namespace organ_collision {
-
-/// A tool: a shaft, links of a robot, or both. The axis of the shaft runs from the origin of one TF
-/// frame to the origin of another.
-struct ToolParameters {
-  std::string name;
-  std::string trocar_frame;          ///< empty: no shaft
-  std::string tip_frame;             ///< empty: no tip
-  double radius = 0.0;               ///< [m] of the shaft; 0: no shaft
-  std::string tip_pose_topic = {};   ///< PoseStamped of tip_frame; empty: TF has its pose
-  std::string base_pose_topic = {};  ///< PoseStamped of the frame in which tip poses are; or empty
-  std::vector<std::string> links = {};  ///< links of the robot's URDF, each once; empty: no links
-  std::string robot_description = {};   ///< parameter that holds the URDF, if `urdf` is empty
-  std::string urdf = {};                ///< file or URL of the URDF, or empty
-  std::string tf_prefix = {};           ///< TF frames of links are PREFIX/LINK; empty: LINK
-  double margin = 0.0;  ///< [m] steps measure the clearance up to this distance; 0: they do not
-  int max_near = 0;     ///< steps list at most this many near faces
-
-  bool has_shaft() const { return radius > 0.0; }
-  /// Whether the origin of tip_frame counts as the tip of the links.
-  bool has_tip_of_links() const { return !has_shaft() && !tip_frame.empty(); }
-  /// The TF frame of a link.
-  std::string link_frame(const std::string& link) const;
-};
 
 /// How markers are published and drawn.
 struct MarkerSettings {
@@ -59,7 +38,7 @@ struct NodeParameters : LiveNodeParameters {
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;
-  int max_faces = 2'000'000;
+  int max_faces = kMaxFacesDefault;
   int max_batch = 1000;                ///< [motions] in one call of query_batch
   int max_batch_bytes = 64 << 20;      ///< [bytes] of all results of a batch, serialized
   double diagnostic_period_sec = 1.0;  ///< of wall time
@@ -76,12 +55,6 @@ LoadedParameters parse_parameters(const XmlRpc::XmlRpcValue& private_namespace);
 
 /// From the parameter server. Throws ParameterError.
 LoadedParameters load_parameters(const ros::NodeHandle& private_node);
-
-/// The tools alone, and one sentence for each unknown name among all parameters.
-struct LoadedTools {
-  std::vector<ToolParameters> tools;
-  std::vector<std::string> misspelt;
-};
 
 /// The tools that the parameter server has now. Throws ParameterError.
 LoadedTools load_tool_parameters(const ros::NodeHandle& private_node);

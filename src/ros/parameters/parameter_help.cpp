@@ -11,7 +11,7 @@ std::vector<HelpEntry> parameter_help() {
       {names::kTools, "required",
        "list of tools. A shaft has name, trocar_frame, tip_frame or tip_pose_topic, and radius "
        "[m]. A robot's tool has name and links. Each may have margin [m] and max_near"},
-      {names::kPicker, "feedback",
+      {names::kPicker, kPickerDefault,
        "feedback (GL_FEEDBACK, fast) or select (GL_SELECT, as in the 1999 paper)"},
       {names::kRate, shown(defaults.rate_hz),
        "[Hz] the node also evaluates at this rate; 0: only at new shapes and pose messages"},

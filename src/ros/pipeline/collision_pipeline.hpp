@@ -7,13 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "ros/inbox/inbox.hpp"
 #include "ros/interface/failure_log.hpp"
-#include "ros/motion/pose_topics.hpp"
 #include "ros/motion/tool_poses.hpp"
-#include "ros/motion/transform_buffer.hpp"
-#include "ros/motion/transform_topics.hpp"
-#include "ros/organs/organ_registry.hpp"
-#include "ros/organs/organ_topics.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
@@ -41,11 +37,13 @@ class CollisionPipeline {
                     const Sinks& sinks);
 
   /// Subscribes to the topics of organs, of TF and of poses.
-  void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+    inbox_.subscribe(node, private_node);
+  }
   /// Their receivers. They also take messages from elsewhere than topics.
-  OrganTopics& organ_topics() { return organ_topics_; }
-  TransformTopics& transform_topics() { return transform_topics_; }
-  PoseTopics& pose_topics() { return pose_topics_; }
+  OrganTopics& organ_topics() { return inbox_.organ_topics(); }
+  TransformTopics& transform_topics() { return inbox_.transform_topics(); }
+  PoseTopics& pose_topics() { return inbox_.pose_topics(); }
 
   /// Compares ROS time with that of the last call. If it jumped back, forgets all history. Call it
   /// before each message, so that no message meets state from before the jump.
@@ -60,7 +58,7 @@ class CollisionPipeline {
   /// Makes every tool due.
   void add_tick() { steps_.add_tick(); }
   /// Evaluates what is due.
-  void evaluate(SteadyTime now) { steps_.evaluate(organs_, now); }
+  void evaluate(SteadyTime now) { steps_.evaluate(inbox_.organs(), now); }
   /// When evaluate() has something to do even if no message comes; std::nullopt: never.
   std::optional<SteadyTime> next_deadline() const { return steps_.next_deadline(); }
   /// Forgets all history: the next step of every tool is static.
@@ -68,32 +66,24 @@ class CollisionPipeline {
   /// Subscribes to the pose topics of a new list of tools; `node`: where these topics are. Throws
   /// std::runtime_error if one cannot be subscribed to; then nothing has changed.
   void change_pose_topics(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node) {
-    pose_topics_.change_tools(tools, node);
+    inbox_.pose_topics().change_tools(tools, node);
   }
   /// Call it when the list of tools has changed. Kept tools keep their history.
-  void change_tools(const KeptTools& kept) { steps_.change_tools(organs_, kept); }
+  void change_tools(const KeptTools& kept) { steps_.change_tools(inbox_.organs(), kept); }
 
-  const OrganRegistry& organs() const { return organs_; }
-  const TransformBuffer& transforms() const { return transforms_; }
+  const OrganRegistry& organs() const { return inbox_.organs(); }
+  const TransformBuffer& transforms() const { return inbox_.transforms(); }
   const ToolPoses& poses() const { return poses_; }
   const StepScheduler& steps() const { return steps_; }
   ContactQuery& contact_query() { return contact_query_; }
 
  private:
-  void forget_organ_history();
-
   std::function<void(const OrganUpdate&)> update_;
   bool inspects_surfaces_ = false;
-  OrganRegistry organs_;
-  TransformBuffer transforms_;
+  Inbox inbox_;
   ToolPoses poses_;
   ContactQuery contact_query_;
   StepScheduler steps_;
-
-  OrganTopics organ_topics_;
-  TransformTopics transform_topics_;
-  PoseTopics pose_topics_;
-  ros::Time last_now_;
 };
 
 }  // namespace organ_collision

@@ -29,7 +29,7 @@ bool is_same(const ToolParameters& a, const ToolParameters& b) {
   const auto members = [](const ToolParameters& p) {
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
                     p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix, p.margin,
-                    p.max_near);
+                    p.max_near, p.freedom);
   };
   return members(a) == members(b);
 }

@@ -71,13 +71,13 @@ TEST(GlContext, ContextsAlternateAndKeepTheirOwnState) {
 TEST(GlContext, StateOfOneDoesNotReachAnother) {
   GlContext first, second;
   first.make_current();
-  constexpr double kNothing[] = {0, 0, 0, -1};
-  first.functions().ClipPlane(GL_CLIP_PLANE5, kNothing);
-  first.functions().Enable(GL_CLIP_PLANE5);
+  const auto front_face = reinterpret_cast<decltype(&glFrontFace)>(find_gl_function("glFrontFace"));
+  front_face(GL_CW);
+  first.functions().Enable(GL_CULL_FACE);
   EXPECT_THROW(picked(first, box()), GlError) << "the self-check of the picker was to notice";
   EXPECT_EQ(picked(second, box()), 1u);
   first.make_current();
-  first.functions().Disable(GL_CLIP_PLANE5);
+  front_face(GL_CCW);
   EXPECT_EQ(picked(first, box()), 1u);
 }
 

@@ -98,9 +98,9 @@ TEST_P(PickerTest, ThrowsWhenGlFailed) {
 
 TEST_P(PickerTest, RefusesAContextThatPicksWrongly) {
   context_.make_current();
-  constexpr double kNothing[] = {0, 0, 0, -1};
-  context_.functions().ClipPlane(GL_CLIP_PLANE5, kNothing);
-  context_.functions().Enable(GL_CLIP_PLANE5);
+  const auto front_face = reinterpret_cast<decltype(&glFrontFace)>(find_gl_function("glFrontFace"));
+  front_face(GL_CW);
+  context_.functions().Enable(GL_CULL_FACE);
   EXPECT_THROW(make_picker(GetParam(), context_), GlError);
 }
 

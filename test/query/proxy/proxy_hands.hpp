@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "proxy_scenes.hpp"
 #include "test/grid_surface.hpp"
 #include "test/proof/trials.hpp"
 
@@ -31,7 +32,7 @@ inline ToolPose hand_of(const ProxyTool& tool, const Eigen::Vector3d& tip) {
 inline ProxyOrgan organ_of(const GridSurface& surface, const std::string& name = "organ") {
   ProxyOrgan organ;
   organ.name = name;
-  organ.shape = std::make_shared<TriangleMesh>(surface.vertices, surface.triangles());
+  organ.shape = shape_of(surface);
   return organ;
 }
 

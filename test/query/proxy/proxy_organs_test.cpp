@@ -60,12 +60,6 @@ TEST_F(ProxyAtACut, GoesThroughTheHole) {
   EXPECT_EQ(answer->state, ProxyStatus::kFree);
 }
 
-TEST_F(ProxyAtACut, IsFreeIfTheOrganGoes) {
-  const ProxyAnswer& answer = proxy_.follow(shaft_hand(tip_), {});
-  EXPECT_EQ(answer.state, ProxyStatus::kFree);
-  EXPECT_FALSE(answer.is_placed_anew);
-}
-
 /// The surface with its coordinates rounded to 2^-17 m.
 GridSurface rounded(GridSurface surface) {
   for (float& x : surface.vertices) x = std::round(x * 131072.0F) / 131072.0F;

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include "benchmark/measurements/durations.hpp"
+
+namespace organ_collision::bench {
+
+/// The latencies of a run, and how many answers were missing or wrong.
+struct LatencyReport {
+  double rate = 0.0;  ///< [Hz] of published messages; 0 for service calls, which have no set rate
+  std::size_t sent = 0;
+  std::size_t skipped = 0;   ///< messages to which not all answers arrived
+  std::size_t failed = 0;    ///< answers that say that there is none
+  bool late = false;         ///< whether the sender failed to publish at that rate
+  Durations latencies = {};  ///< from publishing a message to receiving the last answer to it
+};
+
+/// Prints a report as a line of JSON, with times in microseconds.
+void print(const char* what, const LatencyReport& report);
+
+}  // namespace organ_collision::bench

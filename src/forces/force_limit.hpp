@@ -1,0 +1,17 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "face_force.hpp"
+
+namespace organ_collision {
+
+/// The factor in (0, 1] that reduces `force` to the magnitude `max_force` [N] > 0, if it is larger.
+double share_within_limit(const Eigen::Vector3d& force, double max_force);
+
+/// If the sum of the forces exceeds `max_force` [N], scales all of them so that their sum has this
+/// magnitude. Returns whether it scaled them.
+bool limit_force(std::vector<FaceForce>& forces, double max_force);
+
+}  // namespace organ_collision

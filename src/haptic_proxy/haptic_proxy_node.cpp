@@ -1,0 +1,368 @@
+#include "haptic_proxy_node.hpp"
+
+#include <organ_collision/ContactArray.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "geometry/concatenate.hpp"
+#include "organ_collision/picking/gl_error.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "proxy_scene.hpp"
+#include "ros/interface/handover.hpp"
+#include "ros/interface/plain_text.hpp"
+
+namespace organ_collision {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// Nodes that start together need this long until hands and organs are there.
+constexpr std::chrono::seconds kStart(2);
+/// While a force fades, it is published this often.
+constexpr std::chrono::milliseconds kFadeStep(1);
+/// How often it is repeated that there is no answer, for subscribers that came later.
+constexpr std::chrono::milliseconds kRepetition(100);
+/// After a breakdown, the node waits this long for its last messages to leave.
+const ros::WallDuration kLastWords(1.0);
+/// ToolPoses::path() is not used.
+constexpr PathSampling kNoPaths{1.0, 1};
+
+std::vector<ToolParameters> parameters_of(const std::vector<Tool>& tools) {
+  std::vector<ToolParameters> parameters;
+  for (const Tool& tool : tools) parameters.push_back(tool.parameters);
+  return parameters;
+}
+
+SteadyClock::duration duration(double seconds) {
+  return std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds));
+}
+
+}  // namespace
+
+HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
+    : loop_(counters_.rejected,
+            {[this] { watch_clock(); }, [this](SteadyTime) { apply_organ_messages(); }}),
+      node_(on_queue(node, loop_.queue())),
+      private_node_(on_queue(private_node, loop_.queue())),
+      loaded_(load_haptic_proxy_parameters(private_node_)),
+      tools_(load_tools(loaded_.parameters.tools, private_node_)),
+      inbox_(loaded_.parameters.max_faces, loaded_.parameters.tools,
+             {[this](std::size_t tool) {
+                if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
+              },
+              counters_.rejected, loop_.queue()}),
+      poses_(inbox_.transforms(), kNoPaths),
+      frame_(loaded_.parameters.frame),
+      hands_(make_hands(tools_, KeptTools(tools_.size()))),
+      started_(SteadyClock::now()),
+      publisher_(private_node_, inbox_.organs(), counters_.failed, loaded_.parameters.publish_tf),
+      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
+                          counters_.meshes, counters_.rejected}),
+      updater_(node_, private_node_, private_node_.getNamespace()),
+      surfaces_(background_.queue()),
+      organ_services_({inbox_.organs(), inbox_.organ_topics(), loop_.queue(), background_.queue()}),
+      tool_reload_(
+          on_queue(private_node, background_.queue()), tools_,
+          [this]() -> LoadedTools {
+            LoadedHapticProxyParameters loaded = load_haptic_proxy_parameters(private_node_);
+            return {std::move(loaded.parameters.tools), std::move(loaded.misspelt)};
+          },
+          [this](LoadedToolList& loaded, const KeptTools& kept) {
+            run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
+          }),
+      live_parameters_(on_queue(private_node, background_.queue()),
+                       live_parameters(loaded_.parameters),
+                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
+  try {
+    start();
+  } catch (...) {
+    end_background();
+    throw;
+  }
+}
+
+HapticProxyNode::~HapticProxyNode() { end_background(); }
+
+void HapticProxyNode::start() {
+  warn_of_settings(tools_, loaded_.misspelt);
+  publisher_.set_tools(loaded_.parameters.tools);
+  inbox_.subscribe(node_, private_node_);
+  organ_services_.advertise(private_node_);
+  reset_ = private_node_.advertiseService(names::kReset, &HapticProxyNode::on_reset, this);
+  updater_.setHardwareID("none");
+  updater_.add("proxies", this, &HapticProxyNode::diagnose);
+  inbox_diagnostics_.add_to(updater_);
+  // The updater's own timer follows simulated time, and would stop when simulated time stops.
+  diagnostic_timer_ = private_node_.createWallTimer(
+      ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
+      [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  ROS_INFO("ready: %s with a proxy, %g N/m", counted(tools_.size(), "tool").c_str(),
+           loaded_.parameters.stiffness);
+}
+
+/// Ends the wait of the background thread for this thread, and then that thread, which uses
+/// members.
+void HapticProxyNode::end_background() {
+  loop_.end();
+  background_.stop();
+}
+
+void HapticProxyNode::run(const std::function<bool()>& stop) {
+  try {
+    while (private_node_.ok() && !stop()) {
+      loop_.receive(next_deadline());
+      if (broken_) std::rethrow_exception(broken_);
+      follow_hands();
+      loop_.guard([this] { surfaces_.update(inbox_.organs(), SteadyClock::now()); });
+    }
+  } catch (const std::exception& error) {
+    report_breakdown(error.what());
+    kLastWords.sleep();
+    throw;
+  }
+}
+
+/// Tells each hand that its force is gone. Never throws, because the caller rethrows the exception
+/// that ends the node.
+void HapticProxyNode::report_breakdown(const std::string& why) {
+  try {
+    for (const Hand& hand : hands_) {
+      if (!hand.proxy) continue;
+      ProxyReport report =
+          hand.proxy->lose(ContactArray::PICKER_FAILED, "the node broke down: " + why,
+                           frame_.name(), SteadyClock::now());
+      for (OrganForce& of_organ : report.forces) of_organ.scale(0.0);
+      publisher_.publish(report);
+    }
+    updater_.force_update();
+  } catch (const std::exception&) {  // Usually std::bad_alloc. There is nowhere left to report it.
+  }
+}
+
+void HapticProxyNode::watch_clock() {
+  if (!inbox_.watch_clock()) return;
+  reset_proxies();
+  for (Hand& hand : hands_) hand.stamp = {};
+}
+
+void HapticProxyNode::apply_organ_messages() {
+  while (const auto update = inbox_.organ_topics().next()) {
+    has_new_shape_ = true;
+    if (update->status == ContactArray::OK) counters_.meshes.count();
+    // At once, because the next callback may ask what is known of the surface.
+    surfaces_.update(inbox_.organs(), SteadyClock::now());
+  }
+}
+
+void HapticProxyNode::follow_hands() {
+  if (frame_.update(inbox_.organs())) reset_proxies();
+  const Time now = SteadyClock::now();
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) follow_hand(tool, now);
+  has_new_shape_ = false;
+}
+
+void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
+  Hand& hand = hands_[tool];
+  try {
+    if (const auto pose = new_pose(tool, now)) {
+      tick(hand, *pose, now);
+    } else if (hand.why_not) {
+      throw Rejection(*hand.why_not);
+    }
+  } catch (const Rejection& rejection) {
+    lose(tool, rejection, now);
+  } catch (const std::invalid_argument& error) {
+    lose(tool, {ContactArray::INVALID_REQUEST, "invalid request", error.what()}, now);
+  } catch (const GlError& error) {
+    lose(tool, {ContactArray::PICKER_FAILED, "picker failed", error.what()}, now);
+  }
+}
+
+/// The pose of the tool's hand if it is new. A pose that is valid at any time counts as new
+/// whenever an organ has a new shape. Throws Rejection if the pose is not known, or too old.
+std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time now) {
+  Hand& hand = hands_[tool];
+  if (!hand.proxy) {
+    throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
+                    tools_[tool].fault);
+  }
+  if (frame_.name().empty()) {
+    throw Rejection(ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh");
+  }
+  auto pose = poses_.pose(tools_[tool], frame_.name(), ros::Time(0));
+  if (!pose.found) {
+    throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
+                    pose.why_not);
+  }
+  const ros::Time stamp = pose.found->stamp;
+  const bool is_at_any_time = stamp.isZero();
+  const bool is_new = !hand.heard || (is_at_any_time ? has_new_shape_ : stamp != hand.stamp);
+  if (is_new) {
+    hand.stamp = stamp;
+    hand.heard = now;
+    hand.is_waiting = false;
+    return std::move(pose.found);
+  }
+  const double timeout = loaded_.parameters.pose_timeout_sec;
+  if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
+    throw Rejection(
+        ContactArray::NO_TRANSFORM, "no pose",
+        concatenate("the hand's last pose came more than ", timeout, " s ago (pose_timeout_sec)"));
+  }
+  return std::nullopt;
+}
+
+void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, Time now) {
+  const HapticProxyParameters& parameters = loaded_.parameters;
+  const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
+                                       parameters.mesh_timeout_sec, ros::Time::now());
+  const ProxyReport report = hand.proxy->follow(pose, scene, now);
+  publisher_.publish(report);
+  hand.told = now;
+  hand.why_not.reset();
+  counters_.ticks.count();
+  counters_.tick_times.add(report.tick_sec);
+  const std::string named = "tool '" + report.tool.name + "': ";
+  if (report.is_clipped) {
+    counters_.clipped.add(
+        "max_force", concatenate(named, "the force is clipped to ", parameters.max_force, " N"),
+        now);
+  }
+  if (report.answer->is_placed_anew && std::exchange(hand.had_answer, true)) {
+    counters_.placed_anew.add("placed anew", named + report.message, now);
+  }
+}
+
+/// Lets the force fade, and says why: at once, while the force fades, and then from time to time.
+void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
+  Hand& hand = hands_[tool];
+  const bool is_fading = hand.proxy && hand.proxy->is_fading();
+  const bool is_known = hand.why_not && std::string(hand.why_not->what()) == why.what();
+  if (is_known && !is_fading && now - hand.told < kRepetition) return;
+  const ToolParameters& parameters = tools_[tool].parameters;
+  if (!is_known && (hand.had_answer || now - started_ > kStart)) {
+    counters_.failed.add(why.reason(), "tool '" + parameters.name + "': " + why.what(), now);
+  }
+  hand.why_not = why;
+  if (hand.proxy) {
+    publisher_.publish(hand.proxy->lose(why.status(), why.what(), frame_.name(), now));
+  } else {
+    publisher_.publish({parameters,
+                        frame_.name(),
+                        ros::Time::now(),
+                        why.status(),
+                        why.what(),
+                        nullptr,
+                        nullptr,
+                        {},
+                        {}});
+  }
+  hand.told = now;
+}
+
+/// When the node has something to do even if no message comes, as a time of the loop.
+std::optional<SteadyTime> HapticProxyNode::next_deadline() {
+  const Time now = SteadyClock::now();
+  std::optional<Time> next;
+  const auto add = [&next](Time time) { next = next ? std::min(*next, time) : time; };
+  for (const Hand& hand : hands_) {
+    if (hand.proxy && hand.proxy->is_fading()) add(now + kFadeStep);
+    if (!hand.why_not && hand.heard && !hand.stamp.isZero()) {
+      add(*hand.heard + duration(loaded_.parameters.pose_timeout_sec));
+    }
+  }
+  if (!next) return std::nullopt;
+  return loop_.now() + (*next - now);
+}
+
+/// One for each tool. Kept tools keep theirs. A tool whose proxy cannot be made gets a fault.
+/// Throws GlError; then nothing has changed.
+std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>& tools,
+                                                               const KeptTools& kept) {
+  std::vector<Hand> hands(tools.size());
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    if (kept[tool] || !tools[tool].fault.empty()) continue;
+    try {
+      hands[tool].proxy = std::make_unique<ToolProxy>(tools[tool], loaded_.parameters);
+    } catch (const std::invalid_argument& error) {
+      tools[tool].fault = tools[tool].parameters.name + ": " + error.what();
+    }
+  }
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    if (kept[tool]) hands[tool] = std::move(hands_[*kept[tool]]);
+  }
+  return hands;
+}
+
+void HapticProxyNode::reset_proxies() {
+  for (Hand& hand : hands_) {
+    if (hand.proxy) hand.proxy->reset();
+  }
+}
+
+/// Runs in the node's thread.
+void HapticProxyNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
+  std::vector<ToolParameters> parameters = parameters_of(loaded.tools);
+  inbox_.pose_topics().change_tools(parameters, node_);
+  try {
+    publisher_.set_tools(parameters);
+    hands_ = make_hands(loaded.tools, kept);
+    std::swap(tools_, loaded.tools);
+    std::swap(loaded_.misspelt, loaded.misspelt);
+    std::swap(loaded_.parameters.tools, parameters);
+    has_new_shape_ = true;
+    warn_of_settings(tools_, loaded_.misspelt);
+  } catch (...) {  // For example, std::bad_alloc. The node cannot go on with half of the exchange.
+    broken_ = std::current_exception();
+    throw;
+  }
+}
+
+/// Runs in the background thread.
+void HapticProxyNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
+  // Only this thread ever makes the node's thread change them.
+  const LiveHapticProxyParameters now = changed(loaded_.parameters, changes);
+  run_in_thread_of(loop_.queue(), [&] {
+    LiveHapticProxyParameters& parameters = loaded_.parameters;
+    parameters = now;
+    for (Hand& hand : hands_) {
+      if (hand.proxy) hand.proxy->update_settings();
+    }
+  });
+}
+
+bool HapticProxyNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+  inbox_.forget_organ_history();
+  reset_proxies();
+  return true;
+}
+
+void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  status.summary(DiagnosticStatus::OK, "following");
+  const auto times = counters_.tick_times.summary();
+  constexpr double kMicroseconds = 1e6;
+  status.add("frame", frame_.name());
+  status.add("ticks rate [1/s]", counters_.ticks.take(SteadyClock::now()));
+  status.add("ticks", times.count);
+  status.add("tick time, median [us]", times.median * kMicroseconds);
+  status.add("tick time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
+  status.add("tick time, worst [us]", times.worst * kMicroseconds);
+  status.add("poses merged into later ones", counters_.poses_merged);
+  for (const std::string& sentence : loaded_.misspelt) {
+    status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    const std::optional<Rejection>& why_not = hands_[tool].why_not;
+    if (!why_not) continue;
+    status.mergeSummary(DiagnosticStatus::WARN,
+                        "tool '" + tools_[tool].parameters.name + "': " + why_not->what());
+  }
+  show_failures("unanswered", counters_.failed, status);
+  show_failures("clipped", counters_.clipped, status);
+  show_failures("proxies", counters_.placed_anew, status);
+}
+
+}  // namespace organ_collision

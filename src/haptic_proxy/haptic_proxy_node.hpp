@@ -1,0 +1,111 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+#include <std_srvs/Empty.h>
+
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "haptic_proxy_parameters.hpp"
+#include "proxy_counters.hpp"
+#include "proxy_frame.hpp"
+#include "proxy_publisher.hpp"
+#include "ros/inbox/inbox.hpp"
+#include "ros/interface/live_parameters.hpp"
+#include "ros/interface/rejection.hpp"
+#include "ros/motion/tool_poses.hpp"
+#include "ros/node/background_thread.hpp"
+#include "ros/node/message_loop.hpp"
+#include "ros/node/tool_reload.hpp"
+#include "ros/organs/organ_services.hpp"
+#include "ros/organs/surface_inspector.hpp"
+#include "ros/publishing/inbox_diagnostics.hpp"
+#include "ros/tools/tool.hpp"
+#include "tool_proxy.hpp"
+
+namespace organ_collision {
+
+/// The node: one proxy for each tool, against all organs. Its inbox is that of the collision node.
+/// After each batch of messages, each tool whose hand has a new pose gets one tick. One thread does
+/// all this (message_loop.hpp) and owns the GL contexts. The background thread inspects surfaces,
+/// and loads new tools and parameters.
+class HapticProxyNode {
+ public:
+  /// Throws ParameterError and GlError. The same thread must call run().
+  HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  ~HapticProxyNode();
+  HapticProxyNode(const HapticProxyNode&) = delete;
+  HapticProxyNode& operator=(const HapticProxyNode&) = delete;
+
+  /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
+  /// recover from, such as std::bad_alloc, after it has published NO_ANSWER for each tool.
+  void run(const std::function<bool()>& stop = [] { return false; });
+
+ private:
+  using Time = ToolProxy::Time;
+
+  /// A tool's proxy, and what the node knows of its hand.
+  struct Hand {
+    std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
+    ros::Time stamp = {};                   ///< of the last pose; zero: it is valid at any time
+    std::optional<Time> heard = {};         ///< when that pose came; empty: no pose came yet
+    bool is_waiting = false;                ///< a pose came on its topic since the last tick
+    bool had_answer = false;                ///< since the start
+    std::optional<Rejection> why_not = {};  ///< why there is no answer now; empty: there is one
+    Time told = {};                         ///< when something was last published
+  };
+
+  void start();
+  void end_background();
+  void report_breakdown(const std::string& why);
+  void watch_clock();
+  void apply_organ_messages();
+  void follow_hands();
+  void follow_hand(std::size_t tool, Time now);
+  std::optional<Timed<ToolPose>> new_pose(std::size_t tool, Time now);
+  void tick(Hand& hand, const Timed<ToolPose>& pose, Time now);
+  void lose(std::size_t tool, const Rejection& why, Time now);
+  std::optional<SteadyTime> next_deadline();
+  std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
+  void reset_proxies();
+  void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
+  void change_parameters(const XmlRpc::XmlRpcValue& changes);
+  bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  ProxyCounters counters_;
+  MessageLoop loop_;
+  BackgroundThread background_;
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  LoadedHapticProxyParameters loaded_;
+  std::vector<Tool> tools_;
+  std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
+
+  Inbox inbox_;
+  ToolPoses poses_;
+  ProxyFrame frame_;
+  std::vector<Hand> hands_;    ///< by tool
+  bool has_new_shape_ = true;  ///< of an organ, since the last tick
+  Time started_;
+  ProxyPublisher publisher_;
+  InboxDiagnostics inbox_diagnostics_;
+  diagnostic_updater::Updater updater_;
+
+  SurfaceInspector surfaces_;
+  OrganServices organ_services_;
+  ros::ServiceServer reset_;
+  ros::WallTimer diagnostic_timer_;
+
+  // What works in the background thread.
+  ToolReload tool_reload_;
+  LiveParameters live_parameters_;
+};
+
+}  // namespace organ_collision

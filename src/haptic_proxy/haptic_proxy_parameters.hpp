@@ -1,0 +1,65 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "ros/interface/live_parameters.hpp"
+#include "ros/parameters/shared_parameters.hpp"
+#include "ros/parameters/tool_parameters.hpp"
+
+namespace organ_collision {
+
+/// The parameters that can be changed while the node runs, with the documented defaults.
+struct LiveHapticProxyParameters {
+  double stiffness = 300.0;  ///< [N/m] of the spring between hand and proxy
+  double damping = 0.0;      ///< [N s/m] of the hand's velocity relative to the proxy's
+  double max_force =
+      std::numeric_limits<double>::infinity();  ///< [N] larger forces are scaled down to it
+  double clearance = 1e-4;                      ///< [m] ProxySettings::clearance
+  double jump = 0.05;                           ///< [m] ProxySettings::jump
+  double puncture_force = 0.0;                  ///< [N] a needle pierces tissue at it; 0: never
+  double friction = 0.0;                        ///< [N] along a needle that has pierced tissue
+};
+
+/// The validated parameters of the node, with the documented defaults.
+struct HapticProxyParameters : LiveHapticProxyParameters {
+  std::vector<ToolParameters> tools;
+  std::string frame;  ///< the proxy's frame; empty: that of the first organ
+  double pose_timeout_sec = 0.1;
+  double mesh_timeout_sec = 0.0;  ///< 0: never stale
+  PickerKind picker = PickerKind::kFeedback;
+  int max_faces = kMaxFacesDefault;
+  double diagnostic_period_sec = 1.0;  ///< of wall time
+  bool publish_tf = true;
+};
+
+/// The parameters, and one sentence for each unknown name among them.
+struct LoadedHapticProxyParameters {
+  HapticProxyParameters parameters;
+  std::vector<std::string> misspelt;
+};
+
+/// From the value of the node's private namespace. Throws ParameterError.
+LoadedHapticProxyParameters parse_haptic_proxy_parameters(
+    const XmlRpc::XmlRpcValue& private_namespace);
+/// From the parameter server. Throws ParameterError.
+LoadedHapticProxyParameters load_haptic_proxy_parameters(const ros::NodeHandle& private_node);
+
+/// The members of LiveHapticProxyParameters, for LiveParameters.
+std::vector<LiveParameter> live_parameters(const LiveHapticProxyParameters& parameters);
+
+/// The parameters after these changes. Throws ParameterError if a change is illegal, or if the
+/// parameter cannot be changed while the node runs.
+LiveHapticProxyParameters changed(const LiveHapticProxyParameters& parameters,
+                                  const XmlRpc::XmlRpcValue& changes);
+
+/// How the proxy of a tool behaves: forces become lengths.
+ProxySettings proxy_settings(const LiveHapticProxyParameters& parameters,
+                             const ToolParameters& tool);
+
+}  // namespace organ_collision

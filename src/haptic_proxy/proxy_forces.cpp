@@ -1,0 +1,112 @@
+#include "proxy_forces.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// A contact or a crossing.
+struct Place {
+  std::size_t organ;
+  FaceForce on_face;  ///< in the proxy's frame; `force`: stiffness times load, on the proxy
+  double lever;       ///< [1] the share of the force that acts on the point of the pull
+};
+
+template <typename Indices>
+FaceForce on_face(std::uint32_t face, std::uint32_t link, const Indices& vertices,
+                  const Vector3d& barycentric, const Vector3d& point, const Vector3d& force) {
+  FaceForce at{face, link, {}, {}, point, force};
+  std::copy(vertices.begin(), vertices.end(), at.vertices.begin());
+  std::copy(barycentric.begin(), barycentric.end(), at.barycentric.begin());
+  return at;
+}
+
+std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyOrgan>& organs,
+                             bool has_levers, double stiffness) {
+  std::vector<Place> places;
+  places.reserve(answer.contacts.size() + answer.crossings.size());
+  for (const ProxyContact& at : answer.contacts) {
+    const FaceContact& contact = at.contact;
+    const Vector3d force = -stiffness * at.load * contact.normal;
+    places.push_back({at.organ,
+                      on_face(contact.face, contact.link, contact.vertices, contact.barycentric,
+                              contact.point, force),
+                      has_levers && contact.link == 0 ? contact.shaft : 1.0});
+  }
+  for (const ProxyCrossing& at : answer.crossings) {
+    places.push_back({at.organ,
+                      on_face(at.face, 0, organs[at.organ].shape->faces()[at.face], at.barycentric,
+                              at.point, -stiffness * at.load),
+                      1.0});
+  }
+  return places;
+}
+
+/// The share of each place in what the loads do not explain. Their sum is 1.
+std::vector<double> shares_of(const std::vector<Place>& places) {
+  std::vector<double> shares;
+  double sum = 0.0;
+  for (const Place& place : places) sum += shares.emplace_back(place.on_face.force.norm());
+  for (double& share : shares) {
+    share = sum > 0.0 ? share / sum : 1.0 / static_cast<double>(places.size());
+  }
+  return shares;
+}
+
+FaceForce transformed(FaceForce at, const Eigen::Isometry3d& T_target_source) {
+  at.place = T_target_source * at.place;
+  at.force = T_target_source.linear() * at.force;
+  return at;
+}
+
+}  // namespace
+
+void OrganForce::scale(double factor) {
+  force *= factor;
+  torque *= factor;
+  for (FaceForce& at : on_faces) at.force *= factor;
+}
+
+std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
+                                     const std::vector<ProxyOrgan>& organs, ProxyFreedom freedom,
+                                     bool has_shaft, double stiffness, const Vector3d& damping) {
+  std::vector<OrganForce> forces(organs.size());
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    forces[i].organ = organs[i].name;
+    forces[i].topology = organs[i].shape->topology();
+  }
+  const bool acts_at_tip = freedom == ProxyFreedom::kTrocar;
+  std::vector<Place> places = places_of(answer, organs, acts_at_tip && has_shaft, stiffness);
+  if (places.empty()) return forces;
+  const std::vector<double> shares = shares_of(places);
+
+  const Vector3d whole = stiffness * answer.pull + damping;
+  Vector3d unexplained = whole;
+  for (const Place& place : places) unexplained -= place.lever * place.on_face.force;
+
+  // Torques are first taken about the point where the pull acts.
+  Vector3d unexplained_torque = stiffness * answer.twist;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    Place& place = places[i];
+    OrganForce& of_organ = forces[place.organ];
+    of_organ.force += place.lever * place.on_face.force + shares[i] * unexplained;
+    place.on_face.force += shares[i] * unexplained;
+    of_organ.on_faces.push_back(transformed(place.on_face, organs[place.organ].T_organ_proxy));
+    if (acts_at_tip) continue;
+    const Vector3d torque = (place.on_face.place - answer.center).cross(place.on_face.force);
+    of_organ.torque += torque;
+    unexplained_torque -= torque;
+  }
+  if (!acts_at_tip) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      forces[places[i].organ].torque += shares[i] * unexplained_torque;
+    }
+  }
+  for (OrganForce& of_organ : forces) of_organ.torque += answer.center.cross(of_organ.force);
+  return forces;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,229 @@
+#include "proxy_publisher.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/ProxyState.h>
+#include <organ_collision/VertexForces.h>
+#include <ros/names.h>
+#include <tf2_eigen/tf2_eigen.h>
+
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <iterator>
+
+#include "forces/vertex_forces.hpp"
+#include "haptic_proxy_names.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
+#include "ros/steps/contact_array.hpp"
+#include "ros/steps/query_conversions.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+// The message has the numbers of the enumeration.
+static_assert(ProxyState::NO_ANSWER == static_cast<int>(ProxyStatus::kNoAnswer) &&
+              ProxyState::FREE == static_cast<int>(ProxyStatus::kFree) &&
+              ProxyState::TOUCHING == static_cast<int>(ProxyStatus::kTouching) &&
+              ProxyState::SQUEEZED == static_cast<int>(ProxyStatus::kSqueezed) &&
+              ProxyState::PUNCTURED == static_cast<int>(ProxyStatus::kPunctured));
+
+/// [messages] Late forces would be wrong, so only a few messages may wait.
+constexpr std::uint32_t kQueue = 20;
+
+std_msgs::Header header_of(const ProxyReport& report) {
+  std_msgs::Header header;
+  header.frame_id = report.frame;
+  header.stamp = report.stamp;
+  return header;
+}
+
+geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganForce& of_organ) {
+  geometry_msgs::WrenchStamped message;
+  message.header = header_of(report);
+  message.wrench.force = to_vector(of_organ.force);
+  message.wrench.torque = to_vector(of_organ.torque);
+  return message;
+}
+
+FaceContact transformed(FaceContact contact, const Eigen::Isometry3d& T_target_source) {
+  contact.point = T_target_source * contact.point;
+  contact.end_point = T_target_source * contact.end_point;
+  contact.normal = T_target_source.linear() * contact.normal;
+  return contact;
+}
+
+/// What the proxy is near of one organ of the scene, in the organ's frame.
+ContactArrayPtr contacts_of(const ProxyReport& report, std::size_t organ) {
+  const DeformableOrgan& source = *report.scene->sources[organ];
+  const auto contacts = boost::make_shared<ContactArray>(
+      answer_about(source.name(), report.tool.name, ContactArray::STATIC, report.stamp));
+  set_links(*contacts, report.tool);
+  set_organ(*contacts, source, source.latest());
+  for (const ProxyContact& at : report.answer->contacts) {
+    if (at.organ != organ) continue;
+    contacts->contacts.push_back(
+        to_message(transformed(at.contact, report.scene->organs[organ].T_organ_proxy)));
+  }
+  return contacts;
+}
+
+ProxyState state_of(const ProxyReport& report) {
+  ProxyState state;
+  state.header = header_of(report);
+  state.tool = report.tool.name;
+  state.message = plain_text(report.message, kLongestMessage);
+  state.tick_sec = report.tick_sec;
+  state.clipped = report.is_clipped;
+  if (report.hand) state.hand = pose_of(report.tool, *report.hand);
+  if (report.proxy) state.proxy = pose_of(report.tool, *report.proxy);
+  if (report.answer) {
+    state.state = static_cast<std::uint8_t>(report.answer->state);
+    state.placed_anew = report.answer->is_placed_anew;
+    state.pull = to_vector(report.answer->pull);
+  }
+  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+  for (const OrganForce& of_organ : report.forces) {
+    force += of_organ.force;
+    torque += of_organ.torque;
+  }
+  state.wrench.force = to_vector(force);
+  state.wrench.torque = to_vector(torque);
+  return state;
+}
+
+}  // namespace
+
+ProxyPublisher::ProxyPublisher(ros::NodeHandle private_node, const OrganRegistry& organs,
+                               FailureLog& failed, bool publishes_tf)
+    : private_node_(private_node),
+      organs_(organs),
+      failed_(failed),
+      contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)) {
+  if (publishes_tf) frames_.emplace();
+}
+
+void ProxyPublisher::set_tools(const std::vector<ToolParameters>& tools) {
+  std::map<std::string, ToolTopics> topics;
+  for (const ToolParameters& tool : tools) {
+    if (const auto known = tools_.find(tool.name); known != tools_.end()) {
+      topics.insert(*known);
+      continue;
+    }
+    const std::string name = tool_graph_name(tool.name);
+    topics[tool.name] = {
+        private_node_.advertise<geometry_msgs::PoseStamped>(ros::names::append(name, names::kProxy),
+                                                            kQueue),
+        private_node_.advertise<ProxyState>(ros::names::append(name, names::kState), kQueue)};
+  }
+  tools_ = std::move(topics);
+  for (auto pair = pairs_.begin(); pair != pairs_.end();) {
+    pair = tools_.count(pair->first.first) == 0 ? pairs_.erase(pair) : std::next(pair);
+  }
+}
+
+void ProxyPublisher::publish(const ProxyReport& report) {
+  const ToolTopics& topics = tools_.at(report.tool.name);
+  publish_wrenches(report);
+  publish_proxy(report, topics);
+  publish_state(report, topics);
+  publish_vertex_forces(report);
+  publish_contacts(report);
+}
+
+void ProxyPublisher::publish_wrenches(const ProxyReport& report) {
+  std::map<std::pair<std::string, std::string>, bool> is_reported;
+  for (const OrganForce& of_organ : report.forces) {
+    PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
+    if (!pair) continue;
+    pair->wrench.publish(wrench_of(report, of_organ));
+    pair->is_pressed = !of_organ.force.isZero(0.0);
+    is_reported[{report.tool.name, of_organ.organ}] = true;
+  }
+  // An organ that was removed must not leave its last force behind.
+  for (auto& [key, pair] : pairs_) {
+    if (key.first != report.tool.name || !pair.is_pressed || is_reported.count(key) > 0) continue;
+    pair.wrench.publish(wrench_of(report, {}));
+    pair.is_pressed = false;
+  }
+}
+
+void ProxyPublisher::publish_proxy(const ProxyReport& report, const ToolTopics& topics) {
+  if (!report.answer) return;
+  const geometry_msgs::Pose pose = pose_of(report.tool, report.answer->proxy);
+  if (topics.proxy.getNumSubscribers() > 0) {
+    geometry_msgs::PoseStamped message;
+    message.header = header_of(report);
+    message.pose = pose;
+    topics.proxy.publish(message);
+  }
+  if (!frames_) return;
+  geometry_msgs::TransformStamped transform;
+  transform.header = header_of(report);
+  transform.child_frame_id = tf_frame(report.tool.name + names::kProxyFrame);
+  transform.transform.translation.x = pose.position.x;
+  transform.transform.translation.y = pose.position.y;
+  transform.transform.translation.z = pose.position.z;
+  transform.transform.rotation = pose.orientation;
+  frames_->sendTransform(transform);
+}
+
+void ProxyPublisher::publish_state(const ProxyReport& report, const ToolTopics& topics) {
+  topics.state.publish(state_of(report));
+}
+
+void ProxyPublisher::publish_vertex_forces(const ProxyReport& report) {
+  for (const OrganForce& of_organ : report.forces) {
+    PairTopics* pair = pair_of(of_organ.organ, report.tool.name);
+    if (!pair || pair->vertex_forces.getNumSubscribers() == 0) continue;
+    ContactArray about;
+    about.header.stamp = report.stamp;
+    about.header.frame_id = of_organ.frame;
+    about.organ = of_organ.organ;
+    about.topology = of_organ.topology;
+    about.tool = report.tool.name;
+    pair->vertex_forces.publish(vertex_forces(about, of_organ.on_faces));
+  }
+}
+
+void ProxyPublisher::publish_contacts(const ProxyReport& report) {
+  if (contacts_.getNumSubscribers() == 0) return;
+  if (report.answer) {
+    for (std::size_t i = 0; i < report.scene->organs.size(); ++i) {
+      contacts_.publish(contacts_of(report, i));
+    }
+    return;
+  }
+  for (const auto& [name, organ] : organs_.organs()) {
+    std_msgs::Header header;
+    header.frame_id = organ.frame();
+    header.stamp = report.stamp;
+    contacts_.publish(boost::make_shared<ContactArray>(
+        failed_answer(name, report.tool, header, report.status, report.message)));
+  }
+}
+
+/// Null if the pair's topics have no free name.
+ProxyPublisher::PairTopics* ProxyPublisher::pair_of(const std::string& organ,
+                                                    const std::string& tool) {
+  const auto known = pairs_.find({tool, organ});
+  if (known != pairs_.end()) return &known->second;
+  try {
+    const std::string name = names_.of(organ, tool);
+    const PairTopics topics{private_node_.advertise<geometry_msgs::WrenchStamped>(
+                                ros::names::append(name, names::kWrench), kQueue),
+                            private_node_.advertise<VertexForces>(
+                                ros::names::append(name, names::kVertexForces), kQueue)};
+    return &pairs_.insert({{tool, organ}, topics}).first->second;
+  } catch (const Rejection& rejection) {
+    failed_.add(rejection.reason(), rejection.what(), std::chrono::steady_clock::now());
+    return nullptr;
+  }
+}
+
+}  // namespace organ_collision

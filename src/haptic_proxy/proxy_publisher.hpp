@@ -1,0 +1,57 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "forces/pair_names.hpp"
+#include "proxy_report.hpp"
+#include "ros/interface/failure_log.hpp"
+#include "ros/organs/organ_registry.hpp"
+
+namespace organ_collision {
+
+/// Publishes what there is to say about tools: wrenches first, because a hand waits for them.
+class ProxyPublisher {
+ public:
+  /// `organs` and `failed` must outlive this. `failed` gets organs whose topics have no free name.
+  ProxyPublisher(ros::NodeHandle private_node, const OrganRegistry& organs, FailureLog& failed,
+                 bool publishes_tf);
+
+  /// The topics of these tools exist from now on, and those of no other tools.
+  void set_tools(const std::vector<ToolParameters>& tools);
+  /// `report`: about one of these tools.
+  void publish(const ProxyReport& report);
+
+ private:
+  struct ToolTopics {
+    ros::Publisher proxy, state;
+  };
+  struct PairTopics {
+    ros::Publisher wrench, vertex_forces;
+    bool is_pressed = false;  ///< the last wrench was not zero
+  };
+
+  void publish_wrenches(const ProxyReport& report);
+  void publish_state(const ProxyReport& report, const ToolTopics& topics);
+  void publish_proxy(const ProxyReport& report, const ToolTopics& topics);
+  void publish_vertex_forces(const ProxyReport& report);
+  void publish_contacts(const ProxyReport& report);
+  PairTopics* pair_of(const std::string& organ, const std::string& tool);
+
+  ros::NodeHandle private_node_;
+  const OrganRegistry& organs_;
+  FailureLog& failed_;
+  PairNames names_;
+  std::map<std::string, ToolTopics> tools_;                          ///< by tool
+  std::map<std::pair<std::string, std::string>, PairTopics> pairs_;  ///< by tool and organ
+  ros::Publisher contacts_;
+  std::optional<tf2_ros::TransformBroadcaster> frames_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,132 @@
+#include "tool_proxy.hpp"
+
+#include <organ_collision/ContactArray.h>
+
+#include <memory>
+#include <utility>
+
+#include "forces/force_limit.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// [s] Over a longer interval, the difference of two pulls is no velocity.
+constexpr double kLongestInterval = 0.1;
+
+ProxyTool proxy_tool(const Tool& tool) {
+  return {tool.parameters.radius, tool.links, tool.parameters.freedom};
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// From whole nanoseconds, because ros::Duration overflows for extreme stamps.
+double seconds_between(ros::Time from, ros::Time to) {
+  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
+                                    static_cast<std::int64_t>(from.toNSec()));
+}
+
+/// A tick in which the hand is in touch, so that everything is compiled that a touch needs.
+void warm_up(HapticProxy& proxy, std::size_t links) {
+  const auto face = std::make_shared<TriangleMesh>(
+      std::vector<float>{-1.0F, -1.0F, 0.0F, 1.0F, -1.0F, 0.0F, 0.0F, 1.0F, 0.0F},
+      std::vector<std::uint32_t>{0, 1, 2});
+  ToolPose hand{{{0.0, 0.0, 1.0}, {0.1, 0.0, 0.01}},
+                std::vector<Eigen::Isometry3d>(links, Eigen::Isometry3d::Identity())};
+  const std::vector<ProxyOrgan> organs{{"warm up", face, nullptr, Eigen::Isometry3d::Identity()}};
+  proxy.follow(hand, organs);
+  hand.axis.tip.z() = -0.01;
+  for (Eigen::Isometry3d& link : hand.links) link.translation().z() = -0.02;
+  proxy.follow(hand, organs);
+  proxy.reset();
+}
+
+}  // namespace
+
+ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
+    : tool_(tool.parameters),
+      parameters_(parameters),
+      proxy_(proxy_tool(tool), proxy_settings(parameters, tool.parameters), parameters.picker) {
+  warm_up(proxy_, tool.links.size());
+}
+
+ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
+  const auto start = std::chrono::steady_clock::now();
+  const ProxyAnswer& answer = proxy_.follow(hand.value, scene.organs);
+  const double tick_sec = seconds_since(start);
+  const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
+  const Vector3d damping_force = damping(answer, stamp);
+  is_lost_ = false;
+  hand_ = hand.value;
+  held_ = answer.proxy;
+  if (answer.is_placed_anew && ramp_.share() > 0.0) is_released_ = true;
+  if (is_released_ && ramp_.fall(now) == 0.0) is_released_ = false;
+  if (!is_released_) {
+    ramp_.rise(now);
+    forces_ = proxy_forces(answer, scene.organs, tool_.freedom, tool_.has_shaft(),
+                           parameters_.stiffness, damping_force);
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < forces_.size(); ++i) {
+      forces_[i].frame = scene.sources[i]->frame();
+      sum += forces_[i].force;
+    }
+    const double share = share_within_limit(sum, parameters_.max_force);
+    for (OrganForce& of_organ : forces_) of_organ.scale(share);
+    is_clipped_ = share < 1.0;
+  }
+  ProxyReport report{tool_,  scene.frame, stamp, ContactArray::OK, answer.message, &answer,
+                     &scene, hand_,       held_};
+  report.tick_sec = tick_sec;
+  set_forces(report, ramp_.share());
+  return report;
+}
+
+ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
+                            const std::string& frame, Time now) {
+  is_lost_ = true;
+  is_released_ = false;
+  pull_.reset();
+  const double share = ramp_.fall(now);
+  ProxyReport report{tool_, frame, ros::Time::now(), status, message, nullptr, nullptr,
+                     hand_, held_};
+  set_forces(report, share);
+  if (share == 0.0) forces_.clear();
+  return report;
+}
+
+void ToolProxy::set_forces(ProxyReport& report, double share) const {
+  report.forces = forces_;
+  for (OrganForce& of_organ : report.forces) of_organ.scale(share);
+  report.is_clipped = is_clipped_ && !forces_.empty();
+}
+
+/// The damping force on the hand [N]. It never turns the spring's force around, because tissue only
+/// pushes.
+Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
+  const double interval = seconds_between(pulled_, stamp);
+  const bool has_velocity = pull_ && !answer.is_placed_anew && !answer.pull.isZero(0.0) &&
+                            interval > 0.0 && interval <= kLongestInterval;
+  Vector3d force = Vector3d::Zero();
+  if (has_velocity) {
+    // The pull is from the hand to the proxy.
+    force = parameters_.damping * (answer.pull - *pull_) / interval;
+    const double spring = parameters_.stiffness * answer.pull.squaredNorm();
+    const double against = -force.dot(answer.pull);
+    if (against > spring) force *= spring / against;
+  }
+  pull_ = answer.pull;
+  pulled_ = stamp;
+  return force;
+}
+
+void ToolProxy::reset() {
+  proxy_.reset();
+  pull_.reset();
+}
+
+void ToolProxy::update_settings() { proxy_.set_settings(proxy_settings(parameters_, tool_)); }
+
+}  // namespace organ_collision

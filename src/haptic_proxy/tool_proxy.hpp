@@ -1,0 +1,65 @@
+#pragma once
+
+#include <ros/time.h>
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "force_ramp.hpp"
+#include "haptic_proxy_parameters.hpp"
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "proxy_forces.hpp"
+#include "proxy_report.hpp"
+#include "proxy_scene.hpp"
+#include "ros/motion/transform_lookup.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+/// The proxy of one tool and its force. The force is limited, and it is faded out when there is no
+/// answer any more, and in when there is one again.
+class ToolProxy {
+ public:
+  using Time = ForceRamp::Time;
+
+  /// `parameters` must outlive this. Runs a tick, so that GL compiles its programs now and not at
+  /// the first touch. Throws GlError, and std::invalid_argument if the tool is illegal.
+  ToolProxy(const Tool& tool, const HapticProxyParameters& parameters);
+
+  const ToolParameters& tool() const { return tool_; }
+
+  /// A tick: the hand is at a new pose. Its time may be zero, if the pose is valid at any time.
+  /// Throws GlError and std::invalid_argument as HapticProxy::follow().
+  ProxyReport follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now);
+  /// There is no answer: the force fades. `status`: why, one of ContactArray's.
+  ProxyReport lose(std::uint8_t status, const std::string& message, const std::string& frame,
+                   Time now);
+  /// Whether lose() has to be called soon, because a force is still there.
+  bool is_fading() const { return is_lost_ && ramp_.share() > 0.0; }
+
+  /// The next tick places the proxy anew.
+  void reset();
+  /// Call it when the parameters have changed.
+  void update_settings();
+
+ private:
+  Eigen::Vector3d damping(const ProxyAnswer& answer, ros::Time stamp);
+  void set_forces(ProxyReport& report, double share) const;
+
+  ToolParameters tool_;
+  const HapticProxyParameters& parameters_;
+  HapticProxy proxy_;
+  ForceRamp ramp_;
+  bool is_lost_ = true;       ///< there was no answer at the last call
+  bool is_released_ = false;  ///< the proxy was placed anew; the force of its last place fades
+  std::vector<OrganForce> forces_;  ///< of the last answer, limited
+  bool is_clipped_ = false;
+  std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
+  std::optional<Eigen::Vector3d> pull_;  ///< at the last tick
+  ros::Time pulled_;                     ///< the stamp of that tick
+};
+
+}  // namespace organ_collision

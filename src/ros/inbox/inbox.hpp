@@ -1,0 +1,62 @@
+#pragma once
+
+#include <ros/callback_queue_interface.h>
+#include <ros/node_handle.h>
+#include <ros/time.h>
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "ros/interface/failure_log.hpp"
+#include "ros/motion/pose_topics.hpp"
+#include "ros/motion/transform_buffer.hpp"
+#include "ros/motion/transform_topics.hpp"
+#include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_topics.hpp"
+#include "ros/parameters/tool_parameters.hpp"
+
+namespace organ_collision {
+
+/// What a node knows of organs and of motion: the receivers of its topics, and what their messages
+/// said. Without subscribe(), it needs no ROS master. All functions must be called in one thread.
+class Inbox {
+ public:
+  /// Where messages are noted; all must outlive this.
+  struct Sinks {
+    std::function<void(std::size_t tool)> pose;  ///< called after each pose of a tip from a topic
+    FailureLog& rejected;                        ///< counts the messages that were refused
+    ros::CallbackQueueInterface& callbacks;      ///< gets a callback when a mesh was built
+  };
+
+  /// `max_faces`: larger organs are refused.
+  Inbox(int max_faces, const std::vector<ToolParameters>& tools, const Sinks& sinks);
+
+  /// Subscribes to the topics of organs, of TF and of poses.
+  void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
+  /// The receivers. They also take messages from elsewhere than topics.
+  OrganTopics& organ_topics() { return organ_topics_; }
+  TransformTopics& transform_topics() { return transform_topics_; }
+  PoseTopics& pose_topics() { return pose_topics_; }
+
+  /// Compares ROS time with that of the last call. If it jumped back, forgets all transforms and
+  /// the organs' history, and returns true. Call it before each message, so that no message meets
+  /// state from before the jump.
+  bool watch_clock();
+  /// Forgets all that is known of the past of the organs.
+  void forget_organ_history();
+
+  const OrganRegistry& organs() const { return organs_; }
+  TransformBuffer& transforms() { return transforms_; }
+  const TransformBuffer& transforms() const { return transforms_; }
+
+ private:
+  OrganRegistry organs_;
+  TransformBuffer transforms_;
+  OrganTopics organ_topics_;
+  TransformTopics transform_topics_;
+  PoseTopics pose_topics_;
+  ros::Time last_now_;
+};
+
+}  // namespace organ_collision

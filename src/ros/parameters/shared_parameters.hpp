@@ -1,0 +1,26 @@
+#pragma once
+
+#include <limits>
+
+#include "organ_collision/picking/picker_kind.hpp"
+#include "ros/interface/parameter_group.hpp"
+
+namespace organ_collision {
+
+// Parameters that all nodes with organs have.
+
+/// [s] 0: a mesh is never stale.
+inline constexpr NumberRange kMeshTimeoutRange{0.0, std::numeric_limits<double>::infinity()};
+/// [faces] With more, a message would be too large: each face has three indices of four bytes.
+inline constexpr NumberRange kMaxFacesRange{1, 83'333'333};
+/// [s]
+inline constexpr NumberRange kDiagnosticPeriodRange{0.01, 3600.0};
+
+/// The defaults.
+inline constexpr int kMaxFacesDefault = 2'000'000;
+inline constexpr char kPickerDefault[] = "feedback";
+
+/// The parameter `picker`. Throws ParameterError.
+PickerKind parse_picker(const ParameterGroup& all);
+
+}  // namespace organ_collision

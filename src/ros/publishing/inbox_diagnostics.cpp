@@ -1,0 +1,72 @@
+#include "inbox_diagnostics.hpp"
+
+#include <chrono>
+
+#include "ros/interface/plain_text.hpp"
+#include "ros/interface/plausible_size.hpp"
+#include "ros/organs/organ_report.hpp"
+#include "ros/steps/contact_array.hpp"
+
+namespace organ_collision {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+void show_tool(const Tool& tool, DiagnosticStatusWrapper& status) {
+  const ToolParameters& parameters = tool.parameters;
+  if (parameters.has_shaft()) {
+    status.add(parameters.name + ", radius of the shaft [m]", parameters.radius);
+    const std::string doubt = doubt_about_radius(parameters.name, parameters.radius);
+    if (!doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  }
+  if (!parameters.links.empty()) status.add(parameters.name + ", links", tool.links.size());
+  if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);
+}
+
+void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
+                DiagnosticStatusWrapper& status) {
+  const TriangleMesh& mesh = *organ.latest().mesh;
+  status.add(organ.name() + ", faces", mesh.face_count());
+  status.add(organ.name() + ", extent [m]", sides_of(mesh.box().cast<double>()));
+  status.add(organ.name() + ", surface", closedness(*organ.surface()));
+  status.add(organ.name() + ", orientation", orientation(*organ.surface()));
+  if (!last_refusal.empty()) status.add(organ.name() + ", newer mesh refused", last_refusal);
+  for (const std::string& doubt : doubts(organ)) status.mergeSummary(DiagnosticStatus::WARN, doubt);
+}
+
+}  // namespace
+
+void InboxDiagnostics::add_to(diagnostic_updater::Updater& updater) {
+  updater.add("tools", this, &InboxDiagnostics::tools);
+  updater.add("organs", this, &InboxDiagnostics::organs);
+  updater.add("messages", this, &InboxDiagnostics::messages);
+}
+
+void InboxDiagnostics::tools(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, counted(sources_.tools.size(), "tool"));
+  if (sources_.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
+  for (const Tool& tool : sources_.tools) show_tool(tool, status);
+}
+
+void InboxDiagnostics::organs(DiagnosticStatusWrapper& status) {
+  const ros::Time now = ros::Time::now();
+  const double timeout = sources_.mesh_timeout_sec;
+  status.summary(DiagnosticStatus::OK, counted(sources_.organs.organs().size(), "organ"));
+  for (const auto& [name, organ] : sources_.organs.organs()) {
+    const OrganShape& shape = organ.latest();
+    status.add(name + ", age of mesh [s]", shape.age(now));
+    show_organ(organ, sources_.organs.last_refusal(name), status);
+    if (is_stale(shape, now, timeout)) {
+      status.mergeSummary(DiagnosticStatus::WARN, stale_message(organ, now, timeout));
+    }
+  }
+}
+
+void InboxDiagnostics::messages(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "none rejected");
+  status.add("mesh rate [1/s]", sources_.meshes.take(std::chrono::steady_clock::now()));
+  show_failures("rejected", sources_.rejected, status);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,40 @@
+#include "query_diagnostics.hpp"
+
+namespace organ_collision {
+namespace {
+
+using diagnostic_msgs::DiagnosticStatus;
+using diagnostic_updater::DiagnosticStatusWrapper;
+
+constexpr double kMicroseconds = 1e6;
+
+}  // namespace
+
+void QueryDiagnostics::add_to(diagnostic_updater::Updater& updater) {
+  updater.add("queries", this, &QueryDiagnostics::queries);
+}
+
+void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, "answering");
+  const auto times = sources_.contact_query.query_times().summary();
+  status.add("GL version", sources_.contact_query.gl_version());
+  status.add("contacts rate [1/s]",
+             sources_.counters.contacts.take(std::chrono::steady_clock::now()));
+  status.add("queries", times.count);
+  status.add("query time, median [us]", times.median * kMicroseconds);
+  status.add("query time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
+  status.add("query time, worst [us]", times.worst * kMicroseconds);
+  status.add("motion samples cut", sources_.steps.samples_cut());
+  status.add("motion samples cut, farthest from the swept way [m]", sources_.steps.deviation_cut());
+  status.add("transforms after their step", sources_.transforms.late());
+  status.add("poses merged into later ones", sources_.steps.poses_merged());
+  status.add("shapes superseded by newer ones", sources_.steps.shapes_superseded());
+  status.add("steps while TF was starting", sources_.counters.starting);
+  for (const std::string& sentence : sources_.misspelt) {
+    status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  show_failures("unanswered", sources_.counters.failed, status);
+  show_failures("refused", sources_.counters.refused, status);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+
+#include <string>
+#include <vector>
+
+#include "node_counters.hpp"
+#include "ros/motion/transform_buffer.hpp"
+#include "ros/steps/contact_query.hpp"
+#include "ros/steps/step_scheduler.hpp"
+
+namespace organ_collision {
+
+/// The task of /diagnostics about the collision node's steps and services.
+class QueryDiagnostics {
+ public:
+  /// All must outlive this.
+  struct Sources {
+    const std::vector<std::string>& misspelt;
+    const ContactQuery& contact_query;
+    const StepScheduler& steps;
+    const TransformBuffer& transforms;
+    NodeCounters& counters;
+  };
+
+  explicit QueryDiagnostics(const Sources& sources) : sources_(sources) {}
+  void add_to(diagnostic_updater::Updater& updater);
+
+  void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  Sources sources_;
+};
+
+}  // namespace organ_collision

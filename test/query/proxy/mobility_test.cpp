@@ -1,0 +1,191 @@
+#include "query/proxy/mobility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "test/proof/trials.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using oracle::Random;
+
+Isometry3d random_pose(Random& random, double range) {
+  Isometry3d pose(Eigen::AngleAxisd(random.uniform(0.0, 3.0), random.direction()));
+  pose.translation() = random.point(range);
+  return pose;
+}
+
+Link box_link(Random& random) {
+  return {"link", {LinkPart::box(random_pose(random, 0.01), Vector3d(0.01, 0.02, 0.03))}};
+}
+
+ProxyTool shaft(ProxyFreedom freedom) { return {0.003, {}, freedom}; }
+
+ProxyTool tool_of_links(Random& random, double radius, ProxyFreedom freedom) {
+  return {radius, {box_link(random), box_link(random)}, freedom};
+}
+
+ToolPose random_hand(const ProxyTool& tool, Random& random) {
+  ToolPose hand{{random.point(0.1) + Vector3d(0.0, 0.0, 0.2), random.point(0.1)}, {}, {}};
+  for (std::size_t link = 0; link < tool.links.size(); ++link) {
+    hand.links.push_back(random_pose(random, 0.05));
+  }
+  return hand;
+}
+
+Displacement random_displacement(const ProxyTool& tool, Random& random, double scale) {
+  Displacement result = Displacement::Zero();
+  result.head<3>() = random.point(scale);
+  if (tool.freedom == ProxyFreedom::kFree) result.tail<3>() = random.point(scale);
+  return result;
+}
+
+double difference(const ToolPose& a, const ToolPose& b) {
+  double most = std::max((a.axis.trocar - b.axis.trocar).norm(), (a.axis.tip - b.axis.tip).norm());
+  for (std::size_t link = 0; link < a.links.size(); ++link) {
+    most = std::max(most, (a.links[link].matrix() - b.links[link].matrix()).norm());
+  }
+  return most;
+}
+
+std::vector<ProxyTool> tools(Random& random) {
+  return {shaft(ProxyFreedom::kTrocar), shaft(ProxyFreedom::kFree),
+          tool_of_links(random, 0.0, ProxyFreedom::kFree),
+          tool_of_links(random, 0.004, ProxyFreedom::kFree),
+          tool_of_links(random, 0.004, ProxyFreedom::kTrocar)};
+}
+
+TEST(Mobility, MovesByTheMotionBetween) {
+  Random random(1);
+  for (const ProxyTool& tool : tools(random)) {
+    const auto mobility = make_mobility(tool);
+    for (int trial = 0; trial < 200; ++trial) {
+      const ToolPose hand = random_hand(tool, random);
+      mobility->measure(hand);
+      const ToolPose from = mobility->moved(hand, random_displacement(tool, random, 0.02), hand);
+      const Displacement by = random_displacement(tool, random, 0.02);
+      const ToolPose to = mobility->moved(from, by, hand);
+      // A shaft's rotation about itself is no motion.
+      const Displacement between = mobility->between(from, to);
+      EXPECT_LE(between.norm(), by.norm() + 1e-12);
+      EXPECT_LT(difference(mobility->moved(from, between, hand), to), 1e-12);
+      // And back to the hand.
+      const ToolPose back = mobility->moved(to, mobility->between(to, hand), hand);
+      EXPECT_LT(difference(back, hand), 1e-12);
+    }
+  }
+}
+
+TEST(Mobility, TakesTrocarAndJointsFromTheHand) {
+  Random random(2);
+  for (const ProxyTool& tool : tools(random)) {
+    const auto mobility = make_mobility(tool);
+    const ToolPose before = random_hand(tool, random), hand = random_hand(tool, random);
+    mobility->measure(hand);
+    const ToolPose pose = mobility->combine(before, hand);
+    if (tool.freedom == ProxyFreedom::kTrocar) {
+      EXPECT_EQ(pose.axis.trocar, hand.axis.trocar);
+      EXPECT_EQ(pose.axis.tip, before.axis.tip);
+    }
+    for (std::size_t link = 1; link < tool.links.size(); ++link) {
+      const Isometry3d joint = hand.links[0].inverse() * hand.links[link];
+      EXPECT_LT(((pose.links[0] * joint).matrix() - pose.links[link].matrix()).norm(), 1e-12);
+    }
+    if (!tool.links.empty() && tool.freedom == ProxyFreedom::kFree) {
+      EXPECT_LT((pose.links[0].linear() - before.links[0].linear()).norm(), 1e-12);
+    }
+    EXPECT_LT(difference(mobility->combine(hand, hand), hand), 1e-12);
+  }
+}
+
+/// The row of a contact is the derivative of the place of the tool's point along the normal.
+TEST(Mobility, RowsAreDerivatives) {
+  Random random(3);
+  for (const ProxyTool& tool : tools(random)) {
+    const auto mobility = make_mobility(tool);
+    for (int trial = 0; trial < 100; ++trial) {
+      const ToolPose hand = random_hand(tool, random);
+      mobility->measure(hand);
+      const ToolPose pose = mobility->moved(hand, random_displacement(tool, random, 0.005), hand);
+      FaceContact contact;
+      contact.normal = random.direction();
+      const bool has_shaft = tool.radius > 0.0;
+      const std::size_t parts = tool.links.size() + (has_shaft ? 1 : 0);
+      contact.link = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(parts) - 1));
+      const bool on_shaft = has_shaft && contact.link == 0;
+      const std::size_t link = on_shaft ? 0 : contact.link - (has_shaft ? 1 : 0);
+      contact.shaft = on_shaft ? random.uniform(0.0, 1.0) : 0.0;
+      const Vector3d in_link = random.point(0.02);
+      const auto place = [&](const ToolPose& at) {
+        return on_shaft ? at.axis.at(contact.shaft) : Vector3d(at.links[link] * in_link);
+      };
+      contact.point = place(pose);
+      const Displacement row = mobility->row(pose, contact);
+      const Displacement by = random_displacement(tool, random, 1e-6);
+      const Vector3d moved =
+          place(mobility->moved(pose, by, hand)) - place(mobility->moved(pose, -by, hand));
+      // The links of a tool through a trocar also turn a little about the shaft (holonomy).
+      const bool is_rough = tool.freedom == ProxyFreedom::kTrocar && !on_shaft;
+      EXPECT_NEAR(contact.normal.dot(moved), 2.0 * row.dot(by), is_rough ? 0.05 * by.norm() : 2e-10)
+          << (on_shaft ? "shaft" : "link") << ", trial " << trial;
+    }
+  }
+}
+
+TEST(Mobility, NoPointMovesFartherThanTheLongestWay) {
+  Random random(4);
+  for (const ProxyTool& tool : tools(random)) {
+    const auto mobility = make_mobility(tool);
+    for (int trial = 0; trial < 200; ++trial) {
+      const ToolPose hand = random_hand(tool, random);
+      mobility->measure(hand);
+      const Displacement by = random_displacement(tool, random, 0.003);
+      const ToolPose moved = mobility->moved(hand, by, hand);
+      double most = 0.0;
+      if (tool.radius > 0.0) most = (moved.axis.tip - hand.axis.tip).norm();
+      for (std::size_t link = 0; link < tool.links.size(); ++link) {
+        const OrientedBox& box = tool.links[link].parts[0].bounds;
+        for (int corner = 0; corner < 8; ++corner) {
+          const Vector3d sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+          const Vector3d point = box.center + box.axes * box.half_size.cwiseProduct(sign);
+          most = std::max(most, (moved.links[link] * point - hand.links[link] * point).norm());
+        }
+      }
+      EXPECT_LE(most, 1.1 * mobility->longest_way(hand, by));
+    }
+  }
+}
+
+TEST(Mobility, ABallHasNoDirection) {
+  const ProxyTool ball = shaft(ProxyFreedom::kFree);
+  const auto mobility = make_mobility(ball);
+  const ToolPose hand{{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}}, {}, {}};
+  mobility->measure(hand);
+  Displacement by = Displacement::Zero();
+  by << 0.01, -0.02, 0.03, 0.0, 0.0, 0.0;
+  const ToolPose moved = mobility->moved(hand, by, hand);
+  EXPECT_LT((moved.axis.tip - Vector3d(0.11, 0.18, 0.33)).norm(), 1e-15);
+  EXPECT_LT((mobility->between(moved, hand) + by).norm(), 1e-15);
+  EXPECT_GT(mobility->size(), 0.0);
+}
+
+TEST(Mobility, InterpolatesLikeAPath) {
+  Random random(5);
+  const ProxyTool tool = tool_of_links(random, 0.004, ProxyFreedom::kFree);
+  const ToolPose from = random_hand(tool, random), to = random_hand(tool, random);
+  EXPECT_LT(difference(interpolate(from, to, 0.0), from), 1e-12);
+  EXPECT_LT(difference(interpolate(from, to, 1.0), to), 1e-12);
+  const ToolPose middle = interpolate(from, to, 0.5);
+  EXPECT_LT((middle.axis.tip - 0.5 * (from.axis.tip + to.axis.tip)).norm(), 1e-12);
+  EXPECT_LT((middle.links[1].translation() -
+             0.5 * (from.links[1].translation() + to.links[1].translation()))
+                .norm(),
+            1e-12);
+}
+
+}  // namespace
+}  // namespace organ_collision
