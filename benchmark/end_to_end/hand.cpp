@@ -13,6 +13,8 @@ namespace {
 constexpr double kDepth = 0.005;  // [m]
 constexpr double kRate = 1000.0;  // [Hz] of poses
 constexpr char kOrgan[] = "organ";
+/// A longer pause of the poses would be a hand that is lost, whose force fades.
+const ros::Duration kLastAnswers(0.05);
 
 }  // namespace
 
@@ -75,7 +77,7 @@ LatencyReport Hand::run(double seconds) {
     send_pose(tick);
   }
   report.late = ros::Time::now() > tick + period;
-  answer_until(ros::Time::now() + ros::Duration(0.5), queue_);
+  answer_until(ros::Time::now() + kLastAnswers, queue_);
   report.skipped = waiting_.size();
   waiting_.clear();
   return report;

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the figures of the pages, from the formulas that the pages give.
+"""Draws the figures of the pages, from the formulas that the pages give. One of them, stab_forces, shows
+what the package itself computed: stab_forces.csv, which the program test/doc/stab_forces.cpp writes.
 
 Usage: doc/figures/draw.py [FOLDER]
 
@@ -15,7 +16,8 @@ import style
 
 FIGURES = ['touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
            'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'closest_approach', 'chord_deviation',
-           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'work']
+           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'work', 'proxy',
+           'stab_forces']
 
 
 def main():

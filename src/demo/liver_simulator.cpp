@@ -1,22 +1,22 @@
-/// The demo's simulator. Publishes a breathing liver and two instruments for the collision node.
-/// The contacts in the node's answers push the tissue.
+/// The demo's simulator. Publishes a breathing liver and two instruments. The contacts of the
+/// collision node push the tissue, and so do the forces of the proxy of the instrument that a hand
+/// holds.
 
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
+#include <organ_collision/VertexForces.h>
 #include <ros/ros.h>
-#include <tf2_eigen/tf2_eigen.h>
-#include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 
 #include "liver_soft_body.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/conversions.hpp"
 #include "ros/interface/program_help.hpp"
 #include "scripted_tools.hpp"
+#include "tool_sender.hpp"
 
 namespace organ_collision {
 namespace {
@@ -24,36 +24,33 @@ namespace {
 constexpr char kOrgan[] = "liver";    // its name and its frame
 constexpr double kYield = 0.5;        // [1] share of the depth by which tissue yields in one step
 constexpr double kMostYield = 0.008;  // [m] in one step
+/// [m/N] by which a vertex yields in one step to the force of a proxy
+constexpr double kCompliance = 1e-3;
 constexpr double kTfLeadSec =
     0.5;  // only TF is sent, so that listeners have it before the first shape
 constexpr double kRate = 125.0;  // [Hz] of shapes, by default
+constexpr int kHandPoses = 8;    // for each shape: 1 kHz by default
 constexpr char kCollisionNode[] = "/organ_collision";
+constexpr char kHapticNode[] = "/haptic_proxy";
 
 ProgramHelp help() {
+  const std::string below_haptic_node = std::string(kHapticNode) + "/liver/palpator/vertex_forces";
   ProgramHelp help{"liver_simulator",
-                   "The demo's simulator: a breathing liver and two instruments, for a collision "
-                   "node whose contacts push the tissue. Names of topics are below that node's."};
-  help.subscribed = {{names::kContacts, "organ_collision/ContactArray", "what pushes the tissue"}};
+                   "The demo's simulator: a breathing liver, and two instruments that push the "
+                   "tissue. A hand holds one of them, the palpator. Names of topics are below the "
+                   "collision node's, unless they begin with /."};
+  help.subscribed = {{names::kContacts, "organ_collision/ContactArray", "what pushes the tissue"},
+                     {below_haptic_node, "organ_collision/VertexForces",
+                      "how the proxy of the palpator pushes it"}};
   help.published = {{names::kOrganMesh, "organ_collision/OrganMesh", "the liver, once"},
                     {names::kOrganVertices, "organ_collision/OrganVertices", "its new shapes"},
-                    {"/tf, /tf_static", "tf2_msgs/TFMessage", "tips and trocars"}};
+                    {"/palpator/hand", "geometry_msgs/PoseStamped", "the hand, 8 for each shape"},
+                    {"/tf, /tf_static", "tf2_msgs/TFMessage", "trocars, and the stabber's tip"}};
   help.parameters = {{names::kRate, shown(kRate), "[Hz] of shapes"},
-                     {"collision_node", kCollisionNode, "name of the collision node"}};
+                     {"collision_node", kCollisionNode, "name of the collision node"},
+                     {"haptic_node", kHapticNode, "name of the node that has the proxies"}};
   help.further = "roslaunch organ_collision demo.launch starts it.";
   return help;
-}
-
-geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
-                                          const std::string& child,
-                                          const Eigen::Vector3d& translation,
-                                          const Eigen::Quaterniond& rotation) {
-  geometry_msgs::TransformStamped result;
-  result.header.stamp = stamp;
-  result.header.frame_id = parent;
-  result.child_frame_id = child;
-  tf2::toMsg(translation, result.transform.translation);
-  result.transform.rotation = tf2::toMsg(rotation);
-  return result;
 }
 
 /// How a tool's contacts push the tissue.
@@ -67,40 +64,68 @@ std::vector<TissuePush> pushes_of(const std::vector<Contact>& contacts) {
   return pushes;
 }
 
+/// How the forces of a proxy push the tissue.
+std::vector<VertexPush> pushes_of(const VertexForces& forces) {
+  std::vector<VertexPush> pushes;
+  for (std::size_t i = 0; i < forces.vertices.size(); ++i) {
+    pushes.push_back({forces.vertices[i], kCompliance * to_eigen(forces.forces[i])});
+  }
+  return pushes;
+}
+
+/// The pushes of all tools.
+template <typename Push>
+std::vector<Push> joined(const std::map<std::string, std::vector<Push>>& pushes) {
+  std::vector<Push> all;
+  for (const auto& [tool, its] : pushes) all.insert(all.end(), its.begin(), its.end());
+  return all;
+}
+
 class LiverSimulator {
  public:
-  LiverSimulator(ros::NodeHandle collision_node, double rate)
+  /// `rate` [Hz] of shapes.
+  LiverSimulator(ros::NodeHandle collision_node, ros::NodeHandle haptic_node, double rate)
       : rate_(rate),
         surface_(make_liver_surface()),
         liver_(surface_),
+        tools_(ros::NodeHandle(), kOrgan),
         mesh_publisher_(collision_node.advertise<OrganMesh>("organ_mesh", 1, true)),
         vertices_publisher_(collision_node.advertise<OrganVertices>("organ_vertices", 1)),
         contacts_subscriber_(
             collision_node.subscribe("contacts", 10, &LiverSimulator::on_contacts, this)) {
-    publish_trocars();
+    for (const ScriptedTool& tool : scripted_tools()) {
+      if (!tool.has_proxy) continue;
+      const std::string topic = std::string(kOrgan) + "/" + tool.name + "/vertex_forces";
+      const boost::function<void(const VertexForces&)> keep =
+          [this, name = tool.name](const VertexForces& forces) {
+            vertex_pushes_[name] = pushes_of(forces);
+          };
+      force_subscribers_.push_back(haptic_node.subscribe<VertexForces>(topic, 10, keep));
+    }
   }
 
-  /// Begins with the tools alone, so that their frames are known before the first shape.
+  /// To be called kHandPoses times for each shape: the hands move at each call. Begins with the
+  /// tools alone, so that their frames are known before the first shape.
   void step() {
-    if (lead_steps_ < kTfLeadSec * rate_) {
+    const bool is_shape_due = calls_++ % kHandPoses == 0;
+    if (is_shape_due && lead_steps_ < kTfLeadSec * rate_) {
       ++lead_steps_;
-      publish_tips(ros::Time::now());
-    } else {
+      tools_.send_tips(0.0, ros::Time::now());
+    } else if (is_shape_due) {
       step_liver();
     }
+    const double part = static_cast<double>((calls_ - 1) % kHandPoses) / kHandPoses;
+    tools_.send_hands(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
   }
 
  private:
   /// Simulates one period. Publishes the tools' poses before the shape, with the same stamp.
   void step_liver() {
-    std::vector<TissuePush> pushes;
-    for (const auto& [tool, tool_pushes] : pushes_) {
-      pushes.insert(pushes.end(), tool_pushes.begin(), tool_pushes.end());
-    }
+    if (++steps_ > 1) liver_.step(1.0 / rate_, joined(pushes_), joined(vertex_pushes_));
     pushes_.clear();
-    if (++steps_ > 1) liver_.step(1.0 / rate_, pushes);
+    vertex_pushes_.clear();
     const ros::Time stamp = ros::Time::now();
-    publish_tips(stamp);
+    tools_.send_tips(steps_ / rate_, stamp);
     steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
   }
 
@@ -108,15 +133,6 @@ class LiverSimulator {
     if (array.status == ContactArray::OK && array.organ == kOrgan) {
       pushes_[array.tool] = pushes_of(array.contacts);
     }
-  }
-
-  void publish_trocars() {
-    std::vector<geometry_msgs::TransformStamped> trocars;
-    for (const ScriptedTool& tool : scripted_tools()) {
-      trocars.push_back(transform(ros::Time::now(), kOrgan, tool.name + "_trocar", tool.trocar,
-                                  Eigen::Quaterniond::Identity()));
-    }
-    trocar_broadcaster_.sendTransform(trocars);
   }
 
   void publish_mesh(const ros::Time& stamp) {
@@ -131,18 +147,6 @@ class LiverSimulator {
     mesh_publisher_.publish(mesh);
   }
 
-  /// The z axis of a tip's frame points along the shaft.
-  void publish_tips(const ros::Time& stamp) {
-    std::vector<geometry_msgs::TransformStamped> tips;
-    for (const ScriptedTool& tool : scripted_tools()) {
-      const Eigen::Vector3d shaft = tool.tip(steps_ / rate_) - tool.trocar;
-      tips.push_back(
-          transform(stamp, tool.name + "_trocar", tool.name + "_tip", shaft,
-                    Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), shaft)));
-    }
-    tip_broadcaster_.sendTransform(tips);
-  }
-
   void publish_vertices(const ros::Time& stamp) {
     OrganVertices vertices;
     vertices.header.stamp = stamp;
@@ -155,14 +159,16 @@ class LiverSimulator {
   double rate_;
   ClosedSurface surface_;
   LiverSoftBody liver_;
-  std::map<std::string, std::vector<TissuePush>> pushes_;  ///< by tool, since the last step
+  ToolSender tools_;
+  std::map<std::string, std::vector<TissuePush>> pushes_;         ///< by tool, since the last shape
+  std::map<std::string, std::vector<VertexPush>> vertex_pushes_;  ///< the same, of proxies
+  long calls_ = 0;
   long lead_steps_ = 0;
   long steps_ = 0;
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
   ros::Subscriber contacts_subscriber_;
-  tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
-  tf2_ros::TransformBroadcaster tip_broadcaster_;
+  std::vector<ros::Subscriber> force_subscribers_;
 };
 
 }  // namespace
@@ -183,8 +189,9 @@ int main(int argc, char** argv) {
   const std::string collision_node =
       private_node.param<std::string>("collision_node", kCollisionNode);
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
-  LiverSimulator simulator(ros::NodeHandle(collision_node), rate);
-  for (ros::Rate loop(rate); ros::ok(); loop.sleep()) {
+  const std::string haptic_node = private_node.param<std::string>("haptic_node", kHapticNode);
+  LiverSimulator simulator{ros::NodeHandle(collision_node), ros::NodeHandle(haptic_node), rate};
+  for (ros::Rate loop(kHandPoses * rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();
     simulator.step();
   }

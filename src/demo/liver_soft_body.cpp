@@ -49,8 +49,9 @@ LiverSoftBody::LiverSoftBody(const ClosedSurface& surface)
 
 LiverSoftBody::~LiverSoftBody() = default;
 
-void LiverSoftBody::step(double seconds, const std::vector<TissuePush>& pushes) {
-  give_way(pushes);
+void LiverSoftBody::step(double seconds, const std::vector<TissuePush>& pushes,
+                         const std::vector<VertexPush>& vertex_pushes) {
+  give_way(pushes, vertex_pushes);
   const int substeps = std::ceil(seconds / kLongestSubstep - 1e-9);
   for (int i = 0; i < substeps; ++i) {
     time_ += seconds / substeps;
@@ -71,7 +72,8 @@ std::vector<float> LiverSoftBody::vertices() const {
   return result;
 }
 
-void LiverSoftBody::give_way(const std::vector<TissuePush>& pushes) {
+void LiverSoftBody::give_way(const std::vector<TissuePush>& pushes,
+                             const std::vector<VertexPush>& vertex_pushes) {
   std::vector<Vector3d> sum(body_->m_nodes.size(), Vector3d::Zero());
   std::vector<int> count(body_->m_nodes.size(), 0);
   for (const TissuePush& push : pushes) {
@@ -82,6 +84,10 @@ void LiverSoftBody::give_way(const std::vector<TissuePush>& pushes) {
       ++count[node];
     }
   }
+  for (const VertexPush& push : vertex_pushes) {
+    sum[push.vertex] += push.displacement;
+    ++count[push.vertex];
+  }
   for (int i = 0; i < body_->m_nodes.size(); ++i) {
     btSoftBody::Node& node = body_->m_nodes[i];
     if (count[i] == 0 || node.m_im == 0.0) continue;
@@ -89,7 +95,7 @@ void LiverSoftBody::give_way(const std::vector<TissuePush>& pushes) {
     node.m_x += shift;
     // The tool blocks the tissue: it cannot move back against the displacement.
     const btScalar back = node.m_v.dot(shift);
-    if (back < 0.0) node.m_v -= back / shift.length2() * shift;
+    if (back < 0.0 && shift.length2() > 0.0) node.m_v -= back / shift.length2() * shift;
   }
 }
 

@@ -19,6 +19,12 @@ struct TissuePush {
   Eigen::Vector3d displacement;  ///< [m]
 };
 
+/// How far a vertex yields.
+struct VertexPush {
+  std::uint32_t vertex;
+  Eigen::Vector3d displacement;  ///< [m]
+};
+
 /// A liver of soft tissue, simulated as a soft body of Bullet. It keeps its volume and returns to
 /// its shape. The ligaments at its back move it with the breath.
 class LiverSoftBody {
@@ -27,15 +33,17 @@ class LiverSoftBody {
   explicit LiverSoftBody(const ClosedSurface& surface);
   ~LiverSoftBody();
 
-  /// Applies `pushes`, then simulates `seconds` (> 0). A vertex that several pushes move is
+  /// Applies the pushes, then simulates `seconds` (> 0). A vertex that several pushes move is
   /// displaced by their mean.
-  void step(double seconds, const std::vector<TissuePush>& pushes);
+  void step(double seconds, const std::vector<TissuePush>& pushes,
+            const std::vector<VertexPush>& vertex_pushes = {});
 
   /// x y z x y z ... [m], in the order of the surface.
   std::vector<float> vertices() const;
 
  private:
-  void give_way(const std::vector<TissuePush>& pushes);
+  void give_way(const std::vector<TissuePush>& pushes,
+                const std::vector<VertexPush>& vertex_pushes);
   void breathe();
 
   struct Ligament {

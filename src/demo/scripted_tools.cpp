@@ -50,8 +50,8 @@ Vector3d stabber_tip(double seconds) {
 
 const std::vector<ScriptedTool>& scripted_tools() {
   static const std::vector<ScriptedTool> tools{
-      {"palpator", {-0.075, -0.100, 0.150}, palpator_tip},
-      {"stabber", {0.095, -0.130, 0.040}, stabber_tip},
+      {"palpator", {-0.075, -0.100, 0.150}, palpator_tip, true},
+      {"stabber", {0.095, -0.130, 0.040}, stabber_tip, false},
   };
   return tools;
 }

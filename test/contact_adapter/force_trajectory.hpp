@@ -66,14 +66,15 @@ struct ForceStep {
 /// The forces on a shaft that moves through `poses`, with the organ at rest. The queries are those
 /// of the node: the first is static, the others are swept.
 inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
-                                           const TriangleMesh& organ, const ForceOf& law) {
+                                           const TriangleMesh& organ, const ForceOf& law,
+                                           double radius = kRadius) {
   CollisionQuery query;
   CollisionResult result;
   std::vector<ForceStep> steps;
   for (const ShaftAxis& pose : poses) {
     CollisionRequest request;
     request.organ = &organ;
-    request.radius = kRadius;
+    request.radius = radius;
     request.mode = steps.empty() ? QueryMode::kStatic : QueryMode::kSwept;
     request.path = {{0.0, steps.empty() ? pose : steps.back().axis}, {1.0, pose}};
     query.evaluate(request, result);

@@ -55,6 +55,9 @@ class InstallTest(unittest.TestCase):
         self.assertEqual(run(program).split(), ['0', '1'])
         self.assertEqual(run(os.path.join(build, 'placement')).splitlines(),
                          ['clearance 0.015 m', 'inside', '3 near faces'])
+        # The axis stops 3.1 mm above the sheet.
+        pulls = [float(line) for line in run(os.path.join(build, 'proxy')).splitlines()]
+        self.assertEqual([round(pull, 3) for pull in pulls], [0.0, 0.0, 3.1, 13.1])
 
         linked = run('ldd', program)
         self.assertIn(self.prefix + '/lib/liborgan_collision_query', linked)

@@ -120,7 +120,7 @@ struct CollisionResult {
 /// as long as these do not change.
 ///
 /// OpenGL: a query owns its context, which is current in the calling thread only while one of its
-/// functions runs. Creating a query takes about 10 ms. A query keeps its memory between calls, and
+/// functions runs. Creating a query takes about 30 ms. A query keeps its memory between calls, and
 /// a result that is used again keeps its own, so repeated calls rarely allocate.
 class CollisionQuery {
  public:

@@ -257,8 +257,8 @@ void HapticProxy::State::describe(Tick& tick) {
   Displacement back = mobility->between(now.pose, tick.hand);
   if (back.norm() < kSamePlace) back.setZero();
   said.proxy = back.isZero(0.0) ? tick.hand : now.pose;
-  said.pull = -back.head<3>();
-  said.twist = -said.size * back.tail<3>();
+  said.pull -= back.head<3>();
+  said.twist -= said.size * back.tail<3>();
   double nearest = now.clearance;
   for (const TissueContact& near : motion.contacts()) nearest = std::min(nearest, near.distance);
   // What the proxy rests on: it may hover a little if it did not reach its place in this tick.

@@ -1,10 +1,13 @@
 #include "proxy_check.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+
+#include "query/request_check.hpp"
 
 namespace organ_collision {
 namespace {
@@ -59,8 +62,11 @@ void check_hand(const ProxyTool& tool, const ToolPose& hand) {
 void check_organs(const std::vector<ProxyOrgan>& organs) {
   for (const ProxyOrgan& organ : organs) {
     check(organ.shape != nullptr, "organ '" + organ.name + "' has no shape");
-    check(organ.T_organ_proxy.matrix().allFinite(),
-          "the frame of organ '" + organ.name + "' has a pose that is not finite");
+    const Eigen::Matrix3d turned = organ.T_organ_proxy.linear();
+    check(organ.T_organ_proxy.matrix().allFinite() && turned.isUnitary(kRotationTolerance) &&
+              turned.determinant() > 0.0,
+          "the frame of organ '" + organ.name +
+              "' has a pose that is not finite, or whose linear part is not a rotation");
     check(std::count_if(organs.begin(), organs.end(),
                         [&](const ProxyOrgan& other) { return other.name == organ.name; }) == 1,
           "two organs have the name '" + organ.name + "'");

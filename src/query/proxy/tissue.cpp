@@ -7,8 +7,19 @@
 namespace organ_collision {
 namespace {
 
-/// [m] The radius of a shaft that stands for its axis.
+/// [m] The radius of a shaft that stands for its axis, and of a middle line.
 constexpr double kAxisRadius = 1e-6;
+
+/// The part that is only the segment through the box of another part, along its longest side.
+LinkPart middle_line(const LinkPart& part) {
+  const OrientedBox& box = part.bounds;
+  Eigen::Index longest = 0;
+  const double length = box.half_size.maxCoeff(&longest);
+  const Eigen::Vector3d along = length * box.axes.col(longest);
+  OrientedBox bounds{box.center, box.axes, Eigen::Vector3d::Zero()};
+  bounds.half_size[longest] = length;
+  return {ShaftAxis{box.center - along, box.center + along}, nullptr, kAxisRadius, bounds};
+}
 
 ToolWaypoint waypoint(double fraction, const Eigen::Isometry3d& T_organ_proxy,
                       const ToolPose& pose) {
@@ -21,11 +32,13 @@ ToolWaypoint waypoint(double fraction, const Eigen::Isometry3d& T_organ_proxy,
 }  // namespace
 
 Tissue::Tissue(const ProxyTool& tool, PickerKind picker)
-    : tool_(tool), grown_links_(tool.links), query_(picker) {}
-
-double Tissue::least_growth() const {
-  return tool_.radius > 0.0 ? std::min(0.0, kAxisRadius - tool_.radius) : 0.0;
+    : tool_(tool), grown_links_(tool.links), middle_lines_(tool.links), query_(picker) {
+  for (Link& link : middle_lines_) {
+    std::transform(link.parts.begin(), link.parts.end(), link.parts.begin(), middle_line);
+  }
 }
+
+double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius - kAxisRadius); }
 
 void Tissue::touch(const ToolPose& pose, double growth, std::vector<TissueContact>& contacts) {
   contacts.clear();
@@ -105,19 +118,20 @@ void Tissue::cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings
 }
 
 void Tissue::grow(double growth) {
-  growth_ = std::max(0.0, growth);
+  growth_ = growth;
   radius_ = tool_.radius > 0.0 ? std::max(kAxisRadius, tool_.radius + growth) : 0.0;
   for (std::size_t link = 0; link < grown_links_.size(); ++link) {
     const std::vector<LinkPart>& parts = tool_.links[link].parts;
     for (std::size_t part = 0; part < parts.size(); ++part) {
-      grown_links_[link].parts[part].radius = parts[part].radius + growth_;
+      grown_links_[link].parts[part].radius = parts[part].radius + std::max(0.0, growth);
     }
   }
 }
 
-/// [m] By how much a link has grown. Links do not shrink, but the shaft does.
+/// [m] By how much a link has grown. A middle line has grown by its radius.
 double Tissue::growth_of(std::uint32_t link) const {
-  return tool_.radius > 0.0 && link == 0 ? radius_ - tool_.radius : growth_;
+  if (tool_.radius > 0.0 && link == 0) return radius_ - tool_.radius;
+  return growth_ < 0.0 ? kAxisRadius : growth_;
 }
 
 /// A question about an organ at rest in its shape now, without the tool's path.
@@ -125,7 +139,8 @@ CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
   CollisionRequest request;
   request.organ = organ.now;
   request.radius = radius_;
-  request.links = grown_links_.empty() ? nullptr : &grown_links_;
+  const std::vector<Link>& links = growth_ < 0.0 ? middle_lines_ : grown_links_;
+  request.links = links.empty() ? nullptr : &links;
   request.mode = mode;
   return request;
 }

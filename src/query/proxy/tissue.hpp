@@ -26,6 +26,7 @@ struct TissueContact {
   std::size_t organ = 0;
   FaceContact contact;
   /// [m] From the tool, without its growth, to the face at the end of the motion, along the normal.
+  /// From the middle line of a part if the growth was negative.
   double distance = 0.0;
 };
 
@@ -36,7 +37,8 @@ struct TissueCrossing {
 };
 
 /// Answers what a tool touches of all organs. The tool may be grown: then it touches whatever comes
-/// within that distance of it. All poses and contacts are in the proxy's frame.
+/// within that distance of it. A negative growth makes the shaft thinner, and each part of a link
+/// becomes the middle line of its box. All poses and contacts are in the proxy's frame.
 class Tissue {
  public:
   /// `tool` must outlive this. Throws GlError.
@@ -60,7 +62,7 @@ class Tissue {
   /// Where an axis crosses the organs' surfaces, from its trocar to its tip.
   void cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings);
 
-  /// [m] The most negative growth. The shaft is then its axis, and links are as they are.
+  /// [m] The most negative growth. The shaft is then its axis.
   double least_growth() const;
 
  private:
@@ -70,9 +72,10 @@ class Tissue {
   void collect(std::size_t organ, std::vector<TissueContact>& contacts);
 
   const ProxyTool& tool_;
-  double growth_ = 0.0;  ///< [m] of the links
+  double growth_ = 0.0;  ///< [m]
   double radius_ = 0.0;  ///< [m] of the grown shaft; 0: no shaft
   std::vector<Link> grown_links_;
+  std::vector<Link> middle_lines_;  ///< of the parts of each link
   const std::vector<OrganTick>* organs_ = nullptr;
   CollisionQuery query_;
   CollisionResult result_;

@@ -30,7 +30,7 @@ namespace organ_collision {
 /// context. Large meshes with
 /// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
 /// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
-/// thread only exchanges them. A fourth one draws markers (marker_publisher.hpp).
+/// thread only exchanges them. A fourth one draws markers (marker_topic.hpp).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().

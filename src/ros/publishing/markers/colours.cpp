@@ -43,8 +43,26 @@ std_msgs::ColorRGBA near_face() { return rgba(0.35, 0.85, 0.95, 0.80); }
 std_msgs::ColorRGBA clearance() { return rgba(0.35, 0.95, 1.00); }
 std_msgs::ColorRGBA entering() { return rgba(1.00, 0.65, 0.10); }
 std_msgs::ColorRGBA leaving() { return rgba(0.25, 0.45, 1.00); }
+std_msgs::ColorRGBA hand() { return rgba(0.45, 0.75, 1.00, 0.40); }
+std_msgs::ColorRGBA load() { return rgba(1.00, 0.80, 0.15); }
 std_msgs::ColorRGBA text() { return rgba(0.95, 0.95, 0.95); }
 std_msgs::ColorRGBA failure() { return rgba(1.00, 0.45, 0.35); }
+
+std_msgs::ColorRGBA proxy(ProxyStatus state) {
+  switch (state) {
+    case ProxyStatus::kFree:
+      return text();
+    case ProxyStatus::kTouching:
+      return rgba(0.30, 0.95, 0.50);
+    case ProxyStatus::kSqueezed:
+      return rgba(1.00, 0.65, 0.10);
+    case ProxyStatus::kPunctured:
+      return rgba(0.80, 0.50, 1.00);
+    case ProxyStatus::kNoAnswer:
+      break;
+  }
+  return failure();
+}
 
 std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share) {
   colour.a *= static_cast<float>(share);

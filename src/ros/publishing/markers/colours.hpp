@@ -4,6 +4,8 @@
 
 #include <cstddef>
 
+#include "organ_collision/query/haptic_proxy.hpp"
+
 namespace organ_collision::colours {
 
 /// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
@@ -22,6 +24,12 @@ std_msgs::ColorRGBA clearance();
 /// Where a shaft's axis enters and leaves an organ. Both differ also for the colour-blind.
 std_msgs::ColorRGBA entering();
 std_msgs::ColorRGBA leaving();
+/// A tool where the hand has it, while tissue holds its proxy back.
+std_msgs::ColorRGBA hand();
+/// What a proxy does: its text, and the line between hand and proxy.
+std_msgs::ColorRGBA proxy(ProxyStatus state);
+/// The force of a proxy on the tissue.
+std_msgs::ColorRGBA load();
 std_msgs::ColorRGBA text();
 std_msgs::ColorRGBA failure();
 

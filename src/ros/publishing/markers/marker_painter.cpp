@@ -10,6 +10,7 @@
 #include "colours.hpp"
 #include "contact_markers.hpp"
 #include "crossing_markers.hpp"
+#include "proxy_markers.hpp"
 #include "status_markers.hpp"
 #include "surface_markers.hpp"
 #include "swept_markers.hpp"
@@ -57,8 +58,11 @@ void MarkerPainter::start_anew(const Scene& scene, const Publish& publish) {
   shown_.clear();
   shown_surfaces_.clear();
   surfaces_.clear();
-  if (scene.organs.empty()) return;  // RViz ignores a marker without a frame.
-  Marker all = make_marker("", scene.organs.front().frame, Marker::CUBE, colours::text());
+  std::string frame;
+  if (!scene.organs.empty()) frame = scene.organs.front().frame;
+  if (!scene.proxies.empty()) frame = scene.proxies.front().frame;
+  if (frame.empty()) return;  // RViz ignores a marker without a frame.
+  Marker all = make_marker("", frame, Marker::CUBE, colours::text());
   all.action = Marker::DELETEALL;
   publish_alone(std::move(all), publish);
 }
@@ -137,6 +141,7 @@ MarkerSheet MarkerPainter::paint_rest(const Scene& scene) {
   add_contacts(scene, sheet);
   const double query_sec = query_sec_.at(scene.time);
   for (const SceneOrgan& organ : scene.organs) add_status(scene, organ, query_sec, sheet);
+  for (const ProxyView& view : scene.proxies) add_proxy(view, sheet);
   return sheet;
 }
 

@@ -2,14 +2,11 @@
 
 #include <ros/node_handle.h>
 
-#include <condition_variable>
 #include <memory>
-#include <mutex>
-#include <optional>
-#include <thread>
 #include <vector>
 
 #include "marker_painter.hpp"
+#include "marker_topic.hpp"
 #include "ros/organs/organ_registry.hpp"
 #include "ros/steps/step_history.hpp"
 #include "ros/steps/step_scheduler.hpp"
@@ -25,7 +22,6 @@ class MarkerPublisher {
  public:
   MarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings,
                   const std::vector<Tool>& tools);
-  ~MarkerPublisher();
 
   /// Takes effect with the next picture.
   void set_settings(const MarkerSettings& settings);
@@ -38,28 +34,13 @@ class MarkerPublisher {
   void update(const OrganRegistry& organs, const StepHistory& history);
 
  private:
-  bool is_idle();
   Scene take_scene(const OrganRegistry& organs, const StepHistory& history, SteadyTime now);
-  void draw();
-  std::optional<Scene> next_scene();
-  void publish(const visualization_msgs::MarkerArrayConstPtr& array);
 
   MarkerSettings settings_;
   std::shared_ptr<const std::vector<Tool>> tools_;
   std::vector<SceneStep> steps_;  ///< since the last picture
-  SteadyTime due_;
-  int subscribers_ = 0;
-  bool anew_ = false;  ///< there is a subscriber that knows nothing yet
-
-  // Shared with the drawing thread.
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::optional<Scene> scene_;  ///< to be drawn
-  bool drawing_ = false;
-  bool stop_ = false;
-
-  ros::Publisher markers_;
-  std::thread thread_;
+  MarkerPainter painter_;         ///< of the drawing thread
+  MarkerTopic topic_;             ///< the last member: its thread ends before the painter does
 };
 
 }  // namespace organ_collision

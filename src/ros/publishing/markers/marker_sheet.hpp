@@ -22,6 +22,11 @@ inline constexpr char kNear[] = "near";
 inline constexpr char kClearance[] = "clearance";
 inline constexpr char kCrossings[] = "crossings";
 inline constexpr char kStatus[] = "status";
+inline constexpr char kProxy[] = "proxy";
+inline constexpr char kHand[] = "hand";
+inline constexpr char kSpring[] = "spring";
+inline constexpr char kLoads[] = "loads";
+inline constexpr char kState[] = "state";
 }  // namespace marker_names
 
 /// A marker at the origin of `frame`, with a scale of 1 m. Its stamp is zero and it is locked to

@@ -4,6 +4,11 @@
 
 namespace organ_collision {
 
+SceneOrgan scene_organ(const DeformableOrgan& organ) {
+  const TriangleMesh& mesh = *organ.latest().mesh;
+  return {organ.name(), organ.frame(), mesh.shared_vertices(), mesh.shared_faces(), mesh.box()};
+}
+
 const SceneOrgan* Scene::organ(const std::string& name) const {
   const auto found = std::find_if(organs.begin(), organs.end(),
                                   [&](const SceneOrgan& organ) { return organ.name == name; });

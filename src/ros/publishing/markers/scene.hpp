@@ -11,6 +11,8 @@
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "ros/organs/deformable_organ.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/step_history.hpp"
 #include "ros/tools/tool.hpp"
@@ -36,6 +38,9 @@ struct SceneOrgan {
   double size() const { return box.diagonal().cast<double>().norm(); }
 };
 
+/// The latest shape of an organ that has one.
+SceneOrgan scene_organ(const DeformableOrgan& organ);
+
 /// What is known of a tool and an organ.
 struct ScenePair {
   std::string organ;
@@ -53,6 +58,16 @@ struct SceneStep {
   double query_sec;
 };
 
+/// A hand and its proxy.
+struct ProxyView {
+  Tool tool;
+  std::string frame;             ///< the proxy's frame
+  std::optional<ToolPose> hand;  ///< in this frame; not set: it is not known
+  ProxyAnswer answer;            ///< to this hand
+  double force = 0.0;            ///< [N] the magnitude of the force on the hand
+  double size = 0.1;             ///< [m] of the scene: widths and heights of texts are shares of it
+};
+
 /// What one picture shows. It shares or copies everything, so that another thread can draw it.
 struct Scene {
   SteadyTime time;
@@ -62,6 +77,7 @@ struct Scene {
   std::vector<SceneOrgan> organs;
   std::vector<ScenePair> pairs;  ///< sorted by organ, then tool
   std::vector<SceneStep> steps;  ///< the oldest first
+  std::vector<ProxyView> proxies;
 
   /// Null if there is no such organ.
   const SceneOrgan* organ(const std::string& name) const;

@@ -196,3 +196,21 @@ TEST_F(Painter, StepsOfEarlierTrianglesLeaveNoTraces) {
   paint(scene);
   EXPECT_EQ(namespaces(), (std::set<std::string>{"surface/liver", "tools", "status"}));
 }
+
+TEST_F(Painter, AProxyNeedsNoOrgan) {
+  Scene scene;
+  scene.time = at(0.0);
+  scene.anew = true;
+  scene.tools = std::make_shared<std::vector<Tool>>();
+  scene.proxies.resize(1);
+  scene.proxies[0].tool = shaft_tool("hook", 0.25);
+  scene.proxies[0].frame = "room";
+  scene.proxies[0].answer.state = ProxyStatus::kFree;
+  scene.proxies[0].answer.proxy = ToolPose{{{0.0, 0.0, 2.0}, {0.0, 4.0, 2.0}}, {}};
+  paint(scene);
+  EXPECT_EQ(namespaces(), (std::set<std::string>{"proxy", "state"}));
+  scene.proxies.clear();
+  scene.anew = false;
+  paint(scene);
+  EXPECT_EQ(namespaces(), (std::set<std::string>{}));
+}
