@@ -7,6 +7,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+constexpr double kMeets = 1e-6;  // [m]
+
 /// The lines at one time of the step, in [0, 1].
 struct Stop {
   std::vector<ShaftAxis> lines;
@@ -34,7 +36,7 @@ class Search {
     for (std::size_t i = 0; i < from.lines.size(); ++i) {
       motions.push_back({from.lines[i], to.lines[i]});
     }
-    if (!organ_.is_passed(motions, from.time, to.time)) return true;
+    if (!organ_.is_passed(motions, from.time, to.time, kMeets)) return true;
     const int stops = levels == 2 ? 40 : levels == 1 ? 6 : 0;
     for (int i = 0; i < stops; ++i) {
       const Stop via = stop_between(from, to);

@@ -66,10 +66,19 @@ Triangle OrganOracle::at(std::size_t face, double time) const {
 }
 
 double OrganOracle::distance(const std::vector<PlacedCore>& tool, double bound) const {
-  double least = bound;
+  Eigen::AlignedBox3d around_all;
   for (const PlacedCore& part : tool) {
     const Capsule around = capsule_around(part.core);
-    for (std::size_t face = 0; face < balls_.size(); ++face) {
+    const Vector3d reach = Vector3d::Constant(around.radius + part.radius);
+    for (const Vector3d& end : {around.axis.trocar, around.axis.tip}) {
+      around_all.extend(end - reach).extend(end + reach);
+    }
+  }
+  double least = bound;
+  for (std::size_t face = 0; face < balls_.size(); ++face) {
+    if (around_all.exteriorDistance(balls_[face].center) - balls_[face].radius > least) continue;
+    for (const PlacedCore& part : tool) {
+      const Capsule around = capsule_around(part.core);
       const double reach = around.radius + part.radius + balls_[face].radius;
       if (distance_to(around.axis, balls_[face].center) - reach > least) continue;
       least = std::min(least, rounded_distance(part.core, shape_->triangle(face)) - part.radius);
@@ -78,16 +87,15 @@ double OrganOracle::distance(const std::vector<PlacedCore>& tool, double bound) 
   return least;
 }
 
-bool OrganOracle::is_passed(const std::vector<ShaftMotion>& segments, double begin,
-                            double end) const {
+bool OrganOracle::is_passed(const std::vector<ShaftMotion>& segments, double begin, double end,
+                            double distance) const {
   for (const ShaftMotion& segment : segments) {
-    const double motion = motion_ + std::max((segment.end.trocar - segment.start.trocar).norm(),
-                                             (segment.end.tip - segment.start.tip).norm());
+    const double reach = distance + motion_ +
+                         std::max((segment.end.trocar - segment.start.trocar).norm(),
+                                  (segment.end.tip - segment.start.tip).norm());
     for (std::size_t face = 0; face < balls_.size(); ++face) {
-      if (distance_to(segment.end, balls_[face].center) - balls_[face].radius > motion + 1e-6) {
-        continue;
-      }
-      if (passes(segment, at(face, begin), at(face, end))) return true;
+      if (distance_to(segment.end, balls_[face].center) - balls_[face].radius > reach) continue;
+      if (passes(segment, at(face, begin), at(face, end), distance)) return true;
     }
   }
   return false;

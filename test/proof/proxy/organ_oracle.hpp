@@ -20,10 +20,11 @@ class OrganOracle {
   /// but at most `bound`.
   double distance(const std::vector<PlacedCore>& tool, double bound) const;
 
-  /// Whether one of the segments passes through the surface from time `begin` to `end` while the
-  /// organ moves linearly from its last shape, at time 0, to this one, at time 1. If the triangles
-  /// are others, the organ rests.
-  bool is_passed(const std::vector<ShaftMotion>& segments, double begin, double end) const;
+  /// Whether one of the segments comes within `distance` [m] of the surface from time `begin` to
+  /// `end` while the organ moves linearly from its last shape, at time 0, to this one, at time 1.
+  /// If the triangles are others, the organ rests.
+  bool is_passed(const std::vector<ShaftMotion>& segments, double begin, double end,
+                 double distance) const;
 
   /// How often the surface encloses a point. Exact, and slow.
   int winding(const Eigen::Vector3d& point) const;

@@ -10,12 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kMeets = 1e-6;  // [m]
-
 struct Pair {
   const ShaftMotion& segment;
   const Triangle& before;
   const Triangle& now;
+  double bound;  ///< [m]
 
   double distance(double time) const {
     Triangle face;
@@ -37,15 +36,16 @@ struct Pair {
 bool meets(const Pair& pair, double motion, double from, double to) {
   const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * motion;
   const double distance = pair.distance(middle);
-  if (distance <= kMeets) return true;
-  if (distance - reach > kMeets) return false;
+  if (distance <= pair.bound) return true;
+  if (distance - reach > pair.bound) return false;
   return meets(pair, motion, from, middle) || meets(pair, motion, middle, to);
 }
 
 }  // namespace
 
-bool passes(const ShaftMotion& segment, const Triangle& before, const Triangle& now) {
-  const Pair pair{segment, before, now};
+bool passes(const ShaftMotion& segment, const Triangle& before, const Triangle& now,
+            double distance) {
+  const Pair pair{segment, before, now, distance};
   return meets(pair, pair.relative_motion(), 0.0, 1.0);
 }
 

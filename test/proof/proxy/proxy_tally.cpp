@@ -32,6 +32,7 @@ void ProxyTally::add(const ProxyTally& other) {
   near += other.near;
   through += other.through;
   inside += other.inside;
+  held += other.held;
   inconsistent += other.inconsistent;
   least = std::min(least, other.least);
   least_squeezed = std::min(least_squeezed, other.least_squeezed);
@@ -40,9 +41,10 @@ void ProxyTally::add(const ProxyTally& other) {
 
 void print_proxy_head(std::ostream& out) {
   out << "| scene | ticks | touching | squeezed | jumps | overrun | no answer | too near | through "
-         "| inside | inconsistent | least distance [mm] | where squeezed [mm] | median [us] | 99 % "
+         "| inside | held | inconsistent | least distance [mm] | where squeezed [mm] | median [us] "
+         "| 99 % "
          "| 99.9 % | most "
-         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 }
 
 void print(const std::string& name, ProxyTally tally, std::ostream& out) {
@@ -50,7 +52,7 @@ void print(const std::string& name, ProxyTally tally, std::ostream& out) {
       << percent(tally.touching, tally.ticks) << " % | " << std::setprecision(3)
       << percent(tally.squeezed, tally.ticks) << " %";
   for (const long count : {tally.jumps, tally.overrun, tally.no_answer, tally.near, tally.through,
-                           tally.inside, tally.inconsistent}) {
+                           tally.inside, tally.held, tally.inconsistent}) {
     out << " | " << count;
   }
   out << std::setprecision(4) << " | " << 1e3 * tally.least << " | ";

@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 
 constexpr double kRounding = 1e-9;        // [m]
 constexpr long kTicksPerSideCheck = 500;  // The exact winding number is slow.
+constexpr long kTicksPerWayCheck = 10;
+constexpr long kMostClearWays = 3;  // in a row
 
 /// How far a place of the tool is from where the hand has it [m].
 double distance_between(const ProxyTool& tool, const ToolPose& a, const ToolPose& b) {
@@ -97,6 +99,24 @@ void Referee::check_passage(const std::vector<ShaftAxis>& lines, const Organ& or
   }
 }
 
+/// A proxy may need some ticks to find its way to the hand, but not where the straight way is
+/// clear.
+void Referee::check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                        const ProxyAnswer& answer) {
+  if (tally_.ticks % kTicksPerWayCheck != 0 || !tool_.links.empty()) return;
+  bool is_clear = answer.state == ProxyStatus::kTouching;
+  for (std::size_t i = 0; i < organs.size() && is_clear; ++i) {
+    const ToolPose from = organs[i].T_organ_proxy * answer.proxy;
+    const ToolPose to = organs[i].T_organ_proxy * hand;
+    is_clear = !organs_[i].oracle.is_passed({{from.axis, to.axis}}, 1.0, 1.0,
+                                            tool_.radius + 2.0 * settings_.clearance);
+  }
+  clear_ways_ = is_clear ? clear_ways_ + 1 : 0;
+  if (clear_ways_ >= kMostClearWays) {
+    blame(tally_.held, "held though the straight way to the hand is clear");
+  }
+}
+
 void Referee::check_side(const std::vector<ShaftAxis>& lines, const Organ& organ) {
   for (const ShaftAxis& line : lines) {
     if (organ.oracle.winding(line.tip) != 0 || organ.oracle.winding(line.trocar) != 0) {
@@ -125,6 +145,7 @@ void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOr
     }
     organs_[i].lines = lines;
   }
+  check_way(hand, organs, answer);
 }
 
 }  // namespace organ_collision::oracle

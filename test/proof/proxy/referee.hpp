@@ -37,6 +37,8 @@ class Referee {
   void check_values(const ToolPose& hand, const ProxyAnswer& answer);
   void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
   void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
+  void check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                 const ProxyAnswer& answer);
   void check_side(const std::vector<ShaftAxis>& lines, const Organ& organ);
   void blame(long& count, const std::string& what);
 
@@ -46,6 +48,7 @@ class Referee {
   ProxyTally tally_;
   std::vector<Organ> organs_;
   Random random_{1};
+  long clear_ways_ = 0;  ///< how often in a row the way to the hand was clear
 };
 
 }  // namespace organ_collision::oracle

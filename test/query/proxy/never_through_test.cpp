@@ -12,10 +12,10 @@ class NeverThrough : public testing::TestWithParam<std::string> {};
 
 TEST_P(NeverThrough, WhateverTheHandDoes) {
   const oracle::ProxyTally tally = oracle::follow_hand(
-      {GetParam(), 7, 0}, 2500,
+      {GetParam(), 7, 0}, 2000,
       [](long tick, const std::string& what) { ADD_FAILURE() << "tick " << tick << ": " << what; });
   EXPECT_EQ(tally.broken(), 0);
-  EXPECT_EQ(tally.ticks, 2500);
+  EXPECT_EQ(tally.ticks, 2000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, NeverThrough, testing::ValuesIn(oracle::proxy_scene_kinds()),
