@@ -16,7 +16,7 @@ import style
 
 FIGURES = ['touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
            'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'closest_approach', 'chord_deviation',
-           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'work', 'proxy',
+           'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'mobility', 'work', 'proxy',
            'stab_forces']
 
 
