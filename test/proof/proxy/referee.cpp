@@ -99,6 +99,25 @@ void Referee::check_passage(const std::vector<ShaftAxis>& lines, const Organ& or
   }
 }
 
+/// Where only the hand moves, the proxy can stay where it is, so it cannot be squeezed.
+void Referee::check_squeeze(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                            const ProxyAnswer& answer) {
+  const bool is_squeezed = answer.state == ProxyStatus::kSqueezed;
+  const bool rests = std::equal(organs.begin(), organs.end(), last_organs_.begin(),
+                                last_organs_.end(), [](const auto& now, const auto& last) {
+                                  return now.shape == last.shape &&
+                                         now.T_organ_proxy.isApprox(last.T_organ_proxy, 0.0);
+                                });
+  const bool gives_nothing = tool_.links.empty() && (tool_.freedom == ProxyFreedom::kFree ||
+                                                     hand.axis.trocar == last_trocar_);
+  if (is_squeezed && !was_squeezed_ && rests && gives_nothing && !answer.is_placed_anew) {
+    blame(tally_.inconsistent, "SQUEEZED though only the hand moves");
+  }
+  last_trocar_ = hand.axis.trocar;
+  last_organs_ = organs;
+  was_squeezed_ = is_squeezed;
+}
+
 /// A proxy may need some ticks to find its way to the hand, but not where the straight way is
 /// clear.
 void Referee::check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
@@ -145,6 +164,7 @@ void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOr
     }
     organs_[i].lines = lines;
   }
+  check_squeeze(hand, organs, answer);
   check_way(hand, organs, answer);
 }
 

@@ -37,6 +37,8 @@ class Referee {
   void check_values(const ToolPose& hand, const ProxyAnswer& answer);
   void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
   void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
+  void check_squeeze(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                     const ProxyAnswer& answer);
   void check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
                  const ProxyAnswer& answer);
   void check_side(const std::vector<ShaftAxis>& lines, const Organ& organ);
@@ -48,6 +50,10 @@ class Referee {
   ProxyTally tally_;
   std::vector<Organ> organs_;
   Random random_{1};
+  // As the last tick left them.
+  Eigen::Vector3d last_trocar_ = Eigen::Vector3d::Zero();
+  std::vector<ProxyOrgan> last_organs_;
+  bool was_squeezed_ = false;
   long clear_ways_ = 0;  ///< how often in a row the way to the hand was clear
 };
 

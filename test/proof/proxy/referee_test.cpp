@@ -80,8 +80,17 @@ TEST_F(RefereeTest, NoticesAProxyThatIsTooNear) {
   EXPECT_EQ(referee_.tally().near, 1);
   ProxyAnswer squeezed = answer_at(near, deep_);
   squeezed.state = ProxyStatus::kSqueezed;
+  organs_ = {organ_of(turned_over(grid_cube(4, 0.025F)))};
   show(deep_, squeezed);
   EXPECT_EQ(referee_.tally().broken(), 1);
+}
+
+TEST_F(RefereeTest, NoticesAProxyThatSaysSqueezedWithoutNeed) {
+  begin(above_);
+  ProxyAnswer answer = answer_at(above_, deep_);
+  answer.state = ProxyStatus::kSqueezed;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().inconsistent, 1);
 }
 
 TEST_F(RefereeTest, NoticesAProxyThatPassedThroughASheet) {

@@ -43,7 +43,7 @@ ScriptedOrgan::ScriptedOrgan(std::string name, const GridSurface& rest, const Or
 
 ProxyOrgan ScriptedOrgan::at(long tick) {
   const long shape = tick / motion_.ticks_per_shape;
-  if (shape != shape_) {
+  if (shape != shape_ && motion_.changes_shape()) {
     shape_ = shape;
     move_vertices(kTick * static_cast<double>(shape * motion_.ticks_per_shape));
   }

@@ -24,6 +24,10 @@ struct OrganMotion {
   int ticks_per_shape = 1;
   /// Whether sway and turn move the organ's frame at each tick, instead of its vertices.
   bool moves_frame = false;
+
+  bool changes_shape() const {
+    return !wave.isZero() || (!moves_frame && !(sway.isZero() && turn.isZero()));
+  }
 };
 
 /// A motion in which no vertex within `reach` [m] of the origin is faster than `speed` [m/s]. The
