@@ -1,0 +1,171 @@
+#include "referee.hpp"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+#include "detour.hpp"
+
+namespace organ_collision::oracle {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kRounding = 1e-9;        // [m]
+constexpr long kTicksPerSideCheck = 500;  // The exact winding number is slow.
+constexpr long kTicksPerWayCheck = 10;
+constexpr long kMostClearWays = 3;  // in a row
+
+/// How far a place of the tool is from where the hand has it [m].
+double distance_between(const ProxyTool& tool, const ToolPose& a, const ToolPose& b) {
+  double most = 0.0;
+  const std::vector<ShaftAxis> of_a = skeleton(tool, a), of_b = skeleton(tool, b);
+  for (std::size_t i = 0; i < of_a.size(); ++i) {
+    most = std::max(
+        {most, (of_a[i].trocar - of_b[i].trocar).norm(), (of_a[i].tip - of_b[i].tip).norm()});
+  }
+  return most;
+}
+
+std::string in_mm(const std::string& what, double length) {
+  std::ostringstream text;
+  text << what << ' ' << 1e3 * length << " mm";
+  return text.str();
+}
+
+}  // namespace
+
+Referee::Referee(ProxyTool tool, const ProxySettings& settings, Report report)
+    : tool_(std::move(tool)), settings_(settings), report_(std::move(report)) {}
+
+void Referee::blame(long& count, const std::string& what) {
+  ++count;
+  report_(what);
+}
+
+void Referee::count_state(bool jumped, const ProxyAnswer& answer) {
+  const bool is_first = tally_.ticks++ == 0;
+  if (jumped) ++tally_.jumps;
+  if (answer.state == ProxyStatus::kTouching) ++tally_.touching;
+  if (answer.state == ProxyStatus::kSqueezed) ++tally_.squeezed;
+  if (answer.state == ProxyStatus::kNoAnswer) {
+    blame(tally_.no_answer, "no answer: " + answer.message);
+  }
+  const bool is_due = is_first || jumped;
+  if (answer.is_placed_anew && !is_due) {
+    blame(tally_.overrun, "placed anew: " + answer.message);
+  } else if (!answer.is_placed_anew && is_due) {
+    blame(tally_.inconsistent, "not placed anew after a jump");
+  }
+}
+
+void Referee::check_values(const ToolPose& hand, const ProxyAnswer& answer) {
+  const double away = distance_between(tool_, answer.proxy, hand);
+  if (!(away < 1e3) || !answer.pull.allFinite() || !answer.twist.allFinite()) {
+    return blame(tally_.inconsistent, "a value that is not finite");
+  }
+  if (answer.state == ProxyStatus::kFree && away > kRounding) {
+    blame(tally_.inconsistent, in_mm("FREE, but away from the hand by", away));
+  }
+  if (answer.state == ProxyStatus::kFree && answer.pull.norm() > kRounding) {
+    blame(tally_.inconsistent, in_mm("FREE, but with a pull of", answer.pull.norm()));
+  }
+  if (tool_.freedom != ProxyFreedom::kTrocar) return;
+  const Vector3d pull = answer.proxy.axis.tip - hand.axis.tip;
+  if ((pull - answer.pull).norm() > kRounding) {
+    blame(tally_.inconsistent, in_mm("the pull is wrong by", (pull - answer.pull).norm()));
+  }
+  const double trocar = (answer.proxy.axis.trocar - hand.axis.trocar).norm();
+  if (trocar > kRounding) blame(tally_.inconsistent, in_mm("the trocar is wrong by", trocar));
+}
+
+void Referee::check_distance(const std::vector<PlacedCore>& tool, const Organ& organ,
+                             ProxyStatus state) {
+  const double distance = organ.oracle.distance(tool, settings_.clearance);
+  if (state == ProxyStatus::kSqueezed) {
+    tally_.least_squeezed = std::min(tally_.least_squeezed, distance);
+    return;
+  }
+  tally_.least = std::min(tally_.least, distance);
+  if (distance < 0.5 * settings_.clearance - kRounding) {
+    blame(tally_.near, in_mm("too near:", distance));
+  }
+}
+
+void Referee::check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ) {
+  const bool holds_trocar = tool_.freedom == ProxyFreedom::kTrocar;
+  if (!has_detour(organ.oracle, organ.lines, lines, holds_trocar, random_)) {
+    blame(tally_.through, "passed through tissue");
+  }
+}
+
+/// Where only the hand moves, the proxy can stay where it is, so it cannot be squeezed.
+void Referee::check_squeeze(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                            const ProxyAnswer& answer) {
+  const bool is_squeezed = answer.state == ProxyStatus::kSqueezed;
+  const bool rests = std::equal(organs.begin(), organs.end(), last_organs_.begin(),
+                                last_organs_.end(), [](const auto& now, const auto& last) {
+                                  return now.shape == last.shape &&
+                                         now.T_organ_proxy.isApprox(last.T_organ_proxy, 0.0);
+                                });
+  const bool gives_nothing = tool_.links.empty() && (tool_.freedom == ProxyFreedom::kFree ||
+                                                     hand.axis.trocar == last_trocar_);
+  if (is_squeezed && !was_squeezed_ && rests && gives_nothing && !answer.is_placed_anew) {
+    blame(tally_.inconsistent, "SQUEEZED though only the hand moves");
+  }
+  last_trocar_ = hand.axis.trocar;
+  last_organs_ = organs;
+  was_squeezed_ = is_squeezed;
+}
+
+/// A proxy may need some ticks to find its way to the hand, but not where the straight way is
+/// clear.
+void Referee::check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                        const ProxyAnswer& answer) {
+  if (tally_.ticks % kTicksPerWayCheck != 0 || !tool_.links.empty()) return;
+  bool is_clear = answer.state == ProxyStatus::kTouching;
+  for (std::size_t i = 0; i < organs.size() && is_clear; ++i) {
+    const ToolPose from = organs[i].T_organ_proxy * answer.proxy;
+    const ToolPose to = organs[i].T_organ_proxy * hand;
+    is_clear = !organs_[i].oracle.is_passed({{from.axis, to.axis}}, 1.0, 1.0,
+                                            tool_.radius + 2.0 * settings_.clearance);
+  }
+  clear_ways_ = is_clear ? clear_ways_ + 1 : 0;
+  if (clear_ways_ >= kMostClearWays) {
+    blame(tally_.held, "held though the straight way to the hand is clear");
+  }
+}
+
+void Referee::check_side(const std::vector<ShaftAxis>& lines, const Organ& organ) {
+  for (const ShaftAxis& line : lines) {
+    if (organ.oracle.winding(line.tip) != 0 || organ.oracle.winding(line.trocar) != 0) {
+      return blame(tally_.inside, "inside a closed organ");
+    }
+  }
+}
+
+void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOrgan>& organs,
+                    const std::vector<bool>& is_closed, const ProxyAnswer& answer) {
+  organs_.resize(organs.size());
+  for (std::size_t i = 0; i < organs.size(); ++i) organs_[i].oracle.set_shape(organs[i].shape);
+  count_state(jumped, answer);
+  if (answer.state == ProxyStatus::kNoAnswer) {
+    for (Organ& organ : organs_) organ.lines.clear();
+    return;
+  }
+  check_values(hand, answer);
+  for (std::size_t i = 0; i < organs.size(); ++i) {
+    const ToolPose pose = organs[i].T_organ_proxy * answer.proxy;
+    const std::vector<ShaftAxis> lines = skeleton(tool_, pose);
+    check_distance(placed_cores(tool_, pose), organs_[i], answer.state);
+    if (!answer.is_placed_anew && !organs_[i].lines.empty()) check_passage(lines, organs_[i]);
+    if (is_closed[i] && (answer.is_placed_anew || tally_.ticks % kTicksPerSideCheck == 0)) {
+      check_side(lines, organs_[i]);
+    }
+    organs_[i].lines = lines;
+  }
+  check_squeeze(hand, organs, answer);
+  check_way(hand, organs, answer);
+}
+
+}  // namespace organ_collision::oracle

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "organ_oracle.hpp"
+#include "proxy_tally.hpp"
+#include "test/proof/trials.hpp"
+
+namespace organ_collision::oracle {
+
+/// Checks each tick of a proxy with oracles that share nothing with it but the mesh.
+class Referee {
+ public:
+  /// Receives a sentence about each broken promise.
+  using Report = std::function<void(const std::string&)>;
+
+  Referee(ProxyTool tool, const ProxySettings& settings, Report report);
+
+  /// `jumped`: the hand moved farther than the settings' jump. `is_closed`: of each organ.
+  void check(const ToolPose& hand, bool jumped, const std::vector<ProxyOrgan>& organs,
+             const std::vector<bool>& is_closed, const ProxyAnswer& answer);
+
+  /// Without the times.
+  const ProxyTally& tally() const { return tally_; }
+
+ private:
+  /// An organ, and the tool's middle lines in its frame at the last tick.
+  struct Organ {
+    OrganOracle oracle;
+    std::vector<ShaftAxis> lines;
+  };
+
+  void count_state(bool jumped, const ProxyAnswer& answer);
+  void check_values(const ToolPose& hand, const ProxyAnswer& answer);
+  void check_distance(const std::vector<PlacedCore>& tool, const Organ& organ, ProxyStatus state);
+  void check_passage(const std::vector<ShaftAxis>& lines, const Organ& organ);
+  void check_squeeze(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                     const ProxyAnswer& answer);
+  void check_way(const ToolPose& hand, const std::vector<ProxyOrgan>& organs,
+                 const ProxyAnswer& answer);
+  void check_side(const std::vector<ShaftAxis>& lines, const Organ& organ);
+  void blame(long& count, const std::string& what);
+
+  ProxyTool tool_;
+  ProxySettings settings_;
+  Report report_;
+  ProxyTally tally_;
+  std::vector<Organ> organs_;
+  Random random_{1};
+  // As the last tick left them.
+  Eigen::Vector3d last_trocar_ = Eigen::Vector3d::Zero();
+  std::vector<ProxyOrgan> last_organs_;
+  bool was_squeezed_ = false;
+  long clear_ways_ = 0;  ///< how often in a row the way to the hand was clear
+};
+
+}  // namespace organ_collision::oracle

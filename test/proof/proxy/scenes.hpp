@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scripted_hand.hpp"
+#include "scripted_organ.hpp"
+
+namespace organ_collision::oracle {
+
+/// A tool, a hand and organs.
+struct ProxyScene {
+  ProxySettings settings;
+  HandScript hand;
+  std::vector<ScriptedOrgan> organs;
+};
+
+/// The names of the kinds of scenes.
+const std::vector<std::string>& proxy_scene_kinds();
+
+/// A random scene of this kind. The hand starts outside, away from all tissue. Throws
+/// std::out_of_range for an unknown kind.
+ProxyScene make_proxy_scene(const std::string& kind, Random& random);
+
+}  // namespace organ_collision::oracle
