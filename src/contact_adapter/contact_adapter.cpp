@@ -10,11 +10,11 @@
 #include "contact_check.hpp"
 #include "face_list.hpp"
 #include "forces/force_limit.hpp"
+#include "forces/vertex_forces.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
 #include "shaft_radius.hpp"
-#include "forces/vertex_forces.hpp"
 
 namespace organ_collision {
 namespace {

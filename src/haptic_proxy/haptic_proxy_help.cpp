@@ -126,7 +126,7 @@ ProgramHelp haptic_proxy_help() {
           services(),
           parameters(),
           "roslaunch organ_collision haptic_proxy.launch tools:=FILE.yaml starts the node with the "
-          "tools of a file. doc/interface.md explains all of this."};
+          "tools of a file. doc/haptic_interface.md explains all of this."};
 }
 
 }  // namespace organ_collision

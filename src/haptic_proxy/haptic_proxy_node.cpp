@@ -20,6 +20,9 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// Nodes that start together need this long until hands and organs are there.
 constexpr std::chrono::seconds kStart(2);
+/// In a batch of messages, the node makes ticks for at most this long. Poses that come while it
+/// lags behind are merged: one tick covers them.
+constexpr std::chrono::milliseconds kLongestLag(1);
 /// While a force fades, it is published this often.
 constexpr std::chrono::milliseconds kFadeStep(1);
 /// How often it is repeated that there is no answer, for subscribers that came later.
@@ -42,8 +45,11 @@ SteadyClock::duration duration(double seconds) {
 }  // namespace
 
 HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : loop_(counters_.rejected,
-            {[this] { watch_clock(); }, [this](SteadyTime) { apply_organ_messages(); }}),
+    : loop_(counters_.rejected, {[this] { watch_clock(); },
+                                 [this](SteadyTime) {
+                                   apply_organ_messages();
+                                   follow_waiting_hands();
+                                 }}),
       node_(on_queue(node, loop_.queue())),
       private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_haptic_proxy_parameters(private_node_)),
@@ -158,7 +164,19 @@ void HapticProxyNode::apply_organ_messages() {
   }
 }
 
+/// After each message: a tick for each pose of a topic, as long as the node keeps up with them.
+void HapticProxyNode::follow_waiting_hands() {
+  const Time now = SteadyClock::now();
+  if (!batch_began_) batch_began_ = now;
+  if (now - *batch_began_ > kLongestLag) return;
+  for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
+    if (hands_[tool].is_waiting) follow_hand(tool, now);
+  }
+}
+
+/// After a batch of messages: a tick for each hand with a new pose.
 void HapticProxyNode::follow_hands() {
+  batch_began_.reset();
   if (frame_.update(inbox_.organs())) reset_proxies();
   const Time now = SteadyClock::now();
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) follow_hand(tool, now);
@@ -167,6 +185,7 @@ void HapticProxyNode::follow_hands() {
 
 void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   Hand& hand = hands_[tool];
+  hand.is_waiting = false;
   try {
     if (const auto pose = new_pose(tool, now)) {
       tick(hand, *pose, now);
@@ -204,7 +223,6 @@ std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time 
   if (is_new) {
     hand.stamp = stamp;
     hand.heard = now;
-    hand.is_waiting = false;
     return std::move(pose.found);
   }
   const double timeout = loaded_.parameters.pose_timeout_sec;

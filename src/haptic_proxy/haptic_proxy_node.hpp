@@ -33,7 +33,8 @@
 namespace organ_collision {
 
 /// The node: one proxy for each tool, against all organs. Its inbox is that of the collision node.
-/// After each batch of messages, each tool whose hand has a new pose gets one tick. One thread does
+/// Each pose of a hand gives one tick of its proxy, unless the node lags behind. Poses on TF are
+/// looked up after each batch of messages. One thread does
 /// all this (message_loop.hpp) and owns the GL contexts. The background thread inspects surfaces,
 /// and loads new tools and parameters.
 class HapticProxyNode {
@@ -56,7 +57,7 @@ class HapticProxyNode {
     std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
     ros::Time stamp = {};                   ///< of the last pose; zero: it is valid at any time
     std::optional<Time> heard = {};         ///< when that pose came; empty: no pose came yet
-    bool is_waiting = false;                ///< a pose came on its topic since the last tick
+    bool is_waiting = false;                ///< a pose came on its topic, and is to be followed
     bool had_answer = false;                ///< since the start
     std::optional<Rejection> why_not = {};  ///< why there is no answer now; empty: there is one
     Time told = {};                         ///< when something was last published
@@ -67,6 +68,7 @@ class HapticProxyNode {
   void report_breakdown(const std::string& why);
   void watch_clock();
   void apply_organ_messages();
+  void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
   std::optional<Timed<ToolPose>> new_pose(std::size_t tool, Time now);
@@ -96,6 +98,7 @@ class HapticProxyNode {
   std::vector<Hand> hands_;    ///< by tool
   bool has_new_shape_ = true;  ///< of an organ, since the last tick
   Time started_;
+  std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
   InboxDiagnostics inbox_diagnostics_;

@@ -80,10 +80,16 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
   }
   const bool acts_at_tip = freedom == ProxyFreedom::kTrocar;
   std::vector<Place> places = places_of(answer, organs, acts_at_tip && has_shaft, stiffness);
-  if (places.empty()) return forces;
-  const std::vector<double> shares = shares_of(places);
-
   const Vector3d whole = stiffness * answer.pull + damping;
+  if (places.empty()) {
+    const double share = 1.0 / static_cast<double>(organs.size());
+    for (OrganForce& of_organ : forces) {
+      of_organ.force = share * whole;
+      of_organ.torque = share * (answer.center.cross(whole) + stiffness * answer.twist);
+    }
+    return forces;
+  }
+  const std::vector<double> shares = shares_of(places);
   Vector3d unexplained = whole;
   for (const Place& place : places) unexplained -= place.lever * place.on_face.force;
 

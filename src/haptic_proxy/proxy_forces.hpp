@@ -23,8 +23,8 @@ struct OrganForce {
 };
 
 /// The force on the hand divided among the organs, in their order. The sum over the organs is
-/// stiffness times pull plus `damping`, and the torque that goes with it, if there is any contact
-/// or crossing. Otherwise all forces are zero.
+/// stiffness times pull plus `damping`, and the torque that goes with it. A proxy that is still on
+/// its way may have no contact: then all organs have the same share, and no face bears it.
 ///
 /// Each contact and crossing pushes with stiffness times its load. In a tool through a trocar, the
 /// load of a contact along the shaft acts on the tip with the lever of its place, contact.shaft.

@@ -2,7 +2,6 @@
 
 #include <organ_collision/ContactArray.h>
 
-#include <memory>
 #include <utility>
 
 #include "forces/force_limit.hpp"
@@ -29,29 +28,12 @@ double seconds_between(ros::Time from, ros::Time to) {
                                     static_cast<std::int64_t>(from.toNSec()));
 }
 
-/// A tick in which the hand is in touch, so that everything is compiled that a touch needs.
-void warm_up(HapticProxy& proxy, std::size_t links) {
-  const auto face = std::make_shared<TriangleMesh>(
-      std::vector<float>{-1.0F, -1.0F, 0.0F, 1.0F, -1.0F, 0.0F, 0.0F, 1.0F, 0.0F},
-      std::vector<std::uint32_t>{0, 1, 2});
-  ToolPose hand{{{0.0, 0.0, 1.0}, {0.1, 0.0, 0.01}},
-                std::vector<Eigen::Isometry3d>(links, Eigen::Isometry3d::Identity())};
-  const std::vector<ProxyOrgan> organs{{"warm up", face, nullptr, Eigen::Isometry3d::Identity()}};
-  proxy.follow(hand, organs);
-  hand.axis.tip.z() = -0.01;
-  for (Eigen::Isometry3d& link : hand.links) link.translation().z() = -0.02;
-  proxy.follow(hand, organs);
-  proxy.reset();
-}
-
 }  // namespace
 
 ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
     : tool_(tool.parameters),
       parameters_(parameters),
-      proxy_(proxy_tool(tool), proxy_settings(parameters, tool.parameters), parameters.picker) {
-  warm_up(proxy_, tool.links.size());
-}
+      proxy_(proxy_tool(tool), proxy_settings(parameters, tool.parameters), parameters.picker) {}
 
 ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
   const auto start = std::chrono::steady_clock::now();

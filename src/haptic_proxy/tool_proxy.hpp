@@ -25,8 +25,8 @@ class ToolProxy {
  public:
   using Time = ForceRamp::Time;
 
-  /// `parameters` must outlive this. Runs a tick, so that GL compiles its programs now and not at
-  /// the first touch. Throws GlError, and std::invalid_argument if the tool is illegal.
+  /// `parameters` must outlive this. Throws GlError, and std::invalid_argument if the tool is
+  /// illegal.
   ToolProxy(const Tool& tool, const HapticProxyParameters& parameters);
 
   const ToolParameters& tool() const { return tool_; }

@@ -7,8 +7,8 @@
 
 #include "contact_adapter/force_law.hpp"
 #include "forces/force_limit.hpp"
-#include "test/contact_adapter/contact_arrays.hpp"
 #include "ros/interface/rejection.hpp"
+#include "test/contact_adapter/contact_arrays.hpp"
 #include "test/contact_adapter/smooth_force.hpp"
 #include "test/proof/trials.hpp"
 

@@ -131,7 +131,7 @@ TEST(HapticProxyParameters, ToolsWhoseTopicsWouldHaveOneNameAreRefused) {
 TEST(HapticProxyParameters, SomeCanBeChangedWhileTheNodeRuns) {
   const LiveHapticProxyParameters before;
   const std::vector<LiveParameter> live = live_parameters(before);
-  ASSERT_EQ(live.size(), 7U);
+  ASSERT_EQ(live.size(), 9U);
   XmlRpcValue changes;
   for (const LiveParameter& parameter : live) changes[parameter.name] = 0.125;
   const LiveHapticProxyParameters after = changed(before, changes);

@@ -55,11 +55,21 @@ class ProxyForcesTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(ProxyForcesTest, WithoutContactsThereIsNoForce) {
-  answer_.pull = {0.01, 0.02, 0.03};
+TEST_F(ProxyForcesTest, AFreeProxyHasNoForce) {
   for (const OrganForce& of_organ : forces(ProxyFreedom::kFree)) {
     EXPECT_TRUE(of_organ.force.isZero(0.0));
     EXPECT_TRUE(of_organ.torque.isZero(0.0));
+  }
+}
+
+TEST_F(ProxyForcesTest, WithoutContactsAllOrgansHaveTheSameShareAndNoFaceBearsIt) {
+  answer_.pull = random_vector(0.01);
+  answer_.twist = random_vector(1e-4);
+  answer_.center = random_vector(0.2);
+  const Vector3d whole = kStiffness * answer_.pull;
+  for (const OrganForce& of_organ : forces(ProxyFreedom::kFree)) {
+    expect_near(of_organ.force, 0.5 * whole);
+    expect_near(of_organ.torque, 0.5 * (answer_.center.cross(whole) + kStiffness * answer_.twist));
     EXPECT_TRUE(of_organ.on_faces.empty());
     EXPECT_EQ(of_organ.topology, 5U);
   }

@@ -19,7 +19,7 @@ NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'paper_misses', 'stab_forces
                'force_benchmark', 'end_to_end', 'pose_to_wrench', 'echo_node')
 # The page of each node. Its tables, in this order, are of topics, services and parameters.
 PAGES = {'organ_collision_node': 'doc/interface.md', 'contact_adapter': 'doc/forces.md',
-         'organ_mesh_adapter': 'doc/meshes.md'}
+         'organ_mesh_adapter': 'doc/meshes.md', 'haptic_proxy': 'doc/haptic_interface.md'}
 TABLES = ('topic', 'service', 'parameter')
 
 

@@ -79,8 +79,9 @@ struct ProxyOrgan {
 /// A place where tissue holds a proxy.
 struct ProxyContact {
   std::size_t organ = 0;  ///< its place in the list of organs
-  /// The nearest points of the proxy and a face that is nearer than twice the clearance. In the
-  /// proxy's frame. `depth` is minus the distance, `fraction` is 0.
+  /// The nearest points of the proxy and a face that is nearer than twice the clearance or, if the
+  /// proxy is still on its way, among the nearest. In the proxy's frame. `depth` is minus the
+  /// distance, `fraction` is 0.
   FaceContact contact;
   /// [m] The force of the proxy on the tissue, divided by the stiffness. It acts at contact.point,
   /// along contact.normal. Not negative.

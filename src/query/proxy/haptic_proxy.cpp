@@ -263,10 +263,11 @@ void HapticProxy::State::describe(Tick& tick) {
   for (const TissueContact& near : motion.contacts()) nearest = std::min(nearest, near.distance);
   // What the proxy rests on: it may hover a little if it did not reach its place in this tick.
   const double resting = kResting * std::max(settings.clearance, nearest);
+  const double told = std::max(2.0 * settings.clearance, resting);
   std::vector<Wall> holding;
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
-    if (near.distance >= 2.0 * settings.clearance) continue;
+    if (near.distance >= told) continue;
     ProxyContact contact{near.organ, near.contact, 0.0};
     contact.contact.fraction = 0.0;
     contact.contact.depth = -near.distance;

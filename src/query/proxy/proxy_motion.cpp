@@ -160,7 +160,13 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
   tissue_.sweep(way_, growth, met_);
   const auto touch = first_touch(growth);
   if (touch) place.pose = pose_at(way_, *touch);
-  if (touch || !is_there) look_around(place, kShortestReach * clearance_.rest);
+  if (!touch && is_there) return;
+  // A proxy on its way may hover. What holds it is the nearest tissue.
+  reach = kShortestReach * clearance_.rest;
+  do {
+    look_around(place, reach);
+    reach *= 4.0;
+  } while (contacts_.empty() && reach <= kLongestReach * clearance_.rest);
 }
 
 /// Finds the walls around the proxy, and its clearance.

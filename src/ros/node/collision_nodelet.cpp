@@ -12,8 +12,7 @@ class CollisionNodelet : public RestartingNodelet {
 
  private:
   Run make_node() override {
-    const auto node =
-        std::make_shared<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
+    const auto node = std::make_shared<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
     return [node](const std::function<bool()>& stop) { node->run(stop); };
   }
 };

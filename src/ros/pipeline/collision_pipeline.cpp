@@ -12,9 +12,9 @@ PathSampling sampling(const NodeParameters& parameters) {
 CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
                                      const std::vector<Tool>& tools, const Sinks& sinks)
     : update_(sinks.update),
-      inbox_(parameters.max_faces, parameters.tools,
-             {[this](std::size_t tool) { steps_.add_pose(tool); }, sinks.rejected,
-              sinks.callbacks}),
+      inbox_(
+          parameters.max_faces, parameters.tools,
+          {[this](std::size_t tool) { steps_.add_pose(tool); }, sinks.rejected, sinks.callbacks}),
       poses_(inbox_.transforms(), sampling(parameters)),
       contact_query_(parameters.picker),
       steps_(parameters, tools, poses_, contact_query_, sinks.step) {}
