@@ -10,7 +10,7 @@ import tempfile
 from xml.etree import ElementTree
 
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray, OrganMesh
+from organ_collision.msg import Contact, ContactArray, OrganMesh, ProxyState
 import roslib.packages
 import rospy
 import rostest
@@ -27,6 +27,7 @@ from support.node_client import NodeClient, shaft, wait_until
 from support.node_starter import NodeStarter
 
 PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
+HANDS = ['config/demo_hands.yaml', 'examples/haptics.yaml']  # The tools of haptic_proxy.
 SHEET = scenes.sheet(0.1, 4)
 AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
 
@@ -94,6 +95,8 @@ class ShippedFilesTest(ContactCase, NodeStarter):
                 'nodelet.launch',
                 'demo.launch',
                 'contact_adapter.launch',
+                'haptic_proxy.launch',
+                'haptics.launch',
                 'organ_mesh_adapter.launch',
                 'view.launch',
             }
@@ -233,8 +236,9 @@ class ShippedFilesTest(ContactCase, NodeStarter):
         return found
 
     def test_every_configuration_file(self):
-        """Each yaml file parses. A file with tools starts a collision node that answers, and a file
-        with organs a mesh adapter that accepts their meshes. Neither reports an unknown name."""
+        """Each yaml file parses. A file with tools starts a collision node that answers, or a
+        haptic_proxy that tells the state of each of them, and a file with organs a mesh adapter
+        that accepts their meshes. None reports an unknown name."""
         yaml_files = files('config', '.yaml') + files('examples', '.yaml')
         started = set()
         for path in yaml_files:
@@ -242,7 +246,10 @@ class ShippedFilesTest(ContactCase, NodeStarter):
                 parameters = yaml.safe_load(text)
             self.assertIsInstance(parameters, dict, path)
             name = '/from_%d_%s' % (len(started), os.path.basename(path).replace('.', '_'))
-            if 'tools' in parameters:
+            if os.path.relpath(path, PACKAGE) in HANDS:
+                process = self.start(name, parameters, 'haptic_proxy')
+                self.check_hands(name, parameters['tools'])
+            elif 'tools' in parameters:
                 process = self.start(name, parameters)
                 self.check_collision_node(name)
             elif 'organs' in parameters:
@@ -253,7 +260,16 @@ class ShippedFilesTest(ContactCase, NodeStarter):
                 continue
             self.assertNotIn('is no parameter', self.stop(process), path)
             started.add(os.path.relpath(path, PACKAGE))
-        self.assertTrue({'config/tools.yaml', 'config/organs.yaml'} <= started, started)
+        self.assertTrue({'config/tools.yaml', 'config/organs.yaml', *HANDS} <= started, started)
+
+    def check_hands(self, name, tools):
+        """Checks that haptic_proxy knows the tools, and that they have no organ."""
+        for tool in tools:
+            state = rospy.wait_for_message(
+                '%s/%s/state' % (name, tool['name']), ProxyState, timeout=30.0
+            )
+            self.assertEqual(state.state, ProxyState.NO_ANSWER)
+            self.assertIn('organ', state.message)
 
 
 if __name__ == '__main__':
