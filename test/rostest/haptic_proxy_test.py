@@ -108,6 +108,14 @@ class HapticProxyTest(unittest.TestCase):
         self.meshes.publish(mesh)
         wait_until(lambda: self.organ in self.organs(), 'the organ')
 
+    @staticmethod
+    def set_number(name, value):
+        """Sets a parameter of the running node. Returns its value then."""
+        request = ReconfigureRequest()
+        request.config.doubles = [DoubleParameter(name, value)]
+        answer = rospy.ServiceProxy(NODE + '/set_parameters', Reconfigure)(request)
+        return next(number.value for number in answer.config.doubles if number.name == name)
+
     def hold(self, tool, tip):
         """Sends one pose of a hand."""
         self.tips[tool] = tip
@@ -318,21 +326,74 @@ class HapticProxyTest(unittest.TestCase):
 
     def test_parameters_can_be_changed(self):
         self.send_sheet()
-        change = rospy.ServiceProxy(NODE + '/set_parameters', Reconfigure)
-
-        def set_max_force(value):
-            request = ReconfigureRequest()
-            request.config.doubles = [DoubleParameter('max_force', value)]
-            return {number.name: number.value for number in change(request).config.doubles}
-
         self.stab('needle', 0.02)
-        self.assertEqual(set_max_force(1.5)['max_force'], 1.5)
+        self.assertEqual(self.set_number('max_force', 1.5), 1.5)
         state = self.hold_until(
             'needle', (X, Y, -0.02), lambda state: state.clipped, 'the force is clipped'
         )
         self.assertAlmostEqual(state.wrench.force.z, 1.5, delta=1e-6)
-        self.assertEqual(set_max_force(-1.0)['max_force'], 1.5, 'an illegal value is refused')
-        set_max_force(math.inf)
+        self.assertEqual(self.set_number('max_force', -1.0), 1.5, 'an illegal value is refused')
+        self.set_number('max_force', math.inf)
+
+    def test_a_needle_pierces_at_the_puncture_force(self):
+        self.send_sheet()
+        self.set_number('puncture_force', 3.0)
+        self.set_number('friction', 0.5)
+        try:
+            depth = 2.9 / STIFFNESS - RADIUS['needle'] - CLEARANCE
+            self.assertEqual(self.stab('needle', depth).state, ProxyState.TOUCHING)
+            self.move('needle', (X, Y, -0.03))
+            state = self.hold_until(
+                'needle',
+                (X, Y, -0.03),
+                lambda state: state.state == ProxyState.PUNCTURED,
+                'punctured',
+            )
+            self.assertAlmostEqual(state.wrench.force.z, 0.5, delta=0.05)
+            self.assertLess(state.proxy.position.z, -0.02)
+            self.move('needle', (X, Y, 0.03))
+            self.hold_until(
+                'needle', (X, Y, 0.03), lambda state: state.state == ProxyState.FREE, 'pulled out'
+            )
+        finally:
+            self.set_number('puncture_force', 0.0)
+            self.set_number('friction', 0.0)
+
+    def test_an_organ_in_another_frame_is_where_tf_says(self):
+        self.send_sheet()
+        raised = 'raised_frame'
+        self.tf.send_resting((FRAME, raised, scenes.Pose((0, 0, 0, 1), (0.0, 0.0, 0.01))))
+        name = self.organ + '_raised'
+        mesh = OrganMesh(
+            organ=name,
+            topology=1,
+            vertices=SHEET.flat_vertices(),
+            triangles=SHEET.flat_faces(),
+        )
+        mesh.header.frame_id = raised
+        self.meshes.publish(mesh)
+        wait_until(lambda: name in self.organs(), 'the raised organ')
+        try:
+            wrenches = Log('%s/%s/needle/wrench' % (NODE, name), WrenchStamped)
+            self.hold_until(
+                'needle', (X, Y, 0.04), lambda state: state.state == ProxyState.FREE, 'in the air'
+            )
+            self.move('needle', (X, Y, -0.01))
+            expected = self.spring('needle', -0.01) + STIFFNESS * 0.01
+            self.hold_until(
+                'needle',
+                (X, Y, -0.01),
+                lambda state: abs(state.wrench.force.z - expected) < 1e-3
+                and state.header.frame_id == FRAME,
+                'the force of the raised organ',
+            )
+            wait_until(
+                lambda: wrenches.last(lambda wrench: abs(wrench.wrench.force.z - expected) < 1e-3),
+                'its wrench',
+            )
+        finally:
+            rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(name)
+            wait_until(lambda: name not in self.organs(), 'removal')
 
     def test_reloaded_tools_keep_their_proxies(self):
         self.send_sheet()
