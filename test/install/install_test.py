@@ -81,7 +81,7 @@ class InstallTest(unittest.TestCase):
         programs = os.listdir(folder)
         self.assertTrue({'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter',
                          'query_offline', 'snapshot', 'liver_simulator', 'demo_report', 'simulator.py', 'ask.py',
-                         'grasper.py', 'view.py', 'own_mesh.py', 'dvrk_hand.py'}
+                         'grasper.py', 'view.py', 'own_mesh.py', 'dvrk_hand.py', 'stylus_driver'}
                         <= set(programs), programs)
         programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
