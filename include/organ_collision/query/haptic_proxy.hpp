@@ -22,10 +22,10 @@ enum class ProxyStatus : std::uint8_t {
   kNoAnswer = 0,  ///< there is no proxy
   kFree = 1,      ///< the proxy is where the hand is
   kTouching = 2,  ///< tissue holds the proxy back
-  /// Tissue closes in from several sides: the proxy is nearer to it than it should be, where it
-  /// comes least near.
+  /// Tissue closes in from several sides. The proxy is nearer to it than half the clearance, at the
+  /// place where the nearest tissue is as far away as possible.
   kSqueezed = 3,
-  kPunctured = 4  ///< the needle has pierced the tissue, whose crossings hold it
+  kPunctured = 4  ///< a needle has entered the tissue, and the place of its entry holds it
 };
 
 /// In which ways tissue can push the proxy away from the hand.
@@ -51,7 +51,8 @@ struct ProxySettings {
   /// [m] The proxy stops this far from tissue. Unless it is SQUEEZED, it is never nearer than half
   /// of this.
   double clearance = 1e-4;
-  /// [m] If the hand moves farther than this between two ticks, the proxy is placed anew.
+  /// [m] If the tip, the centre or the trocar of the hand moves farther than this between two
+  /// ticks, or a free hand turns by more than this divided by its size, the proxy is placed anew.
   double jump = 0.05;
   /// [m] The needle pierces the tissue if the hand's tip is this far beyond the proxy's, along the
   /// axis: the threshold of the force divided by the stiffness. Not set: never. Only for a shaft
@@ -94,9 +95,12 @@ struct ProxyCrossing {
   std::uint32_t face = 0;  ///< the number of the face that was pierced
   /// Of the place in the face; it stays the same.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  /// The place on the axis, in [0, 1] from trocar to tip.
+  double shaft = 0.0;
   /// [m] The place now, in the proxy's frame.
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   /// [m] The force of the needle on the tissue, divided by the stiffness. It acts at `point`.
+  /// Across the axis, `shaft` times the load is minus the pull on the hand: the axis is a lever.
   Eigen::Vector3d load = Eigen::Vector3d::Zero();
 };
 

@@ -1,6 +1,7 @@
 #include "organ_collision/query/haptic_proxy.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <string>
 #include <utility>
@@ -47,12 +48,17 @@ struct HapticProxy::State {
   void follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs);
 
  private:
+  /// How far a hand moved [m].
+  struct HandWay {
+    double jump = 0.0;     ///< as ProxySettings::jump counts it
+    double longest = 0.0;  ///< no point of the tool moved farther
+  };
   /// What is known of a tick, until all of it has worked.
   struct Tick {
     const ToolPose& hand;
     const std::vector<ProxyOrgan>& organs;
     std::vector<OrganTick> motions;
-    double hand_way;  ///< [m] since the last tick
+    HandWay hand_way;  ///< since the last tick
     ProxyAnswer answer = {};
     std::optional<ProxyPlace> place = {};
     std::optional<Needle> needle = {};
@@ -65,7 +71,7 @@ struct HapticProxy::State {
   Needle::Settings needle_settings() const;
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs) const;
   bool is_in_new_tissue(Tick& tick);
-  double way_of(const ToolPose& hand) const;
+  HandWay way_of(const ToolPose& hand) const;
   void describe(Tick& tick);
 
   std::unique_ptr<Mobility> mobility;
@@ -116,7 +122,7 @@ void HapticProxy::State::set_settings(const ProxySettings& its_settings) {
 /// One tick. A needle in tissue moves with it. Any other proxy gives way to the tissue that moved,
 /// and then follows the hand.
 void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs) {
-  Tick tick{hand, organs, match(organs), place ? way_of(hand) : 0.0};
+  Tick tick{hand, organs, match(organs), place ? way_of(hand) : HandWay{}};
   tissue.set_organs(tick.motions);
   mobility->measure(hand);
   tick.answer.proxy = hand;
@@ -138,7 +144,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
 /// Returns whether a needle is in tissue.
 bool HapticProxy::State::move_needle(Tick& tick) {
   tick.place = place;
-  if (!needle || tick.hand_way > settings.jump) return false;
+  if (!needle || tick.hand_way.jump > settings.jump) return false;
   Needle moved = *needle;
   const Needle::Fate fate = moved.follow(tick.hand.axis, tick.organs, needle_settings(), tissue);
   if (fate == Needle::Fate::kHeld) {
@@ -148,7 +154,7 @@ bool HapticProxy::State::move_needle(Tick& tick) {
   tick.place->pose.axis = moved.axis();
   tick.place->clearance = ProxyPlace().clearance;
   if (fate == Needle::Fate::kLost) {
-    tick.answer.message = "the face that the needle entered is gone";
+    tick.answer.message = "the face that the needle entered is gone, or has come to the trocar";
     tick.place.reset();
   }
   return false;
@@ -179,9 +185,9 @@ void HapticProxy::State::pierce(Tick& tick) {
 void HapticProxy::State::move_proxy(Tick& tick) {
   const ToolPose& hand = tick.hand;
   if (!place) {
-    tick.answer.message = "there was no proxy";
-  } else if (tick.hand_way > settings.jump) {
-    tick.answer.message = "the hand jumped " + std::to_string(tick.hand_way) + " m";
+    tick.answer.message = "this is the first tick, or the first after a reset";
+  } else if (tick.hand_way.jump > settings.jump) {
+    tick.answer.message = "the hand jumped " + std::to_string(tick.hand_way.jump) + " m";
     tick.place.reset();
   } else if (tick.place && is_in_new_tissue(tick)) {
     tick.answer.message = "new tissue is where the proxy was";
@@ -201,7 +207,7 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   }
   ProxyPlace& now = *tick.place;
   const ToolPose start = now.pose;
-  const double reach = 2.0 * std::max(tick.hand_way, last_way);
+  const double reach = 2.0 * std::max(tick.hand_way.longest, last_way);
   const bool was_free = tick.answer.is_placed_anew || answer.state == ProxyStatus::kFree;
   const bool may_fly = was_free && now.clearance >= settings.clearance;
   if (!may_fly || !motion.fly(now, hand)) motion.slide(now, hand, reach);
@@ -234,20 +240,32 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
 }
 
 /// Whether the proxy is inside an organ or across its surface, because an organ is new or has new
-/// faces. If it is not, its clearance from them is still unknown.
+/// faces. If it is not, its clearance becomes that from the new tissue, if that is nearer.
 bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
-  const bool has_new = std::any_of(tick.motions.begin(), tick.motions.end(),
-                                   [](const OrganTick& organ) { return !organ.before; });
-  if (!has_new) return false;
-  tick.place->clearance = ProxyPlace().clearance;
-  return tissue.is_inside(tick.place->pose, mobility->center(tick.place->pose));
+  std::vector<OrganTick> new_organs;
+  std::copy_if(tick.motions.begin(), tick.motions.end(), std::back_inserter(new_organs),
+               [](const OrganTick& organ) { return !organ.before; });
+  if (new_organs.empty()) return false;
+  ProxyPlace& start = *tick.place;
+  tissue.set_organs(new_organs);
+  const bool is_inside = tissue.is_inside(start.pose, mobility->center(start.pose));
+  std::vector<TissueContact> contacts;
+  tissue.touch(start.pose, settings.clearance, contacts);
+  for (const TissueContact& contact : contacts) {
+    start.clearance = std::min(start.clearance, contact.distance);
+  }
+  tissue.set_organs(tick.motions);
+  return is_inside;
 }
 
-/// [m] How far the hand moved since the last tick.
-double HapticProxy::State::way_of(const ToolPose& hand) const {
-  const double free_way = mobility->longest_way(hand, mobility->between(last_hand, hand));
-  if (tool.freedom == ProxyFreedom::kFree) return free_way;
-  return std::max(free_way, (hand.axis.trocar - last_hand.axis.trocar).norm());
+/// How far the hand moved since the last tick.
+HapticProxy::State::HandWay HapticProxy::State::way_of(const ToolPose& hand) const {
+  const Displacement way = mobility->between(last_hand, hand);
+  const double trocar = tool.freedom == ProxyFreedom::kTrocar
+                            ? (hand.axis.trocar - last_hand.axis.trocar).norm()
+                            : 0.0;
+  return {std::max({way.head<3>().norm(), way.tail<3>().norm(), trocar}),
+          std::max(mobility->longest_way(hand, way), trocar)};
 }
 
 /// Says in the answer where the proxy is, what holds it, and how it pulls the hand.

@@ -10,6 +10,9 @@ using Eigen::Vector3d;
 /// [1] The tip presses on a face if the cosine of the angle between the axis and the contact's
 /// normal is larger.
 constexpr double kPressing = 0.5;
+/// [1] The needle loses its hold if the entry comes nearer to the trocar than this share of the
+/// hand's length: the load of the tissue would grow without bound.
+constexpr double kShortestLever = 0.02;
 
 Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
 
@@ -41,7 +44,7 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
   const ProxyOrgan& organ = organs[entry->organ];
   Needle needle(organ.name,
                 {entry->organ, entry->crossing.face, entry->crossing.barycentric,
-                 entry->crossing.point, Vector3d::Zero()},
+                 entry->crossing.shaft, entry->crossing.point, Vector3d::Zero()},
                 organ.shape->faces()[entry->crossing.face]);
   const bool is_held = needle.follow(hand, organs, settings, tissue) == Fate::kHeld;
   return is_held ? std::optional<Needle>(needle) : std::nullopt;
@@ -53,6 +56,7 @@ Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>
   const Vector3d to_entry = entry_.point - hand.trocar;
   const Vector3d direction = to_entry.normalized();
   const double entry = to_entry.norm();
+  if (!(entry > kShortestLever * along(hand).norm())) return Fate::kLost;
   const double hand_tip = direction.dot(hand.tip - hand.trocar);
   const double wanted =
       std::clamp(entry + inserted_, hand_tip - settings.friction, hand_tip + settings.friction);
@@ -104,19 +108,19 @@ double Needle::stop_at_faces(double from, double hand_tip, const Settings& setti
 void Needle::describe(const ShaftAxis& hand, Tissue& tissue) {
   const double length = along(axis_).norm();
   const Vector3d direction = along(axis_) / length;
-  const double place = (entry_.point - axis_.trocar).norm() / length;
+  entry_.shaft = (entry_.point - axis_.trocar).norm() / length;
   const Vector3d pull = axis_.tip - hand.tip;
   const Vector3d lengthwise = direction.dot(pull) * direction;
   // The axis is a lever about the trocar.
-  entry_.load = -(lengthwise + (pull - lengthwise) / place);
+  entry_.load = -(lengthwise + (pull - lengthwise) / entry_.shaft);
   crossings_ = {entry_};
   std::vector<TissueCrossing> found;
   tissue.cross(axis_, found);
   for (const TissueCrossing& further : found) {
     const bool is_entry = further.organ == entry_.organ && further.crossing.face == entry_.face;
-    if (is_entry || further.crossing.shaft <= place) continue;
+    if (is_entry || further.crossing.shaft <= entry_.shaft) continue;
     crossings_.push_back({further.organ, further.crossing.face, further.crossing.barycentric,
-                          further.crossing.point, Vector3d::Zero()});
+                          further.crossing.shaft, further.crossing.point, Vector3d::Zero()});
   }
 }
 

@@ -33,7 +33,7 @@ class Needle {
   enum class Fate {
     kHeld,       ///< tissue holds it
     kPulledOut,  ///< its tip is out of the tissue, at axis()
-    kLost        ///< the face that it entered is gone
+    kLost        ///< the face that it entered is gone, or has come to the trocar
   };
   /// Moves the needle with the hand and the tissue.
   Fate follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>& organs,

@@ -28,8 +28,10 @@ void check_tool(const ProxyTool& tool) {
   check(
       std::isfinite(tool.radius) && tool.radius >= 0.0,
       "the radius of the proxy's tool is " + shown(tool.radius) + " m; it must be >= 0 and finite");
-  check(tool.radius > 0.0 || !tool.links.empty(),
-        "the proxy's tool has neither a shaft nor links; give it a radius > 0 or links");
+  const bool has_parts = std::any_of(tool.links.begin(), tool.links.end(),
+                                     [](const Link& link) { return !link.parts.empty(); });
+  check(tool.radius > 0.0 || has_parts,
+        "the proxy's tool has neither a shaft nor links with parts; give it a radius > 0 or links");
   check(tool.radius > 0.0 || tool.freedom == ProxyFreedom::kFree,
         "the proxy's tool has no shaft (its radius is 0), so it cannot go through a trocar; let it "
         "be free");

@@ -142,7 +142,7 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
     if (look == 0) clearance = place.clearance;
     solver_.solve(mobility_.between(place.pose, hand), walls_);
     const double way = mobility_.longest_way(place.pose, solver_.displacement());
-    is_there = way < kConverged * clearance_.rest;
+    is_there = way < (solver_.is_held() ? kConverged * clearance_.rest : kSamePose);
     if (is_there) break;
     if (solver_.is_held()) {
       const double share = std::min(1.0, reach / way);

@@ -97,6 +97,8 @@ TEST_F(NeedleTest, IsHeldWhereItEntered) {
     // The axis goes through the point.
     const Vector3d along = (moved.proxy.axis.tip - trocar_).normalized();
     EXPECT_LT(along.cross(held.point - trocar_).norm(), 1e-9);
+    EXPECT_NEAR(held.shaft, (held.point - trocar_).norm() / (moved.proxy.axis.tip - trocar_).norm(),
+                1e-12);
     // The lever about the trocar is in balance.
     const Vector3d arm = held.point - trocar_, hand_arm = moved.proxy.axis.tip - trocar_;
     EXPECT_LT((arm.cross(held.load) + hand_arm.cross(moved.pull)).norm(), 1e-9);
@@ -122,6 +124,15 @@ TEST_F(NeedleTest, EntersAnewIfItsFaceIsGone) {
   EXPECT_NE(cut.message.find("needle"), std::string::npos);
   EXPECT_EQ(cut.state, ProxyStatus::kPunctured) << "the hand is still deep";
   EXPECT_EQ(cut.crossings.size(), 1u);
+}
+
+TEST_F(NeedleTest, LosesItsHoldIfItsEntryComesToTheTrocar) {
+  ASSERT_EQ(move_to(0.02).state, ProxyStatus::kPunctured);
+  const Vector3d entry = tick(above(0.02)).crossings[0].point;
+  trocar_ = entry + Vector3d(0.0, 0.0, 1e-6);
+  const ProxyAnswer& lost = tick(above(0.02));
+  EXPECT_NE(lost.state, ProxyStatus::kPunctured);
+  EXPECT_TRUE(lost.pull.allFinite());
 }
 
 TEST_F(NeedleTest, IsOffByDefault) {

@@ -57,6 +57,18 @@ TEST_F(NewTissue, AnOrganBesideTheProxyPushesItAway) {
   EXPECT_NEAR(pushed.proxy.axis.tip.z(), -0.002 + kRest, 1e-6);
 }
 
+TEST_F(NewTissue, FarAwayItLeavesTheGuaranteeForOtherOrgans) {
+  const Shape floor = sheet(0.0), risen = sheet(0.03);
+  follow(0.02, {organ("floor", floor)});
+  follow(kRest - 0.001, {organ("floor", floor)});
+  // The floor rises while an organ appears elsewhere. The whole shaft is swept, not only its axis.
+  const ProxyAnswer& lifted =
+      follow(kRest - 0.001, {organ("floor", risen), organ("roof", sheet(-0.2))});
+  EXPECT_FALSE(lifted.is_placed_anew);
+  EXPECT_EQ(lifted.state, ProxyStatus::kTouching);
+  EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kRest, 1e-6);
+}
+
 TEST_F(NewTissue, WithoutOrgansTheProxyIsFree) {
   follow(0.02, {organ("liver", sheet(0.0))});
   ASSERT_EQ(follow(-0.02, {organ("liver", sheet(0.0))}).state, ProxyStatus::kTouching);

@@ -64,6 +64,16 @@ TEST_F(ProxyMotionTest, LeavesTheTissueWithTheHand) {
   EXPECT_EQ(now.pose.axis.tip, hand.axis.tip);
 }
 
+TEST_F(ProxyMotionTest, ReachesAHandInTheAirHoweverNear) {
+  const Shape floor = sheet(0.0);
+  organs_ = {resting(floor)};
+  tissue_.set_organs(organs_);
+  ProxyPlace now = place({0.012, 0.001, 0.03});
+  const ToolPose hand = place({0.012, 0.001 + 5e-7, 0.03}).pose;
+  motion_.slide(now, hand, 0.001);
+  EXPECT_EQ(now.pose.axis.tip, hand.axis.tip);
+}
+
 TEST_F(ProxyMotionTest, GivesWayToTissueThatRises) {
   for (const double rise : {0.0005, 0.005, 0.05}) {
     const Shape low = sheet(0.0), high = sheet(rise);

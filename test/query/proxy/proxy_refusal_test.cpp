@@ -73,6 +73,8 @@ TEST(ProxyRefusal, NamesIllegalTools) {
   }
   expect_refusal([] { HapticProxy({-1.5, {}, ProxyFreedom::kTrocar}, {}); }, {"-1.5"});
   expect_refusal([] { HapticProxy({0.0, {}, ProxyFreedom::kFree}, {}); }, {"shaft", "links"});
+  const Link empty{"empty", {}};
+  expect_refusal([&] { HapticProxy({0.0, {empty}, ProxyFreedom::kFree}, {}); }, {"parts"});
   const Link ball{"ball", {LinkPart::sphere(Vector3d::Zero(), 1e-3)}};
   expect_refusal([&] { HapticProxy({0.0, {ball}, ProxyFreedom::kTrocar}, {}); }, {"trocar"});
   ProxySettings needle;
