@@ -1,4 +1,4 @@
-"""What a hand feels that stabs through tissue: by the penalty law, and by a haptic proxy."""
+"""What a hand feels that stabs through tissue: by the penalty force, and by a haptic proxy."""
 
 import csv
 import os
@@ -13,7 +13,7 @@ TITLES = {'sheet': 'A sheet, and a shaft that comes from its side',
 
 
 def rows_of(tissue):
-    """Columns of the file: time [ms], way of the hand [mm], force of both laws [N]."""
+    """Columns of the file: time [ms], way of the hand [mm], both forces [N]."""
     with open(DATA, encoding='utf-8') as rows:
         kept = [row for row in csv.DictReader(rows) if row['tissue'] == tissue]
     return [[float(row[name]) for row in kept] for name in ('time_ms', 'way_mm', 'penalty_n', 'proxy_n')]
@@ -40,7 +40,7 @@ def draw():
     depth.set_ylabel('height of the hand [mm]')
     force.set_ylabel('force out of the tissue [N]')
     style.label(force, (100, 10.6), 'proxy: 300 N/m × depth', style.BOUND, ha='center')
-    style.label(force, (100, 0.5), 'penalty law: the shaft\nis through, no force', style.FACE, ha='center')
+    style.label(force, (100, 0.5), 'penalty force: the shaft\nis through, no force', style.FACE, ha='center')
     force.annotate('pushed out on\nthe wrong side', (158, -0.9), xytext=(120, -3.6), color=style.FACE,
                    ha='center', arrowprops={'arrowstyle': '-', 'color': style.FACE})
     force.set_ylim(-4.2, 19)
