@@ -47,7 +47,6 @@ struct HapticProxy::State {
   void set_settings(const ProxySettings& its_settings);
   void follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs);
 
- private:
   /// How far a hand moved [m].
   struct HandWay {
     double jump = 0.0;     ///< as ProxySettings::jump counts it
