@@ -79,7 +79,8 @@ ProxyState state_of(const ProxyReport& report) {
   state.tool = report.tool.name;
   state.message = plain_text(report.message, kLongestMessage);
   state.tick_sec = report.tick_sec;
-  state.clipped = report.is_clipped;
+  state.clipped = report.clipped_by != nullptr;
+  state.hand.orientation.w = state.proxy.orientation.w = 1.0;
   if (report.hand) state.hand = pose_of(report.tool, *report.hand);
   if (report.proxy) state.proxy = pose_of(report.tool, *report.proxy);
   if (report.answer) {
