@@ -2,9 +2,9 @@
 
 namespace organ_collision {
 
-double share_within_limit(const Eigen::Vector3d& force, double max_force) {
-  const double magnitude = force.stableNorm();
-  return magnitude <= max_force ? 1.0 : max_force / magnitude;
+double share_within_limit(const Eigen::Vector3d& load, double most) {
+  const double magnitude = load.stableNorm();
+  return magnitude <= most ? 1.0 : most / magnitude;
 }
 
 bool limit_force(std::vector<FaceForce>& forces, double max_force) {

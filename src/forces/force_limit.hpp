@@ -7,8 +7,9 @@
 
 namespace organ_collision {
 
-/// The factor in (0, 1] that reduces `force` to the magnitude `max_force` [N] > 0, if it is larger.
-double share_within_limit(const Eigen::Vector3d& force, double max_force);
+/// The factor in (0, 1] that reduces a force [N] or a torque [N m] to the magnitude `most` > 0, if
+/// it is larger.
+double share_within_limit(const Eigen::Vector3d& load, double most);
 
 /// If the sum of the forces exceeds `max_force` [N], scales all of them so that their sum has this
 /// magnitude. Returns whether it scaled them.

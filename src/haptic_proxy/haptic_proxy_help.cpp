@@ -73,8 +73,8 @@ std::vector<HelpEntry> services() {
       {names::kReset, service<std_srvs::Empty>(), "places all proxies anew"},
       {names::kReloadTools, service<std_srvs::Trigger>(), "reads the parameter tools again"},
       {"set_parameters", service<dynamic_reconfigure::Reconfigure>(),
-       "changes stiffness, damping, max_force, clearance, jump, puncture_force, friction, "
-       "markers_rate and surface_rate while the node runs"},
+       "changes stiffness, damping, max_force, max_torque, clearance, jump, puncture_force, "
+       "friction, markers_rate and surface_rate while the node runs"},
   };
 }
 
@@ -88,7 +88,12 @@ std::vector<HelpEntry> parameters() {
        "[N/m] force for each metre between hand and proxy"},
       {names::kDamping, shown(defaults.damping),
        "[N s/m] on the hand's velocity relative to the proxy, while the proxy is held back"},
-      {names::kMaxForce, "no limit", "[N] larger forces are clipped to it"},
+      {names::kMaxForce, "no limit",
+       "[N] larger forces are clipped to it; the torque shrinks by the same factor"},
+      {names::kMaxTorque, "no limit",
+       "[N m] larger torques on a free tool, about its centre, are clipped to it; the force "
+       "shrinks "
+       "by the same factor"},
       {names::kClearance, shown(defaults.clearance), "[m] the proxy stops this far from tissue"},
       {names::kJump, shown(defaults.jump),
        "[m] if the hand moves farther between two poses, its proxy is placed anew"},
@@ -118,7 +123,8 @@ std::vector<HelpEntry> parameters() {
 ProgramHelp haptic_proxy_help() {
   return {names::kHapticProxy,
           "Gives each tool a proxy that follows the hand but stops at tissue, and the force of a "
-          "spring between both. The force has no upper limit unless max_force is set. The names "
+          "spring between both. The force and the torque have no upper limit unless max_force and "
+          "max_torque are set. The names "
           "below are private to the node (~), whose default name is /" +
               std::string(names::kHapticProxy) + ".",
           subscribed_topics(),

@@ -21,6 +21,7 @@ inline constexpr char kProxyFrame[] = "_proxy";
 /// A parameter.
 inline constexpr char kFrame[] = "frame";
 inline constexpr char kDamping[] = "damping";
+inline constexpr char kMaxTorque[] = "max_torque";
 inline constexpr char kClearance[] = "clearance";
 inline constexpr char kJump[] = "jump";
 inline constexpr char kPunctureForce[] = "puncture_force";

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "geometry/concatenate.hpp"
+#include "haptic_proxy_names.hpp"
 #include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "proxy_scene.hpp"
@@ -23,11 +25,14 @@ constexpr std::chrono::seconds kStart(2);
 /// In a batch of messages, the node makes ticks for at most this long. Poses that come while it
 /// lags behind are merged: one tick covers them.
 constexpr std::chrono::milliseconds kLongestLag(1);
-/// While a force fades, it is published this often.
+/// While a force fades or rises, it is published this often.
 constexpr std::chrono::milliseconds kFadeStep(1);
+/// After its last message about a tool, the node waits this long for it to leave, before the topic
+/// ends.
+const ros::WallDuration kFarewell(0.1);
 /// How often it is repeated that there is no answer, for subscribers that came later.
 constexpr std::chrono::milliseconds kRepetition(100);
-/// After a breakdown, the node waits this long for its last messages to leave.
+/// After a breakdown, the node waits this long for the log and /diagnostics to leave.
 const ros::WallDuration kLastWords(1.0);
 /// ToolPoses::path() is not used.
 constexpr PathSampling kNoPaths{1.0, 1};
@@ -77,6 +82,9 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
             return {std::move(loaded.parameters.tools), std::move(loaded.misspelt)};
           },
           [this](LoadedToolList& loaded, const KeptTools& kept) {
+            bool leaves = false;
+            run_in_thread_of(loop_.queue(), [&] { leaves = release_leaving(kept); });
+            if (leaves) kFarewell.sleep();  // The node's thread lets the forces fade.
             run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
           }),
       live_parameters_(on_queue(private_node, background_.queue()),
@@ -125,6 +133,7 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
       loop_.guard([this] { markers_.update(inbox_.organs(), [this] { return views(); }); });
       loop_.guard([this] { surfaces_.update(inbox_.organs(), SteadyClock::now()); });
     }
+    let_go("the node ends");
   } catch (const std::exception& error) {
     report_breakdown(error.what());
     kLastWords.sleep();
@@ -132,18 +141,26 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
   }
 }
 
-/// Tells each hand that its force is gone. Never throws, because the caller rethrows the exception
-/// that ends the node.
-void HapticProxyNode::report_breakdown(const std::string& why) {
-  try {
+/// Lets all forces fade, and tells each hand why. Returns when the last messages have left.
+void HapticProxyNode::let_go(const std::string& why) {
+  bool is_fading = true;
+  while (is_fading && private_node_.ok()) {
+    is_fading = false;
     for (const Hand& hand : hands_) {
       if (!hand.proxy) continue;
-      ProxyReport report =
-          hand.proxy->lose(ContactArray::PICKER_FAILED, "the node broke down: " + why,
-                           frame_.name(), SteadyClock::now());
-      for (OrganForce& of_organ : report.forces) of_organ.scale(0.0);
-      publisher_.publish(report);
+      publisher_.publish(
+          hand.proxy->lose(ContactArray::PICKER_FAILED, why, frame_.name(), SteadyClock::now()));
+      is_fading = is_fading || hand.proxy->is_ramping();
     }
+    std::this_thread::sleep_for(kFadeStep);
+  }
+  if (private_node_.ok()) kFarewell.sleep();
+}
+
+/// Never throws, because the caller rethrows the exception that ends the node.
+void HapticProxyNode::report_breakdown(const std::string& why) {
+  try {
+    let_go("the node broke down: " + why);
     updater_.force_update();
   } catch (const std::exception&) {  // Usually std::bad_alloc. There is nowhere left to report it.
   }
@@ -151,7 +168,7 @@ void HapticProxyNode::report_breakdown(const std::string& why) {
 
 void HapticProxyNode::watch_clock() {
   if (!inbox_.watch_clock()) return;
-  reset_proxies();
+  reset_proxies("the clock jumped back");
   for (Hand& hand : hands_) hand.stamp = {};
 }
 
@@ -168,16 +185,20 @@ void HapticProxyNode::apply_organ_messages() {
 void HapticProxyNode::follow_waiting_hands() {
   const Time now = SteadyClock::now();
   if (!batch_began_) batch_began_ = now;
-  if (now - *batch_began_ > kLongestLag) return;
-  for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
-    if (hands_[tool].is_waiting) follow_hand(tool, now);
+  if (broken_ || now - *batch_began_ > kLongestLag) return;
+  try {
+    for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
+      if (hands_[tool].is_waiting) follow_hand(tool, now);
+    }
+  } catch (...) {  // For example, std::bad_alloc. The loop would only count it.
+    broken_ = std::current_exception();
   }
 }
 
 /// After a batch of messages: a tick for each hand with a new pose.
 void HapticProxyNode::follow_hands() {
   batch_began_.reset();
-  if (frame_.update(inbox_.organs())) reset_proxies();
+  if (frame_.update(inbox_.organs())) reset_proxies("the proxy's frame changed");
   const Time now = SteadyClock::now();
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) follow_hand(tool, now);
   has_new_shape_ = false;
@@ -187,6 +208,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   Hand& hand = hands_[tool];
   hand.is_waiting = false;
   try {
+    if (hand.is_leaving) throw Rejection(*hand.why_not);
     if (const auto pose = new_pose(tool, now)) {
       tick(hand, *pose, now);
     } else if (hand.why_not) {
@@ -201,8 +223,9 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   }
 }
 
-/// The pose of the tool's hand if it is new. A pose that is valid at any time counts as new
-/// whenever an organ has a new shape. Throws Rejection if the pose is not known, or too old.
+/// The pose of the tool's hand if there is to be a tick for it: it is new, or the force fades or
+/// rises. A pose that is valid at any time counts as new whenever an organ has a new shape. Throws
+/// Rejection if the pose is not known, or too old.
 std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time now) {
   Hand& hand = hands_[tool];
   if (!hand.proxy) {
@@ -210,7 +233,7 @@ std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time 
                     tools_[tool].fault);
   }
   if (frame_.name().empty()) {
-    throw Rejection(ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh");
+    throw no_organ();
   }
   auto pose = poses_.pose(tools_[tool], frame_.name(), ros::Time(0));
   if (!pose.found) {
@@ -231,6 +254,8 @@ std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time 
         ContactArray::NO_TRANSFORM, "no pose",
         concatenate("the hand's last pose came more than ", timeout, " s ago (pose_timeout_sec)"));
   }
+  const bool is_due = !hand.why_not && hand.proxy->is_ramping() && now - hand.told >= kFadeStep;
+  if (is_due) return std::move(pose.found);
   return std::nullopt;
 }
 
@@ -245,10 +270,14 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, Time now) {
   counters_.ticks.count();
   counters_.tick_times.add(report.tick_sec);
   const std::string named = "tool '" + report.tool.name + "': ";
-  if (report.is_clipped) {
+  if (report.clipped_by == names::kMaxForce) {
     counters_.clipped.add(
-        "max_force", concatenate(named, "the force is clipped to ", parameters.max_force, " N"),
-        now);
+        names::kMaxForce,
+        concatenate(named, "the force is clipped to ", parameters.max_force, " N"), now);
+  } else if (report.clipped_by == names::kMaxTorque) {
+    counters_.clipped.add(
+        names::kMaxTorque,
+        concatenate(named, "the torque is clipped to ", parameters.max_torque, " N m"), now);
   }
   if (report.answer->is_placed_anew && std::exchange(hand.had_answer, true)) {
     counters_.placed_anew.add("placed anew", named + report.message, now);
@@ -258,7 +287,7 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, Time now) {
 /// Lets the force fade, and says why: at once, while the force fades, and then from time to time.
 void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   Hand& hand = hands_[tool];
-  const bool is_fading = hand.proxy && hand.proxy->is_fading();
+  const bool is_fading = hand.proxy && hand.proxy->is_ramping();
   const bool is_known = hand.why_not && std::string(hand.why_not->what()) == why.what();
   if (is_known && !is_fading && now - hand.told < kRepetition) return;
   const ToolParameters& parameters = tools_[tool].parameters;
@@ -308,7 +337,7 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   std::optional<Time> next;
   const auto add = [&next](Time time) { next = next ? std::min(*next, time) : time; };
   for (const Hand& hand : hands_) {
-    if (hand.proxy && hand.proxy->is_fading()) add(now + kFadeStep);
+    if (hand.proxy && hand.proxy->is_ramping()) add(now + kFadeStep);
     if (!hand.why_not && hand.heard && !hand.stamp.isZero()) {
       add(*hand.heard + duration(loaded_.parameters.pose_timeout_sec));
     }
@@ -336,10 +365,31 @@ std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>
   return hands;
 }
 
-void HapticProxyNode::reset_proxies() {
+/// The next poses place the proxies anew. Until they come, forces fade.
+void HapticProxyNode::reset_proxies(const std::string& why) {
+  has_new_shape_ = true;  // So that poses that are valid at any time count as new.
   for (Hand& hand : hands_) {
-    if (hand.proxy) hand.proxy->reset();
+    if (!hand.proxy) continue;
+    hand.proxy->reset();
+    if (hand.why_not) continue;
+    hand.why_not = Rejection(ContactArray::NO_TRANSFORM, "no pose",
+                             why + "; the next pose of the hand places its proxy anew");
   }
+}
+
+/// The forces of tools that will be removed or changed begin to fade. Returns whether there are
+/// such tools.
+bool HapticProxyNode::release_leaving(const KeptTools& kept) {
+  bool leaves = false;
+  for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
+    if (std::find(kept.begin(), kept.end(), tool) != kept.end()) continue;
+    Hand& hand = hands_[tool];
+    hand.is_leaving = leaves = true;
+    hand.told = {};  // It is to be told at once.
+    hand.why_not =
+        Rejection(ContactArray::UNKNOWN_TOOL, "tool removed", "the tool was removed or changed");
+  }
+  return leaves;
 }
 
 /// Runs in the node's thread.
@@ -376,7 +426,7 @@ void HapticProxyNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
 
 bool HapticProxyNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
   inbox_.forget_organ_history();
-  reset_proxies();
+  reset_proxies("reset was called");
   return true;
 }
 

@@ -34,9 +34,9 @@ namespace organ_collision {
 
 /// The node: one proxy for each tool, against all organs. Its inbox is that of the collision node.
 /// Each pose of a hand gives one tick of its proxy, unless the node lags behind. Poses on TF are
-/// looked up after each batch of messages. One thread does
-/// all this (message_loop.hpp) and owns the GL contexts. The background thread inspects surfaces,
-/// and loads new tools and parameters.
+/// looked up after each batch of messages. While a force fades or rises, further ticks follow the
+/// last pose. One thread does all this (message_loop.hpp) and owns the GL contexts. The background
+/// thread inspects surfaces, and loads new tools and parameters.
 class HapticProxyNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -46,7 +46,8 @@ class HapticProxyNode {
   HapticProxyNode& operator=(const HapticProxyNode&) = delete;
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
-  /// recover from, such as std::bad_alloc, after it has published NO_ANSWER for each tool.
+  /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
+  /// is published for each tool, if ROS still works.
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:
@@ -58,6 +59,7 @@ class HapticProxyNode {
     ros::Time stamp = {};                   ///< of the last pose; zero: it is valid at any time
     std::optional<Time> heard = {};         ///< when that pose came; empty: no pose came yet
     bool is_waiting = false;                ///< a pose came on its topic, and is to be followed
+    bool is_leaving = false;                ///< its tool will be removed or changed soon
     bool had_answer = false;                ///< since the start
     std::optional<Rejection> why_not = {};  ///< why there is no answer now; empty: there is one
     Time told = {};                         ///< when something was last published
@@ -65,6 +67,7 @@ class HapticProxyNode {
 
   void start();
   void end_background();
+  void let_go(const std::string& why);
   void report_breakdown(const std::string& why);
   void watch_clock();
   void apply_organ_messages();
@@ -77,7 +80,8 @@ class HapticProxyNode {
   void lose(std::size_t tool, const Rejection& why, Time now);
   std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
-  void reset_proxies();
+  void reset_proxies(const std::string& why);
+  bool release_leaving(const KeptTools& kept);
   void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
   void change_parameters(const XmlRpc::XmlRpcValue& changes);
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);

@@ -26,6 +26,7 @@ constexpr LiveNumber kLiveNumbers[] = {
     {names::kStiffness, &LiveHapticProxyParameters::stiffness, kPositive},
     {names::kDamping, &LiveHapticProxyParameters::damping, kNotNegative},
     {names::kMaxForce, &LiveHapticProxyParameters::max_force, kPositiveOrInfinite},
+    {names::kMaxTorque, &LiveHapticProxyParameters::max_torque, kPositiveOrInfinite},
     {names::kClearance, &LiveHapticProxyParameters::clearance, kPositive},
     {names::kJump, &LiveHapticProxyParameters::jump, kPositiveOrInfinite},
     {names::kPunctureForce, &LiveHapticProxyParameters::puncture_force, kNotNegative},
@@ -60,7 +61,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
   const ParameterGroup all(
       "~", private_namespace,
       {names::kTools, names::kFrame, names::kStiffness, names::kDamping, names::kMaxForce,
-       names::kClearance, names::kJump, names::kPunctureForce, names::kFriction,
+       names::kMaxTorque, names::kClearance, names::kJump, names::kPunctureForce, names::kFriction,
        names::kPoseTimeoutSec, names::kMeshTimeoutSec, names::kPicker, names::kMaxFaces,
        names::kDiagnosticPeriod, names::kPublishTf, names::kMarkersRate, names::kSurfaceRate});
   LoadedTools tools = parse_tools(all);

@@ -21,11 +21,13 @@ struct LiveHapticProxyParameters {
   double damping = 0.0;      ///< [N s/m] of the hand's velocity relative to the proxy's
   double max_force =
       std::numeric_limits<double>::infinity();  ///< [N] larger forces are scaled down to it
-  double clearance = 1e-4;                      ///< [m] ProxySettings::clearance
-  double jump = 0.05;                           ///< [m] ProxySettings::jump
-  double puncture_force = 0.0;                  ///< [N] a needle pierces tissue at it; 0: never
-  double friction = 0.0;                        ///< [N] along a needle that has pierced tissue
-  MarkerSettings markers;                       ///< without the depth
+  /// [N m] of a free tool, about its centre; larger torques are scaled down to it
+  double max_torque = std::numeric_limits<double>::infinity();
+  double clearance = ProxySettings().clearance;  ///< [m]
+  double jump = ProxySettings().jump;            ///< [m]
+  double puncture_force = 0.0;                   ///< [N] a needle pierces tissue at it; 0: never
+  double friction = 0.0;                         ///< [N] along a needle that has pierced tissue
+  MarkerSettings markers;                        ///< without the depth
 };
 
 /// The validated parameters of the node, with the documented defaults.

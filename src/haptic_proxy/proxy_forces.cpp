@@ -12,7 +12,7 @@ using Eigen::Vector3d;
 struct Place {
   std::size_t organ;
   FaceForce on_face;  ///< in the proxy's frame; `force`: stiffness times load, on the proxy
-  double lever;       ///< [1] the share of the force that acts on the point of the pull
+  Vector3d on_hand;   ///< [N] the part of that force that acts at the point of the pull
 };
 
 template <typename Indices>
@@ -24,6 +24,14 @@ FaceForce on_face(std::uint32_t face, std::uint32_t link, const Indices& vertice
   return at;
 }
 
+/// What a force on the axis [N] does at the tip. The axis is a lever about the trocar for the part
+/// across it. The part along the axis acts whole.
+Vector3d at_tip(const Vector3d& force, double shaft, const ShaftAxis& axis) {
+  const Vector3d direction = (axis.tip - axis.trocar).normalized();
+  const Vector3d lengthwise = direction.dot(force) * direction;
+  return lengthwise + shaft * (force - lengthwise);
+}
+
 std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyOrgan>& organs,
                              bool has_levers, double stiffness) {
   std::vector<Place> places;
@@ -31,16 +39,18 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
   for (const ProxyContact& at : answer.contacts) {
     const FaceContact& contact = at.contact;
     const Vector3d force = -stiffness * at.load * contact.normal;
+    const double lever = has_levers && contact.link == 0 ? contact.shaft : 1.0;
     places.push_back({at.organ,
                       on_face(contact.face, contact.link, contact.vertices, contact.barycentric,
                               contact.point, force),
-                      has_levers && contact.link == 0 ? contact.shaft : 1.0});
+                      lever * force});
   }
   for (const ProxyCrossing& at : answer.crossings) {
+    const Vector3d force = -stiffness * at.load;
     places.push_back({at.organ,
                       on_face(at.face, 0, organs[at.organ].shape->faces()[at.face], at.barycentric,
-                              at.point, -stiffness * at.load),
-                      1.0});
+                              at.point, force),
+                      at_tip(force, at.shaft, answer.proxy.axis)});
   }
   return places;
 }
@@ -91,14 +101,14 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
   }
   const std::vector<double> shares = shares_of(places);
   Vector3d unexplained = whole;
-  for (const Place& place : places) unexplained -= place.lever * place.on_face.force;
+  for (const Place& place : places) unexplained -= place.on_hand;
 
   // Torques are first taken about the point where the pull acts.
   Vector3d unexplained_torque = stiffness * answer.twist;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Place& place = places[i];
     OrganForce& of_organ = forces[place.organ];
-    of_organ.force += place.lever * place.on_face.force + shares[i] * unexplained;
+    of_organ.force += place.on_hand + shares[i] * unexplained;
     place.on_face.force += shares[i] * unexplained;
     of_organ.on_faces.push_back(transformed(place.on_face, organs[place.organ].T_organ_proxy));
     if (acts_at_tip) continue;

@@ -28,6 +28,7 @@ struct OrganForce {
 ///
 /// Each contact and crossing pushes with stiffness times its load. In a tool through a trocar, the
 /// load of a contact along the shaft acts on the tip with the lever of its place, contact.shaft.
+/// The load of a crossing does so only across the axis; along the axis it acts whole.
 /// What the loads do not explain is divided among the contacts in proportion to the loads: the
 /// damping, and the pull of a proxy that is still on its way. For a free tool, the forces on the
 /// faces of an organ therefore add up to its force on the hand.

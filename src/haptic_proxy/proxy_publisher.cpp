@@ -61,7 +61,7 @@ FaceContact transformed(FaceContact contact, const Eigen::Isometry3d& T_target_s
 /// What the proxy is near of one organ of the scene, in the organ's frame.
 ContactArrayPtr contacts_of(const ProxyReport& report, std::size_t organ) {
   const DeformableOrgan& source = *report.scene->sources[organ];
-  const auto contacts = boost::make_shared<ContactArray>(
+  auto contacts = boost::make_shared<ContactArray>(
       answer_about(source.name(), report.tool.name, ContactArray::STATIC, report.stamp));
   set_links(*contacts, report.tool);
   set_organ(*contacts, source, source.latest());
@@ -79,7 +79,8 @@ ProxyState state_of(const ProxyReport& report) {
   state.tool = report.tool.name;
   state.message = plain_text(report.message, kLongestMessage);
   state.tick_sec = report.tick_sec;
-  state.clipped = report.is_clipped;
+  state.clipped = report.clipped_by != nullptr;
+  state.hand.orientation.w = state.proxy.orientation.w = 1.0;
   if (report.hand) state.hand = pose_of(report.tool, *report.hand);
   if (report.proxy) state.proxy = pose_of(report.tool, *report.proxy);
   if (report.answer) {

@@ -2,17 +2,18 @@
 
 #include <organ_collision/ContactArray.h>
 
-#include "ros/interface/rejection.hpp"
 #include "ros/motion/transform_lookup.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
 
+Rejection no_organ() {
+  return {ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh"};
+}
+
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
                        const std::string& frame, double mesh_timeout_sec, ros::Time now) {
-  if (organs.organs().empty()) {
-    throw Rejection(ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh");
-  }
+  if (organs.organs().empty()) throw no_organ();
   ProxyScene scene{frame, {}, {}};
   for (const auto& [name, organ] : organs.organs()) {
     if (is_stale(organ.latest(), now, mesh_timeout_sec)) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "ros/interface/rejection.hpp"
 #include "ros/motion/transform_buffer.hpp"
 #include "ros/organs/organ_registry.hpp"
 
@@ -17,6 +18,9 @@ struct ProxyScene {
   std::vector<ProxyOrgan> organs;
   std::vector<const DeformableOrgan*> sources;  ///< of `organs`, in the same order
 };
+
+/// Why there is no answer without organs.
+Rejection no_organ();
 
 /// The organs with their latest shapes, at their latest poses in `frame`. They are valid as long as
 /// the registry does not change. Throws Rejection if there is no answer with these organs: there is

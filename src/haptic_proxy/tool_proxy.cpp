@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "forces/force_limit.hpp"
+#include "haptic_proxy_names.hpp"
+#include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
 namespace {
@@ -39,26 +41,25 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   const auto start = std::chrono::steady_clock::now();
   const ProxyAnswer& answer = proxy_.follow(hand.value, scene.organs);
   const double tick_sec = seconds_since(start);
+  if (answer.state == ProxyStatus::kNoAnswer) {
+    throw Rejection(ContactArray::INVALID_REQUEST, "no proxy", answer.message);
+  }
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
-  const Vector3d damping_force = damping(answer, stamp);
+  LimitedForces forces = limited_forces(answer, scene, damping(answer, stamp));
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;
   held_ = answer.proxy;
+  if (frame_ != scene.frame) {  // The last force has another direction there.
+    ramp_ = {};
+    is_released_ = false;
+    frame_ = scene.frame;
+  }
   if (answer.is_placed_anew && ramp_.share() > 0.0) is_released_ = true;
   if (is_released_ && ramp_.fall(now) == 0.0) is_released_ = false;
   if (!is_released_) {
     ramp_.rise(now);
-    forces_ = proxy_forces(answer, scene.organs, tool_.freedom, tool_.has_shaft(),
-                           parameters_.stiffness, damping_force);
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t i = 0; i < forces_.size(); ++i) {
-      forces_[i].frame = scene.sources[i]->frame();
-      sum += forces_[i].force;
-    }
-    const double share = share_within_limit(sum, parameters_.max_force);
-    for (OrganForce& of_organ : forces_) of_organ.scale(share);
-    is_clipped_ = share < 1.0;
+    forces_ = std::move(forces);
   }
   ProxyReport report{tool_,  scene.frame, stamp, ContactArray::OK, answer.message, &answer,
                      &scene, hand_,       held_};
@@ -73,23 +74,62 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
   is_released_ = false;
   pull_.reset();
   const double share = ramp_.fall(now);
-  ProxyReport report{tool_, frame, ros::Time::now(), status, message, nullptr, nullptr,
-                     hand_, held_};
+  ProxyReport report{tool_,
+                     frame_.empty() ? frame : frame_,
+                     ros::Time::now(),
+                     status,
+                     message,
+                     nullptr,
+                     nullptr,
+                     hand_,
+                     held_};
   set_forces(report, share);
-  if (share == 0.0) forces_.clear();
+  if (share == 0.0) forces_ = {};
   return report;
+}
+
+/// The forces of the organs on the hand. If a limit is exceeded, the whole wrench shrinks by one
+/// factor. Throws Rejection.
+ToolProxy::LimitedForces ToolProxy::limited_forces(const ProxyAnswer& answer,
+                                                   const ProxyScene& scene,
+                                                   const Vector3d& damping_force) const {
+  LimitedForces limited{proxy_forces(answer, scene.organs, tool_.freedom, tool_.has_shaft(),
+                                     parameters_.stiffness, damping_force)};
+  Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+  for (std::size_t i = 0; i < limited.of_organs.size(); ++i) {
+    OrganForce& of_organ = limited.of_organs[i];
+    of_organ.frame = scene.sources[i]->frame();
+    force += of_organ.force;
+    torque += of_organ.torque;
+  }
+  if (!force.allFinite() || !torque.allFinite()) {
+    throw Rejection(ContactArray::INVALID_REQUEST, "no force",
+                    "the force or its torque is not a finite number");
+  }
+  double share = share_within_limit(force, parameters_.max_force);
+  if (share < 1.0) limited.clipped_by = names::kMaxForce;
+  if (tool_.freedom == ProxyFreedom::kFree) {
+    const Vector3d about_center = torque - answer.center.cross(force);
+    const double of_torque = share_within_limit(about_center, parameters_.max_torque);
+    if (of_torque < share) {
+      share = of_torque;
+      limited.clipped_by = names::kMaxTorque;
+    }
+  }
+  for (OrganForce& of_organ : limited.of_organs) of_organ.scale(share);
+  return limited;
 }
 
 double ToolProxy::force() const {
   Vector3d sum = Vector3d::Zero();
-  for (const OrganForce& of_organ : forces_) sum += of_organ.force;
+  for (const OrganForce& of_organ : forces_.of_organs) sum += of_organ.force;
   return ramp_.share() * sum.norm();
 }
 
 void ToolProxy::set_forces(ProxyReport& report, double share) const {
-  report.forces = forces_;
+  report.forces = forces_.of_organs;
   for (OrganForce& of_organ : report.forces) of_organ.scale(share);
-  report.is_clipped = is_clipped_ && !forces_.empty();
+  report.clipped_by = forces_.clipped_by;
 }
 
 /// The damping force on the hand [N]. It never turns the spring's force around, because tissue only
@@ -113,6 +153,8 @@ Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
 
 void ToolProxy::reset() {
   proxy_.reset();
+  is_lost_ = true;
+  is_released_ = false;
   answer_ = nullptr;
   pull_.reset();
 }

@@ -29,16 +29,19 @@ class ToolProxy {
   /// illegal.
   ToolProxy(const Tool& tool, const HapticProxyParameters& parameters);
 
-  const ToolParameters& tool() const { return tool_; }
-
   /// A tick: the hand is at a new pose. Its time may be zero, if the pose is valid at any time.
-  /// Throws GlError and std::invalid_argument as HapticProxy::follow().
+  /// Throws GlError and std::invalid_argument as HapticProxy::follow(), and Rejection if there is
+  /// no proxy, or if its force is not finite. After an exception, call lose().
   ProxyReport follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now);
-  /// There is no answer: the force fades. `status`: why, one of ContactArray's.
+  /// There is no answer: the force fades. `status`: why, one of ContactArray's. `frame` is told if
+  /// there never was an answer.
   ProxyReport lose(std::uint8_t status, const std::string& message, const std::string& frame,
                    Time now);
-  /// Whether lose() has to be called soon, because a force is still there.
-  bool is_fading() const { return is_lost_ && ramp_.share() > 0.0; }
+  /// Whether the share of the force that is published changes with time. Then follow() or lose()
+  /// has to be called soon, even if the hand rests.
+  bool is_ramping() const {
+    return is_lost_ || is_released_ ? ramp_.share() > 0.0 : ramp_.share() < 1.0;
+  }
 
   /// The last pose of the hand that had an answer.
   const std::optional<ToolPose>& hand() const { return hand_; }
@@ -47,12 +50,19 @@ class ToolProxy {
   /// [N] The magnitude of the force on the hand, as it was published last.
   double force() const;
 
-  /// The next tick places the proxy anew.
+  /// The next tick places the proxy anew. Until then, there is no answer.
   void reset();
   /// Call it when the parameters have changed.
   void update_settings();
 
  private:
+  struct LimitedForces {
+    std::vector<OrganForce> of_organs = {};
+    const char* clipped_by = nullptr;  ///< ProxyReport::clipped_by
+  };
+
+  LimitedForces limited_forces(const ProxyAnswer& answer, const ProxyScene& scene,
+                               const Eigen::Vector3d& damping_force) const;
   Eigen::Vector3d damping(const ProxyAnswer& answer, ros::Time stamp);
   void set_forces(ProxyReport& report, double share) const;
 
@@ -63,8 +73,8 @@ class ToolProxy {
   bool is_lost_ = true;       ///< there was no answer at the last call
   bool is_released_ = false;  ///< the proxy was placed anew; the force of its last place fades
   const ProxyAnswer* answer_ = nullptr;
-  std::vector<OrganForce> forces_;  ///< of the last answer, limited
-  bool is_clipped_ = false;
+  LimitedForces forces_;  ///< of the last answer, or of the last place while that force fades
+  std::string frame_;     ///< of forces_, hand_ and held_
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
   std::optional<Eigen::Vector3d> pull_;  ///< at the last tick
   ros::Time pulled_;                     ///< the stamp of that tick

@@ -49,6 +49,7 @@ TEST(HapticProxyParameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.stiffness, 300.0);
   EXPECT_EQ(p.damping, 0.0);
   EXPECT_EQ(p.max_force, kUnlimited);
+  EXPECT_EQ(p.max_torque, kUnlimited);
   EXPECT_EQ(p.clearance, 1e-4);
   EXPECT_EQ(p.jump, 0.05);
   EXPECT_EQ(p.puncture_force, 0.0);
@@ -68,6 +69,7 @@ TEST(HapticProxyParameters, AllAreRead) {
   all["stiffness"] = 500;
   all["damping"] = 0.75;
   all["max_force"] = 3.5;
+  all["max_torque"] = 0.25;
   all["clearance"] = 2e-4;
   all["jump"] = 0.02;
   all["puncture_force"] = 2;
@@ -83,6 +85,7 @@ TEST(HapticProxyParameters, AllAreRead) {
   EXPECT_EQ(p.stiffness, 500.0);
   EXPECT_EQ(p.damping, 0.75);
   EXPECT_EQ(p.max_force, 3.5);
+  EXPECT_EQ(p.max_torque, 0.25);
   EXPECT_EQ(p.clearance, 2e-4);
   EXPECT_EQ(p.jump, 0.02);
   EXPECT_EQ(p.puncture_force, 2.0);
@@ -104,8 +107,10 @@ TEST(HapticProxyParameters, IllegalOnesAreRefusedWithNameValueAndRange) {
     EXPECT_NE(refusal(name, kUnlimited), "accepted") << name;
     EXPECT_EQ(refusal(name, 0), "accepted") << name;
   }
-  EXPECT_EQ(refusal("max_force", kUnlimited), "accepted");
-  EXPECT_NE(refusal("max_force", 0), "accepted");
+  for (const char* name : {"max_force", "max_torque"}) {
+    EXPECT_EQ(refusal(name, kUnlimited), "accepted") << name;
+    EXPECT_NE(refusal(name, 0), "accepted") << name;
+  }
   EXPECT_NE(refusal("pose_timeout_sec", 0), "accepted");
   EXPECT_NE(refusal("frame", "/"), "accepted");
   EXPECT_NE(refusal("picker", "bullet"), "accepted");
@@ -131,7 +136,7 @@ TEST(HapticProxyParameters, ToolsWhoseTopicsWouldHaveOneNameAreRefused) {
 TEST(HapticProxyParameters, SomeCanBeChangedWhileTheNodeRuns) {
   const LiveHapticProxyParameters before;
   const std::vector<LiveParameter> live = live_parameters(before);
-  ASSERT_EQ(live.size(), 9U);
+  ASSERT_EQ(live.size(), 10U);
   XmlRpcValue changes;
   for (const LiveParameter& parameter : live) changes[parameter.name] = 0.125;
   const LiveHapticProxyParameters after = changed(before, changes);

@@ -124,21 +124,29 @@ TEST_F(ProxyForcesTest, ThroughATrocarTheForceActsAtTheTipWithTheLeverOfTheConta
   }
 }
 
-TEST_F(ProxyForcesTest, CrossingsLoadTheTissue) {
+TEST_F(ProxyForcesTest, ACrossingLoadsTheTissueWholeAndTheHandWithItsLever) {
   ProxyCrossing crossing;
   crossing.organ = 1;
   crossing.face = 0;
   crossing.barycentric = {0.1, 0.6, 0.3};
-  crossing.point = random_vector(0.1);
-  crossing.load = random_vector(0.01);
+  crossing.shaft = 0.4;
+  answer_.proxy.axis = {random_vector(0.1), random_vector(0.1)};
+  const Vector3d way = answer_.proxy.axis.tip - answer_.proxy.axis.trocar;
+  crossing.point = answer_.proxy.axis.trocar + crossing.shaft * way;
+  const Vector3d lengthwise = 0.02 * way.normalized();
+  const Vector3d across = 0.03 * way.cross(Vector3d::UnitX()).normalized();
+  crossing.load = -(lengthwise + across / crossing.shaft);
   answer_.crossings = {crossing};
-  answer_.pull = -crossing.load;
+  answer_.pull = lengthwise + across;
   const std::vector<OrganForce> found = forces(ProxyFreedom::kTrocar);
-  expect_near(found[1].force, -kStiffness * crossing.load);
+  expect_near(found[1].force, kStiffness * answer_.pull);
   EXPECT_TRUE(found[0].force.isZero(0.0));
   ASSERT_EQ(found[1].on_faces.size(), 1U);
-  EXPECT_EQ(found[1].on_faces[0].vertices[2], 2U);
-  EXPECT_EQ(found[1].on_faces[0].barycentric[1], 0.6);
+  const FaceForce& at = found[1].on_faces[0];
+  expect_near(at.force, organs_[1].T_organ_proxy.linear() * (-kStiffness * crossing.load));
+  expect_near(at.place, organs_[1].T_organ_proxy * crossing.point);
+  EXPECT_EQ(at.vertices[2], 2U);
+  EXPECT_EQ(at.barycentric[1], 0.6);
 }
 
 TEST_F(ProxyForcesTest, ScalingScalesAll) {

@@ -4,8 +4,10 @@
 #include <organ_collision/ContactArray.h>
 
 #include <Eigen/Geometry>
+#include <limits>
 #include <numeric>
 
+#include "ros/interface/rejection.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
 using namespace organ_collision;
@@ -87,7 +89,7 @@ TEST_F(ToolProxyTest, AHandThatStabsIsPushedBackByStiffnessTimesDepth) {
   EXPECT_EQ(report.answer->state, ProxyStatus::kTouching);
   EXPECT_NEAR(force(report), spring(-0.02), 1e-6);
   EXPECT_GT(report.proxy->axis.tip.z(), kRadius);
-  EXPECT_FALSE(report.is_clipped);
+  EXPECT_EQ(report.clipped_by, nullptr);
   ASSERT_EQ(report.forces[0].on_faces.size(), 1U);
   EXPECT_EQ(report.forces[0].frame, "liver_frame");
 }
@@ -97,7 +99,7 @@ TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
   press(proxy, -0.01);
   const double whole = spring(-0.01);
   EXPECT_NEAR(force(lose(proxy, 1.0)), whole, 1e-6) << "the moment of the loss";
-  EXPECT_TRUE(proxy.is_fading());
+  EXPECT_TRUE(proxy.is_ramping());
   const ProxyReport fading = lose(proxy, 4.0);
   EXPECT_NEAR(force(fading), 0.6 * whole, 1e-6);
   EXPECT_EQ(fading.status, ContactArray::STALE_MESH);
@@ -107,7 +109,7 @@ TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
   const ProxyReport gone = lose(proxy, 7.0);
   ASSERT_EQ(gone.forces.size(), 1U) << "the zero is told";
   EXPECT_EQ(force(gone), 0.0);
-  EXPECT_FALSE(proxy.is_fading());
+  EXPECT_FALSE(proxy.is_ramping());
   EXPECT_TRUE(lose(proxy, 100.0).forces.empty());
 
   EXPECT_EQ(force(follow(proxy, -0.01, 500.0)), 0.0);
@@ -123,6 +125,7 @@ TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewItsOldForceFadesFirst) {
   EXPECT_TRUE(jumped.answer->is_placed_anew);
   EXPECT_NE(jumped.message, "");
   EXPECT_NEAR(force(jumped), whole, 1e-6);
+  EXPECT_TRUE(proxy.is_ramping()) << "also if no pose comes, its force must fade";
   EXPECT_NEAR(force(follow(proxy, 0.2, 5.0)), 0.5 * whole, 1e-6);
   EXPECT_EQ(force(follow(proxy, 0.2, 6.0)), 0.0);
   EXPECT_EQ(force(follow(proxy, 0.2, 6.0)), 0.0);
@@ -133,14 +136,54 @@ TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissu
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.02);
   const ProxyReport report = follow(proxy, -0.02);
-  EXPECT_TRUE(report.is_clipped);
+  EXPECT_STREQ(report.clipped_by, "max_force");
   EXPECT_NEAR(force(report), 0.5, 1e-9);
   const OrganForce& of_organ = report.forces[0];
   const Vector3d torque = report.answer->center.cross(of_organ.force);
   EXPECT_LT((of_organ.torque - torque).norm(), 1e-9);
   EXPECT_NEAR(of_organ.on_faces[0].force.z(), 0.5, 1e-6);
   for (int tick = 0; tick < 5; ++tick) follow(proxy, 0.02);
-  EXPECT_FALSE(follow(proxy, 0.02).is_clipped);
+  EXPECT_EQ(follow(proxy, 0.02).clipped_by, nullptr);
+}
+
+TEST_F(ToolProxyTest, TheTorqueOnAFreeToolIsClippedWithTheForce) {
+  tool_.parameters.freedom = ProxyFreedom::kFree;
+  parameters_.max_torque = 0.05;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.02);
+  const ProxyReport report = follow(proxy, -0.02);
+  ASSERT_STREQ(report.clipped_by, "max_torque");
+  const OrganForce& of_organ = report.forces[0];
+  const ProxyAnswer& answer = *report.answer;
+  const Vector3d about_center = of_organ.torque - answer.center.cross(of_organ.force);
+  EXPECT_NEAR(about_center.norm(), 0.05, 1e-9);
+  const double share = 0.05 / (parameters_.stiffness * answer.twist.norm());
+  EXPECT_LT((of_organ.force - share * parameters_.stiffness * answer.pull).norm(), 1e-9);
+}
+
+TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  pass(1.0);
+  const Vector3d in_the_sheet(0.02, 0.01, 0.0), tip(0.011, -0.007, 0.1);
+  try {
+    proxy.follow({{{in_the_sheet, tip}}, stamp_}, scene_, now_);
+    ADD_FAILURE() << "accepted";
+  } catch (const Rejection& rejection) {
+    EXPECT_NE(std::string(rejection.what()).find("the trocar is in tissue"), std::string::npos)
+        << rejection.what();
+  }
+  EXPECT_NEAR(force(lose(proxy, 0.0)), spring(-0.01), 1e-6);
+  EXPECT_EQ(proxy.answer(), nullptr);
+  EXPECT_NEAR(force(lose(proxy, 5.0)), 0.5 * spring(-0.01), 1e-6);
+}
+
+TEST_F(ToolProxyTest, AForceThatIsNotFiniteIsNoAnswer) {
+  parameters_.stiffness = 1e308;
+  parameters_.jump = std::numeric_limits<double>::infinity();
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.01);
+  EXPECT_THROW(follow(proxy, -3.0), Rejection);
 }
 
 TEST_F(ToolProxyTest, DampingResistsTheMotionButNeverPullsTheHandIn) {
@@ -163,6 +206,16 @@ TEST_F(ToolProxyTest, ResetPlacesTheProxyAnew) {
   EXPECT_FALSE(follow(proxy, 0.01).answer->is_placed_anew);
   proxy.reset();
   EXPECT_TRUE(follow(proxy, 0.01).answer->is_placed_anew);
+}
+
+TEST_F(ToolProxyTest, AfterAResetTheForceFadesEvenIfNoPoseComes) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
+  proxy.reset();
+  EXPECT_TRUE(proxy.is_ramping());
+  EXPECT_EQ(proxy.answer(), nullptr);
+  lose(proxy, 1.0);
+  EXPECT_NEAR(force(lose(proxy, 5.0)), 0.5 * spring(-0.01), 1e-6);
 }
 
 TEST_F(ToolProxyTest, AnIllegalHandIsRefusedAndTheProxyStays) {

@@ -323,6 +323,7 @@ class HapticProxyTest(unittest.TestCase):
         state = wait_until(self.states['grasper'].last, 'the state of the grasper')
         self.assertEqual(state.state, ProxyState.NO_ANSWER)
         self.assertIn('no_such_robot', state.message)
+        self.assertEqual((state.hand.orientation.w, state.proxy.orientation.w), (1.0, 1.0))
 
     def test_parameters_can_be_changed(self):
         self.send_sheet()
@@ -394,6 +395,54 @@ class HapticProxyTest(unittest.TestCase):
         finally:
             rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(name)
             wait_until(lambda: name not in self.organs(), 'removal')
+
+    def test_a_trocar_in_tissue_is_no_answer(self):
+        self.send_sheet()
+        self.stab('needle', 0.02)
+        trocar = [(FRAME, 'needle_trocar', scenes.Pose((0, 0, 0, 1), at)) for at in (TROCAR, (0.02, -0.01, 0.0))]
+        self.tf.send_resting(trocar[1])
+        try:
+            state = self.hold_until(
+                'needle',
+                (X, Y, -0.02),
+                lambda state: state.state == ProxyState.NO_ANSWER and state.wrench.force.z == 0.0,
+                'no answer',
+            )
+            self.assertIn('the trocar is in tissue', state.message)
+            self.assertFalse(state.placed_anew)
+            answer = wait_until(
+                lambda: self.contacts.last(
+                    lambda answer: answer.tool == 'needle' and 'the trocar is in tissue' in answer.message
+                ),
+                'contacts that say so',
+            )
+            self.assertNotEqual(answer.status, ContactArray.OK)
+            del self.proxies.messages[:]
+            self.hold_until(
+                'needle',
+                (X, Y, -0.021),
+                lambda state: state.header.stamp > answer.header.stamp,
+                'a later state',
+            )
+            self.assertEqual(self.proxies.messages, [])
+        finally:
+            self.tf.send_resting(trocar[0])
+
+    def test_a_tool_that_is_removed_lets_go(self):
+        self.send_sheet()
+        wrenches = Log('%s/%s/needle/wrench' % (NODE, self.organ), WrenchStamped)
+        self.stab('needle', 0.02)
+        tools = rospy.get_param(NODE + '/tools')
+        rospy.set_param(NODE + '/tools', [tool for tool in tools if tool['name'] != 'needle'])
+        try:
+            self.assertTrue(rospy.ServiceProxy(NODE + '/reload_tools', Trigger)().success)
+            wait_until(lambda: wrenches.messages[-1].wrench.force.z == 0.0, 'the last wrench')
+            last = self.states['needle'].last()
+            self.assertEqual((last.state, last.wrench.force.z), (ProxyState.NO_ANSWER, 0.0))
+            self.assertIn('removed', last.message)
+        finally:
+            rospy.set_param(NODE + '/tools', tools)
+            rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
 
     def test_reloaded_tools_keep_their_proxies(self):
         self.send_sheet()

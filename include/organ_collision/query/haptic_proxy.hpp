@@ -81,8 +81,8 @@ struct ProxyOrgan {
 struct ProxyContact {
   std::size_t organ = 0;  ///< its place in the list of organs
   /// The nearest points of the proxy and a face that is nearer than twice the clearance or, if the
-  /// proxy is still on its way, among the nearest. In the proxy's frame. `depth` is minus the
-  /// distance, `fraction` is 0.
+  /// proxy is still on its way, among the nearest. None are listed for a free proxy that flew, or
+  /// for a needle in tissue. In the proxy's frame. `depth` is minus the distance, `fraction` is 0.
   FaceContact contact;
   /// [m] The force of the proxy on the tissue, divided by the stiffness. It acts at contact.point,
   /// along contact.normal. Not negative.

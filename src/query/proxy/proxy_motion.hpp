@@ -48,7 +48,8 @@ class ProxyMotion {
   /// that may be. The hand prescribes the same as before.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// What is near the proxy after slide(): all within at least twice the clearance at rest.
+  /// What is near the proxy after slide(): all within at least twice the clearance at rest. Empty
+  /// after fly() has reached the hand.
   const std::vector<TissueContact>& contacts() const { return contacts_; }
   /// The walls that the contacts are.
   const std::vector<Wall>& walls() const { return walls_; }
