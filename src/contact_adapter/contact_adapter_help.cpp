@@ -23,19 +23,16 @@ ProgramHelp contact_adapter_help() {
                    "a list of faces for each organ and tool. The force has no upper limit unless "
                    "max_force is set."};
   help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
-                      ros::message_traits::datatype<ContactArray>(),
+                      message_type<ContactArray>(),
                       "remap it if the collision node has another name"}};
   help.published = {
-      {ros::names::append(pair, names::kWrench),
-       ros::message_traits::datatype<geometry_msgs::WrenchStamped>(),
+      {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
        "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
-      {ros::names::append(pair, names::kVertexForces),
-       ros::message_traits::datatype<VertexForces>(),
+      {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
        "forces of the tool on the tissue's vertices [N]; together, minus the wrench"},
-      {ros::names::append(pair, names::kFaces),
-       ros::message_traits::datatype<std_msgs::UInt32MultiArray>(),
+      {ros::names::append(pair, names::kFaces), message_type<std_msgs::UInt32MultiArray>(),
        "the numbers of the touched faces"},
-      {"/diagnostics", ros::message_traits::datatype<diagnostic_msgs::DiagnosticArray>(),
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "number of messages, of those without output by reason, of clipped forces"}};
   help.services = {{"set_parameters",
                     ros::service_traits::datatype<dynamic_reconfigure::Reconfigure>(),

@@ -12,7 +12,6 @@
 #include <organ_collision/RemoveOrgan.h>
 #include <organ_collision/VertexForces.h>
 #include <ros/names.h>
-#include <ros/service_traits.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
@@ -25,22 +24,12 @@
 namespace organ_collision {
 namespace {
 
-template <typename Message>
-std::string message() {
-  return ros::message_traits::datatype<Message>();
-}
-
-template <typename Service>
-std::string service() {
-  return ros::service_traits::datatype<Service>();
-}
-
 std::vector<HelpEntry> subscribed_topics() {
   return {
-      {names::kOrganMesh, message<OrganMesh>(), "an organ's surface: vertices and triangles"},
-      {names::kOrganVertices, message<OrganVertices>(), "an organ's new shape: its vertices"},
-      {"/tf, /tf_static", message<tf2_msgs::TFMessage>(), "where the hands and organs are"},
-      {"as each tool names it", message<geometry_msgs::PoseStamped>(),
+      {names::kOrganMesh, message_type<OrganMesh>(), "an organ's surface: vertices and triangles"},
+      {names::kOrganVertices, message_type<OrganVertices>(), "an organ's new shape: its vertices"},
+      {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(), "where the hands and organs are"},
+      {"as each tool names it", message_type<geometry_msgs::PoseStamped>(),
        "where the hand holds the tool's tip (tip_pose_topic, base_pose_topic)"},
   };
 }
@@ -48,31 +37,32 @@ std::vector<HelpEntry> subscribed_topics() {
 std::vector<HelpEntry> published_topics() {
   const std::string tool = "~TOOL", pair = "~ORGAN/TOOL";
   return {
-      {ros::names::append(tool, names::kProxy), message<geometry_msgs::PoseStamped>(),
+      {ros::names::append(tool, names::kProxy), message_type<geometry_msgs::PoseStamped>(),
        "where the proxy's tip or first link is; also the TF frame TOOL_proxy"},
-      {ros::names::append(tool, names::kState), message<ProxyState>(),
+      {ros::names::append(tool, names::kState), message_type<ProxyState>(),
        "what the proxy does, the whole wrench on the hand, and why there is no answer"},
-      {ros::names::append(pair, names::kWrench), message<geometry_msgs::WrenchStamped>(),
+      {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
        "force of the organ on the hand [N], torque about the origin of the proxy's frame [N m]"},
-      {ros::names::append(pair, names::kVertexForces), message<VertexForces>(),
+      {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
        "forces of the proxy on the tissue's vertices [N]"},
-      {names::kContacts, message<ContactArray>(),
+      {names::kContacts, message_type<ContactArray>(),
        "where tissue is near the proxy, for each organ and tool"},
-      {names::kMarkers, message<visualization_msgs::MarkerArray>(),
+      {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
        "what RViz shows: hands, proxies, forces, states and organs"},
-      {"/tf", message<tf2_msgs::TFMessage>(), "the frames TOOL_proxy"},
-      {"/diagnostics", message<diagnostic_msgs::DiagnosticArray>(),
+      {"/tf", message_type<tf2_msgs::TFMessage>(), "the frames TOOL_proxy"},
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "times of ticks, what had no answer, clipped forces, refused messages"},
   };
 }
 
 std::vector<HelpEntry> services() {
   return {
-      {names::kListOrgans, service<ListOrgans>(), "the organs: faces, box, volume, closed or not"},
-      {names::kRemoveOrgan, service<RemoveOrgan>(), "removes an organ"},
-      {names::kReset, service<std_srvs::Empty>(), "places all proxies anew"},
-      {names::kReloadTools, service<std_srvs::Trigger>(), "reads the parameter tools again"},
-      {"set_parameters", service<dynamic_reconfigure::Reconfigure>(),
+      {names::kListOrgans, service_type<ListOrgans>(),
+       "the organs: faces, box, volume, closed or not"},
+      {names::kRemoveOrgan, service_type<RemoveOrgan>(), "removes an organ"},
+      {names::kReset, service_type<std_srvs::Empty>(), "places all proxies anew"},
+      {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
+      {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
        "changes stiffness, damping, max_force, max_torque, clearance, jump, puncture_force, "
        "friction, markers_rate and surface_rate while the node runs"},
   };

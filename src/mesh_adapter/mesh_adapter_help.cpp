@@ -14,30 +14,24 @@
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
-namespace {
-
-template <typename Message>
-std::string message() {
-  return ros::message_traits::datatype<Message>();
-}
-
-}  // namespace
+namespace {}  // namespace
 
 ProgramHelp mesh_adapter_help() {
   const MeshAdapterParameters defaults;
   ProgramHelp help{names::kMeshAdapter,
                    "Turns meshes of other message types into organs of the collision node."};
   help.subscribed = {
-      {names::kTopic, message<shape_msgs::Mesh>(), "of each organ; has no header: needs frame"},
-      {names::kTopic, message<pcl_msgs::PolygonMesh>(), "of each organ; polygons become fans"},
-      {names::kTopic, message<visualization_msgs::Marker>(), "of each organ; a TRIANGLE_LIST"},
-      {names::kVerticesTopic, message<sensor_msgs::PointCloud2>(),
+      {names::kTopic, message_type<shape_msgs::Mesh>(),
+       "of each organ; has no header: needs frame"},
+      {names::kTopic, message_type<pcl_msgs::PolygonMesh>(), "of each organ; polygons become fans"},
+      {names::kTopic, message_type<visualization_msgs::Marker>(), "of each organ; a TRIANGLE_LIST"},
+      {names::kVerticesTopic, message_type<sensor_msgs::PointCloud2>(),
        "of each organ that names it: as many points as the mesh has vertices"}};
-  help.published = {{ros::names::append(names::kNode, names::kOrganMesh), message<OrganMesh>(),
+  help.published = {{ros::names::append(names::kNode, names::kOrganMesh), message_type<OrganMesh>(),
                      "surfaces with new triangles"},
                     {ros::names::append(names::kNode, names::kOrganVertices),
-                     message<OrganVertices>(), "surfaces with known triangles"},
-                    {"/diagnostics", message<diagnostic_msgs::DiagnosticArray>(),
+                     message_type<OrganVertices>(), "surfaces with known triangles"},
+                    {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
                      "messages of each organ: received, converted, refused by reason, age"}};
   help.parameters = {
       {names::kOrgans, "required",

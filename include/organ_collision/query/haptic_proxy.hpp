@@ -131,8 +131,8 @@ struct ProxyAnswer {
 
 /// A virtual tool that follows the hand, but stops at tissue (a god-object: Zilles and Salisbury
 /// 1995; Ruspini, Kolarov and Khatib 1997; with continuous motion Redon, Kheddar and Coquillart
-/// 2002, Ortega, Redon and Coquillart 2007). A spring between hand and proxy gives a force that no
-/// fast hand, thin tissue or coarse step can make pop through. See doc/haptics.md.
+/// 2002, Ortega, Redon and Coquillart 2007). A spring between hand and proxy gives a force that
+/// does not let go where a fast hand is through thin tissue after one step. See doc/haptics.md.
 ///
 /// At each tick, the hand has a new pose and the organs may have new shapes. The proxy moves only
 /// along motions that were swept and touched nothing: the organ moves linearly from shape to shape,

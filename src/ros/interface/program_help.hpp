@@ -1,5 +1,8 @@
 #pragma once
 
+#include <ros/message_traits.h>
+#include <ros/service_traits.h>
+
 #include <optional>
 #include <sstream>
 #include <string>
@@ -33,6 +36,18 @@ std::string help_text(const ProgramHelp& help);
 /// program ends then: 0 or 2. Returns std::nullopt if there is no such argument. Call this before
 /// ros::init(), so that the program does not wait for a master.
 std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help);
+
+/// The type of a topic, as --help shows it.
+template <typename Message>
+std::string message_type() {
+  return ros::message_traits::datatype<Message>();
+}
+
+/// The type of a service, as --help shows it.
+template <typename Service>
+std::string service_type() {
+  return ros::service_traits::datatype<Service>();
+}
 
 /// A default value, as --help shows it.
 template <typename Value>

@@ -10,7 +10,6 @@
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
 #include <organ_collision/RemoveOrgan.h>
-#include <ros/service_traits.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
@@ -22,49 +21,40 @@
 namespace organ_collision {
 namespace {
 
-template <typename Message>
-std::string message() {
-  return ros::message_traits::datatype<Message>();
-}
-
-template <typename Service>
-std::string service() {
-  return ros::service_traits::datatype<Service>();
-}
-
 std::vector<HelpEntry> subscribed_topics() {
   return {
-      {names::kOrganMesh, message<OrganMesh>(), "an organ's surface: vertices and triangles"},
-      {names::kOrganVertices, message<OrganVertices>(), "an organ's new shape: its vertices"},
-      {"/tf, /tf_static", message<tf2_msgs::TFMessage>(), "where tools and organs are"},
-      {"as each tool names it", message<geometry_msgs::PoseStamped>(),
+      {names::kOrganMesh, message_type<OrganMesh>(), "an organ's surface: vertices and triangles"},
+      {names::kOrganVertices, message_type<OrganVertices>(), "an organ's new shape: its vertices"},
+      {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(), "where tools and organs are"},
+      {"as each tool names it", message_type<geometry_msgs::PoseStamped>(),
        "where the tool's tip is (tip_pose_topic, base_pose_topic)"},
   };
 }
 
 std::vector<HelpEntry> published_topics() {
   return {
-      {names::kContacts, message<ContactArray>(),
+      {names::kContacts, message_type<ContactArray>(),
        "what each tool touches, how far it is if it has a margin, and whether it is inside; for "
        "each shape or pose"},
-      {names::kMarkers, message<visualization_msgs::MarkerArray>(), "what RViz shows"},
-      {"/diagnostics", message<diagnostic_msgs::DiagnosticArray>(),
+      {names::kMarkers, message_type<visualization_msgs::MarkerArray>(), "what RViz shows"},
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "query times, age of meshes, refused messages"},
   };
 }
 
 std::vector<HelpEntry> services() {
   return {
-      {names::kQuery, service<QueryCollision>(),
+      {names::kQuery, service_type<QueryCollision>(),
        "what one motion, or one tool, would touch; on request, how far and on which side it is"},
-      {names::kQueryBatch, service<QueryCollisionBatch>(),
+      {names::kQueryBatch, service_type<QueryCollisionBatch>(),
        "what many motions would touch; on request, how far and on which side the tool is"},
-      {names::kListOrgans, service<ListOrgans>(), "the organs: faces, box, volume, closed or not"},
-      {names::kRemoveOrgan, service<RemoveOrgan>(), "removes an organ"},
-      {names::kReset, service<std_srvs::Empty>(),
+      {names::kListOrgans, service_type<ListOrgans>(),
+       "the organs: faces, box, volume, closed or not"},
+      {names::kRemoveOrgan, service_type<RemoveOrgan>(), "removes an organ"},
+      {names::kReset, service_type<std_srvs::Empty>(),
        "forgets all history: the next step of each tool is static"},
-      {names::kReloadTools, service<std_srvs::Trigger>(), "reads the parameter tools again"},
-      {"set_parameters", service<dynamic_reconfigure::Reconfigure>(),
+      {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
+      {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
        "changes parameters while the node runs, as dynparam and rqt_reconfigure do"},
   };
 }
