@@ -129,7 +129,7 @@ void ProxyPublisher::set_tools(const std::vector<ToolParameters>& tools) {
 }
 
 void ProxyPublisher::publish(const ProxyReport& report) {
-  const ToolTopics& topics = tools_.at(report.tool.name);
+  ToolTopics& topics = tools_.at(report.tool.name);
   publish_wrenches(report);
   publish_proxy(report, topics);
   publish_state(report, topics);
@@ -154,7 +154,7 @@ void ProxyPublisher::publish_wrenches(const ProxyReport& report) {
   }
 }
 
-void ProxyPublisher::publish_proxy(const ProxyReport& report, const ToolTopics& topics) {
+void ProxyPublisher::publish_proxy(const ProxyReport& report, ToolTopics& topics) {
   if (!report.answer) return;
   const geometry_msgs::Pose pose = pose_of(report.tool, report.answer->proxy);
   if (topics.proxy.getNumSubscribers() > 0) {
@@ -163,7 +163,8 @@ void ProxyPublisher::publish_proxy(const ProxyReport& report, const ToolTopics& 
     message.pose = pose;
     topics.proxy.publish(message);
   }
-  if (!frames_) return;
+  if (!frames_ || topics.framed == report.stamp) return;
+  topics.framed = report.stamp;
   geometry_msgs::TransformStamped transform;
   transform.header = header_of(report);
   transform.child_frame_id = tf_frame(report.tool.name + names::kProxyFrame);

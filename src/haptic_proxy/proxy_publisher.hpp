@@ -31,6 +31,7 @@ class ProxyPublisher {
  private:
   struct ToolTopics {
     ros::Publisher proxy, state;
+    ros::Time framed = {};  ///< the stamp of the last transform: TF warns of a second one
   };
   struct PairTopics {
     ros::Publisher wrench, vertex_forces;
@@ -39,7 +40,7 @@ class ProxyPublisher {
 
   void publish_wrenches(const ProxyReport& report);
   void publish_state(const ProxyReport& report, const ToolTopics& topics);
-  void publish_proxy(const ProxyReport& report, const ToolTopics& topics);
+  void publish_proxy(const ProxyReport& report, ToolTopics& topics);
   void publish_vertex_forces(const ProxyReport& report);
   void publish_contacts(const ProxyReport& report);
   PairTopics* pair_of(const std::string& organ, const std::string& tool);

@@ -203,8 +203,10 @@ class HapticProxyTest(unittest.TestCase):
             lambda: self.proxies.last(lambda pose: abs(pose.pose.position.z - 0.04) < 1e-9), 'proxy'
         )
         self.assertEqual(proxy.header.frame_id, FRAME)
-        wait_until(
-            lambda: self.frames.last(
+        self.hold_until(
+            'needle',
+            (X, Y, 0.04),
+            lambda _: self.frames.last(
                 lambda message: message.transforms[0].child_frame_id == 'needle_proxy'
                 and message.transforms[0].header.frame_id == FRAME
             ),
@@ -432,6 +434,12 @@ class HapticProxyTest(unittest.TestCase):
         self.send_sheet()
         wrenches = Log('%s/%s/needle/wrench' % (NODE, self.organ), WrenchStamped)
         self.stab('needle', 0.02)
+        self.hold_until(
+            'needle',
+            (X, Y, -0.02),
+            lambda _: wrenches.last(lambda wrench: wrench.wrench.force.z > 1.0),
+            'the wrench',
+        )
         tools = rospy.get_param(NODE + '/tools')
         rospy.set_param(NODE + '/tools', [tool for tool in tools if tool['name'] != 'needle'])
         try:
