@@ -99,7 +99,7 @@ TEST(ProxyMarkers, ANeedleLoadsTheTissueWhereItCrosses) {
   ProxyView view = held_hook();
   view.answer.state = ProxyStatus::kPunctured;
   view.answer.contacts.clear();
-  view.answer.crossings = {{0, 7, {0.2, 0.3, 0.5}, {0.1, 0.2, 0.0}, {0.0, 0.0, -0.01}}};
+  view.answer.crossings = {{0, 7, {0.2, 0.3, 0.5}, 0.8, {0.1, 0.2, 0.0}, {0.0, 0.0, -0.01}}};
   const Marker arrows = find_marker(markers_of(view), "loads");
   EXPECT_TRUE(farthest(arrows, {0, 0, -1}).isApprox(Vector3d(0.1, 0.2, 0.0), 1e-12));
 }
