@@ -59,7 +59,7 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   for (const Level level : {Level::kSwept, Level::kLeast}) {
     if (level == Level::kSwept && start.clearance < clearance_.least()) continue;
     for (const int pieces : {1, kPieces}) {
-      if (const auto place = give_way(start, hand, organs, level, pieces)) {
+      if (auto place = give_way(start, hand, organs, level, pieces)) {
         tissue_.set_organs(organs);
         return place;
       }

@@ -6,7 +6,7 @@
 
 namespace organ_collision {
 
-ProxyMarkerPublisher::ProxyMarkerPublisher(ros::NodeHandle private_node,
+ProxyMarkerPublisher::ProxyMarkerPublisher(const ros::NodeHandle& private_node,
                                            const MarkerSettings& settings)
     : settings_(settings), topic_(private_node) {}
 

@@ -21,7 +21,7 @@ class ProxyMarkerPublisher {
  public:
   using Views = std::function<std::vector<ProxyView>()>;
 
-  ProxyMarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings);
+  ProxyMarkerPublisher(const ros::NodeHandle& private_node, const MarkerSettings& settings);
 
   /// Takes effect with the next picture.
   void set_settings(const MarkerSettings& settings);
