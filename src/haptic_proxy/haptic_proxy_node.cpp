@@ -395,6 +395,7 @@ bool HapticProxyNode::release_leaving(const KeptTools& kept) {
 /// Runs in the node's thread.
 void HapticProxyNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
   std::vector<ToolParameters> parameters = parameters_of(loaded.tools);
+  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
   inbox_.pose_topics().change_tools(parameters, node_);
   try {
     publisher_.set_tools(parameters);

@@ -452,6 +452,22 @@ class HapticProxyTest(unittest.TestCase):
             rospy.set_param(NODE + '/tools', tools)
             rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
 
+    def test_a_reload_that_fails_leaves_the_hands_as_they_were(self):
+        self.send_sheet()
+        self.stab('needle', 0.02)
+        tools = rospy.get_param(NODE + '/tools')
+        # On this topic the node already hears messages of another type.
+        broken = [dict(tool) for tool in tools]
+        broken[0]['tip_pose_topic'] = NODE + '/organ_mesh'
+        rospy.set_param(NODE + '/tools', broken)
+        try:
+            answer = rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+            self.assertFalse(answer.success, answer.message)
+            self.stab('needle', 0.01)
+        finally:
+            rospy.set_param(NODE + '/tools', tools)
+            rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+
     def test_reloaded_tools_keep_their_proxies(self):
         self.send_sheet()
         self.stab('needle', 0.02)
