@@ -44,6 +44,9 @@ inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
 inline constexpr char kMarkersRate[] = "markers_rate";
 inline constexpr char kSurfaceRate[] = "surface_rate";
 inline constexpr char kMarkersDepth[] = "markers_depth";
+inline constexpr char kThreads[] = "threads";
+inline constexpr char kRealtimePriority[] = "realtime_priority";
+inline constexpr char kLockMemory[] = "lock_memory";
 ///@}
 
 ///@{

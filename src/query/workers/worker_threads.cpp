@@ -1,0 +1,136 @@
+#include "worker_threads.hpp"
+
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+namespace organ_collision {
+
+/// The tasks of one call of run(). At its end, also by an exception, no worker works any more, so
+/// that what the tasks refer to may end.
+class WorkerThreads::Round {
+ public:
+  Round(WorkerThreads& threads, std::size_t count, const Work& work, Lock& lock)
+      : threads_(threads), lock_(lock) {
+    threads_.tasks_.assign(count, {});
+    threads_.next_ = 0;
+    threads_.work_ = &work;
+  }
+  ~Round() {
+    if (!lock_) lock_.lock();
+    threads_.next_ = threads_.tasks_.size();
+    threads_.has_results_.wait(lock_, [this] { return threads_.working_ == 0; });
+    threads_.tasks_.clear();
+    threads_.next_ = 0;
+  }
+  Round(const Round&) = delete;
+  Round& operator=(const Round&) = delete;
+
+ private:
+  WorkerThreads& threads_;
+  Lock& lock_;
+};
+
+WorkerThreads::WorkerThreads(Caller caller, Prepare prepare)
+    : caller_(caller), prepare_(std::move(prepare)) {}
+
+WorkerThreads::~WorkerThreads() {
+  {
+    const Lock lock(mutex_);
+    stop_ = true;
+  }
+  has_tasks_.notify_all();
+  for (std::thread& thread : threads_) thread.join();
+}
+
+void WorkerThreads::start(std::size_t count) {
+  try {
+    while (threads_.size() < count) {
+      threads_.emplace_back([this, worker = threads_.size() + 1] { live(worker); });
+    }
+  } catch (const std::system_error&) {  // The system refuses a thread: fewer do the work.
+  }
+}
+
+std::size_t WorkerThreads::wait_until_prepared() {
+  Lock lock(mutex_);
+  has_results_.wait(lock, [this] { return prepared_ + failed_ == threads_.size(); });
+  return prepared_;
+}
+
+void WorkerThreads::run(std::size_t count, const Work& work, const Deliver& deliver) {
+  Lock lock(mutex_);
+  if (caller_ == Caller::kWaits && count > 0) wait_for_help(lock);
+  const Round round(*this, count, work, lock);
+  const std::size_t for_others = caller_ == Caller::kWorks && count > 0 ? count - 1 : count;
+  for (std::size_t i = 0; i < for_others && i < prepared_; ++i) has_tasks_.notify_one();
+  deliver_all(deliver, lock);
+}
+
+void WorkerThreads::live(std::size_t worker) {
+  const bool is_ready = prepare(worker);
+  Lock lock(mutex_);
+  ++(is_ready ? prepared_ : failed_);
+  has_results_.notify_all();
+  while (is_ready) {
+    has_tasks_.wait(lock, [this] { return stop_ || has_open_task(); });
+    if (stop_) return;
+    do_task(worker, lock);
+  }
+}
+
+bool WorkerThreads::prepare(std::size_t worker) {
+  try {
+    prepare_(worker);
+    return true;
+  } catch (...) {
+    const Lock lock(mutex_);
+    why_failed_ = std::current_exception();
+    return false;
+  }
+}
+
+/// Begins the next task, which must exist, and does it without the lock.
+void WorkerThreads::do_task(std::size_t worker, Lock& lock) {
+  const std::size_t task = next_++;
+  const Work& work = *work_;
+  ++working_;
+  lock.unlock();
+  std::exception_ptr error;
+  try {
+    work(worker, task);
+  } catch (...) {
+    error = std::current_exception();
+  }
+  lock.lock();
+  --working_;
+  if (error) next_ = tasks_.size();
+  tasks_[task] = {true, std::move(error)};
+  if (worker != 0) has_results_.notify_one();
+}
+
+void WorkerThreads::deliver_all(const Deliver& deliver, Lock& lock) {
+  for (std::size_t task = 0; task < tasks_.size(); ++task) {
+    while (!tasks_[task].done) {
+      if (caller_ == Caller::kWorks && has_open_task()) {
+        do_task(0, lock);
+      } else {
+        has_results_.wait(lock);
+      }
+    }
+    if (tasks_[task].error) std::rethrow_exception(tasks_[task].error);
+    lock.unlock();
+    deliver(task);
+    lock.lock();
+  }
+}
+
+/// Waits until there is a thread for the tasks of a caller that does none.
+void WorkerThreads::wait_for_help(Lock& lock) {
+  has_results_.wait(lock, [this] { return prepared_ > 0 || failed_ == threads_.size(); });
+  if (prepared_ > 0) return;
+  if (why_failed_) std::rethrow_exception(why_failed_);
+  throw std::runtime_error("no thread could be started");
+}
+
+}  // namespace organ_collision
