@@ -110,14 +110,9 @@ void WorkerThreads::do_task(std::size_t worker, Lock& lock) {
 }
 
 void WorkerThreads::deliver_all(const Deliver& deliver, Lock& lock) {
+  while (caller_ == Caller::kWorks && has_open_task()) do_task(0, lock);
   for (std::size_t task = 0; task < tasks_.size(); ++task) {
-    while (!tasks_[task].done) {
-      if (caller_ == Caller::kWorks && has_open_task()) {
-        do_task(0, lock);
-      } else {
-        has_results_.wait(lock);
-      }
-    }
+    has_results_.wait(lock, [&] { return tasks_[task].done; });
     if (tasks_[task].error) std::rethrow_exception(tasks_[task].error);
     lock.unlock();
     deliver(task);

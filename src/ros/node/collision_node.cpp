@@ -39,9 +39,9 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                  },
                  counters_.rejected, loop_.queue()}),
       services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
-                 pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),
+                 pipeline_.poses(), pipeline_.steps().history(), service_query_,
                  counters_.refused}),
-      query_diagnostics_({loaded_.misspelt, pipeline_.contact_query(), pipeline_.steps(),
+      query_diagnostics_({loaded_.misspelt, pipeline_.gl_version(), pipeline_.steps(),
                           pipeline_.transforms(), counters_}),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
                           counters_.meshes, counters_.rejected}),
@@ -83,7 +83,7 @@ void CollisionNode::start() {
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
   ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
-           pipeline_.contact_query().gl_version().c_str());
+           pipeline_.gl_version().c_str());
 }
 
 /// Ends the wait of the background thread for this thread, and then that thread, which uses

@@ -65,6 +65,7 @@ class CollisionNode {
   ContactPublisher publisher_;
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
+  ContactQuery service_query_{loaded_.parameters.picker};
   QueryServices services_;
   QueryDiagnostics query_diagnostics_;
   InboxDiagnostics inbox_diagnostics_;

@@ -29,6 +29,7 @@ struct LiveNodeParameters {
 struct NodeParameters : LiveNodeParameters {
   std::vector<ToolParameters> tools;
   PickerKind picker = PickerKind::kFeedback;
+  int threads = 0;           ///< of steps, and of batches; 0: one for each processor
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;

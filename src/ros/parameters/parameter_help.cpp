@@ -41,6 +41,8 @@ std::vector<HelpEntry> parameter_help() {
        "[Hz] how often the surface of a moving organ is published, at most; 0: never"},
       {names::kMarkersDepth, shown(defaults.markers.markers_depth),
        "[m] contacts of this depth or more have the last colour of the map"},
+      {names::kThreads, shown(defaults.threads),
+       "threads that evaluate steps, and as many that evaluate batches; 0: one for each processor"},
   };
 }
 

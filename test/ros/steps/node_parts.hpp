@@ -21,7 +21,7 @@ namespace organ_collision {
 /// The node without ROS's topics: messages are given by hand, and the clock stands still. The organ
 /// is a horizontal sheet of two faces, 2 m wide; the tool hangs from (0, 0, 1).
 struct NodeParts {
-  NodeParts() {
+  explicit NodeParts(int threads = 1) : workers(PickerKind::kFeedback, threads) {
     ros::Time::init();
     ros::Time::setNow(ros::Time(50));
     set_point(transforms, "liver_frame", "hook_trocar", 0.0, {0.0, 0.0, 1.0}, true);
@@ -89,12 +89,13 @@ struct NodeParts {
   ros::CallbackQueue callbacks;
   OrganTopics organ_topics{organs, rejected, callbacks};
   ToolPoses poses{transforms, {0.001, 100}};
+  StepWorkers workers;
   ContactQuery contact_query{PickerKind::kFeedback};
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
   /// Also called with each step, if set.
   std::function<void(const EvaluatedStep&)> watch;
-  StepScheduler steps{parameters, tools, poses, contact_query, [this](const EvaluatedStep& step) {
+  StepScheduler steps{parameters, tools, poses, workers, [this](const EvaluatedStep& step) {
                         published.push_back(*step.answer);
                         if (watch) watch(step);
                       }};

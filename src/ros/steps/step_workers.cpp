@@ -1,0 +1,45 @@
+#include "step_workers.hpp"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <exception>
+#include <functional>
+#include <thread>
+
+namespace organ_collision {
+namespace {
+
+std::size_t number_of_workers(int threads) {
+  if (threads > 0) return static_cast<std::size_t>(threads);
+  return std::max(1u, std::thread::hardware_concurrency());  // 0: the system does not tell.
+}
+
+}  // namespace
+
+StepWorkers::StepWorkers(PickerKind picker, int threads)
+    : picker_(picker),
+      queries_(number_of_workers(threads)),
+      threads_(WorkerThreads::Caller::kWorks, [this](std::size_t worker) { prepare(worker); }) {
+  queries_.front() = std::make_unique<ContactQuery>(picker_);
+}
+
+void StepWorkers::run(const StepEvaluator& evaluator, std::vector<DueStep>& steps,
+                      const Deliver& deliver) {
+  threads_.start(std::min(steps.size(), queries_.size()) - 1);
+  const auto work = [&](std::size_t worker, std::size_t step) {
+    if (!steps[step].answer) evaluator.evaluate(steps[step], *queries_[worker]);
+  };
+  threads_.run(steps.size(), std::ref(work), deliver);  // The reference spares an allocation.
+}
+
+void StepWorkers::prepare(std::size_t worker) {
+  try {
+    queries_[worker] = std::make_unique<ContactQuery>(picker_);
+  } catch (const std::exception& error) {
+    ROS_WARN("a thread for steps could not be started, the others do its work: %s", error.what());
+    throw;
+  }
+}
+
+}  // namespace organ_collision
