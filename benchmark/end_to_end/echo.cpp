@@ -6,7 +6,7 @@
 
 namespace organ_collision::bench {
 
-Echo::Echo(std::size_t tools) : tools_(tools), node_("/") {
+Echo::Echo(std::size_t tools) : tools_(tools) {
   node_.setCallbackQueue(&queue_);
   contacts_ = node_.advertise<ContactArray>("organ_collision/contacts", 100);
   vertices_ = node_.subscribe("organ_collision/organ_vertices", 100, &Echo::answer_shape, this,

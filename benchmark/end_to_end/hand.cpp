@@ -23,10 +23,10 @@ Hand::Hand(std::size_t faces)
       lap_(sliding_lap(HandTool::kTrocar, kDepth)),
       shape_period_(faces > 10'000 ? 10 : 1) {
   node_.setCallbackQueue(&queue_);
-  mesh_ = node_.advertise<OrganMesh>("/haptic_proxy/organ_mesh", 1, true);
-  vertices_ = node_.advertise<OrganVertices>("/haptic_proxy/organ_vertices", 10);
-  poses_ = node_.advertise<geometry_msgs::PoseStamped>("/hand/pose", 10);
-  wrenches_ = node_.subscribe("/haptic_proxy/organ/tool0/wrench", 1000, &Hand::on_wrench, this,
+  mesh_ = node_.advertise<OrganMesh>("haptic_proxy/organ_mesh", 1, true);
+  vertices_ = node_.advertise<OrganVertices>("haptic_proxy/organ_vertices", 10);
+  poses_ = node_.advertise<geometry_msgs::PoseStamped>("hand/pose", 10);
+  wrenches_ = node_.subscribe("haptic_proxy/organ/tool0/wrench", 1000, &Hand::on_wrench, this,
                               ros::TransportHints().tcpNoDelay());
 }
 
@@ -54,7 +54,8 @@ void Hand::start() {
   const ros::SteadyTime give_up = ros::SteadyTime::now() + ros::WallDuration(30.0);
   while (report.latencies.count() == 0) {
     if (!ros::ok() || ros::SteadyTime::now() > give_up) {
-      throw std::runtime_error("/haptic_proxy gives no wrench of organ 'organ' with tool 'tool0'");
+      throw std::runtime_error(node_.resolveName("haptic_proxy") +
+                               " gives no wrench of organ 'organ' with tool 'tool0'");
     }
     send_pose(ros::Time::now());
     answer_until(ros::Time::now() + ros::Duration(0.1), queue_);

@@ -17,10 +17,10 @@
 
 namespace organ_collision::bench {
 
-/// A haptic device and a simulator for the node `/haptic_proxy` and its tool `tool0`. The device
-/// publishes the poses of a hand that slides 5 mm below the surface of a WavingOrgan, and receives
-/// wrenches. The organ has a new shape between each two poses, or every tenth one if it has more
-/// than 10 000 faces.
+/// A haptic device and a simulator for the node `haptic_proxy` of its own namespace and its tool
+/// `tool0`. The device publishes the poses of a hand that slides 5 mm below the surface of a
+/// WavingOrgan, and receives wrenches. The organ has a new shape between each two poses, or every
+/// tenth one if it has more than 10 000 faces.
 class Hand {
  public:
   explicit Hand(std::size_t faces);

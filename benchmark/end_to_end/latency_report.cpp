@@ -9,9 +9,13 @@ void print(const char* what, const LatencyReport& report) {
   std::cout << "{\"what\": \"" << what << "\", \"rate\": " << report.rate
             << ", \"sent\": " << report.sent << ", \"skipped\": " << report.skipped
             << ", \"failed\": " << report.failed
-            << ", \"median\": " << kMicro * report.latencies.quantile(0.5)
-            << ", \"p99\": " << kMicro * report.latencies.quantile(0.99)
-            << ", \"worst\": " << kMicro * report.latencies.quantile(1.0) << "}" << std::endl;
+            << ", \"late\": " << (report.late ? "true" : "false") << ", \"latencies\": [";
+  const char* separator = "";
+  for (const double latency : report.latencies.all()) {
+    std::cout << separator << kMicro * latency;
+    separator = ", ";
+  }
+  std::cout << "]}" << std::endl;
 }
 
 }  // namespace organ_collision::bench

@@ -16,7 +16,7 @@ struct LatencyReport {
   Durations latencies = {};  ///< from publishing a message to receiving the last answer to it
 };
 
-/// Prints a report as a line of JSON, with times in microseconds.
+/// Prints a report as a line of JSON, with all latencies, in microseconds.
 void print(const char* what, const LatencyReport& report);
 
 }  // namespace organ_collision::bench

@@ -10,8 +10,9 @@
 #include "hand.hpp"
 
 // pose_to_wrench external|nodelet|echo FACES SECONDS
-// Measures /haptic_proxy, which is already running (external), or the nodelet or an Echo in this
-// process. Prints a line of JSON: "poses" with the latencies from poses to wrenches.
+// Measures the node haptic_proxy of its own namespace, which is already running (external), or the
+// nodelet or an Echo in this process. Prints a line of JSON: "poses" with the latencies from poses
+// to wrenches.
 int main(int argc, char** argv) {
   using namespace organ_collision::bench;
   ros::init(argc, argv, "pose_to_wrench");
@@ -26,7 +27,8 @@ int main(int argc, char** argv) {
     if (what == "echo") echo.emplace(1);
     if (what == "nodelet") {
       loader = std::make_unique<nodelet::Loader>(false);
-      if (!loader->load("/haptic_proxy", "organ_collision/haptic_proxy", {}, {})) return 1;
+      const std::string name = ros::names::resolve("haptic_proxy");
+      if (!loader->load(name, "organ_collision/haptic_proxy", {}, {})) return 1;
     }
     Hand hand(std::strtoul(argv[2], nullptr, 10));
     hand.start();

@@ -59,7 +59,7 @@ Simulator::Simulator(std::size_t faces, std::size_t tools) : organ_(make_organ(f
   for (std::size_t i = 0; i < tools; ++i) tools_.push_back(motions.next(shapes_.front()));
 
   node_.setCallbackQueue(&queue_);
-  const auto name = [](const char* topic) { return std::string("/organ_collision/") + topic; };
+  const auto name = [](const char* topic) { return std::string("organ_collision/") + topic; };
   mesh_ = node_.advertise<OrganMesh>(name("organ_mesh"), 1, true);
   vertices_ = node_.advertise<OrganVertices>(name("organ_vertices"), 10);
   contacts_ = node_.subscribe(name("contacts"), 1000, &Simulator::on_contacts, this,
@@ -85,9 +85,9 @@ void Simulator::start() {
   const ros::SteadyTime give_up = ros::SteadyTime::now() + ros::WallDuration(30.0);
   while (report.latencies.count() == 0) {
     if (!ros::ok() || ros::SteadyTime::now() > give_up) {
-      throw std::runtime_error("/organ_collision gives no contacts of organ '" +
-                               std::string(kOrgan) + "' with " + std::to_string(tools_.size()) +
-                               " tools");
+      throw std::runtime_error(node_.resolveName("organ_collision") +
+                               " gives no contacts of organ '" + std::string(kOrgan) + "' with " +
+                               std::to_string(tools_.size()) + " tools");
     }
     const ros::Time stamp = ros::Time::now();
     send_poses(stamp);
@@ -126,7 +126,7 @@ LatencyReport Simulator::run(double rate, double seconds) {
 
 LatencyReport Simulator::ask(double seconds) {
   ros::ServiceClient client =
-      node_.serviceClient<QueryCollision>("/organ_collision/query", /*persistent=*/true);
+      node_.serviceClient<QueryCollision>("organ_collision/query", /*persistent=*/true);
   QueryCollision query;
   query.request.header.frame_id = kOrgan;
   query.request.organ = kOrgan;

@@ -20,7 +20,7 @@
 namespace organ_collision::bench {
 
 /// A simulator without physics. It publishes a deforming organ and the poses of tools that pierce
-/// it to the node `/organ_collision`, which has the tools `tool0`, `tool1` ...
+/// it to the node `organ_collision` of its own namespace, which has the tools `tool0`, `tool1` ...
 class Simulator {
  public:
   Simulator(std::size_t faces, std::size_t tools);

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "benchmark/scenes/scene.hpp"
-#include "benchmark/scenes/tool_motions.hpp"
 #include "geometry/distance/surface_touch.hpp"
 #include "stopwatch.hpp"
 
@@ -11,30 +10,6 @@ namespace organ_collision::bench {
 namespace {
 
 constexpr std::size_t kFaces = 1224;
-constexpr double kTipStep = 0.001;  // [m] in a step, sideways at the point aimed at: 1 m/s at 1 kHz
-constexpr double kJawStep = 0.02;   // [rad] of each jaw in a step
-constexpr double kJawOpening = 0.3;  // [rad] at the start of a step
-constexpr double kReach =
-    0.024;  // [m] from the end of the shaft to the point that the motions aim at
-
-ShaftAxis drawn_back(ShaftAxis axis) {
-  axis.tip -= kReach * (axis.tip - axis.trocar).normalized();
-  return axis;
-}
-
-std::vector<ToolPath> make_paths(const OrganSurface& surface) {
-  SceneScale scale(kFaces);
-  scale.tip_step = kTipStep;
-  ToolMotions motions(surface, scale);
-  std::vector<ToolPath> paths;
-  for (std::size_t i = 0; i < step_count(kFaces); ++i) {
-    const ShaftMotion motion = motions.next(surface.vertices);
-    paths.push_back({Grasper::place(0.0, drawn_back(motion.start), kJawOpening),
-                     Grasper::place(1.0, drawn_back(motion.end), kJawOpening - kJawStep)});
-  }
-  return paths;
-}
-
 bool touches(const LinkPart& part, const RigidMotion& motion, const Triangle& face) {
   const FaceMotion resting{face, face};
   if (!part.surface) return first_touch({part.core, motion}, resting, part.radius).has_value();
@@ -50,9 +25,8 @@ bool touches(const LinkPart& part, const RigidMotion& motion, const Triangle& fa
 GrasperMeasurement::GrasperMeasurement()
     : surface_(make_organ(kFaces)),
       organ_(surface_.vertices, surface_.triangles),
-      links_(Grasper::make_links()),
-      paths_(make_paths(surface_)),
-      fcl_(surface_, links_) {
+      motions_(grasper_motions(surface_, step_count(kFaces))),
+      fcl_(surface_, motions_.radius, motions_.links) {
   check();
 }
 
@@ -60,8 +34,8 @@ CollisionRequest GrasperMeasurement::request(const ToolPath& path, QueryMode mod
   CollisionRequest request;
   request.organ = &organ_;
   request.path = path;
-  request.radius = Grasper::kRadius;
-  request.links = &links_;
+  request.radius = motions_.radius;
+  request.links = &motions_.links;
   request.mode = mode;
   return request;
 }
@@ -73,12 +47,11 @@ Answer GrasperMeasurement::brute_force(const ToolPath& path, QueryMode mode) con
   Answer answer;
   for (std::uint32_t face = 0; face < organ_.face_count(); ++face) {
     const Triangle corners = organ_.triangle(face);
-    bool touched =
-        first_touch(ShaftMotion{from.axis, to.axis}, {corners, corners}, Grasper::kRadius)
-            .has_value();
-    for (std::size_t link = 0; link < links_.size() && !touched; ++link) {
+    bool touched = first_touch(ShaftMotion{from.axis, to.axis}, {corners, corners}, motions_.radius)
+                       .has_value();
+    for (std::size_t link = 0; link < motions_.links.size() && !touched; ++link) {
       const RigidMotion motion(from.links[link], to.links[link]);
-      for (const LinkPart& part : links_[link].parts) {
+      for (const LinkPart& part : motions_.links[link].parts) {
         touched = touched || touches(part, motion, corners);
       }
     }
@@ -96,14 +69,14 @@ void GrasperMeasurement::check() {
   };
   for (std::size_t i = 0; i < kChecked; ++i) {
     for (const QueryMode mode : {QueryMode::kStatic, QueryMode::kSwept}) {
-      const Answer answer = brute_force(paths_[i], mode);
-      query_.evaluate(request(paths_[i], mode), result_);
+      const Answer answer = brute_force(motions_.paths[i], mode);
+      query_.evaluate(request(motions_.paths[i], mode), result_);
       faces_.clear();
       for (const FaceContact& contact : result_.contacts) faces_.push_back(contact.face);
       faces_.erase(std::unique(faces_.begin(), faces_.end()), faces_.end());
       add(summary_, faces_, answer, 0.5 / kChecked);
       if (mode == QueryMode::kStatic) {
-        fcl_.query(paths_[i].back(), faces_);
+        fcl_.query(motions_.paths[i].back(), faces_);
         add(fcl_summary_, faces_, answer, 1.0 / kChecked);
       }
     }
@@ -111,14 +84,14 @@ void GrasperMeasurement::check() {
 }
 
 double GrasperMeasurement::query(QueryMode mode) {
-  const CollisionRequest next = request(paths_[next_++ % paths_.size()], mode);
+  const CollisionRequest next = request(motions_.paths[next_++ % motions_.paths.size()], mode);
   Stopwatch watch;
   query_.evaluate(next, result_);
   return watch.lap();
 }
 
 double GrasperMeasurement::fcl_static_query() {
-  const ToolPath& path = paths_[next_++ % paths_.size()];
+  const ToolPath& path = motions_.paths[next_++ % motions_.paths.size()];
   Stopwatch watch;
   fcl_.query(path.back(), faces_);
   return watch.lap();

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "benchmark/engines/fcl_grasper.hpp"
-#include "benchmark/scenes/grasper.hpp"
+#include "benchmark/engines/fcl_tool.hpp"
+#include "benchmark/scenes/motion_set.hpp"
 #include "benchmark/scenes/organ_surface.hpp"
 #include "check_summary.hpp"
 #include "organ_collision/query/collision_query.hpp"
@@ -34,11 +34,10 @@ class GrasperMeasurement {
 
   OrganSurface surface_;
   TriangleMesh organ_;
-  std::vector<Link> links_;
-  std::vector<ToolPath> paths_;
+  MotionSet motions_;
   CollisionQuery query_;
   CollisionResult result_;
-  FclGrasper fcl_;
+  FclTool fcl_;
   std::vector<std::uint32_t> faces_;
   CheckSummary summary_, fcl_summary_;
   std::size_t next_ = 0;

@@ -1,4 +1,4 @@
-#include "fcl_grasper.hpp"
+#include "fcl_tool.hpp"
 
 #include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/capsule.h>
@@ -6,8 +6,6 @@
 #include <fcl/narrowphase/collision.h>
 
 #include <algorithm>
-
-#include "benchmark/scenes/grasper.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -50,7 +48,12 @@ std::shared_ptr<fcl::CollisionGeometryd> geometry(const LinkPart& part) {
 
 }  // namespace
 
-struct FclGrasper::Objects {
+struct FclTool::Placed {
+  std::shared_ptr<fcl::CollisionGeometryd> geometry;
+  Eigen::Isometry3d pose;
+};
+
+struct FclTool::Objects {
   struct Part {
     std::size_t link;
     std::shared_ptr<fcl::CollisionGeometryd> geometry;
@@ -60,8 +63,8 @@ struct FclGrasper::Objects {
   std::vector<Part> parts;
 };
 
-FclGrasper::FclGrasper(const OrganSurface& organ, const std::vector<Link>& links)
-    : objects_(new Objects{model(organ), {}}) {
+FclTool::FclTool(const OrganSurface& organ, double radius, const std::vector<Link>& links)
+    : radius_(radius), objects_(new Objects{model(organ), {}}) {
   for (std::size_t link = 0; link < links.size(); ++link) {
     for (const LinkPart& part : links[link].parts) {
       Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -74,31 +77,46 @@ FclGrasper::FclGrasper(const OrganSurface& organ, const std::vector<Link>& links
   }
 }
 
-FclGrasper::~FclGrasper() = default;
+FclTool::~FclTool() = default;
 
-void FclGrasper::query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces) {
-  faces.clear();
-  fcl::CollisionRequestd request;
-  request.num_max_contacts = 100'000;
-  request.enable_contact = true;  // FCL gives the numbers of faces only with contacts.
-  const auto collide = [&](const fcl::CollisionGeometryd& part, const Eigen::Isometry3d& pose) {
-    fcl::CollisionResultd result;
-    fcl::collide(objects_->organ.get(), Eigen::Isometry3d::Identity(), &part, pose, request,
-                 result);
-    for (std::size_t i = 0; i < result.numContacts(); ++i) {
-      faces.push_back(static_cast<std::uint32_t>(result.getContact(i).b1));
-    }
-  };
+std::vector<FclTool::Placed> FclTool::place(const ToolWaypoint& tool) const {
   const Vector3d along = tool.axis.tip - tool.axis.trocar;
   Eigen::Isometry3d shaft = Eigen::Isometry3d::Identity();
   shaft.linear() = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along).toRotationMatrix();
   shaft.translation() = tool.axis.at(0.5);
-  collide(fcl::Capsuled(Grasper::kRadius, along.norm()), shaft);
+  std::vector<Placed> placed{{std::make_shared<fcl::Capsuled>(radius_, along.norm()), shaft}};
   for (const Objects::Part& part : objects_->parts) {
-    collide(*part.geometry, tool.links[part.link] * part.T_link_part);
+    placed.push_back({part.geometry, tool.links[part.link] * part.T_link_part});
+  }
+  return placed;
+}
+
+void FclTool::query(const ToolWaypoint& tool, std::vector<std::uint32_t>& faces) const {
+  faces.clear();
+  fcl::CollisionRequestd request;
+  request.num_max_contacts = 1'000'000;
+  request.enable_contact = true;  // FCL gives the numbers of faces only with contacts.
+  for (const auto& [geometry, pose] : place(tool)) {
+    fcl::CollisionResultd result;
+    fcl::collide(objects_->organ.get(), Eigen::Isometry3d::Identity(), geometry.get(), pose,
+                 request, result);
+    for (std::size_t i = 0; i < result.numContacts(); ++i) {
+      faces.push_back(static_cast<std::uint32_t>(result.getContact(i).b1));
+    }
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+}
+
+bool FclTool::touches(const ToolWaypoint& tool) const {
+  const fcl::CollisionRequestd request;  // asks for nothing but whether there is a contact
+  for (const auto& [geometry, pose] : place(tool)) {
+    fcl::CollisionResultd result;
+    fcl::collide(objects_->organ.get(), Eigen::Isometry3d::Identity(), geometry.get(), pose,
+                 request, result);
+    if (result.isCollision()) return true;
+  }
+  return false;
 }
 
 }  // namespace organ_collision::bench

@@ -1,0 +1,68 @@
+"""The tables of the end-to-end measurements."""
+
+from shapes import TOOLS, echo_of
+from subject import ECHO
+
+WHAT = {'shapes': 'shape to contacts', 'service': 'service call', 'poses': 'pose to wrench'}
+LATENCY_HEAD = ('median, µs', '99th percentile', '99.9th percentile', 'worst')
+
+
+def table(head, rows):
+    lines = ['| ' + ' | '.join(map(str, head)) + ' |', '|' + '---|' * len(head)]
+    lines += ['| ' + ' | '.join(map(str, row)) + ' |' for row in rows]
+    return '\n'.join(lines) + '\n'
+
+
+def whole(value):
+    """A number without decimals; empty for None."""
+    return '' if value is None else f'{value:.0f}'
+
+
+def latencies(report):
+    return tuple(whole(report[key]) for key in ('median', 'p99', 'p999', 'worst'))
+
+
+def name(report):
+    return report['kind'] + (f" ({report['workspace']})" if report['workspace'] else '')
+
+
+def latency_table(reports):
+    head = ('', 'faces', 'tools', 'rate, Hz', 'held', 'sent', 'skipped', *LATENCY_HEAD, 'bytes a face')
+    held = {None: '', True: 'yes', False: 'no'}
+    return table(head, [(f"{name(r)}, {WHAT[r['what']]}", r['faces'], r['tools'], whole(r['rate'] or None), held[r['held']],
+                         r['sent'], r['skipped'], *latencies(r), whole(r['bytes_per_face']))
+                        for r in reports if r['what'] in WHAT])
+
+
+def comparison_table(reports):
+    """Medians at the highest rate of each size: four tools beside one, and node and nodelet beside their echoes."""
+    shapes = {}
+    for r in (r for r in reports if r['what'] == 'shapes'):
+        shapes.setdefault((r['faces'], r['workspace'], r['kind'], r['tools']), r)
+    rows = []
+    for (faces, workspace, kind, tools), r in shapes.items():
+        if kind not in ECHO or tools != TOOLS[0]:
+            continue
+        many = shapes[faces, workspace, kind, TOOLS[1]]
+        echo = shapes[(faces, *echo_of((workspace, kind, tools)))]
+        rows.append((name(r), faces, whole(r['rate']), whole(r['median']), whole(many['median']),
+                     f"{many['median'] / r['median']:.2f}", whole(r['median'] - echo['median'])))
+    return table(('', 'faces', 'rate, Hz', '1 tool, µs', '4 tools, µs', 'ratio', '1 tool minus echo, µs'), rows)
+
+
+def batch_table(reports):
+    rows = [(name(r), r['load'], whole(r['motions_per_second']), r['sent'], r['skipped'], *latencies(r))
+            for r in reports if r['what'] == 'beside a batch']
+    return table(('', 'beside', 'motions a second', 'sent', 'skipped', *LATENCY_HEAD), rows)
+
+
+def load_table(reports):
+    rows = [(r['kind'], r['setting'] or 'default', r['load'], r['sent'], r['skipped'], *latencies(r))
+            for r in reports if r['what'] == 'load']
+    return table(('', 'parameters', 'cores', 'sent', 'skipped', *LATENCY_HEAD), rows)
+
+
+def markdown(reports):
+    return '\n'.join(['# End to end', latency_table(reports), '## The same rates beside each other',
+                      comparison_table(reports), '## Steps while batches run', batch_table(reports),
+                      '## Steps on a busy machine', load_table(reports)])

@@ -1,0 +1,100 @@
+"""What is measured: a node, a nodelet or an echo, with the simulator that measures it."""
+
+import itertools
+import json
+import pathlib
+import subprocess
+import sys
+
+from latencies import Latencies
+
+RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # [m]; the same as SceneScale in tool_motions.cpp
+# What answers, as end_to_end names it, and the program that answers in a process of its own.
+ANSWERERS = {'node': ('external', 'organ_collision_node'), 'nodelet': ('nodelet', None),
+             'messages between processes': ('external', 'echo_node'), 'messages in one process': ('echo', None)}
+ECHO = {'node': 'messages between processes', 'nodelet': 'messages in one process'}
+
+_numbers = itertools.count()
+
+
+def tools_for(faces, count):
+    """The parameter `tools` of the node."""
+    return [{'name': f'tool{i}', 'trocar_frame': f'tool{i}_trocar', 'tip_frame': f'tool{i}_tip',
+             'radius': RADIUS[faces]} for i in range(count)]
+
+
+def resident_bytes(process):
+    status = pathlib.Path(f'/proc/{process.pid}/status').read_text()
+    return 1024 * int(status.split('VmRSS:')[1].split()[0])
+
+
+class Workspace:
+    """A built workspace, whose programs run in its environment."""
+
+    def __init__(self, devel):
+        self.devel = pathlib.Path(devel).resolve()
+
+    def command(self, program, *arguments):
+        return [str(self.devel / 'env.sh'), str(self.devel / 'lib' / 'organ_collision' / program), *map(str, arguments)]
+
+
+class Subject:
+    """Several subjects may be alive at once, each in a namespace of its own, and be measured in turn: the speed of a
+    machine drifts, and only what is measured in turn can be compared."""
+
+    def __init__(self, master, workspace, kind, faces, tools, parameters=None, simulator_prefix=()):
+        self.kind, self.faces, self.tools = kind, faces, tools
+        self.namespace = f'/subject{next(_numbers)}'
+        self.node = None
+        self.bytes_per_face = None
+        names = [f'__ns:={self.namespace}', f'/tf:={self.namespace}/tf', f'/tf_static:={self.namespace}/tf_static']
+        master.set_parameters(f'{self.namespace}/organ_collision', dict(parameters or {}, tools=tools_for(faces, tools)))
+        answerer, program = ANSWERERS[kind]
+        if kind == 'node':
+            self.node = subprocess.Popen(workspace.command(program, '__name:=organ_collision', *names),
+                                         stdout=subprocess.DEVNULL)
+            master.wait_for_service(f'{self.namespace}/organ_collision/query')
+        elif program:
+            self.node = subprocess.Popen(workspace.command(program, tools, *names), stdout=subprocess.DEVNULL)
+        idle = resident_bytes(self.node) if self.node else 0
+        self.simulator = subprocess.Popen(
+            [*simulator_prefix, *workspace.command('end_to_end', answerer, faces, tools, *names)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, universal_newlines=True)
+        self._read_line()
+        self.run_shapes(20.0, 1.0)
+        if kind == 'node':  # Before any higher rate: if the node cannot keep up, waiting messages take memory, too.
+            self.bytes_per_face = (resident_bytes(self.node) - idle) / faces
+
+    def run_shapes(self, rate, seconds):
+        """The latencies from shapes that are sent at a rate [Hz] to the contacts of the last tool."""
+        return Latencies.of_report(self._ask(f'shapes {rate} {seconds}'))
+
+    def call_service(self, seconds):
+        """The latencies of calls of the service `query`, one after the other."""
+        return Latencies.of_report(self._ask(f'service {seconds}'))
+
+    def raise_simulator(self, priority):
+        """Gives the simulator's thread realtime priority."""
+        self._ask(f'priority {priority}')
+
+    def _ask(self, command):
+        self.simulator.stdin.write(command + '\n')
+        self.simulator.stdin.flush()
+        return json.loads(self._read_line())
+
+    def _read_line(self):
+        """The next report of the simulator. What roscpp logs begins with an escape sequence or a bracket."""
+        for line in self.simulator.stdout:
+            if line == '\n' or line.startswith('{'):
+                return line
+        sys.exit(f'end_to_end: {self.kind} with {self.tools} tools and {self.faces} faces failed')
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.simulator.stdin.close()
+        self.simulator.terminate()
+        for process in filter(None, (self.simulator, self.node)):
+            process.terminate()
+            process.wait()

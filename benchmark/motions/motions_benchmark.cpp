@@ -1,0 +1,94 @@
+#include <atomic>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "benchmark/measurements/stopwatch.hpp"
+#include "motion_engines.hpp"
+
+namespace {
+
+using namespace organ_collision::bench;
+
+constexpr std::size_t kMotions = 1000;
+constexpr std::size_t kCompared = 100;
+
+/// Threads that ask one engine about the motions in turn.
+class Askers {
+ public:
+  Askers(const MotionEngines& engines, const MotionSet& motions, const std::string& engine,
+         std::size_t threads)
+      : motions_(motions), asks_(threads) {
+    for (MotionEngines::Ask& ask : asks_) ask = engines.asker(engine);
+  }
+
+  /// Asks for some seconds and prints the motions a second.
+  void run(double seconds) {
+    Stopwatch watch;
+    std::vector<std::thread> threads;
+    for (MotionEngines::Ask& ask : asks_) {
+      threads.emplace_back([&] { work(ask, seconds); });
+    }
+    for (std::thread& thread : threads) thread.join();
+    const double passed = watch.lap();
+    std::cout << "{\"motions_per_second\": " << static_cast<double>(answered_) / passed
+              << ", \"faces\": " << static_cast<double>(faces_) / static_cast<double>(answered_)
+              << "}" << std::endl;
+  }
+
+ private:
+  void work(const MotionEngines::Ask& ask, double seconds) {
+    Stopwatch watch;
+    double passed = 0.0;
+    std::size_t answered = 0, faces = 0;
+    for (; passed < seconds; passed += watch.lap(), ++answered) {
+      faces += ask(motions_.paths[next_++ % motions_.paths.size()]);
+    }
+    answered_ += answered;
+    faces_ += faces;
+  }
+
+  const MotionSet& motions_;
+  std::vector<MotionEngines::Ask> asks_;
+  std::atomic<std::size_t> next_ = 0, answered_ = 0, faces_ = 0;
+};
+
+}  // namespace
+
+// motions_benchmark FACES shaft|grasper
+// Reads what to measure from standard input and prints a line of JSON for each line that it reads:
+//   compare                    how far FCL's answers are from this package's
+//   ENGINE THREADS SECONDS     motions a second; an engine is one of MotionEngines::asker()
+int main(int argc, char** argv) {
+  if (argc != 3) return std::cerr << "motions_benchmark FACES shaft|grasper" << std::endl, 2;
+  try {
+    const OrganSurface organ = make_organ(std::strtoul(argv[1], nullptr, 10));
+    const MotionSet motions = motions_of(argv[2], organ, kMotions);
+    const MotionEngines engines(organ, motions);
+    for (std::string line; std::getline(std::cin, line);) {
+      std::istringstream words(line);
+      std::string engine;
+      std::size_t threads = 0;
+      double seconds = 0.0;
+      words >> engine;
+      if (engine == "compare") {
+        const MotionEngines::Comparison comparison = engines.compare(kCompared);
+        std::cout << "{\"faces\": " << comparison.faces
+                  << ", \"missed_by_fcl\": " << comparison.missed_by_fcl
+                  << ", \"only_by_fcl\": " << comparison.only_by_fcl << "}" << std::endl;
+      } else if (words >> threads >> seconds) {
+        Askers(engines, motions, engine, threads).run(seconds);
+      } else {
+        throw std::runtime_error("what is '" + line + "'?");
+      }
+    }
+  } catch (const std::exception& error) {
+    std::cerr << "motions_benchmark: " << error.what() << std::endl;
+    return 1;
+  }
+}

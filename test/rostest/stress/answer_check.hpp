@@ -1,0 +1,14 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+
+#include <string>
+
+namespace organ_collision::stress {
+
+/// What an answer breaks of the contract of ContactArray.msg, or an empty text: an answer has a
+/// status of the message. If that is OK, the contacts are sorted, belong to one of the links and
+/// are finite; else there are none, and the message says why.
+std::string broken_contract(const ContactArray& answer);
+
+}  // namespace organ_collision::stress

@@ -1,0 +1,110 @@
+#include "clients.hpp"
+
+#include <organ_collision/ListOrgans.h>
+#include <organ_collision/QueryCollision.h>
+#include <organ_collision/QueryCollisionBatch.h>
+#include <ros/service.h>
+
+#include <string>
+
+namespace organ_collision::stress {
+namespace {
+
+constexpr std::size_t kBatch = 300;  // motions
+const char* const kTools[] = {"", "probe", "needle", "jaw", "stylus", "no_such_tool"};
+const char* const kOrgans[] = {"quick", "large", "brief0", "no_such_organ"};
+
+geometry_msgs::Point point(double x, double y, double z) {
+  geometry_msgs::Point point;
+  point.x = x;
+  point.y = y;
+  point.z = z;
+  return point;
+}
+
+/// A shaft that goes through the sheets, somewhere else for each number.
+ToolMotion motion(std::size_t number) {
+  const double x = 1e-3 * static_cast<double>(number % 40) - 0.02;
+  ToolMotion motion;
+  motion.trocar = motion.previous_trocar = point(0.02, 0.01, 0.15);
+  motion.previous_tip = point(x, 0.0, 0.01);
+  motion.tip = point(x, 0.005, -0.01);
+  motion.radius = 2e-3;
+  return motion;
+}
+
+geometry_msgs::Pose pose(double x, double z) {
+  geometry_msgs::Pose pose;
+  pose.position = point(x, 0.0, z);
+  pose.orientation.w = 1.0;
+  return pose;
+}
+
+LinkMotion link_motion(std::size_t number) {
+  const double x = 1e-3 * static_cast<double>(number % 40) - 0.02;
+  LinkMotion motion;
+  motion.previous = {pose(x, 0.01)};
+  motion.links = {pose(x, -0.01)};
+  return motion;
+}
+
+template <typename Service>
+bool call(const char* name, Service& service) {
+  return ros::service::call(std::string("organ_collision/") + name, service);
+}
+
+}  // namespace
+
+QueryClient::QueryClient(std::size_t number, Findings& findings)
+    : number_(number), findings_(findings) {}
+
+void QueryClient::ask_query() {
+  const std::size_t turn = number_ + asked_++;
+  QueryCollision query;
+  query.request.header.frame_id = "sheet";
+  query.request.organ = kOrgans[turn % std::size(kOrgans)];
+  query.request.tool = kTools[turn / 2 % std::size(kTools)];
+  query.request.motion = motion(turn);
+  query.request.mode = turn % 3 == 0 ? ContactArray::STATIC : ContactArray::SWEPT;
+  query.request.organ_motion = turn % 2 == 0;
+  query.request.margin = turn % 5 == 0 ? 0.01 : 0.0;
+  query.request.placement = turn % 7 == 0;
+  if (!call("query", query)) return findings_.add("a query has no answer");
+  findings_.check("query", query.response.result);
+}
+
+void QueryClient::ask_batch() {
+  const std::size_t turn = number_ + asked_++;
+  QueryCollisionBatch batch;
+  batch.request.header.frame_id = "sheet";
+  batch.request.organ = kOrgans[turn % std::size(kOrgans)];
+  batch.request.mode = ContactArray::SWEPT;
+  batch.request.organ_motion = turn % 2 == 0;
+  const bool asks_for_links = turn % 3 == 0;
+  if (asks_for_links) batch.request.tool = "jaw";
+  batch.request.stop_at_first_contact = turn % 4 == 0;
+  for (std::size_t i = 0; i < kBatch; ++i) {
+    if (asks_for_links) {
+      batch.request.link_motions.push_back(link_motion(i));
+    } else {
+      batch.request.motions.push_back(motion(i));
+    }
+  }
+  if (!call("query_batch", batch)) return findings_.add("a batch has no answer");
+  const auto& response = batch.response;
+  if (response.status != ContactArray::OK) {
+    if (!response.results.empty()) findings_.add("a refused batch has results");
+    return;
+  }
+  if (!batch.request.stop_at_first_contact && response.results.size() != kBatch) {
+    findings_.add("a batch has " + std::to_string(response.results.size()) + " results");
+  }
+  for (const ContactArray& result : response.results) findings_.check("batch", result);
+}
+
+void QueryClient::list_organs() {
+  ListOrgans list;
+  if (!call("list_organs", list)) findings_.add("list_organs has no answer");
+}
+
+}  // namespace organ_collision::stress
