@@ -1,10 +1,16 @@
 #include "worker_threads.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 namespace organ_collision {
+
+std::size_t thread_count(int asked_for) {
+  if (asked_for > 0) return static_cast<std::size_t>(asked_for);
+  return std::max(1u, std::thread::hardware_concurrency());  // 0: the system does not tell.
+}
 
 /// The tasks of one call of run(). At its end, also by an exception, no worker works any more, so
 /// that what the tasks refer to may end.

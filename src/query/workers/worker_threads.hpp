@@ -10,6 +10,9 @@
 
 namespace organ_collision {
 
+/// The number of threads that a user asks for; 0: one for each processor.
+std::size_t thread_count(int asked_for);
+
 /// Threads that share numbered tasks. The results are delivered one after the other, in the order
 /// of the tasks, in the thread that calls run(). What is delivered therefore does not depend on the
 /// number of threads, if a task does not depend on the others.

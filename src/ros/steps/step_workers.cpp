@@ -5,21 +5,11 @@
 #include <algorithm>
 #include <exception>
 #include <functional>
-#include <thread>
 
 namespace organ_collision {
-namespace {
-
-std::size_t number_of_workers(int threads) {
-  if (threads > 0) return static_cast<std::size_t>(threads);
-  return std::max(1u, std::thread::hardware_concurrency());  // 0: the system does not tell.
-}
-
-}  // namespace
-
 StepWorkers::StepWorkers(PickerKind picker, int threads)
     : picker_(picker),
-      queries_(number_of_workers(threads)),
+      queries_(thread_count(threads)),
       threads_(WorkerThreads::Caller::kWorks, [this](std::size_t worker) { prepare(worker); }) {
   queries_.front() = std::make_unique<ContactQuery>(picker_);
 }
