@@ -6,7 +6,7 @@ import argparse
 import math
 import random
 
-from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
+from geometry_msgs.msg import Point, Pose, Quaternion, Transform, TransformStamped, Vector3
 import grasper_kinematics as grasper
 from organ_collision.msg import ContactArray, LinkMotion
 from organ_collision.srv import QueryCollisionBatch, QueryCollisionBatchRequest
@@ -17,6 +17,8 @@ from std_msgs.msg import ColorRGBA, Header
 import tf2_ros
 from visualization_msgs.msg import Marker, MarkerArray
 
+# In the liver's frame: the trocar is below the liver and in front of it. Its z axis points at the liver's middle.
+TROCAR = (-0.0413637326, -0.9032105840, -0.4177331430, 0.0894354727), (0.02, -0.12, 0.10)
 START = (0.0, -0.01, 0.06)         # [m] of the tip, in the liver's frame: in front of the liver
 TARGET = [0.004, -0.004, -0.017]   # [m] in the hollow of its underside, some millimetres from the surface
 JAW = 0.1                          # [rad] the jaws stay nearly closed
@@ -44,13 +46,12 @@ def straight(a, b, piece):
 class Tissue:
     """Asks the collision node what the grasper would touch."""
 
-    def __init__(self, trocar):
-        self.trocar = trocar
+    def __init__(self):
         rospy.wait_for_service('/organ_collision/query_batch')
         self.service = rospy.ServiceProxy('/organ_collision/query_batch', QueryCollisionBatch, persistent=True)
 
     def links(self, place):
-        poses = grasper.link_poses(self.trocar, unscaled(place))
+        poses = grasper.link_poses(TROCAR, unscaled(place))
         return [Pose(Point(*position), Quaternion(*rotation)) for rotation, position in poses]
 
     def sweep(self, places, **asked):
@@ -88,7 +89,7 @@ def plan(tissue, start, target, chance):
     goals = []
     while len(goals) < GOALS:
         roll, wrist = (chance.uniform(*grasper.LIMITS[joint]) for joint in (3, 4))
-        joints = grasper.joints_for(tissue.trocar, target, roll, wrist, JAW)
+        joints = grasper.joints_for(TROCAR, target, roll, wrist, JAW)
         if joints and is_free(tissue.sweep([scaled(joints)] * 2)[0]):
             goals.append(scaled(joints))
     limits = grasper.LIMITS[:-1] + ((JAW, JAW),)
@@ -100,23 +101,13 @@ def plan(tissue, start, target, chance):
     return path, tissue.least_distance(path)
 
 
-def wait_for_scene():
-    """Returns the pose of the trocar in the liver's frame, when TF knows it."""
-    transforms = tf2_ros.Buffer()
-    listener = tf2_ros.TransformListener(transforms)
-    found = transforms.lookup_transform('liver', 'grasper_trocar', rospy.Time(), rospy.Duration(20.0)).transform
-    listener.unregister()
-    r, t = found.rotation, found.translation
-    return (r.x, r.y, r.z, r.w), (t.x, t.y, t.z)
-
-
-def show(publisher, trocar, path):
-    """Shows the way of the tip in RViz."""
+def show(publisher, path):
+    """Shows the way of the tip in RViz, beside the markers of the collision node."""
     places = [place for a, b in zip(path, path[1:]) for place in straight(a, b, PIECE)]
     line = Marker(header=Header(frame_id='liver'), ns='path', type=Marker.LINE_STRIP, scale=Vector3(0.001, 0, 0),
                   color=ColorRGBA(0.1, 0.8, 0.3, 1.0))
     line.pose.orientation.w = 1.0
-    line.points = [Point(*grasper.tip(trocar, unscaled(place))) for place in places]
+    line.points = [Point(*grasper.tip(TROCAR, unscaled(place))) for place in places]
     publisher.publish([line])
 
 
@@ -125,16 +116,18 @@ def main():
     # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
     rospy.init_node('plan_grasper', disable_signals=True)
     joint_states = rospy.Publisher('joint_states', JointState, queue_size=10)
-    markers = rospy.Publisher('~markers', MarkerArray, queue_size=1, latch=True)
-    trocar = wait_for_scene()
-    tissue = Tissue(trocar)
-    start = scaled(grasper.joints_for(trocar, START, 0.0, 0.0, JAW))
+    markers = rospy.Publisher('/organ_collision/markers', MarkerArray, queue_size=1, latch=True)
+    trocar = tf2_ros.StaticTransformBroadcaster()
+    trocar.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'liver'), 'grasper_trocar',
+                                          Transform(Vector3(*TROCAR[1]), Quaternion(*TROCAR[0]))))
+    tissue = Tissue()
+    start = scaled(grasper.joints_for(TROCAR, START, 0.0, 0.0, JAW))
     target = rospy.get_param('~target', TARGET)
     path, distance = plan(tissue, start, target, random.Random(rospy.get_param('~seed', 0)))
     if distance is None:
         raise RuntimeError('finer motions touch the tissue')
     rospy.loginfo('%d legs, at least %.1f mm from the liver', len(path) - 1, 1000.0 * distance)
-    show(markers, trocar, path)
+    show(markers, path)
     rate = rospy.Rate(RATE)
     way = [place for a, b in zip(path, path[1:]) for place in straight(a, b, SPEED / RATE)]
     while not rospy.is_shutdown():
