@@ -4,6 +4,7 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 
 ADDRESSES = '10.77.0.1', '10.77.0.2'
 UNUSED_ADDRESS = '10.77.0.99'
@@ -21,11 +22,7 @@ def enter():
         return
     for rights in [], ['--user', '--map-root-user']:
         command = ['unshare', *rights, *OWN_NAMESPACES]
-        try:
-            tried = subprocess.run(command + CABLE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        except FileNotFoundError as missing:
-            sys.exit_text = str(missing)
-            continue
+        tried = subprocess.run([*command, *CABLE], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if tried.returncode == 0:
             os.execvp('unshare', [*command, sys.executable, *sys.argv, INSIDE])
     print('skipped: this system permits no network namespaces: ' + tried.stdout)
@@ -57,18 +54,17 @@ class Host:
 
 
 class Program:
-    """A program with its output in the list `lines`."""
+    """A program whose output goes to a file."""
 
     def __init__(self, command, environment):
-        self.process = subprocess.Popen(command, env=environment, text=True, stdout=subprocess.PIPE,
-                                        stderr=subprocess.STDOUT, start_new_session=True)
-        os.set_blocking(self.process.stdout.fileno(), False)
-        self.printed = ''
+        self.file = tempfile.NamedTemporaryFile()
+        self.process = subprocess.Popen(command, env=environment, stdout=self.file, stderr=subprocess.STDOUT,
+                                        start_new_session=True)
 
     def output(self):
         """All that it has printed so far."""
-        self.printed += self.process.stdout.read() or ''
-        return self.printed
+        with open(self.file.name, encoding='utf-8') as text:
+            return text.read()
 
     def stop(self):
         if self.process.poll() is None:
