@@ -19,6 +19,7 @@ def enter():
     with SKIPPED."""
     if INSIDE in sys.argv:
         sys.argv.remove(INSIDE)
+        os.environ.pop('ROS_HOSTNAME', None)  # It would come before ROS_IP.
         return
     for rights in [], ['--user', '--map-root-user']:
         command = ['unshare', *rights, *OWN_NAMESPACES]
@@ -44,13 +45,14 @@ class Host:
         self.run('ip', 'link', 'set', device, 'up')
         self.run('hostname', name)
 
-    def start(self, *command, **environment):
-        """Starts a program. ROS_MASTER_URI is that of the first host. ROS_IP is the host's address, unless
-        `environment` has another one; None: not set."""
-        everything = {**os.environ, 'ROS_MASTER_URI': 'http://%s:11311' % ADDRESSES[0], 'ROS_IP': self.address,
-                      **environment}
-        everything.pop('ROS_HOSTNAME', None)
-        return Program([*self.words, *command], {k: v for k, v in everything.items() if v is not None})
+    def environment(self):
+        """The variables that ROS needs on this host. The master is on the first one."""
+        return {'ROS_MASTER_URI': 'http://%s:11311' % ADDRESSES[0], 'ROS_IP': self.address}
+
+    def start(self, *command, **changes):
+        """Starts a program. `changes`: other values of environment variables; None: not set."""
+        variables = {**os.environ, **self.environment(), **changes}
+        return Program([*self.words, *command], {k: v for k, v in variables.items() if v is not None})
 
 
 class Program:

@@ -15,6 +15,8 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// After a breakdown, the node waits this long for its last messages to leave.
 const ros::WallDuration kLastWords(1.0);
+/// As many threads answer a batch as there are processors.
+constexpr int kAllProcessors = 0;
 
 }  // namespace
 
@@ -35,13 +37,17 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                  },
                  [this](const OrganUpdate& update) {
                    publisher_.report(update);
-                   // At once, because the next callback may be a query that waits for the surface.
+                   // At once, because the next callback may be of a query, which then waits for the
+                   // surface.
                    surfaces_.update(pipeline_.organs(), SteadyClock::now());
                  },
                  counters_.rejected, loop_.queue()}),
-      services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
-                 pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),
-                 counters_.refused}),
+      services_(
+          {{loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
+            pipeline_.poses(), pipeline_.steps().history()},
+           [this](const std::function<void()>& action) { run_in_thread_of(loop_.queue(), action); },
+           counters_.refused,
+           kAllProcessors}),
       query_diagnostics_({loaded_.misspelt, pipeline_.contact_query(), pipeline_.steps(),
                           pipeline_.transforms(), counters_}),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
@@ -72,7 +78,8 @@ CollisionNode::~CollisionNode() { end_background(); }
 void CollisionNode::start() {
   warn_of_settings(tools_, loaded_.misspelt);
   pipeline_.subscribe(node_, private_node_);
-  services_.advertise(private_node_);
+  services_.advertise(on_queue(private_node_, query_thread_.queue()),
+                      on_queue(private_node_, batch_thread_.queue()));
   organ_services_.advertise(private_node_);
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
@@ -88,11 +95,13 @@ void CollisionNode::start() {
            pipeline_.contact_query().gl_version().c_str());
 }
 
-/// Ends the wait of the background thread for this thread, and then that thread, which uses
-/// members.
+/// Ends the waits of the other threads for this thread, and then those threads, which use members.
 void CollisionNode::end_background() {
   loop_.end();
+  services_.end();
   background_.stop();
+  query_thread_.stop();
+  batch_thread_.stop();
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {

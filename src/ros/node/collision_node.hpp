@@ -20,7 +20,7 @@
 #include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
 #include "ros/publishing/query_diagnostics.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/queries/query_services.hpp"
 #include "ros/tools/tool.hpp"
 #include "tool_reload.hpp"
 
@@ -31,7 +31,8 @@ namespace organ_collision {
 /// context. Large meshes with
 /// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
 /// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
-/// thread only exchanges them. A fourth one draws markers (marker_topic.hpp).
+/// thread only exchanges them. A fourth one draws markers (marker_topic.hpp). The services `query`
+/// and `query_batch` have threads of their own (query_services.hpp).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -56,7 +57,7 @@ class CollisionNode {
 
   NodeCounters counters_;
   MessageLoop loop_;
-  BackgroundThread background_;
+  BackgroundThread background_, query_thread_, batch_thread_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;

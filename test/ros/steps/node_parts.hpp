@@ -11,7 +11,7 @@
 
 #include "ros/organs/organ_registry.hpp"
 #include "ros/organs/organ_topics.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "test/ros/motion/hand_filled_transforms.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
@@ -85,7 +85,6 @@ struct NodeParts {
   TransformBuffer transforms;
   OrganRegistry organs{MeshLimits{}};
   FailureLog rejected;
-  FailureLog refused;
   ros::CallbackQueue callbacks;
   OrganTopics organ_topics{organs, rejected, callbacks};
   ToolPoses poses{transforms, {0.001, 100}};
@@ -98,8 +97,6 @@ struct NodeParts {
                         published.push_back(*step.answer);
                         if (watch) watch(step);
                       }};
-  QueryServices services{
-      {parameters, tools, organs, transforms, poses, steps.history(), contact_query, refused}};
 };
 
 }  // namespace organ_collision
