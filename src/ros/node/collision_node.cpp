@@ -24,6 +24,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       node_(on_queue(node, loop_.queue())),
       private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_parameters(private_node_)),
+      realtime_(loaded_.parameters.realtime),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
       publisher_(private_node_, tools_, counters_),
       markers_(private_node_, loaded_.parameters.markers, tools_),
@@ -83,6 +84,7 @@ void CollisionNode::start() {
   updater_.setHardwareID("none");
   query_diagnostics_.add_to(updater_);
   inbox_diagnostics_.add_to(updater_);
+  realtime_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),

@@ -9,6 +9,7 @@
 
 #include "background_thread.hpp"
 #include "message_loop.hpp"
+#include "realtime.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
@@ -60,6 +61,7 @@ class CollisionNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
+  Realtime realtime_;
   std::vector<Tool> tools_;
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
 

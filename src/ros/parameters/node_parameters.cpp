@@ -25,11 +25,26 @@ const NumberRange kPositive{0.0, kUnlimited, false};
 ParameterGroup node_group(const XmlRpcValue& private_namespace) {
   return {"~",
           private_namespace,
-          {names::kTools, names::kPicker, names::kRate, names::kOrganMotion,
-           names::kMotionSampleSec, names::kMotionSamplesMax, names::kTfTimeoutSec,
-           names::kMeshTimeoutSec, names::kMaxFaces, names::kMaxBatch, names::kMaxBatchBytes,
-           names::kPublishRegions, names::kPublishPlacement, names::kDiagnosticPeriod,
-           names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth, names::kThreads}};
+          {names::kTools,
+           names::kPicker,
+           names::kRate,
+           names::kOrganMotion,
+           names::kMotionSampleSec,
+           names::kMotionSamplesMax,
+           names::kTfTimeoutSec,
+           names::kMeshTimeoutSec,
+           names::kMaxFaces,
+           names::kMaxBatch,
+           names::kMaxBatchBytes,
+           names::kPublishRegions,
+           names::kPublishPlacement,
+           names::kDiagnosticPeriod,
+           names::kMarkersRate,
+           names::kSurfaceRate,
+           names::kMarkersDepth,
+           names::kThreads,
+           names::kRealtimePriority,
+           names::kLockMemory}};
 }
 
 /// Missing members keep their values.
@@ -69,6 +84,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
       all.whole_number(names::kMaxBatchBytes, p.max_batch_bytes, {1, kMostMessageBytes});
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kDiagnosticPeriodRange);
+  p.realtime = parse_realtime(all);
   return loaded;
 }
 

@@ -37,6 +37,7 @@ struct NodeParameters : LiveNodeParameters {
   int max_batch = 1000;                ///< [motions] in one call of query_batch
   int max_batch_bytes = 64 << 20;      ///< [bytes] of all results of a batch, serialized
   double diagnostic_period_sec = 1.0;  ///< of wall time
+  RealtimeParameters realtime;
 };
 
 /// The parameters, and one sentence for each unknown name among them.

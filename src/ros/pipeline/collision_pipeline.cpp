@@ -16,7 +16,7 @@ CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
           parameters.max_faces, parameters.tools,
           {[this](std::size_t tool) { steps_.add_pose(tool); }, sinks.rejected, sinks.callbacks}),
       poses_(inbox_.transforms(), sampling(parameters)),
-      workers_(parameters.picker, parameters.threads),
+      workers_(parameters),
       steps_(parameters, tools, poses_, workers_, sinks.step) {}
 
 void CollisionPipeline::watch_clock() {

@@ -6,10 +6,13 @@
 #include <exception>
 #include <functional>
 
+#include "ros/interface/thread_scheduling.hpp"
+
 namespace organ_collision {
-StepWorkers::StepWorkers(PickerKind picker, int threads)
-    : picker_(picker),
-      queries_(thread_count(threads)),
+StepWorkers::StepWorkers(const NodeParameters& parameters)
+    : picker_(parameters.picker),
+      realtime_priority_(parameters.realtime.priority),
+      queries_(thread_count(parameters.threads)),
       threads_(WorkerThreads::Caller::kWorks, [this](std::size_t worker) { prepare(worker); }) {
   queries_.front() = std::make_unique<ContactQuery>(picker_);
 }
@@ -30,6 +33,8 @@ void StepWorkers::prepare(std::size_t worker) {
     ROS_WARN("a thread for steps could not be started, the others do its work: %s", error.what());
     throw;
   }
+  // If the system refuses, the node's thread was refused, too, and has said so (node/realtime.hpp).
+  if (realtime_priority_ > 0) make_this_thread_realtime(realtime_priority_);
 }
 
 }  // namespace organ_collision

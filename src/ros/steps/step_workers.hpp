@@ -19,9 +19,9 @@ class StepWorkers {
  public:
   using Deliver = WorkerThreads::Deliver;
 
-  /// `threads`: the largest number of workers; 0: one for each processor. Throws GlError if GL
-  /// picking does not work on this machine.
-  StepWorkers(PickerKind picker, int threads);
+  /// Takes picker, threads and priority. Throws GlError if GL picking does not work on this
+  /// machine.
+  explicit StepWorkers(const NodeParameters& parameters);
 
   /// Evaluates the steps that have no answer yet, and delivers all in their order, in the calling
   /// thread. At the end of this call, no other thread works.
@@ -33,6 +33,7 @@ class StepWorkers {
   void prepare(std::size_t worker);
 
   const PickerKind picker_;
+  const int realtime_priority_;                         ///< 0: ordinary scheduling
   std::vector<std::unique_ptr<ContactQuery>> queries_;  ///< by worker
   WorkerThreads threads_;  ///< the last member: its threads end before what they use
 };

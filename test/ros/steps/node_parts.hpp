@@ -21,7 +21,7 @@ namespace organ_collision {
 /// The node without ROS's topics: messages are given by hand, and the clock stands still. The organ
 /// is a horizontal sheet of two faces, 2 m wide; the tool hangs from (0, 0, 1).
 struct NodeParts {
-  explicit NodeParts(int threads = 1) : workers(PickerKind::kFeedback, threads) {
+  explicit NodeParts(int threads = 1) : parameters(with_threads(threads)) {
     ros::Time::init();
     ros::Time::setNow(ros::Time(50));
     set_point(transforms, "liver_frame", "hook_trocar", 0.0, {0.0, 0.0, 1.0}, true);
@@ -80,6 +80,12 @@ struct NodeParts {
     return evaluate();
   }
 
+  static NodeParameters with_threads(int threads) {
+    NodeParameters parameters;
+    parameters.threads = threads;
+    return parameters;
+  }
+
   NodeParameters parameters;
   std::vector<Tool> tools = {shaft_tool("hook", 0.01)};
   TransformBuffer transforms;
@@ -88,7 +94,7 @@ struct NodeParts {
   ros::CallbackQueue callbacks;
   OrganTopics organ_topics{organs, rejected, callbacks};
   ToolPoses poses{transforms, {0.001, 100}};
-  StepWorkers workers;
+  StepWorkers workers{parameters};
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
   /// Also called with each step, if set.
