@@ -27,12 +27,8 @@
 namespace organ_collision {
 
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
-/// (doc/architecture.md). One thread does all work of the steps (message_loop.hpp) and owns the GL
-/// context. Large meshes with
-/// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
-/// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
-/// thread only exchanges them. A fourth one draws markers (marker_topic.hpp). The services `query`
-/// and `query_batch` have threads of their own (query_services.hpp).
+/// (doc/architecture.md). The thread that runs it owns all state (message_loop.hpp). Work that no
+/// step may wait for has threads of its own (doc/threads.md).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
