@@ -7,6 +7,7 @@
 
 #include "node_counters.hpp"
 #include "ros/motion/transform_buffer.hpp"
+#include "ros/queries/service_times.hpp"
 #include "ros/steps/step_scheduler.hpp"
 
 namespace organ_collision {
@@ -20,6 +21,7 @@ class QueryDiagnostics {
     const std::string& gl_version;
     const StepScheduler& steps;
     const TransformBuffer& transforms;
+    const ServiceTimes& services;
     NodeCounters& counters;
   };
 
@@ -29,6 +31,8 @@ class QueryDiagnostics {
   void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
+  void add_services(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
   Sources sources_;
 };
 

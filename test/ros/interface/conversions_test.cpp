@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <cmath>
+
 using namespace organ_collision;
 using Eigen::Vector3d;
 
@@ -38,6 +40,30 @@ TEST(Conversions, TransformTurnsThenMoves) {
   transform.rotation.w = 0.70711;
   const Vector3d moved = to_eigen(transform) * Vector3d(0.1, 0.2, 0.3);
   EXPECT_TRUE(moved.isApprox(Vector3d(0.8, 2.1, 3.3), 1e-12)) << moved.transpose();
+}
+
+TEST(Conversions, PoseTurnsThenMoves) {
+  geometry_msgs::Pose pose;
+  pose.position.x = 1.0;
+  pose.position.y = 2.0;
+  pose.position.z = 3.0;
+  pose.orientation.z = pose.orientation.w = 0.70711;
+  const Vector3d moved = to_eigen(pose) * Vector3d(0.1, 0.2, 0.3);
+  EXPECT_TRUE(moved.isApprox(Vector3d(0.8, 2.1, 3.3), 1e-12)) << moved.transpose();
+}
+
+TEST(Conversions, LengthOfAQuaternion) {
+  geometry_msgs::Quaternion quaternion;
+  EXPECT_FALSE(is_unit(quaternion));
+  quaternion.x = 0.6;
+  quaternion.z = -0.8;
+  EXPECT_TRUE(is_unit(quaternion));
+  quaternion.z = -0.8008;
+  EXPECT_TRUE(is_unit(quaternion));
+  quaternion.z = -0.802;
+  EXPECT_FALSE(is_unit(quaternion));
+  quaternion.z = std::nan("");
+  EXPECT_FALSE(is_unit(quaternion));
 }
 
 TEST(Conversions, FrameWithoutLeadingSlash) {

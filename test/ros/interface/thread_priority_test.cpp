@@ -1,6 +1,7 @@
 #include "ros/interface/thread_priority.hpp"
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -22,6 +23,16 @@ TEST(ThreadPriority, IsLoweredForTheCallingThreadAlone) {
   }).join();
   EXPECT_EQ(lowered, std::max(before, 10));
   EXPECT_EQ(niceness(), before);
+}
+
+TEST(ThreadPriority, YieldsToAllThreadsInTheCallingThreadAlone) {
+  int policy = -1;
+  std::thread([&] {
+    yield_to_all_threads();
+    policy = sched_getscheduler(0);
+  }).join();
+  EXPECT_EQ(policy, SCHED_IDLE);
+  EXPECT_NE(sched_getscheduler(0), SCHED_IDLE);
 }
 
 }  // namespace

@@ -69,14 +69,14 @@ class BatchWorkersTest : public testing::Test {
     return {request_, request_.motions.size(), snapshot_, collision_, unanswered_, most_bytes_};
   }
 
-  std::vector<ContactArray> answers(int threads) const {
-    return BatchWorkers(PickerKind::kFeedback, threads).answer(batch());
+  std::vector<ContactArray> answers(int threads) {
+    return BatchWorkers(PickerKind::kFeedback, threads, times_).answer(batch());
   }
 
-  std::vector<ContactArray> answers_one_by_one() const {
+  std::vector<ContactArray> answers_one_by_one() {
     std::vector<ContactArray> all;
     QueryCollisionBatch::Request one = request_;
-    BatchWorkers workers(PickerKind::kFeedback, 1);
+    BatchWorkers workers(PickerKind::kFeedback, 1, times_);
     for (const ToolMotion& motion : request_.motions) {
       one.motions = {motion};
       all.push_back(
@@ -85,6 +85,7 @@ class BatchWorkersTest : public testing::Test {
     return all;
   }
 
+  ServiceTimes times_;
   QuerySnapshot snapshot_;
   QueryCollisionBatch::Request request_;
   CollisionRequest collision_;
@@ -175,10 +176,24 @@ TEST_F(BatchWorkersTest, BytesAfterTheFirstContactDoNotCount) {
   EXPECT_THROW(answers(2), Rejection);
 }
 
+TEST_F(BatchWorkersTest, CountsTheMotionsThatAreAnswered) {
+  add_random_shafts(100, 0.05);
+  ToolMotion touching = request_.motions[0];
+  touching.tip = tf2::toMsg(Vector3d(0.1, 0.2, -0.3));
+  request_.motions.insert(request_.motions.begin() + 40, touching);
+  answers(2);
+  EXPECT_EQ(times_.summary().batches, 1u);
+  EXPECT_EQ(times_.summary().motions, 101u);
+  request_.stop_at_first_contact = 1;
+  answers(2);
+  EXPECT_EQ(times_.summary().batches, 2u);
+  EXPECT_EQ(times_.summary().motions, 142u);
+}
+
 TEST_F(BatchWorkersTest, EndsSoonWhenAsked) {
   add_random_shafts(1, 0.05);
   request_.motions.assign(3'000'000, request_.motions[0]);
-  BatchWorkers workers(PickerKind::kFeedback, 2);
+  BatchWorkers workers(PickerKind::kFeedback, 2, times_);
   auto answering = std::async(std::launch::async, [&] { return workers.answer(batch()); });
   EXPECT_EQ(answering.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
   workers.end();
