@@ -1,8 +1,10 @@
 #include "options.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "command_line.hpp"
 #include "input_error.hpp"
@@ -10,6 +12,8 @@
 
 namespace organ_collision {
 namespace {
+
+constexpr long long kMostJobs = 1024;
 
 PickerKind picker_of(const CommandLine& given) {
   try {
@@ -26,6 +30,29 @@ double margin_of(const CommandLine& given) {
                "; must be a finite number above 0, in metres");
 }
 
+std::size_t jobs_of(const CommandLine& given) {
+  if (!given.has("--jobs")) return std::max(1U, std::thread::hardware_concurrency());
+  const std::optional<long long> jobs = parse_integer(given.value("--jobs"));
+  if (jobs && *jobs >= 1 && *jobs <= kMostJobs) return static_cast<std::size_t>(*jobs);
+  given.refuse("--jobs is " + in_quotes(given.value("--jobs")) +
+               "; must be a whole number from 1 to " + std::to_string(kMostJobs));
+}
+
+/// Takes the options for the organ: one mesh, or a folder of shapes.
+void set_organ(const CommandLine& given, Options& options) {
+  options.shapes = given.value("--shapes");
+  if (options.shapes.empty()) {
+    options.mesh = given.required("--mesh");
+    options.mesh_before = given.value("--mesh-before");
+    return;
+  }
+  for (const char* const other : {"--mesh", "--mesh-before"}) {
+    if (!given.has(other)) continue;
+    given.refuse("options --shapes and " + std::string(other) +
+                 " are given; the folder has all shapes");
+  }
+}
+
 }  // namespace
 
 Options parse_options(const std::vector<std::string>& arguments) {
@@ -33,17 +60,19 @@ Options parse_options(const std::vector<std::string>& arguments) {
   options.help = asks_for_help(arguments);
   if (options.help) return options;
 
-  const CommandLine given({"query_offline",
-                           {"--mesh", "--motions", "--mesh-before", "--picker", "--margin"},
-                           {"--clearance", "--placement"}},
-                          arguments);
-  options.mesh = given.required("--mesh");
+  const CommandLine given(
+      {"query_offline",
+       {"--mesh", "--motions", "--mesh-before", "--shapes", "--jobs", "--picker", "--margin"},
+       {"--clearance", "--placement", "--blank-lines"}},
+      arguments);
+  set_organ(given, options);
   options.motions = given.required("--motions");
-  options.mesh_before = given.value("--mesh-before");
+  options.jobs = jobs_of(given);
   if (given.has("--picker")) options.picker = picker_of(given);
   if (given.has("--margin")) options.margin = margin_of(given);
   options.clearance = given.has("--clearance");
   options.placement = given.has("--placement");
+  options.blank_lines = given.has("--blank-lines");
   return options;
 }
 
