@@ -32,9 +32,8 @@ void Evaluation::run(const Print& print) {
   while (next_round()) answer_round(print);
   if (error_) std::rethrow_exception(error_);
   if (shapes_.remaining() == 0) return;
-  throw InputError(source_.name() + ": the motions end, and " +
-                   std::to_string(shapes_.remaining()) +
-                   " shapes are left; must have a motion for each shape");
+  throw InputError(source_.name() + ": the motions end; shapes without a motion: " +
+                   std::to_string(shapes_.remaining()) + "; each shape needs one");
 }
 
 /// Whether there are further motions. Waits for the first one only.

@@ -7,14 +7,22 @@
 #include "natural_order.hpp"
 
 namespace organ_collision {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_shape(const fs::path& file) {
+  const fs::path extension = file.extension();
+  const bool is_hidden = file.filename().native()[0] == '.';
+  return !is_hidden && (extension == ".obj" || extension == ".OBJ");
+}
+
+}  // namespace
 
 std::vector<std::string> shape_files(const std::string& folder) {
-  namespace fs = std::filesystem;
   std::vector<fs::path> found;
   try {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-      const fs::path extension = entry.path().extension();
-      if (extension == ".obj" || extension == ".OBJ") found.push_back(entry.path());
+      if (is_shape(entry.path())) found.push_back(entry.path());
     }
   } catch (const fs::filesystem_error& error) {
     throw InputError(folder + ": cannot be read: " + error.code().message());

@@ -19,7 +19,7 @@ class ListedMotions : public MotionSource {
   std::optional<Motion> next() override {
     if (next_ == illegal) throw InputError(name_, next_ + 1, "it is illegal");
     if (next_ == count_) return std::nullopt;
-    const double x = next_ % 3 == 0 ? 2.0 : 0.01 * double(next_ % 50);
+    const double x = next_ % 3 == 0 ? 2.0 : 0.005 * double(next_ % 50);
     ++next_;
     return Motion{std::to_string(next_), next_, QueryMode::kSwept, {x, 0.1, 1.0}, {x, 0.1, 0.5},
                   {x, 0.1, 0.0},         0.01};
@@ -143,7 +143,7 @@ TEST(Evaluation, answers_the_motions_that_have_shapes) {
 
   LimitedShapes many(130);
   EXPECT_EQ(evaluate(ListedMotions(100), many, 2).error,
-            "list: the motions end, and 30 shapes are left; must have a motion for each shape");
+            "list: the motions end; shapes without a motion: 30; each shape needs one");
 }
 
 TEST(Evaluation, puts_a_blank_line_behind_each_answer_if_asked_to) {

@@ -42,7 +42,7 @@ TEST(ShapeSequence, goes_from_shape_to_shape_in_rounds_of_any_size) {
         EXPECT_EQ(height(organ.now), double(step));
         EXPECT_TRUE(organ.now->same_faces(shapes.first()));
         ASSERT_EQ(organ.before == nullptr, step == 0);
-        if (organ.before) EXPECT_EQ(height(organ.before), double(step) - 1.0);
+        EXPECT_EQ(organ.before ? height(organ.before) : -1.0, double(step) - 1.0);
       }
       EXPECT_EQ(shapes.remaining(), 12U - step);
     }
