@@ -14,7 +14,8 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 /// What `read` returns. If reading fails, throws InputError.
@@ -57,18 +58,20 @@ bool TextReader::is_ready() {
 }
 
 std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
 }
 
 void split_words(std::string_view line, std::vector<std::string_view>& words) {
   words.clear();
-  for (std::size_t end = 0, begin = 0;; begin = end) {
-    begin = line.find_first_not_of(kBlanks, begin);
-    if (begin == std::string_view::npos) return;
-    end = std::min(line.find_first_of(kBlanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
+  while (true) {
+    line = trimmed(line);
+    if (line.empty()) return;
+    const auto* const end = std::find_if(line.begin(), line.end(), is_blank);
+    const auto size = static_cast<std::size_t>(end - line.begin());
+    words.push_back(line.substr(0, size));
+    line.remove_prefix(size);
   }
 }
 
