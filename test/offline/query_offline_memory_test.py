@@ -8,10 +8,10 @@ import unittest
 from program import PROGRAM, ProgramCase, motion_line, obj_text
 from support import scenes
 
-FEW, MANY = 2000, 200000  # motions
+FEW, MANY = 2000, 100000  # motions
 MIB = 1 << 20
-ANSWERS = 140 * MIB  # The answers to many motions are at least as large.
-GROWTH = {'-': 16 * MIB, 'motions.csv': 56 * MIB}  # less than the answers; a motion of a file takes some 150 bytes
+ANSWERS = 70 * MIB  # The answers to many motions are at least as large.
+GROWTH = {'-': 16 * MIB, 'motions.csv': 32 * MIB}  # less than the answers; a motion of a file takes some 150 bytes
 
 
 class MemoryTest(ProgramCase):
