@@ -199,8 +199,8 @@ Path plan(Tissue& tissue, const Place& start, const Eigen::Vector3d& target, std
     return places[tissue.free_motions(places)];
   };
   Path path = rrt_connect::connect(
-      place_of(start.value()), free_goals(tissue, target, random), advance,
-      [&] { return random_place(random); }, kSamples);
+      start, free_goals(tissue, target, random), advance, [&] { return random_place(random); },
+      kSamples);
   if (path.empty()) throw std::runtime_error("no way was found");
   return rrt_connect::shortened(path, advance, random, kShortcuts);
 }
