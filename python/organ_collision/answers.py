@@ -40,6 +40,17 @@ def contact_table(answer):
     return _table(answer, answer.contacts, _CONTACT, _contact_row)
 
 
+def contacts_of_all(answers):
+    """The contacts of many ContactArrays, such as the results of a batch, as one table.
+
+    Its columns are those of contact_table(), and `motion` before them: the number of the answer that has the contact,
+    from 0. Answers whose status is not OK have no contacts: look at their status.
+    """
+    columns = np.dtype([('motion', np.intp)] + [(name, _CONTACT[name]) for name in _CONTACT.names])
+    rows = [(motion,) + _contact_row(contact) for motion, answer in enumerate(answers) for contact in answer.contacts]
+    return np.array(rows, dtype=columns).view(np.recarray)
+
+
 def near_table(answer):
     """The faces within the margin that are not touched, nearest first, as a table like that of contact_table().
 

@@ -5,15 +5,14 @@ import time
 import rospy
 from std_msgs.msg import Header
 
-from organ_collision.arrays import points_array
 from organ_collision.answers import CollisionError, contact_table
-from organ_collision.messages import shaft_motion
+from organ_collision.messages import link_motions, shaft_motion, shaft_motions
 from organ_collision.msg import ContactArray
 from organ_collision.srv import QueryCollision, QueryCollisionBatch
 
 
 class Queries:
-    """Asks a collision node what a shaft would touch. A query changes nothing in the node.
+    """Asks a collision node what a shaft, or one of its tools, would touch. A query changes nothing in the node.
 
     node     name of the collision node
     timeout  [s] how long to wait for the node; None: without limit
@@ -55,17 +54,32 @@ class Queries:
     def query_many(self, organ, trocars, tips, radius, previous_trocars=None, previous_tips=None, frame=None):
         """The same for k motions in one call. Points are k x 3 arrays. Returns a list of k tables."""
         mode = _mode(previous_trocars, previous_tips)
-        ends = [points_array(tips if points is None else points, name) for name, points, tips in (
-            ('trocars', trocars, None), ('tips', tips, None), ('previous_trocars', previous_trocars, trocars),
-            ('previous_tips', previous_tips, tips))]
-        if len({len(points) for points in ends}) > 1:
-            raise ValueError('%d trocars, %d tips, %d previous trocars and %d previous tips; must be equally many'
-                             % tuple(len(points) for points in ends))
-        motions = [shaft_motion(trocar, tip, radius, *previous) for trocar, tip, *previous in zip(*ends)]
-        answer = self._batch(header=_header(organ, frame), organ=organ, motions=motions, mode=mode)
+        motions = shaft_motions(trocars, tips, radius, previous_trocars, previous_tips)
+        return [contact_table(result) for result in self._answers(organ, frame, motions=motions, mode=mode)]
+
+    def answer_links(self, organ, tool, links, previous_links=None, shafts=(), frame=None, **asked):
+        """What a tool of the node would touch if its links moved so. Returns a list of at most k ContactArrays.
+
+        tool            name of a tool with l links
+        links           the poses of its links at the end of each motion: k x l x 7 numbers, position [m] and quaternion
+                        (x, y, z, w), or k x l x 4 x 4 matrices
+        previous_links  the same at the start of each motion: the links are swept from there. None: static queries
+        shafts          the k motions of the tool's shaft, as of shaft_motions(), if it has one
+        frame           frame of all these; None: the frame has the name of the organ
+        asked           what else to ask for, by the names of QueryCollisionBatch.srv: stop_at_first_contact, margin [m],
+                        clearance, placement, organ_motion
+
+        An illegal motion has an answer whose status says so.
+        """
+        return self._answers(organ, frame, tool=tool, motions=list(shafts),
+                             link_motions=link_motions(links, previous_links),
+                             mode=_mode(previous_links, None), **asked)
+
+    def _answers(self, organ, frame, **request):
+        answer = self._batch(header=_header(organ, frame), organ=organ, **request)
         if answer.status != ContactArray.OK:
             raise CollisionError(answer.status, answer.message)
-        return [contact_table(result) for result in answer.results]
+        return answer.results
 
     def wait_for(self, organ, timeout=None, frame=None):
         """Waits until the node has the organ. Raises the node's CollisionError if it has not within `timeout` [s]."""

@@ -7,7 +7,7 @@ import unittest
 from geometry_msgs.msg import Point, Vector3
 import numpy as np
 
-from organ_collision import CollisionError, clearance_record, contact_table, crossing_table, near_table
+from organ_collision import CollisionError, clearance_record, contact_table, contacts_of_all, crossing_table, near_table
 from organ_collision.msg import Clearance, Contact, ContactArray, Crossing, ToolPlacement
 
 
@@ -66,6 +66,15 @@ class AnswersTest(unittest.TestCase):
         table = contact_table(ContactArray())
         self.assertEqual((len(table), table.point.shape), (0, (0, 3)))
         self.assertEqual((len(near_table(ContactArray())), len(crossing_table(ContactArray()))), (0, 0))
+
+    def test_one_table_of_the_contacts_of_many_answers(self):
+        table = contacts_of_all([ContactArray(contacts=[contact(3), contact(4)]), ContactArray(),
+                                 ContactArray(status=ContactArray.INVALID_REQUEST), ContactArray(contacts=[contact(5)])])
+        self.assertEqual(table.motion.tolist(), [0, 0, 3])
+        self.assertEqual(table.face.tolist(), contact_table(ContactArray(contacts=[contact(3)])).face.tolist()
+                         + contact_table(ContactArray(contacts=[contact(4), contact(5)])).face.tolist())
+        self.assertEqual(table.point.shape, (3, 3))
+        self.assertEqual(contacts_of_all([]).depth.shape, (0,))
 
     def test_each_status_but_ok_is_an_exception_with_its_name(self):
         definition = ContactArray._full_text.split('# modes')[0]

@@ -33,8 +33,8 @@ struct NodeParameters : LiveNodeParameters {
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;
   int max_faces = kMaxFacesDefault;
-  int max_batch = 1000;                ///< [motions] in one call of query_batch
-  int max_batch_bytes = 64 << 20;      ///< [bytes] of all results of a batch, serialized
+  int max_batch = 100'000;             ///< [motions] in one call of query_batch
+  int max_batch_bytes = 256 << 20;     ///< [bytes] of all results of a batch, serialized
   double diagnostic_period_sec = 1.0;  ///< of wall time
   RealtimeParameters realtime;
 };

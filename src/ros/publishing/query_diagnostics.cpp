@@ -30,11 +30,23 @@ void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
   status.add("poses merged into later ones", sources_.steps.poses_merged());
   status.add("shapes superseded by newer ones", sources_.steps.shapes_superseded());
   status.add("steps while TF was starting", sources_.counters.starting);
+  add_services(status);
   for (const std::string& sentence : sources_.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
   show_failures("unanswered", sources_.counters.failed, status);
   show_failures("refused", sources_.counters.refused, status);
+}
+
+void QueryDiagnostics::add_services(DiagnosticStatusWrapper& status) const {
+  const ServiceTimes::Summary times = sources_.services.summary();
+  status.add("service queries", times.queries.count);
+  status.add("service query time, median [us]", times.queries.median * kMicroseconds);
+  status.add("service query time, 99th percentile [us]",
+             times.queries.percentile_99 * kMicroseconds);
+  status.add("service query time, worst [us]", times.queries.worst * kMicroseconds);
+  status.add("batches", times.batches);
+  status.add("motions of batches", times.motions);
 }
 
 }  // namespace organ_collision

@@ -7,6 +7,7 @@
 
 #include "node_counters.hpp"
 #include "ros/motion/transform_buffer.hpp"
+#include "ros/queries/service_times.hpp"
 #include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
 
@@ -21,6 +22,7 @@ class QueryDiagnostics {
     const ContactQuery& contact_query;
     const StepScheduler& steps;
     const TransformBuffer& transforms;
+    const ServiceTimes& services;
     NodeCounters& counters;
   };
 
@@ -30,6 +32,8 @@ class QueryDiagnostics {
   void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
+  void add_services(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
   Sources sources_;
 };
 

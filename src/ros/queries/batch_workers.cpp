@@ -49,8 +49,9 @@ class Answers {
     }
   }
 
-  /// Called in the order of the blocks.
-  void take(std::size_t block) {
+  /// Called in the order of the blocks. Returns how many answers the block had.
+  std::size_t take(std::size_t block) {
+    const std::size_t before = answers_.size();
     try {
       take_answers(block);
     } catch (...) {
@@ -58,6 +59,7 @@ class Answers {
       throw;
     }
     budget_.set_taken(block);
+    return answers_.size() - before;
   }
 
   std::vector<ContactArray> all() { return std::move(answers_); }
@@ -128,9 +130,10 @@ class Answers {
 
 }  // namespace
 
-BatchWorkers::BatchWorkers(PickerKind picker, int threads)
+BatchWorkers::BatchWorkers(PickerKind picker, int threads, ServiceTimes& times)
     : picker_(picker),
       threads_(number_of_threads(threads)),
+      times_(times),
       queries_(threads_ + 1),
       workers_(WorkerThreads::Caller::kWaits, [this](std::size_t worker) { prepare(worker); }) {}
 
@@ -140,7 +143,8 @@ std::vector<ContactArray> BatchWorkers::answer(const CheckedBatch& batch) {
   workers_.run(
       answers.blocks(),
       [&](std::size_t worker, std::size_t block) { answers.evaluate(block, *queries_[worker]); },
-      [&](std::size_t block) { answers.take(block); });
+      [&](std::size_t block) { times_.add_motions(answers.take(block)); });
+  times_.add_batch();
   return answers.all();
 }
 

@@ -11,6 +11,7 @@
 #include "query/workers/worker_threads.hpp"
 #include "query_snapshot.hpp"
 #include "ros/steps/contact_query.hpp"
+#include "service_times.hpp"
 
 namespace organ_collision {
 
@@ -28,8 +29,9 @@ struct CheckedBatch {
 /// (SCHED_IDLE), because all steps come first.
 class BatchWorkers {
  public:
-  /// `threads`: how many; 0: one for each processor. They start with the first batch.
-  BatchWorkers(PickerKind picker, int threads);
+  /// `threads`: how many; 0: one for each processor. They start with the first batch. `times`
+  /// counts the motions and must outlive this.
+  BatchWorkers(PickerKind picker, int threads, ServiceTimes& times);
 
   /// Answers the motions, in their order, whatever the number of threads. The answers end with the
   /// first motion that touches if the request asks for that. A motion that is illegal has an answer
@@ -45,6 +47,7 @@ class BatchWorkers {
 
   const PickerKind picker_;
   const std::size_t threads_;
+  ServiceTimes& times_;
   std::atomic<bool> ended_{false};
   std::vector<std::unique_ptr<ContactQuery>> queries_;  ///< by worker
   WorkerThreads workers_;  ///< the last member: its threads use the others

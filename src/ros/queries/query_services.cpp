@@ -51,7 +51,7 @@ QueryServices::QueryServices(const Sources& sources)
     : sources_(sources),
       snapshots_(sources.node),
       query_(sources.node.parameters.picker),
-      workers_(sources.node.parameters.picker, sources.threads) {}
+      workers_(sources.node.parameters.picker, sources.threads, times_) {}
 
 void QueryServices::advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node) {
   servers_ = {
@@ -127,11 +127,8 @@ std::vector<ContactArray> QueryServices::answers(const QueryCollisionBatch::Requ
   check_lists(request, snapshot.tool);
 
   const CollisionRequest collision = request_about(snapshot, extras);
-  std::vector<ContactArray> results =
-      workers_.answer({request, motions, snapshot, collision, unanswered,
-                       static_cast<std::size_t>(sources_.node.parameters.max_batch_bytes)});
-  times_.add_batch(results.size());
-  return results;
+  return workers_.answer({request, motions, snapshot, collision, unanswered,
+                          static_cast<std::size_t>(sources_.node.parameters.max_batch_bytes)});
 }
 
 QuerySnapshot QueryServices::take_snapshot(const QuerySubject& subject,

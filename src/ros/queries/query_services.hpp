@@ -52,8 +52,8 @@ class QueryServices {
   /// motions than max_batch or if its results exceed max_batch_bytes.
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
 
-  /// For any thread.
-  ServiceTimes::Summary times() const { return times_.summary(); }
+  /// What was answered, for any thread.
+  const ServiceTimes& times() const { return times_; }
 
  private:
   bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
@@ -69,8 +69,8 @@ class QueryServices {
   Sources sources_;
   SnapshotTaker snapshots_;
   ContactQuery query_;
-  BatchWorkers workers_;
   ServiceTimes times_;
+  BatchWorkers workers_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -12,8 +12,8 @@ class ServiceTimes {
  public:
   struct Summary {
     DurationStatistics::Summary queries;  ///< single ones: their number and times
-    std::size_t batches = 0;
-    std::size_t motions = 0;  ///< of all batches
+    std::size_t batches = 0;              ///< that were answered to the end
+    std::size_t motions = 0;              ///< of all batches, also of the present one
   };
 
   /// `seconds`: the time that a single query took, without the time in which it waited.
@@ -21,10 +21,13 @@ class ServiceTimes {
     const std::lock_guard<std::mutex> lock(mutex_);
     queries_.add(seconds);
   }
-  /// `motions`: how many of a batch were answered.
-  void add_batch(std::size_t motions) {
+  void add_batch() {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++batches_;
+  }
+  /// `motions`: how many of a batch were answered since the last call.
+  void add_motions(std::size_t motions) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     motions_ += motions;
   }
   Summary summary() const {

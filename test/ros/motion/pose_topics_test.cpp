@@ -38,9 +38,7 @@ class PoseTopicsTest : public testing::Test {
     return found ? Vector3d(found->value.translation())
                  : Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
-  std::size_t rejected() const {
-    return rejected_.by_reason()["pose"].count;
-  }
+  std::size_t rejected() const { return rejected_.by_reason()["pose"].count; }
   void expect_rejected(const geometry_msgs::PoseStamped& bad, const std::string& word) {
     const std::size_t before = rejected(), arrivals = arrived_.size();
     topics_.take_tip(0, bad);

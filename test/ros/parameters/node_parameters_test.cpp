@@ -72,8 +72,8 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.tf_timeout_sec, 0.02);
   EXPECT_EQ(p.mesh_timeout_sec, 0.0);
   EXPECT_EQ(p.max_faces, 2'000'000);
-  EXPECT_EQ(p.max_batch, 1000);
-  EXPECT_EQ(p.max_batch_bytes, 67'108'864);
+  EXPECT_EQ(p.max_batch, 100'000);
+  EXPECT_EQ(p.max_batch_bytes, 268'435'456);
   EXPECT_FALSE(p.publish_regions);
   EXPECT_TRUE(p.publish_placement);
   EXPECT_EQ(p.tools.at(0).margin, 0.0);

@@ -25,9 +25,10 @@ class QueryDiagnosticsTest : public testing::Test, protected NodeParts {
   }
 
   std::vector<std::string> misspelt;
+  ServiceTimes services;
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  QueryDiagnostics diagnostics{{misspelt, contact_query, steps, transforms, counters}};
+  QueryDiagnostics diagnostics{{misspelt, contact_query, steps, transforms, services, counters}};
 };
 
 }  // namespace
@@ -44,6 +45,18 @@ TEST_F(QueryDiagnosticsTest, QueryTimesAndGlVersion) {
   EXPECT_EQ(shown.at("queries"), "1");
   EXPECT_GT(std::stod(shown.at("query time, median [us]")), 0.0);
   EXPECT_EQ(shown.at("query time, worst [us]"), shown.at("query time, 99th percentile [us]"));
+}
+
+TEST_F(QueryDiagnosticsTest, ServicesApartFromSteps) {
+  services.add_query(0.003);
+  services.add_motions(7);
+  services.add_batch();
+  auto shown = values(&QueryDiagnostics::queries);
+  EXPECT_EQ(shown.at("queries"), "0");
+  EXPECT_EQ(shown.at("service queries"), "1");
+  EXPECT_EQ(std::stod(shown.at("service query time, median [us]")), 3000.0);
+  EXPECT_EQ(shown.at("batches"), "1");
+  EXPECT_EQ(shown.at("motions of batches"), "7");
 }
 
 TEST_F(QueryDiagnosticsTest, MotionThatWasNotSweptThrough) {
