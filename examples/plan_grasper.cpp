@@ -1,5 +1,6 @@
 // Plans how the grasper of plan.launch gets from the front of the liver to its hilum without
 // touching it, and lets it go there. plan_grasper.py does the same.
+#include <organ_collision/ListOrgans.h>
 #include <organ_collision/QueryCollisionBatch.h>
 #include <ros/ros.h>
 #include <sensor_msgs/JointState.h>
@@ -8,8 +9,9 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
+#include <deque>
 #include <iostream>
-#include <limits>
+#include <mutex>
 #include <random>
 #include <stdexcept>
 
@@ -37,6 +39,7 @@ const std::vector<double> kTarget{0.004, -0.004, -0.017};
 constexpr double kJaw = 0.1;  // [rad] The jaws stay nearly closed.
 // [m] An edge is asked for in pieces of this length, the whole path in finer ones.
 constexpr double kPiece = 0.002, kFinePiece = 0.0005;
+constexpr double kMargin = 0.02;  // [m] Up to this distance from the tissue the path is measured.
 constexpr int kGoals = 5, kSamples = 1000, kShortcuts = 100;
 constexpr double kSpeed = 0.03, kRate = 100.0;  // [m/s], [Hz] of the grasper on its way
 
@@ -73,23 +76,56 @@ Path straight(const Path& path, double piece) {
   return places;
 }
 
+/// Goes along a way, in places at intervals of 1 / kRate, and stays at its end.
+class Robot {
+ public:
+  explicit Robot(const Place& start) : way_{start} {
+    message_.name.assign(grasper::kJoints.begin(), grasper::kJoints.end());
+    timer_ = node_.createTimer(ros::Duration(1.0 / kRate),
+                               [this](const ros::TimerEvent& event) { go(event.current_real); });
+  }
+
+  void follow(const Path& way) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    way_.assign(way.begin(), way.end());
+  }
+
+ private:
+  void go(const ros::Time& now) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const Joints joints = joints_at(way_.front());
+    if (way_.size() > 1) way_.pop_front();
+    message_.header.stamp = now;
+    message_.position.assign(joints.data(), joints.data() + joints.size());
+    publisher_.publish(message_);
+  }
+
+  std::mutex mutex_;
+  std::deque<Place> way_;
+  sensor_msgs::JointState message_;
+  ros::NodeHandle node_;
+  ros::Publisher publisher_ = node_.advertise<sensor_msgs::JointState>("joint_states", 10);
+  ros::Timer timer_;
+};
+
 /// Asks the collision node what the grasper would touch.
 class Tissue {
  public:
   Tissue() {
     ros::service::waitForService(kService);
     client_ = ros::NodeHandle().serviceClient<QueryCollisionBatch>(kService, true);
+    while (ros::ok() && !has_liver()) ros::Duration(0.1).sleep();
   }
 
-  /// How many motions from place to place are free, one after the other. If all are, and if
-  /// `distance` is not null, it gets the smallest distance from the tissue [m].
+  /// How many motions from place to place are free, one after the other. If `distance` is not null,
+  /// it becomes the smallest distance from the tissue, if that is less than it was [m].
   std::size_t free_motions(const Path& places, double* distance = nullptr) {
     QueryCollisionBatch call;
     call.request.header.frame_id = call.request.organ = "liver";
     call.request.tool = "grasper";
     call.request.mode = ContactArray::SWEPT;
     call.request.stop_at_first_contact = true;
-    call.request.clearance = distance != nullptr;
+    if (distance) call.request.margin = *distance;
     for (std::size_t i = 1; i < places.size(); ++i) {
       LinkMotion motion;
       motion.previous = links(places[i - 1]);
@@ -100,7 +136,10 @@ class Tissue {
     if (call.response.status != ContactArray::OK) throw std::runtime_error(call.response.message);
     const std::vector<ContactArray>& answers = call.response.results;
     if (distance) {
-      for (const auto& answer : answers) *distance = std::min(*distance, answer.clearance.least);
+      for (const auto& answer : answers) {
+        const organ_collision::Clearance& clearance = answer.clearance;
+        if (clearance.state == clearance.KNOWN) *distance = std::min(*distance, clearance.least);
+      }
     }
     return std::count_if(answers.begin(), answers.end(), [](const ContactArray& answer) {
       return answer.status == ContactArray::OK && answer.contacts.empty();
@@ -109,6 +148,14 @@ class Tissue {
 
  private:
   static constexpr char kService[] = "/organ_collision/query_batch";
+
+  static bool has_liver() {
+    organ_collision::ListOrgans call;
+    if (!ros::service::call("/organ_collision/list_organs", call)) return false;
+    const auto& organs = call.response.organs;
+    return std::any_of(organs.begin(), organs.end(),
+                       [](const auto& organ) { return organ.name == "liver"; });
+  }
 
   static std::vector<geometry_msgs::Pose> links(const Place& place) {
     std::vector<geometry_msgs::Pose> poses;
@@ -146,23 +193,22 @@ Place random_place(std::mt19937& random) {
 }
 
 /// A path to the target that touches nothing. Throws std::runtime_error if there is none.
-Path plan(Tissue& tissue, const Eigen::Vector3d& target, std::mt19937& random) {
-  const auto start = grasper::joints_for(trocar(), kStart, 0.0, 0.0, kJaw);
+Path plan(Tissue& tissue, const Place& start, const Eigen::Vector3d& target, std::mt19937& random) {
   const auto advance = [&](const Place& a, const Place& b) {
     const Path places = straight(a, b, kPiece);
     return places[tissue.free_motions(places)];
   };
   Path path = rrt_connect::connect(
-      place_of(start.value()), free_goals(tissue, target, random), advance,
-      [&] { return random_place(random); }, kSamples);
+      start, free_goals(tissue, target, random), advance, [&] { return random_place(random); },
+      kSamples);
   if (path.empty()) throw std::runtime_error("no way was found");
   return rrt_connect::shortened(path, advance, random, kShortcuts);
 }
 
-/// Checks the path with finer motions. Returns its distance from the tissue [m]. Throws
-/// std::runtime_error if it touches.
+/// Checks the path with finer motions. Returns its distance from the tissue, at most kMargin.
+/// Throws std::runtime_error if it touches.
 double checked_distance(Tissue& tissue, const Path& path) {
-  double distance = std::numeric_limits<double>::infinity();
+  double distance = kMargin;
   for (std::size_t leg = 1; leg < path.size(); ++leg) {
     const Path places = straight(path[leg - 1], path[leg], kFinePiece);
     if (tissue.free_motions(places, &distance) == places.size() - 1) continue;
@@ -196,21 +242,6 @@ visualization_msgs::MarkerArray line_of(const Path& path) {
   return array;
 }
 
-/// The grasper goes along the path and stays at its end.
-void play(const Path& path, ros::Publisher& joint_states) {
-  sensor_msgs::JointState message;
-  message.name.assign(grasper::kJoints.begin(), grasper::kJoints.end());
-  const Path way = straight(path, kSpeed / kRate);
-  ros::Rate rate(kRate);
-  for (std::size_t step = 0; ros::ok(); rate.sleep()) {
-    const Joints joints = joints_at(way[step]);
-    message.header.stamp = ros::Time::now();
-    message.position.assign(joints.data(), joints.data() + joints.size());
-    joint_states.publish(message);
-    if (step + 1 < way.size()) ++step;
-  }
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -222,21 +253,25 @@ int main(int argc, char** argv) {
   }
   ros::init(argc, argv, "plan_grasper");
   ros::NodeHandle node, private_node("~");
-  auto joint_states = node.advertise<sensor_msgs::JointState>("joint_states", 10);
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
   auto markers =
       node.advertise<visualization_msgs::MarkerArray>("/organ_collision/markers", 1, true);
   tf2_ros::StaticTransformBroadcaster broadcaster;
   broadcaster.sendTransform(trocar_transform());
-  const auto target = private_node.param("target", kTarget);
-  std::mt19937 random(private_node.param("seed", 0));
+  const std::vector<double> target = private_node.param("target", kTarget);
+  std::mt19937 random(private_node.param("seed", 1));
   try {
+    const Place start = place_of(grasper::joints_for(trocar(), kStart, 0.0, 0.0, kJaw).value());
+    Robot robot(start);
     Tissue tissue;
     const Path path =
-        plan(tissue, Eigen::Vector3d(target.at(0), target.at(1), target.at(2)), random);
+        plan(tissue, start, Eigen::Vector3d(target.at(0), target.at(1), target.at(2)), random);
     ROS_INFO("%zu legs, at least %.1f mm from the liver", path.size() - 1,
              1e3 * checked_distance(tissue, path));
     markers.publish(line_of(path));
-    play(path, joint_states);
+    robot.follow(straight(path, kSpeed / kRate));
+    ros::waitForShutdown();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

@@ -8,8 +8,8 @@ import random
 
 from geometry_msgs.msg import Point, Pose, Quaternion, Transform, TransformStamped, Vector3
 import grasper_kinematics as grasper
-from organ_collision.msg import ContactArray, LinkMotion
-from organ_collision.srv import QueryCollisionBatch, QueryCollisionBatchRequest
+from organ_collision.msg import Clearance, ContactArray, LinkMotion
+from organ_collision.srv import ListOrgans, QueryCollisionBatch, QueryCollisionBatchRequest
 import rospy
 import rrt_connect
 from sensor_msgs.msg import JointState
@@ -25,6 +25,7 @@ JAW = 0.1                          # [rad] the jaws stay nearly closed
 # [m per rad, or 1] About how far the tip goes if a joint moves. The planner measures distances in these metres.
 REACH = (0.15, 0.15, 1.0, 0.02, 0.03, 0.03)
 PIECE, FINE_PIECE = 0.002, 0.0005  # [m] An edge is asked for in pieces of this length, the whole path in finer ones.
+MARGIN = 0.02                      # [m] Up to this distance from the tissue the whole path is measured.
 GOALS, SAMPLES, SHORTCUTS = 5, 1000, 100
 SPEED, RATE = 0.03, 100.0          # [m/s], [Hz] of the grasper on its way
 
@@ -43,12 +44,29 @@ def straight(a, b, piece):
     return [tuple(x + (y - x) * i / count for x, y in zip(a, b)) for i in range(count)] + [b]
 
 
+class Robot:
+    """Goes along `way`, places at intervals of 1 / RATE, and stays at its end."""
+
+    def __init__(self, start):
+        self.way = [start]
+        self.publisher = rospy.Publisher('joint_states', JointState, queue_size=10)
+        self.timer = rospy.Timer(rospy.Duration(1.0 / RATE), self.go)
+
+    def go(self, _):
+        place = self.way.pop(0) if len(self.way) > 1 else self.way[0]
+        self.publisher.publish(JointState(header=Header(stamp=rospy.Time.now()), name=list(grasper.JOINTS),
+                                          position=unscaled(place)))
+
+
 class Tissue:
     """Asks the collision node what the grasper would touch."""
 
     def __init__(self):
         rospy.wait_for_service('/organ_collision/query_batch')
         self.service = rospy.ServiceProxy('/organ_collision/query_batch', QueryCollisionBatch, persistent=True)
+        list_organs = rospy.ServiceProxy('/organ_collision/list_organs', ListOrgans)
+        while 'liver' not in [organ.name for organ in list_organs().organs]:
+            rospy.sleep(0.1)
 
     def links(self, place):
         poses = grasper.link_poses(TROCAR, unscaled(place))
@@ -72,12 +90,13 @@ class Tissue:
         return places[sum(is_free(answer) for answer in self.sweep(places))]
 
     def least_distance(self, path):
-        """The smallest distance from the tissue on the way [m]. None: something is touched."""
+        """The smallest distance from the tissue on the way [m], at most MARGIN. None: something is touched."""
         answers = []
         for a, b in zip(path, path[1:]):
-            answers += self.sweep(straight(a, b, FINE_PIECE), clearance=True)
+            answers += self.sweep(straight(a, b, FINE_PIECE), margin=MARGIN)
         if all(map(is_free, answers)):
-            return min(answer.clearance.least for answer in answers)
+            known = [answer.clearance for answer in answers if answer.clearance.state == Clearance.KNOWN]
+            return min([clearance.least for clearance in known] + [MARGIN])
 
 
 def is_free(answer):
@@ -115,26 +134,20 @@ def main():
     argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
     # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
     rospy.init_node('plan_grasper', disable_signals=True)
-    joint_states = rospy.Publisher('joint_states', JointState, queue_size=10)
     markers = rospy.Publisher('/organ_collision/markers', MarkerArray, queue_size=1, latch=True)
     trocar = tf2_ros.StaticTransformBroadcaster()
     trocar.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'liver'), 'grasper_trocar',
                                           Transform(Vector3(*TROCAR[1]), Quaternion(*TROCAR[0]))))
-    tissue = Tissue()
     start = scaled(grasper.joints_for(TROCAR, START, 0.0, 0.0, JAW))
+    robot = Robot(start)
     target = rospy.get_param('~target', TARGET)
-    path, distance = plan(tissue, start, target, random.Random(rospy.get_param('~seed', 0)))
+    path, distance = plan(Tissue(), start, target, random.Random(rospy.get_param('~seed', 1)))
     if distance is None:
         raise RuntimeError('finer motions touch the tissue')
     rospy.loginfo('%d legs, at least %.1f mm from the liver', len(path) - 1, 1000.0 * distance)
     show(markers, path)
-    rate = rospy.Rate(RATE)
-    way = [place for a, b in zip(path, path[1:]) for place in straight(a, b, SPEED / RATE)]
-    while not rospy.is_shutdown():
-        place = way.pop(0) if len(way) > 1 else way[0]  # It stays at the target.
-        joint_states.publish(JointState(header=Header(stamp=rospy.Time.now()), name=list(grasper.JOINTS),
-                                        position=unscaled(place)))
-        rate.sleep()
+    robot.way = [place for a, b in zip(path, path[1:]) for place in straight(a, b, SPEED / RATE)]
+    rospy.spin()
 
 
 if __name__ == '__main__':

@@ -1,13 +1,12 @@
 #include "options.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 
 #include "command_line.hpp"
 #include "input_error.hpp"
+#include "query/workers/worker_threads.hpp"
 #include "text_reader.hpp"
 
 namespace organ_collision {
@@ -31,7 +30,7 @@ double margin_of(const CommandLine& given) {
 }
 
 std::size_t jobs_of(const CommandLine& given) {
-  if (!given.has("--jobs")) return std::max(1U, std::thread::hardware_concurrency());
+  if (!given.has("--jobs")) return thread_count(0);
   const std::optional<long long> jobs = parse_integer(given.value("--jobs"));
   if (jobs && *jobs >= 1 && *jobs <= kMostJobs) return static_cast<std::size_t>(*jobs);
   given.refuse("--jobs is " + in_quotes(given.value("--jobs")) +

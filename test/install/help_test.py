@@ -13,7 +13,9 @@ import sys
 import unittest
 
 SOURCE, DEVEL = sys.argv[1:3]
-SCRIPTS = glob.glob(os.path.join(SOURCE, 'examples', '*.py')) + [os.path.join(SOURCE, 'scripts', 'view.py')]
+# Modules that programs import are not executable.
+SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) if os.access(path, os.X_OK)] + [
+    os.path.join(SOURCE, 'scripts', 'view.py')]
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'proxy_proof', 'paper_misses', 'stab_forces',
                'collision_benchmark', 'force_benchmark', 'end_to_end', 'pose_to_wrench', 'echo_node')

@@ -81,7 +81,8 @@ class InstallTest(unittest.TestCase):
         programs = os.listdir(folder)
         self.assertTrue({'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter',
                          'query_offline', 'snapshot', 'liver_simulator', 'demo_report', 'simulator.py', 'ask.py',
-                         'grasper.py', 'view.py', 'own_mesh.py', 'dvrk_hand.py', 'stylus_driver'}
+                         'grasper.py', 'view.py', 'own_mesh.py', 'dvrk_hand.py', 'stylus_driver', 'plan_grasper.py',
+                         'plan_grasper', 'rrt_connect.py', 'grasper_kinematics.py'}
                         <= set(programs), programs)
         programs = [program for program in programs if not program.endswith('.py')]
         nodelet = os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')
@@ -107,7 +108,7 @@ class InstallTest(unittest.TestCase):
                      'launch/demo.launch', 'launch/contact_adapter.launch',
                      'launch/organ_mesh_adapter.launch', 'config/tools.yaml', 'config/organs.yaml',
                      'examples/start.launch', 'examples/tools.yaml', 'examples/grasper.launch',
-                     'examples/dvrk.launch', 'urdf/psm.urdf', 'urdf/grasper.urdf', 'urdf/grasper.urdf.xacro', 'urdf/meshes/jaw.stl',
+                     'examples/dvrk.launch', 'examples/plan.launch', 'examples/two_hosts.launch', 'urdf/psm.urdf', 'urdf/grasper.urdf', 'urdf/grasper.urdf.xacro', 'urdf/meshes/jaw.stl',
                      'msg/ContactArray.msg', 'srv/QueryCollision.srv', 'cmake/organ_collisionConfig.cmake'):
             self.assertTrue(os.path.exists(os.path.join(self.prefix, 'share/organ_collision', path)),
                             path)

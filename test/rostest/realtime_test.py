@@ -66,9 +66,11 @@ class RealtimeTest(NodeStarter):
             cls.statuses[status.name.lstrip('/')] = status
 
     def scheduling(self, node):
-        """The status about scheduling on /diagnostics, and its values."""
+        """The status about scheduling on /diagnostics, and its values. The first status says only
+        that the node starts."""
         name = node.strip('/') + ': scheduling'
-        status = wait_until(lambda: self.statuses.get(name), name)
+        wait_until(lambda: name in self.statuses and self.statuses[name].values, name)
+        status = self.statuses[name]
         return status, {pair.key: pair.value for pair in status.values}
 
     def check(self, name, program):
