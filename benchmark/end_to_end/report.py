@@ -62,7 +62,12 @@ def load_table(reports):
     return table(('', 'parameters', 'cores', 'sent', 'skipped', *LATENCY_HEAD), rows)
 
 
+SECTIONS = ((WHAT, 'Latencies', latency_table), ({'shapes'}, 'At the same rate', comparison_table),
+            ({'beside a batch'}, 'Steps while batches run', batch_table), ({'load'}, 'Steps on busy cores', load_table))
+
+
 def markdown(reports):
-    return '\n'.join(['# End to end', latency_table(reports), '## The same rates beside each other',
-                      comparison_table(reports), '## Steps while batches run', batch_table(reports),
-                      '## Steps on a busy machine', load_table(reports)])
+    """All sections of which something was measured."""
+    measured = {report['what'] for report in reports}
+    return '# End to end\n' + ''.join(f'\n## {title}\n\n{make(reports)}' for what, title, make in SECTIONS
+                                     if measured.intersection(what))
