@@ -47,6 +47,7 @@ ProgramHelp help() {
                     {"/palpator/hand", "geometry_msgs/PoseStamped", "the hand, 8 for each shape"},
                     {"/tf, /tf_static", "tf2_msgs/TFMessage", "trocars, and the stabber's tip"}};
   help.parameters = {{names::kRate, shown(kRate), "[Hz] of shapes"},
+                     {"moves", shown(true), "false: the liver rests, and no instrument moves"},
                      {"collision_node", kCollisionNode, "name of the collision node"},
                      {"haptic_node", kHapticNode, "name of the node that has the proxies"}};
   help.further = "roslaunch organ_collision demo.launch starts it.";
@@ -117,6 +118,9 @@ class LiverSimulator {
     const double part = static_cast<double>((calls_ - 1) % kHandPoses) / kHandPoses;
     tools_.send_hands(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
   }
+
+  /// Instead of all steps: the liver rests.
+  void rest() { publish_mesh(ros::Time::now()); }
 
  private:
   /// Simulates one period. Publishes the tools' poses before the shape, with the same stamp.
@@ -191,6 +195,11 @@ int main(int argc, char** argv) {
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
   const std::string haptic_node = private_node.param<std::string>("haptic_node", kHapticNode);
   LiverSimulator simulator{ros::NodeHandle(collision_node), ros::NodeHandle(haptic_node), rate};
+  if (!private_node.param<bool>("moves", true)) {
+    simulator.rest();
+    ros::spin();
+    return 0;
+  }
   for (ros::Rate loop(kHandPoses * rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();
     simulator.step();

@@ -100,6 +100,11 @@ std::vector<HelpEntry> parameters() {
       {names::kMaxFaces, shown(defaults.max_faces), "larger organs are refused"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},
+      {names::kRealtimePriority, shown(defaults.realtime.priority),
+       "1 to 99: the thread of the ticks runs under SCHED_FIFO with this priority; 0: ordinary "
+       "scheduling"},
+      {names::kLockMemory, shown(defaults.realtime.lock_memory),
+       "true: all memory of the process stays in RAM"},
       {names::kPublishTf, shown(defaults.publish_tf), "false: no frames TOOL_proxy on /tf"},
       {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),
        "[Hz] how often markers are published; 0: never"},

@@ -6,6 +6,7 @@
 #include "haptic_proxy_help.hpp"
 #include "haptic_proxy_names.hpp"
 #include "haptic_proxy_node.hpp"
+#include "ros/node/realtime.hpp"
 
 namespace {
 
@@ -25,8 +26,10 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, names::kHapticProxy, ros::init_options::NoSigintHandler);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
   const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
+  const ros::NodeHandle private_node("~");
   try {
-    HapticProxyNode(node, ros::NodeHandle("~")).run([] { return is_to_stop.load(); });
+    make_ros_realtime(private_node);
+    HapticProxyNode(node, private_node).run([] { return is_to_stop.load(); });
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

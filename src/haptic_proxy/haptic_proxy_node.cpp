@@ -58,6 +58,7 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       node_(on_queue(node, loop_.queue())),
       private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_haptic_proxy_parameters(private_node_)),
+      realtime_(loaded_.parameters.realtime),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
       inbox_(loaded_.parameters.max_faces, loaded_.parameters.tools,
              {[this](std::size_t tool) {
@@ -109,6 +110,7 @@ void HapticProxyNode::start() {
   updater_.setHardwareID("none");
   updater_.add("proxies", this, &HapticProxyNode::diagnose);
   inbox_diagnostics_.add_to(updater_);
+  realtime_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),

@@ -22,6 +22,7 @@
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/background_thread.hpp"
 #include "ros/node/message_loop.hpp"
+#include "ros/node/realtime.hpp"
 #include "ros/node/tool_reload.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
@@ -93,6 +94,7 @@ class HapticProxyNode {
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedHapticProxyParameters loaded_;
+  Realtime realtime_;
   std::vector<Tool> tools_;
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
 

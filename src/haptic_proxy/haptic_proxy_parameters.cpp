@@ -60,10 +60,11 @@ void check_graph_names(const ParameterGroup& all, const std::vector<ToolParamete
 LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& private_namespace) {
   const ParameterGroup all(
       "~", private_namespace,
-      {names::kTools, names::kFrame, names::kStiffness, names::kDamping, names::kMaxForce,
-       names::kMaxTorque, names::kClearance, names::kJump, names::kPunctureForce, names::kFriction,
-       names::kPoseTimeoutSec, names::kMeshTimeoutSec, names::kPicker, names::kMaxFaces,
-       names::kDiagnosticPeriod, names::kPublishTf, names::kMarkersRate, names::kSurfaceRate});
+      {names::kTools,         names::kFrame,       names::kStiffness,        names::kDamping,
+       names::kMaxForce,      names::kMaxTorque,   names::kClearance,        names::kJump,
+       names::kPunctureForce, names::kFriction,    names::kPoseTimeoutSec,   names::kMeshTimeoutSec,
+       names::kPicker,        names::kMaxFaces,    names::kDiagnosticPeriod, names::kPublishTf,
+       names::kMarkersRate,   names::kSurfaceRate, names::kRealtimePriority, names::kLockMemory});
   LoadedTools tools = parse_tools(all);
   LoadedHapticProxyParameters loaded{{}, std::move(tools.misspelt)};
   HapticProxyParameters& p = loaded.parameters;
@@ -78,6 +79,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kDiagnosticPeriodRange);
   p.publish_tf = all.flag(names::kPublishTf, p.publish_tf);
+  p.realtime = parse_realtime(all);
   return loaded;
 }
 

@@ -39,6 +39,7 @@ struct HapticProxyParameters : LiveHapticProxyParameters {
   PickerKind picker = PickerKind::kFeedback;
   int max_faces = kMaxFacesDefault;
   double diagnostic_period_sec = 1.0;  ///< of wall time
+  RealtimeParameters realtime;
   bool publish_tf = true;
 };
 

@@ -59,6 +59,8 @@ TEST(HapticProxyParameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.picker, PickerKind::kFeedback);
   EXPECT_EQ(p.max_faces, 2'000'000);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
+  EXPECT_EQ(p.realtime.priority, 0);
+  EXPECT_FALSE(p.realtime.lock_memory);
   EXPECT_TRUE(p.publish_tf);
   EXPECT_TRUE(loaded.misspelt.empty());
 }
@@ -79,6 +81,8 @@ TEST(HapticProxyParameters, AllAreRead) {
   all["picker"] = "select";
   all["max_faces"] = 1000;
   all["diagnostic_period"] = 0.5;
+  all["realtime_priority"] = 40;
+  all["lock_memory"] = true;
   all["publish_tf"] = false;
   const HapticProxyParameters p = parse_haptic_proxy_parameters(all).parameters;
   EXPECT_EQ(p.frame, "world");
@@ -95,6 +99,8 @@ TEST(HapticProxyParameters, AllAreRead) {
   EXPECT_EQ(p.picker, PickerKind::kSelect);
   EXPECT_EQ(p.max_faces, 1000);
   EXPECT_EQ(p.diagnostic_period_sec, 0.5);
+  EXPECT_EQ(p.realtime.priority, 40);
+  EXPECT_TRUE(p.realtime.lock_memory);
   EXPECT_FALSE(p.publish_tf);
 }
 

@@ -1,10 +1,16 @@
 #include "worker_threads.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <system_error>
 #include <utility>
 
 namespace organ_collision {
+
+std::size_t thread_count(int asked_for) {
+  if (asked_for > 0) return static_cast<std::size_t>(asked_for);
+  return std::max(1u, std::thread::hardware_concurrency());  // 0: the system does not tell.
+}
 
 /// The tasks of one call of run(). At its end, also by an exception, no worker works any more, so
 /// that what the tasks refer to may end.
@@ -110,14 +116,9 @@ void WorkerThreads::do_task(std::size_t worker, Lock& lock) {
 }
 
 void WorkerThreads::deliver_all(const Deliver& deliver, Lock& lock) {
+  while (caller_ == Caller::kWorks && has_open_task()) do_task(0, lock);
   for (std::size_t task = 0; task < tasks_.size(); ++task) {
-    while (!tasks_[task].done) {
-      if (caller_ == Caller::kWorks && has_open_task()) {
-        do_task(0, lock);
-      } else {
-        has_results_.wait(lock);
-      }
-    }
+    has_results_.wait(lock, [&] { return tasks_[task].done; });
     if (tasks_[task].error) std::rethrow_exception(tasks_[task].error);
     lock.unlock();
     deliver(task);

@@ -10,6 +10,9 @@
 
 namespace organ_collision {
 
+/// The number of threads that a user asks for; 0: one for each processor.
+std::size_t thread_count(int asked_for);
+
 /// Threads that share numbered tasks. The results are delivered one after the other, in the order
 /// of the tasks, in the thread that calls run(). What is delivered therefore does not depend on the
 /// number of threads, if a task does not depend on the others.
@@ -18,7 +21,8 @@ namespace organ_collision {
 /// 0 is the thread that calls run(); the others are threads of this object.
 class WorkerThreads {
  public:
-  /// Whether the thread that calls run() does tasks, too, or only waits and delivers.
+  /// Whether the thread that calls run() does tasks, too, and delivers when no task is left to
+  /// begin, or only delivers.
   enum class Caller { kWorks, kWaits };
   /// Called once in each new thread before its first task, with the worker's number from 1. If it
   /// throws, the worker never gets a task.

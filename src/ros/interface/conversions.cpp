@@ -2,6 +2,8 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <cmath>
+
 namespace organ_collision {
 
 Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) {
@@ -20,6 +22,19 @@ Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform) {
   Eigen::Quaterniond rotation;
   tf2::fromMsg(transform.rotation, rotation);
   return Eigen::Translation3d(to_eigen(transform.translation)) * rotation.normalized();
+}
+
+Eigen::Isometry3d to_eigen(const geometry_msgs::Pose& pose) {
+  Eigen::Quaterniond rotation;
+  tf2::fromMsg(pose.orientation, rotation);
+  return Eigen::Translation3d(to_eigen(pose.position)) * rotation.normalized();
+}
+
+bool is_unit(const geometry_msgs::Quaternion& quaternion) {
+  constexpr double kTolerance = 1e-3;
+  Eigen::Quaterniond rotation;
+  tf2::fromMsg(quaternion, rotation);
+  return std::abs(rotation.norm() - 1.0) <= kTolerance;
 }
 
 geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector) {

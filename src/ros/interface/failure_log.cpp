@@ -14,24 +14,39 @@ constexpr std::chrono::seconds kLogPeriod(1);
 }  // namespace
 
 void FailureLog::add(const std::string& reason, const std::string& message, Time now) {
+  // Without the lock, because the log may take long, and the other threads need the lock.
+  const std::string line = count(reason, plain_text(message, kLongestMessage), now);
+  if (!line.empty()) ROS_WARN("%s", line.c_str());
+}
+
+std::string FailureLog::count(const std::string& reason, const std::string& message, Time now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
   Entry& entry = entries_[reason];
   ++entry.count;
   ++entry.not_yet_reported;
-  entry.latest = plain_text(message, kLongestMessage);
-  if (entry.count > 1 && now - entry.logged < kLogPeriod) return;
+  entry.latest = message;
+  if (entry.count > 1 && now - entry.logged < kLogPeriod) return "";
   entry.logged = now;
-  const std::string times = entry.count > 1 ? " (" + std::to_string(entry.count) + " times)" : "";
-  ROS_WARN("%s%s", entry.latest.c_str(), times.c_str());
+  if (entry.count == 1) return message;
+  return message + " (" + std::to_string(entry.count) + " times)";
 }
 
-void FailureLog::reported() {
+FailureLog::Entries FailureLog::by_reason() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return entries_;
+}
+
+FailureLog::Entries FailureLog::take_report() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  Entries report = entries_;
   for (auto& [reason, entry] : entries_) entry.not_yet_reported = 0;
+  return report;
 }
 
 void show_failures(const std::string& what, FailureLog& log,
                    diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  for (const auto& [reason, entry] : log.by_reason()) {
+  for (const auto& [reason, entry] : log.take_report()) {
     std::string key = what;
     key.append(", ").append(reason);
     status.add(key, entry.count);
@@ -39,7 +54,6 @@ void show_failures(const std::string& what, FailureLog& log,
     const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
     status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, entry.latest);
   }
-  log.reported();
 }
 
 }  // namespace organ_collision

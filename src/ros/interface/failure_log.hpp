@@ -5,18 +5,20 @@
 #include <chrono>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <string>
 
 namespace organ_collision {
 
-/// Counts failures by reason. Logs each reason at most once a second of the steady clock.
+/// Counts failures by reason. Logs each reason at most once a second of the steady clock. Any
+/// thread may use it at any time.
 class FailureLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
   struct Entry {
     std::uint64_t count = 0;
-    std::uint64_t not_yet_reported = 0;  ///< failures since the last call of reported()
+    std::uint64_t not_yet_reported = 0;  ///< failures since the last call of take_report()
     std::string latest;                  ///< message, plain text of at most kLongestMessage bytes
     Time logged;                         ///< when a failure with this reason was last logged
   };
@@ -25,12 +27,17 @@ class FailureLog {
   /// wrong, with the illegal value. The user reads the message without the reason.
   void add(const std::string& reason, const std::string& message, Time now);
 
-  const std::map<std::string, Entry>& by_reason() const { return entries_; }
-  /// Notes that all entries have been shown to the user.
-  void reported();
+  using Entries = std::map<std::string, Entry>;
+  Entries by_reason() const;
+  /// The same for a report to the user: the entries then count as reported.
+  Entries take_report();
 
  private:
-  std::map<std::string, Entry> entries_;
+  /// Returns what to log; empty: nothing.
+  std::string count(const std::string& reason, const std::string& message, Time now);
+
+  mutable std::mutex mutex_;
+  Entries entries_;  ///< guarded by mutex_
 };
 
 /// Adds the count of each reason to `status`, with the key "WHAT, REASON". If failures were added

@@ -20,8 +20,6 @@ using geometry_msgs::PoseStamped;
 /// [messages] If more poses wait, the oldest are dropped, and the sweep connects the others
 /// directly.
 constexpr std::uint32_t kQueue = 1000;
-/// [1] A quaternion's length may differ from 1 by this much; it is then normalised.
-constexpr double kUnit = 1e-3;
 /// [s] TF keeps transforms for this long. A pose further in the future would make it drop all
 /// others.
 constexpr double kAhead = 10.0;
@@ -41,8 +39,7 @@ std::string fault(const PoseStamped& pose) {
   } else if (pose.header.stamp.toSec() > ros::Time::now().toSec() + kAhead) {
     text << "is of " << pose.header.stamp << ", more than " << kAhead
          << " s from now; the sender needs the same clock";
-  } else if (const double length = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
-             !(std::abs(length - 1.0) <= kUnit)) {
+  } else if (!is_unit(q)) {
     text << "has the orientation (" << q.x << ", " << q.y << ", " << q.z << ", " << q.w
          << "); must be a quaternion of length 1";
   }

@@ -24,6 +24,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       node_(on_queue(node, loop_.queue())),
       private_node_(on_queue(private_node, loop_.queue())),
       loaded_(load_parameters(private_node_)),
+      realtime_(loaded_.parameters.realtime),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
       publisher_(private_node_, tools_, counters_),
       markers_(private_node_, loaded_.parameters.markers, tools_),
@@ -34,14 +35,18 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                  },
                  [this](const OrganUpdate& update) {
                    publisher_.report(update);
-                   // At once, because the next callback may be a query that waits for the surface.
+                   // At once, because the next callback may be of a query, which then waits for the
+                   // surface.
                    surfaces_.update(pipeline_.organs(), SteadyClock::now());
                  },
                  counters_.rejected, loop_.queue()}),
-      services_({loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
-                 pipeline_.poses(), pipeline_.steps().history(), pipeline_.contact_query(),
-                 counters_.refused}),
-      query_diagnostics_({loaded_.misspelt, pipeline_.contact_query(), pipeline_.steps(),
+      services_(
+          {{loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
+            pipeline_.poses(), pipeline_.steps().history()},
+           [this](const std::function<void()>& action) { run_in_thread_of(loop_.queue(), action); },
+           counters_.refused,
+           loaded_.parameters.threads}),
+      query_diagnostics_({loaded_.misspelt, pipeline_.gl_version(), pipeline_.steps(),
                           pipeline_.transforms(), counters_}),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
                           counters_.meshes, counters_.rejected}),
@@ -71,26 +76,30 @@ CollisionNode::~CollisionNode() { end_background(); }
 void CollisionNode::start() {
   warn_of_settings(tools_, loaded_.misspelt);
   pipeline_.subscribe(node_, private_node_);
-  services_.advertise(private_node_);
+  services_.advertise(on_queue(private_node_, query_thread_.queue()),
+                      on_queue(private_node_, batch_thread_.queue()));
   organ_services_.advertise(private_node_);
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
   updater_.setHardwareID("none");
   query_diagnostics_.add_to(updater_);
   inbox_diagnostics_.add_to(updater_);
+  realtime_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
   ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
-           pipeline_.contact_query().gl_version().c_str());
+           pipeline_.gl_version().c_str());
 }
 
-/// Ends the wait of the background thread for this thread, and then that thread, which uses
-/// members.
+/// Ends the waits of the other threads for this thread, and then those threads, which use members.
 void CollisionNode::end_background() {
   loop_.end();
+  services_.end();
   background_.stop();
+  query_thread_.stop();
+  batch_thread_.stop();
 }
 
 void CollisionNode::run(const std::function<bool()>& stop) {

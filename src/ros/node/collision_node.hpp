@@ -9,6 +9,7 @@
 
 #include "background_thread.hpp"
 #include "message_loop.hpp"
+#include "realtime.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
@@ -19,18 +20,15 @@
 #include "ros/publishing/markers/marker_publisher.hpp"
 #include "ros/publishing/node_counters.hpp"
 #include "ros/publishing/query_diagnostics.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/queries/query_services.hpp"
 #include "ros/tools/tool.hpp"
 #include "tool_reload.hpp"
 
 namespace organ_collision {
 
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
-/// (doc/architecture.md). One thread does all work of the steps (message_loop.hpp) and owns the GL
-/// context. Large meshes with
-/// new triangles are built in a second thread (organ_message_queue.hpp). A third one, the
-/// background thread, inspects surfaces, and loads and checks new tools and parameters. The node's
-/// thread only exchanges them. A fourth one draws markers (marker_topic.hpp).
+/// (doc/architecture.md). The thread that runs it owns all state (message_loop.hpp). Work that no
+/// step may wait for has threads of its own (doc/threads.md).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -55,10 +53,11 @@ class CollisionNode {
 
   NodeCounters counters_;
   MessageLoop loop_;
-  BackgroundThread background_;
+  BackgroundThread background_, query_thread_, batch_thread_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
+  Realtime realtime_;
   std::vector<Tool> tools_;
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
 

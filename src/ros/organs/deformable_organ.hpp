@@ -4,10 +4,10 @@
 
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_surface.hpp"
+#include "shape_pool.hpp"
 
 namespace organ_collision {
 
@@ -47,7 +47,7 @@ class DeformableOrgan {
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
   /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if they do
-  /// not fit. Reuses a released shape, and allocates only if there is none.
+  /// not fit. Reuses a shape that nobody uses any more, if there is one.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
   /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
@@ -56,14 +56,11 @@ class DeformableOrgan {
   void forget_previous() { previous_ = {}; }
 
  private:
-  std::shared_ptr<TriangleMesh> unused_shape();
-
   std::string name_;
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
-  std::vector<std::shared_ptr<TriangleMesh>>
-      shapes_;  ///< all shapes of the present topology, in use or released
+  ShapePool shapes_;  ///< of the present topology
 };
 
 }  // namespace organ_collision

@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include "ros/interface/thread_priority.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -91,6 +93,7 @@ std::future<TriangleMesh> OrganMessageQueue::start_building(const OrganMeshConst
 }
 
 void OrganMessageQueue::build_meshes() {
+  lower_priority_of_this_thread();
   std::unique_lock<std::mutex> lock(mutex_);
   while (true) {
     has_work_.wait(lock, [this] { return stop_ || !tasks_.empty(); });

@@ -31,8 +31,9 @@ struct OrganMessage {
 };
 
 /// Holds organ messages until they can be applied without delay. A large mesh with new triangles is
-/// built in the queue's own thread first. Later messages of that organ wait behind it, so that the
-/// messages of each organ keep their order; messages of other organs do not wait.
+/// built in the queue's own thread first, which leaves scarce processors to the steps. Later
+/// messages of that organ wait behind it, so that the messages of each organ keep their order;
+/// messages of other organs do not wait.
 class OrganMessageQueue {
  public:
   /// [faces] Meshes up to this size are built when they are applied, in less than a millisecond.

@@ -15,18 +15,36 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 /// [bytes] roscpp refuses larger messages.
 constexpr double kMostMessageBytes = 1e9;
 
+/// [threads] A larger number is a mistake.
+constexpr double kMostThreads = 1024;
+
 const NumberRange kRateRange{0.0, 10'000.0};
 const NumberRange kTfTimeoutRange{0.0, 60.0};
 const NumberRange kPositive{0.0, kUnlimited, false};
 
 ParameterGroup node_group(const XmlRpcValue& private_namespace) {
-  return {
-      "~",
-      private_namespace,
-      {names::kTools, names::kPicker, names::kRate, names::kOrganMotion, names::kMotionSampleSec,
-       names::kMotionSamplesMax, names::kTfTimeoutSec, names::kMeshTimeoutSec, names::kMaxFaces,
-       names::kMaxBatch, names::kMaxBatchBytes, names::kPublishRegions, names::kPublishPlacement,
-       names::kDiagnosticPeriod, names::kMarkersRate, names::kSurfaceRate, names::kMarkersDepth}};
+  return {"~",
+          private_namespace,
+          {names::kTools,
+           names::kPicker,
+           names::kRate,
+           names::kOrganMotion,
+           names::kMotionSampleSec,
+           names::kMotionSamplesMax,
+           names::kTfTimeoutSec,
+           names::kMeshTimeoutSec,
+           names::kMaxFaces,
+           names::kMaxBatch,
+           names::kMaxBatchBytes,
+           names::kPublishRegions,
+           names::kPublishPlacement,
+           names::kDiagnosticPeriod,
+           names::kMarkersRate,
+           names::kSurfaceRate,
+           names::kMarkersDepth,
+           names::kThreads,
+           names::kRealtimePriority,
+           names::kLockMemory}};
 }
 
 /// Missing members keep their values.
@@ -55,6 +73,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
   p.tools = std::move(tools.tools);
   parse_live(all, p);
   p.picker = parse_picker(all);
+  p.threads = all.whole_number(names::kThreads, p.threads, {0, kMostThreads});
   p.organ_motion = all.flag(names::kOrganMotion, p.organ_motion);
   p.motion_sample_sec = all.number(names::kMotionSampleSec, p.motion_sample_sec, kPositive);
   p.motion_samples_max =
@@ -65,6 +84,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
       all.whole_number(names::kMaxBatchBytes, p.max_batch_bytes, {1, kMostMessageBytes});
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kDiagnosticPeriodRange);
+  p.realtime = parse_realtime(all);
   return loaded;
 }
 

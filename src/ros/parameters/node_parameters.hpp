@@ -29,6 +29,7 @@ struct LiveNodeParameters {
 struct NodeParameters : LiveNodeParameters {
   std::vector<ToolParameters> tools;
   PickerKind picker = PickerKind::kFeedback;
+  int threads = 0;           ///< of steps, and of batches; 0: one for each processor
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;
@@ -36,6 +37,7 @@ struct NodeParameters : LiveNodeParameters {
   int max_batch = 1000;                ///< [motions] in one call of query_batch
   int max_batch_bytes = 64 << 20;      ///< [bytes] of all results of a batch, serialized
   double diagnostic_period_sec = 1.0;  ///< of wall time
+  RealtimeParameters realtime;
 };
 
 /// The parameters, and one sentence for each unknown name among them.

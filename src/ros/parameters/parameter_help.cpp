@@ -35,12 +35,19 @@ std::vector<HelpEntry> parameter_help() {
        "true: each answer tells on which side of the organ's surface the tool is"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},
+      {names::kRealtimePriority, shown(defaults.realtime.priority),
+       "1 to 99: the thread of the steps runs under SCHED_FIFO with this priority; 0: ordinary "
+       "scheduling"},
+      {names::kLockMemory, shown(defaults.realtime.lock_memory),
+       "true: all memory of the process stays in RAM"},
       {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),
        "[Hz] how often markers are published; 0: never"},
       {names::kSurfaceRate, shown(defaults.markers.surface_rate_hz),
        "[Hz] how often the surface of a moving organ is published, at most; 0: never"},
       {names::kMarkersDepth, shown(defaults.markers.markers_depth),
        "[m] contacts of this depth or more have the last colour of the map"},
+      {names::kThreads, shown(defaults.threads),
+       "threads that evaluate steps, and as many that evaluate batches; 0: one for each processor"},
   };
 }
 

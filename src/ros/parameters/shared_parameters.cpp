@@ -8,4 +8,12 @@ PickerKind parse_picker(const ParameterGroup& all) {
   return picker_kind(all.choice(names::kPicker, kPickerDefault, {"feedback", "select"}));
 }
 
+RealtimeParameters parse_realtime(const ParameterGroup& all) {
+  RealtimeParameters p;
+  constexpr NumberRange kPriorities{0, 99};
+  p.priority = all.whole_number(names::kRealtimePriority, p.priority, kPriorities);
+  p.lock_memory = all.flag(names::kLockMemory, p.lock_memory);
+  return p;
+}
+
 }  // namespace organ_collision

@@ -23,4 +23,13 @@ inline constexpr char kPickerDefault[] = "feedback";
 /// The parameter `picker`. Throws ParameterError.
 PickerKind parse_picker(const ParameterGroup& all);
 
+/// What a node asks of the system, so that nothing else delays its steps.
+struct RealtimeParameters {
+  int priority = 0;          ///< of SCHED_FIFO, from 1 to 99; 0: ordinary scheduling
+  bool lock_memory = false;  ///< true: the memory of the process stays in RAM
+};
+
+/// The parameters `realtime_priority` and `lock_memory`. Throws ParameterError.
+RealtimeParameters parse_realtime(const ParameterGroup& all);
+
 }  // namespace organ_collision

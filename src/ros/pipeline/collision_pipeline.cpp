@@ -16,8 +16,8 @@ CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
           parameters.max_faces, parameters.tools,
           {[this](std::size_t tool) { steps_.add_pose(tool); }, sinks.rejected, sinks.callbacks}),
       poses_(inbox_.transforms(), sampling(parameters)),
-      contact_query_(parameters.picker),
-      steps_(parameters, tools, poses_, contact_query_, sinks.step) {}
+      workers_(parameters),
+      steps_(parameters, tools, poses_, workers_, sinks.step) {}
 
 void CollisionPipeline::watch_clock() {
   if (inbox_.watch_clock()) steps_.start_anew(inbox_.organs());

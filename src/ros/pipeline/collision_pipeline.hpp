@@ -5,14 +5,15 @@
 
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "ros/inbox/inbox.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
+#include "ros/steps/step_workers.hpp"
 #include "ros/tools/tool.hpp"
 #include "ros/tools/tool_changes.hpp"
 
@@ -20,8 +21,8 @@ namespace organ_collision {
 
 /// The way from messages to answers: organs and motion -> steps (doc/architecture.md). The node
 /// feeds it from topics, the program replay from a bag. Without subscribe(), it needs no ROS
-/// master. All functions must be called in the thread that constructed it, which owns the GL
-/// context.
+/// master. All functions must be called in one thread. The pipeline's workers evaluate steps side
+/// by side while evaluate() waits for them.
 class CollisionPipeline {
  public:
   /// Where results go; all must outlive this.
@@ -75,14 +76,14 @@ class CollisionPipeline {
   const TransformBuffer& transforms() const { return inbox_.transforms(); }
   const ToolPoses& poses() const { return poses_; }
   const StepScheduler& steps() const { return steps_; }
-  ContactQuery& contact_query() { return contact_query_; }
+  const std::string& gl_version() const { return workers_.gl_version(); }
 
  private:
   std::function<void(const OrganUpdate&)> update_;
   bool inspects_surfaces_ = false;
   Inbox inbox_;
   ToolPoses poses_;
-  ContactQuery contact_query_;
+  StepWorkers workers_;
   StepScheduler steps_;
 };
 

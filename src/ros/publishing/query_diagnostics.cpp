@@ -16,8 +16,8 @@ void QueryDiagnostics::add_to(diagnostic_updater::Updater& updater) {
 
 void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "answering");
-  const auto times = sources_.contact_query.query_times().summary();
-  status.add("GL version", sources_.contact_query.gl_version());
+  const auto times = sources_.steps.query_times().summary();
+  status.add("GL version", sources_.gl_version);
   status.add("contacts rate [1/s]",
              sources_.counters.contacts.take(std::chrono::steady_clock::now()));
   status.add("queries", times.count);

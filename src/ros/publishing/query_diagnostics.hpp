@@ -7,7 +7,6 @@
 
 #include "node_counters.hpp"
 #include "ros/motion/transform_buffer.hpp"
-#include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
 
 namespace organ_collision {
@@ -18,7 +17,7 @@ class QueryDiagnostics {
   /// All must outlive this.
   struct Sources {
     const std::vector<std::string>& misspelt;
-    const ContactQuery& contact_query;
+    const std::string& gl_version;
     const StepScheduler& steps;
     const TransformBuffer& transforms;
     NodeCounters& counters;

@@ -35,16 +35,18 @@ ContactQuery::ContactQuery(PickerKind picker) : query_(picker) {
   }
 }
 
-void ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answer) {
+double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answer) {
   const auto start = std::chrono::steady_clock::now();
   try {
     query_.evaluate(request, result_);
   } catch (const std::invalid_argument& error) {
-    return set_failure(answer, ContactArray::INVALID_REQUEST, error.what());
+    set_failure(answer, ContactArray::INVALID_REQUEST, error.what());
+    return 0.0;
   } catch (const GlError& error) {
-    return set_failure(answer, ContactArray::PICKER_FAILED, error.what());
+    set_failure(answer, ContactArray::PICKER_FAILED, error.what());
+    return 0.0;
   }
-  query_times_.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const std::chrono::duration<double> query_time = std::chrono::steady_clock::now() - start;
 
   answer.status = ContactArray::OK;
   answer.unresolved = static_cast<std::uint32_t>(result_.unresolved);
@@ -55,6 +57,7 @@ void ContactQuery::evaluate(const CollisionRequest& request, ContactArray& answe
   answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
   answer.clearance = to_message(result_.clearance);
   answer.placement = to_message(result_.placement);
+  return query_time.count();
 }
 
 }  // namespace organ_collision

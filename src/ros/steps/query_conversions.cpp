@@ -93,14 +93,4 @@ geometry_msgs::Polygon to_message(const Region& region) {
   return message;
 }
 
-ToolPath to_path(const ToolMotion& motion, bool at_end_only,
-                 const Eigen::Isometry3d& T_target_source) {
-  const ShaftAxis end{T_target_source * to_eigen(motion.trocar),
-                      T_target_source * to_eigen(motion.tip)};
-  if (at_end_only) return {{0.0, end}};
-  const ShaftAxis start{T_target_source * to_eigen(motion.previous_trocar),
-                        T_target_source * to_eigen(motion.previous_tip)};
-  return {{0.0, start}, {1.0, end}};
-}
-
 }  // namespace organ_collision

@@ -1,7 +1,6 @@
 #include "step_scheduler.hpp"
 
 #include <algorithm>
-#include <boost/make_shared.hpp>
 #include <chrono>
 #include <utility>
 
@@ -15,16 +14,17 @@ namespace {
 /// start together need that long.
 constexpr std::chrono::seconds kStart(2);
 
-/// The shape from which the organ moves during a step; null if it rests.
-const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
-  const bool moved = last.mesh.get() != &now && last.mesh->topology() == now.topology() &&
-                     last.mesh->same_faces(now);
-  return moved ? last.mesh.get() : nullptr;
-}
+/// Empties a list at the end, also by an exception. It keeps its memory.
+class ScopedClear {
+ public:
+  explicit ScopedClear(std::vector<DueStep>& steps) : steps_(steps) {}
+  ~ScopedClear() { steps_.clear(); }
+  ScopedClear(const ScopedClear&) = delete;
+  ScopedClear& operator=(const ScopedClear&) = delete;
 
-std::uint8_t mode_of(const OrganToolPair& pair) {
-  return pair.last ? ContactArray::SWEPT : ContactArray::STATIC;
-}
+ private:
+  std::vector<DueStep>& steps_;
+};
 
 /// Whether the last step already ended at this pose, against this shape.
 bool is_answered(const OrganToolPair& pair, ros::Time pose) {
@@ -46,11 +46,23 @@ void StepScheduler::add_pose(std::size_t tool) {
 }
 
 void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
-  evaluate_waiting(organs, now);
+  do {
+    plan_waiting(organs, now);
+  } while (evaluate_due());  // Behind each shape, another one may wait.
   for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
-    if (std::exchange(tool_is_due_[tool], false)) evaluate_latest(organs, tool, now);
+    if (std::exchange(tool_is_due_[tool], false)) plan_latest(organs, tool, now);
   }
-  if (std::exchange(tick_is_due_, false)) evaluate_tick(organs, now);
+  evaluate_due();
+  if (std::exchange(tick_is_due_, false)) plan_tick(organs, now);
+  evaluate_due();
+}
+
+/// Evaluates and publishes the steps that are due. Returns whether there were any.
+bool StepScheduler::evaluate_due() {
+  if (due_.empty()) return false;
+  const ScopedClear clear(due_);
+  workers_.run(evaluator_, due_, deliver_);
+  return true;
 }
 
 void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
@@ -60,16 +72,15 @@ void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
   }
 }
 
-void StepScheduler::evaluate_waiting(const OrganRegistry& organs, SteadyTime now) {
+void StepScheduler::plan_waiting(const OrganRegistry& organs, SteadyTime now) {
   for (auto& [key, pair] : history_.pairs()) {
-    while (pair.queue.front() && evaluate_front(organs.at(key.first), key.second, pair, now)) {
-    }
+    if (pair.queue.front()) plan_front(organs.at(key.first), key.second, pair, now);
   }
 }
 
-/// Returns false if the shape still waits for its transform.
-bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t tool,
-                                   OrganToolPair& pair, SteadyTime now) {
+/// Plans nothing if the shape still waits for its transform.
+void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
+                               SteadyTime now) {
   const ShapeQueue::Entry& entry = *pair.queue.front();
   const ros::Time stamp = entry.shape.stamp;
   const bool may_wait = now < deadline(entry);
@@ -77,62 +88,56 @@ bool StepScheduler::evaluate_front(const DeformableOrgan& organ, std::size_t too
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
   if (!late && !faulty) {
-    if (may_wait && entry.waits && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) {
-      return false;
-    }
+    if (may_wait && entry.waits && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
     end = poses_.pose(tools_[tool], organ.frame(), stamp);
-    if (!end.found && may_wait) {
-      pair.queue.set_waiting();
-      return false;
-    }
+    if (!end.found && may_wait) return pair.queue.set_waiting();
   }
   pair.current = entry.shape;
   pair.queue.pop();
+  DueStep step{&organ, tool, &pair};
   const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
   if (faulty) {
-    fail(organ, tool, pair, failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
+    plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
   } else if (late) {
-    evaluate_held(organ, tool, pair);
+    plan_held(std::move(step));
   } else if (end.found) {
-    evaluate_step(organ, tool, pair, *end.found);
+    plan_step(std::move(step), *std::move(end.found));
   } else {
-    fail_without_transform(organ, tool, pair, failure, end.why_not + waited(), now);
+    plan_without_transform(std::move(step), failure, end.why_not + waited(), now);
   }
-  return true;
 }
 
-/// Evaluates all organs and tools with the latest poses.
-void StepScheduler::evaluate_tick(const OrganRegistry& organs, SteadyTime now) {
+/// All organs and tools with the latest poses.
+void StepScheduler::plan_tick(const OrganRegistry& organs, SteadyTime now) {
   for (const auto& [name, organ] : organs.organs()) {
-    for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-      evaluate_latest(organ, tool, now, false);
-    }
+    for (std::size_t tool = 0; tool < tools_.size(); ++tool) plan_latest(organ, tool, now, false);
   }
 }
 
-/// Evaluates all organs with the latest pose of one tool, unless that pose is answered already.
-void StepScheduler::evaluate_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now) {
-  for (const auto& [name, organ] : organs.organs()) evaluate_latest(organ, tool, now, true);
+/// All organs with the latest pose of one tool, unless that pose is answered already.
+void StepScheduler::plan_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now) {
+  for (const auto& [name, organ] : organs.organs()) plan_latest(organ, tool, now, true);
 }
 
-void StepScheduler::evaluate_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now,
-                                    bool only_new) {
+void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now,
+                                bool only_new) {
   OrganToolPair& pair = history_.of(organ.name(), tool);
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  DueStep step{&organ, tool, &pair};
   const ros::Time stamp = ros::Time::now();
   if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
-    return fail(organ, tool, pair, stamp, ContactArray::INVALID_TOOL, fault);
+    return plan_failure(std::move(step), stamp, ContactArray::INVALID_TOOL, fault);
   }
   if (is_stale(organ.latest(), stamp, parameters_.mesh_timeout_sec)) {
-    return fail(organ, tool, pair, stamp, ContactArray::STALE_MESH,
-                stale_message(organ, stamp, parameters_.mesh_timeout_sec));
+    return plan_failure(std::move(step), stamp, ContactArray::STALE_MESH,
+                        stale_message(organ, stamp, parameters_.mesh_timeout_sec));
   }
-  const auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+  auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (end.found) {
     if (only_new && is_answered(pair, end.found->stamp)) return;
-    evaluate_step(organ, tool, pair, *end.found);
+    plan_step(std::move(step), *std::move(end.found));
   } else {
-    fail_without_transform(organ, tool, pair, stamp, end.why_not, now);
+    plan_without_transform(std::move(step), stamp, end.why_not, now);
   }
 }
 
@@ -174,86 +179,52 @@ std::optional<SteadyTime> StepScheduler::next_deadline() const {
   return next;
 }
 
-void StepScheduler::evaluate_step(const DeformableOrgan& organ, std::size_t tool,
-                                  OrganToolPair& pair, const Timed<ToolPose>& end) {
-  if (!pair.last) return run(organ, tool, pair, end, resting_path(end.value));
-  const LastStep& last = *pair.last;
-  Timed<ToolPose> stamped = end;
+void StepScheduler::plan_step(DueStep step, Timed<ToolPose> end) {
+  const std::optional<LastStep>& last = step.pair->last;
   if (end.stamp.isZero()) {
-    stamped.stamp = std::max(ros::Time::now(), last.stamp);
-  } else if (end.stamp <= last.stamp) {
-    return evaluate_held(organ, tool, pair);
+    end.stamp = ros::Time::now();
+    if (last) end.stamp = std::max(end.stamp, last->stamp);
+  } else if (last && end.stamp <= last->stamp) {
+    return plan_held(std::move(step));
   }
-  SampledPath sampled = poses_.path(tools_[tool], organ.frame(), {last.pose, last.stamp}, stamped);
-  samples_cut_ += sampled.samples_cut;
-  deviation_cut_ = std::max(deviation_cut_, sampled.deviation_cut);
-  run(organ, tool, pair, std::move(stamped), std::move(sampled.path));
+  if (last) step.motion = DueStep::Motion::kFromLast;
+  step.end = std::move(end);
+  due_.push_back(std::move(step));
 }
 
 /// The tool rests at its last pose, because no newer pose goes with the shape.
-void StepScheduler::evaluate_held(const DeformableOrgan& organ, std::size_t tool,
-                                  OrganToolPair& pair) {
-  const LastStep& last = *pair.last;
-  run(organ, tool, pair, {last.pose, last.stamp}, resting_path(last.pose));
+void StepScheduler::plan_held(DueStep step) {
+  const LastStep& last = *step.pair->last;
+  step.end = Timed<ToolPose>{last.pose, last.stamp};
+  due_.push_back(std::move(step));
 }
 
-void StepScheduler::run(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                        Timed<ToolPose> end, ToolPath path) {
-  if (end.stamp.isZero()) end.stamp = ros::Time::now();
-  const TriangleMesh& mesh = *pair.current.mesh;
-
-  CollisionRequest request;
-  request.organ = &mesh;
-  if (pair.last && parameters_.organ_motion) request.organ_before = shape_before(*pair.last, mesh);
-  request.path = std::move(path);
-  request.radius = tools_[tool].parameters.radius;
-  request.links = &tools_[tool].links;
-  request.mode = static_cast<QueryMode>(mode_of(pair));
-  request.regions = parameters_.publish_regions;
-  request.margin = tools_[tool].parameters.margin;
-  request.max_near = static_cast<std::size_t>(tools_[tool].parameters.max_near);
-  request.placement = parameters_.publish_placement;
-  request.surface_topology = pair.current.topology();
-  request.tip = end.value.tip;
-
-  const auto answer = answer_about_step(organ, tool, pair, end.stamp);
-  contact_query_.evaluate(request, *answer);
-  const bool is_answered = answer->status == ContactArray::OK;
-  if (is_answered) {
-    poses_.set_answered(tools_[tool], organ.frame(), end.stamp);
-    pair.last = LastStep{std::move(end.value), end.stamp, pair.current.mesh};
-  }
-  pair.answer = answer;
-  const double query_sec = is_answered ? contact_query_.query_times().latest() : 0.0;
-  publish_({answer, mesh, request.path, query_sec});
+void StepScheduler::plan_failure(DueStep step, ros::Time stamp, std::uint8_t status,
+                                 const std::string& message) {
+  evaluator_.set_failed(step, stamp, status, message);
+  due_.push_back(std::move(step));
 }
 
-void StepScheduler::fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                         ros::Time stamp, std::uint8_t status, const std::string& message,
-                         bool is_starting) {
-  const auto answer = answer_about_step(organ, tool, pair, stamp);
-  set_failure(*answer, status, message);
-  pair.answer = answer;
-  publish_({answer, *pair.current.mesh, {}, 0.0, is_starting});
-}
-
-void StepScheduler::fail_without_transform(const DeformableOrgan& organ, std::size_t tool,
-                                           OrganToolPair& pair, ros::Time stamp,
-                                           const std::string& why, SteadyTime now) {
+void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const std::string& why,
+                                           SteadyTime now) {
+  OrganToolPair& pair = *step.pair;
   if (!pair.first_without_transform) pair.first_without_transform = now;
-  const bool is_starting = !pair.last && now - *pair.first_without_transform < kStart;
-  fail(organ, tool, pair, stamp, ContactArray::NO_TRANSFORM, why, is_starting);
+  step.is_starting = !pair.last && now - *pair.first_without_transform < kStart;
+  plan_failure(std::move(step), stamp, ContactArray::NO_TRANSFORM, why);
 }
 
-ContactArrayPtr StepScheduler::answer_about_step(const DeformableOrgan& organ, std::size_t tool,
-                                                 const OrganToolPair& pair, ros::Time end) const {
-  const ToolParameters& parameters = tools_[tool].parameters;
-  auto answer = boost::make_shared<ContactArray>(
-      answer_about(organ.name(), parameters.name, mode_of(pair), end));
-  set_links(*answer, parameters);
-  set_organ(*answer, organ, pair.current);
-  if (pair.last) answer->step_start = pair.last->stamp;
-  return answer;
+/// Makes the step the last one of its pair, and publishes it.
+void StepScheduler::deliver(DueStep& step) {
+  OrganToolPair& pair = *step.pair;
+  samples_cut_ += step.samples_cut;
+  deviation_cut_ = std::max(deviation_cut_, step.deviation_cut);
+  if (step.answer->status == ContactArray::OK) {
+    query_times_.add(step.query_sec);
+    poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
+    pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh};
+  }
+  pair.answer = step.answer;
+  publish_({step.answer, *pair.current.mesh, step.request.path, step.query_sec, step.is_starting});
 }
 
 std::string StepScheduler::waited() const {

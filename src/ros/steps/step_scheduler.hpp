@@ -9,13 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "contact_query.hpp"
+#include "due_step.hpp"
+#include "duration_statistics.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/organs/organ_registry.hpp"
 #include "ros/organs/organ_topics.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
+#include "step_evaluator.hpp"
 #include "step_history.hpp"
+#include "step_workers.hpp"
 
 namespace organ_collision {
 
@@ -34,18 +37,24 @@ struct EvaluatedStep {
 /// shape of the organ, at each new pose of a tip on a pose topic, and at each tick. A step begins
 /// where the last successful one of that tool and organ ended. A tool with a fault is never
 /// evaluated: its answers say INVALID_TOOL.
+///
+/// Steps that are due at the same time are evaluated side by side (step_workers.hpp), at most one
+/// for each pair of organ and tool. Everything else happens in the calling thread, in an order that
+/// does not depend on the number of workers.
 class StepScheduler {
  public:
   using Publish = std::function<void(const EvaluatedStep&)>;
 
   /// The references must outlive this. `publish` gets each step as soon as it is evaluated.
   StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools, ToolPoses& poses,
-                ContactQuery& contact_query, Publish publish)
+                StepWorkers& workers, Publish publish)
       : parameters_(parameters),
         tools_(tools),
         poses_(poses),
-        contact_query_(contact_query),
+        evaluator_(parameters, tools, poses),
+        workers_(workers),
         publish_(std::move(publish)),
+        deliver_([this](std::size_t step) { deliver(due_[step]); }),
         tool_is_due_(tools.size(), false) {}
 
   /// Notes what a message did to an organ. A new shape becomes due for every tool. Forgets history
@@ -85,6 +94,8 @@ class StepScheduler {
   std::size_t samples_cut() const { return samples_cut_; }
   /// [m] The largest distance of a dropped sample from the path that was swept instead.
   double deviation_cut() const { return deviation_cut_; }
+  /// How long the queries of the answered steps took.
+  const DurationStatistics& query_times() const { return query_times_; }
   /// Poses of tips that came while an earlier one was still due: one step covers both.
   std::size_t poses_merged() const { return poses_merged_; }
   /// Shapes that a newer one replaced before a tool was evaluated against them; counted for each
@@ -93,33 +104,34 @@ class StepScheduler {
 
  private:
   void add_shape(const DeformableOrgan& organ, SteadyTime now);
-  void evaluate_waiting(const OrganRegistry& organs, SteadyTime now);
-  void evaluate_tick(const OrganRegistry& organs, SteadyTime now);
-  void evaluate_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now);
-  bool evaluate_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                      SteadyTime now);
-  void evaluate_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now,
-                       bool only_new);
-  void evaluate_step(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                     const Timed<ToolPose>& end);
-  void evaluate_held(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
-  void run(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair, Timed<ToolPose> end,
-           ToolPath path);
-  void fail(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair, ros::Time stamp,
-            std::uint8_t status, const std::string& message, bool is_starting = false);
-  void fail_without_transform(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                              ros::Time stamp, const std::string& why, SteadyTime now);
-  ContactArrayPtr answer_about_step(const DeformableOrgan& organ, std::size_t tool,
-                                    const OrganToolPair& pair, ros::Time end) const;
+
+  // These find out which steps are due.
+  void plan_waiting(const OrganRegistry& organs, SteadyTime now);
+  void plan_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now);
+  void plan_tick(const OrganRegistry& organs, SteadyTime now);
+  void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
+                  SteadyTime now);
+  void plan_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now, bool only_new);
+  void plan_step(DueStep step, Timed<ToolPose> end);
+  void plan_held(DueStep step);
+  void plan_failure(DueStep step, ros::Time stamp, std::uint8_t status, const std::string& message);
+  void plan_without_transform(DueStep step, ros::Time stamp, const std::string& why,
+                              SteadyTime now);
+
+  bool evaluate_due();
+  void deliver(DueStep& step);
   SteadyTime deadline(const ShapeQueue::Entry& entry) const;
   std::string waited() const;
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;
   ToolPoses& poses_;
-  ContactQuery& contact_query_;
+  StepEvaluator evaluator_;
+  StepWorkers& workers_;
   Publish publish_;
+  const StepWorkers::Deliver deliver_;
   StepHistory history_;
+  std::vector<DueStep> due_;       ///< the steps of one round
   std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
   bool tick_is_due_ = false;
   bool keeps_all_shapes_ = false;
@@ -127,6 +139,7 @@ class StepScheduler {
   std::size_t poses_merged_ = 0;
   std::size_t samples_cut_ = 0;
   double deviation_cut_ = 0.0;
+  DurationStatistics query_times_;
 };
 
 }  // namespace organ_collision

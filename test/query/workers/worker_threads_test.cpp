@@ -160,6 +160,11 @@ TEST(WorkerThreads, WithoutAnyHelpAWaitingCallerLearnsWhy) {
   EXPECT_THROW(none.run(1, nothing, deliver_nothing), std::runtime_error);
 }
 
+TEST(WorkerThreads, TheNumberOfThreadsIsThatOfTheProcessorsOrAsAskedFor) {
+  EXPECT_EQ(thread_count(3), 3u);
+  EXPECT_EQ(thread_count(0), std::thread::hardware_concurrency());
+}
+
 TEST(WorkerThreads, EachThreadHasItsOwnNumber) {
   std::vector<std::atomic<int>> prepared(5);
   WorkerThreads workers(Caller::kWorks, [&](std::size_t worker) { ++prepared[worker]; });

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "ros/interface/plain_text.hpp"
 
 using namespace organ_collision;
@@ -21,7 +26,7 @@ TEST(FailureLog, CountsByReason) {
 TEST(FailureLog, MessagesArePlainAndShort) {
   FailureLog log;
   log.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
-  const std::string& latest = log.by_reason().at("wrong size").latest;
+  const std::string latest = log.by_reason().at("wrong size").latest;
   EXPECT_LE(latest.size(), kLongestMessage);
   EXPECT_EQ(latest.rfind("a xxx", 0), 0u) << latest;
 }
@@ -29,7 +34,7 @@ TEST(FailureLog, MessagesArePlainAndShort) {
 TEST(FailureLog, ReportedOnce) {
   FailureLog log;
   log.add("wrong size", "7 numbers", {});
-  log.reported();
+  EXPECT_EQ(log.take_report().at("wrong size").not_yet_reported, 1u);
   EXPECT_EQ(log.by_reason().at("wrong size").count, 1u);
   EXPECT_EQ(log.by_reason().at("wrong size").not_yet_reported, 0u);
   log.add("wrong size", "8 numbers", {});
@@ -45,6 +50,25 @@ TEST(FailureLog, LogsEachReasonOnceASecond) {
   const FailureLog::Time later = start + std::chrono::milliseconds(1000);
   log.add("wrong size", "c", later);
   EXPECT_EQ(log.by_reason().at("wrong size").logged, later);
+}
+
+TEST(FailureLog, CountsAndReportsEachFailureOnceFromAllThreads) {
+  FailureLog log;
+  constexpr std::uint64_t kEach = 2000;
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 3; ++thread) {
+    threads.emplace_back([&] {
+      for (std::uint64_t i = 0; i < kEach; ++i) log.add("wrong size", "7 numbers", {});
+    });
+  }
+  std::uint64_t reported = 0;
+  const auto report = [&] {
+    for (const auto& [reason, entry] : log.take_report()) reported += entry.not_yet_reported;
+  };
+  for (int i = 0; i < 1000; ++i) report();
+  for (std::thread& thread : threads) thread.join();
+  report();
+  EXPECT_EQ(reported, 3 * kEach);
 }
 
 TEST(FailureLog, IsShownWithItsCountsAndWarnsOfNewFailuresOnce) {

@@ -39,8 +39,7 @@ class PoseTopicsTest : public testing::Test {
                  : Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   std::size_t rejected() const {
-    const auto found = rejected_.by_reason().find("pose");
-    return found == rejected_.by_reason().end() ? 0 : found->second.count;
+    return rejected_.by_reason()["pose"].count;
   }
   void expect_rejected(const geometry_msgs::PoseStamped& bad, const std::string& word) {
     const std::size_t before = rejected(), arrivals = arrived_.size();

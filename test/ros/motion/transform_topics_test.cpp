@@ -45,7 +45,7 @@ TEST_F(TransformTopicsTest, WhatTfThrowsAtIsCountedAndTheOthersStay) {
   take({transform("tip", 1.0), absurd, transform("trocar", 1.0)}, false);
   EXPECT_TRUE(buffer_.canTransform("world", "trocar", ros::Time(1.0)));
   ASSERT_EQ(rejected_.by_reason().count("transform"), 1u);
-  const FailureLog::Entry& rejected = rejected_.by_reason().at("transform");
+  const FailureLog::Entry rejected = rejected_.by_reason().at("transform");
   EXPECT_EQ(rejected.count, 1u);
   EXPECT_NE(rejected.latest.find("'tip'"), std::string::npos) << rejected.latest;
 }

@@ -79,6 +79,8 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.tools.at(0).margin, 0.0);
   EXPECT_EQ(p.tools.at(0).max_near, 0);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
+  EXPECT_EQ(p.realtime.priority, 0);
+  EXPECT_FALSE(p.realtime.lock_memory);
   EXPECT_EQ(p.markers.markers_rate_hz, 30.0);
   EXPECT_EQ(p.markers.surface_rate_hz, 30.0);
   EXPECT_EQ(p.markers.markers_depth, 0.01);
@@ -104,6 +106,8 @@ TEST(Parameters, EveryValueIsTaken) {
   all["tools"][1]["margin"] = 0.02;
   all["tools"][1]["max_near"] = 50;
   all["diagnostic_period"] = 0.25;
+  all["realtime_priority"] = 99;
+  all["lock_memory"] = true;
   const NodeParameters p = parse_parameters(all).parameters;
   ASSERT_EQ(p.tools.size(), 2u);
   EXPECT_EQ(p.tools[0].name, "hook");
@@ -126,6 +130,8 @@ TEST(Parameters, EveryValueIsTaken) {
   EXPECT_EQ(p.tools[1].margin, 0.02);
   EXPECT_EQ(p.tools[1].max_near, 50);
   EXPECT_EQ(p.diagnostic_period_sec, 0.25);
+  EXPECT_EQ(p.realtime.priority, 99);
+  EXPECT_TRUE(p.realtime.lock_memory);
 }
 
 TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
@@ -145,6 +151,9 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
   expect_words(refusal("publish_placement", 1), {"~publish_placement", "'1'", "true or false"});
   expect_words(refusal("diagnostic_period", 0.0), {"~diagnostic_period", "'0'", "at least 0.01"});
+  expect_words(refusal("realtime_priority", 100), {"~realtime_priority", "'100'", "at least 0, at most 99"});
+  expect_words(refusal("realtime_priority", 40.0), {"~realtime_priority", "whole number"});
+  expect_words(refusal("lock_memory", 1), {"~lock_memory", "'1'", "true or false"});
   expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
 }
 

@@ -27,7 +27,7 @@ class QueryDiagnosticsTest : public testing::Test, protected NodeParts {
   std::vector<std::string> misspelt;
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  QueryDiagnostics diagnostics{{misspelt, contact_query, steps, transforms, counters}};
+  QueryDiagnostics diagnostics{{misspelt, workers.gl_version(), steps, transforms, counters}};
 };
 
 }  // namespace
@@ -35,7 +35,7 @@ class QueryDiagnosticsTest : public testing::Test, protected NodeParts {
 TEST_F(QueryDiagnosticsTest, QueryTimesAndGlVersion) {
   auto shown = values(&QueryDiagnostics::queries);
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
-  EXPECT_EQ(shown.at("GL version"), contact_query.gl_version());
+  EXPECT_EQ(shown.at("GL version"), workers.gl_version());
   EXPECT_EQ(shown.at("queries"), "0");
   send_tip(1.0, {0.1, 0.2, 0.3});
   send_mesh(1.0, 0.0);

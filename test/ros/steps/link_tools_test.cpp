@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "node_parts.hpp"
+#include "test/ros/queries/served_node.hpp"
 
 using namespace organ_collision;
 using std::chrono::milliseconds;
@@ -14,7 +14,7 @@ const std::vector<std::string> kAllLinks = {"", "wrist", "jaw"};
 
 /// Two tools share two links; the first one has a shaft, too. Wrist and shaft rest above the sheet
 /// unless a test moves them.
-class LinkToolsTest : public testing::Test, protected NodeParts {
+class LinkToolsTest : public testing::Test, protected ServedNode {
  protected:
   LinkToolsTest() {
     tools = {with_links(shaft_tool("hook", 0.01)), grasper()};

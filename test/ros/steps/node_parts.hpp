@@ -11,7 +11,7 @@
 
 #include "ros/organs/organ_registry.hpp"
 #include "ros/organs/organ_topics.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/steps/contact_query.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "test/ros/motion/hand_filled_transforms.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
@@ -21,7 +21,7 @@ namespace organ_collision {
 /// The node without ROS's topics: messages are given by hand, and the clock stands still. The organ
 /// is a horizontal sheet of two faces, 2 m wide; the tool hangs from (0, 0, 1).
 struct NodeParts {
-  NodeParts() {
+  explicit NodeParts(int threads = 1) : parameters(with_threads(threads)) {
     ros::Time::init();
     ros::Time::setNow(ros::Time(50));
     set_point(transforms, "liver_frame", "hook_trocar", 0.0, {0.0, 0.0, 1.0}, true);
@@ -80,26 +80,29 @@ struct NodeParts {
     return evaluate();
   }
 
+  static NodeParameters with_threads(int threads) {
+    NodeParameters parameters;
+    parameters.threads = threads;
+    return parameters;
+  }
+
   NodeParameters parameters;
   std::vector<Tool> tools = {shaft_tool("hook", 0.01)};
   TransformBuffer transforms;
   OrganRegistry organs{MeshLimits{}};
   FailureLog rejected;
-  FailureLog refused;
   ros::CallbackQueue callbacks;
   OrganTopics organ_topics{organs, rejected, callbacks};
   ToolPoses poses{transforms, {0.001, 100}};
-  ContactQuery contact_query{PickerKind::kFeedback};
+  StepWorkers workers{parameters};
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
   /// Also called with each step, if set.
   std::function<void(const EvaluatedStep&)> watch;
-  StepScheduler steps{parameters, tools, poses, contact_query, [this](const EvaluatedStep& step) {
+  StepScheduler steps{parameters, tools, poses, workers, [this](const EvaluatedStep& step) {
                         published.push_back(*step.answer);
                         if (watch) watch(step);
                       }};
-  QueryServices services{
-      {parameters, tools, organs, transforms, poses, steps.history(), contact_query, refused}};
 };
 
 }  // namespace organ_collision

@@ -1,25 +1,10 @@
 #include "ros/steps/query_conversions.hpp"
 
 #include <gtest/gtest.h>
-#include <tf2_eigen/tf2_eigen.h>
-
-#include <cmath>
-#include <random>
 
 #include "ros/interface/conversions.hpp"
 
 using namespace organ_collision;
-using Eigen::Vector3d;
-
-namespace {
-
-geometry_msgs::Point random_point(std::mt19937& random) {
-  std::normal_distribution<double> number(0.3, 2.0);
-  const double x = number(random), y = number(random), z = number(random);
-  return tf2::toMsg(Vector3d(x, y, z));
-}
-
-}  // namespace
 
 TEST(QueryConversions, EveryFieldOfAContact) {
   FaceContact contact;
@@ -121,33 +106,4 @@ TEST(QueryConversions, RegionKeepsItsCorners) {
   EXPECT_EQ(polygon.points[1].y, 5.0f);
   EXPECT_EQ(polygon.points[1].z, 6.5f);
   EXPECT_TRUE(to_message(Region{}).points.empty());
-}
-
-TEST(QueryConversions, PathIsMovedIntoTheFrame) {
-  std::mt19937 random(3);
-  ToolMotion motion;
-  motion.previous_trocar = random_point(random);
-  motion.previous_tip = random_point(random);
-  motion.trocar = random_point(random);
-  motion.tip = random_point(random);
-  const Eigen::Isometry3d T = Eigen::Translation3d(to_eigen(random_point(random))) *
-                              Eigen::AngleAxisd(0.7, Vector3d(1.0, -2.0, 0.5).normalized());
-  const ToolPath path = to_path(motion, false, T);
-  ASSERT_EQ(path.size(), 2u);
-  EXPECT_EQ(path[0].fraction, 0.0);
-  EXPECT_EQ(path[1].fraction, 1.0);
-  EXPECT_EQ(path[0].axis.trocar, T * to_eigen(motion.previous_trocar));
-  EXPECT_EQ(path[0].axis.tip, T * to_eigen(motion.previous_tip));
-  EXPECT_EQ(path[1].axis.trocar, T * to_eigen(motion.trocar));
-  EXPECT_EQ(path[1].axis.tip, T * to_eigen(motion.tip));
-}
-
-TEST(QueryConversions, PathOfTheEndAlone) {
-  std::mt19937 random(3);
-  ToolMotion motion;
-  motion.previous_tip.x = std::nan("");  // not used
-  motion.tip = random_point(random);
-  const ToolPath path = to_path(motion, true, Eigen::Isometry3d::Identity());
-  ASSERT_EQ(path.size(), 1u);
-  EXPECT_EQ(path[0].axis.tip, to_eigen(motion.tip));
 }

@@ -23,16 +23,18 @@ def nodes_online():
 
 class Launched:
     """Runs roslaunch with one file until the end of a `with` block. `printed` is then its
-    output."""
+    output. `arguments`: the file's, as NAME:=VALUE."""
 
-    def __init__(self, path):
-        self.path, self.output = path, tempfile.TemporaryFile(mode='w+')
-        listed = subprocess.check_output(['roslaunch', '--nodes', path], universal_newlines=True)
+    def __init__(self, path, *arguments):
+        self.words, self.output = [path, *arguments], tempfile.TemporaryFile(mode='w+')
+        listed = subprocess.check_output(
+            ['roslaunch', '--nodes', *self.words], universal_newlines=True
+        )
         self.nodes = listed.split()
 
     def __enter__(self):
         self.process = subprocess.Popen(
-            ['roslaunch', self.path], stdout=self.output, stderr=subprocess.STDOUT
+            ['roslaunch', *self.words], stdout=self.output, stderr=subprocess.STDOUT
         )
         return self
 

@@ -9,14 +9,14 @@ import rospy
 
 
 class NodeStarter(unittest.TestCase):
-    def start(self, name, parameters, program='organ_collision_node'):
+    def start(self, name, parameters, program='organ_collision_node', through=()):
         """Starts a node with these private parameters. It is killed at the end of the test at the
-        latest."""
+        latest. `through`: the words of a command that runs the node's command."""
         if parameters:
             rospy.set_param(name, parameters)
         path = roslib.packages.find_node('organ_collision', program)[0]
         process = subprocess.Popen(
-            [path, '__name:=' + name.strip('/')],
+            [*through, path, '__name:=' + name.strip('/')],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             universal_newlines=True,

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "query_services_fixture.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/queries/query_services.hpp"
 
 using namespace organ_collision;
 

@@ -1,4 +1,4 @@
-#include "ros/steps/query_services.hpp"
+#include "ros/queries/query_services.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "node_parts.hpp"
 #include "ros/interface/conversions.hpp"
+#include "served_node.hpp"
 
 namespace organ_collision {
 
@@ -25,7 +25,7 @@ inline ToolMotion through() {
 }
 
 /// The services of a node with one organ, "liver", and a request of a swept query that touches it.
-class QueryServicesTest : public testing::Test, protected NodeParts {
+class QueryServicesTest : public testing::Test, protected ServedNode {
  protected:
   QueryServicesTest() {
     request.header.frame_id = "liver_frame";

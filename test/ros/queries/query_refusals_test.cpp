@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "query_services_fixture.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/queries/query_services.hpp"
 
 using namespace organ_collision;
 
@@ -92,33 +92,6 @@ TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   nothing.organ = "liver";
   organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
   expect_refused(ContactArray::NO_MESH, {"'liver'"});
-}
-
-TEST_F(QueryServicesTest, WhatIsNotServedIsRefusedByName) {
-  const QueryCollision::Request legal = request;
-  const auto refuses = [&](const char* field, auto set) {
-    request = legal;
-    set(request);
-    expect_refused(ContactArray::INVALID_REQUEST, {field});
-  };
-  using Single = QueryCollision::Request;
-  refuses("link_motion", [](Single& r) { r.link_motion.links.resize(1); });
-
-  const auto batch_refuses = [&](const char* field, auto set) {
-    QueryCollisionBatch::Request batch;
-    batch.header = legal.header;
-    batch.organ = legal.organ;
-    batch.motions = {legal.motion};
-    set(batch);
-    const QueryCollisionBatch::Response response = services.query_batch(batch);
-    EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
-    EXPECT_NE(response.message.find(field), std::string::npos) << response.message;
-    EXPECT_TRUE(response.results.empty());
-  };
-  using Batch = QueryCollisionBatch::Request;
-  batch_refuses("tool", [](Batch& b) { b.tool = "probe"; });
-  batch_refuses("link_motions", [](Batch& b) { b.link_motions.resize(1); });
-  batch_refuses("stop_at_first_contact", [](Batch& b) { b.stop_at_first_contact = true; });
 }
 
 TEST_F(QueryServicesTest, IllegalMarginsAreRefusedWithTheirValue) {

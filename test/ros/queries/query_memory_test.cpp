@@ -1,11 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <limits>
 #include <new>
 
 #include "query_services_fixture.hpp"
-#include "ros/steps/query_services.hpp"
+#include "ros/queries/query_services.hpp"
 
 using namespace organ_collision;
 
@@ -14,7 +15,7 @@ namespace {
 constexpr std::size_t kAnySize = std::numeric_limits<std::size_t>::max();
 
 /// Larger allocations fail.
-std::size_t largest_allocation = kAnySize;
+std::atomic<std::size_t> largest_allocation = kAnySize;
 
 }  // namespace
 
@@ -45,6 +46,7 @@ TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
   batch.header = request.header;
   batch.organ = "liver";
   batch.motions.assign(100, through());
+  EXPECT_EQ(services.query_batch(batch).results.size(), 100u);  // Starts the threads.
   const QueryCollisionBatch::Response response = with_scarce_memory(
       100 * sizeof(ContactArray) - 1, [&] { return services.query_batch(batch); });
   EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);

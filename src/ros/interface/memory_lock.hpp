@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+namespace organ_collision {
+
+/// Keeps all memory of the process in RAM, also what it takes later, until the process ends.
+/// Returns why the system refuses; empty: it did not. A limit of locked memory counts as a refusal:
+/// beyond it, the process would get no more memory at all.
+std::string lock_memory();
+
+/// [bytes] How much memory of the process is locked.
+long long locked_memory();
+
+}  // namespace organ_collision

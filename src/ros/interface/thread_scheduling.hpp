@@ -1,0 +1,24 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace organ_collision {
+
+/// Puts the calling thread under SCHED_FIFO: it runs as soon as it can, before all ordinary
+/// threads. Threads that it starts later are ordinary ones. `priority`: from 1 (lowest) to 99.
+/// Returns why the system refuses; empty: it did not. If it refuses, the thread stays as it was.
+std::string make_this_thread_realtime(int priority);
+
+/// The same for all threads that the process has now.
+std::string make_all_threads_realtime(int priority);
+
+/// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
+std::string scheduling_of_this_thread();
+
+/// The threads that the process has now.
+std::vector<pid_t> threads_of_this_process();
+
+}  // namespace organ_collision

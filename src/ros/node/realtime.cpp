@@ -1,0 +1,74 @@
+#include "realtime.hpp"
+
+#include <ros/console.h>
+
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/memory_lock.hpp"
+#include "ros/interface/parameter_group.hpp"
+#include "ros/interface/thread_scheduling.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr double kMebibyte = 1024.0 * 1024.0;
+
+std::string ask_for_priority(int priority) {
+  if (priority == 0) return {};
+  const std::string refusal = make_this_thread_realtime(priority);
+  if (refusal.empty()) return {};
+  const std::string number = std::to_string(priority);
+  return "realtime_priority " + number + " is refused: " + refusal +
+         "; the node goes on with ordinary scheduling. Set the user's limit rtprio to at least " +
+         number;
+}
+
+std::string ask_for_lock(bool is_wanted) {
+  if (!is_wanted) return {};
+  const std::string refusal = lock_memory();
+  if (refusal.empty()) return {};
+  return "lock_memory is refused: " + refusal +
+         "; the node goes on without it. Set the user's limit memlock to unlimited";
+}
+
+void warn(const std::string& text) {
+  if (!text.empty()) ROS_WARN("%s", text.c_str());
+}
+
+void show(const std::string& text, diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (!text.empty()) status.mergeSummary(DiagnosticStatus::WARN, text);
+}
+
+}  // namespace
+
+Realtime::Realtime(const RealtimeParameters& parameters)
+    : priority_refused_(ask_for_priority(parameters.priority)),
+      lock_refused_(ask_for_lock(parameters.lock_memory)) {
+  warn(priority_refused_);
+  warn(lock_refused_);
+}
+
+void Realtime::add_to(diagnostic_updater::Updater& updater) {
+  updater.add("scheduling", this, &Realtime::diagnose);
+}
+
+void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  const std::string scheduling = scheduling_of_this_thread();
+  status.summary(diagnostic_msgs::DiagnosticStatus::OK, scheduling);
+  status.add("scheduling", scheduling);
+  status.add("locked memory of the process [MiB]",
+             static_cast<double>(locked_memory()) / kMebibyte);
+  show(priority_refused_, status);
+  show(lock_refused_, status);
+}
+
+void make_ros_realtime(const ros::NodeHandle& private_node) {
+  const ParameterGroup all("~", all_parameters(private_node), {});
+  const int priority = parse_realtime(all).priority;
+  if (priority == 0) return;
+  // roscpp starts the thread of its timers with the first timer. It stays.
+  private_node.createTimer(ros::Duration(1.0), [](const ros::TimerEvent&) {});
+  make_all_threads_realtime(priority);  // If it is refused, class Realtime says so.
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "ros/parameters/shared_parameters.hpp"
+
+namespace organ_collision {
+
+/// Asks the system for the scheduling and the locked memory that a node's parameters name. Where
+/// the system refuses, the node goes on as usual: a warning says what to change, in the log and on
+/// /diagnostics.
+class Realtime {
+ public:
+  /// Construct it in the thread that works on the steps: only this thread gets the priority.
+  explicit Realtime(const RealtimeParameters& parameters);
+
+  void add_to(diagnostic_updater::Updater& updater);
+  /// Call it in the thread that constructed this.
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+ private:
+  std::string priority_refused_, lock_refused_;  ///< what to do about it; empty: not refused
+};
+
+/// Gives the priority to roscpp's threads, through which messages and ticks come. For programs that
+/// have one node, before they construct it: all threads of the process get the priority. Throws
+/// ParameterError.
+void make_ros_realtime(const ros::NodeHandle& private_node);
+
+}  // namespace organ_collision

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <organ_collision/QueryCollision.h>
+#include <organ_collision/QueryCollisionBatch.h>
+#include <ros/node_handle.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "batch_workers.hpp"
+#include "query_snapshot.hpp"
+#include "ros/interface/failure_log.hpp"
+#include "ros/steps/contact_query.hpp"
+#include "service_times.hpp"
+
+namespace organ_collision {
+
+/// Serves `query` and `query_batch`: what a tool touches, or would touch. Each service has a thread
+/// of its own, beside that of the steps. From the node's thread, a service takes only a snapshot of
+/// what it needs to know.
+///
+/// Changes no organ and no history. An error becomes the answer's status. The status is
+/// PICKER_FAILED if the request is not the cause.
+class QueryServices {
+ public:
+  /// Runs an action in the node's thread, and returns when it has ended. Throws what the action
+  /// throws, and std::runtime_error if the node ends before.
+  using InNodeThread = std::function<void(const std::function<void()>& action)>;
+
+  /// All must outlive this.
+  struct Sources {
+    SnapshotTaker::Sources node;
+    InNodeThread in_node_thread;
+    FailureLog& refused;  ///< counts the calls that failed
+    int threads;          ///< that answer a batch together; 0: one for each processor
+  };
+
+  /// Throws GlError.
+  explicit QueryServices(const Sources& sources);
+
+  /// Each node handle must have a callback queue with a thread of its own.
+  void advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node);
+  /// For any thread: a batch that is being answered ends soon, without an answer.
+  void end() { workers_.end(); }
+
+  // Not in the node's thread, unless `in_node_thread` allows it. Each by one thread at a time.
+
+  ContactArray query(const QueryCollision::Request& request);
+  /// One snapshot and one look-up in TF serve the whole batch. A batch that fails as a whole has a
+  /// status and a message but no results. It fails as a whole, among other reasons, if it has more
+  /// motions than max_batch or if its results exceed max_batch_bytes.
+  QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
+
+  /// For any thread.
+  ServiceTimes::Summary times() const { return times_.summary(); }
+
+ private:
+  bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
+  bool on_query_batch(QueryCollisionBatch::Request& request,
+                      QueryCollisionBatch::Response& response);
+
+  // These throw Rejection, or other exceptions such as std::bad_alloc.
+  void answer(const QueryCollision::Request& request, ContactArray& answer);
+  std::vector<ContactArray> answers(const QueryCollisionBatch::Request& request);
+  QuerySnapshot take_snapshot(const QuerySubject& subject, ContactArray& answer) const;
+  void check_size(std::size_t motions) const;
+
+  Sources sources_;
+  SnapshotTaker snapshots_;
+  ContactQuery query_;
+  BatchWorkers workers_;
+  ServiceTimes times_;
+  std::vector<ros::ServiceServer> servers_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,102 @@
+#include "query_snapshot.hpp"
+
+#include "query_checks.hpp"
+#include "ros/interface/conversions.hpp"
+#include "ros/interface/plain_text.hpp"
+#include "ros/motion/transform_lookup.hpp"
+#include "ros/steps/contact_array.hpp"
+
+namespace organ_collision {
+namespace {
+
+void set_end(ros::Time end, ContactArray& answer) {
+  if (!end.isZero()) answer.header.stamp = end;
+  answer.step_start = answer.header.stamp;
+}
+
+}  // namespace
+
+QuerySnapshot SnapshotTaker::take(const QuerySubject& subject, ContactArray& answer) const {
+  const Tool* const tool = subject.tool.empty() ? nullptr : &find_tool(subject.tool);
+  if (tool) {
+    set_links(answer, tool->parameters);
+    check_tool(*tool, subject.mode);
+  }
+  const DeformableOrgan& organ = find_organ(subject.organ);
+  set_organ(answer, organ, organ.latest());
+  check_age(organ);
+  QuerySnapshot snapshot;
+  if (tool && subject.moves_as_in_tf) {
+    read_tool_motion(subject, organ, *tool, snapshot, answer);
+  } else {
+    read_motion_frame(subject, organ, snapshot, answer);
+  }
+  snapshot.latest = organ.latest();
+  snapshot.previous = organ.previous();
+  if (tool) snapshot.tool = *tool;
+  return snapshot;
+}
+
+const Tool& SnapshotTaker::find_tool(const std::string& name) const {
+  std::vector<std::string> names;
+  for (const Tool& tool : sources_.tools) {
+    if (tool.parameters.name == name) return tool;
+    names.push_back("'" + tool.parameters.name + "'");
+  }
+  throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
+                  "tool '" + name + "' is unknown; " +
+                      (names.empty() ? "the node has none" : "known are " + listed(names)));
+}
+
+const DeformableOrgan& SnapshotTaker::find_organ(const std::string& name) const {
+  if (name.empty()) refuse("organ is empty; must be an organ's name");
+  return sources_.organs.at(name);
+}
+
+void SnapshotTaker::check_age(const DeformableOrgan& organ) const {
+  const ros::Time now = ros::Time::now();
+  const double timeout_sec = sources_.parameters.mesh_timeout_sec;
+  if (!is_stale(organ.latest(), now, timeout_sec)) return;
+  throw Rejection(ContactArray::STALE_MESH, "stale mesh", stale_message(organ, now, timeout_sec));
+}
+
+void SnapshotTaker::read_motion_frame(const QuerySubject& subject, const DeformableOrgan& organ,
+                                      QuerySnapshot& snapshot, ContactArray& answer) const {
+  const std::string frame = tf_frame(subject.header.frame_id);
+  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of `motion`");
+  const auto T_organ_motion =
+      look_up(sources_.transforms, organ.frame(), frame, subject.header.stamp);
+  if (!T_organ_motion.found) {
+    throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
+  }
+  snapshot.T_organ_motion = T_organ_motion.found->value;
+  set_end(T_organ_motion.found->stamp, answer);
+}
+
+void SnapshotTaker::read_tool_motion(const QuerySubject& subject, const DeformableOrgan& organ,
+                                     const Tool& tool, QuerySnapshot& snapshot,
+                                     ContactArray& answer) const {
+  const auto end = sources_.poses.pose(tool, organ.frame(), subject.header.stamp);
+  if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
+  snapshot.tip = end.found->value.tip;
+  set_end(end.found->stamp, answer);
+
+  const auto index = static_cast<std::size_t>(&tool - sources_.tools.data());
+  const LastStep* last = sources_.history.last(organ.name(), index);
+  if (!last || is_static_mode(subject.mode)) {
+    snapshot.path = resting_path(end.found->value);
+    return;
+  }
+  if (answer.header.stamp < last->stamp) {
+    refuse("the step would end at ", answer.header.stamp,
+           " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
+           last->stamp, " s; header.stamp must not be earlier");
+  }
+  snapshot.path = sources_.poses
+                      .path(tool, organ.frame(), {last->pose, last->stamp},
+                            {end.found->value, answer.header.stamp})
+                      .path;
+  answer.step_start = last->stamp;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,120 @@
+#!/usr/bin/python3
+"""Collision nodes on another host than the simulators: with the right addresses contacts arrive, and with wrong ones the
+signs are those of doc/hosts.md. Needs iproute2, and the right to make network namespaces."""
+
+import os
+import sys
+import unittest
+
+import network
+
+network.enter()  # Before ROS looks for the address of this host.
+SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+sys.path.append(os.path.join(SOURCE, 'test', 'rostest'))
+HOSTS = network.two_hosts()
+os.environ.update(HOSTS[0].environment())
+
+import rosgraph  # noqa: E402
+import rospy  # noqa: E402
+
+from organ_collision.msg import ContactArray  # noqa: E402
+from organ_collision.srv import ListOrgans, QueryCollision, QueryCollisionRequest  # noqa: E402
+from support.node_client import ContactLog, wait_until  # noqa: E402
+
+ORGANS = {'/liver_collision': ('liver', 'stabber'), '/sheet_collision': ('tissue', 'probe')}
+LIMIT = 60.0  # [s]
+
+
+class TwoHostsTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.simulation, cls.collision = HOSTS
+        cls.roscore = cls.simulation.start('roscore', '-p', '11311')
+        cls.addClassCleanup(cls.roscore.stop)
+        cls.master = rosgraph.Master('two_hosts_test')
+        wait_until(cls.master.is_online, 'the master', LIMIT)
+        rospy.init_node('two_hosts_test')
+        cls.addClassCleanup(rospy.signal_shutdown, 'the tests have ended')
+
+    def start(self, host, *command, **environment):
+        program = host.start(*command, **environment)
+        self.addCleanup(program.stop)
+        return program
+
+    def launch(self, host, *arguments, **environment):
+        return self.start(host, 'roslaunch', '--wait', 'organ_collision', 'two_hosts.launch', *arguments, **environment)
+
+    def service_address(self, name, address):
+        """Waits until a node has registered a service under this address."""
+        def registered():
+            try:
+                return self.master.lookupService(name).startswith('rosrpc://%s:' % address)
+            except rosgraph.MasterException:
+                return False
+        wait_until(registered, '%s at %s' % (name, address), LIMIT)
+
+    def start_node(self, **environment):
+        """The node of simulator.py, on the other host."""
+        rospy.set_param('/organ_collision', {'tools': []})
+        return self.start(self.collision, 'rosrun', 'organ_collision', 'organ_collision_node', **environment)
+
+    def said(self, *command):
+        """What a command of ROS says on the first host."""
+        program = self.start(self.simulation, *command)
+        program.process.wait(timeout=LIMIT)
+        return program.output()
+
+    def test_contacts_of_two_organs_come_from_the_other_host(self):
+        logs = {node: ContactLog(node + '/contacts') for node in ORGANS}
+        nodes = self.launch(self.collision, 'simulators:=false')
+        simulators = self.launch(self.simulation, 'nodes:=false')
+        for node, (organ, tool) in ORGANS.items():
+            self.service_address(node + '/query', self.collision.address)
+            wait_until(lambda: [m for m in logs[node].of(organ, tool, status=ContactArray.OK) if m.contacts],
+                       lambda: 'contacts of %s; the launch files said: %s %s'
+                       % (organ, nodes.output(), simulators.output()), LIMIT)
+            self.assertEqual({(m.organ, m.tool) for m in logs[node].messages}, {(organ, tool)})
+            answer = rospy.ServiceProxy(node + '/query', QueryCollision)(QueryCollisionRequest(organ=organ, tool=tool))
+            self.assertEqual(answer.result.organ, organ)
+
+    def test_a_node_with_a_wrong_address_is_out_of_reach(self):
+        self.start_node(ROS_IP=network.UNUSED_ADDRESS)
+        self.service_address('/organ_collision/list_organs', network.UNUSED_ADDRESS)
+        self.check_out_of_reach(network.UNUSED_ADDRESS)
+
+    def test_without_an_address_a_node_gives_the_name_of_its_host(self):
+        self.start_node(ROS_IP=None)
+        self.service_address('/organ_collision/list_organs', 'collision')
+        self.check_out_of_reach('collision')
+
+    def check_out_of_reach(self, address):
+        self.assertIn('address [rosrpc://%s:' % address, self.said('rosservice', 'call', '/organ_collision/list_organs'))
+        self.check_no_reply('/organ_collision')
+
+    def check_no_reply(self, node):
+        self.assertRegex(self.said('rosnode', 'ping', '-c', '1', node), 'failed|timed out')
+
+    def test_organs_of_a_simulator_with_a_wrong_address_do_not_arrive(self):
+        self.start_node()
+        self.service_address('/organ_collision/list_organs', self.collision.address)
+        self.start(self.simulation, 'rosrun', 'organ_collision', 'simulator.py', ROS_IP=network.UNUSED_ADDRESS)
+        wait_until(lambda: self.publishes('/simulator', '/organ_collision/organ_mesh'), 'the simulator', LIMIT)
+        self.check_no_reply('/simulator')
+        self.assertEqual(rospy.ServiceProxy('/organ_collision/list_organs', ListOrgans)().organs, [])
+
+    def publishes(self, node, topic):
+        publishers, _, _ = self.master.getSystemState()
+        return [topic, node] in [[name, one] for name, nodes in publishers for one in nodes]
+
+    def test_roslaunch_refuses_an_address_that_is_not_the_hosts(self):
+        for address in (network.UNUSED_ADDRESS, None):
+            launched = self.launch(self.collision, 'simulators:=false', ROS_IP=address)
+            launched.process.wait(timeout=LIMIT)
+            self.assertNotEqual(launched.process.returncode, 0)
+            self.assertIn('Unable to contact my own server at [http://%s:' % (address or 'collision'),
+                          launched.output())
+
+
+if __name__ == '__main__':
+    unittest.main(argv=sys.argv[:1], verbosity=2)
