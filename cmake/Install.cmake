@@ -26,7 +26,8 @@ install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINAT
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml")
 install(PROGRAMS examples/ask.py examples/ask_many.py examples/dvrk_hand.py examples/dvrk_organ.py
-  examples/dvrk_robot.py examples/grasper.py examples/own_mesh.py examples/plan_grasper.py examples/repeat_pose.py examples/simulator.py
+  examples/dvrk_robot.py examples/grasper.py examples/lower_until_touch.py examples/own_mesh.py
+  examples/plan_grasper.py examples/repeat_pose.py examples/simulator.py
   scripts/view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 # plan_grasper.py imports these from its own folder.

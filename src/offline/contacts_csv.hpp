@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "motions_reader.hpp"
+#include "motion.hpp"
 #include "organ_collision/query/collision_query.hpp"
 
 namespace organ_collision {

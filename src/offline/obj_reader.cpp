@@ -13,24 +13,22 @@ namespace {
 
 class ObjReader {
  public:
-  explicit ObjReader(const std::string& file) : file_(file), text_(file) {}
+  explicit ObjReader(const std::string& file) : text_(file) { obj_.file = file; }
 
-  ObjMesh read() {
+  ObjFile read() {
+    std::vector<std::string_view> words;
     while (text_.next()) {
-      const std::vector<std::string_view> words = split_words(without_comment(text_.line()));
+      split_words(without_comment(text_.line()), words);
       if (words.empty()) continue;
       if (words[0] == "v") read_vertex(words);
       if (words[0] == "f") read_polygon(words);
     }
-    if (lines_.empty()) {
+    if (obj_.face_lines.empty()) {
       throw text_.error("the file ends without an f line; a mesh in OBJ format has at least one");
     }
     check_indices();
-    try {
-      return {TriangleMesh(vertices_, triangles_), file_, std::move(lines_), text_.number()};
-    } catch (const MeshError& error) {
-      throw InputError(file_ + ": " + error.what());
-    }
+    obj_.line_count = text_.number();
+    return std::move(obj_);
   }
 
  private:
@@ -53,7 +51,7 @@ class ObjReader {
         throw text_.error(axis + " is " + in_quotes(words[i]) +
                           "; must be finite and within 1e6 m");
       }
-      vertices_.push_back(rounded);
+      obj_.vertices.push_back(rounded);
     }
   }
 
@@ -65,8 +63,8 @@ class ObjReader {
     polygon_.clear();
     for (std::size_t i = 1; i < words.size(); ++i) polygon_.push_back(corner(words[i]));
     for (std::size_t i = 2; i < polygon_.size(); ++i) {
-      triangles_.insert(triangles_.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
-      lines_.push_back(text_.number());
+      obj_.triangles.insert(obj_.triangles.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
+      obj_.face_lines.push_back(text_.number());
     }
   }
 
@@ -78,7 +76,7 @@ class ObjReader {
       throw text_.error("corner " + in_quotes(word) +
                         " does not begin with the number of a vertex");
     }
-    const auto so_far = static_cast<long long>(vertices_.size() / 3);
+    const auto so_far = static_cast<long long>(obj_.vertices.size() / 3);
     const long long index = *number < 0 ? so_far + *number : *number - 1;
     if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
       throw text_.error("a face refers to vertex " + std::to_string(*number) +
@@ -89,20 +87,17 @@ class ObjReader {
   }
 
   void check_indices() const {
-    const std::size_t count = vertices_.size() / 3;
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
-      if (triangles_[i] < count) continue;
-      throw InputError(file_, lines_[i / 3],
-                       "a face refers to vertex " + std::to_string(triangles_[i] + 1ULL) +
+    const std::size_t count = obj_.vertices.size() / 3;
+    for (std::size_t i = 0; i < obj_.triangles.size(); ++i) {
+      if (obj_.triangles[i] < count) continue;
+      throw InputError(obj_.file, obj_.face_lines[i / 3],
+                       "a face refers to vertex " + std::to_string(obj_.triangles[i] + 1ULL) +
                            "; the file has " + std::to_string(count) + ", counted from 1");
     }
   }
 
-  std::string file_;
   TextReader text_;
-  std::vector<float> vertices_;
-  std::vector<std::uint32_t> triangles_;
-  std::vector<std::size_t> lines_;
+  ObjFile obj_;
   std::vector<std::uint32_t> polygon_;
 };
 
@@ -115,24 +110,35 @@ std::string describe(const FaceIndices& face) {
 
 }  // namespace
 
-ObjMesh read_obj(const std::string& file) { return ObjReader(file).read(); }
+ObjFile read_obj(const std::string& file) { return ObjReader(file).read(); }
 
-void check_same_faces(const ObjMesh& before, const ObjMesh& mesh) {
-  const auto counts = [](const ObjMesh& obj) {
-    return std::to_string(obj.mesh.vertex_count()) + " vertices and " +
-           std::to_string(obj.mesh.face_count()) + " faces";
-  };
-  if (counts(before) != counts(mesh)) {
-    throw InputError(
-        before.file, before.line_count,
-        "the file ends with " + counts(before) + "; " + mesh.file + " has " + counts(mesh));
+TriangleMesh mesh_of(const ObjFile& obj) {
+  try {
+    return {obj.vertices, obj.triangles};
+  } catch (const MeshError& error) {
+    throw InputError(obj.file + ": " + error.what());
   }
-  for (std::size_t face = 0; face < mesh.mesh.face_count(); ++face) {
-    if (before.mesh.faces()[face] == mesh.mesh.faces()[face]) continue;
-    throw InputError(before.file, before.face_lines[face],
-                     "face " + std::to_string(face) + " has the vertices " +
-                         describe(before.mesh.faces()[face]) + "; in " + mesh.file + " they are " +
-                         describe(mesh.mesh.faces()[face]));
+}
+
+void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh,
+                      const std::string& mesh_file) {
+  const auto counts = [](std::size_t vertices, std::size_t faces) {
+    return std::to_string(vertices) + " vertices and " + std::to_string(faces) + " faces";
+  };
+  const std::string found = counts(shape.vertices.size() / 3, shape.face_lines.size());
+  const std::string right = counts(mesh.vertex_count(), mesh.face_count());
+  if (found != right) {
+    throw InputError(shape.file, shape.line_count,
+                     "the file ends with " + found + "; " + mesh_file + " has " + right);
+  }
+  if (mesh.has_triangles(shape.triangles)) return;
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t* const corners = &shape.triangles[3 * face];
+    const FaceIndices indices{corners[0], corners[1], corners[2]};
+    if (indices == mesh.faces()[face]) continue;
+    throw InputError(shape.file, shape.face_lines[face],
+                     "face " + std::to_string(face) + " has the vertices " + describe(indices) +
+                         "; in " + mesh_file + " they are " + describe(mesh.faces()[face]));
   }
 }
 

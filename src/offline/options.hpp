@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -7,15 +8,21 @@
 
 namespace organ_collision {
 
+/// The name of standard input on the command line.
+inline const std::string kStandardInput = "-";
+
 /// The options on the command line of query_offline.
 struct Options {
-  std::string mesh;
+  std::string mesh;         ///< empty: the shapes of a folder
   std::string mesh_before;  ///< empty: the organ rests
-  std::string motions;
+  std::string shapes;       ///< a folder with a mesh for each motion; empty: one mesh for all
+  std::string motions;      ///< a file, or kStandardInput
   PickerKind picker = PickerKind::kFeedback;
-  double margin = 0.0;     ///< [m] up to which the clearance is asked for; 0: not asked for
-  bool clearance = false;  ///< whether the clearance is asked for without a limit
-  bool placement = false;  ///< whether sides and crossings are asked for
+  double margin = 0.0;       ///< [m] up to which the clearance is asked for; 0: not asked for
+  bool clearance = false;    ///< whether the clearance is asked for without a limit
+  bool placement = false;    ///< whether sides and crossings are asked for
+  bool blank_lines = false;  ///< whether a blank line follows the answer to each motion
+  std::size_t jobs = 1;      ///< the number of threads
   bool help = false;
 };
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <optional>
 
 namespace organ_collision {
 
@@ -9,14 +10,15 @@ namespace organ_collision {
 /// prints nothing.
 class Progress {
  public:
-  explicit Progress(std::size_t total) : total_(total) {}
+  /// `total`: how many motions there are, if that is known.
+  explicit Progress(std::optional<std::size_t> total) : total_(total) {}
 
   void report(std::size_t done);
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  std::size_t total_;
+  std::optional<std::size_t> total_;
   Clock::time_point last_ = Clock::now();
 };
 

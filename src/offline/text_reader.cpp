@@ -1,33 +1,51 @@
 #include "text_reader.hpp"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <system_error>
 #include <utility>
 
 namespace organ_collision {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r";
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
+
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+/// What `read` returns. If reading fails, throws InputError.
+template <typename Read>
+bool without_failure(const std::string& file, const Read& read) {
+  try {
+    return read();
+  } catch (const std::system_error& error) {
+    throw InputError(file + ": cannot be read: " + std::strerror(error.code().value()));
+  }
+}
 
 }  // namespace
 
-TextReader::TextReader(std::string file) : file_(std::move(file)), stream_(file_) {
-  if (!stream_) throw InputError(file_ + ": cannot be opened: " + std::strerror(errno));
+TextReader::TextReader(std::string file)
+    : file_(std::move(file)), opened_(open(file_.c_str(), O_RDONLY | O_CLOEXEC)), source_(opened_) {
+  if (opened_ < 0) throw InputError(file_ + ": cannot be opened: " + std::strerror(errno));
+}
+
+TextReader::TextReader(StandardInput) : file_("standard input"), source_(STDIN_FILENO) {}
+
+TextReader::~TextReader() {
+  if (opened_ >= 0) close(opened_);
 }
 
 bool TextReader::next() {
-  errno = 0;
-  if (!std::getline(stream_, text_)) {
-    if (stream_.bad()) throw InputError(file_ + ": cannot be read: " + std::strerror(errno));
-    line_ = {};
-    return false;
-  }
+  line_ = {};
+  if (!without_failure(file_, [this] { return source_.next(); })) return false;
   ++number_;
-  line_ = text_;
+  line_ = source_.line();
   if (number_ == 1 && line_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     line_.remove_prefix(kByteOrderMark.size());
   }
@@ -35,33 +53,47 @@ bool TextReader::next() {
   return true;
 }
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+bool TextReader::is_ready() {
+  return without_failure(file_, [this] { return source_.is_ready(); });
 }
 
-std::vector<std::string_view> split_words(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t end = 0, begin = 0;; begin = end) {
-    begin = line.find_first_not_of(kBlanks, begin);
-    if (begin == std::string_view::npos) return words;
-    end = std::min(line.find_first_of(kBlanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
+std::string_view trimmed(std::string_view text) {
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+void split_words(std::string_view line, std::vector<std::string_view>& words) {
+  words.clear();
+  while (true) {
+    line = trimmed(line);
+    if (line.empty()) return;
+    const auto* const end = std::find_if(line.begin(), line.end(), is_blank);
+    const auto size = static_cast<std::size_t>(end - line.begin());
+    words.push_back(line.substr(0, size));
+    line.remove_prefix(size);
   }
 }
 
-std::vector<std::string_view> split_cells(std::string_view line) {
-  std::vector<std::string_view> cells;
+void split_cells(std::string_view line, std::vector<std::string_view>& cells) {
+  cells.clear();
   for (std::size_t begin = 0;;) {
     const std::size_t comma = line.find(',', begin);
     cells.push_back(trimmed(line.substr(begin, comma - begin)));
-    if (comma == std::string_view::npos) return cells;
+    if (comma == std::string_view::npos) return;
     begin = comma + 1;
   }
 }
 
 std::optional<double> parse_number(std::string_view text) {
+#ifdef __cpp_lib_to_chars
+  // This reads what is usual, in a quarter of the time. It leaves the rest to strtod: signs and
+  // bases that it does not know, and numbers that are too large or too small.
+  double usual = 0.0;
+  const char* const last = text.data() + text.size();
+  const auto [stopped, refusal] = std::from_chars(text.data(), last, usual);
+  if (refusal == std::errc() && stopped == last) return usual;
+#endif
   const std::string terminated(text);
   char* end = nullptr;
   const double number = std::strtod(terminated.c_str(), &end);

@@ -8,7 +8,7 @@
 #include "contact_finder.hpp"
 #include "contact_regions.hpp"
 #include "near_finder.hpp"
-#include "picking/volumes/paper_volumes.hpp"
+#include "paper_volume.hpp"
 #include "placement_finder.hpp"
 #include "request_check.hpp"
 #include "rotation_subdivision.hpp"
@@ -16,13 +16,6 @@
 
 namespace organ_collision {
 namespace {
-
-ViewingVolume paper_volume(const CollisionRequest& request) {
-  const ShaftMotion motion{request.path.front().axis, request.path.back().axis};
-  if (request.mode == QueryMode::kPaperSwept) return paper_swept_volume(motion, request.radius);
-  if (request.mode == QueryMode::kPaperNaive) return paper_naive_volume(motion, request.radius);
-  return paper_static_volume(motion.end, request.radius);
-}
 
 /// Sorts the contacts by face, then link, and keeps one for each face and link: the first touch,
 /// and of several touches at that time the deepest. Parts that pierce a face together have the same

@@ -24,6 +24,7 @@ import rosgraph
 SOURCE, DEVEL = sys.argv[1:3]
 # Each page, and what the reader has already started.
 PAGES = {'README.md': [], 'doc/getting_started.md': [], 'doc/tools.md': [], 'doc/library.md': [],
+         'doc/offline.md': [],
          'doc/troubleshooting.md': ['roslaunch organ_collision start.launch']}
 LIMIT = 60.0  # [s]
 ORGAN = """v -0.05 -0.05 0

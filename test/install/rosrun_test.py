@@ -13,8 +13,8 @@ import tempfile
 import unittest
 
 SOURCE, BUILD, DEVEL, PREFIX = sys.argv[1:5]
-SCRIPTS = ('ask.py', 'ask_many.py', 'dvrk_hand.py', 'dvrk_organ.py', 'dvrk_robot.py', 'grasper.py', 'own_mesh.py',
-           'simulator.py')
+SCRIPTS = ('ask.py', 'ask_many.py', 'dvrk_hand.py', 'dvrk_organ.py', 'dvrk_robot.py', 'grasper.py',
+           'lower_until_touch.py', 'own_mesh.py', 'simulator.py')
 
 
 def programs(space):

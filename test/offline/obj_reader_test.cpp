@@ -14,27 +14,29 @@ const std::string kVertices =
     "v 0 1 0.5\n"
     "v -1 0.25 2\n";
 
-ObjMesh read(const std::string& content) { return read_obj(TemporaryFile(content).path()); }
+ObjFile read(const std::string& content) { return read_obj(TemporaryFile(content).path()); }
+
+std::vector<FaceIndices> faces_of(const ObjFile& obj) { return mesh_of(obj).faces(); }
 
 std::vector<FaceIndices> faces_of(const std::string& face_lines) {
-  return read(kVertices + face_lines).mesh.faces();
+  return faces_of(read(kVertices + face_lines));
 }
 
 using Faces = std::vector<FaceIndices>;
 using Lines = std::vector<std::size_t>;
 
 TEST(ObjReader, reads_vertices_and_faces_in_the_order_of_the_file) {
-  const ObjMesh obj = read(kVertices + "f 1 2 3\nf 4 3 2\nf 5 1 2\n");
-  EXPECT_EQ(obj.mesh.faces(), (Faces{{0, 1, 2}, {3, 2, 1}, {4, 0, 1}}));
+  const ObjFile obj = read(kVertices + "f 1 2 3\nf 4 3 2\nf 5 1 2\n");
+  EXPECT_EQ(faces_of(obj), (Faces{{0, 1, 2}, {3, 2, 1}, {4, 0, 1}}));
   EXPECT_EQ(obj.face_lines, (Lines{6, 7, 8}));
   EXPECT_EQ(obj.line_count, 8U);
-  EXPECT_EQ(obj.mesh.vertices(),
+  EXPECT_EQ(obj.vertices,
             (std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0.5F, -1, 0.25F, 2}));
 }
 
 TEST(ObjReader, cuts_polygons_into_fans_that_count_as_so_many_faces) {
-  const ObjMesh obj = read(kVertices + "f 2 3 4 5 1\nf 1 2 3\n");
-  EXPECT_EQ(obj.mesh.faces(), (Faces{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
+  const ObjFile obj = read(kVertices + "f 2 3 4 5 1\nf 1 2 3\n");
+  EXPECT_EQ(faces_of(obj), (Faces{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
   EXPECT_EQ(obj.face_lines, (Lines{6, 6, 6, 7}));
 }
 
@@ -48,26 +50,25 @@ TEST(ObjReader, takes_every_form_of_a_corner) {
 }
 
 TEST(ObjReader, counts_negative_indices_from_the_last_vertex_so_far) {
-  const ObjMesh obj = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -3 -2 -1\n");
-  EXPECT_EQ(obj.mesh.faces(), (Faces{{0, 1, 2}, {1, 2, 3}}));
+  const ObjFile obj = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -3 -2 -1\n");
+  EXPECT_EQ(faces_of(obj), (Faces{{0, 1, 2}, {1, 2, 3}}));
 }
 
 TEST(ObjReader, takes_faces_before_their_vertices) {
-  EXPECT_EQ(read("f 1 2 3\n" + kVertices).mesh.faces(), (Faces{{0, 1, 2}}));
+  EXPECT_EQ(faces_of(read("f 1 2 3\n" + kVertices)), (Faces{{0, 1, 2}}));
 }
 
 TEST(ObjReader, ignores_other_lines) {
-  const ObjMesh obj = read(
+  const ObjFile obj = read(
       "# f 1 2 3\nmtllib a.mtl\no liver\n\nv 0 0 0 1\r\nvt 0 0\nvn 0 0 1\nv 1 0 0 0.5 0.5 0.5\n"
       "\tv\t0  1e0 0 \ng f\ns off\nusemtl f\nl 1 2\nvp 1\nf 1 2 3\r\nend\n");
-  EXPECT_EQ(obj.mesh.faces(), (Faces{{0, 1, 2}}));
-  EXPECT_EQ(obj.mesh.vertices(), (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  EXPECT_EQ(faces_of(obj), (Faces{{0, 1, 2}}));
+  EXPECT_EQ(obj.vertices, (std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}));
 }
 
 TEST(ObjReader, rounds_vertices_to_32_bits) {
-  const ObjMesh obj = read("v 0.1 -0.2 1e-50\nv 1.00000001 0 0\nv 0 1 524288.03\nf 1 2 3\n");
-  EXPECT_EQ(obj.mesh.vertices(),
-            (std::vector<float>{0.1F, -0.2F, 0, 1, 0, 0, 0, 1, 524288.03125F}));
+  const ObjFile obj = read("v 0.1 -0.2 1e-50\nv 1.00000001 0 0\nv 0 1 524288.03\nf 1 2 3\n");
+  EXPECT_EQ(obj.vertices, (std::vector<float>{0.1F, -0.2F, 0, 1, 0, 0, 0, 1, 524288.03125F}));
 }
 
 TEST(ObjReader, allows_degenerate_faces) {
@@ -116,18 +117,33 @@ TEST(ObjReader, refuses_files_without_faces) {
   EXPECT_EQ(refusal("solid liver\nendsolid\n"), ":2" + legal);
 }
 
-TEST(ObjReader, checks_that_an_earlier_shape_has_the_same_faces) {
+TEST(ObjReader, makes_a_mesh_of_the_vertices_and_faces) {
+  const ObjFile obj = read(kVertices + "f 1 2 3\n");
+  const TriangleMesh mesh = mesh_of(obj);
+  EXPECT_EQ(mesh.vertices(), obj.vertices);
+  EXPECT_TRUE(mesh.has_triangles(obj.triangles));
+}
+
+TEST(ObjReader, refuses_a_mesh_that_is_too_large) {
+  ObjFile obj = read(kVertices + "f 1 2 3\n");
+  obj.triangles.resize(3 * (MeshLimits().max_faces + 1));
+  EXPECT_EQ(input_error([&] { mesh_of(obj); }),
+            obj.file + ": 2000001 faces; at most 2000000 are allowed");
+}
+
+TEST(ObjReader, checks_that_another_shape_has_the_same_faces) {
   const TemporaryFile file(kVertices + "f 1 2 3\nf 2 3 4\n");
-  const ObjMesh mesh = read_obj(file.path());
+  const TriangleMesh mesh = mesh_of(read_obj(file.path()));
   const auto refusal = [&](const std::string& content) {
     const TemporaryFile before(content);
-    const ObjMesh obj = read_obj(before.path());
-    return input_error([&] { check_same_faces(obj, mesh); }).substr(before.path().size());
+    const ObjFile obj = read_obj(before.path());
+    return input_error([&] { check_same_faces(obj, mesh, file.path()); })
+        .substr(before.path().size());
   };
 
   EXPECT_NO_THROW(check_same_faces(read("v 9 9 9\nv 9 9 8\nv 9 7 9\nv 6 9 9\nv 5 9 9\n"
                                         "f 1//1 -4 -3\nf 2 3 4\n"),
-                                   mesh));
+                                   mesh, file.path()));
   EXPECT_EQ(refusal(kVertices + "f 1 2 3\nf 2 4 3\n"),
             ":7: face 1 has the vertices 2 4 3; in " + file.path() + " they are 2 3 4");
   EXPECT_EQ(refusal(kVertices + "f 1 2 3\n"), ":6: the file ends with 5 vertices and 1 faces; " +

@@ -14,6 +14,9 @@ TEST(Options, takes_the_mesh_and_the_motions) {
   EXPECT_EQ(options.mesh, "a=b.obj");
   EXPECT_EQ(options.motions, "m.csv");
   EXPECT_EQ(options.mesh_before, "");
+  EXPECT_EQ(options.shapes, "");
+  EXPECT_GE(options.jobs, 1U);
+  EXPECT_FALSE(options.blank_lines);
   EXPECT_EQ(options.picker, PickerKind::kFeedback);
   EXPECT_FALSE(options.help);
 }
@@ -24,6 +27,37 @@ TEST(Options, takes_the_earlier_mesh_and_the_picker) {
   EXPECT_EQ(options.mesh, "a.obj");
   EXPECT_EQ(options.mesh_before, "old=er.obj");
   EXPECT_EQ(options.picker, PickerKind::kSelect);
+}
+
+TEST(Options, takes_standard_input_threads_and_blank_lines) {
+  const Options options =
+      parse_options({"--mesh=a.obj", "--motions", "-", "--jobs", "3", "--blank-lines"});
+  EXPECT_EQ(options.motions, kStandardInput);
+  EXPECT_EQ(options.jobs, 3U);
+  EXPECT_TRUE(options.blank_lines);
+}
+
+TEST(Options, takes_shapes_instead_of_a_mesh) {
+  const Options options = parse_options({"--shapes", "folder", "--motions", "m.csv"});
+  EXPECT_EQ(options.shapes, "folder");
+  EXPECT_EQ(options.mesh, "");
+  for (const std::string other : {"--mesh", "--mesh-before"}) {
+    EXPECT_EQ(input_error([&] {
+                parse_options({"--shapes=folder", "--motions=m.csv", other, "a.obj"});
+              }),
+              "query_offline: options --shapes and " + other +
+                  " are given; the folder has all shapes (--help explains)");
+  }
+}
+
+TEST(Options, refuses_illegal_numbers_of_threads) {
+  for (const std::string text : {"0", "-2", "1025", "two", "1.0", "99999999999999999999"}) {
+    EXPECT_EQ(input_error([&] {
+                parse_options({"--mesh=a.obj", "--motions=m.csv", "--jobs", text});
+              }),
+              "query_offline: --jobs is \"" + text +
+                  "\"; must be a whole number from 1 to 1024 (--help explains)");
+  }
 }
 
 TEST(Options, asks_for_clearance_and_placement) {
@@ -57,8 +91,9 @@ TEST(Options, refuses_an_illegal_margin_with_its_value) {
 TEST(Options, needs_nothing_else_for_help) {
   EXPECT_TRUE(parse_options({"--help"}).help);
   EXPECT_TRUE(parse_options({"--mesh", "a.obj", "-h"}).help);
-  for (const char* name : {"--mesh ", "--motions ", "--mesh-before ", "--picker ", "--margin ",
-                           "--clearance ", "--placement ", "--help "}) {
+  for (const char* name :
+       {"--mesh ", "--motions ", "--mesh-before ", "--picker ", "--margin ", "--clearance ",
+        "--placement ", "--shapes ", "--jobs ", "--blank-lines ", "--help "}) {
     EXPECT_NE(usage().find(name), std::string::npos) << name;
   }
 }
@@ -71,8 +106,8 @@ TEST(Options, refuses_what_it_cannot_use) {
     return input_error([&] { parse_options(arguments); });
   };
   const std::string legal =
-      "; legal are --mesh, --motions, --mesh-before, --picker, --margin, --clearance, --placement "
-      "and --help (--help explains)";
+      "; legal are --mesh, --motions, --mesh-before, --shapes, --jobs, --picker, --margin, "
+      "--clearance, --placement, --blank-lines and --help (--help explains)";
   EXPECT_EQ(refusal({"--mseh", "b.obj"}), "query_offline: unknown option \"--mseh\"" + legal);
   EXPECT_EQ(refusal({"b.obj"}), "query_offline: unknown option \"b.obj\"" + legal);
   EXPECT_EQ(refusal({""}), "query_offline: unknown option \"\"" + legal);

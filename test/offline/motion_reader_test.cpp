@@ -1,4 +1,4 @@
-#include "offline/motions_reader.hpp"
+#include "offline/motion_reader.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,19 +12,32 @@ const std::string kHeader =
     "radius\n";
 const std::string kPoints = ",1,2,3,4,5,6,7,8,9";
 
+std::vector<Motion> read_file(const std::string& file) {
+  MotionReader reader(file);
+  std::vector<Motion> motions;
+  while (reader.is_ready()) {
+    const std::optional<Motion> motion = reader.next();
+    if (!motion) return motions;
+    motions.push_back(*motion);
+  }
+  ADD_FAILURE() << "a file is always ready";
+  return motions;
+}
+
 std::vector<Motion> read(const std::string& content) {
-  return read_motions(TemporaryFile(content).path());
+  return read_file(TemporaryFile(content).path());
 }
 
-std::vector<std::string> queries(const std::vector<Motion>& motions) {
-  std::vector<std::string> names;
-  for (const Motion& motion : motions) names.push_back(motion.query);
-  return names;
+/// The message for a file that is refused, without the file's name at its beginning.
+std::string refusal(const std::string& content) {
+  const TemporaryFile file(content);
+  const std::string message = input_error([&] { read_file(file.path()); });
+  EXPECT_EQ(message.find(file.path()), 0U) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  return message.substr(file.path().size());
 }
 
-using Names = std::vector<std::string>;
-
-TEST(MotionsReader, reads_every_mode) {
+TEST(MotionReader, reads_every_mode) {
   const std::pair<const char*, QueryMode> modes[] = {{"static", QueryMode::kStatic},
                                                      {"swept", QueryMode::kSwept},
                                                      {"paper_static", QueryMode::kPaperStatic},
@@ -40,65 +53,44 @@ TEST(MotionsReader, reads_every_mode) {
   }
 }
 
-TEST(MotionsReader, sweeps_from_the_previous_tip_about_a_resting_trocar) {
-  const ToolPath path = read("7,swept" + kPoints + ",0.005\n")[0].path;
-  ASSERT_EQ(path.size(), 2U);
-  EXPECT_EQ(path[0].fraction, 0.0);
-  EXPECT_EQ(path[0].axis.trocar, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(path[0].axis.tip, Eigen::Vector3d(4, 5, 6));
-  EXPECT_EQ(path[1].fraction, 1.0);
-  EXPECT_EQ(path[1].axis.trocar, Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(path[1].axis.tip, Eigen::Vector3d(7, 8, 9));
+TEST(MotionReader, sweeps_from_the_previous_tip_about_a_resting_trocar) {
+  const Motion motion = read("7,swept" + kPoints + ",0.005\n")[0];
+  EXPECT_EQ(motion.trocar, Eigen::Vector3d(1, 2, 3));
+  EXPECT_EQ(motion.previous, Eigen::Vector3d(4, 5, 6));
+  EXPECT_EQ(motion.tip, Eigen::Vector3d(7, 8, 9));
 }
 
-TEST(MotionsReader, ignores_the_previous_tip_in_static_modes) {
+TEST(MotionReader, ignores_the_previous_tip_in_static_modes) {
   for (const char* mode : {"static", "paper_static"}) {
     for (const char* previous : {",,,", ",x,nan,-", ",4,5,6"}) {
-      const ToolPath path =
-          read(std::string("7,") + mode + ",1,2,3" + previous + ",7,8,9,0.005\n")[0].path;
-      ASSERT_EQ(path.size(), 1U);
-      EXPECT_EQ(path[0].axis.trocar, Eigen::Vector3d(1, 2, 3));
-      EXPECT_EQ(path[0].axis.tip, Eigen::Vector3d(7, 8, 9));
+      const Motion motion =
+          read(std::string("7,") + mode + ",1,2,3" + previous + ",7,8,9,0.005\n")[0];
+      EXPECT_EQ(motion.trocar, Eigen::Vector3d(1, 2, 3));
+      EXPECT_EQ(motion.previous, motion.tip);
+      EXPECT_EQ(motion.tip, Eigen::Vector3d(7, 8, 9));
     }
   }
 }
 
-TEST(MotionsReader, takes_windows_lines_blank_lines_and_blanks) {
+TEST(MotionReader, takes_windows_lines_blank_lines_and_blanks) {
   const std::vector<Motion> motions =
       read("\xEF\xBB\xBF\r\n" + kHeader + "\r\n 1 , static ,1,2, 3,,,,7,8,9, 1e-3 \r\n\r\n2,swept" +
            kPoints + ",1");
-  EXPECT_EQ(queries(motions), (Names{"1", "2"}));
+  ASSERT_EQ(motions.size(), 2U);
+  EXPECT_EQ(motions[0].query, "1");
+  EXPECT_EQ(motions[1].query, "2");
   EXPECT_EQ(motions[0].line, 4U);
   EXPECT_EQ(motions[0].radius, 1e-3);
   EXPECT_EQ(motions[1].line, 6U);
 }
 
-TEST(MotionsReader, sorts_integers_by_value_and_names_as_text) {
-  const auto sorted = [](const Names& names) {
-    std::string content;
-    for (const std::string& name : names) content += name + ",swept" + kPoints + ",1\n";
-    return queries(read(content));
-  };
-  EXPECT_EQ(sorted({"10", "9", "-3", "0", "100"}), (Names{"-3", "0", "9", "10", "100"}));
-  EXPECT_EQ(sorted({"stab", "10", "9", "palpate 2"}), (Names{"10", "9", "palpate 2", "stab"}));
-}
-
-/// The message for a file that is refused, without the file's name at its beginning.
-std::string refusal(const std::string& content) {
-  const TemporaryFile file(content);
-  const std::string message = input_error([&] { read_motions(file.path()); });
-  EXPECT_EQ(message.find(file.path()), 0U) << message;
-  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-  return message.substr(file.path().size());
-}
-
-TEST(MotionsReader, refuses_files_without_motions) {
+TEST(MotionReader, refuses_files_without_motions) {
   const std::string legal = ": the file ends without a motion; must have at least one";
   EXPECT_EQ(refusal(""), ":1" + legal);
   EXPECT_EQ(refusal(kHeader + "\n"), ":2" + legal);
 }
 
-TEST(MotionsReader, refuses_other_columns) {
+TEST(MotionReader, refuses_other_columns) {
   EXPECT_EQ(refusal(kHeader + "1,swept" + kPoints + "\n"), ":2: 11 columns; must be 12");
   EXPECT_EQ(refusal(kHeader + "1,swept" + kPoints + ",1,\n"), ":2: 13 columns; must be 12");
   EXPECT_EQ(
@@ -106,7 +98,7 @@ TEST(MotionsReader, refuses_other_columns) {
       0U);
 }
 
-TEST(MotionsReader, refuses_cells_naming_the_value_and_what_is_legal) {
+TEST(MotionReader, refuses_cells_naming_the_value_and_what_is_legal) {
   const std::string first = kHeader + "1,swept" + kPoints + ",1\n";
   EXPECT_EQ(refusal(first + ",swept" + kPoints + ",1\n"),
             ":3: query is empty; must be a number or a name");
@@ -128,14 +120,21 @@ TEST(MotionsReader, refuses_cells_naming_the_value_and_what_is_legal) {
             ":3: radius is \"inf\"; must be a finite number");
 }
 
-TEST(MotionsReader, refuses_a_query_that_comes_twice) {
-  const std::string motion = ",swept" + kPoints + ",1\n";
-  EXPECT_EQ(refusal("3" + motion + "4" + motion + "3" + motion),
-            ":3: query \"3\" is already on line 1; each motion needs its own");
-  EXPECT_EQ(refusal("3" + motion + "03" + motion),
-            ":2: query \"03\" is already on line 1; each motion needs its own");
-  EXPECT_EQ(refusal("a" + motion + "b" + motion + "b" + motion),
-            ":3: query \"b\" is already on line 2; each motion needs its own");
+TEST(MotionReader, refuses_motions_that_no_query_answers) {
+  const std::string first = kHeader + "1,swept" + kPoints + ",1\n";
+  EXPECT_EQ(refusal(first + "2,swept,1,2,3,4,5,6,7,8,1e7,1\n"),
+            ":3: tip of waypoint 1 is (7, 8, 1e+07); must be finite and within 1e+06 m");
+  const std::string too_short = refusal(first + "2,paper_swept,1,2,3,1,2,3,1,2,3,1\n");
+  EXPECT_EQ(too_short.find(":3: "), 0U) << too_short;
+}
+
+TEST(MotionReader, gives_the_motions_before_an_illegal_line) {
+  const TemporaryFile file("1,swept" + kPoints + ",1\n2,swept" + kPoints + ",1\n3\n");
+  MotionReader reader(file.path());
+  EXPECT_EQ(reader.name(), file.path());
+  EXPECT_EQ(reader.next()->query, "1");
+  EXPECT_EQ(reader.next()->query, "2");
+  EXPECT_EQ(input_error([&] { reader.next(); }), file.path() + ":3: 1 columns; must be 12");
 }
 
 }  // namespace

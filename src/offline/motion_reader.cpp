@@ -1,0 +1,96 @@
+#include "motion_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace organ_collision {
+namespace {
+
+enum Column { kQuery, kMode, kTrocar, kPrevious = kTrocar + 3, kTip = kPrevious + 3, kRadius = 11 };
+
+constexpr std::array<std::string_view, 12> kColumns = {
+    "query",      "mode",       "trocar_x", "trocar_y", "trocar_z", "previous_x",
+    "previous_y", "previous_z", "tip_x",    "tip_y",    "tip_z",    "radius"};
+
+constexpr std::pair<std::string_view, QueryMode> kModes[] = {
+    {"static", QueryMode::kStatic},
+    {"swept", QueryMode::kSwept},
+    {"paper_static", QueryMode::kPaperStatic},
+    {"paper_swept", QueryMode::kPaperSwept},
+    {"paper_naive", QueryMode::kPaperNaive}};
+
+}  // namespace
+
+std::optional<Motion> MotionReader::next() {
+  while (text_.next()) {
+    if (text_.line().empty()) continue;
+    split_cells(text_.line(), cells_);
+    if (std::exchange(at_first_, false) && is_header()) continue;
+    has_motion_ = true;
+    return motion();
+  }
+  if (has_motion_) return std::nullopt;
+  throw text_.error("the file ends without a motion; must have at least one");
+}
+
+/// The motion in the current line.
+Motion MotionReader::motion() const {
+  if (cells_.size() != kColumns.size()) {
+    throw text_.error(std::to_string(cells_.size()) + " columns; must be " +
+                      std::to_string(kColumns.size()));
+  }
+  if (cells_[kQuery].empty()) throw text_.error("query is empty; must be a number or a name");
+
+  Motion motion;
+  motion.query = cells_[kQuery];
+  motion.line = text_.number();
+  motion.mode = mode();
+  motion.trocar = point(kTrocar);
+  motion.tip = point(kTip);
+  motion.previous = is_static_mode(motion.mode) ? motion.tip : point(kPrevious);
+  motion.radius = number(kRadius);
+  if (!(motion.radius > 0.0)) {
+    throw text_.error("radius is " + in_quotes(cells_[kRadius]) + "; must be above 0");
+  }
+  try {
+    check(motion);
+  } catch (const std::invalid_argument& error) {
+    throw text_.error(error.what());
+  }
+  return motion;
+}
+
+QueryMode MotionReader::mode() const {
+  for (const auto& [name, mode] : kModes) {
+    if (cells_[kMode] == name) return mode;
+  }
+  throw text_.error("mode is " + in_quotes(cells_[kMode]) +
+                    "; legal are static, swept, paper_static, paper_swept and paper_naive");
+}
+
+double MotionReader::number(std::size_t column) const {
+  const std::optional<double> value = parse_number(cells_[column]);
+  if (value && std::isfinite(*value)) return *value;
+  throw text_.error(std::string(kColumns[column]) + " is " + in_quotes(cells_[column]) +
+                    "; must be a " + (value ? "finite number" : "number"));
+}
+
+Eigen::Vector3d MotionReader::point(std::size_t column) const {
+  return {number(column), number(column + 1), number(column + 2)};
+}
+
+/// Whether the current line is the header. Throws InputError if it is another header.
+bool MotionReader::is_header() const {
+  if (cells_[kQuery] != kColumns[kQuery]) return false;
+  if (std::equal(cells_.begin(), cells_.end(), kColumns.begin(), kColumns.end())) return true;
+  std::string legal;
+  for (const std::string_view column : kColumns) {
+    legal += (legal.empty() ? "" : ",") + std::string(column);
+  }
+  throw text_.error("header is " + in_quotes(text_.line()) + "; must be " + legal);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "motion_source.hpp"
+#include "text_reader.hpp"
+
+namespace organ_collision {
+
+/// Reads motions, line by line, from a CSV file or from standard input. The columns are query,
+/// mode, trocar_x, trocar_y, trocar_z, previous_x, previous_y, previous_z, tip_x, tip_y, tip_z,
+/// radius, in this order. A header line may come first; blank lines are skipped. Modes: static,
+/// swept, paper_static, paper_swept, paper_naive. The static modes ignore the previous tip, which
+/// may be left empty.
+class MotionReader : public MotionSource {
+ public:
+  /// Throws InputError when the file cannot be opened.
+  explicit MotionReader(const std::string& file) : text_(file) {}
+  explicit MotionReader(StandardInput input) : text_(input) {}
+
+  /// The motion in the next line. Throws InputError if the line is not legal, or if there is no
+  /// motion at all.
+  std::optional<Motion> next() override;
+  /// Whether a line has arrived, or the end.
+  bool is_ready() override { return text_.is_ready(); }
+  const std::string& name() const override { return text_.name(); }
+
+ private:
+  Motion motion() const;
+  QueryMode mode() const;
+  double number(std::size_t column) const;
+  Eigen::Vector3d point(std::size_t column) const;
+  bool is_header() const;
+
+  TextReader text_;
+  std::vector<std::string_view> cells_;  ///< of the current line
+  bool at_first_ = true;                 ///< whether no line but blank ones was read
+  bool has_motion_ = false;              ///< whether a motion was read
+};
+
+}  // namespace organ_collision
