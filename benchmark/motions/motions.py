@@ -8,16 +8,20 @@ motions.md into FOLDER. All that is compared answers the same motions, in turn, 
 medians."""
 
 import contextlib
+import contextlib
 import json
 import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 from statistics import median
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / 'end_to_end'))
 
+from batch_node import BatchNode  # noqa: E402
+from library_client import Library  # noqa: E402
+from offline_runs import MOTIONS as OFFLINE_MOTIONS  # noqa: E402
+from offline_runs import offline_rate  # noqa: E402
 from report import table, whole  # noqa: E402
 from ros_master import Master  # noqa: E402
 from subject import Workspace  # noqa: E402
@@ -25,52 +29,55 @@ from subject import Workspace  # noqa: E402
 SIZES = (1224, 10_000, 100_000, 1_000_000)
 TOOLS = ('shaft', 'grasper')
 THREADS = (1, 2)
+MODES = ('static', 'swept')
 SECONDS = 0.5  # of a round of one engine
-ENGINES = ('static', 'swept', 'fcl', 'fcl_touches')
+COLUMNS = {'library static': 'library, static', 'fcl': 'FCL, static', 'fcl_touches': 'FCL, touch or not',
+           'batch static': 'query_batch, static', 'offline static': 'query_offline, static',
+           'library swept': 'library, swept', 'batch swept': 'query_batch, swept', 'offline swept': 'query_offline, swept'}
 
 
-class Library:
-    """The program motions_benchmark: CollisionQuery and FCL, without ROS."""
+def measure(master, workspace, faces, tool, rounds):
+    with contextlib.ExitStack() as stack:
+        folder = stack.enter_context(tempfile.TemporaryDirectory())
+        library = stack.enter_context(Library(workspace, faces, tool))
+        library.write_files(OFFLINE_MOTIONS, folder)
+        nodes = {threads: stack.enter_context(BatchNode(master, workspace, faces, tool, threads, folder))
+                 for threads in THREADS}
+        rates = {}
 
-    def __init__(self, workspace, faces, tool):
-        self.process = subprocess.Popen(workspace.command('motions_benchmark', faces, tool), stdin=subprocess.PIPE,
-                                        stdout=subprocess.PIPE, universal_newlines=True)
+        def add(what, threads, rate):
+            rates.setdefault(f'{what}/{threads}', []).append(rate)
 
-    def ask(self, line):
-        self.process.stdin.write(line + '\n')
-        self.process.stdin.flush()
-        answer = self.process.stdout.readline()
-        if not answer:
-            sys.exit(f'motions.py: motions_benchmark failed at "{line}"')
-        return json.loads(answer)
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.process.stdin.close()
-        self.process.wait()
-
-
-def measure(workspace, faces, tool, rounds):
-    with Library(workspace, faces, tool) as library:
-        rates = {(engine, threads): [] for engine in ENGINES for threads in THREADS}
         for _ in range(rounds):
-            for (engine, threads), found in rates.items():
-                found.append(library.ask(f'{engine} {threads} {SECONDS}')['motions_per_second'])
-        report = {'faces': faces, 'tool': tool, 'compared': library.ask('compare'),
-                  'rates': {f'{engine}/{threads}': median(found) for (engine, threads), found in rates.items()}}
-    return report
+            for threads in THREADS:
+                add('fcl', threads, library.rate('fcl', threads, SECONDS))
+                add('fcl_touches', threads, library.rate('fcl_touches', threads, SECONDS))
+                for mode in MODES:
+                    add(f'library {mode}', threads, library.rate(mode, threads, SECONDS))
+                    add(f'batch {mode}', threads, nodes[threads].rate(mode, SECONDS))
+                    if tool == 'shaft':  # query_offline reads no links.
+                        add(f'offline {mode}', threads, offline_rate(workspace, folder, mode, threads))
+        return {'faces': faces, 'tool': tool, 'compared': library.compare(),
+                'rates': {what: median(found) for what, found in rates.items()}}
 
 
 def markdown(reports):
-    head = ('', 'faces', 'threads', 'static', 'swept', 'FCL, static', 'FCL, touch or not', 'static / FCL')
-    rows = []
+    rows, ratios, compared = [], [], []
     for r in reports:
-        for threads in THREADS:
-            rates = [r['rates'][f'{engine}/{threads}'] for engine in ENGINES]
-            rows.append((r['tool'], r['faces'], threads, *map(whole, rates), f'{rates[0] / rates[2]:.1f}'))
-    return '# Motions a second\n\n' + table(head, rows)
+        rates = r['rates']
+        rows += [(r['tool'], r['faces'], threads, *(whole(rates.get(f'{what}/{threads}')) for what in COLUMNS))
+                 for threads in THREADS]
+        ratios.append((r['tool'], r['faces'],
+                       *(f"{rates[f'library static/{threads}'] / rates[f'fcl/{threads}']:.1f}" for threads in THREADS),
+                       *(f"{rates[f'{what}/{THREADS[1]}'] / rates[f'{what}/{THREADS[0]}']:.2f}"
+                         if f'{what}/{THREADS[0]}' in rates else ''
+                         for what in ('library static', 'batch static', 'batch swept', 'offline swept', 'fcl'))))
+        compared.append((r['tool'], r['faces'], *r['compared'].values()))
+    return '\n'.join([
+        '# Motions a second\n', table(('', 'faces', 'threads', *COLUMNS.values()), rows),
+        table(('', 'faces', 'library / FCL, 1 thread', '2 threads', 'two threads / one: library, static',
+               'query_batch, static', 'query_batch, swept', 'query_offline, swept', 'FCL'), ratios),
+        table(('', 'faces', 'contacts', 'missed by FCL', 'only by FCL'), compared)])
 
 
 def main():
@@ -78,10 +85,13 @@ def main():
         sys.exit(__doc__)
     workspace, folder, rounds = Workspace(sys.argv[1]), pathlib.Path(sys.argv[2]), int(sys.argv[3])
     reports = []
-    for faces in [int(size) for size in sys.argv[4:]] or SIZES:
-        for tool in TOOLS:
-            print(f'{faces} faces, {tool}', flush=True)
-            reports.append(measure(workspace, faces, tool, rounds))
+    with tempfile.TemporaryDirectory() as home:
+        os.environ['ROS_HOME'] = home
+        with Master() as master:
+            for faces in [int(size) for size in sys.argv[4:]] or SIZES:
+                for tool in TOOLS:
+                    print(f'{faces} faces, {tool}', flush=True)
+                    reports.append(measure(master, workspace, faces, tool, rounds))
     folder.mkdir(exist_ok=True)
     (folder / 'motions.json').write_text(json.dumps(reports, indent=1) + '\n')
     (folder / 'motions.md').write_text(markdown(reports))

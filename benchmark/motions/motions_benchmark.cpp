@@ -12,6 +12,7 @@
 
 #include "benchmark/measurements/stopwatch.hpp"
 #include "motion_engines.hpp"
+#include "motion_files.hpp"
 
 namespace {
 
@@ -71,35 +72,42 @@ class Askers {
   std::atomic<std::size_t> next_ = 0, answered_ = 0, faces_ = 0;
 };
 
+void obey(const std::string& line, const OrganSurface& organ, const MotionSet& motions,
+          const MotionEngines& engines) {
+  std::istringstream words(line);
+  std::string what, folder;
+  std::size_t count = 0;
+  double seconds = 0.0;
+  words >> what;
+  if (what == "compare") {
+    const MotionEngines::Comparison comparison = engines.compare(kCompared);
+    std::cout << "{\"faces\": " << comparison.faces
+              << ", \"missed_by_fcl\": " << comparison.missed_by_fcl
+              << ", \"only_by_fcl\": " << comparison.only_by_fcl << "}" << std::endl;
+  } else if (what == "write" && words >> count >> folder) {
+    write_files(folder, organ, motions, count);
+    std::cout << "{}" << std::endl;
+  } else if (words >> count >> seconds) {
+    Askers(engines, motions, what, count).run(seconds);
+  } else {
+    throw std::runtime_error("what is '" + line + "'?");
+  }
+}
+
 }  // namespace
 
 // motions_benchmark FACES shaft|grasper
 // Reads what to measure from standard input and prints a line of JSON for each line that it reads:
 //   compare                    how far FCL's answers are from this package's
 //   ENGINE THREADS SECONDS     motions a second; an engine is one of MotionEngines::asker()
+//   write COUNT FOLDER         {}; the files of write_files()
 int main(int argc, char** argv) {
   if (argc != 3) return std::cerr << "motions_benchmark FACES shaft|grasper" << std::endl, 2;
   try {
     const OrganSurface organ = make_organ(std::strtoul(argv[1], nullptr, 10));
     const MotionSet motions = motions_of(argv[2], organ, kMotions);
     const MotionEngines engines(organ, motions);
-    for (std::string line; std::getline(std::cin, line);) {
-      std::istringstream words(line);
-      std::string engine;
-      std::size_t threads = 0;
-      double seconds = 0.0;
-      words >> engine;
-      if (engine == "compare") {
-        const MotionEngines::Comparison comparison = engines.compare(kCompared);
-        std::cout << "{\"faces\": " << comparison.faces
-                  << ", \"missed_by_fcl\": " << comparison.missed_by_fcl
-                  << ", \"only_by_fcl\": " << comparison.only_by_fcl << "}" << std::endl;
-      } else if (words >> threads >> seconds) {
-        Askers(engines, motions, engine, threads).run(seconds);
-      } else {
-        throw std::runtime_error("what is '" + line + "'?");
-      }
-    }
+    for (std::string line; std::getline(std::cin, line);) obey(line, organ, motions, engines);
   } catch (const std::exception& error) {
     std::cerr << "motions_benchmark: " << error.what() << std::endl;
     return 1;
