@@ -2,6 +2,15 @@
 # prefix may be moved.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
 
+# Finds errors that tests cannot see: wrong use of memory, or of data that several threads share. The
+# libraries of others stay as they are; test/tsan_suppressions.txt lists what is known of them.
+set(ORGAN_COLLISION_SANITIZE "" CACHE STRING "A sanitizer for all targets of the package: address, thread or none")
+set_property(CACHE ORGAN_COLLISION_SANITIZE PROPERTY STRINGS "" address thread)
+if(ORGAN_COLLISION_SANITIZE)
+  add_compile_options(-fsanitize=${ORGAN_COLLISION_SANITIZE} -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${ORGAN_COLLISION_SANITIZE})
+endif()
+
 # organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
 function(organ_collision_target target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Werror)

@@ -8,7 +8,7 @@ from subject import Subject
 
 FACES, TOOLS, RATE = 1224, 1, 1000
 MOTIONS = 100_000  # of a batch
-BATCHES = {'max_batch': MOTIONS, 'max_batch_bytes': 2**31 - 1}
+BATCHES = {'max_batch': MOTIONS, 'max_batch_bytes': 1_000_000_000}
 ROUND = 3.0  # [s]
 
 

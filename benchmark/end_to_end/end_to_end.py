@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Measures the latencies of the running node and nodelet, beside roscpp alone.
 
-Usage: end_to_end.py [--beside DEVEL] DEVEL FOLDER SECONDS [FACES ...]
+Usage: end_to_end.py [--beside DEVEL] [--only PART] DEVEL FOLDER SECONDS [FACES ...]
 
 DEVEL is the devel space of the built workspace. The script starts its own ROS master and writes end_to_end.json and
 end_to_end.md into FOLDER. What is compared runs in turn, in rounds; each measurement takes SECONDS in all. With
@@ -24,9 +24,13 @@ from shapes import HIGHEST_RATE, measure_size
 from subject import Workspace
 
 
+PARTS = ('hands', 'shapes', 'batch', 'busy')
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument('--beside', metavar='DEVEL')
+    parser.add_argument('--only', choices=PARTS, action='append', help='may be given several times')
     parser.add_argument('devel')
     parser.add_argument('folder', type=pathlib.Path)
     parser.add_argument('seconds', type=float)
@@ -35,20 +39,24 @@ def main():
     workspaces = {'': Workspace(given.devel)}
     if given.beside:
         workspaces['beside'] = Workspace(given.beside)
+    parts = given.only or PARTS
     reports = []
     with tempfile.TemporaryDirectory() as home:
         os.environ['ROS_HOME'] = home
         with Master() as master:
             for faces in given.faces:
-                if faces in HAND_SIZES:
+                if 'hands' in parts and faces in HAND_SIZES:
                     print(f'{faces} faces, a hand', flush=True)
                     reports += measure_hands(master, workspaces[''], faces, given.seconds)
-                print(f'{faces} faces, shapes', flush=True)
-                reports += measure_size(master, workspaces, faces, given.seconds)
-            print('beside a batch', flush=True)
-            reports += measure_beside_batch(master, workspaces, given.seconds)
-            print('busy cores', flush=True)
-            reports += measure_busy_machine(master, workspaces[''], given.seconds)
+                if 'shapes' in parts:
+                    print(f'{faces} faces, shapes', flush=True)
+                    reports += measure_size(master, workspaces, faces, given.seconds)
+            if 'batch' in parts:
+                print('shapes while batches run', flush=True)
+                reports += measure_beside_batch(master, workspaces, given.seconds)
+            if 'busy' in parts:
+                print('shapes on busy cores', flush=True)
+                reports += measure_busy_machine(master, workspaces[''], given.seconds)
     given.folder.mkdir(exist_ok=True)
     (given.folder / 'end_to_end.json').write_text(json.dumps(reports, indent=1) + '\n')
     (given.folder / 'end_to_end.md').write_text(markdown(reports))

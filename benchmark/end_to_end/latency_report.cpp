@@ -9,7 +9,8 @@ void print(const char* what, const LatencyReport& report) {
   std::cout << "{\"what\": \"" << what << "\", \"rate\": " << report.rate
             << ", \"sent\": " << report.sent << ", \"skipped\": " << report.skipped
             << ", \"failed\": " << report.failed
-            << ", \"late\": " << (report.late ? "true" : "false") << ", \"latencies\": [";
+            << ", \"late\": " << (report.late ? "true" : "false")
+            << ", \"query\": " << kMicro * report.query_sec << ", \"latencies\": [";
   const char* separator = "";
   for (const double latency : report.latencies.all()) {
     std::cout << separator << kMicro * latency;

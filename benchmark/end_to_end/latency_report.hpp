@@ -13,6 +13,7 @@ struct LatencyReport {
   std::size_t skipped = 0;   ///< messages to which not all answers arrived
   std::size_t failed = 0;    ///< answers that say that there is none
   bool late = false;         ///< whether the sender failed to publish at that rate
+  double query_sec = 0.0;    ///< [s] the node's median time of a query; 0 if it tells none
   Durations latencies = {};  ///< from publishing a message to receiving the last answer to it
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #include "answer_until.hpp"
@@ -64,6 +65,7 @@ Simulator::Simulator(std::size_t faces, std::size_t tools) : organ_(make_organ(f
   vertices_ = node_.advertise<OrganVertices>(name("organ_vertices"), 10);
   contacts_ = node_.subscribe(name("contacts"), 1000, &Simulator::on_contacts, this,
                               ros::TransportHints().tcpNoDelay());
+  diagnostics_ = node_.subscribe("/diagnostics", 10, &Simulator::on_diagnostics, this);
 }
 
 void Simulator::start() {
@@ -120,6 +122,7 @@ LatencyReport Simulator::run(double rate, double seconds) {
   report.late = ros::Time::now() > tick + period;
   answer_until(ros::Time::now() + ros::Duration(0.5), queue_);
   report.skipped = waiting_.size();
+  report.query_sec = query_sec_;
   waiting_.clear();
   return report;
 }
@@ -182,6 +185,17 @@ void Simulator::on_contacts(const ContactArrayConstPtr& contacts) {
   if (++sent->second.answers < tools_.size()) return;
   report_->latencies.add((ros::SteadyTime::now() - sent->second.time).toSec());
   waiting_.erase(sent);
+}
+
+void Simulator::on_diagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& diagnostics) {
+  constexpr double kMicro = 1e-6;
+  for (const auto& status : diagnostics->status) {
+    for (const auto& entry : status.values) {
+      if (entry.key == "query time, median [us]") {
+        query_sec_ = kMicro * std::atof(entry.value.c_str());
+      }
+    }
+  }
 }
 
 }  // namespace organ_collision::bench

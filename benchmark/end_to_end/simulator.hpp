@@ -1,5 +1,6 @@
 #pragma once
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/QueryCollision.h>
@@ -42,6 +43,7 @@ class Simulator {
   void send_poses(ros::Time stamp);
   boost::shared_ptr<OrganVertices> next_shape(ros::Time stamp);
   void on_contacts(const ContactArrayConstPtr& contacts);
+  void on_diagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& diagnostics);
 
   OrganSurface organ_;
   std::vector<std::vector<float>> shapes_;
@@ -51,11 +53,12 @@ class Simulator {
   std::vector<boost::shared_ptr<OrganVertices>> messages_;
   std::unordered_map<std::uint64_t, Sent> waiting_;
   LatencyReport* report_ = nullptr;
+  double query_sec_ = 0.0;  ///< [s] the node's median time of a query
 
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::Publisher mesh_, vertices_;
-  ros::Subscriber contacts_;
+  ros::Subscriber contacts_, diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
 };

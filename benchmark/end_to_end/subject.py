@@ -13,6 +13,7 @@ RADIUS = {1224: 5e-3, 100_000: 5.53e-4, 1_000_000: 1.75e-4}  # [m]; the same as 
 ANSWERERS = {'node': ('external', 'organ_collision_node'), 'nodelet': ('nodelet', None),
              'messages between processes': ('external', 'echo_node'), 'messages in one process': ('echo', None)}
 ECHO = {'node': 'messages between processes', 'nodelet': 'messages in one process'}
+OF_ALL = ('/tf', '/tf_static', '/diagnostics')  # topics outside of any namespace
 
 _numbers = itertools.count()
 
@@ -47,7 +48,7 @@ class Subject:
         self.namespace = f'/subject{next(_numbers)}'
         self.node = None
         self.bytes_per_face = None
-        names = [f'__ns:={self.namespace}', f'/tf:={self.namespace}/tf', f'/tf_static:={self.namespace}/tf_static']
+        names = [f'__ns:={self.namespace}'] + [f'{topic}:={self.namespace}{topic}' for topic in OF_ALL]
         master.set_parameters(f'{self.namespace}/organ_collision', dict(parameters or {}, tools=tools_for(faces, tools)))
         answerer, program = ANSWERERS[kind]
         if kind == 'node':
