@@ -17,7 +17,7 @@ LAYERS = ['geometry', 'picking', 'query', 'ros']
 # The folders of a layer, in the order in which data flows through them.
 ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],
          'picking': ['volumes', 'culling', 'gl', 'pickers'],
-         'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'inbox', 'steps', 'pipeline',
+         'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'inbox', 'steps', 'queries', 'pipeline',
                  'publishing', 'node']}
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
@@ -29,7 +29,7 @@ PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
 # The layers that the adapters must not use, and the folders of the node. The names of the modes are
 # allowed: that header links nothing.
 NODE = re.compile(r'(organ_collision/)?(picking|query)/(?!query_mode\.hpp)'
-                  r'|ros/(node|inbox|motion|organs|parameters|pipeline|publishing|steps|tools)/')
+                  r'|ros/(node|inbox|motion|organs|parameters|pipeline|publishing|queries|steps|tools)/')
 
 
 def includes(room, files='*'):

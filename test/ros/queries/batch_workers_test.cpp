@@ -131,7 +131,7 @@ TEST_F(BatchWorkersTest, EndsWithTheFirstMotionThatTouches) {
 TEST_F(BatchWorkersTest, MotionsAfterTheFirstContactAreNotEvaluated) {
   add_random_shafts(1, -0.3);
   ASSERT_FALSE(answers_one_by_one().at(0).contacts.empty());
-  request_.motions.assign(1'000'000, request_.motions[0]);
+  request_.motions.assign(200'000, request_.motions[0]);
   request_.stop_at_first_contact = 1;
   // All answers together would have more bytes.
   most_bytes_ = 1'000'000;
@@ -192,7 +192,7 @@ TEST_F(BatchWorkersTest, CountsTheMotionsThatAreAnswered) {
 
 TEST_F(BatchWorkersTest, EndsSoonWhenAsked) {
   add_random_shafts(1, 0.05);
-  request_.motions.assign(3'000'000, request_.motions[0]);
+  request_.motions.assign(500'000, request_.motions[0]);
   BatchWorkers workers(PickerKind::kFeedback, 2, times_);
   auto answering = std::async(std::launch::async, [&] { return workers.answer(batch()); });
   EXPECT_EQ(answering.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
