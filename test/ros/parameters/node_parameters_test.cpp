@@ -151,6 +151,7 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
   expect_words(refusal("publish_placement", 1), {"~publish_placement", "'1'", "true or false"});
   expect_words(refusal("diagnostic_period", 0.0), {"~diagnostic_period", "'0'", "at least 0.01"});
+  expect_words(refusal("threads", -1), {"~threads", "'-1'", "at least 0, at most 1024"});
   expect_words(refusal("realtime_priority", 100),
                {"~realtime_priority", "'100'", "at least 0, at most 99"});
   expect_words(refusal("realtime_priority", 40.0), {"~realtime_priority", "whole number"});
