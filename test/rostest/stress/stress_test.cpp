@@ -8,8 +8,11 @@
 #include <ros/ros.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <boost/function.hpp>
+#include <boost/shared_ptr.hpp>
 #include <chrono>
 #include <functional>
+#include <iostream>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -38,9 +41,10 @@ bool wait_for(const std::function<bool()>& condition) {
 /// Subscribes to a topic for a moment.
 template <typename Message>
 void look_at(const std::string& topic) {
+  const boost::function<void(const boost::shared_ptr<const Message>&)> ignore =
+      [](const boost::shared_ptr<const Message>&) {};
   ros::NodeHandle node;
-  const ros::Subscriber subscriber =
-      node.subscribe<Message>(topic, 1, [](const boost::shared_ptr<const Message>&) {});
+  const ros::Subscriber subscriber = node.subscribe<Message>(topic, 1, ignore);
   ros::WallDuration(0.05).sleep();
 }
 
