@@ -21,8 +21,8 @@ std::size_t thread_count(int asked_for);
 /// 0 is the thread that calls run(); the others are threads of this object.
 class WorkerThreads {
  public:
-  /// Whether the thread that calls run() does tasks, too, and delivers when no task is left to
-  /// begin, or only delivers.
+  /// What the thread that calls run() does. kWorks: it does tasks, too, and delivers when none is
+  /// left to begin. kWaits: it only delivers.
   enum class Caller { kWorks, kWaits };
   /// Called once in each new thread before its first task, with the worker's number from 1. If it
   /// throws, the worker never gets a task.

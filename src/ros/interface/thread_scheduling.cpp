@@ -1,6 +1,9 @@
 #include "thread_scheduling.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -34,6 +37,17 @@ std::string make_all_threads_realtime(int priority) {
     if (error != 0 && !has_ended) return error_text(error);
   }
   return {};
+}
+
+void lower_priority_of_this_thread() {
+  constexpr int kNiceness = 10;  // From 0 (ordinary) to 19.
+  // On Linux, each thread has a niceness of its own.
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kNiceness);
+}
+
+void yield_to_all_threads() {
+  const sched_param parameters{};
+  sched_setscheduler(kThisThread, SCHED_IDLE, &parameters);
 }
 
 std::string scheduling_of_this_thread() {

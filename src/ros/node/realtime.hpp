@@ -14,7 +14,8 @@ namespace organ_collision {
 /// /diagnostics.
 class Realtime {
  public:
-  /// Construct it in the thread that works on the steps: only this thread gets the priority.
+  /// Construct it in the node's thread: this thread gets the priority. Step workers ask for theirs
+  /// (steps/step_workers.hpp).
   explicit Realtime(const RealtimeParameters& parameters);
 
   void add_to(diagnostic_updater::Updater& updater);

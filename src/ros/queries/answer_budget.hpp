@@ -9,13 +9,13 @@ namespace organ_collision {
 
 /// Bounds the memory of a batch whose blocks of motions several threads answer at the same time,
 /// and whose answers are taken in order. Above the bound, only the block that is taken next goes
-/// on. There are then at most as many bytes too many as one answer has for each thread.
+/// on. The answers exceed the bound by at most one answer for each thread and one block.
 class AnswerBudget {
  public:
   explicit AnswerBudget(std::size_t most_bytes) : most_bytes_(most_bytes) {}
 
-  /// Call it before each motion. Waits until the block may go on. Returns false if it need not,
-  /// because the batch has ended.
+  /// Call it before each motion. Waits until the block may go on. Returns false if the batch has
+  /// ended; the block then stops.
   bool wait(std::size_t block);
   /// Notes that a motion has an answer with that many bytes.
   void add(std::size_t bytes) { bytes_ += bytes; }

@@ -36,8 +36,8 @@ void check_shaft_of(const Tool& tool, const ToolMotion* motion, QueryMode mode) 
            "' has a shaft; must be the motion of its shaft");
   }
   if (motion->radius != 0.0 && motion->radius != parameters.radius) {
-    refuse("motion.radius is ", motion->radius, " m; must be that of tool '", parameters.name,
-           "', which is ", parameters.radius, " m, or 0 for that");
+    refuse("motion.radius is ", motion->radius, " m; must be 0, or ", parameters.radius,
+           " m as of tool '", parameters.name, "'");
   }
   check_ends(*motion, mode);
 }

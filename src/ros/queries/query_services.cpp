@@ -51,7 +51,7 @@ QueryServices::QueryServices(const Sources& sources)
     : sources_(sources),
       snapshots_(sources.node),
       query_(sources.node.parameters.picker),
-      workers_(sources.node.parameters.picker, sources.threads, times_) {}
+      workers_(sources.node.parameters.picker, sources.threads, statistics_) {}
 
 void QueryServices::advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node) {
   servers_ = {
@@ -79,18 +79,18 @@ ContactArray QueryServices::query(const QueryCollision::Request& request) {
   ContactArray result =
       answer_about(request.organ, request.tool, request.mode, stamp_or_now(request.header));
   result.header.frame_id = plain_text(request.header.frame_id, kLongestName);
-  or_failure(result, [&] { answer(request, result); });
+  or_failure(result, [&] { answer_one(request, result); });
   return result;
 }
 
 QueryCollisionBatch::Response QueryServices::query_batch(
     const QueryCollisionBatch::Request& request) {
   QueryCollisionBatch::Response response;
-  or_failure(response, [&] { response.results = answers(request); });
+  or_failure(response, [&] { response.results = answer_batch(request); });
   return response;
 }
 
-void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) {
+void QueryServices::answer_one(const QueryCollision::Request& request, ContactArray& answer) {
   const QueryExtras extras = checked_extras(request);
   const bool gives_links = is_given(request.link_motion);
   const bool is_of_tool = !request.tool.empty();
@@ -100,6 +100,10 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   const QuerySubject subject{request.header, request.organ, request.tool,
                              is_of_tool && !gives_links, extras.mode};
   check_names(subject);
+  if (subject.moves_as_in_tf && is_given(request.motion)) {
+    refuse("motion is set, and tool '", request.tool,
+           "' moves as in TF; leave motion empty, or ask by query_batch");
+  }
   if (!is_of_tool) check_shaft(request.motion, extras.mode);
   QuerySnapshot snapshot = take_snapshot(subject, answer);
 
@@ -112,10 +116,10 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
                collision);
   }
   const double query_sec = query_.evaluate(collision, answer);
-  if (answer.status == ContactArray::OK) times_.add_query(query_sec);
+  if (answer.status == ContactArray::OK) statistics_.add_query(query_sec);
 }
 
-std::vector<ContactArray> QueryServices::answers(const QueryCollisionBatch::Request& request) {
+std::vector<ContactArray> QueryServices::answer_batch(const QueryCollisionBatch::Request& request) {
   const QueryExtras extras = checked_extras(request);
   const std::size_t motions = std::max(request.motions.size(), request.link_motions.size());
   check_size(motions);

@@ -19,6 +19,7 @@ StepWorkers::StepWorkers(const NodeParameters& parameters)
 
 void StepWorkers::run(const StepEvaluator& evaluator, std::vector<DueStep>& steps,
                       const Deliver& deliver) {
+  if (steps.empty()) return;
   threads_.start(std::min(steps.size(), queries_.size()) - 1);
   const auto work = [&](std::size_t worker, std::size_t step) {
     if (!steps[step].answer) evaluator.evaluate(steps[step], *queries_[worker]);
