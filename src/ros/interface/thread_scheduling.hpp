@@ -19,9 +19,9 @@ std::string make_all_threads_realtime(int priority);
 /// threads such as the node's come first. If the system refuses, the thread keeps its priority.
 void lower_priority_of_this_thread();
 
-/// Lets the calling thread run only where no other thread wants a processor (SCHED_IDLE). It must
-/// not hold locks that another thread needs soon. If the system refuses, the thread keeps its
-/// priority.
+/// Gives the calling thread the lowest ordinary priority (niceness 19): if all processors are busy,
+/// it gets about a hundredth of one. Not SCHED_IDLE: such a thread might hold a lock of Mesa or of
+/// malloc and get no processor. With niceness 19, every wait for such a lock is short.
 void yield_to_all_threads();
 
 /// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".

@@ -79,6 +79,8 @@ void CollisionNode::start() {
   services_.advertise(on_queue(private_node_, query_thread_.queue()),
                       on_queue(private_node_, batch_thread_.queue()));
   organ_services_.advertise(private_node_);
+  tool_reload_.advertise();
+  live_parameters_.advertise();
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
   updater_.setHardwareID("none");

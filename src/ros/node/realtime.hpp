@@ -23,7 +23,10 @@ class Realtime {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  std::string priority_refused_, lock_refused_;  ///< what to do about it; empty: not refused
+  // What to do about a refusal; empty: there is none.
+  std::string priority_refused_;
+  bool shows_locked_memory_;  ///< only on request, because the system takes time to find it out
+  std::string lock_refused_;
 };
 
 /// Gives the priority to roscpp's threads, through which messages and ticks come. For programs that

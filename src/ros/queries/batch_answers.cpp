@@ -46,19 +46,22 @@ std::size_t BatchAnswers::take(std::size_t block) {
     budget_.end();
     throw;
   }
-  budget_.set_taken(block);
+  budget_.set_taken(block, bytes_);
   return answers_.size() - before;
 }
 
 void BatchAnswers::evaluate_motions(std::size_t block, ContactQuery& query) {
   const std::size_t first = block * kBlock, end = std::min(first + kBlock, batch_.motions);
   CollisionRequest collision = batch_.collision;
+  std::size_t block_bytes = 0;
   for (std::size_t motion = first; motion < end && motion <= last_; ++motion) {
-    if (ended_ || !budget_.wait(block)) return;
+    if (ended_ || !budget_.wait(block, block_bytes)) return;
     if (blocks_[block].empty()) blocks_[block].reserve(end - first);
     ContactArray& answer = blocks_[block].emplace_back(batch_.unanswered);
     evaluate_motion(motion, query, collision, answer);
-    budget_.add(ros::serialization::serializationLength(answer));
+    const std::size_t bytes = ros::serialization::serializationLength(answer);
+    block_bytes += bytes;
+    budget_.add(bytes);
     if (batch_.request.stop_at_first_contact && !answer.contacts.empty()) set_last(motion);
   }
 }

@@ -24,7 +24,7 @@ std::vector<ContactArray> BatchWorkers::answer(const CheckedBatch& batch) {
 
 void BatchWorkers::prepare(std::size_t worker) {
   queries_[worker] = std::make_unique<ContactQuery>(picker_);
-  // Only now: what makes a GL context takes locks that the node's thread may want, too.
+  // Only now: making a GL context holds locks for long that the node's thread may want, too.
   yield_to_all_threads();
 }
 

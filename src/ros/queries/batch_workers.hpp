@@ -13,8 +13,8 @@
 
 namespace organ_collision {
 
-/// Threads that answer batches together. They use only what other threads leave of the processors
-/// (SCHED_IDLE), because all steps come first.
+/// Threads that answer batches together. They have the lowest ordinary priority, because all steps
+/// come first.
 class BatchWorkers {
  public:
   /// `threads`: how many; 0: one for each processor. They start with the first batch. `statistics`

@@ -1,7 +1,9 @@
 #include "query_services.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
+#include <map>
 
 #include "given_motion.hpp"
 #include "organ_collision/ros/names.hpp"
@@ -9,6 +11,7 @@
 #include "query_extras.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
@@ -30,6 +33,25 @@ void check_names(const QuerySubject& subject) {
   check_name("tool", subject.tool);
   check_name("organ", subject.organ);
   if (!subject.moves_as_in_tf) check_name("header.frame_id", tf_frame(subject.header.frame_id));
+}
+
+/// Counts the failures of a batch, with one message for each reason: a batch may have many.
+void count_failures(const std::vector<ContactArray>& answers, FailureLog& log) {
+  struct Failures {
+    std::uint64_t count = 0;
+    const ContactArray* latest = nullptr;
+  };
+  std::map<std::uint8_t, Failures> by_status;
+  for (const ContactArray& answer : answers) {
+    if (answer.status == ContactArray::OK) continue;
+    Failures& failures = by_status[answer.status];
+    ++failures.count;
+    failures.latest = &answer;
+  }
+  for (const auto& [status, failures] : by_status) {
+    log.add(reason_of(status), failures.latest->message, std::chrono::steady_clock::now(),
+            failures.count);
+  }
 }
 
 /// Runs a function that answers. Its exception becomes the failure of the answer.
@@ -69,9 +91,7 @@ bool QueryServices::on_query_batch(QueryCollisionBatch::Request& request,
                                    QueryCollisionBatch::Response& response) {
   response = query_batch(request);
   count_failure(sources_.refused, response.status, response.message);
-  for (const ContactArray& result : response.results) {
-    count_failure(sources_.refused, result.status, result.message);
-  }
+  count_failures(response.results, sources_.refused);
   return true;
 }
 
@@ -112,8 +132,10 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
     collision.path = std::move(snapshot.path);
     collision.tip = snapshot.tip;
   } else {
-    set_motion({&request.motion, gives_links ? &request.link_motion : nullptr}, snapshot,
-               collision);
+    const bool gives_shaft = !is_of_tool || is_given(request.motion);
+    set_motion(
+        {gives_shaft ? &request.motion : nullptr, gives_links ? &request.link_motion : nullptr},
+        snapshot, collision);
   }
   const double query_sec = query_.evaluate(collision, answer);
   if (answer.status == ContactArray::OK) statistics_.add_query(query_sec);
