@@ -20,6 +20,8 @@
 #include <thread>
 #include <vector>
 
+#include "test/rostest/service_call.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -144,7 +146,7 @@ TEST_F(NodeletTest, ToolsAndParametersChangeWhileItRuns) {
   ASSERT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
   send_mesh({0, 1, 2, 0, 2, 3});
   std_srvs::Trigger reload;
-  ASSERT_TRUE(ros::service::call("/organ_collision/reload_tools", reload));
+  ASSERT_TRUE(call_service("/organ_collision/reload_tools", reload));
   EXPECT_TRUE(reload.response.success);
   EXPECT_EQ(reload.response.message, "unchanged: 'probe'");
 
@@ -152,7 +154,7 @@ TEST_F(NodeletTest, ToolsAndParametersChangeWhileItRuns) {
   change.request.config.doubles.resize(1);
   change.request.config.doubles[0].name = "rate";
   change.request.config.doubles[0].value = 50.0;
-  ASSERT_TRUE(ros::service::call("/organ_collision/set_parameters", change));
+  ASSERT_TRUE(call_service("/organ_collision/set_parameters", change));
   EXPECT_TRUE(ros::param::del("/organ_collision/rate"));
   for (int tick = 0; tick < 3; ++tick) {
     received_.reset();

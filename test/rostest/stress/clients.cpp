@@ -3,9 +3,10 @@
 #include <organ_collision/ListOrgans.h>
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
-#include <ros/service.h>
 
 #include <string>
+
+#include "test/rostest/service_call.hpp"
 
 namespace organ_collision::stress {
 namespace {
@@ -48,11 +49,6 @@ LinkMotion link_motion(std::size_t number) {
   return motion;
 }
 
-template <typename Service>
-bool call(const char* name, Service& service) {
-  return ros::service::call(std::string("organ_collision/") + name, service);
-}
-
 }  // namespace
 
 QueryClient::QueryClient(std::size_t number, Findings& findings)
@@ -69,7 +65,7 @@ void QueryClient::ask_query() {
   query.request.organ_motion = turn % 2 == 0;
   query.request.margin = turn % 5 == 0 ? 0.01 : 0.0;
   query.request.placement = turn % 7 == 0;
-  if (!call("query", query)) return findings_.add("a query has no answer");
+  if (!call_service("organ_collision/query", query)) return findings_.add("a query has no answer");
   findings_.check("query", query.response.result);
 }
 
@@ -90,7 +86,9 @@ void QueryClient::ask_batch() {
       batch.request.motions.push_back(motion(i));
     }
   }
-  if (!call("query_batch", batch)) return findings_.add("a batch has no answer");
+  if (!call_service("organ_collision/query_batch", batch)) {
+    return findings_.add("a batch has no answer");
+  }
   const auto& response = batch.response;
   if (response.status != ContactArray::OK) {
     if (!response.results.empty()) findings_.add("a refused batch has results");
@@ -104,7 +102,9 @@ void QueryClient::ask_batch() {
 
 void QueryClient::list_organs() {
   ListOrgans list;
-  if (!call("list_organs", list)) findings_.add("list_organs has no answer");
+  if (!call_service("organ_collision/list_organs", list)) {
+    findings_.add("list_organs has no answer");
+  }
 }
 
 }  // namespace organ_collision::stress

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <ros/service_client.h>
-
 #include <cstddef>
 
 #include "findings.hpp"

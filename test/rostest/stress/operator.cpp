@@ -3,9 +3,10 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <organ_collision/RemoveOrgan.h>
 #include <ros/param.h>
-#include <ros/service.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
+
+#include "test/rostest/service_call.hpp"
 
 namespace organ_collision::stress {
 namespace {
@@ -32,7 +33,7 @@ dynamic_reconfigure::BoolParameter choice(const char* name, bool value) {
 
 void Operator::reset() {
   std_srvs::Empty empty;
-  if (!ros::service::call("organ_collision/reset", empty)) findings_.add("reset has no answer");
+  if (!call_service("organ_collision/reset", empty)) findings_.add("reset has no answer");
 }
 
 void Operator::reload_tools() {
@@ -60,7 +61,7 @@ void Operator::restore_tools() {
 
 void Operator::reload() {
   std_srvs::Trigger trigger;
-  if (!ros::service::call("organ_collision/reload_tools", trigger)) {
+  if (!call_service("organ_collision/reload_tools", trigger)) {
     return findings_.add("reload_tools has no answer");
   }
   if (!trigger.response.success) findings_.add("reload_tools: " + trigger.response.message);
@@ -73,7 +74,7 @@ void Operator::change_parameters() {
                                    number("tf_timeout_sec", turn % 2 == 0 ? 0.02 : 0.005)};
   change.request.config.bools = {choice("publish_regions", turn % 2 == 0),
                                  choice("publish_placement", turn % 4 != 0)};
-  if (!ros::service::call("organ_collision/set_parameters", change)) {
+  if (!call_service("organ_collision/set_parameters", change)) {
     findings_.add("set_parameters has no answer");
   }
 }
@@ -81,7 +82,7 @@ void Operator::change_parameters() {
 void Operator::remove_organ() {
   RemoveOrgan remove;
   remove.request.name = "brief0";
-  if (!ros::service::call("organ_collision/remove_organ", remove)) {
+  if (!call_service("organ_collision/remove_organ", remove)) {
     findings_.add("remove_organ has no answer");
   }
 }
