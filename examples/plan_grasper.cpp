@@ -1,31 +1,23 @@
 // Plans how the grasper of plan.launch gets from the front of the liver to its hilum without
 // touching it, and lets it go there. plan_grasper.py does the same.
-#include <organ_collision/ListOrgans.h>
-#include <organ_collision/QueryCollisionBatch.h>
 #include <ros/ros.h>
-#include <sensor_msgs/JointState.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <algorithm>
-#include <deque>
 #include <iostream>
-#include <mutex>
 #include <random>
+#include <sstream>
 #include <stdexcept>
+#include <vector>
 
-#include "grasper_kinematics.hpp"
-#include "rrt_connect.hpp"
+#include "grasper_robot.hpp"
+#include "grasper_tissue.hpp"
 
 namespace {
 
-using grasper::Joints;
-using organ_collision::ContactArray;
-using organ_collision::LinkMotion;
-using organ_collision::QueryCollisionBatch;
-using rrt_connect::Path;
-using rrt_connect::Place;
+using namespace grasper;
 
 constexpr char kUsage[] = R"(Usage: plan_grasper
 Takes the grasper of plan.launch from the front of the liver to its hilum without touching it.
@@ -41,152 +33,33 @@ constexpr double kJaw = 0.1;  // [rad] The jaws stay nearly closed.
 constexpr double kPiece = 0.002, kFinePiece = 0.0005;
 constexpr double kMargin = 0.02;  // [m] Up to this distance from the tissue the path is measured.
 constexpr int kGoals = 5, kSamples = 1000, kShortcuts = 100;
-constexpr double kSpeed = 0.03, kRate = 100.0;  // [m/s], [Hz] of the grasper on its way
+constexpr int kAttempts = 200;   // for each goal, with random roll and wrist
+constexpr double kSpeed = 0.03;  // [m/s] of the grasper on its way
 
-/// In the liver's frame: below the liver and in front of it. Its z axis points at the liver's
-/// middle.
-Eigen::Isometry3d trocar() {
-  const Eigen::Quaterniond rotation(0.0894354727, -0.0413637326, -0.9032105840, -0.4177331430);
-  return Eigen::Translation3d(0.02, -0.12, 0.10) * rotation.normalized();
-}
-
-/// [m per rad, or 1] About how far the tip goes if a joint moves. Places of the planner are joints
-/// times these, in metres.
-const Joints kReach = (Joints() << 0.15, 0.15, 1.0, 0.02, 0.03, 0.03).finished();
-
-Joints joints_at(const Place& place) { return place.cwiseQuotient(kReach); }
-Place place_of(const Joints& joints) { return joints.cwiseProduct(kReach); }
-
-/// The places on the way from a to b, with both.
-Path straight(const Place& a, const Place& b, double piece) {
-  const int count = std::max(1, static_cast<int>(std::ceil((b - a).norm() / piece)));
-  Path places;
-  for (int i = 0; i < count; ++i) places.push_back(a + (b - a) * i / count);
-  places.push_back(b);
-  return places;
-}
-
-/// The places on the whole path.
-Path straight(const Path& path, double piece) {
-  Path places{path.front()};
-  for (std::size_t leg = 1; leg < path.size(); ++leg) {
-    const Path of_leg = straight(path[leg - 1], path[leg], piece);
-    places.insert(places.end(), of_leg.begin() + 1, of_leg.end());
-  }
-  return places;
-}
-
-/// Goes along a way, in places at intervals of 1 / kRate, and stays at its end.
-class Robot {
- public:
-  explicit Robot(const Place& start) : way_{start} {
-    message_.name.assign(grasper::kJoints.begin(), grasper::kJoints.end());
-    timer_ = node_.createTimer(ros::Duration(1.0 / kRate),
-                               [this](const ros::TimerEvent& event) { go(event.current_real); });
-  }
-
-  void follow(const Path& way) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    way_.assign(way.begin(), way.end());
-  }
-
- private:
-  void go(const ros::Time& now) {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const Joints joints = joints_at(way_.front());
-    if (way_.size() > 1) way_.pop_front();
-    message_.header.stamp = now;
-    message_.position.assign(joints.data(), joints.data() + joints.size());
-    publisher_.publish(message_);
-  }
-
-  std::mutex mutex_;
-  std::deque<Place> way_;
-  sensor_msgs::JointState message_;
-  ros::NodeHandle node_;
-  ros::Publisher publisher_ = node_.advertise<sensor_msgs::JointState>("joint_states", 10);
-  ros::Timer timer_;
-};
-
-/// Asks the collision node what the grasper would touch.
-class Tissue {
- public:
-  Tissue() {
-    ros::service::waitForService(kService);
-    client_ = ros::NodeHandle().serviceClient<QueryCollisionBatch>(kService, true);
-    while (ros::ok() && !has_liver()) ros::Duration(0.1).sleep();
-  }
-
-  /// How many motions from place to place are free, one after the other. If `distance` is not null,
-  /// it becomes the smallest distance from the tissue, if that is less than it was [m].
-  std::size_t free_motions(const Path& places, double* distance = nullptr) {
-    QueryCollisionBatch call;
-    call.request.header.frame_id = call.request.organ = "liver";
-    call.request.tool = "grasper";
-    call.request.mode = ContactArray::SWEPT;
-    call.request.stop_at_first_contact = true;
-    if (distance) call.request.margin = *distance;
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      LinkMotion motion;
-      motion.previous = links(places[i - 1]);
-      motion.links = links(places[i]);
-      call.request.link_motions.push_back(motion);
-    }
-    if (!client_.call(call)) throw std::runtime_error("the collision node does not answer");
-    if (call.response.status != ContactArray::OK) throw std::runtime_error(call.response.message);
-    const std::vector<ContactArray>& answers = call.response.results;
-    if (distance) {
-      for (const auto& answer : answers) {
-        const organ_collision::Clearance& clearance = answer.clearance;
-        if (clearance.state == clearance.KNOWN) *distance = std::min(*distance, clearance.least);
-      }
-    }
-    return std::count_if(answers.begin(), answers.end(), [](const ContactArray& answer) {
-      return answer.status == ContactArray::OK && answer.contacts.empty();
-    });
-  }
-
- private:
-  static constexpr char kService[] = "/organ_collision/query_batch";
-
-  static bool has_liver() {
-    organ_collision::ListOrgans call;
-    if (!ros::service::call("/organ_collision/list_organs", call)) return false;
-    const auto& organs = call.response.organs;
-    return std::any_of(organs.begin(), organs.end(),
-                       [](const auto& organ) { return organ.name == "liver"; });
-  }
-
-  static std::vector<geometry_msgs::Pose> links(const Place& place) {
-    std::vector<geometry_msgs::Pose> poses;
-    for (const auto& pose : grasper::link_poses(trocar(), joints_at(place))) {
-      poses.push_back(tf2::toMsg(pose));
-    }
-    return poses;
-  }
-
-  ros::ServiceClient client_;
-};
-
-/// Places where the tip is at the target and nothing is touched.
+/// Up to kGoals places where the tip is at the target and nothing is touched. Throws
+/// std::runtime_error if there is none.
 Path free_goals(Tissue& tissue, const Eigen::Vector3d& target, std::mt19937& random) {
-  std::uniform_real_distribution<double> roll(grasper::lowest()[3], grasper::highest()[3]);
-  std::uniform_real_distribution<double> wrist(grasper::lowest()[4], grasper::highest()[4]);
+  std::uniform_real_distribution<double> roll(lowest()[3], highest()[3]);
+  std::uniform_real_distribution<double> wrist(lowest()[4], highest()[4]);
   Path goals;
-  while (goals.size() < kGoals && ros::ok()) {
+  for (int i = 0; i < kGoals * kAttempts && goals.size() < kGoals; ++i) {
     const double rolled = roll(random);
-    const auto joints = grasper::joints_for(trocar(), target, rolled, wrist(random), kJaw);
+    const auto joints = joints_for(trocar(), target, rolled, wrist(random), kJaw);
     if (!joints) continue;
     const Place goal = place_of(*joints);
-    if (tissue.free_motions({goal, goal}) == 1) goals.push_back(goal);
+    if (tissue.sweep({goal, goal}).free == 1) goals.push_back(goal);
   }
-  return goals;
+  if (!goals.empty()) return goals;
+  std::ostringstream text;
+  text << "the tip cannot be at (" << target.x() << ", " << target.y() << ", " << target.z()
+       << ") without touching the liver";
+  throw std::runtime_error(text.str());
 }
 
 Place random_place(std::mt19937& random) {
   Joints joints;
   for (int i = 0; i < joints.size(); ++i) {
-    joints[i] = std::uniform_real_distribution(grasper::lowest()[i], grasper::highest()[i])(random);
+    joints[i] = std::uniform_real_distribution(lowest()[i], highest()[i])(random);
   }
   joints[5] = kJaw;
   return place_of(joints);
@@ -196,7 +69,7 @@ Place random_place(std::mt19937& random) {
 Path plan(Tissue& tissue, const Place& start, const Eigen::Vector3d& target, std::mt19937& random) {
   const auto advance = [&](const Place& a, const Place& b) {
     const Path places = straight(a, b, kPiece);
-    return places[tissue.free_motions(places)];
+    return places[tissue.sweep(places).free];
   };
   Path path = rrt_connect::connect(
       start, free_goals(tissue, target, random), advance, [&] { return random_place(random); },
@@ -211,8 +84,9 @@ double checked_distance(Tissue& tissue, const Path& path) {
   double distance = kMargin;
   for (std::size_t leg = 1; leg < path.size(); ++leg) {
     const Path places = straight(path[leg - 1], path[leg], kFinePiece);
-    if (tissue.free_motions(places, &distance) == places.size() - 1) continue;
-    throw std::runtime_error("finer motions touch the tissue");
+    const Tissue::Answer answer = tissue.sweep(places, kMargin);
+    if (answer.free < places.size() - 1) throw std::runtime_error("finer motions touch the tissue");
+    distance = std::min(distance, answer.least);
   }
   return distance;
 }
@@ -235,7 +109,7 @@ visualization_msgs::MarkerArray line_of(const Path& path) {
   line.scale.x = 0.001;
   line.color.g = line.color.a = 1.0F;
   for (const Place& place : straight(path, kPiece)) {
-    line.points.push_back(tf2::toMsg(grasper::tip(trocar(), joints_at(place))));
+    line.points.push_back(tf2::toMsg(tip(trocar(), joints_at(place))));
   }
   visualization_msgs::MarkerArray array;
   array.markers.push_back(line);
@@ -262,7 +136,7 @@ int main(int argc, char** argv) {
   const std::vector<double> target = private_node.param("target", kTarget);
   std::mt19937 random(private_node.param("seed", 1));
   try {
-    const Place start = place_of(grasper::joints_for(trocar(), kStart, 0.0, 0.0, kJaw).value());
+    const Place start = place_of(joints_for(trocar(), kStart, 0.0, 0.0, kJaw).value());
     Robot robot(start);
     Tissue tissue;
     const Path path =

@@ -3,13 +3,15 @@
 go there."""
 
 import argparse
+import itertools
 import math
 import random
+import sys
 
-from geometry_msgs.msg import Point, Pose, Quaternion, Transform, TransformStamped, Vector3
+from geometry_msgs.msg import Point, Quaternion, Transform, TransformStamped, Vector3
 import grasper_kinematics as grasper
-from organ_collision.msg import Clearance, ContactArray, LinkMotion
-from organ_collision.srv import ListOrgans, QueryCollisionBatch, QueryCollisionBatchRequest
+from organ_collision import Queries
+from organ_collision.msg import Clearance, ContactArray
 import rospy
 import rrt_connect
 from sensor_msgs.msg import JointState
@@ -27,6 +29,7 @@ REACH = (0.15, 0.15, 1.0, 0.02, 0.03, 0.03)
 PIECE, FINE_PIECE = 0.002, 0.0005  # [m] An edge is asked for in pieces of this length, the whole path in finer ones.
 MARGIN = 0.02                      # [m] Up to this distance from the tissue the whole path is measured.
 GOALS, SAMPLES, SHORTCUTS = 5, 1000, 100
+ATTEMPTS = 200                     # for each goal, with random roll and wrist
 SPEED, RATE = 0.03, 100.0          # [m/s], [Hz] of the grasper on its way
 
 
@@ -42,6 +45,11 @@ def straight(a, b, piece):
     """The places on the way from a to b, with both."""
     count = max(1, math.ceil(math.dist(a, b) / piece))
     return [tuple(x + (y - x) * i / count for x, y in zip(a, b)) for i in range(count)] + [b]
+
+
+def links(place):
+    """Position and quaternion of each link of the grasper, in the liver's frame."""
+    return [(*position, *rotation) for rotation, position in grasper.link_poses(TROCAR, unscaled(place))]
 
 
 class Robot:
@@ -62,32 +70,20 @@ class Tissue:
     """Asks the collision node what the grasper would touch."""
 
     def __init__(self):
-        rospy.wait_for_service('/organ_collision/query_batch')
-        self.service = rospy.ServiceProxy('/organ_collision/query_batch', QueryCollisionBatch, persistent=True)
-        list_organs = rospy.ServiceProxy('/organ_collision/list_organs', ListOrgans)
-        while 'liver' not in [organ.name for organ in list_organs().organs]:
-            rospy.sleep(0.1)
-
-    def links(self, place):
-        poses = grasper.link_poses(TROCAR, unscaled(place))
-        return [Pose(Point(*position), Quaternion(*rotation)) for rotation, position in poses]
+        self.queries = Queries()
+        self.queries.wait_for('liver')
 
     def sweep(self, places, **asked):
         """The answers for the motions from place to place. The last one touches, or all are free."""
-        poses = [self.links(place) for place in places]
-        request = QueryCollisionBatchRequest(organ='liver', tool='grasper', mode=ContactArray.SWEPT, **asked)
-        request.header.frame_id = 'liver'
-        request.link_motions = [LinkMotion(previous=a, links=b) for a, b in zip(poses, poses[1:])]
-        request.stop_at_first_contact = True
-        answer = self.service(request)
-        if answer.status != ContactArray.OK:
-            raise RuntimeError(answer.message)
-        return answer.results
+        poses = [links(place) for place in places]
+        return self.queries.answer_links('liver', 'grasper', poses[1:], previous_links=poses[:-1],
+                                         stop_at_first_contact=True, **asked)
 
     def advance(self, a, b):
         """The last place that the grasper reaches freely on its straight way from a to b."""
         places = straight(a, b, PIECE)
-        return places[sum(is_free(answer) for answer in self.sweep(places))]
+        free = itertools.takewhile(is_free, self.sweep(places))
+        return places[sum(1 for _ in free)]
 
     def least_distance(self, path):
         """The smallest distance from the tissue on the way [m], at most MARGIN. None: something is touched."""
@@ -103,16 +99,25 @@ def is_free(answer):
     return answer.status == ContactArray.OK and not answer.contacts
 
 
-def plan(tissue, start, target, chance):
-    """The path from a place to where the tip is at the target [m], and its distance from the tissue."""
+def free_goals(tissue, target, chance):
+    """Up to GOALS places where the tip is at the target and nothing is touched. Raises RuntimeError if there is none."""
     goals = []
-    while len(goals) < GOALS:
+    for _ in range(GOALS * ATTEMPTS):
         roll, wrist = (chance.uniform(*grasper.LIMITS[joint]) for joint in (3, 4))
         joints = grasper.joints_for(TROCAR, target, roll, wrist, JAW)
         if joints and is_free(tissue.sweep([scaled(joints)] * 2)[0]):
             goals.append(scaled(joints))
+            if len(goals) == GOALS:
+                break
+    if not goals:
+        raise RuntimeError('the tip cannot be at (%g, %g, %g) without touching the liver' % tuple(target))
+    return goals
+
+
+def plan(tissue, start, target, chance):
+    """The path from a place to where the tip is at the target [m], and its distance from the tissue."""
     limits = grasper.LIMITS[:-1] + ((JAW, JAW),)
-    path = rrt_connect.connect(start, goals, tissue.advance,
+    path = rrt_connect.connect(start, free_goals(tissue, target, chance), tissue.advance,
                                lambda: scaled([chance.uniform(*limit) for limit in limits]), SAMPLES)
     if not path:
         raise RuntimeError('no way was found')
@@ -155,3 +160,6 @@ if __name__ == '__main__':
         main()
     except KeyboardInterrupt:
         rospy.signal_shutdown('interrupted')
+    except RuntimeError as error:
+        rospy.logfatal('%s', error)
+        sys.exit(1)

@@ -8,7 +8,6 @@ motions.md into FOLDER. All that is compared answers the same motions, in turn, 
 medians."""
 
 import contextlib
-import contextlib
 import json
 import os
 import pathlib

@@ -34,6 +34,7 @@ ContactAdapter::ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& priv
                        }),
       updater_(node, private_node, private_node.getNamespace()) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
+  live_parameters_.advertise();
   updater_.setHardwareID("none");
   updater_.add("contacts", this, &ContactAdapter::diagnose);
   // A timer of wall time, because the updater's own period stops when simulated time stops.

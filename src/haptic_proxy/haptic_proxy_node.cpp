@@ -106,6 +106,8 @@ void HapticProxyNode::start() {
   publisher_.set_tools(loaded_.parameters.tools);
   inbox_.subscribe(node_, private_node_);
   organ_services_.advertise(private_node_);
+  tool_reload_.advertise();
+  live_parameters_.advertise();
   reset_ = private_node_.advertiseService(names::kReset, &HapticProxyNode::on_reset, this);
   updater_.setHardwareID("none");
   updater_.add("proxies", this, &HapticProxyNode::diagnose);

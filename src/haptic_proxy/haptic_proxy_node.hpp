@@ -20,8 +20,8 @@
 #include "ros/interface/live_parameters.hpp"
 #include "ros/interface/rejection.hpp"
 #include "ros/motion/tool_poses.hpp"
-#include "ros/node/background_thread.hpp"
 #include "ros/node/message_loop.hpp"
+#include "ros/node/queue_thread.hpp"
 #include "ros/node/realtime.hpp"
 #include "ros/node/tool_reload.hpp"
 #include "ros/organs/organ_services.hpp"
@@ -90,7 +90,7 @@ class HapticProxyNode {
 
   ProxyCounters counters_;
   MessageLoop loop_;
-  BackgroundThread background_;
+  QueueThread background_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedHapticProxyParameters loaded_;

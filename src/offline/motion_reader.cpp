@@ -25,8 +25,7 @@ constexpr std::pair<std::string_view, QueryMode> kModes[] = {
 }  // namespace
 
 std::optional<Motion> MotionReader::next() {
-  while (text_.next()) {
-    if (text_.line().empty()) continue;
+  while (next_line()) {
     split_cells(text_.line(), cells_);
     if (std::exchange(at_first_, false) && is_header()) continue;
     has_motion_ = true;
@@ -34,6 +33,28 @@ std::optional<Motion> MotionReader::next() {
   }
   if (has_motion_) return std::nullopt;
   throw text_.error("the file ends without a motion; must have at least one");
+}
+
+bool MotionReader::is_ready() {
+  while (ahead_ == Ahead::kNothingYet && text_.is_ready()) read_line();
+  return ahead_ != Ahead::kNothingYet;
+}
+
+/// Goes to the next line, and waits for it. Blank lines are left out.
+void MotionReader::read_line() {
+  if (!text_.next()) {
+    ahead_ = Ahead::kEnd;
+  } else if (!text_.line().empty()) {
+    ahead_ = Ahead::kLine;
+  }
+}
+
+/// Goes to the next line that is not blank, and waits for it. Returns false after the last one.
+bool MotionReader::next_line() {
+  while (ahead_ == Ahead::kNothingYet) read_line();
+  if (ahead_ == Ahead::kEnd) return false;
+  ahead_ = Ahead::kNothingYet;
+  return true;
 }
 
 /// The motion in the current line.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -24,11 +25,20 @@ class MotionReader : public MotionSource {
   /// The motion in the next line. Throws InputError if the line is not legal, or if there is no
   /// motion at all.
   std::optional<Motion> next() override;
-  /// Whether a line has arrived, or the end.
-  bool is_ready() override { return text_.is_ready(); }
+  /// Whether a line that is not blank has arrived, or the end.
+  bool is_ready() override;
   const std::string& name() const override { return text_.name(); }
+  /// After the end: whether the last line has no line feed, as if the rest of it were missing.
+  bool ends_within_line() const { return text_.ends_within_line(); }
+  /// The number of the current line, from 1.
+  std::size_t line_number() const { return text_.number(); }
 
  private:
+  /// What next() will take.
+  enum class Ahead { kNothingYet, kLine, kEnd };
+
+  void read_line();
+  bool next_line();
   Motion motion() const;
   QueryMode mode() const;
   double number(std::size_t column) const;
@@ -36,6 +46,7 @@ class MotionReader : public MotionSource {
   bool is_header() const;
 
   TextReader text_;
+  Ahead ahead_ = Ahead::kNothingYet;
   std::vector<std::string_view> cells_;  ///< of the current line
   bool at_first_ = true;                 ///< whether no line but blank ones was read
   bool has_motion_ = false;              ///< whether a motion was read

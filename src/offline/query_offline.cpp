@@ -48,25 +48,30 @@ std::unique_ptr<MotionList> read_motions(const Options& options, const ShapeSour
                    " OBJ files, and each needs one motion");
 }
 
-void evaluate(const Options& options) {
-  const std::unique_ptr<ShapeSource> shapes = open_shapes(options);
-  std::unique_ptr<MotionSource> motions;
-  std::optional<std::size_t> count;
-  if (options.motions == kStandardInput) {
-    motions = std::make_unique<MotionReader>(StandardInput{});
-  } else {
-    std::unique_ptr<MotionList> list = read_motions(options, *shapes);
-    count = list->size();
-    motions = std::move(list);
-  }
+/// `count`: of the motions, if it is known.
+void answer_all(const Options& options, MotionSource& motions, std::optional<std::size_t> count,
+                ShapeSource& shapes) {
   QueryWorkers threads(options.jobs, options.picker);
   Progress progress(count);
   std::size_t done = 0;
-  Evaluation(options, *motions, *shapes, threads)
+  Evaluation(options, motions, shapes, threads)
       .run([&](const std::string& csv, std::size_t answered) {
         print(csv);
         progress.report(done += answered);
       });
+}
+
+void evaluate(const Options& options) {
+  const std::unique_ptr<ShapeSource> shapes = open_shapes(options);
+  if (options.motions != kStandardInput) {
+    const std::unique_ptr<MotionList> motions = read_motions(options, *shapes);
+    return answer_all(options, *motions, motions->size(), *shapes);
+  }
+  MotionReader motions(StandardInput{});
+  answer_all(options, motions, std::nullopt, *shapes);
+  if (!motions.ends_within_line()) return;
+  std::cerr << motions.name() << ":" << motions.line_number()
+            << ": warning: the last line has no line feed; its end may be missing" << std::endl;
 }
 
 int run(const std::vector<std::string>& arguments) {

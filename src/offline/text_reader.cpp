@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
@@ -18,17 +19,19 @@ bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// What `read` returns. If reading fails, throws InputError.
+}  // namespace
+
+/// What `read` returns, which reads the next line. If reading fails, throws InputError.
 template <typename Read>
-bool without_failure(const std::string& file, const Read& read) {
+bool TextReader::without_failure(const Read& read) const {
   try {
     return read();
   } catch (const std::system_error& error) {
-    throw InputError(file + ": cannot be read: " + std::strerror(error.code().value()));
+    throw InputError(file_ + ": cannot be read: " + std::strerror(error.code().value()));
+  } catch (const std::length_error& error) {
+    throw InputError(file_, number_ + 1, error.what());
   }
 }
-
-}  // namespace
 
 TextReader::TextReader(std::string file)
     : file_(std::move(file)), opened_(open(file_.c_str(), O_RDONLY | O_CLOEXEC)), source_(opened_) {
@@ -43,7 +46,7 @@ TextReader::~TextReader() {
 
 bool TextReader::next() {
   line_ = {};
-  if (!without_failure(file_, [this] { return source_.next(); })) return false;
+  if (!without_failure([this] { return source_.next(); })) return false;
   ++number_;
   line_ = source_.line();
   if (number_ == 1 && line_.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
@@ -54,7 +57,7 @@ bool TextReader::next() {
 }
 
 bool TextReader::is_ready() {
-  return without_failure(file_, [this] { return source_.is_ready(); });
+  return without_failure([this] { return source_.is_ready(); });
 }
 
 std::string_view trimmed(std::string_view text) {

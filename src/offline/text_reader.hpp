@@ -26,10 +26,10 @@ class TextReader {
   TextReader& operator=(const TextReader&) = delete;
 
   /// Goes to the next line, and waits for it. Returns false after the last one. Throws InputError
-  /// when reading fails.
+  /// when reading fails, or if the line has more than LineSource::kLongestLine bytes.
   bool next();
-  /// Whether next() returns without waiting: a whole line has arrived, or the end. Throws
-  /// InputError when reading fails.
+  /// Whether next() returns without waiting: a whole line has arrived, or the end. Throws as
+  /// next().
   bool is_ready();
 
   /// The current line, without its line end and without blanks around it, until the next call of
@@ -39,12 +39,18 @@ class TextReader {
   /// file.
   std::size_t number() const { return std::max<std::size_t>(number_, 1); }
 
+  /// Whether the current line is the last one and has no line feed.
+  bool ends_within_line() const { return source_.ends_within_line(); }
+
   /// The file, or "standard input".
   const std::string& name() const { return file_; }
   /// An error in the current line.
   InputError error(const std::string& message) const { return {file_, number(), message}; }
 
  private:
+  template <typename Read>
+  bool without_failure(const Read& read) const;
+
   std::string file_;
   int opened_ = -1;  ///< the descriptor to close, or -1
   LineSource source_;

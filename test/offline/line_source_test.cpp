@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <future>
+#include <stdexcept>
+#include <string>
 #include <system_error>
 #include <vector>
 
@@ -89,6 +93,50 @@ TEST(LineSource, takes_lines_that_are_longer_than_what_it_reads_at_once) {
     EXPECT_EQ(source.line(), line);
   }
   EXPECT_FALSE(source.next());
+  close(file);
+}
+
+TEST(LineSource, waits_for_a_pipe_that_does_not_block) {
+  Pipe pipe;
+  ASSERT_EQ(fcntl(pipe.output(), F_SETFL, O_NONBLOCK), 0);
+  LineSource source(pipe.output());
+  EXPECT_FALSE(source.is_ready());
+  auto line = std::async(std::launch::async,
+                         [&] { return source.next() ? std::string(source.line()) : "nothing"; });
+  EXPECT_EQ(line.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
+  pipe.write("late\n");
+  EXPECT_EQ(line.get(), "late");
+}
+
+TEST(LineSource, tells_whether_the_last_line_has_a_line_feed) {
+  for (const bool has_line_feed : {false, true}) {
+    Pipe pipe;
+    pipe.write(has_line_feed ? "first\nlast\n" : "first\nlast");
+    pipe.close_input();
+    LineSource source(pipe.output());
+    ASSERT_TRUE(source.next());
+    EXPECT_FALSE(source.ends_within_line());
+    ASSERT_TRUE(source.next());
+    EXPECT_FALSE(source.next());
+    EXPECT_EQ(source.ends_within_line(), !has_line_feed);
+  }
+}
+
+TEST(LineSource, throws_if_a_line_is_too_long) {
+  char path[] = "/tmp/line_source_XXXXXX";
+  const int file = mkstemp(path);
+  ASSERT_GE(file, 0);
+  unlink(path);
+  const std::string longest(LineSource::kLongestLine, 'a');
+  for (const std::string& text : {longest + "\n", longest + "b"}) {
+    ASSERT_EQ(write(file, text.data(), text.size()), ssize_t(text.size()));
+  }
+  lseek(file, 0, SEEK_SET);
+  LineSource source(file);
+  ASSERT_TRUE(source.next());
+  EXPECT_EQ(source.line(), longest);
+  EXPECT_THROW(source.is_ready(), std::length_error);
+  EXPECT_THROW(source.next(), std::length_error);
   close(file);
 }
 

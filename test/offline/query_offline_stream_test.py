@@ -116,7 +116,24 @@ class StreamTest(ProgramCase):
     def test_the_last_line_needs_no_line_feed(self):
         talk = self.start()
         talk.write(line(1).rstrip('\n'))
-        self.assertEqual(talk.end(), (self.from_file(line(1)), '', 0))
+        warning = 'standard input:1: warning: the last line has no line feed; its end may be missing\n'
+        self.assertEqual(talk.end(), (self.from_file(line(1)), warning, 0))
+
+    def test_a_blank_line_does_not_hold_up_the_answer(self):
+        talk = self.start('--blank-lines')
+        talk.line()
+        right = self.from_file(line(1), '--blank-lines').splitlines(True)[1:]
+        for _ in range(3):
+            talk.write(line(1) + '\n \n')
+            self.assertEqual(talk.answer() + ['\n'], right)
+        self.assertEqual(talk.end(), ('', '', 0))
+
+    def test_a_line_without_end(self):
+        right = self.from_file(line(1))
+        output, error, status = self.piped(line(1) + 2 ** 21 * 'x')
+        self.assertEqual((output, status), (right, 2))
+        self.assertEqual(error, 'standard input:2: the line has more than 1048576 bytes; must be shorter, with a line '
+                                'feed at its end\n')
 
     def test_the_same_bytes_as_from_a_sorted_file(self):
         text = motions_text([]) + ''.join(line(i, (0.02, 0.01, -1e-5 * i)) for i in range(3000))

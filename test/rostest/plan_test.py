@@ -26,6 +26,7 @@ PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
 LINKS = ['grasper_shaft', 'grasper_wrist', 'grasper_left_jaw', 'grasper_right_jaw']
 JAW_MESH = RigidMesh.from_stl(os.path.join(PACKAGE, 'urdf/meshes/jaw.stl'))
 SHAFT_RADIUS, SHAFT_LENGTH = 0.0025, 0.3
+WRIST_LENGTH = 0.009  # of its box, whose cross section is 3 x 4 mm and so lies within the shaft's radius
 TIP = (0.0, 0.0, 0.029)  # of the closed jaws, in the frame of the wrist
 START, TARGET = (0.0, -0.01, 0.06), (0.004, -0.004, -0.017)
 NAIVELY_CHECKED = 6  # poses
@@ -130,13 +131,14 @@ class PlanTest(ContactCase):
 
     def assert_a_naive_search_finds_nothing(self, robot, stamps, liver):
         for stamp in stamps[::len(stamps) // NAIVELY_CHECKED] + stamps[-1:]:
-            self.assertEqual(self.touched_by_shaft(robot, stamp, liver), [])
+            self.assertEqual(self.touched_by_cylinder(robot.pose('grasper_shaft', stamp), -SHAFT_LENGTH, liver), [])
+            self.assertEqual(self.touched_by_cylinder(robot.pose('grasper_wrist', stamp), WRIST_LENGTH, liver), [])
             for jaw in LINKS[2:]:
                 self.assertEqual(JAW_MESH.at(robot.pose(jaw, stamp)).faces_pierced(liver), set())
 
-    def touched_by_shaft(self, robot, stamp, liver):
-        pose = robot.pose('grasper_shaft', stamp)
-        axis = pose.apply((0.0, 0.0, -SHAFT_LENGTH)), pose.apply((0.0, 0.0, 0.0))
+    def touched_by_cylinder(self, pose, height, liver):
+        """The faces that a capsule touches which goes from the origin of a link along its z axis."""
+        axis = pose.apply((0.0, 0.0, height)), pose.apply((0.0, 0.0, 0.0))
         return oracle.static_contacts(liver, axis, SHAFT_RADIUS)
 
     def assert_the_straight_way_touches(self, robot, stamps, liver):
@@ -149,6 +151,16 @@ class PlanTest(ContactCase):
         ]
         self.assertTrue(any(touched))
         self.assertGreater(length(sub(*ends)), 0.05)
+
+    def check_unreachable(self, planner):
+        words = ['planner:=' + planner, 'target:=[0.0, 0.0, 1.0]']
+        with Launched(os.path.join(PACKAGE, 'examples', 'plan.launch'), *words) as launched:
+            wait_until(lambda: launched.process.poll() is not None, 'the end of the planner', LONGEST)
+        self.assertIn('the tip cannot be at (0, 0, 1) without touching the liver', launched.printed)
+
+    def test_targets_that_cannot_be_reached(self):
+        self.check_unreachable('plan_grasper.py')
+        self.check_unreachable('plan_grasper')
 
     def test_the_planner_in_python(self):
         self.check('plan_grasper.py')

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <exception>
@@ -21,11 +22,11 @@ std::size_t thread_count(int asked_for);
 /// 0 is the thread that calls run(); the others are threads of this object.
 class WorkerThreads {
  public:
-  /// Whether the thread that calls run() does tasks, too, and delivers when no task is left to
-  /// begin, or only delivers.
+  /// What the thread that calls run() does. kWorks: it does tasks, too. Results that are ready wait
+  /// for at most one task and 0.2 ms before it delivers them. kWaits: it only delivers.
   enum class Caller { kWorks, kWaits };
-  /// Called once in each new thread before its first task, with the worker's number from 1. If it
-  /// throws, the worker never gets a task.
+  /// Called in each new thread before its first task, with the worker's number from 1. If it
+  /// throws, the worker gets no task; a later call of start() has it try again.
   using Prepare = std::function<void(std::size_t worker)>;
   /// Does one task. Called by several workers at the same time.
   using Work = std::function<void(std::size_t worker, std::size_t task)>;
@@ -39,7 +40,8 @@ class WorkerThreads {
   WorkerThreads& operator=(const WorkerThreads&) = delete;
 
   /// Starts threads until there are `count` of them. Does not wait until they are prepared: they
-  /// join in when they are. Fewer are started if the system refuses. Call it in the thread that
+  /// join in when they are. If the system refuses a thread, or one could not be prepared, fewer do
+  /// the work, and this tries again after a second at the earliest. Call it in the thread that
   /// calls run().
   void start(std::size_t count);
   /// The number of threads that were started.
@@ -61,17 +63,21 @@ class WorkerThreads {
   };
   class Round;
   using Lock = std::unique_lock<std::mutex>;
+  using Clock = std::chrono::steady_clock;
 
   void live(std::size_t worker);
   bool prepare(std::size_t worker);
   void do_task(std::size_t worker, Lock& lock);
   void deliver_all(const Deliver& deliver, Lock& lock);
+  void deliver_one(std::size_t task, const Deliver& deliver, Lock& lock);
   void wait_for_help(Lock& lock);
   bool has_open_task() const { return next_ < tasks_.size(); }
 
   const Caller caller_;
   const Prepare prepare_;
   std::vector<std::thread> threads_;
+  bool is_short_of_threads_ = false;  ///< since the last attempt
+  Clock::time_point next_try_;        ///< not before this
 
   std::mutex mutex_;  ///< guards all that follows
   std::condition_variable has_tasks_, has_results_;
@@ -81,6 +87,7 @@ class WorkerThreads {
   std::size_t working_ = 0;     ///< the number of tasks that are begun and not done
   std::size_t prepared_ = 0;    ///< the number of threads that are ready for tasks
   std::size_t failed_ = 0;      ///< the number of threads whose preparation failed
+  std::size_t tries_ = 0;       ///< counts the times that threads that failed are to try again
   std::exception_ptr why_failed_;
   bool stop_ = false;
 };

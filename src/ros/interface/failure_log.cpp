@@ -13,19 +13,22 @@ constexpr std::chrono::seconds kLogPeriod(1);
 
 }  // namespace
 
-void FailureLog::add(const std::string& reason, const std::string& message, Time now) {
+void FailureLog::add(const std::string& reason, const std::string& message, Time now,
+                     std::uint64_t times) {
   // Without the lock, because the log may take long, and the other threads need the lock.
-  const std::string line = count(reason, plain_text(message, kLongestMessage), now);
+  const std::string line = count(reason, plain_text(message, kLongestMessage), now, times);
   if (!line.empty()) ROS_WARN("%s", line.c_str());
 }
 
-std::string FailureLog::count(const std::string& reason, const std::string& message, Time now) {
+std::string FailureLog::count(const std::string& reason, const std::string& message, Time now,
+                              std::uint64_t times) {
   const std::lock_guard<std::mutex> lock(mutex_);
   Entry& entry = entries_[reason];
-  ++entry.count;
-  ++entry.not_yet_reported;
+  const bool is_first = entry.count == 0;
+  entry.count += times;
+  entry.not_yet_reported += times;
   entry.latest = message;
-  if (entry.count > 1 && now - entry.logged < kLogPeriod) return "";
+  if (!is_first && now - entry.logged < kLogPeriod) return "";
   entry.logged = now;
   if (entry.count == 1) return message;
   return message + " (" + std::to_string(entry.count) + " times)";

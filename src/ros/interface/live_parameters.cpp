@@ -97,17 +97,17 @@ ParameterGroup live_group(const XmlRpcValue& changes,
   return group;
 }
 
-LiveParameters::LiveParameters(ros::NodeHandle private_node, std::vector<LiveParameter> parameters,
-                               Apply apply)
-    : private_node_(private_node),
-      parameters_(std::move(parameters)),
-      apply_(std::move(apply)),
-      descriptions_(private_node.advertise<dynamic_reconfigure::ConfigDescription>(
-          "parameter_descriptions", 1, true)),
-      updates_(private_node.advertise<Config>("parameter_updates", 1, true)),
-      server_(private_node.advertiseService("set_parameters", &LiveParameters::on_set, this)) {
+LiveParameters::LiveParameters(const ros::NodeHandle& private_node,
+                               std::vector<LiveParameter> parameters, Apply apply)
+    : private_node_(private_node), parameters_(std::move(parameters)), apply_(std::move(apply)) {}
+
+void LiveParameters::advertise() {
+  descriptions_ = private_node_.advertise<dynamic_reconfigure::ConfigDescription>(
+      "parameter_descriptions", 1, true);
+  updates_ = private_node_.advertise<Config>("parameter_updates", 1, true);
   descriptions_.publish(description(parameters_));
   updates_.publish(values(parameters_));
+  server_ = private_node_.advertiseService("set_parameters", &LiveParameters::on_set, this);
 }
 
 Config LiveParameters::set(const Config& request) {

@@ -37,7 +37,11 @@ class LiveParameters {
   /// nothing has changed.
   using Apply = std::function<void(const XmlRpc::XmlRpcValue& changes)>;
 
-  LiveParameters(ros::NodeHandle private_node, std::vector<LiveParameter> parameters, Apply apply);
+  LiveParameters(const ros::NodeHandle& private_node, std::vector<LiveParameter> parameters,
+                 Apply apply);
+
+  /// Publishes the parameters, and serves changes. From now on, `apply` may be called at any time.
+  void advertise();
 
   /// Applies the changes that a request asks for, and logs them. A value that differs from the
   /// present one goes to the parameter server, too. If a value is illegal, nothing changes, and the

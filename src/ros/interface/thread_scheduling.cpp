@@ -1,6 +1,9 @@
 #include "thread_scheduling.hpp"
 
 #include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -19,6 +22,11 @@ int make_realtime(pid_t thread, int priority) {
   return sched_setscheduler(thread, flags, &parameters) == 0 ? 0 : errno;
 }
 
+/// From 0 (ordinary) to 19. On Linux, each thread has a niceness of its own.
+void set_niceness(int niceness) {
+  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), niceness);
+}
+
 std::string error_text(int error) { return error == 0 ? std::string() : std::strerror(error); }
 
 }  // namespace
@@ -35,6 +43,10 @@ std::string make_all_threads_realtime(int priority) {
   }
   return {};
 }
+
+void lower_priority_of_this_thread() { set_niceness(10); }
+
+void yield_to_all_threads() { set_niceness(19); }
 
 std::string scheduling_of_this_thread() {
   sched_param parameters{};

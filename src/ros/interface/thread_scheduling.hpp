@@ -15,6 +15,15 @@ std::string make_this_thread_realtime(int priority);
 /// The same for all threads that the process has now.
 std::string make_all_threads_realtime(int priority);
 
+/// Lowers the priority of the calling thread (niceness 10): if all processors are busy, ordinary
+/// threads such as the node's come first. If the system refuses, the thread keeps its priority.
+void lower_priority_of_this_thread();
+
+/// Gives the calling thread the lowest ordinary priority (niceness 19): if all processors are busy,
+/// it gets about a hundredth of one. Not SCHED_IDLE: such a thread might hold a lock of Mesa or of
+/// malloc and get no processor. With niceness 19, every wait for such a lock is short.
+void yield_to_all_threads();
+
 /// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
 std::string scheduling_of_this_thread();
 

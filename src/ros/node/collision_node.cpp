@@ -47,7 +47,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
            counters_.refused,
            loaded_.parameters.threads}),
       query_diagnostics_({loaded_.misspelt, pipeline_.gl_version(), pipeline_.steps(),
-                          pipeline_.transforms(), services_.times(), counters_}),
+                          pipeline_.transforms(), services_.statistics(), counters_}),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
                           counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
@@ -79,6 +79,8 @@ void CollisionNode::start() {
   services_.advertise(on_queue(private_node_, query_thread_.queue()),
                       on_queue(private_node_, batch_thread_.queue()));
   organ_services_.advertise(private_node_);
+  tool_reload_.advertise();
+  live_parameters_.advertise();
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
   updater_.setHardwareID("none");

@@ -7,8 +7,8 @@
 #include <functional>
 #include <vector>
 
-#include "background_thread.hpp"
 #include "message_loop.hpp"
+#include "queue_thread.hpp"
 #include "realtime.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/organs/organ_services.hpp"
@@ -53,7 +53,7 @@ class CollisionNode {
 
   NodeCounters counters_;
   MessageLoop loop_;
-  BackgroundThread background_, query_thread_, batch_thread_;
+  QueueThread background_, query_thread_, batch_thread_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;

@@ -43,6 +43,7 @@ void show(const std::string& text, diagnostic_updater::DiagnosticStatusWrapper& 
 
 Realtime::Realtime(const RealtimeParameters& parameters)
     : priority_refused_(ask_for_priority(parameters.priority)),
+      shows_locked_memory_(parameters.lock_memory),
       lock_refused_(ask_for_lock(parameters.lock_memory)) {
   warn(priority_refused_);
   warn(lock_refused_);
@@ -56,8 +57,10 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string scheduling = scheduling_of_this_thread();
   status.summary(diagnostic_msgs::DiagnosticStatus::OK, scheduling);
   status.add("scheduling", scheduling);
-  status.add("locked memory of the process [MiB]",
-             static_cast<double>(locked_memory()) / kMebibyte);
+  if (shows_locked_memory_) {
+    status.add("locked memory of the process [MiB]",
+               static_cast<double>(locked_memory()) / kMebibyte);
+  }
   show(priority_refused_, status);
   show(lock_refused_, status);
 }

@@ -14,7 +14,8 @@ namespace organ_collision {
 /// /diagnostics.
 class Realtime {
  public:
-  /// Construct it in the thread that works on the steps: only this thread gets the priority.
+  /// Construct it in the node's thread: this thread gets the priority. Step workers ask for theirs
+  /// (steps/step_workers.hpp).
   explicit Realtime(const RealtimeParameters& parameters);
 
   void add_to(diagnostic_updater::Updater& updater);
@@ -22,7 +23,10 @@ class Realtime {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
-  std::string priority_refused_, lock_refused_;  ///< what to do about it; empty: not refused
+  // What to do about a refusal; empty: there is none.
+  std::string priority_refused_;
+  bool shows_locked_memory_;  ///< only on request, because the system takes time to find it out
+  std::string lock_refused_;
 };
 
 /// Gives the priority to roscpp's threads, through which messages and ticks come. For programs that

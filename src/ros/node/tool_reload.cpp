@@ -49,8 +49,11 @@ ToolReload::ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& to
     : private_node_(private_node),
       tools_(tools),
       load_(std::move(load)),
-      exchange_(std::move(exchange)),
-      server_(private_node.advertiseService(names::kReloadTools, &ToolReload::on_reload, this)) {}
+      exchange_(std::move(exchange)) {}
+
+void ToolReload::advertise() {
+  server_ = private_node_.advertiseService(names::kReloadTools, &ToolReload::on_reload, this);
+}
 
 bool ToolReload::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   try {

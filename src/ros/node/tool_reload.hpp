@@ -40,6 +40,9 @@ class ToolReload {
   ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools, Load load,
              Exchange exchange);
 
+  /// From now on, the exchange may be called at any time.
+  void advertise();
+
  private:
   bool on_reload(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   std::string reload();

@@ -5,7 +5,7 @@
 #include <new>
 #include <utility>
 
-#include "ros/interface/thread_priority.hpp"
+#include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
 namespace {

@@ -15,8 +15,8 @@ class ShapePool {
  public:
   ShapePool() : unused_(std::make_shared<Unused>()) {}
 
-  /// A shape that nobody else uses: one that was given back, or else a copy of `model`. Its
-  /// vertices are any earlier ones.
+  /// A shape that nobody else uses: one that was given back, or else a copy of `model`. It has
+  /// the vertices of some earlier shape: move it before it is used.
   std::shared_ptr<TriangleMesh> take(const TriangleMesh& model);
   /// Makes a mesh a shape of this pool.
   std::shared_ptr<TriangleMesh> add(TriangleMesh mesh);

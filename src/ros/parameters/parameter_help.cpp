@@ -36,7 +36,7 @@ std::vector<HelpEntry> parameter_help() {
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},
       {names::kRealtimePriority, shown(defaults.realtime.priority),
-       "1 to 99: the thread of the steps runs under SCHED_FIFO with this priority; 0: ordinary "
+       "1 to 99: the threads of the steps run under SCHED_FIFO with this priority; 0: ordinary "
        "scheduling"},
       {names::kLockMemory, shown(defaults.realtime.lock_memory),
        "true: all memory of the process stays in RAM"},

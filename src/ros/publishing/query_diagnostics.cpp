@@ -39,7 +39,7 @@ void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
 }
 
 void QueryDiagnostics::add_services(DiagnosticStatusWrapper& status) const {
-  const ServiceTimes::Summary times = sources_.services.summary();
+  const ServiceStatistics::Summary times = sources_.services.summary();
   status.add("service queries", times.queries.count);
   status.add("service query time, median [us]", times.queries.median * kMicroseconds);
   status.add("service query time, 99th percentile [us]",

@@ -7,7 +7,7 @@
 
 #include "node_counters.hpp"
 #include "ros/motion/transform_buffer.hpp"
-#include "ros/queries/service_times.hpp"
+#include "ros/queries/service_statistics.hpp"
 #include "ros/steps/step_scheduler.hpp"
 
 namespace organ_collision {
@@ -21,7 +21,7 @@ class QueryDiagnostics {
     const std::string& gl_version;
     const StepScheduler& steps;
     const TransformBuffer& transforms;
-    const ServiceTimes& services;
+    const ServiceStatistics& services;
     NodeCounters& counters;
   };
 

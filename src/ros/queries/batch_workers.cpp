@@ -1,150 +1,30 @@
 #include "batch_workers.hpp"
 
-#include <ros/serialization.h>
-
-#include <algorithm>
-#include <stdexcept>
-#include <utility>
-
-#include "answer_budget.hpp"
-#include "given_motion.hpp"
-#include "query_checks.hpp"
-#include "ros/interface/thread_priority.hpp"
-#include "ros/steps/contact_array.hpp"
+#include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
-namespace {
 
-/// [motions] A task of a worker. Long enough that its hand-over costs little, short enough that all
-/// workers end at about the same time.
-constexpr std::size_t kBlock = 16;
-
-/// The answers to one batch, while they are made.
-class Answers {
- public:
-  Answers(const CheckedBatch& batch, const std::atomic<bool>& ended)
-      : batch_(batch),
-        ended_(ended),
-        blocks_((batch.motions + kBlock - 1) / kBlock),
-        budget_(batch.most_bytes),
-        last_(batch.motions) {
-    answers_.reserve(batch.motions);
-  }
-
-  std::size_t blocks() const { return blocks_.size(); }
-
-  /// Called by several threads, each with a query of its own.
-  void evaluate(std::size_t block, ContactQuery& query) {
-    try {
-      evaluate_motions(block, query);
-    } catch (...) {
-      budget_.end();
-      throw;
-    }
-  }
-
-  /// Called in the order of the blocks. Returns how many answers the block had.
-  std::size_t take(std::size_t block) {
-    const std::size_t before = answers_.size();
-    try {
-      take_answers(block);
-    } catch (...) {
-      budget_.end();
-      throw;
-    }
-    budget_.set_taken(block);
-    return answers_.size() - before;
-  }
-
-  std::vector<ContactArray> all() { return std::move(answers_); }
-
- private:
-  void evaluate_motions(std::size_t block, ContactQuery& query) {
-    const std::size_t first = block * kBlock, end = std::min(first + kBlock, batch_.motions);
-    CollisionRequest collision = batch_.collision;
-    for (std::size_t motion = first; motion < end && motion <= last_; ++motion) {
-      if (ended_ || !budget_.wait(block)) return;
-      if (blocks_[block].empty()) blocks_[block].reserve(end - first);
-      ContactArray& answer = blocks_[block].emplace_back(batch_.unanswered);
-      evaluate_motion(motion, query, collision, answer);
-      budget_.add(ros::serialization::serializationLength(answer));
-      if (batch_.request.stop_at_first_contact && !answer.contacts.empty()) set_last(motion);
-    }
-  }
-
-  void evaluate_motion(std::size_t motion, ContactQuery& query, CollisionRequest& collision,
-                       ContactArray& answer) const {
-    const QueryCollisionBatch::Request& request = batch_.request;
-    const GivenMotion given{request.motions.empty() ? nullptr : &request.motions[motion],
-                            request.link_motions.empty() ? nullptr : &request.link_motions[motion]};
-    try {
-      set_motion(given, batch_.snapshot, collision);
-      query.evaluate(collision, answer);
-    } catch (const Rejection& rejection) {
-      set_failure(answer, rejection.status(), rejection.what());
-    }
-  }
-
-  /// No motion after this one needs an answer.
-  void set_last(std::size_t motion) {
-    std::size_t last = last_;
-    while (motion < last && !last_.compare_exchange_weak(last, motion)) {
-    }
-  }
-
-  /// The block and all before it are evaluated, so that it is known which of their motions is the
-  /// last one.
-  void take_answers(std::size_t block) {
-    if (ended_) throw std::runtime_error("the node is about to end");
-    for (ContactArray& answer : blocks_[block]) {
-      if (answers_.size() > last_) break;
-      bytes_ += ros::serialization::serializationLength(answer);
-      answers_.push_back(std::move(answer));
-      check_bytes();
-    }
-    std::vector<ContactArray>().swap(blocks_[block]);
-  }
-
-  void check_bytes() const {
-    if (bytes_ <= batch_.most_bytes) return;
-    refuse("the answers to the first ", answers_.size(), " of ", batch_.motions, " motions have ",
-           bytes_, " bytes; a batch's must have at most ", batch_.most_bytes,
-           " (max_batch_bytes): ask for fewer motions at once");
-  }
-
-  const CheckedBatch& batch_;
-  const std::atomic<bool>& ended_;
-  std::vector<std::vector<ContactArray>> blocks_;
-  AnswerBudget budget_;
-  std::atomic<std::size_t> last_;  ///< the last motion that needs an answer
-  std::vector<ContactArray> answers_;
-  std::size_t bytes_ =
-      ros::serialization::serializationLength(QueryCollisionBatch::Response());  ///< of `answers_`
-};
-
-}  // namespace
-
-BatchWorkers::BatchWorkers(PickerKind picker, int threads, ServiceTimes& times)
+BatchWorkers::BatchWorkers(PickerKind picker, int threads, ServiceStatistics& statistics)
     : picker_(picker),
       threads_(thread_count(threads)),
-      times_(times),
+      statistics_(statistics),
       queries_(threads_ + 1),
       workers_(WorkerThreads::Caller::kWaits, [this](std::size_t worker) { prepare(worker); }) {}
 
 std::vector<ContactArray> BatchWorkers::answer(const CheckedBatch& batch) {
   workers_.start(threads_);
-  Answers answers(batch, ended_);
+  BatchAnswers answers(batch, ended_);
   workers_.run(
       answers.blocks(),
       [&](std::size_t worker, std::size_t block) { answers.evaluate(block, *queries_[worker]); },
-      [&](std::size_t block) { times_.add_motions(answers.take(block)); });
-  times_.add_batch();
+      [&](std::size_t block) { statistics_.add_motions(answers.take(block)); });
+  statistics_.add_batch();
   return answers.all();
 }
 
 void BatchWorkers::prepare(std::size_t worker) {
   queries_[worker] = std::make_unique<ContactQuery>(picker_);
-  // Only now: what makes a GL context takes locks that the node's thread may want, too.
+  // Only now: making a GL context holds locks for long that the node's thread may want, too.
   yield_to_all_threads();
 }
 

@@ -1,37 +1,25 @@
 #pragma once
 
-#include <organ_collision/QueryCollisionBatch.h>
-
 #include <atomic>
 #include <cstddef>
 #include <memory>
 #include <vector>
 
-#include "organ_collision/query/collision_query.hpp"
+#include "batch_answers.hpp"
+#include "organ_collision/picking/picker_kind.hpp"
 #include "query/workers/worker_threads.hpp"
-#include "query_snapshot.hpp"
 #include "ros/steps/contact_query.hpp"
-#include "service_times.hpp"
+#include "service_statistics.hpp"
 
 namespace organ_collision {
 
-/// A batch after all checks that concern it as a whole. What it refers to must outlive it.
-struct CheckedBatch {
-  const QueryCollisionBatch::Request& request;
-  std::size_t motions;  ///< their number
-  const QuerySnapshot& snapshot;
-  const CollisionRequest& collision;  ///< without the motion
-  const ContactArray& unanswered;     ///< what all answers have in common
-  std::size_t most_bytes;             ///< of all answers, serialized
-};
-
-/// Threads that answer batches together. They use only what other threads leave of the processors
-/// (SCHED_IDLE), because all steps come first.
+/// Threads that answer batches together. They have the lowest ordinary priority, because all steps
+/// come first.
 class BatchWorkers {
  public:
-  /// `threads`: how many; 0: one for each processor. They start with the first batch. `times`
+  /// `threads`: how many; 0: one for each processor. They start with the first batch. `statistics`
   /// counts the motions and must outlive this.
-  BatchWorkers(PickerKind picker, int threads, ServiceTimes& times);
+  BatchWorkers(PickerKind picker, int threads, ServiceStatistics& statistics);
 
   /// Answers the motions, in their order, whatever the number of threads. The answers end with the
   /// first motion that touches if the request asks for that. A motion that is illegal has an answer
@@ -47,7 +35,7 @@ class BatchWorkers {
 
   const PickerKind picker_;
   const std::size_t threads_;
-  ServiceTimes& times_;
+  ServiceStatistics& statistics_;
   std::atomic<bool> ended_{false};
   std::vector<std::unique_ptr<ContactQuery>> queries_;  ///< by worker
   WorkerThreads workers_;  ///< the last member: its threads use the others

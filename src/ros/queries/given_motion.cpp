@@ -28,16 +28,16 @@ void check_ends(const ToolMotion& motion, QueryMode mode) {
 void check_shaft_of(const Tool& tool, const ToolMotion* motion, QueryMode mode) {
   const ToolParameters& parameters = tool.parameters;
   if (!parameters.has_shaft()) {
-    if (!motion || !is_given(*motion)) return;
+    if (!motion) return;
     refuse("motion is set, and tool '", parameters.name, "' has no shaft; must be empty");
   }
-  if (!motion || !is_given(*motion)) {
+  if (!motion) {
     refuse("motion is not set, and tool '", parameters.name,
            "' has a shaft; must be the motion of its shaft");
   }
   if (motion->radius != 0.0 && motion->radius != parameters.radius) {
-    refuse("motion.radius is ", motion->radius, " m; must be that of tool '", parameters.name,
-           "', which is ", parameters.radius, " m, or 0 for that");
+    refuse("motion.radius is ", motion->radius, " m; must be 0, or ", parameters.radius,
+           " m as of tool '", parameters.name, "'");
   }
   check_ends(*motion, mode);
 }
@@ -64,10 +64,10 @@ void check_poses(const char* field, const Poses& poses, const Tool& tool) {
 
 void check_links_of(const Tool& tool, const LinkMotion* motion, QueryMode mode) {
   if (tool.links.empty()) {
-    if (!motion || !is_given(*motion)) return;
+    if (!motion) return;
     refuse("link_motion is set, and tool '", tool.parameters.name, "' has no links; must be empty");
   }
-  if (!motion || !is_given(*motion)) {
+  if (!motion) {
     refuse("link_motion is not set, and tool '", tool.parameters.name,
            "' has links; must have a pose for each");
   }

@@ -17,7 +17,7 @@ struct GivenMotion {
   const LinkMotion* links;  ///< null: not given
 };
 
-/// Whether a request sets the field.
+/// Whether a single query sets the field. In a batch, each motion of the lists is given.
 bool is_given(const ToolMotion& motion);
 bool is_given(const LinkMotion& motion);
 

@@ -1,7 +1,9 @@
 #include "query_services.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
+#include <map>
 
 #include "given_motion.hpp"
 #include "organ_collision/ros/names.hpp"
@@ -9,6 +11,7 @@
 #include "query_extras.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
+#include "ros/interface/rejection.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
@@ -32,6 +35,25 @@ void check_names(const QuerySubject& subject) {
   if (!subject.moves_as_in_tf) check_name("header.frame_id", tf_frame(subject.header.frame_id));
 }
 
+/// Counts the failures of a batch, with one message for each reason: a batch may have many.
+void count_failures(const std::vector<ContactArray>& answers, FailureLog& log) {
+  struct Failures {
+    std::uint64_t count = 0;
+    const ContactArray* latest = nullptr;
+  };
+  std::map<std::uint8_t, Failures> by_status;
+  for (const ContactArray& answer : answers) {
+    if (answer.status == ContactArray::OK) continue;
+    Failures& failures = by_status[answer.status];
+    ++failures.count;
+    failures.latest = &answer;
+  }
+  for (const auto& [status, failures] : by_status) {
+    log.add(reason_of(status), failures.latest->message, std::chrono::steady_clock::now(),
+            failures.count);
+  }
+}
+
 /// Runs a function that answers. Its exception becomes the failure of the answer.
 template <typename Answer, typename Function>
 void or_failure(Answer& answer, const Function& function) {
@@ -51,7 +73,7 @@ QueryServices::QueryServices(const Sources& sources)
     : sources_(sources),
       snapshots_(sources.node),
       query_(sources.node.parameters.picker),
-      workers_(sources.node.parameters.picker, sources.threads, times_) {}
+      workers_(sources.node.parameters.picker, sources.threads, statistics_) {}
 
 void QueryServices::advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node) {
   servers_ = {
@@ -69,9 +91,7 @@ bool QueryServices::on_query_batch(QueryCollisionBatch::Request& request,
                                    QueryCollisionBatch::Response& response) {
   response = query_batch(request);
   count_failure(sources_.refused, response.status, response.message);
-  for (const ContactArray& result : response.results) {
-    count_failure(sources_.refused, result.status, result.message);
-  }
+  count_failures(response.results, sources_.refused);
   return true;
 }
 
@@ -79,18 +99,18 @@ ContactArray QueryServices::query(const QueryCollision::Request& request) {
   ContactArray result =
       answer_about(request.organ, request.tool, request.mode, stamp_or_now(request.header));
   result.header.frame_id = plain_text(request.header.frame_id, kLongestName);
-  or_failure(result, [&] { answer(request, result); });
+  or_failure(result, [&] { answer_one(request, result); });
   return result;
 }
 
 QueryCollisionBatch::Response QueryServices::query_batch(
     const QueryCollisionBatch::Request& request) {
   QueryCollisionBatch::Response response;
-  or_failure(response, [&] { response.results = answers(request); });
+  or_failure(response, [&] { response.results = answer_batch(request); });
   return response;
 }
 
-void QueryServices::answer(const QueryCollision::Request& request, ContactArray& answer) {
+void QueryServices::answer_one(const QueryCollision::Request& request, ContactArray& answer) {
   const QueryExtras extras = checked_extras(request);
   const bool gives_links = is_given(request.link_motion);
   const bool is_of_tool = !request.tool.empty();
@@ -100,6 +120,10 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
   const QuerySubject subject{request.header, request.organ, request.tool,
                              is_of_tool && !gives_links, extras.mode};
   check_names(subject);
+  if (subject.moves_as_in_tf && is_given(request.motion)) {
+    refuse("motion is set, and tool '", request.tool,
+           "' moves as in TF; leave motion empty, or ask by query_batch");
+  }
   if (!is_of_tool) check_shaft(request.motion, extras.mode);
   QuerySnapshot snapshot = take_snapshot(subject, answer);
 
@@ -108,14 +132,16 @@ void QueryServices::answer(const QueryCollision::Request& request, ContactArray&
     collision.path = std::move(snapshot.path);
     collision.tip = snapshot.tip;
   } else {
-    set_motion({&request.motion, gives_links ? &request.link_motion : nullptr}, snapshot,
-               collision);
+    const bool gives_shaft = !is_of_tool || is_given(request.motion);
+    set_motion(
+        {gives_shaft ? &request.motion : nullptr, gives_links ? &request.link_motion : nullptr},
+        snapshot, collision);
   }
   const double query_sec = query_.evaluate(collision, answer);
-  if (answer.status == ContactArray::OK) times_.add_query(query_sec);
+  if (answer.status == ContactArray::OK) statistics_.add_query(query_sec);
 }
 
-std::vector<ContactArray> QueryServices::answers(const QueryCollisionBatch::Request& request) {
+std::vector<ContactArray> QueryServices::answer_batch(const QueryCollisionBatch::Request& request) {
   const QueryExtras extras = checked_extras(request);
   const std::size_t motions = std::max(request.motions.size(), request.link_motions.size());
   check_size(motions);

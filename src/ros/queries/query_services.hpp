@@ -12,7 +12,7 @@
 #include "query_snapshot.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "ros/steps/contact_query.hpp"
-#include "service_times.hpp"
+#include "service_statistics.hpp"
 
 namespace organ_collision {
 
@@ -20,8 +20,8 @@ namespace organ_collision {
 /// of its own, beside that of the steps. From the node's thread, a service takes only a snapshot of
 /// what it needs to know.
 ///
-/// Changes no organ and no history. An error becomes the answer's status. The status is
-/// PICKER_FAILED if the request is not the cause.
+/// Changes no organ and no history. Rejections become the status of the answer. Any other exception
+/// becomes PICKER_FAILED, with the text "the query failed: ...".
 class QueryServices {
  public:
   /// Runs an action in the node's thread, and returns when it has ended. Throws what the action
@@ -44,7 +44,8 @@ class QueryServices {
   /// For any thread: a batch that is being answered ends soon, without an answer.
   void end() { workers_.end(); }
 
-  // Not in the node's thread, unless `in_node_thread` allows it. Each by one thread at a time.
+  // Do not call these in the node's thread: they wait for it. (In tests, `in_node_thread` runs its
+  // action directly.) At most one thread at a time may call each.
 
   ContactArray query(const QueryCollision::Request& request);
   /// One snapshot and one look-up in TF serve the whole batch. A batch that fails as a whole has a
@@ -53,7 +54,7 @@ class QueryServices {
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
 
   /// What was answered, for any thread.
-  const ServiceTimes& times() const { return times_; }
+  const ServiceStatistics& statistics() const { return statistics_; }
 
  private:
   bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
@@ -61,15 +62,15 @@ class QueryServices {
                       QueryCollisionBatch::Response& response);
 
   // These throw Rejection, or other exceptions such as std::bad_alloc.
-  void answer(const QueryCollision::Request& request, ContactArray& answer);
-  std::vector<ContactArray> answers(const QueryCollisionBatch::Request& request);
+  void answer_one(const QueryCollision::Request& request, ContactArray& answer);
+  std::vector<ContactArray> answer_batch(const QueryCollisionBatch::Request& request);
   QuerySnapshot take_snapshot(const QuerySubject& subject, ContactArray& answer) const;
   void check_size(std::size_t motions) const;
 
   Sources sources_;
   SnapshotTaker snapshots_;
   ContactQuery query_;
-  ServiceTimes times_;
+  ServiceStatistics statistics_;
   BatchWorkers workers_;
   std::vector<ros::ServiceServer> servers_;
 };

@@ -63,7 +63,7 @@ void SnapshotTaker::check_age(const DeformableOrgan& organ) const {
 void SnapshotTaker::read_motion_frame(const QuerySubject& subject, const DeformableOrgan& organ,
                                       QuerySnapshot& snapshot, ContactArray& answer) const {
   const std::string frame = tf_frame(subject.header.frame_id);
-  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of `motion`");
+  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");
   const auto T_organ_motion =
       look_up(sources_.transforms, organ.frame(), frame, subject.header.stamp);
   if (!T_organ_motion.found) {

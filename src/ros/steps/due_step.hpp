@@ -28,7 +28,10 @@ struct DueStep {
   OrganToolPair* pair;
   Motion motion = Motion::kNone;
   std::optional<Timed<ToolPose>> end = {};  ///< not set: the step has failed
-  bool is_starting = false;                 ///< see EvaluatedStep
+  /// Of the organ's triangles, if they were inspected when the step was planned; else null. Another
+  /// thread inspects them, so that workers must not look for themselves.
+  const SurfaceTopology* topology = nullptr;
+  bool is_starting = false;  ///< see EvaluatedStep
 
   // What the evaluation finds.
 

@@ -24,7 +24,7 @@ class DurationStatistics {
   Summary summary() const;
 
  private:
-  std::array<double, kCapacity> seconds_;
+  std::array<double, kCapacity> seconds_{};
   std::size_t count_ = 0;
 };
 

@@ -71,7 +71,7 @@ CollisionRequest StepEvaluator::request_of(const DueStep& step) const {
   request.margin = tool.parameters.margin;
   request.max_near = static_cast<std::size_t>(tool.parameters.max_near);
   request.placement = parameters_.publish_placement;
-  request.surface_topology = pair.current.topology();
+  request.surface_topology = step.topology;
   request.tip = step.end->value.tip;
   return request;
 }

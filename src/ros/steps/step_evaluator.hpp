@@ -24,7 +24,7 @@ class StepEvaluator {
 
   /// Sets the request, the answer and the time of the query. `query` belongs to the calling thread.
   void evaluate(DueStep& step, ContactQuery& query) const;
-  /// Sets an answer that says why there is none.
+  /// Sets an answer whose status and message say why the step failed.
   void set_failed(DueStep& step, ros::Time stamp, std::uint8_t status,
                   const std::string& message) const;
 

@@ -189,6 +189,7 @@ void StepScheduler::plan_step(DueStep step, Timed<ToolPose> end) {
   }
   if (last) step.motion = DueStep::Motion::kFromLast;
   step.end = std::move(end);
+  step.topology = step.pair->current.topology();
   due_.push_back(std::move(step));
 }
 
@@ -196,6 +197,7 @@ void StepScheduler::plan_step(DueStep step, Timed<ToolPose> end) {
 void StepScheduler::plan_held(DueStep step) {
   const LastStep& last = *step.pair->last;
   step.end = Timed<ToolPose>{last.pose, last.stamp};
+  step.topology = step.pair->current.topology();
   due_.push_back(std::move(step));
 }
 

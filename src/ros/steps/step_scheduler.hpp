@@ -45,7 +45,8 @@ class StepScheduler {
  public:
   using Publish = std::function<void(const EvaluatedStep&)>;
 
-  /// The references must outlive this. `publish` gets each step as soon as it is evaluated.
+  /// The references must outlive this. `publish` gets the steps of a round in their
+  /// order, when none is left to begin.
   StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools, ToolPoses& poses,
                 StepWorkers& workers, Publish publish)
       : parameters_(parameters),

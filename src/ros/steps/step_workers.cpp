@@ -15,11 +15,17 @@ StepWorkers::StepWorkers(const NodeParameters& parameters)
       queries_(thread_count(parameters.threads)),
       threads_(WorkerThreads::Caller::kWorks, [this](std::size_t worker) { prepare(worker); }) {
   queries_.front() = std::make_unique<ContactQuery>(picker_);
+  // Already here, because a thread costs milliseconds if memory is locked.
+  start_for(parameters.tools.size());
+}
+
+void StepWorkers::start_for(std::size_t steps) {
+  if (steps > 1) threads_.start(std::min(steps, queries_.size()) - 1);
 }
 
 void StepWorkers::run(const StepEvaluator& evaluator, std::vector<DueStep>& steps,
                       const Deliver& deliver) {
-  threads_.start(std::min(steps.size(), queries_.size()) - 1);
+  start_for(steps.size());
   const auto work = [&](std::size_t worker, std::size_t step) {
     if (!steps[step].answer) evaluator.evaluate(steps[step], *queries_[worker]);
   };

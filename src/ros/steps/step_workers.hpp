@@ -13,8 +13,9 @@
 namespace organ_collision {
 
 /// Evaluates steps side by side. Each worker has a ContactQuery, and with it a GL context, of its
-/// own. The calling thread is one of the workers. The others are started when so many steps are due
-/// at once for the first time, and join in when their context is made, after about 30 ms.
+/// own. The calling thread is one of the workers. There are as many as there are tools, or more if
+/// more steps are due at once, but at most `threads`. A new worker joins in when its context is
+/// made, after about 30 ms.
 class StepWorkers {
  public:
   using Deliver = WorkerThreads::Deliver;
@@ -30,6 +31,7 @@ class StepWorkers {
   const std::string& gl_version() const { return queries_.front()->gl_version(); }
 
  private:
+  void start_for(std::size_t steps);
   void prepare(std::size_t worker);
 
   const PickerKind picker_;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <random>
 #include <stdexcept>
@@ -144,6 +146,35 @@ TEST(WorkerThreads, AThreadThatCannotBePreparedGetsNoTask) {
   EXPECT_EQ(workers.wait_until_prepared(), 2u);
   workers.run(
       20, [](std::size_t worker, std::size_t) { EXPECT_NE(worker, 2u); }, deliver_nothing);
+}
+
+TEST(WorkerThreads, AThreadThatCouldNotBePreparedTriesAgain) {
+  std::atomic<bool> works{false};
+  WorkerThreads workers(Caller::kWaits, [&](std::size_t) {
+    if (!works) throw std::runtime_error("no context");
+  });
+  workers.start(2);
+  EXPECT_EQ(workers.wait_until_prepared(), 0u);
+  works = true;
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (workers.wait_until_prepared() < 2 && std::chrono::steady_clock::now() < give_up) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    workers.start(2);
+  }
+  EXPECT_EQ(workers.wait_until_prepared(), 2u);
+}
+
+TEST(WorkerThreads, ACallerThatWorksDoesNotHoldResultsBackForLong) {
+  WorkerThreads workers(Caller::kWorks, prepare_nothing);
+  std::size_t delivered = 0, most_held = 0;
+  workers.run(
+      10,
+      [&](std::size_t, std::size_t task) {
+        most_held = std::max(most_held, task - delivered);
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      },
+      [&](std::size_t) { ++delivered; });
+  EXPECT_LE(most_held, 1u);
 }
 
 TEST(WorkerThreads, WithoutAnyHelpAWaitingCallerLearnsWhy) {

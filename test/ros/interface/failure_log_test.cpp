@@ -23,6 +23,17 @@ TEST(FailureLog, CountsByReason) {
   EXPECT_EQ(log.by_reason().at("not finite").not_yet_reported, 1u);
 }
 
+TEST(FailureLog, CountsSeveralFailuresAtOnce) {
+  FailureLog log;
+  const FailureLog::Time now{std::chrono::hours(3)};
+  log.add("invalid request", "radius", now, 7);
+  EXPECT_EQ(log.by_reason().at("invalid request").logged, now);
+  log.add("invalid request", "radius", now + std::chrono::milliseconds(1), 3);
+  EXPECT_EQ(log.by_reason().at("invalid request").count, 10u);
+  EXPECT_EQ(log.by_reason().at("invalid request").not_yet_reported, 10u);
+  EXPECT_EQ(log.by_reason().at("invalid request").logged, now);
+}
+
 TEST(FailureLog, MessagesArePlainAndShort) {
   FailureLog log;
   log.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});

@@ -18,6 +18,8 @@ constexpr uid_t kNobody = 65534;
 
 pid_t this_thread() { return static_cast<pid_t>(syscall(SYS_gettid)); }
 
+int niceness() { return getpriority(PRIO_PROCESS, static_cast<id_t>(this_thread())); }
+
 /// Priority 0 is that of ordinary threads.
 int priority_of(pid_t thread) {
   sched_param parameters{};
@@ -87,6 +89,28 @@ TEST(ThreadScheduling, WithoutTheRightThereIsAReasonAndNothingChanges) {
                        scheduling_of_this_thread() == "ordinary";
               }),
               testing::ExitedWithCode(0), "");
+}
+
+TEST(ThreadScheduling, ThePriorityIsLoweredForTheCallingThreadAlone) {
+  const int before = niceness();
+  int lowered = before;
+  std::thread([&] {
+    lower_priority_of_this_thread();
+    lowered = niceness();
+  }).join();
+  EXPECT_EQ(lowered, std::max(before, 10));
+  EXPECT_EQ(niceness(), before);
+}
+
+TEST(ThreadScheduling, TheCallingThreadAloneYieldsToAllThreads) {
+  const int before = niceness();
+  int lowered = before;
+  std::thread([&] {
+    yield_to_all_threads();
+    lowered = niceness();
+  }).join();
+  EXPECT_EQ(lowered, 19);
+  EXPECT_EQ(niceness(), before);
 }
 
 }  // namespace

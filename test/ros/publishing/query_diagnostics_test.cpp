@@ -25,10 +25,11 @@ class QueryDiagnosticsTest : public testing::Test, protected NodeParts {
   }
 
   std::vector<std::string> misspelt;
-  ServiceTimes services;
+  ServiceStatistics services;
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  QueryDiagnostics diagnostics{{misspelt, workers.gl_version(), steps, transforms, services, counters}};
+  QueryDiagnostics diagnostics{
+      {misspelt, workers.gl_version(), steps, transforms, services, counters}};
 };
 
 }  // namespace

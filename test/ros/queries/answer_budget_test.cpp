@@ -12,7 +12,7 @@ namespace {
 
 /// The result of wait() in another thread.
 std::future<bool> waits(AnswerBudget& budget, std::size_t block) {
-  return std::async(std::launch::async, [&budget, block] { return budget.wait(block); });
+  return std::async(std::launch::async, [&budget, block] { return budget.wait(block, 0); });
 }
 
 bool is_waiting(std::future<bool>& result) {
@@ -25,20 +25,30 @@ TEST(AnswerBudget, WithinTheBoundNobodyWaits) {
   AnswerBudget budget(100);
   budget.add(60);
   budget.add(40);
-  for (std::size_t block = 0; block < 5; ++block) EXPECT_TRUE(budget.wait(block));
+  for (std::size_t block = 0; block < 5; ++block) EXPECT_TRUE(budget.wait(block, 0));
 }
 
 TEST(AnswerBudget, AboveTheBoundBlocksGoOnInTheirOrder) {
   AnswerBudget budget(100);
   budget.add(101);
-  EXPECT_TRUE(budget.wait(0));
+  EXPECT_TRUE(budget.wait(0, 0));
   std::future<bool> first = waits(budget, 1), second = waits(budget, 2);
   EXPECT_TRUE(is_waiting(first));
-  budget.set_taken(0);
+  budget.set_taken(0, 50);
   EXPECT_TRUE(first.get());
   EXPECT_TRUE(is_waiting(second));
-  budget.set_taken(1);
+  budget.set_taken(1, 60);
   EXPECT_TRUE(second.get());
+}
+
+TEST(AnswerBudget, ABlockStopsIfTheBatchExceedsTheBoundWithIt) {
+  AnswerBudget budget(100);
+  budget.add(90);
+  budget.set_taken(0, 80);
+  EXPECT_TRUE(budget.wait(1, 21));  // All answers so far are within the bound.
+  budget.add(20);
+  EXPECT_TRUE(budget.wait(1, 20));
+  EXPECT_FALSE(budget.wait(1, 21));
 }
 
 TEST(AnswerBudget, TheEndEndsAllWaits) {
@@ -48,5 +58,5 @@ TEST(AnswerBudget, TheEndEndsAllWaits) {
   EXPECT_TRUE(is_waiting(waiting));
   budget.end();
   EXPECT_FALSE(waiting.get());
-  EXPECT_FALSE(budget.wait(0));
+  EXPECT_FALSE(budget.wait(0, 0));
 }

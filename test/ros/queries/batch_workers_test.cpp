@@ -1,16 +1,13 @@
 #include "ros/queries/batch_workers.hpp"
 
 #include <gtest/gtest.h>
-#include <ros/serialization.h>
-#include <tf2_eigen/tf2_eigen.h>
 
 #include <chrono>
 #include <future>
-#include <random>
 #include <stdexcept>
 #include <string>
-#include <thread>
 
+#include "batch_fixture.hpp"
 #include "ros/interface/rejection.hpp"
 
 using namespace organ_collision;
@@ -18,65 +15,16 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Batches over a sheet, which is 2 m wide and has 800 faces.
-class BatchWorkersTest : public testing::Test {
+class BatchWorkersTest : public BatchTest {
  protected:
-  BatchWorkersTest() {
-    snapshot_.latest.mesh = std::make_shared<const TriangleMesh>(sheet());
-    request_.mode = ContactArray::SWEPT;
-    collision_.organ = snapshot_.latest.mesh.get();
-    collision_.mode = QueryMode::kSwept;
-    unanswered_.organ = "liver";
-  }
-
-  static TriangleMesh sheet() {
-    constexpr std::uint32_t kCells = 20;
-    std::vector<float> vertices;
-    std::vector<std::uint32_t> faces;
-    std::mt19937 random(11);
-    std::uniform_real_distribution<float> height(-0.02f, 0.02f);
-    for (std::uint32_t y = 0; y <= kCells; ++y) {
-      for (std::uint32_t x = 0; x <= kCells; ++x) {
-        const float step = 2.0f / kCells;
-        vertices.insert(vertices.end(), {-1.0f + step * static_cast<float>(x),
-                                         -1.0f + step * static_cast<float>(y), height(random)});
-        if (x == kCells || y == kCells) continue;
-        const std::uint32_t a = y * (kCells + 1) + x, b = a + kCells + 1;
-        faces.insert(faces.end(), {a, a + 1, b + 1, a, b + 1, b});
-      }
-    }
-    return {vertices, faces};
-  }
-
-  /// Shafts that go from heights in [0.01, 0.3] to heights in [low, 0.3].
-  void add_random_shafts(std::size_t count, double low) {
-    std::mt19937 random(5);
-    std::uniform_real_distribution<double> place(-0.8, 0.8), from(0.05, 0.3), to(low, 0.3);
-    for (std::size_t i = 0; i < count; ++i) {
-      ToolMotion& motion = request_.motions.emplace_back();
-      const auto point = [&](double z) {
-        const double x = place(random), y = place(random);
-        return tf2::toMsg(Vector3d(x, y, z));
-      };
-      motion.trocar = motion.previous_trocar = point(1.0);
-      motion.previous_tip = point(from(random));
-      motion.tip = point(to(random));
-      motion.radius = i % 7 == 3 ? 0.0 : 0.01;  // Some are illegal.
-    }
-  }
-
-  CheckedBatch batch() const {
-    return {request_, request_.motions.size(), snapshot_, collision_, unanswered_, most_bytes_};
-  }
-
   std::vector<ContactArray> answers(int threads) {
-    return BatchWorkers(PickerKind::kFeedback, threads, times_).answer(batch());
+    return BatchWorkers(PickerKind::kFeedback, threads, statistics_).answer(batch());
   }
 
   std::vector<ContactArray> answers_one_by_one() {
     std::vector<ContactArray> all;
     QueryCollisionBatch::Request one = request_;
-    BatchWorkers workers(PickerKind::kFeedback, 1, times_);
+    BatchWorkers workers(PickerKind::kFeedback, 1, statistics_);
     for (const ToolMotion& motion : request_.motions) {
       one.motions = {motion};
       all.push_back(
@@ -85,12 +33,7 @@ class BatchWorkersTest : public testing::Test {
     return all;
   }
 
-  ServiceTimes times_;
-  QuerySnapshot snapshot_;
-  QueryCollisionBatch::Request request_;
-  CollisionRequest collision_;
-  ContactArray unanswered_;
-  std::size_t most_bytes_ = 1'000'000'000;
+  ServiceStatistics statistics_;
 };
 
 }  // namespace
@@ -182,18 +125,18 @@ TEST_F(BatchWorkersTest, CountsTheMotionsThatAreAnswered) {
   touching.tip = tf2::toMsg(Vector3d(0.1, 0.2, -0.3));
   request_.motions.insert(request_.motions.begin() + 40, touching);
   answers(2);
-  EXPECT_EQ(times_.summary().batches, 1u);
-  EXPECT_EQ(times_.summary().motions, 101u);
+  EXPECT_EQ(statistics_.summary().batches, 1u);
+  EXPECT_EQ(statistics_.summary().motions, 101u);
   request_.stop_at_first_contact = 1;
   answers(2);
-  EXPECT_EQ(times_.summary().batches, 2u);
-  EXPECT_EQ(times_.summary().motions, 142u);
+  EXPECT_EQ(statistics_.summary().batches, 2u);
+  EXPECT_EQ(statistics_.summary().motions, 142u);
 }
 
 TEST_F(BatchWorkersTest, EndsSoonWhenAsked) {
   add_random_shafts(1, 0.05);
   request_.motions.assign(500'000, request_.motions[0]);
-  BatchWorkers workers(PickerKind::kFeedback, 2, times_);
+  BatchWorkers workers(PickerKind::kFeedback, 2, statistics_);
   auto answering = std::async(std::launch::async, [&] { return workers.answer(batch()); });
   EXPECT_EQ(answering.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
   workers.end();

@@ -183,6 +183,16 @@ TEST_F(LinkMotionQueriesTest, RefuseUnknownAndFaultyTools) {
   EXPECT_NE(services.query_batch(batch).message.find("'grasper'"), std::string::npos);
 }
 
+TEST_F(LinkMotionQueriesTest, ABatchMayHaveAMotionOfZeros) {
+  QueryCollisionBatch::Request batch = batch_of(request);
+  batch.tool = "probe";
+  batch.motions = {ToolMotion()};  // A ball in the origin, which is on the sheet.
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  ASSERT_EQ(response.results.size(), 1u) << response.message;
+  EXPECT_EQ(response.results[0].status, ContactArray::OK) << response.results[0].message;
+  EXPECT_FALSE(response.results[0].contacts.empty());
+}
+
 TEST_F(LinkMotionQueriesTest, ABatchOfAShaftHasTheToolsRadius) {
   QueryCollisionBatch::Request batch = batch_of(request);
   batch.tool = "probe";

@@ -17,6 +17,7 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
   expect_refused(ContactArray::INVALID_REQUEST, {"organ", "empty"});
   request = good;
   request.tool = "saw";
+  request.motion = {};
   expect_refused(ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"});
   request = good;
   request.mode = 5;
@@ -43,6 +44,8 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
   expect_refused(ContactArray::INVALID_REQUEST, {});
   request = good;
   request.tool = "hook";
+  expect_refused(ContactArray::INVALID_REQUEST, {"motion is set", "'hook' moves as in TF"});
+  request.motion = {};
   expect_refused(ContactArray::NO_TRANSFORM, {"hook_tip"});
 }
 
@@ -66,6 +69,7 @@ TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
 
 TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
   request.tool = "hook";
+  request.motion = {};
   send_tip(1.0, kAbove);
   send_tip(1.2, kBelow);
   send_vertices(1.125, 0.0);

@@ -5,7 +5,9 @@
 
 #include <random>
 #include <string>
+#include <vector>
 
+#include "ros/interface/thread_scheduling.hpp"
 #include "test/ros/steps/node_parts.hpp"
 
 namespace organ_collision {
@@ -102,6 +104,16 @@ TEST(StepWorkers, TheAnswersDoNotDependOnTheNumberOfThreads) {
   const std::string by_one = Node(1).run(60);
   EXPECT_GT(by_one.size(), 100'000u);
   for (const int threads : {2, 3, 8}) EXPECT_TRUE(Node(threads).run(60) == by_one) << threads;
+}
+
+TEST(StepWorkers, WithoutStepsNoThreadIsStarted) {
+  NodeParts parts(4);
+  StepWorkers workers(parts.parameters);
+  const StepEvaluator evaluator(parts.parameters, parts.tools, parts.poses);
+  const std::size_t before = threads_of_this_process().size();
+  std::vector<DueStep> none;
+  workers.run(evaluator, none, [](std::size_t) { FAIL() << "delivered"; });
+  EXPECT_EQ(threads_of_this_process().size(), before);
 }
 
 }  // namespace

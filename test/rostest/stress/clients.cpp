@@ -60,7 +60,7 @@ void QueryClient::ask_query() {
   query.request.header.frame_id = "sheet";
   query.request.organ = kOrgans[turn % std::size(kOrgans)];
   query.request.tool = kTools[turn / 2 % std::size(kTools)];
-  query.request.motion = motion(turn);
+  if (query.request.tool.empty()) query.request.motion = motion(turn);
   query.request.mode = turn % 3 == 0 ? ContactArray::STATIC : ContactArray::SWEPT;
   query.request.organ_motion = turn % 2 == 0;
   query.request.margin = turn % 5 == 0 ? 0.01 : 0.0;

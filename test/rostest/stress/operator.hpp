@@ -6,7 +6,8 @@
 
 namespace organ_collision::stress {
 
-/// Somebody who changes everything while the node runs. Each function is for a thread of its own.
+/// A user who resets, reloads tools, and changes parameters and organs while the node runs. Each
+/// function is for a thread of its own.
 class Operator {
  public:
   explicit Operator(Findings& findings) : findings_(findings) {}

@@ -1,6 +1,6 @@
-// Everything at once: many organs and tools, services, and whatever a user can change while the
-// node runs. Each answer must keep the contract of ContactArray.msg, and at the end the node must
-// answer as if nothing had happened. With the parameter ~nodelet, the nodelet runs in this process.
+// Organs, tools, queries, batches and changed settings at the same time. Each answer must keep the
+// contract of ContactArray.msg, and at the end each tool must get an answer about the organ again.
+// With the parameter ~nodelet, the nodelet runs in this process.
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>

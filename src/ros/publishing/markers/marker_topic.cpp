@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/thread_priority.hpp"
+#include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
 namespace {

@@ -7,14 +7,14 @@
 
 namespace organ_collision {
 
-/// A thread for work that no step waits for. Where processors are scarce, it leaves them to the
-/// node's thread. It ends with this object at the latest.
-class BackgroundThread {
+/// A thread that calls the callbacks of its own queue, with niceness 10: for work that no step
+/// waits for. It ends with this object at the latest.
+class QueueThread {
  public:
-  BackgroundThread();
-  ~BackgroundThread();
-  BackgroundThread(const BackgroundThread&) = delete;
-  BackgroundThread& operator=(const BackgroundThread&) = delete;
+  QueueThread();
+  ~QueueThread();
+  QueueThread(const QueueThread&) = delete;
+  QueueThread& operator=(const QueueThread&) = delete;
 
   /// Ends the thread after the callback that it is calling. What else is in the queue stays there.
   void stop();

@@ -1,4 +1,4 @@
-#include "ros/node/background_thread.hpp"
+#include "ros/node/queue_thread.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -15,7 +15,7 @@ namespace {
 
 /// The value of a function that is called in the background.
 template <typename Function>
-auto in_background(BackgroundThread& thread, Function function) {
+auto in_background(QueueThread& thread, Function function) {
   std::promise<decltype(function())> promise;
   auto value = promise.get_future();
   call_later(thread.queue(), [&] { promise.set_value(function()); });
@@ -24,27 +24,27 @@ auto in_background(BackgroundThread& thread, Function function) {
 
 }  // namespace
 
-TEST(BackgroundThread, CallsInItsOwnThread) {
-  BackgroundThread thread;
+TEST(QueueThread, CallsInItsOwnThread) {
+  QueueThread thread;
   const std::thread::id first = in_background(thread, [] { return std::this_thread::get_id(); });
   const std::thread::id second = in_background(thread, [] { return std::this_thread::get_id(); });
   EXPECT_NE(first, std::this_thread::get_id());
   EXPECT_EQ(first, second);
 }
 
-TEST(BackgroundThread, YieldsToThisThread) {
+TEST(QueueThread, YieldsToThisThread) {
   const auto niceness = [] { return getpriority(PRIO_PROCESS, 0); };
   const int here = niceness();
-  BackgroundThread thread;
+  QueueThread thread;
   EXPECT_GE(in_background(thread, niceness), std::min(here + 1, 19));
   EXPECT_EQ(niceness(), here);
 }
 
-TEST(BackgroundThread, EndsWithItsPresentCallback) {
+TEST(QueueThread, EndsWithItsPresentCallback) {
   std::vector<int> called;
   std::promise<void> started, finish;
   {
-    BackgroundThread thread;
+    QueueThread thread;
     call_later(thread.queue(), [&] {
       started.set_value();
       finish.get_future().wait();

@@ -1,8 +1,8 @@
-#include "background_thread.hpp"
+#include "queue_thread.hpp"
 
 #include <new>
 
-#include "ros/interface/thread_priority.hpp"
+#include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
 namespace {
@@ -12,16 +12,16 @@ const ros::WallDuration kLongestWait(0.05);
 
 }  // namespace
 
-BackgroundThread::BackgroundThread() : thread_([this] { work(); }) {}
+QueueThread::QueueThread() : thread_([this] { work(); }) {}
 
-BackgroundThread::~BackgroundThread() { stop(); }
+QueueThread::~QueueThread() { stop(); }
 
-void BackgroundThread::stop() {
+void QueueThread::stop() {
   stop_ = true;
   if (thread_.joinable()) thread_.join();
 }
 
-void BackgroundThread::work() {
+void QueueThread::work() {
   lower_priority_of_this_thread();
   while (!stop_) {
     try {

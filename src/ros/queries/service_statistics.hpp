@@ -8,7 +8,7 @@
 namespace organ_collision {
 
 /// Counts what the services have answered, for /diagnostics. Any thread may use it at any time.
-class ServiceTimes {
+class ServiceStatistics {
  public:
   struct Summary {
     DurationStatistics::Summary queries;  ///< single ones: their number and times
@@ -19,27 +19,37 @@ class ServiceTimes {
   /// `seconds`: the time that a single query took, without the time in which it waited.
   void add_query(double seconds) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    queries_.add(seconds);
+    counts_.queries.add(seconds);
   }
   void add_batch() {
     const std::lock_guard<std::mutex> lock(mutex_);
-    ++batches_;
+    ++counts_.batches;
   }
   /// `motions`: how many of a batch were answered since the last call.
   void add_motions(std::size_t motions) {
     const std::lock_guard<std::mutex> lock(mutex_);
-    motions_ += motions;
+    counts_.motions += motions;
   }
   Summary summary() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return {queries_.summary(), batches_, motions_};
+    const Counts counts = copy();
+    return {counts.queries.summary(), counts.batches, counts.motions};
   }
 
  private:
+  struct Counts {
+    DurationStatistics queries;
+    std::size_t batches = 0;
+    std::size_t motions = 0;
+  };
+
+  /// Only this needs the lock. Percentiles take longer, and are computed without it.
+  Counts copy() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return counts_;
+  }
+
   mutable std::mutex mutex_;
-  DurationStatistics queries_;
-  std::size_t batches_ = 0;
-  std::size_t motions_ = 0;
+  Counts counts_;
 };
 
 }  // namespace organ_collision
