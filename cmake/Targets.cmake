@@ -10,7 +10,8 @@ if(ORGAN_COLLISION_SANITIZE)
   # In code with checks in it, GCC 12 takes values for uninitialized that are not.
   add_compile_options(-fsanitize=${ORGAN_COLLISION_SANITIZE} -fno-omit-frame-pointer -g1
                       -Wno-maybe-uninitialized -Wno-uninitialized)
-  add_link_options(-fsanitize=${ORGAN_COLLISION_SANITIZE})
+  # Inline functions of headers are in the libraries of others, too, without checks. Ours must call their own.
+  add_link_options(-fsanitize=${ORGAN_COLLISION_SANITIZE} -Wl,-Bsymbolic-functions)
 endif()
 
 # organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
