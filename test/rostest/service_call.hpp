@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 #include <ros/service_client.h>
+#include <ros/time.h>
 
 #include <string>
 
@@ -13,15 +14,17 @@ namespace organ_collision {
 /// it as soon as it has sent its answer. If roscpp's polling thread sees that before the thread of
 /// the call waits for the answer, roscpp drops the answer, and the call returns false. On a busy
 /// machine this happens to one call in some thousands, also between two programs that do nothing
-/// else. On a machine without an idle processor, a call over a persistent connection was lost, too.
-/// Therefore a call is repeated twice: a node that does not answer fails all three times.
+/// else. On a machine without an idle processor, calls over persistent connections were lost, too.
+/// Therefore a call is repeated for up to 10 s. A service that does not answer fails all that time.
 template <typename Service>
 bool call_service(const std::string& name, Service& service) {
   ros::NodeHandle node;
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    if (node.serviceClient<Service>(name, /*persistent=*/true).call(service)) return true;
+  const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(10.0);
+  while (!node.serviceClient<Service>(name, /*persistent=*/true).call(service)) {
+    if (ros::WallTime::now() > give_up) return false;
+    ros::WallDuration(0.05).sleep();
   }
-  return false;
+  return true;
 }
 
 }  // namespace organ_collision
