@@ -56,6 +56,7 @@ WorkerThreads::~WorkerThreads() {
     stop_ = true;
   }
   has_tasks_.notify_all();
+  may_try_again_.notify_all();
   for (std::thread& thread : threads_) thread.join();
 }
 
@@ -74,7 +75,7 @@ void WorkerThreads::start(std::size_t count) {
     is_short_of_threads_ = true;
     failed_ = 0;
     ++tries_;
-    has_tasks_.notify_all();
+    may_try_again_.notify_all();
   }
   next_try_ = Clock::now() + kPause;
 }
@@ -100,7 +101,7 @@ void WorkerThreads::live(std::size_t worker) {
     const std::size_t tries = tries_;
     ++failed_;
     has_results_.notify_all();
-    has_tasks_.wait(lock, [&] { return stop_ || tries_ != tries; });
+    may_try_again_.wait(lock, [&] { return stop_ || tries_ != tries; });
     if (stop_) return;
   }
   Lock lock(mutex_);

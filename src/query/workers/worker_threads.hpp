@@ -81,13 +81,14 @@ class WorkerThreads {
 
   std::mutex mutex_;  ///< guards all that follows
   std::condition_variable has_tasks_, has_results_;
-  const Work* work_ = nullptr;  ///< of the present round
-  std::vector<Task> tasks_;     ///< of the present round
-  std::size_t next_ = 0;        ///< the next task to begin
-  std::size_t working_ = 0;     ///< the number of tasks that are begun and not done
-  std::size_t prepared_ = 0;    ///< the number of threads that are ready for tasks
-  std::size_t failed_ = 0;      ///< the number of threads whose preparation failed
-  std::size_t tries_ = 0;       ///< counts the times that threads that failed are to try again
+  std::condition_variable may_try_again_;  ///< for the threads whose preparation failed
+  const Work* work_ = nullptr;             ///< of the present round
+  std::vector<Task> tasks_;                ///< of the present round
+  std::size_t next_ = 0;                   ///< the next task to begin
+  std::size_t working_ = 0;                ///< the number of tasks that are begun and not done
+  std::size_t prepared_ = 0;               ///< the number of threads that are ready for tasks
+  std::size_t failed_ = 0;                 ///< the number of threads whose preparation failed
+  std::size_t tries_ = 0;  ///< counts the times that threads that failed are to try again
   std::exception_ptr why_failed_;
   bool stop_ = false;
 };

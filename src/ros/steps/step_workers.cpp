@@ -9,6 +9,7 @@
 #include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
+
 StepWorkers::StepWorkers(const NodeParameters& parameters)
     : picker_(parameters.picker),
       realtime_priority_(parameters.realtime.priority),

@@ -148,6 +148,21 @@ TEST(WorkerThreads, AThreadThatCannotBePreparedGetsNoTask) {
       20, [](std::size_t worker, std::size_t) { EXPECT_NE(worker, 2u); }, deliver_nothing);
 }
 
+TEST(WorkerThreads, AThreadThatWaitsForAnotherTryTakesNoWakeUpFromTheOthers) {
+  for (int trial = 0; trial < 50; ++trial) {
+    WorkerThreads workers(Caller::kWaits, [&](std::size_t worker) {
+      if (worker % 2 == 1) throw std::runtime_error("no context");
+    });
+    workers.start(2);
+    EXPECT_EQ(workers.wait_until_prepared(), 1u);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // Both threads wait by now.
+    std::size_t delivered = 0;
+    workers.run(
+        1, [](std::size_t, std::size_t) {}, [&](std::size_t) { ++delivered; });
+    EXPECT_EQ(delivered, 1u);
+  }
+}
+
 TEST(WorkerThreads, AThreadThatCouldNotBePreparedTriesAgain) {
   std::atomic<bool> works{false};
   WorkerThreads workers(Caller::kWaits, [&](std::size_t) {
