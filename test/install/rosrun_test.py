@@ -14,13 +14,17 @@ import unittest
 
 SOURCE, BUILD, DEVEL, PREFIX = sys.argv[1:5]
 SCRIPTS = ('ask.py', 'ask_many.py', 'dvrk_hand.py', 'dvrk_organ.py', 'dvrk_robot.py', 'grasper.py',
-           'lower_until_touch.py', 'own_mesh.py', 'simulator.py')
+           'lower_until_touch.py', 'own_mesh.py', 'plan_grasper.py', 'simulator.py')
 
 
 def programs(space):
-    """All programs of a space except the unit tests, which ctest runs."""
+    """All programs of a space except the unit tests, which ctest runs.
+
+    The modules that a script imports from its own folder are no programs: they may not be executed.
+    """
     paths = glob.glob(os.path.join(space, 'lib/organ_collision/*'))
-    return sorted(p for p in paths if os.path.isfile(p) and not p.endswith('_test'))
+    return sorted(p for p in paths if os.path.isfile(p) and os.access(p, os.X_OK)
+                  and not p.endswith('_test'))
 
 
 class RosrunTest(unittest.TestCase):
