@@ -2,8 +2,10 @@
 
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
+#include <ros/service.h>
 
 #include <stdexcept>
+#include <string>
 
 #include "benchmark/measurements/stopwatch.hpp"
 
@@ -54,9 +56,10 @@ LinkMotion link_message(const ToolPath& path, bool moves) {
 
 BatchClient::BatchClient(std::size_t faces, const std::string& tool)
     : organ_(make_organ(faces)), tool_(tool), motions_(motions_of(tool, organ_, kMotions)) {
-  client_ = node_.serviceClient<QueryCollisionBatch>("organ_collision/query_batch",
-                                                     /*persistent=*/true);
-  client_.waitForExistence(ros::Duration(30.0));
+  // A persistent client that is made before its service is there stays without a connection.
+  const std::string service = "organ_collision/query_batch";
+  ros::service::waitForService(service, ros::Duration(30.0));
+  client_ = node_.serviceClient<QueryCollisionBatch>(service, /*persistent=*/true);
 }
 
 void BatchClient::publish_organ() {
