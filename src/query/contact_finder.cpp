@@ -119,7 +119,7 @@ void ContactFinder::find_contacts_on_leg(const Step& step, std::size_t leg, cons
 void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
   if (touches_.empty()) return;
   if (shape && shape->surface) {
-    find_first_touches(*shape->surface, *part.core.link(), radius, budget_, touches_);
+    surface_touches_.find(*shape->surface, *part.core.link(), radius, budget_, touches_);
   } else {
     for (FaceTouch& touch : touches_) {
       touch.first = first_touch(part.core, touch.motion, radius, budget_);

@@ -49,6 +49,7 @@ class ContactFinder {
   std::vector<Candidate> candidates_;
   std::vector<PendingFace> pending_faces_;
   std::vector<FaceTouch> touches_;
+  SurfaceTouches surface_touches_;
   /// For each face, the leg on which the present link first touched it, counted from 1. Zero: it
   /// has not touched the face so far.
   std::vector<std::uint32_t> touched_leg_;

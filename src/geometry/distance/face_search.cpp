@@ -16,6 +16,10 @@ Array4f padded(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
 }
 
+BlockBoxes::Box join(const BlockBoxes::Box& a, const BlockBoxes::Box& b) {
+  return {a.min.min(b.min), a.max.max(b.max)};
+}
+
 }  // namespace
 
 void FaceSearch::start(const OrganMotion& organ, const OrientedBox& box) {
@@ -29,26 +33,33 @@ void FaceSearch::start(const OrganMotion& organ, const OrientedBox& box) {
            (organ.extent(box.center) + box.center.cwiseAbs().maxCoeff() + box.half_size.maxCoeff());
 }
 
-void FaceSearch::rank_sections(float squared_bound) {
-  sections_.clear();
-  const std::vector<Box>& after = organ_->after().block_boxes().sections();
-  const std::vector<Box>& before = organ_->boxes_before().sections();
-  for (std::uint32_t section = 0; section < clusters().section_count(); ++section) {
-    const Box box = box_around(clusters().sections(section), after, before);
-    push(section, squared_distance(box), squared_bound, sections_);
+void FaceSearch::rank_top(float squared_bound) {
+  groups_.clear();
+  rank_groups(static_cast<std::uint32_t>(clusters().level_count()) - 1, 0, squared_bound);
+}
+
+void FaceSearch::rank_members(const Ranked& group, float squared_bound) {
+  rank_groups(group.level - 1, group.index * FaceClusters::kRun, squared_bound);
+}
+
+/// Ranks at most kRun groups of a level, from `begin` on.
+void FaceSearch::rank_groups(std::uint32_t level, std::size_t begin, float squared_bound) {
+  const std::vector<Box>& after = organ_->after().block_boxes().groups(level);
+  const std::vector<Box>& before = organ_->boxes_before().groups(level);
+  const std::size_t end = std::min(begin + FaceClusters::kRun, clusters().group_count(level));
+  for (std::size_t group = begin; group < end; ++group) {
+    const Box box = organ_->rests() ? after[group] : join(after[group], before[group]);
+    push({squared_distance(box), static_cast<std::uint32_t>(group), level}, squared_bound, groups_);
   }
 }
 
 void FaceSearch::rank_blocks(std::uint32_t section, float squared_bound) {
   blocks_.clear();
-  const std::vector<Box>& after = organ_->after().block_boxes().blocks();
-  const std::vector<Box>& before = organ_->boxes_before().blocks();
   const auto count = static_cast<std::uint32_t>(clusters().block_count());
   const std::uint32_t begin = section * FaceClusters::kRun;
   const std::uint32_t end = std::min<std::uint32_t>(begin + FaceClusters::kRun, count);
   for (std::uint32_t block = begin; block < end; ++block) {
-    const Box box = box_around(clusters().blocks(block), after, before);
-    push(block, squared_distance(box), squared_bound, blocks_);
+    push({squared_distance(box_around(block)), block, 0}, squared_bound, blocks_);
   }
 }
 
@@ -69,29 +80,29 @@ void FaceSearch::place_vertices(std::uint32_t block) {
   }
 }
 
-void FaceSearch::push(std::uint32_t index, float squared_distance, float squared_bound,
-                      Ranking& ranking) {
-  if (!(squared_distance <= squared_bound)) return;
-  ranking.push_back({squared_distance, index});
+void FaceSearch::push(const Ranked& ranked, float squared_bound, Ranking& ranking) {
+  if (!(ranked.squared_distance <= squared_bound)) return;
+  ranking.push_back(ranked);
   std::push_heap(ranking.begin(), ranking.end(), is_farther);
 }
 
-std::optional<std::uint32_t> FaceSearch::pop_nearest(Ranking& ranking, float squared_bound) {
+std::optional<FaceSearch::Ranked> FaceSearch::pop_nearest(Ranking& ranking, float squared_bound) {
   if (ranking.empty() || ranking.front().squared_distance > squared_bound) return std::nullopt;
   std::pop_heap(ranking.begin(), ranking.end(), is_farther);
-  const std::uint32_t nearest = ranking.back().index;
+  const Ranked nearest = ranking.back();
   ranking.pop_back();
   return nearest;
 }
 
-/// The box around the given sections or blocks during the whole motion. Empty if there are none.
-FaceSearch::Box FaceSearch::box_around(const Parts& parts, const std::vector<Box>& after,
-                                       const std::vector<Box>& before) const {
+/// The box around the faces of a block's cluster during the whole motion. Empty if there are none.
+FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
   constexpr float kMost = std::numeric_limits<float>::max();
+  const std::vector<Box>& after = organ_->after().block_boxes().blocks();
+  const std::vector<Box>& before = organ_->boxes_before().blocks();
   Box box{Array4f::Constant(kMost), Array4f::Constant(-kMost)};
-  for (const std::uint32_t part : parts) {
-    box = {box.min.min(after[part].min), box.max.max(after[part].max)};
-    if (!organ_->rests()) box = {box.min.min(before[part].min), box.max.max(before[part].max)};
+  for (const std::uint32_t part : clusters().blocks(block)) {
+    box = join(box, after[part]);
+    if (!organ_->rests()) box = join(box, before[part]);
   }
   return box;
 }

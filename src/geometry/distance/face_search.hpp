@@ -12,9 +12,9 @@
 
 namespace organ_collision {
 
-/// Visits the faces of an organ that may be near a box. It leaves out whole sections, then
-/// clusters, then single faces that are too far away. The nearest sections and clusters come first,
-/// so a search for the nearest face soon has a small bound. See doc/geometry.md, Closest approach.
+/// Visits the faces of an organ that may be near a box. It leaves out whole groups, then clusters,
+/// then single faces that are too far away. The nearest groups and clusters come first, so a search
+/// for the nearest face soon has a small bound. See doc/geometry.md, Closest approach.
 ///
 /// It computes in 32 bits and allows for their rounding: no face within the bound is left out.
 /// Keeps its memory between searches.
@@ -26,12 +26,16 @@ class FaceSearch {
   template <typename Bound, typename Measure>
   void visit(const OrganMotion& organ, const OrientedBox& box, Bound bound, Measure measure) {
     start(organ, box);
-    rank_sections(squared(bound()));
-    while (const auto section = pop_nearest(sections_, squared(bound()))) {
-      rank_blocks(*section, squared(bound()));
+    rank_top(squared(bound()));
+    while (const auto group = pop_nearest(groups_, squared(bound()))) {
+      if (group->level > 0) {
+        rank_members(*group, squared(bound()));
+        continue;
+      }
+      rank_blocks(group->index, squared(bound()));
       while (const auto block = pop_nearest(blocks_, squared(bound()))) {
-        place_vertices(*block);
-        for (const FaceClusters::Face& face : clusters().faces(*block)) {
+        place_vertices(block->index);
+        for (const FaceClusters::Face& face : clusters().faces(block->index)) {
           if (squared_distance(face.corners) <= squared(bound())) measure(face.number);
         }
       }
@@ -40,17 +44,17 @@ class FaceSearch {
 
  private:
   using Box = BlockBoxes::Box;
-  using Parts = FaceClusters::Range<std::uint32_t>;
   /// The coordinates of a vertex along the axes of the search's box, relative to its centre, as the
   /// smallest and largest values [m] during the motion. The fourth values are zero.
   struct PlacedVertex {
     Eigen::Array4f low, high;
   };
-  /// A section or a block, with a lower bound of the squared distance [m^2] from the box to the
-  /// faces of its clusters.
+  /// A group or a block, with a lower bound of the squared distance [m^2] from the box to the faces
+  /// of its clusters.
   struct Ranked {
     float squared_distance;
     std::uint32_t index;
+    std::uint32_t level;  ///< of the group; 0 for a block
   };
   /// Orders a heap whose front is the nearest one.
   static bool is_farther(const Ranked& a, const Ranked& b) {
@@ -61,14 +65,15 @@ class FaceSearch {
 
   const FaceClusters& clusters() const { return organ_->after().clusters(); }
   void start(const OrganMotion& organ, const OrientedBox& box);
-  void rank_sections(float squared_bound);
+  void rank_top(float squared_bound);
+  void rank_members(const Ranked& group, float squared_bound);
+  void rank_groups(std::uint32_t level, std::size_t begin, float squared_bound);
   void rank_blocks(std::uint32_t section, float squared_bound);
   /// Places the vertices of the faces of the block's cluster, unless that is done.
   void place_vertices(std::uint32_t block);
-  static void push(std::uint32_t index, float squared_distance, float squared_bound,
-                   Ranking& ranking);
-  /// Takes out the nearest section or block, unless it is beyond the bound.
-  static std::optional<std::uint32_t> pop_nearest(Ranking& ranking, float squared_bound);
+  static void push(const Ranked& ranked, float squared_bound, Ranking& ranking);
+  /// Takes out the nearest group or block, unless it is beyond the bound.
+  static std::optional<Ranked> pop_nearest(Ranking& ranking, float squared_bound);
 
   /// [m^2] The square of a bound, with the allowance for rounding.
   float squared(double bound) const {
@@ -86,17 +91,16 @@ class FaceSearch {
     const Eigen::Array4f high = a.high.max(b.high).max(c.high);
     return (low.max(-high) - half_size_).max(0.0F).square().sum();
   }
-  Box box_around(const Parts& parts, const std::vector<Box>& after,
-                 const std::vector<Box>& before) const;
+  Box box_around(std::uint32_t block) const;
 
   std::optional<OrganMotion> organ_;
   // The box [m]. The fourth values are zero.
   Eigen::Array4f center_, half_size_;
   std::array<Eigen::Array4f, 3> rows_;  ///< of the matrix whose columns are the box's axes
   double slack_ = 0.0;                  ///< [m] the allowance for rounding
-  Ranking sections_;
-  Ranking blocks_;                    ///< of the present section
-  std::vector<PlacedVertex> placed_;  ///< by the vertex's index in the mesh
+  Ranking groups_;                      ///< of all levels
+  Ranking blocks_;                      ///< of the present section
+  std::vector<PlacedVertex> placed_;    ///< by the vertex's index in the mesh
   std::vector<char> block_is_placed_;
 };
 

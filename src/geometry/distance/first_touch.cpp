@@ -42,10 +42,11 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
 
   const double farthest_move = core.farthest_move() + face.farthest_move();
   const double out_of_reach = radius + farthest_move;
-  Instant now(0.0, core, face, out_of_reach);
-  budget.spend(now.closest.steps);
-  if (now.closest.distance <= radius) return FirstTouch{0.0, now.closest};
-  if (now.closest.distance > out_of_reach || until == 0.0) return std::nullopt;
+  const ClosestPoints at_start = closest_points(core.start(), face.start, out_of_reach);
+  budget.spend(at_start.steps);
+  if (at_start.distance <= radius) return FirstTouch{0.0, at_start};
+  if (at_start.distance > out_of_reach || until == 0.0) return std::nullopt;
+  Instant now(0.0, core, face, at_start);
   const double touching = touching_distance(core, face, radius);
   if (stays_beyond(now.normal, core, face, touching)) return std::nullopt;
 

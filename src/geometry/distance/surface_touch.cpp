@@ -1,30 +1,13 @@
 #include "surface_touch.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <tuple>
 
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
-#include "swept_box.hpp"
 
 namespace organ_collision {
 namespace {
-
-using Eigen::Vector3d;
-
-/// As SweptBox::clear_until(), for a triangle of the tool. Tests the planes of face and triangle at
-/// the start of the leg.
-double clear_until(const FaceMotion& triangle, const FaceMotion& face, double reach) {
-  double until = 0.0;
-  for (const Vector3d& normal : {plane_normal(face.start), plane_normal(triangle.start)}) {
-    until = std::max(
-        until, clear_until(project_onto(normal, face.start), project_onto(normal, face.end),
-                           project_onto(normal, triangle.start), project_onto(normal, triangle.end),
-                           reach));
-  }
-  return until;
-}
 
 /// The time after which further touches of the face do not matter: its first touch so far.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
@@ -49,22 +32,23 @@ bool precedes(const FirstTouch& touch, const FirstTouch& other) {
          std::tie(other.time, other.closest.distance);
 }
 
+}  // namespace
+
 /// Takes faces down the tree of boxes.
-class Descent {
+class SurfaceTouches::Descent {
  public:
-  using Iterator = std::vector<FaceTouch>::iterator;
+  using Kept = std::vector<DescendingFace*>::iterator;
 
   Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget)
       : surface_(surface), motion_(motion), radius_(radius), budget_(budget) {}
 
   /// Finds the touches of the faces [begin, end) with the triangles below a node.
-  void visit(std::uint32_t index, Iterator begin, Iterator end) const {
+  void visit(std::uint32_t index, Kept begin, Kept end) const {
     const ToolSurface::Node& node = surface_.nodes()[index];
-    const SweptBox box(node.box, motion_, radius_);
     budget_.spend(static_cast<std::uint64_t>(end - begin));
-    const Iterator kept = std::partition(begin, end, [&](const FaceTouch& face) {
-      return !is_settled(face) &&
-             box.clear_until(face.motion, closer(face, radius_)) <= latest(face);
+    const Kept kept = std::partition(begin, end, [&](const DescendingFace* face) {
+      return !is_settled(*face->touch) &&
+             face->seen.clear_until(node.box, reach(*face->touch)) <= latest(*face->touch);
     });
     if (kept == begin) return;
     if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, kept);
@@ -78,33 +62,37 @@ class Descent {
   }
 
  private:
+  /// [m] How near a triangle has to come to the face to matter.
+  double reach(const FaceTouch& face) const { return radius_ - closer(face, radius_); }
+
   /// Marks the touches of the faces [begin, end) as unresolved. A face without a touch gets one
   /// with the triangle.
-  void leave_unresolved(std::uint32_t index, Iterator begin, Iterator end) const {
+  void leave_unresolved(std::uint32_t index, Kept begin, Kept end) const {
     const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
-    for (Iterator face = begin; face != end; ++face) {
-      if (!face->first) face->first = first_touch(core, face->motion, radius_, budget_);
-      face->first->is_resolved = false;
+    for (Kept kept = begin; kept != end; ++kept) {
+      FaceTouch& face = *(*kept)->touch;
+      if (!face.first) face.first = first_touch(core, face.motion, radius_, budget_);
+      face.first->is_resolved = false;
     }
   }
 
   /// Finds the touches of the faces [begin, end) with one triangle of the surface.
-  void touch(std::uint32_t index, Iterator begin, Iterator end) const {
-    const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
-    const FaceMotion triangle{core.start().triangle(), core.end().triangle()};
-    const double reach = radius_ + core.chord_deviation(1.0);
-    for (Iterator face = begin; face != end; ++face) {
-      if (is_settled(*face)) continue;
-      if (face->first && budget_.is_used_up()) {
-        face->first->is_resolved = false;  // This triangle may touch earlier.
+  void touch(std::uint32_t index, Kept begin, Kept end) const {
+    const Triangle triangle = surface_.triangle(index);
+    const Eigen::Vector3d normal = plane_normal(triangle);
+    for (Kept kept = begin; kept != end; ++kept) {
+      FaceTouch& face = *(*kept)->touch;
+      if (is_settled(face)) continue;
+      if (face.first && budget_.is_used_up()) {
+        face.first->is_resolved = false;  // This triangle may touch earlier.
         continue;
       }
-      const double until = latest(*face);
+      const double until = latest(face);
       budget_.spend(1);
-      const double nearer = reach - closer(*face, radius_);
-      if (clear_until(triangle, face->motion, nearer) > until) continue;
-      const auto found = first_touch(core, face->motion, radius_, budget_, until);
-      if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
+      if ((*kept)->seen.clear_until(triangle, normal, reach(face)) > until) continue;
+      const CoreMotion core(ConvexCore(triangle), motion_);
+      const auto found = first_touch(core, face.motion, radius_, budget_, until);
+      if (found && (!face.first || precedes(*found, *face.first))) face.first = found;
     }
   }
 
@@ -114,12 +102,16 @@ class Descent {
   WorkBudget& budget_;
 };
 
-}  // namespace
-
-void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
-                        WorkBudget& budget, std::vector<FaceTouch>& faces) {
-  for (FaceTouch& face : faces) face.first.reset();
-  Descent(surface, motion, radius, budget).visit(0, faces.begin(), faces.end());
+void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion, double radius,
+                          WorkBudget& budget, std::vector<FaceTouch>& faces) {
+  faces_.clear();
+  kept_.clear();
+  for (FaceTouch& face : faces) {
+    face.first.reset();
+    faces_.push_back({RelativeFace(face.motion, motion), &face});
+  }
+  for (DescendingFace& face : faces_) kept_.push_back(&face);
+  Descent(surface, motion, radius, budget).visit(0, kept_.begin(), kept_.end());
 }
 
 }  // namespace organ_collision

@@ -7,6 +7,7 @@
 #include "first_touch.hpp"
 #include "geometry/tool/rigid_motion.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
+#include "relative_face.hpp"
 
 namespace organ_collision {
 
@@ -17,15 +18,27 @@ struct FaceTouch {
   std::optional<FirstTouch> first;
 };
 
-/// Sets the first touch of each of `faces`: when the face first comes within `radius` [m] of a
-/// link's surface. A face that stays farther away has no first touch. If several triangles touch a
-/// face when the leg begins, the nearest one counts, because it is the deepest. Changes the order
-/// of `faces`. Allocates nothing. If `budget` runs out, touches are unresolved: the face may not
-/// touch at all, or may touch earlier.
-///
-/// The faces descend the surface's tree of boxes. Below a box, only the faces that may reach it are
-/// kept; in a leaf each of them is tested against each triangle.
-void find_first_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
-                        WorkBudget& budget, std::vector<FaceTouch>& faces);
+/// Finds the first touches of faces with the surface of a link. The faces descend the surface's
+/// tree of boxes. Below a box, only the faces that may reach it are kept; in a leaf each of them is
+/// tested against each triangle. Keeps its memory between calls.
+class SurfaceTouches {
+ public:
+  /// Sets the first touch of each of `faces`: when the face first comes within `radius` [m] of the
+  /// surface. A face that stays farther away has no first touch. If several triangles touch a face
+  /// when the leg begins, the nearest one counts, because it is the deepest. If `budget` runs out,
+  /// touches are unresolved: the face may not touch at all, or may touch earlier.
+  void find(const ToolSurface& surface, const RigidMotion& motion, double radius,
+            WorkBudget& budget, std::vector<FaceTouch>& faces);
+
+ private:
+  struct DescendingFace {
+    RelativeFace seen;
+    FaceTouch* touch;
+  };
+  class Descent;
+
+  std::vector<DescendingFace> faces_;
+  std::vector<DescendingFace*> kept_;  ///< those that the present box may reach come first
+};
 
 }  // namespace organ_collision

@@ -30,34 +30,12 @@ SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double rad
 SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
   Place place;
   place.center = pose * box.center;
-  place.half_edges = pose.linear() * box.axes * box.half_size.asDiagonal();
+  const Matrix3d half_edges = pose.linear() * box.axes * box.half_size.asDiagonal();
   const Vector3d center = axes_.transpose() * place.center;
-  const Vector3d half = (axes_.transpose() * place.half_edges).cwiseAbs().rowwise().sum();
+  const Vector3d half = (axes_.transpose() * half_edges).cwiseAbs().rowwise().sum();
   place.low = center - half;
   place.high = center + half;
   return place;
-}
-
-double SweptBox::clear_until(const FaceMotion& face, double closer) const {
-  const double reach = reach_ - closer;
-  double until = 0.0;
-  for (int i = 0; i < 3 && until <= 1.0; ++i) {
-    const Vector3d axis = axes_.col(i);
-    until =
-        std::max(until, organ_collision::clear_until(
-                            project_onto(axis, face.start), project_onto(axis, face.end),
-                            {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach));
-  }
-  if (until > 1.0) return until;
-  const Vector3d normal = plane_normal(face.start);
-  const auto project_box = [&](const Place& box) {
-    const double center = normal.dot(box.center);
-    const double half = (normal.transpose() * box.half_edges).cwiseAbs().sum();
-    return ProjectionInterval{center - half, center + half};
-  };
-  return std::max(until, organ_collision::clear_until(
-                             project_onto(normal, face.start), project_onto(normal, face.end),
-                             project_box(start_), project_box(end_), reach));
 }
 
 double SweptBox::distance_bound(const FaceMotion& face) const {

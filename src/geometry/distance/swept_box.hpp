@@ -23,10 +23,6 @@ class SweptBox {
   Eigen::Vector3d low() const { return start_.low.cwiseMin(end_.low).array() - reach_; }
   Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
 
-  /// A time of the leg before which the face surely stays farther from the box than the radius less
-  /// `closer` [m]; above 1 if it does so during the whole leg. Tests fixed planes: those at right
-  /// angles to axes(), and the face's own plane at the start.
-  double clear_until(const FaceMotion& face, double closer = 0.0) const;
   /// [m] A lower bound of the distance between the covered space and the face during the leg.
   double distance_bound(const FaceMotion& face) const;
   /// A box around the covered space.
@@ -36,8 +32,7 @@ class SweptBox {
   /// The box at one end of the leg.
   struct Place {
     Eigen::Vector3d center;
-    Eigen::Matrix3d half_edges;  ///< columns
-    Eigen::Vector3d low, high;   ///< projections onto `axes_`
+    Eigen::Vector3d low, high;  ///< projections onto `axes_`
   };
   Place place(const OrientedBox& box, const Eigen::Isometry3d& pose) const;
 

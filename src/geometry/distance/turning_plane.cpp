@@ -40,6 +40,14 @@ Instant::Instant(double time, const CoreMotion& core_motion, const FaceMotion& f
       closest(closest_points(core, face, distance_bound)),
       normal(closest.separation.normalized()) {}
 
+Instant::Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,
+                 const ClosestPoints& closest)
+    : time(time),
+      core(core_motion.at(time)),
+      face(face_motion.at(time)),
+      closest(closest),
+      normal(closest.separation.normalized()) {}
+
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius) {
   // A plane that would turn by a right angle or more keeps its direction.
   const bool turns = from.normal.dot(to.normal) > 0.0;

@@ -21,6 +21,9 @@ struct Instant {
   /// `distance_bound` [m] is as for closest_points().
   Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,
           double distance_bound = std::numeric_limits<double>::infinity());
+  /// With known nearest points.
+  Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,
+          const ClosestPoints& closest);
 };
 
 /// The share of the interval between two instants during which the distance of core and face

@@ -70,7 +70,19 @@ float fit_scattered(const std::vector<float>& vertices,
   return sum.sum();
 }
 
-std::size_t round_up(std::size_t count) { return (count + kRun - 1) / kRun * kRun; }
+/// Makes room for `count` boxes and pads them with empty ones. Boxes may be left from other
+/// clusters.
+void resize(std::size_t count, std::vector<Box>& boxes) {
+  boxes.resize((count + kRun - 1) / kRun * kRun);
+  std::fill(boxes.begin() + static_cast<std::ptrdiff_t>(count), boxes.end(), empty_box());
+}
+
+/// The box around kRun members of a group.
+Box join_run(const std::vector<Box>& members, std::size_t group) {
+  Box box = members[group * kRun];
+  for (std::size_t i = 1; i < kRun; ++i) box = join(box, members[group * kRun + i]);
+  return box;
+}
 
 bool all_finite(const std::vector<float>& values) {
   return std::all_of(values.begin(), values.end(), [](float x) { return std::isfinite(x); });
@@ -79,24 +91,30 @@ bool all_finite(const std::vector<float>& values) {
 }  // namespace
 
 bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& vertices) {
-  blocks_.resize(round_up(clusters.block_count()), empty_box());
-  // Boxes may be left from other clusters with more blocks.
-  std::fill(blocks_.begin() + static_cast<std::ptrdiff_t>(clusters.block_count()), blocks_.end(),
-            empty_box());
-  sections_.resize(round_up(clusters.section_count()), empty_box());
+  resize(clusters.block_count(), blocks_);
   const float sum = clusters.block_of_run().empty()
                         ? fit_scattered(vertices, clusters.block_of_vertex(), blocks_)
                         : fit_runs(vertices, clusters.block_of_run(), blocks_);
-  Box all = empty_box();
-  for (std::size_t section = 0; section < clusters.section_count(); ++section) {
-    Box box = blocks_[section * kRun];
-    for (std::size_t i = 1; i < kRun; ++i) box = join(box, blocks_[section * kRun + i]);
-    sections_[section] = box;
-    all = join(all, box);
-  }
+  fit_groups(clusters);
+  const Box all = join_run(groups_.back(), 0);
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};
   // If the sum is finite, so are all coordinates. If it is not, it may merely have overflowed.
   return std::isfinite(sum) || all_finite(vertices);
+}
+
+void BlockBoxes::fit_groups(const FaceClusters& clusters) {
+  groups_.resize(clusters.level_count());
+  for (std::size_t level = 0; level < groups_.size(); ++level) {
+    std::vector<Box>& groups = groups_[level];
+    resize(clusters.group_count(level), groups);
+    for (std::size_t group = 0; group < clusters.group_count(level); ++group) {
+      groups[group] = join_run(level == 0 ? blocks_ : groups_[level - 1], group);
+      if (level > 0) continue;
+      for (const std::uint32_t block : clusters.border(group)) {
+        groups[group] = join(groups[group], blocks_[block]);
+      }
+    }
+  }
 }
 
 }  // namespace organ_collision

@@ -74,7 +74,12 @@ FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
   for (std::uint32_t i = 0; i < order_.size(); ++i) block_of[order_[i]] = i / kRun;
   group(faces, block_of);
   find_blocks(block_of);
-  find_sections();
+  std::size_t count = block_count();
+  do {
+    count = (count + kRun - 1) / kRun;
+    group_counts_.push_back(count);
+  } while (count > kRun);
+  find_borders();
   if (block_of_run_.empty()) block_of_vertex_ = std::move(block_of);
 }
 
@@ -120,17 +125,19 @@ void FaceClusters::find_blocks(const Numbers& block_of) {
   }
 }
 
-void FaceClusters::find_sections() {
-  Numbers found_for(section_count(), kNone);
-  for (std::uint32_t section = 0; section < section_count(); ++section) {
+void FaceClusters::find_borders() {
+  Numbers found_for(block_count(), kNone);
+  for (std::uint32_t section = 0; section < group_count(0); ++section) {
     const std::size_t end = std::min((section + 1) * kRun, block_count());
     for (std::size_t block = section * kRun; block < end; ++block) {
-      for (const std::uint32_t neighbour : blocks(block)) {
-        const std::uint32_t found = neighbour / kRun;
-        if (std::exchange(found_for[found], section) != section) sections_.all.push_back(found);
+      for (const std::uint32_t part : blocks(block)) {
+        const bool is_beyond = part / kRun != section;
+        if (is_beyond && std::exchange(found_for[part], section) != section) {
+          borders_.all.push_back(part);
+        }
       }
     }
-    sections_.begin.push_back(static_cast<std::uint32_t>(sections_.all.size()));
+    borders_.begin.push_back(static_cast<std::uint32_t>(borders_.all.size()));
   }
 }
 

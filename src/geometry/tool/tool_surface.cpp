@@ -18,9 +18,9 @@ using Reason = MeshError::Reason;
 /// The largest number of faces in a leaf. Testing boxes around fewer faces costs more than it
 /// saves.
 constexpr std::uint32_t kLeafFaces = 4;
-/// If a node has at most this many faces, its support value is found by scanning them, without the
-/// boxes below it.
-constexpr std::uint32_t kScannedFaces = 64;
+/// If a node has at most this many faces, its support value is found by scanning their corners,
+/// without the boxes below it.
+constexpr std::uint32_t kScannedFaces = 512;
 
 template <typename... Parts>
 [[noreturn]] void refuse(Reason reason, const Parts&... parts) {
@@ -100,6 +100,13 @@ ToolSurface::ToolSurface(std::vector<Vector3d> vertices, std::vector<FaceIndices
   sort_by_corners(vertices_, faces_);
   drop_unused(vertices_, faces_);
   build(0, static_cast<std::uint32_t>(faces_.size()));
+  corner_lists_.resize(nodes_.size());
+  std::vector<Vector3d> corners;
+  list_corners(0, corners);
+  corners_.resize(static_cast<Eigen::Index>(corners.size()), 3);
+  for (Eigen::Index i = 0; i < corners_.rows(); ++i) {
+    corners_.row(i) = corners[static_cast<std::size_t>(i)];
+  }
 }
 
 /// Adds the node of the faces [begin, end) and, below it, its children. The faces are split at the
@@ -131,6 +138,24 @@ void ToolSurface::build(std::uint32_t begin, std::uint32_t end) {
   build(half, end);
 }
 
+/// Lists the corners below a node, in one list for each of the highest nodes that have few faces.
+void ToolSurface::list_corners(std::uint32_t node, std::vector<Vector3d>& corners) {
+  const auto& [box, begin, end, second] = nodes_[node];
+  if (end - begin > kScannedFaces) {
+    list_corners(node + 1, corners);
+    return list_corners(second, corners);
+  }
+  std::vector<std::uint32_t> used;
+  for (std::uint32_t face = begin; face < end; ++face) {
+    used.insert(used.end(), faces_[face].begin(), faces_[face].end());
+  }
+  std::sort(used.begin(), used.end());
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  corner_lists_[node].begin = static_cast<Eigen::Index>(corners.size());
+  for (const std::uint32_t vertex : used) corners.push_back(vertices_[vertex]);
+  corner_lists_[node].end = static_cast<Eigen::Index>(corners.size());
+}
+
 double ToolSurface::support_value(const Vector3d& direction) const {
   double value = -std::numeric_limits<double>::infinity();
   raise_support_value(0, direction, value);
@@ -141,16 +166,15 @@ double ToolSurface::support_value(const Vector3d& direction) const {
 /// reaches farther comes first; the other is visited only if its box reaches farther than `value`.
 void ToolSurface::raise_support_value(std::uint32_t node, const Vector3d& direction,
                                       double& value) const {
-  const auto& [box, begin, end, second] = nodes_[node];
-  if (end - begin <= kScannedFaces) {
-    for (std::uint32_t face = begin; face < end; ++face) {
-      for (const std::uint32_t corner : faces_[face]) {
-        value = std::max(value, direction.dot(vertices_[corner]));
-      }
-    }
+  const CornerList& list = corner_lists_[node];
+  if (list.begin < list.end) {
+    const auto corners = corners_.middleRows(list.begin, list.end - list.begin).array();
+    value = std::max(value, (corners.col(0) * direction.x() + corners.col(1) * direction.y() +
+                             corners.col(2) * direction.z())
+                                .maxCoeff());
     return;
   }
-  const std::uint32_t first = node + 1;
+  const std::uint32_t first = node + 1, second = nodes_[node].second;
   const double of_first = nodes_[first].box.support_value(direction);
   const double of_second = nodes_[second].box.support_value(direction);
   const bool swap = of_second > of_first;

@@ -26,21 +26,35 @@ std::uint32_t face_number(float lower, float upper) {
 /// Calls add(face) for each face that the outcodes do not reject.
 template <typename Add>
 void DrawList::for_each_face(const ViewingVolume& volume, const OrganMotion& organ, Add add) {
-  constexpr std::size_t kRun = FaceClusters::kRun;
   const FaceClusters& clusters = organ.after().clusters();
   vertices_.clear();
   undrawn_.clear();
   outcodes_.assign(volume, organ);
-  for (std::size_t section = 0; section < clusters.section_count(); ++section) {
-    if (outcodes_.section_is_outside(section)) continue;
-    outcodes_.add_blocks(section);
-    const std::size_t end = std::min((section + 1) * kRun, clusters.block_count());
-    for (std::size_t block = section * kRun; block < end; ++block) {
-      if (outcodes_.cluster_is_outside(block)) continue;
-      outcodes_.add_vertices(block);
-      for (const FaceClusters::Face& face : clusters.faces(block)) {
-        if (!outcodes_.face_is_outside(face.corners)) add(face);
-      }
+  const std::size_t top = clusters.level_count() - 1;
+  for (std::size_t group = 0; group < clusters.group_count(top); ++group) {
+    for_each_face(clusters, top, group, add);
+  }
+}
+
+/// The same for the faces of a group.
+template <typename Add>
+void DrawList::for_each_face(const FaceClusters& clusters, std::size_t level, std::size_t group,
+                             const Add& add) {
+  if (outcodes_.group_is_outside(level, group)) return;
+  const std::size_t begin = group * FaceClusters::kRun;
+  const std::size_t end = begin + FaceClusters::kRun;
+  if (level > 0) {
+    outcodes_.add_members(level, group);
+    for (std::size_t i = begin; i < std::min(end, clusters.group_count(level - 1)); ++i) {
+      for_each_face(clusters, level - 1, i, add);
+    }
+    return;
+  }
+  for (std::size_t block = begin; block < std::min(end, clusters.block_count()); ++block) {
+    if (outcodes_.cluster_is_outside(block)) continue;
+    outcodes_.add_vertices(block);
+    for (const FaceClusters::Face& face : clusters.faces(block)) {
+      if (!outcodes_.face_is_outside(face.corners)) add(face);
     }
   }
 }
@@ -59,6 +73,7 @@ ViewingVolume DrawList::assign(const PartSweep& part, const OrganMotion& organ) 
   const ViewingVolume volume = part.volume({0.0, most_extent});
   double farthest_move = 0.0;
   for_each_face(volume, organ, [&](const FaceClusters::Face& face) {
+    if (outcodes_.has_corner_inside(face.corners)) return undrawn_.push_back(face.number);
     const FaceMotion motion = organ.face(face.corners);
     const double move = organ.rests() ? 0.0 : 0.5 * motion.farthest_move();
     const Triangle half_way = shifted(organ.rests() ? motion.end : motion.at(0.5), origin);

@@ -33,8 +33,9 @@ class DrawList {
   /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
   /// is drawn where it is half way. Returns the volume to clip them to: it contains the space that
   /// the part sweeps, and has grown by the largest distance of a drawn face from its place half
-  /// way, and for 32-bit clipping. Faces that move far, or that reach far from the part, would make
-  /// the volume large; they are not drawn but listed in undrawn().
+  /// way, and for 32-bit clipping. Faces with a corner in the volume meet it without being drawn.
+  /// Faces that move far, or that reach far from the part, would make the volume large. Both are
+  /// listed in undrawn().
   ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
 
   /// Replaces the list by `faces` of the mesh. The number of a face is its index in `faces`.
@@ -42,12 +43,15 @@ class DrawList {
               const std::vector<std::uint32_t>& faces);
 
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
-  /// Numbers of the faces that may meet the part but that GL does not decide on.
+  /// Numbers of the faces that may meet the part and that GL does not decide on.
   const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:
   template <typename Add>
   void for_each_face(const ViewingVolume& volume, const OrganMotion& organ, Add add);
+  template <typename Add>
+  void for_each_face(const FaceClusters& clusters, std::size_t level, std::size_t group,
+                     const Add& add);
   void add(const Triangle& face, std::uint32_t number);
 
   std::vector<DrawVertex> vertices_;

@@ -1,6 +1,8 @@
 #include "outcodes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "point_run.hpp"
@@ -40,19 +42,16 @@ BoxRun between(const BoxRun& before, const BoxRun& after, double fraction) {
 void Outcodes::assign(const ViewingVolume& volume, const OrganMotion& organ) {
   organ_.emplace(organ);
   set_planes(volume);
-  const std::size_t sections = boxes().sections().size();
-  const std::size_t blocks = boxes().blocks().size();
-  section_codes_.resize(sections);
-  block_codes_.resize(blocks);
-  vertex_codes_.resize(organ.after().vertex_count());
-  section_is_done_.assign(sections, false);
-  block_is_done_.assign(blocks, false);
-  for (std::size_t begin = 0; begin < sections; begin += kRun) {
-    find_codes(
-        load_boxes(boxes().sections(), begin),
-        [&] { return load_boxes(organ_->boxes_before().sections(), begin); },
-        &section_codes_[begin]);
+  ++query_;
+  group_codes_.resize(std::max(group_codes_.size(), clusters().level_count()));
+  for (std::size_t level = 0; level < clusters().level_count(); ++level) {
+    group_codes_[level].resize(boxes().groups(level).size());
   }
+  block_codes_.resize(boxes().blocks().size());
+  vertex_codes_.resize(organ.after().vertex_count());
+  section_found_for_.resize(clusters().group_count(0));
+  block_found_for_.resize(clusters().block_count());
+  find_group_codes(clusters().level_count() - 1, 0);
 }
 
 void Outcodes::set_planes(const ViewingVolume& volume) {
@@ -66,19 +65,40 @@ void Outcodes::set_planes(const ViewingVolume& volume) {
   }
 }
 
-void Outcodes::add_blocks(std::size_t section) {
-  for (const std::uint32_t part : clusters().sections(section)) {
-    if (std::exchange(section_is_done_[part], true)) continue;
-    const std::size_t begin = part * kRun;
-    find_codes(
-        load_boxes(boxes().blocks(), begin),
-        [&] { return load_boxes(organ_->boxes_before().blocks(), begin); }, &block_codes_[begin]);
+void Outcodes::add_members(std::size_t level, std::size_t group) {
+  find_group_codes(level - 1, group);
+}
+
+/// Finds the outcodes of a run of kRun groups.
+void Outcodes::find_group_codes(std::size_t level, std::size_t run) {
+  find_codes(
+      load_boxes(boxes().groups(level), run * kRun),
+      [&] { return load_boxes(organ_->boxes_before().groups(level), run * kRun); },
+      &group_codes_[level][run * kRun]);
+}
+
+bool Outcodes::cluster_is_outside(std::size_t block) {
+  unsigned code = ~0U;
+  for (const std::uint32_t part : clusters().blocks(block)) {
+    find_block_codes(part / kRun);
+    code &= block_codes_[part];
+    if (code == 0) return false;
   }
+  return true;
+}
+
+/// Finds the outcodes of a section's blocks, unless that is done.
+void Outcodes::find_block_codes(std::size_t section) {
+  if (std::exchange(section_found_for_[section], query_) == query_) return;
+  find_codes(
+      load_boxes(boxes().blocks(), section * kRun),
+      [&] { return load_boxes(organ_->boxes_before().blocks(), section * kRun); },
+      &block_codes_[section * kRun]);
 }
 
 void Outcodes::add_vertices(std::size_t block) {
   for (const std::uint32_t part : clusters().blocks(block)) {
-    if (std::exchange(block_is_done_[part], true)) continue;
+    if (std::exchange(block_found_for_[part], query_) == query_) continue;
     const std::uint32_t* const vertices = clusters().vertices(part);
     std::array<Code, kRun> codes;
     find_codes(
@@ -103,8 +123,10 @@ void Outcodes::find_codes(const BoxRun& after, LoadBefore load_before, Code* cod
     const CodeRun at_finish = find_codes(between(before, after, organ_->finish()), slack);
     for (std::size_t i = 0; i < outside.size(); ++i) outside[i] &= at_finish[i];
   }
-  for (std::size_t i = 0; i < kRun; ++i) {
-    codes[i] = static_cast<Code>(outside[i / kLanes][i % kLanes]);
+  for (std::size_t i = 0; i < outside.size(); ++i) {
+    using LaneOfCodes = Code __attribute__((vector_size(sizeof(Code) * kLanes)));
+    const auto lane = __builtin_convertvector(outside[i], LaneOfCodes);
+    std::memcpy(codes + i * kLanes, &lane, sizeof lane);
   }
 }
 

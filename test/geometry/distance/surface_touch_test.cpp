@@ -15,11 +15,11 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Random;
 
-/// As find_first_touches(), without a budget.
+/// As SurfaceTouches::find(), without a budget.
 void find_touches(const ToolSurface& surface, const RigidMotion& motion, double radius,
                   std::vector<FaceTouch>& faces) {
   WorkBudget unlimited = WorkBudget::unlimited();
-  find_first_touches(surface, motion, radius, unlimited, faces);
+  SurfaceTouches().find(surface, motion, radius, unlimited, faces);
 }
 
 /// The first touch of one face, from every triangle alone, without boxes.
@@ -177,8 +177,8 @@ TEST(SurfaceTouch, DescendsNoFurtherOnceTheBudgetIsUsedUp) {
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   std::vector<FaceTouch> faces(200, {0, {face_at(1e-3), face_at(5e-9)}, {}});
   WorkBudget budget;
-  find_first_touches(flat_mesh(50).surface(), RigidMotion(pose, pose), tolerance::kConvexMargin,
-                     budget, faces);
+  SurfaceTouches().find(flat_mesh(50).surface(), RigidMotion(pose, pose), tolerance::kConvexMargin,
+                        budget, faces);
   EXPECT_TRUE(budget.is_used_up());
   budget.add_pairs(WorkBudget::kLeastPairs + 10'000);
   EXPECT_FALSE(budget.is_used_up()) << "a tenth of the budget did not suffice to end the search";

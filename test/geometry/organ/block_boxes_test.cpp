@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <vector>
 
 #include "test/grid_surface.hpp"
 
@@ -36,12 +37,15 @@ TEST(BlockBoxes, KeepNothingOfOtherClusters) {
   ASSERT_TRUE(reused.refit(of_small, small.vertices));
   ASSERT_TRUE(fresh.refit(of_small, small.vertices));
   EXPECT_TRUE(reused.all().isApprox(fresh.all(), 0.0F));
-  ASSERT_EQ(reused.sections().size(), fresh.sections().size());
-  EXPECT_TRUE(plain(reused.sections()[0]).isApprox(plain(fresh.sections()[0]), 0.0F));
+  ASSERT_EQ(reused.groups(0).size(), fresh.groups(0).size());
+  for (std::size_t i = 0; i < fresh.groups(0).size(); ++i) {
+    EXPECT_TRUE((reused.groups(0)[i].min == fresh.groups(0)[i].min).all());
+    EXPECT_TRUE((reused.groups(0)[i].max == fresh.groups(0)[i].max).all());
+  }
 }
 
 TEST(BlockBoxes, AreTheSmallestInEveryShape) {
-  for (const int side : {1, 7, 30, 64, 101}) {
+  for (const int side : {1, 7, 30, 64, 150}) {
     for (const bool shuffle : {false, true}) {
       const GridSurface rest = shuffle ? shuffled(grid_surface(side), 3) : grid_surface(side);
       const FaceClusters clusters(rest.faces, rest.vertices);
@@ -56,11 +60,21 @@ TEST(BlockBoxes, AreTheSmallestInEveryShape) {
           };
           EXPECT_TRUE(plain(boxes.blocks()[block]).isApprox(box_around(kRun, corner), 0.0F));
         }
-        for (std::size_t section = 0; section < clusters.section_count(); ++section) {
-          Eigen::AlignedBox3f box;
-          const std::size_t end = std::min((section + 1) * kRun, clusters.block_count());
-          for (std::size_t i = section * kRun; i < end; ++i) box.extend(plain(boxes.blocks()[i]));
-          EXPECT_TRUE(plain(boxes.sections()[section]).isApprox(box, 0.0F));
+        std::vector<Eigen::AlignedBox3f> members;
+        for (std::size_t block = 0; block < clusters.block_count(); ++block) {
+          members.push_back(plain(boxes.blocks()[block]));
+          for (const std::uint32_t part : clusters.blocks(block)) {
+            const bool is_beyond = part / kRun != block / kRun;
+            if (is_beyond) members.back().extend(plain(boxes.blocks()[part]));
+          }
+        }
+        for (std::size_t level = 0; level < clusters.level_count(); ++level) {
+          std::vector<Eigen::AlignedBox3f> groups(clusters.group_count(level));
+          for (std::size_t i = 0; i < members.size(); ++i) groups[i / kRun].extend(members[i]);
+          for (std::size_t group = 0; group < groups.size(); ++group) {
+            EXPECT_TRUE(plain(boxes.groups(level)[group]).isApprox(groups[group], 0.0F));
+          }
+          members = groups;
         }
         const auto any = [&](std::size_t i) { return vertex(grid, static_cast<std::uint32_t>(i)); };
         EXPECT_TRUE(boxes.all().isApprox(box_around(grid.vertices.size() / 3, any), 0.0F));

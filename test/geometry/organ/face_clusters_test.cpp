@@ -32,15 +32,17 @@ std::set<std::uint32_t> set_of(const FaceClusters::Range<std::uint32_t>& range) 
 }
 
 /// Checks that every face is in one cluster, by rising numbers, that its vertices are in the
-/// cluster's blocks, and that these blocks are in the section's sections.
+/// cluster's blocks, and that these blocks belong to the section or to its border.
 void expect_covering(const FaceClusters& clusters, const std::vector<FaceIndices>& faces,
                      std::size_t vertex_count) {
   const std::vector<std::uint32_t> block_of = blocks_of_vertices(clusters, vertex_count);
   std::vector<int> seen(faces.size(), 0);
   for (std::size_t block = 0; block < clusters.block_count(); ++block) {
     const std::set<std::uint32_t> blocks = set_of(clusters.blocks(block));
-    const std::set<std::uint32_t> sections = set_of(clusters.sections(block / kRun));
-    for (const std::uint32_t part : blocks) EXPECT_TRUE(sections.count(part / kRun));
+    const std::set<std::uint32_t> border = set_of(clusters.border(block / kRun));
+    for (const std::uint32_t part : blocks) {
+      EXPECT_EQ(border.count(part), part / kRun == block / kRun ? 0U : 1U);
+    }
     std::uint32_t last = 0;
     for (const FaceClusters::Face& face : clusters.faces(block)) {
       EXPECT_EQ(face.corners, faces[face.number]);
@@ -73,6 +75,20 @@ TEST(FaceClusters, TakeRunsOfACoherentSurface) {
       const std::uint32_t block = clusters.block_of_run()[vertex / kRun];
       EXPECT_EQ(clusters.vertices(block)[vertex % kRun], vertex);
     }
+  }
+}
+
+TEST(FaceClusters, HaveLevelsUpToAFewGroups) {
+  for (const int side : {1, 30, 150, 300}) {
+    const GridSurface grid = grid_surface(side);
+    const FaceClusters clusters(grid.faces, grid.vertices);
+    std::size_t count = clusters.block_count();
+    for (std::size_t level = 0; level < clusters.level_count(); ++level) {
+      EXPECT_TRUE(level == 0 || count > kRun) << "a level above few groups";
+      EXPECT_EQ(clusters.group_count(level), (count + kRun - 1) / kRun);
+      count = clusters.group_count(level);
+    }
+    EXPECT_LE(count, kRun);
   }
 }
 

@@ -43,12 +43,24 @@ double farthest_outside(const Triangle& face, const ViewingVolume& volume) {
   return farthest;
 }
 
+/// Whether the outcodes of a group that a block belongs to reject its faces.
+bool some_group_is_outside(Outcodes& outcodes, const FaceClusters& clusters, std::size_t block) {
+  std::vector<std::size_t> groups;  // by level
+  for (std::size_t level = 0; level < clusters.level_count(); ++level) {
+    groups.push_back((level == 0 ? block : groups.back()) / FaceClusters::kRun);
+  }
+  for (std::size_t level = clusters.level_count(); level-- > 0;) {
+    if (outcodes.group_is_outside(level, groups[level])) return true;
+    if (level > 0) outcodes.add_members(level, groups[level]);
+  }
+  return false;
+}
+
 /// The faces that outcodes do not reject.
 std::set<std::uint32_t> kept(Outcodes& outcodes, const TriangleMesh& mesh) {
   std::set<std::uint32_t> faces;
   for (std::size_t block = 0; block < mesh.clusters().block_count(); ++block) {
-    if (outcodes.section_is_outside(block / FaceClusters::kRun)) continue;
-    outcodes.add_blocks(block / FaceClusters::kRun);
+    if (some_group_is_outside(outcodes, mesh.clusters(), block)) continue;
     if (outcodes.cluster_is_outside(block)) continue;
     outcodes.add_vertices(block);
     for (const FaceClusters::Face& face : mesh.clusters().faces(block)) {
@@ -63,7 +75,9 @@ TEST(Outcodes, RejectTheFacesOutsideOneHalfSpace) {
   Outcodes outcodes;
   for (const float far : {0.0F, 2.5F, 1000.0F}) {
     for (const bool shuffle : {false, true}) {
-      GridSurface grid = shuffle ? shuffled(grid_surface(33), 2) : grid_surface(33);
+      // With 150 cells along a side there are two levels of groups.
+      const int side = far == 0.0F ? 150 : 33;
+      GridSurface grid = shuffle ? shuffled(grid_surface(side), 2) : grid_surface(side);
       for (float& x : grid.vertices) x += far;
       const TriangleMesh mesh(grid.vertices, grid.triangles());
       const double slack = 4e-6 * (1.0 + far);
@@ -87,6 +101,33 @@ TEST(Outcodes, RejectTheFacesOutsideOneHalfSpace) {
       EXPECT_LT(rejected, 53 * mesh.face_count());
     }
   }
+}
+
+TEST(Outcodes, KnowFacesWithACornerInside) {
+  std::mt19937 random(19);
+  Outcodes outcodes;
+  const GridSurface grid = grid_surface(5);
+  const TriangleMesh mesh(grid.vertices, grid.triangles());
+  const auto farthest_corner = [](const Triangle& face, const ViewingVolume& volume) {
+    double least = 1e9;
+    for (const Vector3d& corner : face) {
+      least = std::min(least, farthest_outside({corner, corner, corner}, volume));
+    }
+    return least;
+  };
+  std::size_t inside = 0, crossing = 0;
+  for (std::size_t trial = 0; trial < 540; ++trial) {
+    const ViewingVolume volume = random_volume(random, Vector3d::Zero(), trial % 9);
+    outcodes.assign(volume, OrganMotion(mesh));
+    for (const std::uint32_t i : kept(outcodes, mesh)) {
+      const double outside = farthest_corner(mesh.triangle(i), volume);
+      if (std::abs(outside) < 4e-6) continue;
+      EXPECT_EQ(outcodes.has_corner_inside(mesh.faces()[i]), outside < 0.0);
+      ++(outside < 0.0 ? inside : crossing);
+    }
+  }
+  EXPECT_GT(inside, 1000U);
+  EXPECT_GT(crossing, 100U);
 }
 
 TEST(Outcodes, NeverRejectAFaceThatTouchesTheVolumeInOnePoint) {

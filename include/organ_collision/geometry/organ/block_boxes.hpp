@@ -7,8 +7,8 @@
 
 namespace organ_collision {
 
-/// Axis-aligned boxes around the blocks and sections of an organ's vertices, for one shape of the
-/// organ [m]. FaceClusters explains blocks and sections.
+/// Axis-aligned boxes [m] around the blocks of an organ's vertices, and around the faces of its
+/// sections and larger groups, for one shape of the organ. FaceClusters explains these words.
 class BlockBoxes {
  public:
   /// The first three coordinates are x, y and z. The fourth is padding for vector registers.
@@ -24,13 +24,17 @@ class BlockBoxes {
 
   /// The boxes of the blocks, padded with empty boxes to a multiple of FaceClusters::kRun.
   const std::vector<Box>& blocks() const { return blocks_; }
-  /// The boxes of the sections, padded in the same way.
-  const std::vector<Box>& sections() const { return sections_; }
+  /// The boxes around the vertices of a level's groups and of the faces of their clusters, padded
+  /// in the same way. Level 0 is the sections.
+  const std::vector<Box>& groups(std::size_t level) const { return groups_[level]; }
   /// The box around all vertices.
   const Eigen::AlignedBox3f& all() const { return all_; }
 
  private:
-  std::vector<Box> blocks_, sections_;
+  void fit_groups(const FaceClusters& clusters);
+
+  std::vector<Box> blocks_;
+  std::vector<std::vector<Box>> groups_;  ///< by level
   Eigen::AlignedBox3f all_;
 };
 

@@ -17,13 +17,15 @@ using FaceIndices = std::array<std::uint32_t, 3>;
 /// - A block is a group of kRun vertices. If vertices that follow each other in the sender's order
 ///   are also neighbours in space, a block is a run of kRun such vertices, which can be read
 ///   without a gather. Otherwise the vertices are grouped along a Morton curve.
-/// - A section is kRun blocks. Blocks are in Morton order, so a section is coherent too.
 /// - The cluster of a block is the faces that have a vertex in this block and none in an earlier
 ///   block.
+/// - A section is kRun blocks. Blocks are in Morton order, so a section is coherent too.
+/// - Sections are the lowest level of a tree: a group of each further level is kRun groups of the
+///   level below it. The top level has at most kRun groups.
 class FaceClusters {
  public:
-  /// The vertices in a block, and the blocks in a section: few enough for tight boxes, and enough
-  /// to fill vector registers.
+  /// The vertices in a block, the blocks in a section, and the members of each larger group: few
+  /// enough for tight boxes, and enough to fill vector registers.
   static constexpr std::size_t kRun = 16;
 
   /// `vertices`: x y z x y z ... [m], finite. `faces` refer to them.
@@ -31,8 +33,10 @@ class FaceClusters {
 
   /// The number of blocks, which is also the number of clusters.
   std::size_t block_count() const { return order_.size() / kRun; }
-  /// The number of sections. The last one may have fewer than kRun blocks.
-  std::size_t section_count() const { return (block_count() + kRun - 1) / kRun; }
+  /// The number of levels of groups. Level 0 is the sections.
+  std::size_t level_count() const { return group_counts_.size(); }
+  /// The number of groups of a level. The last one may have fewer than kRun members.
+  std::size_t group_count(std::size_t level) const { return group_counts_[level]; }
 
   /// Consecutive items to iterate over.
   template <typename T>
@@ -53,8 +57,8 @@ class FaceClusters {
   }
   /// The blocks that contain the vertices of the faces of a block's cluster.
   Range<std::uint32_t> blocks(std::size_t block) const { return blocks_.of(block); }
-  /// The sections that contain the vertices of the faces of a section's clusters.
-  Range<std::uint32_t> sections(std::size_t section) const { return sections_.of(section); }
+  /// The blocks of other sections that contain vertices of the faces of a section's clusters.
+  Range<std::uint32_t> border(std::size_t section) const { return borders_.of(section); }
 
   /// The kRun vertices of a block. In an incomplete block the last vertex is repeated.
   const std::uint32_t* vertices(std::size_t block) const { return &order_[kRun * block]; }
@@ -76,12 +80,13 @@ class FaceClusters {
   void order_vertices(const std::vector<float>& vertices);
   void group(const std::vector<FaceIndices>& faces, const Numbers& block_of);
   void find_blocks(const Numbers& block_of);
-  void find_sections();
+  void find_borders();
 
   Numbers order_, block_of_run_, block_of_vertex_;
   std::vector<Face> faces_;
   Numbers face_begin_;
-  Lists blocks_, sections_;
+  Lists blocks_, borders_;
+  std::vector<std::size_t> group_counts_;  ///< by level
 };
 
 }  // namespace organ_collision

@@ -45,12 +45,20 @@ class ToolSurface {
 
  private:
   void build(std::uint32_t begin, std::uint32_t end);
+  void list_corners(std::uint32_t node, std::vector<Eigen::Vector3d>& corners);
   void raise_support_value(std::uint32_t node, const Eigen::Vector3d& direction,
                            double& value) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<FaceIndices> faces_;
   std::vector<Node> nodes_;
+  /// The corners of a node's faces, each corner once: rows [begin, end) of corners_. Empty if the
+  /// node has many faces, or if a node above it has such a list.
+  struct CornerList {
+    Eigen::Index begin = 0, end = 0;
+  };
+  std::vector<CornerList> corner_lists_;              ///< of each node
+  Eigen::Matrix<double, Eigen::Dynamic, 3> corners_;  ///< by coordinate, for vector registers
 };
 
 }  // namespace organ_collision
