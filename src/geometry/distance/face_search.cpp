@@ -16,10 +16,6 @@ Array4f padded(const Eigen::Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z()), 0.0F};
 }
 
-BlockBoxes::Box join(const BlockBoxes::Box& a, const BlockBoxes::Box& b) {
-  return {a.min.min(b.min), a.max.max(b.max)};
-}
-
 }  // namespace
 
 void FaceSearch::start(const OrganMotion& organ, const OrientedBox& box) {
@@ -48,7 +44,7 @@ void FaceSearch::rank_groups(std::uint32_t level, std::size_t begin, float squar
   const std::vector<Box>& before = organ_->boxes_before().groups(level);
   const std::size_t end = std::min(begin + FaceClusters::kRun, clusters().group_count(level));
   for (std::size_t group = begin; group < end; ++group) {
-    const Box box = organ_->rests() ? after[group] : join(after[group], before[group]);
+    const Box box = organ_->rests() ? after[group] : after[group].join(before[group]);
     push({squared_distance(box), static_cast<std::uint32_t>(group), level}, squared_bound, groups_);
   }
 }
@@ -101,8 +97,8 @@ FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
   const std::vector<Box>& before = organ_->boxes_before().blocks();
   Box box{Array4f::Constant(kMost), Array4f::Constant(-kMost)};
   for (const std::uint32_t part : clusters().blocks(block)) {
-    box = join(box, after[part]);
-    if (!organ_->rests()) box = join(box, before[part]);
+    box = box.join(after[part]);
+    if (!organ_->rests()) box = box.join(before[part]);
   }
   return box;
 }

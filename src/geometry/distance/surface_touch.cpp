@@ -5,9 +5,53 @@
 
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
+#include "swept_box.hpp"
 
 namespace organ_collision {
 namespace {
+
+using Eigen::Vector3d;
+
+/// A triangle of a link during one leg, in the organ's frame [m].
+class MovingTriangle {
+ public:
+  MovingTriangle(const Triangle& in_link, const RigidMotion& link)
+      : rests_(link.rests()),
+        start_(placed(link.start(), in_link)),
+        end_(rests_ ? start_ : placed(link.end(), in_link)),
+        normal_(plane_normal(start_)) {
+    double arm = 0.0;
+    if (link.angle() > 0.0) {
+      for (const Vector3d& corner : in_link) arm = std::max(arm, link.arm(corner));
+    }
+    deviation_ = arm * link.angle() * link.angle() / 8.0;
+  }
+
+  /// As SweptBox::clear_until(). Tests the planes of face and triangle at the start of the leg.
+  double clear_until(const BoundedFace& face, double reach) const {
+    double until = 0.0;
+    for (const Vector3d* normal : {&normal_, &face.normal}) {
+      const ProjectionInterval of_face = project_onto(*normal, face.motion->start);
+      const ProjectionInterval of_this = project_onto(*normal, start_);
+      until = std::max(
+          until, organ_collision::clear_until(
+                     of_face, face.rests ? of_face : project_onto(*normal, face.motion->end),
+                     of_this, rests_ ? of_this : project_onto(*normal, end_), reach + deviation_));
+      if (until > 1.0) break;
+    }
+    return until;
+  }
+
+ private:
+  static Triangle placed(const Eigen::Isometry3d& pose, const Triangle& in_link) {
+    return {pose * in_link[0], pose * in_link[1], pose * in_link[2]};
+  }
+
+  bool rests_;
+  Triangle start_, end_;
+  Vector3d normal_;   ///< unit, at the start; zero if the triangle is degenerate
+  double deviation_;  ///< [m] the chord deviation
+};
 
 /// The time after which further touches of the face do not matter: its first touch so far.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
@@ -45,10 +89,11 @@ class SurfaceTouches::Descent {
   /// Finds the touches of the faces [begin, end) with the triangles below a node.
   void visit(std::uint32_t index, Kept begin, Kept end) const {
     const ToolSurface::Node& node = surface_.nodes()[index];
+    const SweptBox box(node.box, motion_, radius_);
     budget_.spend(static_cast<std::uint64_t>(end - begin));
     const Kept kept = std::partition(begin, end, [&](const DescendingFace* face) {
       return !is_settled(*face->touch) &&
-             face->seen.clear_until(node.box, reach(*face->touch)) <= latest(*face->touch);
+             box.clear_until(face->bounded, closer(*face->touch, radius_)) <= latest(*face->touch);
     });
     if (kept == begin) return;
     if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, kept);
@@ -62,9 +107,6 @@ class SurfaceTouches::Descent {
   }
 
  private:
-  /// [m] How near a triangle has to come to the face to matter.
-  double reach(const FaceTouch& face) const { return radius_ - closer(face, radius_); }
-
   /// Marks the touches of the faces [begin, end) as unresolved. A face without a touch gets one
   /// with the triangle.
   void leave_unresolved(std::uint32_t index, Kept begin, Kept end) const {
@@ -78,8 +120,7 @@ class SurfaceTouches::Descent {
 
   /// Finds the touches of the faces [begin, end) with one triangle of the surface.
   void touch(std::uint32_t index, Kept begin, Kept end) const {
-    const Triangle triangle = surface_.triangle(index);
-    const Eigen::Vector3d normal = plane_normal(triangle);
+    const MovingTriangle triangle(surface_.triangle(index), motion_);
     for (Kept kept = begin; kept != end; ++kept) {
       FaceTouch& face = *(*kept)->touch;
       if (is_settled(face)) continue;
@@ -89,8 +130,9 @@ class SurfaceTouches::Descent {
       }
       const double until = latest(face);
       budget_.spend(1);
-      if ((*kept)->seen.clear_until(triangle, normal, reach(face)) > until) continue;
-      const CoreMotion core(ConvexCore(triangle), motion_);
+      const double reach = radius_ - closer(face, radius_);
+      if (triangle.clear_until((*kept)->bounded, reach) > until) continue;
+      const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
       const auto found = first_touch(core, face.motion, radius_, budget_, until);
       if (found && (!face.first || precedes(*found, *face.first))) face.first = found;
     }
@@ -108,7 +150,7 @@ void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion,
   kept_.clear();
   for (FaceTouch& face : faces) {
     face.first.reset();
-    faces_.push_back({RelativeFace(face.motion, motion), &face});
+    faces_.push_back({BoundedFace(face.motion), &face});
   }
   for (DescendingFace& face : faces_) kept_.push_back(&face);
   Descent(surface, motion, radius, budget).visit(0, kept_.begin(), kept_.end());

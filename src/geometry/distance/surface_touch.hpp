@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
+#include "bounded_face.hpp"
 #include "first_touch.hpp"
 #include "geometry/tool/rigid_motion.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
-#include "relative_face.hpp"
 
 namespace organ_collision {
 
@@ -32,7 +32,7 @@ class SurfaceTouches {
 
  private:
   struct DescendingFace {
-    RelativeFace seen;
+    BoundedFace bounded;
     FaceTouch* touch;
   };
   class Descent;

@@ -11,6 +11,9 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
+/// [1] A face's ball stands for the face if the box is at least this many times as large.
+constexpr double kSmall = 2.0;
+
 /// [m] The same bound as CoreMotion::chord_deviation(), for any point of the box.
 double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
   if (motion.angle() == 0.0) return 0.0;
@@ -23,19 +26,54 @@ double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
 
 SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double radius)
     : axes_(motion.mid_orientation() * box.axes),
+      rests_(motion.rests()),
       start_(place(box, motion.start())),
-      end_(place(box, motion.end())),
+      end_(rests_ ? start_ : place(box, motion.end())),
+      low_(start_.low.cwiseMin(end_.low)),
+      high_(start_.high.cwiseMax(end_.high)),
       reach_(radius + chord_deviation(box, motion)) {}
 
 SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
   Place place;
   place.center = pose * box.center;
-  const Matrix3d half_edges = pose.linear() * box.axes * box.half_size.asDiagonal();
+  place.half_edges = pose.linear() * box.axes * box.half_size.asDiagonal();
   const Vector3d center = axes_.transpose() * place.center;
-  const Vector3d half = (axes_.transpose() * half_edges).cwiseAbs().rowwise().sum();
+  const Vector3d half = (axes_.transpose() * place.half_edges).cwiseAbs().rowwise().sum();
   place.low = center - half;
   place.high = center + half;
   return place;
+}
+
+double SweptBox::clear_until(const BoundedFace& face, double closer) const {
+  const double reach = reach_ - closer;
+  const Vector3d center = axes_.transpose() * face.center;
+  const double beyond = (center - high_).cwiseMax(low_ - center).maxCoeff();
+  if (beyond > face.radius + reach) return 2.0;
+  const bool rests = rests_ && face.rests;
+  if (rests && kSmall * face.radius < (high_ - low_).maxCoeff()) return 0.0;
+
+  double until = 0.0;
+  for (int i = 0; i < 3 && until <= 1.0; ++i) {
+    const Vector3d axis = axes_.col(i);
+    const ProjectionInterval of_face = project_onto(axis, face.motion->start);
+    until =
+        std::max(until, organ_collision::clear_until(
+                            of_face, face.rests ? of_face : project_onto(axis, face.motion->end),
+                            {start_.low[i], start_.high[i]}, {end_.low[i], end_.high[i]}, reach));
+  }
+  if (until > 1.0) return until;
+  const auto project_box = [&](const Place& box) {
+    const double center = face.normal.dot(box.center);
+    const double half = (face.normal.transpose() * box.half_edges).cwiseAbs().sum();
+    return ProjectionInterval{center - half, center + half};
+  };
+  const ProjectionInterval of_box = project_box(start_);
+  const ProjectionInterval of_face = project_onto(face.normal, face.motion->start);
+  if (rests)
+    return std::max(until, organ_collision::clear_until(of_face, of_face, of_box, of_box, reach));
+  return std::max(until,
+                  organ_collision::clear_until(of_face, project_onto(face.normal, face.motion->end),
+                                               of_box, project_box(end_), reach));
 }
 
 double SweptBox::distance_bound(const FaceMotion& face) const {

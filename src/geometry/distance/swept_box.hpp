@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "geometry/organ/face_motion.hpp"
+#include "bounded_face.hpp"
 #include "geometry/tool/rigid_motion.hpp"
 #include "organ_collision/geometry/tool/oriented_box.hpp"
 
@@ -20,9 +20,14 @@ class SweptBox {
   /// The axes of the box in the middle of the leg: columns, orthonormal, right-handed.
   const Eigen::Matrix3d& axes() const { return axes_; }
   /// Bounds of the covered space along each of axes(), as axis · point.
-  Eigen::Vector3d low() const { return start_.low.cwiseMin(end_.low).array() - reach_; }
-  Eigen::Vector3d high() const { return start_.high.cwiseMax(end_.high).array() + reach_; }
+  Eigen::Vector3d low() const { return low_.array() - reach_; }
+  Eigen::Vector3d high() const { return high_.array() + reach_; }
 
+  /// A time of the leg before which the face surely stays farther from the box than the radius less
+  /// `closer` [m]; above 1 if it does so during the whole leg. Tests fixed planes: those at right
+  /// angles to axes(), and the face's own plane at the start. If the face's ball is small beside
+  /// the box, only the ball is tested: the result is then 0 or above 1.
+  double clear_until(const BoundedFace& face, double closer = 0.0) const;
   /// [m] A lower bound of the distance between the covered space and the face during the leg.
   double distance_bound(const FaceMotion& face) const;
   /// A box around the covered space.
@@ -32,13 +37,16 @@ class SweptBox {
   /// The box at one end of the leg.
   struct Place {
     Eigen::Vector3d center;
-    Eigen::Vector3d low, high;  ///< projections onto `axes_`
+    Eigen::Matrix3d half_edges;  ///< columns
+    Eigen::Vector3d low, high;   ///< projections onto `axes_`
   };
   Place place(const OrientedBox& box, const Eigen::Isometry3d& pose) const;
 
   Eigen::Matrix3d axes_;
+  bool rests_;
   Place start_, end_;
-  double reach_;  ///< [m] radius plus chord deviation
+  Eigen::Vector3d low_, high_;  ///< of both places together
+  double reach_;                ///< [m] radius plus chord deviation
 };
 
 }  // namespace organ_collision

@@ -12,7 +12,7 @@ using Eigen::Array4f;
 
 constexpr std::size_t kRun = FaceClusters::kRun;
 
-inline Box join(const Box& a, const Box& b) { return {a.min.min(b.min), a.max.max(b.max)}; }
+/// The smallest box around a box and a point.
 inline Box join(const Box& a, const Array4f& b) { return {a.min.min(b), a.max.max(b)}; }
 
 Box empty_box() {
@@ -80,7 +80,7 @@ void resize(std::size_t count, std::vector<Box>& boxes) {
 /// The box around kRun members of a group.
 Box join_run(const std::vector<Box>& members, std::size_t group) {
   Box box = members[group * kRun];
-  for (std::size_t i = 1; i < kRun; ++i) box = join(box, members[group * kRun + i]);
+  for (std::size_t i = 1; i < kRun; ++i) box = box.join(members[group * kRun + i]);
   return box;
 }
 
@@ -96,23 +96,29 @@ bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& v
                         ? fit_scattered(vertices, clusters.block_of_vertex(), blocks_)
                         : fit_runs(vertices, clusters.block_of_run(), blocks_);
   fit_groups(clusters);
-  const Box all = join_run(groups_.back(), 0);
+  const Box all = join_run(groups_[clusters.level_count() - 1], 0);
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};
   // If the sum is finite, so are all coordinates. If it is not, it may merely have overflowed.
   return std::isfinite(sum) || all_finite(vertices);
 }
 
 void BlockBoxes::fit_groups(const FaceClusters& clusters) {
-  groups_.resize(clusters.level_count());
-  for (std::size_t level = 0; level < groups_.size(); ++level) {
-    std::vector<Box>& groups = groups_[level];
-    resize(clusters.group_count(level), groups);
+  groups_.resize(std::max(groups_.size(), clusters.level_count()));
+  for (std::size_t level = 0; level < clusters.level_count(); ++level) {
+    const std::vector<Box>& members = level == 0 ? blocks_ : groups_[level - 1];
+    resize(clusters.group_count(level), groups_[level]);
     for (std::size_t group = 0; group < clusters.group_count(level); ++group) {
-      groups[group] = join_run(level == 0 ? blocks_ : groups_[level - 1], group);
-      if (level > 0) continue;
-      for (const std::uint32_t block : clusters.border(group)) {
-        groups[group] = join(groups[group], blocks_[block]);
-      }
+      groups_[level][group] = join_run(members, group);
+    }
+    if (level == 0) add_borders(clusters);
+  }
+}
+
+/// Extends the boxes of the sections by their borders.
+void BlockBoxes::add_borders(const FaceClusters& clusters) {
+  for (std::size_t section = 0; section < clusters.group_count(0); ++section) {
+    for (const std::uint32_t block : clusters.border(section)) {
+      groups_[0][section] = groups_[0][section].join(blocks_[block]);
     }
   }
 }

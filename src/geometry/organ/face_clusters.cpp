@@ -72,7 +72,7 @@ FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
   }
   Numbers block_of(vertices.size() / 3);
   for (std::uint32_t i = 0; i < order_.size(); ++i) block_of[order_[i]] = i / kRun;
-  group(faces, block_of);
+  sort_faces(faces, block_of);
   find_blocks(block_of);
   std::size_t count = block_count();
   do {
@@ -100,7 +100,7 @@ void FaceClusters::order_vertices(const std::vector<float>& vertices) {
 }
 
 /// Sorts the faces by their first block. Counting sort keeps the numbers within a cluster rising.
-void FaceClusters::group(const std::vector<FaceIndices>& faces, const Numbers& block_of) {
+void FaceClusters::sort_faces(const std::vector<FaceIndices>& faces, const Numbers& block_of) {
   const auto home = [&](const FaceIndices& face) {
     return std::min({block_of[face[0]], block_of[face[1]], block_of[face[2]]});
   };

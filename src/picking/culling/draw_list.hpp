@@ -33,7 +33,7 @@ class DrawList {
   /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
   /// is drawn where it is half way. Returns the volume to clip them to: it contains the space that
   /// the part sweeps, and has grown by the largest distance of a drawn face from its place half
-  /// way, and for 32-bit clipping. Faces with a corner in the volume meet it without being drawn.
+  /// way, and for 32-bit clipping. Faces with a corner inside need not be drawn.
   /// Faces that move far, or that reach far from the part, would make the volume large. Both are
   /// listed in undrawn().
   ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);

@@ -12,9 +12,9 @@ namespace organ_collision {
 
 /// Outcodes of an organ's vertices with respect to a viewing volume. An outcode has a bit for each
 /// half-space of the volume. The bit is set if the vertex is outside that half-space during the
-/// whole motion of the organ. For a box around vertices, it is set if the box is outside. If the
-/// box around the faces of a group has a bit, or the corners of a face, or the blocks that contain
-/// them, have a bit in common, the faces do not meet the volume.
+/// whole motion of the organ. For a box, it is set if the whole box is outside. Faces do not meet
+/// the volume if the box around their group has a bit. Neither do they if their corners have a bit
+/// in common, or the boxes of the blocks that contain these.
 ///
 /// Outcodes are found from coarse to fine: those of the members of a group only if the group's box
 /// cannot reject its faces, and those of vertices only where the blocks cannot. See
@@ -41,8 +41,9 @@ class Outcodes {
   bool face_is_outside(const FaceIndices& corners) const {
     return (vertex_codes_[corners[0]] & vertex_codes_[corners[1]] & vertex_codes_[corners[2]]) != 0;
   }
-  /// Whether a corner of the face is in all half-spaces at the start or at the end of the organ's
-  /// motion, so that the face meets the volume. Requires the same.
+  /// Whether some corner of the face is in each half-space at the start or at the end of the
+  /// organ's motion, except for rounding. The face is then a candidate without being drawn.
+  /// Requires add_vertices() of the face's cluster.
   bool has_corner_inside(const FaceIndices& corners) const {
     return vertex_codes_[corners[0]] == 0 || vertex_codes_[corners[1]] == 0 ||
            vertex_codes_[corners[2]] == 0;

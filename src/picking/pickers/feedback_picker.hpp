@@ -5,7 +5,7 @@
 
 namespace organ_collision {
 
-/// Picks in GL_FEEDBACK mode, with one draw call for all faces that outcodes do not reject.
+/// Picks in GL_FEEDBACK mode, with one draw call for all faces that outcodes do not decide.
 class FeedbackPicker : public Picker {
  public:
   explicit FeedbackPicker(GlContext& context) : context_(context) {}

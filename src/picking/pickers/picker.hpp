@@ -15,8 +15,8 @@
 
 namespace organ_collision {
 
-/// A face that survived GL's clipping to a viewing volume, with the range of its depths behind the
-/// near plane, along the view [m].
+/// A face that meets a viewing volume, with the range of its depths behind the near plane, along
+/// the view [m].
 struct Candidate {
   std::uint32_t face;
   double view_min;

@@ -7,7 +7,7 @@ namespace organ_collision {
 
 /// Picks in GL_SELECT mode, as the 1999 paper does: each face is drawn under its own name. For a
 /// given volume every face is drawn, as in the paper. For a part, only the faces that outcodes do
-/// not reject are drawn.
+/// not decide are drawn.
 class SelectPicker : public Picker {
  public:
   explicit SelectPicker(GlContext& context) : context_(context) {}

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "geometry/distance/closest_points.hpp"
+#include "geometry/distance/first_touch.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "test/proof/link_trials.hpp"
 
@@ -79,8 +81,112 @@ TEST_P(SweptBoxTrials, IsTightWithoutTurning) {
   });
 }
 
+TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
+  int clear = 0;
+  for_each_trial(2000, [&](const LinkTrial& trial, Random& random) {
+    FaceMotion face{trial.face, trial.face};
+    const double away = random.scale(1e-4, 0.3);
+    const Vector3d by = away * random.direction();
+    for (int i = 0; i < 3; ++i) {
+      face.start[i] += by;
+      face.end[i] = face.start[i];
+      if (random.chance(0.5)) face.end[i] += random.scale(1e-5, 0.1) * random.direction();
+    }
+    const RigidMotion motion = trial.motion();
+    const double until =
+        SweptBox(box_of(trial.core), motion, trial.radius).clear_until(BoundedFace(face));
+    if (until == 0.0) return;
+    ++clear;
+    for (int i = 0; i < 100; ++i) {
+      // At `until` itself the distance may equal the radius, except for rounding.
+      const double time = std::min(until, 1.0) * (i < 2 ? i : random.uniform(0.0, 1.0));
+      EXPECT_GT(closest_points(motion.at(time) * trial.core, face.at(time)).distance,
+                trial.radius - oracle::rounding(trial))
+          << "at " << time;
+    }
+  });
+  EXPECT_GT(clear, 200);
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, SweptBoxTrials,
                          testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()));
+
+// This is what the box is for: it excludes nearly all faces that are far away.
+TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
+  Random random(7);
+  int far = 0, clear = 0;
+  for (int i = 0; i < 3000; ++i) {
+    LinkTrial trial = oracle::make_link_trial(0, kBox, random);
+    trial.end.linear() = trial.start.linear() * oracle::random_turn(0.01, random);
+    trial.end.translation() = trial.start.translation() + 1e-3 * random.direction();
+    for (Vector3d& corner : trial.face) corner += 0.03 * random.direction();
+    const RigidMotion motion = trial.motion();
+    if (first_touch(CoreMotion(trial.core, motion), {trial.face, trial.face}, 0.01)) continue;
+    ++far;
+    const FaceMotion face{trial.face, trial.face};
+    clear += SweptBox(box_of(trial.core), motion, 1e-3).clear_until(BoundedFace(face)) > 1.0;
+  }
+  EXPECT_GT(clear, far * 8 / 10) << "of " << far;
+}
+
+// Faces that are small beside a box at rest are tested by their balls alone.
+TEST(SweptBox, StaysClearOfNearlyAllSmallFacesThatAreFar) {
+  Random random(8);
+  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
+  const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
+  const SweptBox swept(box, RigidMotion(pose, pose), 1e-3);
+  int far = 0, clear = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vector3d center = random.point(0.2);
+    FaceMotion face;
+    for (Vector3d& corner : face.start) corner = pose * (center + 1e-3 * random.direction());
+    face.end = face.start;
+    const double until = swept.clear_until(BoundedFace(face));
+    const double away = (center.cwiseAbs() - box.half_size).maxCoeff();
+    if (away < -3e-3) {
+      EXPECT_EQ(until, 0.0);
+    } else if (away > 3e-3) {
+      ++far;
+      clear += until > 1.0;
+    }
+  }
+  EXPECT_GT(far, 500);
+  EXPECT_EQ(clear, far);
+}
+
+// The projections onto the box's axes overlap. Only the face's own plane separates the two.
+TEST(SweptBox, StaysClearOfAFaceOverACorner) {
+  const auto clear_until = [](const SweptBox& box, const FaceMotion& face, double closer = 0.0) {
+    return box.clear_until(BoundedFace(face), closer);
+  };
+  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const RigidMotion motion(pose, pose);
+  const auto face = [](double x) {
+    const Triangle corners = {Vector3d(x, 0, 0), Vector3d(0, x, 0), Vector3d(0, 0, x)};
+    return FaceMotion{corners, {corners[0], corners[2], corners[1]}};
+  };
+  const double touching = 0.3 + 0.01 * std::sqrt(3.0);
+  EXPECT_GT(clear_until(SweptBox(box, motion, 0.01), face(touching + 1e-9)), 1.0);
+  EXPECT_EQ(clear_until(SweptBox(box, motion, 0.01), face(touching - 1e-9)), 0.0);
+  constexpr double kCloser = 0.004;  // [m]
+  const double nearer = touching - kCloser * std::sqrt(3.0);
+  EXPECT_GT(clear_until(SweptBox(box, motion, 0.01), face(nearer + 1e-9), kCloser), 1.0);
+  EXPECT_EQ(clear_until(SweptBox(box, motion, 0.01), face(nearer - 1e-9), kCloser), 0.0);
+}
+
+// For a degenerate face only the planes across the box's axes can separate the two.
+TEST(SweptBox, NeedsNoPlane) {
+  const auto clear_until = [](const SweptBox& box, const FaceMotion& face) {
+    return box.clear_until(BoundedFace(face));
+  };
+  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  const RigidMotion motion(pose, pose);
+  const Vector3d far(0.0, 0.2, 0.0), near(0.0, 0.105, 0.0);
+  EXPECT_GT(clear_until(SweptBox(box, motion, 0.01), {{far, far, far}, {far, far, far}}), 1.0);
+  EXPECT_EQ(clear_until(SweptBox(box, motion, 0.01), {{near, far, far}, {far, far, far}}), 0.0);
+}
 
 }  // namespace
 }  // namespace organ_collision

@@ -15,6 +15,9 @@ class BlockBoxes {
   struct Box {
     Eigen::Array4f min;  ///< the smallest coordinates
     Eigen::Array4f max;  ///< the largest coordinates
+
+    /// The smallest box around both.
+    Box join(const Box& other) const { return {min.min(other.min), max.max(other.max)}; }
   };
 
   /// Fits the boxes to new vertices (x y z x y z ... [m]) in one pass over them. Returns false if a
@@ -32,9 +35,10 @@ class BlockBoxes {
 
  private:
   void fit_groups(const FaceClusters& clusters);
+  void add_borders(const FaceClusters& clusters);
 
   std::vector<Box> blocks_;
-  std::vector<std::vector<Box>> groups_;  ///< by level
+  std::vector<std::vector<Box>> groups_;  ///< by level; there may be levels of earlier clusters
   Eigen::AlignedBox3f all_;
 };
 

@@ -10,11 +10,11 @@ namespace organ_collision {
 /// The three vertex indices of a face. Its outward side is given by the right-hand rule.
 using FaceIndices = std::array<std::uint32_t, 3>;
 
-/// Groups an organ's vertices and faces so that neighbours in space are together. It is made when
-/// the triangles change. The boxes around the groups are fitted to each new shape (BlockBoxes).
-/// See doc/geometry.md, Words.
+/// Sorts an organ's vertices and faces so that neighbours in space are together. It is made when
+/// the triangles change. The boxes around them are fitted to each new shape (BlockBoxes). See
+/// doc/geometry.md, Words.
 ///
-/// - A block is a group of kRun vertices. If vertices that follow each other in the sender's order
+/// - A block is kRun vertices. If vertices that follow each other in the sender's order
 ///   are also neighbours in space, a block is a run of kRun such vertices, which can be read
 ///   without a gather. Otherwise the vertices are grouped along a Morton curve.
 /// - The cluster of a block is the faces that have a vertex in this block and none in an earlier
@@ -78,7 +78,7 @@ class FaceClusters {
   };
   void order_runs(const std::vector<float>& vertices);
   void order_vertices(const std::vector<float>& vertices);
-  void group(const std::vector<FaceIndices>& faces, const Numbers& block_of);
+  void sort_faces(const std::vector<FaceIndices>& faces, const Numbers& block_of);
   void find_blocks(const Numbers& block_of);
   void find_borders();
 

@@ -91,9 +91,9 @@ class TriangleMesh {
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
   /// The same faces. They stay as they are even if the mesh ends.
   SharedFaces shared_faces() const { return {topology_, &topology_->faces}; }
-  /// The same faces in spatially coherent groups.
+  /// The same faces in spatially coherent clusters.
   const FaceClusters& clusters() const { return topology_->clusters; }
-  /// The boxes around the current vertices of these groups [m].
+  /// The boxes around their blocks and groups in the present shape [m].
   const BlockBoxes& block_boxes() const { return boxes_; }
   /// x y z x y z ... [m]
   const std::vector<float>& vertices() const { return *vertices_; }
