@@ -11,7 +11,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [1] A face's ball stands for the face if the box is at least this many times as large.
+/// [1] The ball of a face at rest stands for the face if the box's longest edge is more than this
+/// many times the ball's radius.
 constexpr double kSmall = 2.0;
 
 /// [m] The same bound as CoreMotion::chord_deviation(), for any point of the box.
@@ -49,8 +50,7 @@ double SweptBox::clear_until(const BoundedFace& face, double closer) const {
   const Vector3d center = axes_.transpose() * face.center;
   const double beyond = (center - high_).cwiseMax(low_ - center).maxCoeff();
   if (beyond > face.radius + reach) return 2.0;
-  const bool rests = rests_ && face.rests;
-  if (rests && kSmall * face.radius < (high_ - low_).maxCoeff()) return 0.0;
+  if (rests_ && face.rests && kSmall * face.radius < (high_ - low_).maxCoeff()) return 0.0;
 
   double until = 0.0;
   for (int i = 0; i < 3 && until <= 1.0; ++i) {
@@ -69,11 +69,10 @@ double SweptBox::clear_until(const BoundedFace& face, double closer) const {
   };
   const ProjectionInterval of_box = project_box(start_);
   const ProjectionInterval of_face = project_onto(face.normal, face.motion->start);
-  if (rests)
-    return std::max(until, organ_collision::clear_until(of_face, of_face, of_box, of_box, reach));
   return std::max(until,
-                  organ_collision::clear_until(of_face, project_onto(face.normal, face.motion->end),
-                                               of_box, project_box(end_), reach));
+                  organ_collision::clear_until(
+                      of_face, face.rests ? of_face : project_onto(face.normal, face.motion->end),
+                      of_box, rests_ ? of_box : project_box(end_), reach));
 }
 
 double SweptBox::distance_bound(const FaceMotion& face) const {

@@ -19,7 +19,9 @@ class RigidMotion {
   const Eigen::Matrix3d& mid_orientation() const { return mid_orientation_; }
 
   /// Whether the link is at the same place at both ends of the leg.
-  bool rests() const { return angle_ == 0.0 && start_.translation() == end_.translation(); }
+  bool rests() const {
+    return start_.linear() == end_.linear() && start_.translation() == end_.translation();
+  }
   /// [rad] The angle by which the link turns, in [0, pi].
   double angle() const { return angle_; }
   /// The direction about which the link turns: unit, in the organ's frame.

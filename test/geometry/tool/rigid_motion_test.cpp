@@ -111,5 +111,16 @@ TEST(RigidMotion, HalfATurnIsOneAboutItsAxisEitherWay) {
   }
 }
 
+TEST(RigidMotion, RestsOnlyIfBothEndsAreTheSame) {
+  Random random(6);
+  const Isometry3d start = oracle::random_pose(0.3, random);
+  EXPECT_TRUE(RigidMotion(start, start).rests());
+  Isometry3d turned = start, moved = start;
+  turned.linear() = start.linear() * oracle::random_turn(1e-9, random);
+  moved.translation().y() += 1e-15;
+  EXPECT_FALSE(RigidMotion(start, turned).rests());
+  EXPECT_FALSE(RigidMotion(start, moved).rests());
+}
+
 }  // namespace
 }  // namespace organ_collision
