@@ -26,6 +26,10 @@ class Engine {
 
 /// The package's `feedback` picker, which the node uses: cluster boxes, outcodes, GL_FEEDBACK.
 std::unique_ptr<Engine> make_ours();
+/// The same on EGL, where OSMesa is missing.
+std::unique_ptr<Engine> make_ours_egl();
+/// The package's `cpu` picker: cluster boxes, outcodes, clipping in double precision, no OpenGL.
+std::unique_ptr<Engine> make_cpu();
 /// GL_FEEDBACK without clusters: outcodes of all vertices choose the faces that are drawn.
 std::unique_ptr<Engine> make_ours_no_clusters();
 /// The package's `select` picker, as in the paper: GL_SELECT, one name and one glBegin for each

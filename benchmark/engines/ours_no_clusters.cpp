@@ -3,7 +3,6 @@
 #include "engine.hpp"
 #include "picking/gl/feedback.hpp"
 #include "scan_outcodes.hpp"
-#include "shared_context.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -22,8 +21,9 @@ class OursNoClusters : public Engine {
     find_survivors(organ_->triangles, outcodes_, survivors_);
     drawn_.clear();
     for (const std::uint32_t face : survivors_) draw(face, query.volume.origin());
-    const std::size_t size = draw_feedback(shared_context(), query.volume, drawn_, buffer_);
     faces.clear();
+    if (drawn_.empty()) return;
+    const std::size_t size = draw_feedback(context_, query.volume, drawn_, buffer_);
     for_each_vertex(buffer_, size, [&](const FeedbackVertex& vertex) {
       if (faces.empty() || faces.back() != vertex.face()) faces.push_back(vertex.face());
     });
@@ -35,10 +35,11 @@ class OursNoClusters : public Engine {
                                          static_cast<float>(face >> 16)};
     for (const Eigen::Vector3d& corner : corners(*organ_, *vertices_, face)) {
       const Eigen::Vector3f p = (corner - origin).cast<float>();
-      drawn_.push_back({{p.x(), p.y(), p.z()}, {0.0F, 0.0F}, number});
+      drawn_.push_back({{p.x(), p.y(), p.z()}, number});
     }
   }
 
+  GlContext context_;
   const OrganSurface* organ_ = nullptr;
   const std::vector<float>* vertices_ = nullptr;
   std::vector<std::uint8_t> outcodes_;

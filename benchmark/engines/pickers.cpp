@@ -2,7 +2,6 @@
 
 #include "engine.hpp"
 #include "picking/pickers/picker.hpp"
-#include "shared_context.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -10,7 +9,8 @@ namespace {
 /// One of the package's own pickers.
 class PickerEngine : public Engine {
  public:
-  explicit PickerEngine(PickerKind kind) : picker_(make_picker(kind, shared_context())) {}
+  explicit PickerEngine(const PickerSettings& settings) : picker_(make_picker(settings)) {}
+  ~PickerEngine() override { picker_->release(); }
 
   void set_topology(const OrganSurface& organ, const std::vector<float>& rest) override {
     mesh_.emplace(rest, organ.triangles);
@@ -32,8 +32,14 @@ class PickerEngine : public Engine {
 }  // namespace
 
 std::unique_ptr<Engine> make_ours() {
-  return std::make_unique<PickerEngine>(PickerKind::kFeedback);
+  return std::make_unique<PickerEngine>(PickerSettings(PickerKind::kFeedback, GlPlatform::kOsmesa));
 }
+
+std::unique_ptr<Engine> make_ours_egl() {
+  return std::make_unique<PickerEngine>(PickerSettings(PickerKind::kFeedback, GlPlatform::kEgl));
+}
+
+std::unique_ptr<Engine> make_cpu() { return std::make_unique<PickerEngine>(PickerKind::kCpu); }
 
 std::unique_ptr<Engine> make_select_paper() {
   return std::make_unique<PickerEngine>(PickerKind::kSelect);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "benchmark/engines/shared_context.hpp"
 #include "query/contact_refiner.hpp"
 #include "stopwatch.hpp"
 
@@ -24,7 +23,7 @@ ContactMeasurement::ContactMeasurement(const Scene& scene)
     : scene_(scene),
       organ_(scene.shapes.back(), scene.organ.triangles),
       before_(organ_),
-      picker_(make_picker(PickerKind::kFeedback, shared_context())) {
+      picker_(make_picker(PickerKind::kFeedback)) {
   const std::size_t affordable = std::max<std::size_t>(200'000 / scene.organ.face_count(), 1);
   const std::size_t steps = std::min(scene.steps.size(), affordable);
   check(steps, false);

@@ -14,9 +14,12 @@ namespace {
 
 constexpr long long kMostJobs = 1024;
 
-PickerKind picker_of(const CommandLine& given) {
+PickerSettings picker_of(const CommandLine& given) {
+  PickerSettings settings;
   try {
-    return picker_kind(given.value("--picker"));
+    if (given.has("--picker")) settings.kind = picker_kind(given.value("--picker"));
+    if (given.has("--gl")) settings.gl = gl_platform(given.value("--gl"));
+    return settings;
   } catch (const std::invalid_argument& error) {
     given.refuse(error.what());
   }
@@ -59,15 +62,15 @@ Options parse_options(const std::vector<std::string>& arguments) {
   options.help = asks_for_help(arguments);
   if (options.help) return options;
 
-  const CommandLine given(
-      {"query_offline",
-       {"--mesh", "--motions", "--mesh-before", "--shapes", "--jobs", "--picker", "--margin"},
-       {"--clearance", "--placement", "--blank-lines"}},
-      arguments);
+  const CommandLine given({"query_offline",
+                           {"--mesh", "--motions", "--mesh-before", "--shapes", "--jobs",
+                            "--picker", "--gl", "--margin"},
+                           {"--clearance", "--placement", "--blank-lines"}},
+                          arguments);
   set_organ(given, options);
   options.motions = given.required("--motions");
   options.jobs = jobs_of(given);
-  if (given.has("--picker")) options.picker = picker_of(given);
+  options.picker = picker_of(given);
   if (given.has("--margin")) options.margin = margin_of(given);
   options.clearance = given.has("--clearance");
   options.placement = given.has("--placement");
@@ -78,8 +81,8 @@ Options parse_options(const std::vector<std::string>& arguments) {
 std::string usage() {
   return R"(Usage: query_offline --mesh FILE [--mesh-before FILE] --motions FILE [OPTIONS]
        query_offline --shapes FOLDER --motions FILE [OPTIONS]
-Options: [--jobs NUMBER] [--picker NAME] [--margin METRES] [--clearance] [--placement]
-         [--blank-lines]
+Options: [--jobs NUMBER] [--picker NAME] [--gl NAME] [--margin METRES] [--clearance]
+         [--placement] [--blank-lines]
 
 Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
 
@@ -99,7 +102,10 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
                       in the first motion it rests
   --jobs NUMBER       threads, 1 to 1024; by default one for each core. The output does not depend on
                       it
-  --picker NAME       feedback (default), or select: the same contacts, much slower on large meshes
+  --picker NAME       feedback (default), select or cpu: the same contacts; select is much slower on
+                      large meshes, and cpu needs no OpenGL
+  --gl NAME           where the OpenGL for picking comes from: osmesa, egl, or auto (default): OSMesa
+                      where there is one, else EGL
   --margin METRES     adds the distance between tool and organ, if it is at most this; above 0
   --clearance         adds the distance without a limit; a margin then changes nothing
   --placement         adds on which side of the organ the tool is, and where its axis crosses it

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 
 namespace organ_collision {
 
@@ -17,7 +17,7 @@ struct Options {
   std::string mesh_before;  ///< empty: the organ rests
   std::string shapes;       ///< a folder with a mesh for each motion; empty: one mesh for all
   std::string motions;      ///< a file, or kStandardInput
-  PickerKind picker = PickerKind::kFeedback;
+  PickerSettings picker;
   double margin = 0.0;       ///< [m] up to which the clearance is asked for; 0: not asked for
   bool clearance = false;    ///< whether the clearance is asked for without a limit
   bool placement = false;    ///< whether sides and crossings are asked for

@@ -4,7 +4,7 @@
 
 namespace organ_collision {
 
-QueryWorkers::QueryWorkers(std::size_t count, PickerKind picker)
+QueryWorkers::QueryWorkers(std::size_t count, const PickerSettings& picker)
     : queries_(count), workers_(WorkerThreads::Caller::kWorks, [this, picker](std::size_t worker) {
         queries_[worker].emplace(picker);
       }) {

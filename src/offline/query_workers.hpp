@@ -14,7 +14,7 @@ namespace organ_collision {
 class QueryWorkers {
  public:
   /// At most `count` threads, at least 1. Throws GlError if OpenGL picking does not work.
-  QueryWorkers(std::size_t count, PickerKind picker);
+  QueryWorkers(std::size_t count, const PickerSettings& picker);
 
   std::size_t count() const { return queries_.size(); }
   /// The query of a worker, for the tasks of this worker.

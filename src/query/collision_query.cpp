@@ -60,17 +60,26 @@ void pick_unrefined(const CollisionRequest& request, Picker& picker,
   }
 }
 
+/// Releases the picker at the end of a query, so that any thread may ask the next one.
+class ScopedRelease {
+ public:
+  explicit ScopedRelease(Picker& picker) : picker_(picker) {}
+  ~ScopedRelease() { picker_.release(); }
+  ScopedRelease(const ScopedRelease&) = delete;
+  ScopedRelease& operator=(const ScopedRelease&) = delete;
+
+ private:
+  Picker& picker_;
+};
+
 }  // namespace
 
 struct CollisionQuery::State {
-  explicit State(PickerKind kind)
-      : picker(make_picker(kind, context)), finder(*picker), regions(context), placement(*picker) {
-    context.release();
-  }
+  explicit State(const PickerSettings& settings)
+      : picker(make_picker(settings)), finder(*picker), placement(*picker) {}
 
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
-  GlContext context;
   std::unique_ptr<Picker> picker;
   ContactFinder finder;
   ContactRegions regions;
@@ -82,18 +91,19 @@ struct CollisionQuery::State {
   ToolPath subdivided_path;
 };
 
-CollisionQuery::CollisionQuery(PickerKind kind) : state_(std::make_unique<State>(kind)) {}
+CollisionQuery::CollisionQuery(const PickerSettings& settings)
+    : state_(std::make_unique<State>(settings)) {}
 CollisionQuery::~CollisionQuery() = default;
 CollisionQuery::CollisionQuery(CollisionQuery&&) noexcept = default;
 CollisionQuery& CollisionQuery::operator=(CollisionQuery&&) noexcept = default;
 
-const std::string& CollisionQuery::gl_version() const { return state_->context.version(); }
+const std::string& CollisionQuery::gl_version() const { return state_->picker->gl_version(); }
 
 void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& result) {
   clear(result);
   check(request);
   try {
-    const ScopedCurrentContext current(state_->context);
+    const ScopedRelease release(*state_->picker);
     state_->evaluate(request, result);
   } catch (...) {
     clear(result);

@@ -4,9 +4,20 @@
 #include <tuple>
 
 #include "picking/volumes/box_volume.hpp"
+#include "picking/volumes/clipped_face.hpp"
 #include "picking/volumes/conservative_volume.hpp"
 
 namespace organ_collision {
+namespace {
+
+Region region_of(const TriangleMesh& organ, const FaceContact& contact,
+                 const ViewingVolume& volume) {
+  Region region = clipped(shifted(organ.triangle(contact.face), volume.origin()), volume);
+  for (Eigen::Vector3d& corner : region) corner += volume.origin();
+  return region;
+}
+
+}  // namespace
 
 void ContactRegions::find(const Step& step, const std::vector<FaceContact>& contacts,
                           std::vector<Region>& regions) {
@@ -31,31 +42,21 @@ void ContactRegions::clip(const Step& step, Places begin, Places end,
                           const std::vector<FaceContact>& contacts, std::vector<Region>& regions) {
   if (step.has_shaft() && begin->link == 0) {
     const ViewingVolume volume = tool_volume(step.shaft_motion(begin->leg), step.radius());
-    return clip(volume, step.organ(), begin, end, contacts, regions);
+    for (Places place = begin; place != end; ++place) {
+      regions[place->contact] = region_of(step.organ(), contacts[place->contact], volume);
+    }
+    return;
   }
   const std::size_t link = begin->link - step.link_number(0);
   const RigidMotion motion = step.link_motion(begin->leg, link);
   for (const LinkPart& part : step.link(link).parts) {
     const SweptBox box(part.bounds, motion, part.radius);
-    clip(tool_volume(box), step.organ(), begin, end, contacts, regions);
-  }
-}
-
-/// Clips to a volume the faces of those contacts that have no region yet.
-void ContactRegions::clip(const ViewingVolume& volume, const TriangleMesh& organ, Places begin,
-                          Places end, const std::vector<FaceContact>& contacts,
-                          std::vector<Region>& regions) {
-  const auto for_each_missing = [&](auto visit) {
+    const ViewingVolume volume = tool_volume(box);
     for (Places place = begin; place != end; ++place) {
-      if (regions[place->contact].empty()) visit(place->contact);
+      Region& region = regions[place->contact];
+      if (region.empty()) region = region_of(step.organ(), contacts[place->contact], volume);
     }
-  };
-  faces_.clear();
-  for_each_missing([&](std::size_t i) { faces_.push_back(contacts[i].face); });
-  if (faces_.empty()) return;
-  std::vector<Region> clipped = clipper_.clip(volume, organ, faces_);
-  auto next = clipped.begin();
-  for_each_missing([&](std::size_t i) { regions[i].swap(*next++); });
+  }
 }
 
 }  // namespace organ_collision

@@ -4,8 +4,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "organ_collision/picking/region.hpp"
 #include "organ_collision/query/contact.hpp"
-#include "picking/pickers/region_clipper.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 #include "step.hpp"
 
 namespace organ_collision {
@@ -15,10 +16,7 @@ namespace organ_collision {
 /// the volume of its first part whose volume the face meets. Keeps its memory between steps.
 class ContactRegions {
  public:
-  /// Draws in `context`, which must outlive this object.
-  explicit ContactRegions(GlContext& context) : clipper_(context) {}
-
-  /// Replaces `regions` by one for each of `contacts`. Throws GlError if GL did not work.
+  /// Replaces `regions` by one for each of `contacts`.
   void find(const Step& step, const std::vector<FaceContact>& contacts,
             std::vector<Region>& regions);
 
@@ -33,14 +31,10 @@ class ContactRegions {
   };
   using Places = std::vector<Place>::const_iterator;
 
-  void clip(const Step& step, Places begin, Places end, const std::vector<FaceContact>& contacts,
-            std::vector<Region>& regions);
-  void clip(const ViewingVolume& volume, const TriangleMesh& organ, Places begin, Places end,
-            const std::vector<FaceContact>& contacts, std::vector<Region>& regions);
+  static void clip(const Step& step, Places begin, Places end,
+                   const std::vector<FaceContact>& contacts, std::vector<Region>& regions);
 
-  RegionClipper clipper_;
   std::vector<Place> places_;
-  std::vector<std::uint32_t> faces_;
 };
 
 }  // namespace organ_collision

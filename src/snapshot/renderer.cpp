@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "light.hpp"
 
@@ -94,8 +96,8 @@ void draw(const RenderFunctions& gl, const std::vector<GlTriangle>& triangles) {
 Renderer::Renderer(int width, int height)
     : width_(width),
       height_(height),
-      context_(GlFramebuffer{kSamples * width, kSamples * height, 24}),
-      gl_(load_render_functions()) {
+      context_(GlPlatform::kAuto, GlFramebuffer{kSamples * width, kSamples * height, 24}),
+      gl_(load_render_functions(context_)) {
   gl_.DisableClientState(GL_TEXTURE_COORD_ARRAY);  // which only the pickers use
   gl_.EnableClientState(GL_COLOR_ARRAY);
   gl_.Enable(GL_DEPTH_TEST);
@@ -114,16 +116,18 @@ Image Renderer::render(const PictureTriangles& triangles, const Camera& camera,
   draw(gl_, visible.opaque);
   gl_.DepthMask(GL_FALSE);  // A transparent triangle hides no other one.
   draw(gl_, visible.transparent);
-  gl_.Finish();
+  std::vector<std::uint8_t> samples(std::size_t{4} * kSamples * kSamples * width_ * height_);
+  gl_.ReadPixels(0, 0, kSamples * width_, kSamples * height_, GL_RGBA, GL_UNSIGNED_BYTE,
+                 samples.data());
   context_.check("a picture");
-  return downsampled();
+  return downsampled(samples);
 }
 
-Image Renderer::downsampled() const {
+/// `samples`: rows from bottom to top, with four bytes (red, green, blue, alpha) a sample.
+Image Renderer::downsampled(const std::vector<std::uint8_t>& samples) const {
   Image image{width_, height_, {}};
   image.pixels.reserve(std::size_t{3} * width_ * height_);
-  const std::uint8_t* samples = context_.pixels();
-  const auto row = [&](int y) { return samples + std::size_t{4} * kSamples * width_ * y; };
+  const auto row = [&](int y) { return samples.data() + std::size_t{4} * kSamples * width_ * y; };
   for (int y = kSamples * (height_ - 1); y >= 0; y -= kSamples) {
     for (int x = 0; x < 4 * kSamples * width_; x += 4 * kSamples) {
       for (int channel = 0; channel < 3; ++channel) {

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
+#include <vector>
 
 #include "camera.hpp"
 #include "image.hpp"
@@ -30,7 +32,7 @@ class Renderer {
   Image render(const PictureTriangles& triangles, const Camera& camera, const Colour& background);
 
  private:
-  Image downsampled() const;
+  Image downsampled(const std::vector<std::uint8_t>& samples) const;
 
   int width_, height_;
   GlContext context_;

@@ -17,7 +17,8 @@ TEST(Options, takes_the_mesh_and_the_motions) {
   EXPECT_EQ(options.shapes, "");
   EXPECT_GE(options.jobs, 1U);
   EXPECT_FALSE(options.blank_lines);
-  EXPECT_EQ(options.picker, PickerKind::kFeedback);
+  EXPECT_EQ(options.picker.kind, PickerKind::kFeedback);
+  EXPECT_EQ(options.picker.gl, GlPlatform::kAuto);
   EXPECT_FALSE(options.help);
 }
 
@@ -26,7 +27,13 @@ TEST(Options, takes_the_earlier_mesh_and_the_picker) {
       {"--mesh=a.obj", "--picker=select", "--mesh-before=old=er.obj", "--motions=m.csv"});
   EXPECT_EQ(options.mesh, "a.obj");
   EXPECT_EQ(options.mesh_before, "old=er.obj");
-  EXPECT_EQ(options.picker, PickerKind::kSelect);
+  EXPECT_EQ(options.picker.kind, PickerKind::kSelect);
+}
+
+TEST(Options, takes_the_platform_of_opengl) {
+  const Options options = parse_options({"--mesh=a.obj", "--motions=m.csv", "--gl", "egl"});
+  EXPECT_EQ(options.picker.kind, PickerKind::kFeedback);
+  EXPECT_EQ(options.picker.gl, GlPlatform::kEgl);
 }
 
 TEST(Options, takes_standard_input_threads_and_blank_lines) {
@@ -106,7 +113,7 @@ TEST(Options, refuses_what_it_cannot_use) {
     return input_error([&] { parse_options(arguments); });
   };
   const std::string legal =
-      "; legal are --mesh, --motions, --mesh-before, --shapes, --jobs, --picker, --margin, "
+      "; legal are --mesh, --motions, --mesh-before, --shapes, --jobs, --picker, --gl, --margin, "
       "--clearance, --placement, --blank-lines and --help (--help explains)";
   EXPECT_EQ(refusal({"--mseh", "b.obj"}), "query_offline: unknown option \"--mseh\"" + legal);
   EXPECT_EQ(refusal({"b.obj"}), "query_offline: unknown option \"b.obj\"" + legal);

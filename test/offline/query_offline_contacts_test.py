@@ -71,6 +71,9 @@ class ContactsTest(ProgramCase):
         self.assertGreater(len(rows), 300)
         self.assert_rows(rows, expected)
         self.assertEqual(rows, self.contacts(*FILES, '--picker', 'select'))
+        self.assertEqual(rows, self.contacts(*FILES, '--picker', 'cpu'))
+        self.assertEqual(rows, self.contacts(*FILES, '--gl', 'egl'))
+        self.assertEqual(rows, self.contacts(*FILES, '--gl', 'osmesa'))
         self.assertEqual(rows, self.contacts(*FILES, '--picker=feedback'))
         self.assertEqual(rows, self.contacts(*FILES, '--mesh-before', 'organ.obj'))
 
@@ -117,7 +120,7 @@ class ContactsTest(ProgramCase):
                 )
                 allowed.append((certain, possible))
         self.write_scene(liver, lines)
-        for picker in 'feedback', 'select':
+        for picker in 'feedback', 'select', 'cpu':
             rows = self.contacts(*FILES, '--picker', picker)
             self.assertTrue(all(row[2:] == [''] * 8 for row in rows))
             keys = [(int(query), int(face)) for query, face, *_ in rows]

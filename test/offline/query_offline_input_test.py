@@ -120,7 +120,8 @@ class InputTest(ProgramCase):
                 (FILES + ('more.csv',), '"more.csv"'),
                 (FILES + ('--mesh', 'organ.obj'), '--mesh', 'twice'),
                 (FILES + ('--picker',), '--picker', 'no value'),
-                (FILES + ('--picker', 'embree'), 'embree', 'feedback', 'select')]:
+                (FILES + ('--picker', 'embree'), 'embree', 'feedback', 'select', 'cpu'),
+                (FILES + ('--gl', 'glx'), 'glx', 'auto', 'osmesa', 'egl')]:
             with self.subTest(arguments=arguments):
                 self.assert_refused('query_offline', *words, arguments=arguments)
 

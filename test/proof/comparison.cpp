@@ -33,6 +33,7 @@ double extent(const Triangle& face, const Vector3d& origin) {
 bool picks(Picker& picker, const ViewingVolume& volume, const TriangleMesh& mesh) {
   std::vector<Candidate> candidates;
   picker.pick(volume, mesh, candidates);
+  picker.release();
   return !candidates.empty();
 }
 
@@ -42,9 +43,11 @@ void report(const char* what, const Trial& trial) {
 
 }  // namespace
 
-Comparison::Comparison()
-    : feedback_(make_picker(PickerKind::kFeedback, context_)),
-      select_(make_picker(PickerKind::kSelect, context_)) {}
+Comparison::Comparison() {
+  for (const PickerKind kind : {PickerKind::kFeedback, PickerKind::kSelect, PickerKind::kCpu}) {
+    pickers_.push_back(make_picker(kind));
+  }
+}
 
 Tally Comparison::at_rest(const Trial& trial) {
   return capsule({trial.motion.end, trial.motion.end}, trial);
@@ -68,7 +71,7 @@ Tally Comparison::capsule(const ShaftMotion& motion, const Trial& trial) {
   const double largest = extent(trial.face, motion.start.trocar);
   const ViewingVolume volume = conservative_volume(motion, trial.radius, {0.0, largest});
   const TriangleMesh mesh = mesh_of(trial.face);
-  for (Picker* picker : {feedback_.get(), select_.get()}) {
+  for (const std::unique_ptr<Picker>& picker : pickers_) {
     if (picks(*picker, volume, mesh)) continue;
     ++tally.missed;
     report("missed by a picker", trial);
@@ -86,7 +89,7 @@ Tally Comparison::volume(const ViewingVolume& volume, const Trial& trial) {
   Tally tally;
   tally.pairs = 1;
   tally.touching = exact;
-  for (Picker* picker : {feedback_.get(), select_.get()}) {
+  for (const std::unique_ptr<Picker>& picker : pickers_) {
     const bool picked = picks(*picker, volume, mesh);
     if (picked == exact) continue;
     const bool outside = picked ? !maybe : surely;

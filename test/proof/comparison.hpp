@@ -1,9 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
-#include "picking/gl/gl_context.hpp"
 #include "picking/pickers/picker.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 #include "tally.hpp"
@@ -21,11 +21,11 @@ class Comparison {
   Comparison();
 
   /// Compares with exact distances: the tool at rest at the end of its motion, or swept. If the
-  /// library or the oracle says that the face touches, both pickers must find it.
+  /// library or the oracle says that the face touches, all pickers must find it.
   Tally at_rest(const Trial& trial);
   Tally swept(const Trial& trial);
 
-  /// Compares what both pickers find with the exact half-spaces of a volume.
+  /// Compares what all pickers find with the exact half-spaces of a volume.
   Tally volume(const ViewingVolume& volume, const Trial& trial);
 
   /// Compares the whole query with a search, while the face and the trocar move, too.
@@ -34,8 +34,7 @@ class Comparison {
  private:
   Tally capsule(const ShaftMotion& motion, const Trial& trial);
 
-  GlContext context_;
-  std::unique_ptr<Picker> feedback_, select_;
+  std::vector<std::unique_ptr<Picker>> pickers_;  ///< one of each kind
   CollisionQuery query_;
 };
 

@@ -121,7 +121,8 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 TEST(CollisionQuery, AnswerDoesNotDependOnThePicker) {
   CollisionQuery feedback(PickerKind::kFeedback), select(PickerKind::kSelect);

@@ -226,7 +226,8 @@ TEST_P(CollisionQueryWith, PaperSceneOfATetrahedron) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

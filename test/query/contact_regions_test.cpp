@@ -88,7 +88,8 @@ TEST_P(ContactRegionsWith, OfALinkLieInTheFaceAndInAVolumeOfThatLink) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, ContactRegionsWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

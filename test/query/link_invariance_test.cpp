@@ -156,7 +156,8 @@ TEST_P(LinkInvarianceWith, OrderOfAToolsTrianglesChangesNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, LinkInvarianceWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

@@ -192,7 +192,8 @@ TEST_P(LinkQueryWith, LinksWithoutPartsTouchNothing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, LinkQueryWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

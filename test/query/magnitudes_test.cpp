@@ -134,7 +134,8 @@ TEST_P(MagnitudesWith, PaperVolumesTooThinForClippingAreRefusedByName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, MagnitudesWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

@@ -162,7 +162,8 @@ TEST_P(ManyLegsWith, RegionsAreThoseOfTheLegThatTouched) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, ManyLegsWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

@@ -455,7 +455,8 @@ TEST_P(PlacementWith, NothingRemainsOfTheLastAnswer) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, PlacementWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

@@ -135,7 +135,8 @@ TEST_P(RequestCheckWith, PlacementsWithoutAnswerAreRefusedByName) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, RequestCheckWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

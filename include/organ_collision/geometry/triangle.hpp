@@ -15,6 +15,11 @@ inline Eigen::Vector3d point_at(const Triangle& triangle, const Eigen::Vector3d&
   return barycentric[0] * triangle[0] + barycentric[1] * triangle[1] + barycentric[2] * triangle[2];
 }
 
+/// The triangle in coordinates that are shifted so that `origin` is zero.
+inline Triangle shifted(const Triangle& triangle, const Eigen::Vector3d& origin) {
+  return {triangle[0] - origin, triangle[1] - origin, triangle[2] - origin};
+}
+
 /// A vector along the outward normal whose length is twice the area [m^2]. Zero if the triangle is
 /// degenerate.
 inline Eigen::Vector3d twice_area(const Triangle& triangle) {

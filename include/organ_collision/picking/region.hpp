@@ -6,7 +6,7 @@
 namespace organ_collision {
 
 /// The polygon in which a face meets a viewing volume: its corners in the organ's frame [m], in
-/// 32-bit precision. Empty if the face does not meet the volume.
+/// their order along its border. Empty if the face does not meet the volume.
 using Region = std::vector<Eigen::Vector3d>;
 
 }  // namespace organ_collision

@@ -11,7 +11,7 @@
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/picking/gl_error.hpp"
-#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "organ_collision/picking/region.hpp"
 #include "organ_collision/query/clearance.hpp"
 #include "organ_collision/query/contact.hpp"
@@ -120,13 +120,14 @@ struct CollisionResult {
 /// as long as these do not change.
 ///
 /// OpenGL: a query owns its context, which is current in the calling thread only while one of its
-/// functions runs. Creating a query takes about 30 ms. A query keeps its memory between calls, and
+/// functions runs. If OpenGL fails, the query throws GlError, and the next call gets a new context.
+/// Creating a query takes about 30 ms. A query keeps its memory between calls, and
 /// a result that is used again keeps its own, so repeated calls rarely allocate.
 class CollisionQuery {
  public:
-  /// `kind` changes how candidates are picked, and the speed, but never the contacts. Throws
+  /// `settings` change how candidates are picked, and the speed, but never the contacts. Throws
   /// GlError if OpenGL picking does not work in this process.
-  explicit CollisionQuery(PickerKind kind = PickerKind::kFeedback);
+  explicit CollisionQuery(const PickerSettings& settings = {});
   ~CollisionQuery();
   /// A query from which another one was moved may only be destroyed or assigned to.
   CollisionQuery(CollisionQuery&&) noexcept;
@@ -152,7 +153,7 @@ class CollisionQuery {
   ///   finite.
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
-  /// The GL_VERSION of the query's OpenGL context.
+  /// The GL_VERSION and the platform of the query's OpenGL context, or that there is none.
   const std::string& gl_version() const;
 
  private:

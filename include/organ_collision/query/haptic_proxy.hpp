@@ -12,7 +12,7 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
-#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "organ_collision/query/contact.hpp"
 
 namespace organ_collision {
@@ -145,8 +145,7 @@ class HapticProxy {
  public:
   /// Throws GlError if OpenGL picking does not work in this process, and std::invalid_argument,
   /// naming the value and what is legal, if the tool or a setting is illegal.
-  HapticProxy(ProxyTool tool, const ProxySettings& settings,
-              PickerKind picker = PickerKind::kFeedback);
+  HapticProxy(ProxyTool tool, const ProxySettings& settings, const PickerSettings& picker = {});
   ~HapticProxy();
   /// A proxy from which another one was moved may only be destroyed or assigned to.
   HapticProxy(HapticProxy&&) noexcept;

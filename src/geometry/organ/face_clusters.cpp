@@ -8,7 +8,6 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::uint32_t kRun = FaceClusters::kRun;
 constexpr std::uint32_t kNone = ~0U;
 
 /// Spreads the lowest ten bits so that two zeros stand between neighbours.

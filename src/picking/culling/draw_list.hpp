@@ -11,11 +11,10 @@
 
 namespace organ_collision {
 
-/// A corner of a drawn face. GL returns the members after the position as one texture coordinate.
+/// A corner of a drawn face. GL returns the number as a texture coordinate.
 struct DrawVertex {
-  std::array<float, 3> position;     ///< in the volume's shifted coordinates [m]
-  std::array<float, 2> barycentric;  ///< second and third barycentric coordinate of the corner
-  std::array<float, 2> number;       ///< of the face: its lower and upper 16 bits, exact
+  std::array<float, 3> position;  ///< in the volume's shifted coordinates [m]
+  std::array<float, 2> number;    ///< of the face: its lower and upper 16 bits, exact
 };
 
 /// The face's number from its lower and upper 16 bits.
@@ -38,21 +37,15 @@ class DrawList {
   /// listed in undrawn().
   ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
 
-  /// Replaces the list by `faces` of the mesh. The number of a face is its index in `faces`.
-  void assign(const ViewingVolume& volume, const TriangleMesh& mesh,
-              const std::vector<std::uint32_t>& faces);
+  /// Adds a face in the volume's shifted coordinates.
+  void add(const Triangle& face, std::uint32_t number);
 
   const std::vector<DrawVertex>& vertices() const { return vertices_; }
   /// Numbers of the faces that may meet the part and that GL does not decide on.
   const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:
-  template <typename Add>
-  void for_each_face(const ViewingVolume& volume, const OrganMotion& organ, Add add);
-  template <typename Add>
-  void for_each_face(const FaceClusters& clusters, std::size_t level, std::size_t group,
-                     const Add& add);
-  void add(const Triangle& face, std::uint32_t number);
+  void start(const ViewingVolume& volume, const OrganMotion& organ);
 
   std::vector<DrawVertex> vertices_;
   std::vector<std::uint32_t> undrawn_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,6 +26,10 @@ class Outcodes {
   /// Starts with a new volume and organ, and finds the outcodes of the top level's groups. Computes
   /// in 32 bits and allows for their rounding: a face that meets the volume is never rejected.
   void assign(const ViewingVolume& volume, const OrganMotion& organ);
+
+  /// Calls visit(face) for each FaceClusters::Face that outcodes do not reject, cluster by cluster.
+  template <typename Visit>
+  void for_each_face(Visit visit);
 
   /// Whether all faces of a group are outside the same half-space. Requires add_members() of the
   /// group that it belongs to, unless that is the top.
@@ -56,6 +62,8 @@ class Outcodes {
   };
   const FaceClusters& clusters() const { return organ_->after().clusters(); }
   const BlockBoxes& boxes() const { return organ_->after().block_boxes(); }
+  template <typename Visit>
+  void visit_group(std::size_t level, std::size_t group, const Visit& visit);
   void set_planes(const ViewingVolume& volume);
   void find_group_codes(std::size_t level, std::size_t run);
   void find_block_codes(std::size_t section);
@@ -72,5 +80,35 @@ class Outcodes {
   /// The query for which the outcodes of a section's blocks, or of a block's vertices, were found.
   std::vector<std::uint64_t> section_found_for_, block_found_for_;
 };
+
+template <typename Visit>
+void Outcodes::for_each_face(Visit visit) {
+  const std::size_t top = clusters().level_count() - 1;
+  for (std::size_t group = 0; group < clusters().group_count(top); ++group) {
+    visit_group(top, group, visit);
+  }
+}
+
+/// The same for the faces of a group.
+template <typename Visit>
+void Outcodes::visit_group(std::size_t level, std::size_t group, const Visit& visit) {
+  if (group_is_outside(level, group)) return;
+  const std::size_t begin = group * FaceClusters::kRun;
+  const std::size_t end = begin + FaceClusters::kRun;
+  if (level > 0) {
+    add_members(level, group);
+    for (std::size_t i = begin; i < std::min(end, clusters().group_count(level - 1)); ++i) {
+      visit_group(level - 1, i, visit);
+    }
+    return;
+  }
+  for (std::size_t block = begin; block < std::min(end, clusters().block_count()); ++block) {
+    if (cluster_is_outside(block)) continue;
+    add_vertices(block);
+    for (const FaceClusters::Face& face : clusters().faces(block)) {
+      if (!face_is_outside(face.corners)) visit(face);
+    }
+  }
+}
 
 }  // namespace organ_collision

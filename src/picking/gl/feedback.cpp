@@ -1,5 +1,6 @@
 #include "feedback.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -7,38 +8,76 @@
 #include "gl_functions.hpp"
 
 namespace organ_collision {
+namespace {
+
+// [1] GL counts the floats of a buffer with an integer.
+constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
+
+/// [1] What GL can return at most for a number of faces. Each plane adds at most one corner to a
+/// face, and GL may return a polygon of n corners as n - 2 triangles, each with two floats of its
+/// own.
+std::size_t most_floats(std::size_t faces) {
+  constexpr std::size_t kPlanes = 6 + ViewingVolume::kMaxUserPlanes;
+  constexpr std::size_t kTriangle = 2 + 3 * FeedbackVertex::kFloats;
+  return faces * (1 + kPlanes) * kTriangle;
+}
+
+}  // namespace
+
+std::uint32_t FeedbackVertex::face() const {
+  const auto is_half = [](float half) { return half >= 0.0f && half <= 65535.0f; };
+  const float lower = floats_[7], upper = floats_[8];
+  if (is_half(lower) && is_half(upper)) return face_number(lower, upper);
+  throw GlError("OpenGL's feedback buffer holds an illegal face number: " + std::to_string(lower) +
+                ", " + std::to_string(upper));
+}
 
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                           const std::vector<DrawVertex>& vertices, std::vector<float>& buffer) {
-  if (vertices.empty()) return 0;
   context.make_current();
   const GlFunctions& gl = context.functions();
   clip_to(volume, gl);
   constexpr GLsizei kStride = sizeof(DrawVertex);
-  static_assert(offsetof(DrawVertex, number) == offsetof(DrawVertex, barycentric) + 8,
-                "barycentric and number make one texture coordinate");
   gl.VertexPointer(3, GL_FLOAT, kStride, vertices.data()->position.data());
-  gl.TexCoordPointer(4, GL_FLOAT, kStride, vertices.data()->barycentric.data());
+  gl.TexCoordPointer(2, GL_FLOAT, kStride, vertices.data()->number.data());
   while (true) {
     gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
     gl.RenderMode(GL_FEEDBACK);
     gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
     const GLint written = gl.RenderMode(GL_RENDER);
     context.check("a feedback query");
-    if (written >= 0) return static_cast<std::size_t>(written);
-    if (buffer.size() > std::numeric_limits<GLsizei>::max() / 4) {
-      throw GlError("OpenGL's feedback buffer cannot hold what was picked: too many faces");
+    if (written > static_cast<GLint>(buffer.size())) {
+      context.fail("OpenGL claims to have written " + std::to_string(written) +
+                   " floats to a buffer of " + std::to_string(buffer.size()));
     }
-    buffer.resize(4 * buffer.size());
+    if (written >= 0) return static_cast<std::size_t>(written);
+    const std::size_t most = std::min(most_floats(vertices.size() / 3), kMostFloats);
+    if (buffer.size() >= most) {
+      context.fail("OpenGL's feedback buffer is too small for " +
+                   std::to_string(vertices.size() / 3) + " faces with " +
+                   std::to_string(buffer.size()) + " floats");
+    }
+    buffer.resize(std::min(4 * buffer.size(), most));
   }
 }
 
-std::size_t read_token(const std::vector<float>& buffer, std::size_t& place) {
+std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::size_t& place) {
   const float token = buffer[place++];
-  if (token == GL_POLYGON_TOKEN) return static_cast<std::size_t>(buffer[place++]);
-  if (token == GL_LINE_TOKEN || token == GL_LINE_RESET_TOKEN) return 2;
-  if (token == GL_POINT_TOKEN) return 1;
-  throw GlError("OpenGL's feedback buffer holds an unknown token: " + std::to_string(token));
+  float vertices = 0.0f;
+  if (token == GL_POLYGON_TOKEN) {
+    vertices = place < size ? buffer[place++] : -1.0f;
+  } else if (token == GL_LINE_TOKEN || token == GL_LINE_RESET_TOKEN) {
+    vertices = 2.0f;
+  } else if (token == GL_POINT_TOKEN) {
+    vertices = 1.0f;
+  } else {
+    throw GlError("OpenGL's feedback buffer holds an unknown token: " + std::to_string(token));
+  }
+  const std::size_t room = (size - place) / FeedbackVertex::kFloats;
+  if (vertices >= 0.0f && vertices <= static_cast<float>(room))
+    return static_cast<std::size_t>(vertices);
+  throw GlError("OpenGL's feedback buffer ends within a primitive of " + std::to_string(vertices) +
+                " vertices");
 }
 
 }  // namespace organ_collision

@@ -19,34 +19,34 @@ class FeedbackVertex {
 
   /// GL's depth in [0, 1].
   double window_depth() const { return floats_[2]; }
-  /// The second and third barycentric coordinate in the face.
-  Eigen::Vector2d barycentric() const { return {floats_[7], floats_[8]}; }
-  /// The number of the face, as in DrawVertex.
-  std::uint32_t face() const { return face_number(floats_[9], floats_[10]); }
+  /// The number of the face, as in DrawVertex. Throws GlError if it cannot be one.
+  std::uint32_t face() const;
 
  private:
   const float* floats_;
 };
 
 /// Draws each three consecutive `vertices` as a triangle in GL_FEEDBACK mode, clipped to `volume`.
-/// Makes the context current. Enlarges `buffer` until everything fits. Returns the number of floats
-/// written to it. Throws GlError if GL did not work.
+/// There must be some. Makes the context current. Enlarges `buffer` until everything fits. Returns
+/// the number of floats written to it. Throws GlError if GL did not work.
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                           const std::vector<DrawVertex>& vertices, std::vector<float>& buffer);
 
 /// Calls visit(vertex) for each vertex in the first `size` floats of a feedback buffer, in the
-/// order drawn. Throws GlError for a token that clipped triangles cannot produce.
+/// order drawn. Throws GlError for a token that clipped triangles cannot produce, and if the buffer
+/// ends within a primitive. `size` is at most that of the buffer.
 template <typename Visit>
 void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit);
 
-/// The number of vertices that follow the token at `place`. Advances `place` to the first of them.
-std::size_t read_token(const std::vector<float>& buffer, std::size_t& place);
+/// The number of vertices that follow the token at `place` < `size`. Advances `place` to the first
+/// of them. All of them are within the first `size` floats, otherwise throws GlError.
+std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::size_t& place);
 
 template <typename Visit>
 void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit) {
   std::size_t place = 0;
   while (place < size) {
-    for (std::size_t left = read_token(buffer, place); left > 0; --left) {
+    for (std::size_t left = read_token(buffer, size, place); left > 0; --left) {
       visit(FeedbackVertex(&buffer[place]));
       place += FeedbackVertex::kFloats;
     }

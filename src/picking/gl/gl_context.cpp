@@ -1,89 +1,108 @@
 #include "gl_context.hpp"
 
-#include <GL/osmesa.h>
-
+#include <array>
 #include <cstdio>
-#include <vector>
+#include <utility>
 
-#include "gl_functions.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
+namespace {
 
-struct GlContext::State {
-  OSMesaContext context;
-  int width, height;
-  std::vector<std::uint8_t> pixels;
-  GlFunctions functions;
-  std::string version;
-
-  explicit State(const GlFramebuffer& framebuffer)
-      : context(OSMesaCreateContextExt(OSMESA_RGBA, framebuffer.depth_bits, 0, 0, nullptr)),
-        width(framebuffer.width),
-        height(framebuffer.height),
-        pixels(std::size_t{4} * width * height) {}
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  ~State() {
-    if (context == nullptr) return;
-    release();
-    OSMesaDestroyContext(context);
-  }
-
-  bool is_current() const { return OSMesaGetCurrentContext() == context; }
-
-  void release() {
-    if (is_current()) OSMesaMakeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0);
-  }
+struct Source {
+  GlPlatform platform;
+  const char* name;
+  std::unique_ptr<PlatformContext> (*create)(const GlFramebuffer&);
 };
 
-GlContext::GlContext(const GlFramebuffer& framebuffer)
-    : state_(std::make_unique<State>(framebuffer)) {
-  if (state_->context == nullptr) {
-    throw GlError("OSMesa gives no compatibility context: install libosmesa6 (Mesa before 25.1)");
-  }
-  make_current();
-  state_->functions = load_gl_functions();
-  const GLubyte* version = state_->functions.GetString(GL_VERSION);
-  if (version == nullptr) {
+constexpr std::array<Source, 2> kSources = {{{GlPlatform::kOsmesa, "OSMesa", new_osmesa_context},
+                                             {GlPlatform::kEgl, "EGL", new_egl_context}}};
+
+}  // namespace
+
+struct GlContext::State {
+  explicit State(const Source& source, const GlFramebuffer& framebuffer);
+
+  std::unique_ptr<PlatformContext> context;
+  GlFunctions functions;
+};
+
+/// Leaves the context current. Throws GlError if it does not work.
+GlContext::State::State(const Source& source, const GlFramebuffer& framebuffer)
+    : context(source.create(framebuffer)) {
+  if (!context->make_current()) throw GlError("the new context cannot be made current");
+  functions = load_gl_functions(*context);
+  if (functions.GetString(GL_VERSION) == nullptr) {
     throw GlError(
-        "OpenGL gives no version string, so its calls do nothing: another OpenGL library took "
-        "OSMesa's place; install libosmesa6 and start this process without preloading libGL");
+        "OpenGL gives no version string, so its calls do nothing: another OpenGL library took its "
+        "place; start this process without preloading libGL");
   }
-  state_->version = reinterpret_cast<const char*>(version);
   // They stay enabled, because each switch costs as much time as a face.
-  state_->functions.EnableClientState(GL_VERTEX_ARRAY);
-  state_->functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
-  for (GLenum i = 0; i < ViewingVolume::kMaxUserPlanes; ++i)
-    state_->functions.Enable(GL_CLIP_PLANE0 + i);
+  functions.EnableClientState(GL_VERTEX_ARRAY);
+  functions.EnableClientState(GL_TEXTURE_COORD_ARRAY);
+  for (GLenum i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) functions.Enable(GL_CLIP_PLANE0 + i);
+}
+
+GlContext::GlContext(GlPlatform platform, const GlFramebuffer& framebuffer)
+    : platform_(platform), framebuffer_(framebuffer) {
+  make();
 }
 
 GlContext::~GlContext() = default;
 GlContext::GlContext(GlContext&&) noexcept = default;
 GlContext& GlContext::operator=(GlContext&&) noexcept = default;
 
+/// Makes a context of the first platform whose contexts work.
+void GlContext::make() {
+  std::string reasons;
+  for (const Source& source : kSources) {
+    if (platform_ != GlPlatform::kAuto && platform_ != source.platform) continue;
+    try {
+      state_ = std::make_unique<State>(source, framebuffer_);
+      const GLubyte* const version = functions().GetString(GL_VERSION);
+      version_ = std::string(reinterpret_cast<const char*>(version)) + " on " + source.name;
+      has_failed_ = false;
+      return;
+    } catch (const GlError& error) {
+      reasons += std::string(source.name) + ": " + error.what() + "; ";
+    }
+  }
+  throw GlError("OpenGL gives no context to pick with: " + reasons +
+                "install libosmesa6 (Mesa before 25.1), or libegl1 with Mesa's drivers, or pick "
+                "without OpenGL (picker: cpu)");
+}
+
+bool GlContext::is_current() const { return state_->context->is_current(); }
+
 void GlContext::make_current() {
-  if (state_->is_current()) return;
-  if (OSMesaMakeCurrent(state_->context, state_->pixels.data(), GL_UNSIGNED_BYTE, state_->width,
-                        state_->height) != GL_TRUE) {
-    throw GlError("OSMesa cannot make its context current: is it current in another thread?");
+  if (has_failed_) {
+    make();
+  } else if (!is_current() && !state_->context->make_current()) {
+    fail("OpenGL cannot make its context current: is it current in another thread?");
   }
 }
 
-void GlContext::release() { state_->release(); }
-
-const std::string& GlContext::version() const { return state_->version; }
+void GlContext::release() {
+  if (is_current()) state_->context->release();
+}
 
 const GlFunctions& GlContext::functions() const { return state_->functions; }
 
-const std::uint8_t* GlContext::pixels() const { return state_->pixels.data(); }
+AnyGlFunction GlContext::find_function(const char* name) const {
+  return find_gl_function(*state_->context, name);
+}
 
-void GlContext::check(const char* where) const {
+void GlContext::check(const char* where) {
   const GLenum error = state_->functions.GetError();
   if (error == GL_NO_ERROR) return;
-  char code[16];
-  std::snprintf(code, sizeof code, "0x%04x", error);
-  throw GlError(std::string("OpenGL error ") + code + " in " + where);
+  std::array<char, 16> code{};
+  std::snprintf(code.data(), code.size(), "0x%04x", error);
+  fail(std::string("OpenGL error ") + code.data() + " in " + where);
+}
+
+void GlContext::fail(const std::string& what) {
+  has_failed_ = true;
+  throw GlError(what);
 }
 
 }  // namespace organ_collision

@@ -1,23 +1,17 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <string>
 
+#include "gl_functions.hpp"
 #include "organ_collision/picking/gl_error.hpp"
+#include "organ_collision/picking/gl_platform.hpp"
+#include "platforms/platform_context.hpp"
 
 namespace organ_collision {
 
-struct GlFunctions;
-
-/// What a context draws into. Picking draws nothing, but OSMesa requires a framebuffer.
-struct GlFramebuffer {
-  int width = 4, height = 4;  ///< [pixel]
-  int depth_bits = 0;         ///< 0: without depth buffer
-};
-
-/// An OSMesa compatibility context without a window, its framebuffer, and the GL functions loaded
-/// from it. The functions are loaded and never linked: in a process that loaded libGL first, linked
+/// A compatibility context without a window, its framebuffer, and the GL functions loaded from it.
+/// The functions are loaded and never linked: in a process that loaded libGL first, linked
 /// functions silently do nothing.
 ///
 /// Move-only. Belongs to one thread at a time. The constructor, make_current and every picker leave
@@ -25,45 +19,44 @@ struct GlFramebuffer {
 /// destroys it.
 class GlContext {
  public:
-  /// Throws GlError if OSMesa gives no context or no version string, or lacks a GL function.
-  explicit GlContext(const GlFramebuffer& framebuffer = {});
+  /// Throws GlError with all reasons if no platform that is asked for gives a context that works.
+  explicit GlContext(GlPlatform platform = GlPlatform::kAuto,
+                     const GlFramebuffer& framebuffer = {});
   ~GlContext();
   GlContext(GlContext&&) noexcept;
   GlContext& operator=(GlContext&&) noexcept;
 
-  /// Makes this context current in the calling thread; cheap when it already is.
+  /// Makes this context current in the calling thread; cheap when it already is. Makes it anew if
+  /// it has failed before. Throws GlError.
   void make_current();
+  bool is_current() const;
   /// If this context is current in the calling thread, the thread has no current context
   /// afterwards.
   void release();
 
-  /// GL_VERSION, for example "4.5 (Compatibility Profile) Mesa 22.3.6".
-  const std::string& version() const;
-  /// The functions of this context. Valid as long as the context lives.
+  /// GL_VERSION and the platform, as "4.5 (Compatibility Profile) Mesa 22.3.6 on OSMesa". Valid as
+  /// long as this object is not moved.
+  const std::string& version() const { return version_; }
+  /// The functions of this context. Valid until it is made anew.
   const GlFunctions& functions() const;
-  /// The framebuffer: rows from bottom to top, with four bytes (red, green, blue, alpha) a pixel.
-  /// Call GL's Finish before reading it. Valid as long as the context lives.
-  const std::uint8_t* pixels() const;
+  /// The function of this name, for example "glBegin". Throws GlError if GL has none.
+  AnyGlFunction find_function(const char* name) const;
 
-  /// Throws GlError naming `where` and the error code if GL reports one.
-  void check(const char* where) const;
+  /// If GL reports an error, fails with `where` and the error's code.
+  void check(const char* where);
+  /// Throws GlError, and has the next make_current() make this context anew.
+  [[noreturn]] void fail(const std::string& what);
 
  private:
   struct State;
+
+  void make();
+
+  GlPlatform platform_;
+  GlFramebuffer framebuffer_;
   std::unique_ptr<State> state_;
-};
-
-/// Makes a context current in the calling thread. The destructor releases the context, so that any
-/// thread may use or destroy it next.
-class ScopedCurrentContext {
- public:
-  explicit ScopedCurrentContext(GlContext& context) : context_(context) { context_.make_current(); }
-  ~ScopedCurrentContext() { context_.release(); }
-  ScopedCurrentContext(const ScopedCurrentContext&) = delete;
-  ScopedCurrentContext& operator=(const ScopedCurrentContext&) = delete;
-
- private:
-  GlContext& context_;
+  std::string version_;
+  bool has_failed_ = false;
 };
 
 }  // namespace organ_collision

@@ -1,24 +1,22 @@
 #include "gl_functions.hpp"
 
-#include <GL/osmesa.h>
-
 #include <string>
 
-#include "gl_context.hpp"
+#include "organ_collision/picking/gl_error.hpp"
 
 namespace organ_collision {
 
-AnyGlFunction find_gl_function(const char* name) {
-  const AnyGlFunction function = OSMesaGetProcAddress(name);
-  if (function != nullptr) return function;
-  throw GlError(std::string("OSMesa has no function ") + name +
-                ": install libosmesa6 with the compatibility profile (Mesa before 25.1)");
+AnyGlFunction find_gl_function(const PlatformContext& context, const char* name) {
+  const AnyGlFunction function = context.find_function(name);
+  if (function == nullptr) throw GlError(std::string("OpenGL has no function ") + name);
+  return function;
 }
 
-GlFunctions load_gl_functions() {
+GlFunctions load_gl_functions(const PlatformContext& context) {
   GlFunctions functions;
 #define ORGAN_COLLISION_LOAD(name) \
-  functions.name = reinterpret_cast<decltype(functions.name)>(find_gl_function("gl" #name));
+  functions.name =                 \
+      reinterpret_cast<decltype(functions.name)>(find_gl_function(context, "gl" #name));
   ORGAN_COLLISION_GL_FUNCTIONS(ORGAN_COLLISION_LOAD)
 #undef ORGAN_COLLISION_LOAD
   return functions;

@@ -2,6 +2,8 @@
 
 #include <GL/gl.h>
 
+#include "platforms/platform_context.hpp"
+
 // Every GL function that picking calls, without its gl prefix.
 // clang-format off
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                         \
@@ -13,7 +15,7 @@
 
 namespace organ_collision {
 
-/// Pointers to the GL functions that OSMesa provides. Only the types come from the prototypes in
+/// Pointers to the GL functions that a context provides. Only the types come from the prototypes in
 /// gl.h; libGL is not linked.
 struct GlFunctions {
 #define ORGAN_COLLISION_DECLARE(name) decltype(&gl##name) name = nullptr;
@@ -22,11 +24,11 @@ struct GlFunctions {
 };
 
 /// Loads all these functions. Throws GlError, naming the first one that is missing.
-GlFunctions load_gl_functions();
+GlFunctions load_gl_functions(const PlatformContext& context);
 
-using AnyGlFunction = void (*)();
+using AnyGlFunction = PlatformContext::AnyFunction;
 
-/// The function of this name, for example "glBegin". Throws GlError if OSMesa has none.
-AnyGlFunction find_gl_function(const char* name);
+/// The function of this name, for example "glBegin". Throws GlError if the context has none.
+AnyGlFunction find_gl_function(const PlatformContext& context, const char* name);
 
 }  // namespace organ_collision

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "picker.hpp"
 #include "picking/culling/draw_list.hpp"
+#include "picking/gl/witness.hpp"
 
 namespace organ_collision {
 
@@ -13,9 +16,35 @@ inline void sort_by_face(std::vector<Candidate>& candidates) {
             [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
 }
 
+/// Replaces `candidates` by all faces that GL was to decide on.
+inline void take_drawn(const DrawList& list, std::vector<Candidate>& candidates) {
+  candidates.clear();
+  for (std::size_t i = 0; i < list.vertices().size(); i += 3) {
+    const auto& [lower, upper] = list.vertices()[i].number;
+    const std::uint32_t face = face_number(lower, upper);
+    if (face != kWitness) candidates.push_back({face, 0.0, 0.0});
+  }
+}
+
 /// Adds the faces that GL did not decide on. They have no depth range.
 inline void add_undrawn(const DrawList& list, std::vector<Candidate>& candidates) {
   for (const std::uint32_t face : list.undrawn()) candidates.push_back({face, 0.0, 0.0});
+}
+
+/// Sorts what GL returned, in which there must be no face of a number that the mesh does not have.
+inline void sort_returned(std::size_t face_count, GlContext& context,
+                          std::vector<Candidate>& candidates) {
+  sort_by_face(candidates);
+  if (candidates.empty() || candidates.back().face < face_count) return;
+  context.fail("OpenGL returns face " + std::to_string(candidates.back().face) + " of " +
+               std::to_string(face_count));
+}
+
+/// Removes the witness, which GL drew last. Returns whether it was there.
+inline bool take_witness(std::vector<Candidate>& candidates) {
+  if (candidates.empty() || candidates.back().face != kWitness) return false;
+  candidates.pop_back();
+  return true;
 }
 
 }  // namespace organ_collision

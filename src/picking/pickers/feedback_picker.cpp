@@ -4,28 +4,50 @@
 
 #include "candidates.hpp"
 #include "picking/gl/feedback.hpp"
+#include "picking/gl/witness.hpp"
+#include "picking/volumes/middle_face.hpp"
 
 namespace organ_collision {
 
 void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                           std::vector<Candidate>& candidates) {
-  candidates.clear();
   draw_list_.assign(volume, mesh);
-  clip(volume, candidates);
-  sort_by_face(candidates);
+  if (!clip(volume, candidates)) {
+    fail_if_blind(context_);
+    clip(volume, candidates);
+  }
+  sort_returned(mesh.face_count(), context_, candidates);
 }
 
 void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
                           std::vector<Candidate>& candidates) {
-  candidates.clear();
-  clip(draw_list_.assign(part, organ), candidates);
+  const ViewingVolume volume = draw_list_.assign(part, organ);
+  if (!clip(volume, candidates)) {
+    fail_if_blind(context_);
+    take_drawn(draw_list_, candidates);
+  }
   add_undrawn(draw_list_, candidates);
-  sort_by_face(candidates);
+  sort_returned(organ.after().face_count(), context_, candidates);
 }
 
-/// Adds the faces of the draw list that meet the volume.
-void FeedbackPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
+/// Replaces `candidates` by the faces of the draw list that meet the volume. Returns whether GL
+/// also returned the witness, or nothing had to be drawn.
+bool FeedbackPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
+  candidates.clear();
+  if (draw_list_.vertices().empty()) return true;
+  draw_list_.add(middle_face(volume), kWitness);
   const std::size_t size = draw_feedback(context_, volume, draw_list_.vertices(), buffer_);
+  try {
+    read(size, volume, candidates);
+  } catch (const GlError& error) {
+    context_.fail(error.what());
+  }
+  return take_witness(candidates);
+}
+
+/// Adds all faces in the first `size` floats of the buffer.
+void FeedbackPicker::read(std::size_t size, const ViewingVolume& volume,
+                          std::vector<Candidate>& candidates) const {
   // Faces come back in the order drawn. If GL has split a face into several primitives, they follow
   // each other.
   for_each_vertex(buffer_, size, [&](const FeedbackVertex& vertex) {

@@ -1,14 +1,24 @@
 #include "picker.hpp"
 
+#include <stdexcept>
+
+#include "cpu_picker.hpp"
 #include "feedback_picker.hpp"
 #include "select_picker.hpp"
 
 namespace organ_collision {
 namespace {
 
-std::unique_ptr<Picker> new_picker(PickerKind kind, GlContext& context) {
-  if (kind == PickerKind::kSelect) return std::make_unique<SelectPicker>(context);
-  return std::make_unique<FeedbackPicker>(context);
+std::unique_ptr<Picker> new_picker(const PickerSettings& settings) {
+  switch (settings.kind) {
+    case PickerKind::kFeedback:
+      return std::make_unique<FeedbackPicker>(GlContext(settings.gl));
+    case PickerKind::kSelect:
+      return std::make_unique<SelectPicker>(GlContext(settings.gl));
+    case PickerKind::kCpu:
+      return std::make_unique<CpuPicker>();
+  }
+  throw std::invalid_argument("unknown kind of picker");
 }
 
 // A box of 2 m by 2 m by 2 m. A user plane cuts off one edge.
@@ -28,31 +38,26 @@ TriangleMesh check_mesh() {
           {0, 1, 2, 3, 4, 5, 6, 7, 8}};
 }
 
-void check_picker(Picker& picker, const std::string& version) {
+std::unique_ptr<Picker> checked(std::unique_ptr<Picker> picker) {
   std::vector<Candidate> candidates;
-  picker.pick(check_volume(), check_mesh(), candidates);
-  if (candidates.size() == 1 && candidates[0].face == 2) return;
+  picker->pick(check_volume(), check_mesh(), candidates);
+  if (candidates.size() == 1 && candidates[0].face == 2) {
+    picker->release();
+    return picker;
+  }
   std::string picked;
   for (const Candidate& candidate : candidates) picked += " " + std::to_string(candidate.face);
   throw GlError(
       "OpenGL picking does not work here: of three faces only number 2 is in view, picked"
       " were:" +
-      (picked.empty() ? " none" : picked) + "; OpenGL version: " + version +
-      "; install libosmesa6 of Mesa 20 to 25.0");
+      (picked.empty() ? " none" : picked) + "; OpenGL version: " + picker->gl_version() +
+      "; install another version of Mesa, or pick without OpenGL (picker: cpu)");
 }
 
 }  // namespace
 
-PickerKind picker_kind(const std::string& name) {
-  if (name == "feedback") return PickerKind::kFeedback;
-  if (name == "select") return PickerKind::kSelect;
-  throw std::invalid_argument("picker is \"" + name + "\": must be \"feedback\" or \"select\"");
-}
-
-std::unique_ptr<Picker> make_picker(PickerKind kind, GlContext& context) {
-  std::unique_ptr<Picker> picker = new_picker(kind, context);
-  check_picker(*picker, context.version());
-  return picker;
+std::unique_ptr<Picker> make_picker(const PickerSettings& settings) {
+  return checked(new_picker(settings));
 }
 
 }  // namespace organ_collision

@@ -8,8 +8,8 @@
 
 #include "geometry/organ/organ_motion.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
-#include "organ_collision/picking/picker_kind.hpp"
-#include "picking/gl/gl_context.hpp"
+#include "organ_collision/picking/gl_error.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "picking/volumes/part_sweep.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 
@@ -23,26 +23,33 @@ struct Candidate {
   double view_max;
 };
 
-/// Finds the faces that meet a viewing volume by drawing them in one of GL's picking modes.
+/// Finds the faces that meet a viewing volume. Belongs to one thread at a time.
 class Picker {
  public:
   virtual ~Picker() = default;
 
   /// Replaces `candidates` by the faces of `mesh` that meet `volume`, each once, sorted by number.
-  /// Makes the context current. Throws GlError if GL did not work: there is no answer then, which
-  /// is not the same as no candidate.
+  /// Throws GlError if GL did not work: there is no answer then, which is not the same as no
+  /// candidate.
   virtual void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                     std::vector<Candidate>& candidates) = 0;
 
   /// Replaces `candidates` by the faces of `organ` that may meet the space that `part` sweeps, each
-  /// once, sorted by number. Contains every face that does. The depth ranges have no meaning. Makes
-  /// the context current, and throws, as above.
+  /// once, sorted by number. Contains every face that does. The depth ranges have no meaning.
+  /// Throws as above.
   virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
+
+  /// To pick may leave a GL context current in the calling thread. Releases it, so that another
+  /// thread may use or destroy the picker next.
+  virtual void release() = 0;
+
+  /// The version of OpenGL that draws, and its platform; or that there is none.
+  virtual const std::string& gl_version() const = 0;
 };
 
-/// Makes a picker that draws in `context`, which must outlive it. First tests it with three faces,
-/// only one of them in view. Throws GlError if it picks wrongly.
-std::unique_ptr<Picker> make_picker(PickerKind kind, GlContext& context);
+/// Makes a picker, and tests it with three faces, only one of them in view. Throws GlError if
+/// OpenGL gives no context or picks wrongly. No context is current afterwards.
+std::unique_ptr<Picker> make_picker(const PickerSettings& settings);
 
 }  // namespace organ_collision

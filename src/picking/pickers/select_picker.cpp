@@ -1,10 +1,13 @@
 #include "select_picker.hpp"
 
 #include <limits>
+#include <string>
 
 #include "candidates.hpp"
 #include "picking/gl/clip_to.hpp"
 #include "picking/gl/gl_functions.hpp"
+#include "picking/gl/witness.hpp"
+#include "picking/volumes/middle_face.hpp"
 
 namespace organ_collision {
 namespace {
@@ -37,6 +40,15 @@ double window_depth(std::uint32_t recorded) {
   return (depth - kNearDepth) / (kFarDepth - kNearDepth);
 }
 
+void draw_witness(const ViewingVolume& volume, const GlFunctions& gl) {
+  gl.LoadName(kWitness);
+  gl.Begin(GL_TRIANGLES);
+  for (const Eigen::Vector3d& corner : middle_face(volume)) {
+    gl.Vertex3fv(corner.cast<float>().eval().data());
+  }
+  gl.End();
+}
+
 }  // namespace
 
 void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
@@ -45,7 +57,6 @@ void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     vertices_[i] = (mesh.vertex(i) - volume.origin()).cast<float>();
   }
-  candidates.clear();
   const auto draw_named = [&](const GlFunctions& gl) {
     const std::vector<FaceIndices>& faces = mesh.faces();
     for (std::size_t i = 0; i < faces.size(); ++i) {
@@ -55,16 +66,18 @@ void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
       gl.End();
     }
   };
-  select(volume, draw_named, candidates);
+  if (!clip(volume, mesh.face_count(), draw_named, candidates)) {
+    fail_if_blind(context_);
+    clip(volume, mesh.face_count(), draw_named, candidates);
+  }
+  sort_returned(mesh.face_count(), context_, candidates);
 }
 
 void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
                         std::vector<Candidate>& candidates) {
   const ViewingVolume volume = draw_list_.assign(part, organ);
-  candidates.clear();
-  add_undrawn(draw_list_, candidates);
+  const std::vector<DrawVertex>& vertices = draw_list_.vertices();
   const auto draw_named = [&](const GlFunctions& gl) {
-    const std::vector<DrawVertex>& vertices = draw_list_.vertices();
     for (std::size_t i = 0; i < vertices.size(); i += 3) {
       gl.LoadName(face_number(vertices[i].number[0], vertices[i].number[1]));
       gl.Begin(GL_TRIANGLES);
@@ -72,30 +85,55 @@ void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
       gl.End();
     }
   };
-  select(volume, draw_named, candidates);
-  sort_by_face(candidates);
+  if (!clip(volume, vertices.size() / 3, draw_named, candidates)) {
+    fail_if_blind(context_);
+    take_drawn(draw_list_, candidates);
+  }
+  add_undrawn(draw_list_, candidates);
+  sort_returned(organ.after().face_count(), context_, candidates);
 }
 
-/// Adds the faces that `draw_named(gl)` draws and that meet the volume.
+/// Replaces `candidates` by the faces that `draw_named(gl)` draws, `count` in all, and that meet
+/// the volume. Returns whether GL also returned the witness, or nothing had to be drawn.
 template <typename Draw>
-void SelectPicker::select(const ViewingVolume& volume, Draw draw_named,
-                          std::vector<Candidate>& candidates) {
+bool SelectPicker::clip(const ViewingVolume& volume, std::size_t count, Draw draw_named,
+                        std::vector<Candidate>& candidates) {
+  candidates.clear();
+  if (count == 0) return true;
+  buffer_.resize(kRecord * (count + 1));
   context_.make_current();
   const GlFunctions& gl = context_.functions();
   clip_to(volume, gl);
-  const ScopedDepthRange scoped_depth_range(gl);
-  GLint hits = -1;
-  while (hits < 0) {
-    gl.SelectBuffer(static_cast<GLsizei>(buffer_.size()), buffer_.data());
-    gl.RenderMode(GL_SELECT);
-    gl.InitNames();
-    gl.PushName(0);
+  const std::size_t hits = select(gl, [&] {
     draw_named(gl);
-    hits = gl.RenderMode(GL_RENDER);
-    context_.check("a select query");
-    if (hits < 0) buffer_.resize(4 * buffer_.size());
+    draw_witness(volume, gl);
+  });
+  read(hits, volume, candidates);
+  return take_witness(candidates);
+}
+
+/// Returns the number of hit records of what `draw_all()` draws.
+template <typename DrawAll>
+std::size_t SelectPicker::select(const GlFunctions& gl, DrawAll draw_all) {
+  const ScopedDepthRange scoped_depth_range(gl);
+  gl.SelectBuffer(static_cast<GLsizei>(buffer_.size()), buffer_.data());
+  gl.RenderMode(GL_SELECT);
+  gl.InitNames();
+  gl.PushName(0);
+  draw_all();
+  const GLint hits = gl.RenderMode(GL_RENDER);
+  context_.check("a select query");
+  if (hits >= 0 && kRecord * static_cast<std::size_t>(hits) <= buffer_.size()) {
+    return static_cast<std::size_t>(hits);
   }
-  for (std::size_t i = 0; i < static_cast<std::size_t>(hits); ++i) {
+  context_.fail("OpenGL returns " + std::to_string(hits) + " hits, with space for " +
+                std::to_string(buffer_.size() / kRecord));
+}
+
+/// Adds the faces of the first `hits` records.
+void SelectPicker::read(std::size_t hits, const ViewingVolume& volume,
+                        std::vector<Candidate>& candidates) const {
+  for (std::size_t i = 0; i < hits; ++i) {
     const std::uint32_t* record = &buffer_[kRecord * i];
     candidates.push_back({record[3], volume.view_depth(window_depth(record[1])),
                           volume.view_depth(window_depth(record[2]))});

@@ -1,7 +1,14 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "picker.hpp"
 #include "picking/culling/draw_list.hpp"
+#include "picking/gl/gl_context.hpp"
 
 namespace organ_collision {
 
@@ -10,21 +17,28 @@ namespace organ_collision {
 /// not decide are drawn.
 class SelectPicker : public Picker {
  public:
-  explicit SelectPicker(GlContext& context) : context_(context) {}
+  explicit SelectPicker(GlContext context) : context_(std::move(context)) {}
 
   void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
             std::vector<Candidate>& candidates) override;
   void pick(const PartSweep& part, const OrganMotion& organ,
             std::vector<Candidate>& candidates) override;
+  void release() override { context_.release(); }
+  const std::string& gl_version() const override { return context_.version(); }
 
  private:
   template <typename Draw>
-  void select(const ViewingVolume& volume, Draw draw_named, std::vector<Candidate>& candidates);
+  bool clip(const ViewingVolume& volume, std::size_t count, Draw draw_named,
+            std::vector<Candidate>& candidates);
+  template <typename DrawAll>
+  std::size_t select(const GlFunctions& gl, DrawAll draw_all);
+  void read(std::size_t hits, const ViewingVolume& volume,
+            std::vector<Candidate>& candidates) const;
 
-  GlContext& context_;
+  GlContext context_;
   DrawList draw_list_;
   std::vector<Eigen::Vector3f> vertices_;
-  std::vector<std::uint32_t> buffer_ = std::vector<std::uint32_t>(1024);
+  std::vector<std::uint32_t> buffer_;
 };
 
 }  // namespace organ_collision

@@ -29,7 +29,7 @@ bool is_same_organ(const TriangleMesh& before, const TriangleMesh& now) {
 }  // namespace
 
 struct HapticProxy::State {
-  State(ProxyTool its_tool, const ProxySettings& its_settings, PickerKind picker)
+  State(ProxyTool its_tool, const ProxySettings& its_settings, const PickerSettings& picker)
       : tool(std::move(its_tool)),
         mobility(make_mobility(tool)),
         tissue(tool, picker),
@@ -83,7 +83,8 @@ struct HapticProxy::State {
   std::vector<ProxyOrgan> last_organs;
 };
 
-HapticProxy::HapticProxy(ProxyTool tool, const ProxySettings& settings, PickerKind picker) {
+HapticProxy::HapticProxy(ProxyTool tool, const ProxySettings& settings,
+                         const PickerSettings& picker) {
   check_tool(tool);
   check_settings(tool, settings);
   state_ = std::make_unique<State>(std::move(tool), settings, picker);

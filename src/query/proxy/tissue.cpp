@@ -31,7 +31,7 @@ ToolWaypoint waypoint(double fraction, const Eigen::Isometry3d& T_organ_proxy,
 
 }  // namespace
 
-Tissue::Tissue(const ProxyTool& tool, PickerKind picker)
+Tissue::Tissue(const ProxyTool& tool, const PickerSettings& picker)
     : tool_(tool), grown_links_(tool.links), middle_lines_(tool.links), query_(picker) {
   for (Link& link : middle_lines_) {
     std::transform(link.parts.begin(), link.parts.end(), link.parts.begin(), middle_line);

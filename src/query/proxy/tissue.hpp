@@ -42,7 +42,7 @@ struct TissueCrossing {
 class Tissue {
  public:
   /// `tool` must outlive this. Throws GlError.
-  Tissue(const ProxyTool& tool, PickerKind picker);
+  Tissue(const ProxyTool& tool, const PickerSettings& picker);
 
   /// The organs at this tick; they must stay as long as this is used.
   void set_organs(const std::vector<OrganTick>& organs) { organs_ = &organs; }

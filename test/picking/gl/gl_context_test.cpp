@@ -1,5 +1,6 @@
 #include "picking/gl/gl_context.hpp"
 
+#include <EGL/egl.h>
 #include <dlfcn.h>
 #include <gtest/gtest.h>
 
@@ -9,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "picking/gl/gl_functions.hpp"
-#include "picking/pickers/picker.hpp"
+#include "picking/gl/feedback.hpp"
+#include "picking/gl/platforms/shared_library.hpp"
 
 namespace organ_collision {
 namespace {
@@ -21,32 +22,55 @@ ViewingVolume box() {
                                       Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
 }
 
-std::size_t picked(GlContext& context, const ViewingVolume& volume) {
-  const TriangleMesh mesh({0.5F, 0, 0, 0.6F, 0.1F, 0, 0.5F, 0.1F, 0.1F}, {0, 1, 2});
-  std::vector<Candidate> candidates;
-  make_picker(PickerKind::kFeedback, context)->pick(volume, mesh, candidates);
-  return candidates.size();
+/// A test with a context of each platform.
+class GlContextOf : public testing::TestWithParam<GlPlatform> {
+ protected:
+  static GlContext context() { return GlContext(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Platforms, GlContextOf,
+                         testing::Values(GlPlatform::kOsmesa, GlPlatform::kEgl),
+                         [](const auto& info) {
+                           return info.param == GlPlatform::kOsmesa ? "Osmesa" : "Egl";
+                         });
+
+/// Whether GL returns a face at x from 0.5 to 0.6 m, clipped to `volume`.
+bool sees_face(GlContext& context, const ViewingVolume& volume) {
+  const std::vector<DrawVertex> face = {
+      {{0.5F, 0.0F, 0.0F}, {}}, {{0.6F, 0.1F, 0.0F}, {}}, {{0.5F, 0.1F, 0.1F}, {}}};
+  std::vector<float> buffer(100);
+  return draw_feedback(context, volume, face, buffer) > 0;
 }
 
-TEST(GlContext, TellsItsVersion) {
-  const GlContext context;
+ViewingVolume box_without_face() {
+  ViewingVolume cut = box();
+  cut.add_user_plane({Eigen::Vector3d::UnitX(), 0.1});
+  return cut;
+}
+
+TEST_P(GlContextOf, TellsItsVersion) {
+  const GlContext context = this->context();
   EXPECT_NE(context.version().find("Mesa"), std::string::npos) << context.version();
 }
 
 // If a process has loaded libGL first, the names of all GL functions resolve to libGL, whose
 // functions do nothing.
-TEST(GlContext, WorksBesideAnotherLibGl) {
+TEST_P(GlContextOf, WorksBesideAnotherLibGl) {
   if (std::getenv("LD_PRELOAD") == nullptr) GTEST_SKIP() << "runs where libGL is preloaded";
   const auto other = reinterpret_cast<decltype(&glGetString)>(dlsym(RTLD_DEFAULT, "glGetString"));
   ASSERT_NE(other, nullptr);
-  GlContext context;
-  EXPECT_EQ(other(GL_VERSION), nullptr) << "the preloaded libGL was to know no context";
+  if (GetParam() == GlPlatform::kOsmesa) {
+    GlContext context = this->context();
+    EXPECT_EQ(other(GL_VERSION), nullptr) << "the preloaded libGL was to know no context";
+  }
+  GlContext context = this->context();
   EXPECT_FALSE(context.version().empty());
-  EXPECT_EQ(picked(context, box()), 1u);
+  EXPECT_TRUE(sees_face(context, box()));
+  EXPECT_FALSE(sees_face(context, box_without_face()));
 }
 
-TEST(GlContext, ReportsTheErrorAndWhere) {
-  const GlContext context;
+TEST_P(GlContextOf, ReportsTheErrorAndWhereAndIsMadeAnew) {
+  GlContext context = this->context();
   context.check("nothing");
   context.functions().Enable(0xdead);
   try {
@@ -55,85 +79,145 @@ TEST(GlContext, ReportsTheErrorAndWhere) {
   } catch (const GlError& error) {
     EXPECT_STREQ(error.what(), "OpenGL error 0x0500 in a test");
   }
-  context.check("the next query");
+  EXPECT_TRUE(sees_face(context, box()));
 }
 
-TEST(GlContext, ContextsAlternateAndKeepTheirOwnState) {
-  GlContext first, second;
-  ViewingVolume cut = box();
-  cut.add_user_plane({Eigen::Vector3d::UnitX(), 0.1});
+TEST_P(GlContextOf, ContextsAlternateAndKeepTheirOwnState) {
+  GlContext first = context(), second = context();
   for (int i = 0; i < 3; ++i) {
-    EXPECT_EQ(picked(first, box()), 1u);
-    EXPECT_EQ(picked(second, cut), 0u);
+    EXPECT_TRUE(sees_face(first, box()));
+    EXPECT_FALSE(sees_face(second, box_without_face()));
   }
 }
 
-TEST(GlContext, StateOfOneDoesNotReachAnother) {
-  GlContext first, second;
+TEST_P(GlContextOf, StateOfOneDoesNotReachAnother) {
+  GlContext first = context(), second = context();
   first.make_current();
-  const auto front_face = reinterpret_cast<decltype(&glFrontFace)>(find_gl_function("glFrontFace"));
-  front_face(GL_CW);
+  const auto front_face =
+      reinterpret_cast<decltype(&glFrontFace)>(first.find_function("glFrontFace"));
   first.functions().Enable(GL_CULL_FACE);
-  EXPECT_THROW(picked(first, box()), GlError) << "the self-check of the picker was to notice";
-  EXPECT_EQ(picked(second, box()), 1u);
-  first.make_current();
-  front_face(GL_CCW);
-  EXPECT_EQ(picked(first, box()), 1u);
+  EXPECT_TRUE(sees_face(first, box()));
+  front_face(GL_CW);
+  EXPECT_FALSE(sees_face(first, box()));
+  EXPECT_TRUE(sees_face(second, box()));
 }
 
-TEST(GlContext, Moves) {
-  GlContext first;
+TEST_P(GlContextOf, Moves) {
+  GlContext first = context();
   const std::string version = first.version();
   GlContext second = std::move(first);
-  EXPECT_EQ(picked(second, box()), 1u);
-  GlContext third;
+  EXPECT_TRUE(sees_face(second, box()));
+  GlContext third = context();
   third = std::move(second);
-  EXPECT_EQ(picked(third, box()), 1u);
+  EXPECT_TRUE(sees_face(third, box()));
   EXPECT_EQ(third.version(), version);
 }
 
-TEST(GlContext, ReleasesOnlyItself) {
-  GlContext first, second;
+TEST_P(GlContextOf, ReleasesOnlyItself) {
+  GlContext first = context(), second = context();
+  const auto get_string = first.functions().GetString;
   first.make_current();
   second.release();
-  EXPECT_NE(first.functions().GetString(GL_VERSION), nullptr);
+  EXPECT_NE(get_string(GL_VERSION), nullptr);
   first.release();
-  EXPECT_EQ(first.functions().GetString(GL_VERSION), nullptr);
+  EXPECT_EQ(get_string(GL_VERSION), nullptr);
   first.make_current();
-  EXPECT_NE(first.functions().GetString(GL_VERSION), nullptr);
+  EXPECT_NE(get_string(GL_VERSION), nullptr);
 }
 
-TEST(GlContext, ReleasedInOneThreadWorksInAnother) {
-  GlContext context;
-  EXPECT_EQ(picked(context, box()), 1u);
+TEST_P(GlContextOf, ReleasedInOneThreadWorksInAnother) {
+  GlContext context = this->context();
+  EXPECT_TRUE(sees_face(context, box()));
   context.release();
-  std::size_t elsewhere = 0;
+  bool sees_elsewhere = false;
   std::thread([&] {
-    elsewhere = picked(context, box());
+    sees_elsewhere = sees_face(context, box());
     context.release();
   }).join();
-  EXPECT_EQ(elsewhere, 1u);
-  EXPECT_EQ(picked(context, box()), 1u);
+  EXPECT_TRUE(sees_elsewhere);
+  EXPECT_TRUE(sees_face(context, box()));
 }
 
-TEST(GlContext, IsMadeAndDestroyedManyTimes) {
+TEST_P(GlContextOf, IsMadeAndDestroyedManyTimes) {
   for (int i = 0; i < 8; ++i) {
-    GlContext context;
-    ASSERT_EQ(picked(context, box()), 1u);
+    GlContext context = this->context();
+    ASSERT_TRUE(sees_face(context, box()));
   }
 }
 
-TEST(GlContext, OneForEachThreadSideBySide) {
-  std::vector<std::size_t> totals(3, 0);
+TEST_P(GlContextOf, OneForEachThreadSideBySide) {
+  std::vector<int> seen(3, 0);
   std::vector<std::thread> threads;
-  for (std::size_t& total : totals) {
-    threads.emplace_back([&total] {
-      GlContext context;
-      for (int i = 0; i < 20; ++i) total += picked(context, box());
+  for (int& count : seen) {
+    threads.emplace_back([&count, platform = GetParam()] {
+      GlContext context(platform);
+      for (int i = 0; i < 20; ++i) count += sees_face(context, box()) ? 1 : 0;
     });
   }
   for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(totals, std::vector<std::size_t>(3, 20));
+  EXPECT_EQ(seen, std::vector<int>(3, 20));
+}
+
+TEST(GlContext, ContextsOfBothPlatformsAlternate) {
+  GlContext osmesa(GlPlatform::kOsmesa);
+  osmesa.release();
+  GlContext egl(GlPlatform::kEgl);
+  egl.release();
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(sees_face(osmesa, box()));
+    osmesa.release();
+    EXPECT_FALSE(sees_face(egl, box_without_face()));
+    EXPECT_TRUE(sees_face(egl, box()));
+    egl.release();
+  }
+}
+
+// EGL's framebuffer is destroyed behind the context's back. GL then draws nothing and says so, or
+// the context cannot be made current any more.
+TEST(GlContext, WithoutItsFramebufferFailsAndIsMadeAnew) {
+  GlContext context(GlPlatform::kEgl);
+  ASSERT_TRUE(sees_face(context, box()));
+  const SharedLibrary egl("libEGL.so.1");
+  decltype(&eglGetCurrentDisplay) current_display = nullptr;
+  decltype(&eglGetCurrentSurface) current_surface = nullptr;
+  decltype(&eglDestroySurface) destroy_surface = nullptr;
+  egl.load("eglGetCurrentDisplay", current_display);
+  egl.load("eglGetCurrentSurface", current_surface);
+  egl.load("eglDestroySurface", destroy_surface);
+  EGLDisplay const display = current_display();
+  EGLSurface const surface = current_surface(EGL_DRAW);
+  context.release();
+  ASSERT_EQ(destroy_surface(display, surface), static_cast<EGLBoolean>(EGL_TRUE));
+  EXPECT_THROW(sees_face(context, box()), GlError);
+  EXPECT_TRUE(sees_face(context, box()));
+}
+
+// What a system lacks is simulated by files in LD_LIBRARY_PATH that are no libraries.
+TEST(GlContext, AutoTakesWhatThereIs) {
+  const char* const missing = std::getenv("MISSING_GL");
+  if (missing == nullptr) GTEST_SKIP() << "runs where a library is missing";
+  const bool has_osmesa = std::string(missing).find("osmesa") == std::string::npos;
+  const bool has_egl = std::string(missing).find("egl") == std::string::npos;
+  if (!has_osmesa) {
+    EXPECT_THROW(GlContext(GlPlatform::kOsmesa), GlError);
+  }
+  if (!has_egl) {
+    EXPECT_THROW(GlContext(GlPlatform::kEgl), GlError);
+  }
+  if (has_osmesa || has_egl) {
+    GlContext context;
+    EXPECT_TRUE(sees_face(context, box()));
+    return;
+  }
+  try {
+    GlContext context;
+    FAIL() << "there was a context";
+  } catch (const GlError& error) {
+    const std::string what = error.what();
+    for (const char* part : {"libOSMesa.so.8", "libEGL.so.1", "libosmesa6", "picker: cpu"}) {
+      EXPECT_NE(what.find(part), std::string::npos) << what;
+    }
+  }
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "aimed_face.hpp"
+#include "picker_fixture.hpp"
 #include "picking/pickers/picker.hpp"
 #include "test/picking/volumes/random_boxes.hpp"
 
@@ -73,18 +74,16 @@ class AimedBoxesTest : public testing::TestWithParam<PickerKind> {
     if (++missed_ > 10) throw std::runtime_error("more misses are not shown");
   }
 
-  GlContext context_;
-  std::unique_ptr<Picker> picker_ = make_picker(GetParam(), context_);
+  std::unique_ptr<Picker> picker_ = make_picker(GetParam());
   Random random_{32};
   std::vector<Candidate> candidates_;
   int missed_ = 0;
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AimedBoxesTest,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect),
-                         [](const auto& info) {
-                           return info.param == PickerKind::kFeedback ? "Feedback" : "Select";
-                         });
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu),
+                         picker_name);
 
 TEST_P(AimedBoxesTest, AreNeverMissed) {
   for (int i = 0; i < 100'000; ++i) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "aimed_face.hpp"
+#include "picker_fixture.hpp"
 #include "picking/pickers/picker.hpp"
 #include "test/picking/volumes/random_motions.hpp"
 
@@ -56,8 +57,7 @@ class AimedFacesTest : public testing::TestWithParam<PickerKind> {
     if (++missed_ > 10) throw std::runtime_error("more misses are not shown");
   }
 
-  GlContext context_;
-  std::unique_ptr<Picker> picker_ = make_picker(GetParam(), context_);
+  std::unique_ptr<Picker> picker_ = make_picker(GetParam());
   Random random_{31};
   std::vector<Candidate> candidates_;
   int aimed_ = 0;
@@ -65,10 +65,9 @@ class AimedFacesTest : public testing::TestWithParam<PickerKind> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AimedFacesTest,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect),
-                         [](const auto& info) {
-                           return info.param == PickerKind::kFeedback ? "Feedback" : "Select";
-                         });
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu),
+                         picker_name);
 
 TEST_P(AimedFacesTest, AreNeverMissed) {
   for (int i = 0; i < 200'000; ++i) {

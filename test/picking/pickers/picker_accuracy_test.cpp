@@ -20,10 +20,9 @@ using Eigen::Vector3d;
 using PickerAccuracy = PickerTest;
 
 INSTANTIATE_TEST_SUITE_P(Kinds, PickerAccuracy,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect),
-                         [](const auto& info) {
-                           return info.param == PickerKind::kFeedback ? "Feedback" : "Select";
-                         });
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu),
+                         picker_name);
 
 // [m] The largest coordinate of the mesh relative to a volume's origin.
 double extent(const TriangleMesh& mesh, const Vector3d& origin) {

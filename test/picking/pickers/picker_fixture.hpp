@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "picking/pickers/picker.hpp"
@@ -37,7 +38,19 @@ inline std::vector<std::uint32_t> numbers(const std::vector<Candidate>& candidat
   return faces;
 }
 
-/// A picker of either kind, in a context of its own.
+/// Names the tests of a kind of picker.
+inline std::string picker_name(const testing::TestParamInfo<PickerKind>& info) {
+  switch (info.param) {
+    case PickerKind::kFeedback:
+      return "Feedback";
+    case PickerKind::kSelect:
+      return "Select";
+    default:
+      return "Cpu";
+  }
+}
+
+/// A picker of each kind.
 class PickerTest : public testing::TestWithParam<PickerKind> {
  protected:
   std::vector<Candidate> pick(const ViewingVolume& volume, const TriangleMesh& mesh) {
@@ -46,8 +59,7 @@ class PickerTest : public testing::TestWithParam<PickerKind> {
     return candidates;
   }
 
-  GlContext context_;
-  std::unique_ptr<Picker> picker_ = make_picker(GetParam(), context_);
+  std::unique_ptr<Picker> picker_ = make_picker(GetParam());
 };
 
 }  // namespace organ_collision

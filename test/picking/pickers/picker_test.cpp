@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "picker_fixture.hpp"
-#include "picking/gl/gl_functions.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 #include "test/picking/volumes/random_motions.hpp"
 
@@ -18,10 +17,9 @@ namespace {
 using Eigen::Vector3d;
 
 INSTANTIATE_TEST_SUITE_P(Kinds, PickerTest,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect),
-                         [](const auto& info) {
-                           return info.param == PickerKind::kFeedback ? "Feedback" : "Select";
-                         });
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu),
+                         picker_name);
 
 // A box of 2 m by 2 m by 2 m whose center is not the frame's origin.
 ViewingVolume box() {
@@ -85,29 +83,10 @@ TEST_P(PickerTest, FindsNothingWhereNothingIs) {
   EXPECT_TRUE(pick(box(), soup.mesh()).empty());
 }
 
-TEST_P(PickerTest, ThrowsWhenGlFailed) {
-  Soup soup;
-  soup.add({box().origin(), box().origin() + Vector3d(0.1, 0, 0), box().origin()});
-  const TriangleMesh mesh = soup.mesh();
-  context_.functions().Enable(0xdead);
-  std::vector<Candidate> candidates{{7, 0, 0}};
-  EXPECT_THROW(picker_->pick(box(), mesh, candidates), GlError);
-  EXPECT_TRUE(candidates.empty());
-  EXPECT_EQ(numbers(pick(box(), mesh)), std::vector<std::uint32_t>{0});
-}
-
-TEST_P(PickerTest, RefusesAContextThatPicksWrongly) {
-  context_.make_current();
-  const auto front_face = reinterpret_cast<decltype(&glFrontFace)>(find_gl_function("glFrontFace"));
-  front_face(GL_CW);
-  context_.functions().Enable(GL_CULL_FACE);
-  EXPECT_THROW(make_picker(GetParam(), context_), GlError);
-}
-
 TEST_P(PickerTest, AnswersDoNotDependOnEarlierQueries) {
   Random random(28);
-  std::unique_ptr<Picker> other = make_picker(
-      GetParam() == PickerKind::kSelect ? PickerKind::kFeedback : PickerKind::kSelect, context_);
+  const std::unique_ptr<Picker> other =
+      make_picker(GetParam() == PickerKind::kSelect ? PickerKind::kFeedback : PickerKind::kSelect);
   std::vector<Candidate> ignored;
   const ShaftMotion motion = random_motion(MotionKind::kSideways, 0.3, random);
   Soup soup;
@@ -129,19 +108,9 @@ TEST_P(PickerTest, AnswersDoNotDependOnEarlierQueries) {
   }
 }
 
-TEST(Picker, KindsHaveNames) {
-  EXPECT_EQ(picker_kind("feedback"), PickerKind::kFeedback);
-  EXPECT_EQ(picker_kind("select"), PickerKind::kSelect);
-  for (const char* name : {"", "Feedback", "both"}) {
-    try {
-      picker_kind(name);
-      FAIL() << name;
-    } catch (const std::invalid_argument& error) {
-      const std::string what = error.what();
-      EXPECT_NE(what.find("\"" + std::string(name) + "\""), std::string::npos) << what;
-      EXPECT_NE(what.find("\"feedback\" or \"select\""), std::string::npos) << what;
-    }
-  }
+TEST(Picker, WithoutOpenGlSaysSo) {
+  const std::unique_ptr<Picker> picker = make_picker(PickerKind::kCpu);
+  EXPECT_EQ(picker->gl_version(), "none (picker: cpu)");
 }
 
 }  // namespace

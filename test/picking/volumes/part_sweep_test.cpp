@@ -53,8 +53,7 @@ class PartSweepWith : public testing::TestWithParam<PickerKind> {
     return faces;
   }
 
-  GlContext context_;
-  std::unique_ptr<Picker> picker_ = make_picker(GetParam(), context_);
+  std::unique_ptr<Picker> picker_ = make_picker(GetParam());
   std::vector<Candidate> candidates_;
 };
 
@@ -161,7 +160,8 @@ TEST_P(PartSweepWith, AJumpIsDividedIntoFractions) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pickers, PartSweepWith,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));
 
 }  // namespace
 }  // namespace organ_collision

@@ -1,0 +1,34 @@
+#include "witness.hpp"
+
+#include <vector>
+
+#include "feedback.hpp"
+#include "picking/volumes/middle_face.hpp"
+
+namespace organ_collision {
+namespace {
+
+bool is_blind(GlContext& context) {
+  if (!context.is_current()) return true;
+  const ViewingVolume box =
+      ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                   Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
+  std::vector<DrawVertex> face;
+  for (const Eigen::Vector3d& corner : middle_face(box)) {
+    const Eigen::Vector3f position = corner.cast<float>();
+    face.push_back({{position.x(), position.y(), position.z()}, {}});
+  }
+  std::vector<float> buffer(100);
+  return draw_feedback(context, box, face, buffer) == 0;
+}
+
+}  // namespace
+
+void fail_if_blind(GlContext& context) {
+  if (!is_blind(context)) return;
+  context.fail(
+      "OpenGL does not return a face that is in view, so its answer means nothing: its context or "
+      "framebuffer was lost or taken; the next query gets a new one");
+}
+
+}  // namespace organ_collision
