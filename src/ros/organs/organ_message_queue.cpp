@@ -61,7 +61,15 @@ void OrganMessageQueue::add(OrganMessage message) {
   const auto oldest = std::find_if(messages.begin(), messages.end(), [](const OrganMessage& waits) {
     return waits.vertices != nullptr;
   });
-  if (oldest != messages.end()) messages.erase(oldest);
+  if (oldest == messages.end()) return;
+  messages.erase(oldest);
+  ++dropped_;
+}
+
+std::size_t OrganMessageQueue::waiting() const {
+  std::size_t waiting = ready_.size();
+  for (const auto& [organ, messages] : waiting_) waiting += messages.size();
+  return waiting;
 }
 
 bool OrganMessageQueue::has(const std::string& organ) const {

@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <future>
@@ -64,6 +65,11 @@ class OrganMessageQueue {
   /// Whether a message of this organ has been added and not yet taken.
   bool has(const std::string& organ) const;
 
+  /// How many messages wait to be taken, most of them for a mesh that is being built, and how many
+  /// were dropped meanwhile.
+  std::size_t waiting() const;
+  std::uint64_t dropped() const { return dropped_; }
+
   /// The next message that waits for no mesh, or std::nullopt if there is none now. Must be called
   /// from time to time even without a call of `wake`, which may fail.
   std::optional<OrganMessage> next();
@@ -79,6 +85,7 @@ class OrganMessageQueue {
   Functions functions_;
   Messages ready_;
   std::map<std::string, Messages> waiting_;  ///< by organ: a mesh being built, and what came later
+  std::uint64_t dropped_ = 0;
 
   std::mutex mutex_;  ///< guards the next two members
   std::deque<std::packaged_task<TriangleMesh()>> tasks_;

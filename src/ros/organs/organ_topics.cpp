@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/checked_messages.hpp"
 #include "ros/interface/function_callback.hpp"
 
 namespace organ_collision {
@@ -32,17 +33,41 @@ OrganTopics::OrganTopics(OrganRegistry& organs, FailureLog& rejected,
               },
               [&callbacks] { call_later(callbacks, [] {}); }}) {}
 
-void OrganTopics::subscribe(ros::NodeHandle private_node) {
-  using MeshEvent = ros::MessageEvent<const OrganMesh>;
-  const boost::function<void(const MeshEvent&)> add_mesh = [this](const MeshEvent& event) {
-    take_mesh(event.getConstMessage(), event.getConnectionHeaderPtr());
-  };
-  const auto no_delay = ros::TransportHints().tcpNoDelay();
+void OrganTopics::subscribe(const ros::NodeHandle& private_node) {
   subscribers_ = {
-      private_node.subscribe<OrganMesh>(names::kOrganMesh, kQueue, add_mesh, {}, no_delay),
-      private_node.subscribe<OrganVertices>(
-          names::kOrganVertices, kQueue,
-          [this](const OrganVerticesConstPtr& message) { take_vertices(message); }, {}, no_delay)};
+      subscribe_checked<OrganMesh>(
+          private_node, names::kOrganMesh, kQueue,
+          [this](const auto& event) {
+            const OrganMeshConstPtr& message = event.getConstMessage();
+            counts_.lost += mesh_gaps_.add(event.getPublisherName(), message->header.seq);
+            take_mesh(message, event.getConnectionHeaderPtr());
+          },
+          rejected_),
+      subscribe_checked<OrganVertices>(
+          private_node, names::kOrganVertices, kQueue,
+          [this](const auto& event) {
+            const OrganVerticesConstPtr& message = event.getConstMessage();
+            counts_.lost += vertices_gaps_.add(event.getPublisherName(), message->header.seq);
+            take_vertices(message);
+          },
+          rejected_)};
+}
+
+void OrganTopics::take_mesh(const OrganMeshConstPtr& message, const Connection& connection) {
+  ++counts_.received;
+  queue_.add(message, connection);
+}
+
+void OrganTopics::take_vertices(const OrganVerticesConstPtr& message) {
+  ++counts_.received;
+  queue_.add(message);
+}
+
+OrganMessageCounts OrganTopics::counts() const {
+  OrganMessageCounts counts = counts_;
+  counts.dropped = queue_.dropped();
+  counts.waiting = queue_.waiting();
+  return counts;
 }
 
 void OrganTopics::remove(const std::string& organ) {
@@ -59,11 +84,15 @@ std::optional<OrganUpdate> OrganTopics::next() {
   OrganUpdate update{*std::move(message)};
   try {
     update.change = apply(update.message);
-    if (update.change == OrganChange::kRemoved) {
+    if (update.change != OrganChange::kRemoved) {
+      ++counts_.applied;
+    } else {
+      ++counts_.removals;
       update.status = ContactArray::NO_MESH;
       update.why_not = "organ '" + update.message.organ() + "' was removed";
     }
   } catch (const Rejection& rejection) {
+    ++counts_.refused;
     count(rejection);
     update.status = rejection.status();
     update.why_not = rejection.what();

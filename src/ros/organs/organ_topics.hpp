@@ -12,6 +12,7 @@
 #include "organ_message_queue.hpp"
 #include "organ_registry.hpp"
 #include "ros/interface/failure_log.hpp"
+#include "sequence_gaps.hpp"
 
 namespace organ_collision {
 
@@ -24,6 +25,19 @@ struct OrganUpdate {
   std::string why_not = {};
 };
 
+/// What became of the messages since the start:
+/// received = applied + removals + refused + dropped + waiting.
+struct OrganMessageCounts {
+  std::uint64_t received = 0;  ///< with the removals by remove()
+  std::uint64_t applied = 0;   ///< an organ has a new shape
+  std::uint64_t removals = 0;  ///< of organs, also of unknown ones
+  std::uint64_t refused = 0;
+  std::uint64_t dropped = 0;  ///< vertices, because too many waited for a large mesh
+  std::uint64_t waiting = 0;  ///< now, for their turn or for a large mesh
+  /// Not received, because a queue on the way was full: gaps in the numbers of the messages.
+  std::uint64_t lost = 0;
+};
+
 /// Meshes and vertices of organs as they come on the node's topics, applied to the known organs in
 /// the order in which they came.
 class OrganTopics {
@@ -32,13 +46,11 @@ class OrganTopics {
   /// added to it to wake that thread.
   OrganTopics(OrganRegistry& organs, FailureLog& rejected, ros::CallbackQueueInterface& callbacks);
 
-  void subscribe(ros::NodeHandle private_node);
+  void subscribe(const ros::NodeHandle& private_node);
 
   /// Take a message of a topic. `connection`: the one over which the mesh came.
-  void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {}) {
-    queue_.add(message, connection);
-  }
-  void take_vertices(const OrganVerticesConstPtr& message) { queue_.add(message); }
+  void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {});
+  void take_vertices(const OrganVerticesConstPtr& message);
   /// Removes an organ, as a mesh without vertices and triangles does: after the messages that were
   /// taken before. Throws Rejection if there is no such organ.
   void remove(const std::string& organ);
@@ -47,6 +59,8 @@ class OrganTopics {
   /// before the mesh of their organ: then a simulator is only starting.
   std::optional<OrganUpdate> next();
 
+  OrganMessageCounts counts() const;
+
  private:
   OrganChange apply(OrganMessage& message);
   void count(const Rejection& rejection);
@@ -54,6 +68,8 @@ class OrganTopics {
   OrganRegistry& organs_;
   FailureLog& rejected_;
   OrganMessageQueue queue_;
+  OrganMessageCounts counts_;  ///< without what the queue counts
+  SequenceGaps mesh_gaps_, vertices_gaps_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<ros::Subscriber> subscribers_;
 };

@@ -43,6 +43,7 @@ void ContactPublisher::publish(const EvaluatedStep& step) {
     count_failure(counters_.failed, step.answer->status, step.answer->message);
   }
   contacts_.publish(step.answer);
+  ++counters_.published;
   counters_.contacts.count();
 }
 
@@ -76,6 +77,7 @@ void ContactPublisher::publish_failure(const Tool& tool, const std::string& orga
                                        const std::string& message) {
   contacts_.publish(boost::make_shared<ContactArray>(
       failed_answer(organ, tool.parameters, header, status, message)));
+  ++counters_.published;
 }
 
 }  // namespace organ_collision

@@ -66,6 +66,14 @@ void InboxDiagnostics::organs(DiagnosticStatusWrapper& status) {
 void InboxDiagnostics::messages(DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "none rejected");
   status.add("mesh rate [1/s]", sources_.meshes.take(std::chrono::steady_clock::now()));
+  const OrganMessageCounts counts = sources_.topics.counts();
+  status.add("organ messages received", counts.received);
+  status.add("organ messages applied", counts.applied);
+  status.add("organ messages refused", counts.refused);
+  status.add("organ messages that remove", counts.removals);
+  status.add("organ messages dropped behind a large mesh", counts.dropped);
+  status.add("organ messages waiting", counts.waiting);
+  status.add("organ messages lost before they came", counts.lost);
   show_failures("rejected", sources_.rejected, status);
 }
 

@@ -7,6 +7,7 @@
 #include "event_rate.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "ros/organs/organ_registry.hpp"
+#include "ros/organs/organ_topics.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {
@@ -19,6 +20,7 @@ class InboxDiagnostics {
     const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
     const std::vector<Tool>& tools;
     const OrganRegistry& organs;
+    const OrganTopics& topics;
     EventRate& meshes;     ///< accepted shapes of organs
     FailureLog& rejected;  ///< messages that were refused
   };

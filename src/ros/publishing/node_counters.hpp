@@ -12,10 +12,11 @@ namespace organ_collision {
 struct NodeCounters {
   EventRate meshes{std::chrono::steady_clock::now()};    ///< accepted shapes of organs
   EventRate contacts{std::chrono::steady_clock::now()};  ///< answers to steps
-  std::uint64_t starting = 0;                            ///< steps without TF that may be starting
-  FailureLog rejected;                                   ///< messages that were refused
-  FailureLog failed;                                     ///< steps without an answer
-  FailureLog refused;                                    ///< service calls without an answer
+  std::uint64_t published = 0;  ///< answers on `contacts`, also those about refused messages
+  std::uint64_t starting = 0;   ///< steps without TF that may be starting
+  FailureLog rejected;          ///< messages that were refused
+  FailureLog failed;            ///< steps without an answer
+  FailureLog refused;           ///< service calls without an answer
 };
 
 }  // namespace organ_collision

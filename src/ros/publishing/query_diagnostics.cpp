@@ -28,7 +28,8 @@ void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
   status.add("motion samples cut, farthest from the swept way [m]", sources_.steps.deviation_cut());
   status.add("transforms after their step", sources_.transforms.late());
   status.add("poses merged into later ones", sources_.steps.poses_merged());
-  status.add("shapes superseded by newer ones", sources_.steps.shapes_superseded());
+  add_shapes(status);
+  status.add("answers published", sources_.counters.published);
   status.add("steps while TF was starting", sources_.counters.starting);
   add_services(status);
   for (const std::string& sentence : sources_.misspelt) {
@@ -36,6 +37,15 @@ void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
   }
   show_failures("unanswered", sources_.counters.failed, status);
   show_failures("refused", sources_.counters.refused, status);
+}
+
+void QueryDiagnostics::add_shapes(DiagnosticStatusWrapper& status) const {
+  const ShapeCounts shapes = sources_.steps.shapes();
+  status.add("shapes due", shapes.due);
+  status.add("shapes answered", shapes.answered);
+  status.add("shapes superseded by newer ones", shapes.superseded);
+  status.add("shapes forgotten before their step", shapes.forgotten);
+  status.add("shapes waiting", shapes.waiting);
 }
 
 void QueryDiagnostics::add_services(DiagnosticStatusWrapper& status) const {

@@ -31,6 +31,7 @@ class QueryDiagnostics {
   void queries(diagnostic_updater::DiagnosticStatusWrapper& status);
 
  private:
+  void add_shapes(diagnostic_updater::DiagnosticStatusWrapper& status) const;
   void add_services(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
   Sources sources_;

@@ -4,7 +4,7 @@
 
 namespace organ_collision {
 
-BatchWorkers::BatchWorkers(PickerKind picker, int threads, ServiceStatistics& statistics)
+BatchWorkers::BatchWorkers(const PickerSettings& picker, int threads, ServiceStatistics& statistics)
     : picker_(picker),
       threads_(thread_count(threads)),
       statistics_(statistics),

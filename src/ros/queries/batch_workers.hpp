@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "batch_answers.hpp"
-#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "query/workers/worker_threads.hpp"
 #include "ros/steps/contact_query.hpp"
 #include "service_statistics.hpp"
@@ -19,7 +19,7 @@ class BatchWorkers {
  public:
   /// `threads`: how many; 0: one for each processor. They start with the first batch. `statistics`
   /// counts the motions and must outlive this.
-  BatchWorkers(PickerKind picker, int threads, ServiceStatistics& statistics);
+  BatchWorkers(const PickerSettings& picker, int threads, ServiceStatistics& statistics);
 
   /// Answers the motions, in their order, whatever the number of threads. The answers end with the
   /// first motion that touches if the request asks for that. A motion that is illegal has an answer
@@ -33,7 +33,7 @@ class BatchWorkers {
  private:
   void prepare(std::size_t worker);
 
-  const PickerKind picker_;
+  const PickerSettings picker_;
   const std::size_t threads_;
   ServiceStatistics& statistics_;
   std::atomic<bool> ended_{false};

@@ -9,6 +9,7 @@
 #include "organ_collision/ros/names.hpp"
 #include "query_checks.hpp"
 #include "query_extras.hpp"
+#include "ros/interface/checked_messages.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
@@ -76,9 +77,13 @@ QueryServices::QueryServices(const Sources& sources)
       workers_(sources.node.parameters.picker, sources.threads, statistics_) {}
 
 void QueryServices::advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node) {
-  servers_ = {
-      query_node.advertiseService(names::kQuery, &QueryServices::on_query, this),
-      batch_node.advertiseService(names::kQueryBatch, &QueryServices::on_query_batch, this)};
+  servers_ = {advertise_checked<QueryCollision>(
+                  query_node, names::kQuery,
+                  [this](auto& request, auto& response) { return on_query(request, response); }),
+              advertise_checked<QueryCollisionBatch>(batch_node, names::kQueryBatch,
+                                                     [this](auto& request, auto& response) {
+                                                       return on_query_batch(request, response);
+                                                     })};
 }
 
 bool QueryServices::on_query(QueryCollision::Request& request, QueryCollision::Response& response) {

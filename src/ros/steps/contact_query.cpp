@@ -19,7 +19,7 @@ std::vector<Contact> to_messages(const std::vector<FaceContact>& contacts) {
 
 }  // namespace
 
-ContactQuery::ContactQuery(PickerKind picker) : query_(picker) {
+ContactQuery::ContactQuery(const PickerSettings& picker) : query_(picker) {
   const TriangleMesh face({-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f}, {0, 1, 2});
   const ShaftAxis above{{0.0, 0.0, 1.0}, {0.1, 0.0, 0.5}},
       through{{0.0, 0.0, 1.0}, {0.2, 0.0, -0.5}};

@@ -14,7 +14,7 @@ class ContactQuery {
  public:
   /// Runs each kind of query once, so that GL compiles its programs now and not within the first
   /// steps. Throws GlError if GL picking does not work on this machine.
-  explicit ContactQuery(PickerKind picker);
+  explicit ContactQuery(const PickerSettings& picker);
 
   /// Sets the status and the message of `answer`, and all that the query finds: from contacts to
   /// placement. Returns how long the query took [s], or 0 if there is no answer.

@@ -32,6 +32,7 @@ struct DueStep {
   /// thread inspects them, so that workers must not look for themselves.
   const SurfaceTopology* topology = nullptr;
   bool is_starting = false;  ///< see EvaluatedStep
+  bool is_of_shape = false;  ///< a new shape made it due, and not a pose or a tick
 
   // What the evaluation finds.
 

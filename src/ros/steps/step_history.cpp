@@ -23,6 +23,12 @@ const LastStep* StepHistory::last(const std::string& organ, std::size_t tool) co
   return pair != pairs_.end() && pair->second.last ? &*pair->second.last : nullptr;
 }
 
+std::size_t StepHistory::waiting() const {
+  std::size_t waiting = 0;
+  for (const auto& [key, pair] : pairs_) waiting += pair.queue.size();
+  return waiting;
+}
+
 void StepHistory::forget(const std::string& organ) {
   const auto first = pairs_.lower_bound({organ, 0});
   auto end = first;

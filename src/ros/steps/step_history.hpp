@@ -48,6 +48,7 @@ class ShapeQueue {
   /// Notes that the shape to evaluate next waits. There must be one.
   void set_waiting() { waiting_.front().waits = true; }
   void pop();
+  std::size_t size() const { return waiting_.size(); }
 
  private:
   std::vector<Entry> waiting_;  ///< few: a vector needs no memory for each step, as a deque does
@@ -73,6 +74,8 @@ class StepHistory {
   OrganToolPair& of(const std::string& organ, std::size_t tool) { return pairs_[{organ, tool}]; }
   /// The end of the last successful step; null if there was none.
   const LastStep* last(const std::string& organ, std::size_t tool) const;
+  /// How many shapes wait for their steps, of all pairs together.
+  std::size_t waiting() const;
 
   void forget(const std::string& organ);
   /// For a new list of tools: numbers the kept tools anew, and forgets the others.

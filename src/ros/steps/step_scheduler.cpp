@@ -37,7 +37,7 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 void StepScheduler::add(const OrganRegistry& organs, const OrganUpdate& update, SteadyTime now) {
   if (!update.change) return;
   const std::string& organ = update.message.organ();
-  if (update.change != OrganChange::kShape) history_.forget(organ);
+  if (update.change != OrganChange::kShape) forget([&] { history_.forget(organ); });
   if (update.change != OrganChange::kRemoved) add_shape(organs.at(organ), now);
 }
 
@@ -68,8 +68,22 @@ bool StepScheduler::evaluate_due() {
 void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
     ShapeQueue& queue = history_.of(organ.name(), tool).queue;
-    if (queue.push({organ.latest(), now}, keeps_all_shapes_)) ++shapes_superseded_;
+    ++shapes_.due;
+    if (queue.push({organ.latest(), now}, keeps_all_shapes_)) ++shapes_.superseded;
   }
+}
+
+/// Forgets a part of the history, and counts the shapes that waited in it.
+void StepScheduler::forget(const std::function<void()>& history) {
+  const std::size_t waited = history_.waiting();
+  history();
+  shapes_.forgotten += waited - history_.waiting();
+}
+
+ShapeCounts StepScheduler::shapes() const {
+  ShapeCounts shapes = shapes_;
+  shapes.waiting = history_.waiting();
+  return shapes;
 }
 
 void StepScheduler::plan_waiting(const OrganRegistry& organs, SteadyTime now) {
@@ -95,6 +109,7 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, O
   pair.current = entry.shape;
   pair.queue.pop();
   DueStep step{&organ, tool, &pair};
+  step.is_of_shape = true;
   const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
   if (faulty) {
     plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
@@ -142,7 +157,7 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
 }
 
 void StepScheduler::change_tools(const OrganRegistry& organs, const KeptTools& kept) {
-  history_.renumber(kept);
+  forget([&] { history_.renumber(kept); });
   const std::vector<char> was_due = std::exchange(tool_is_due_, std::vector<char>(kept.size()));
   for (std::size_t tool = 0; tool < kept.size(); ++tool) {
     tool_is_due_[tool] = !kept[tool] || was_due[*kept[tool]];
@@ -161,7 +176,7 @@ void StepScheduler::reset() {
 }
 
 void StepScheduler::start_anew(const OrganRegistry& organs) {
-  history_.clear();
+  forget([this] { history_.clear(); });
   for (const auto& [name, organ] : organs.organs()) {
     for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
       history_.of(name, tool).current = organ.latest();
@@ -218,6 +233,7 @@ void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const 
 /// Makes the step the last one of its pair, and publishes it.
 void StepScheduler::deliver(DueStep& step) {
   OrganToolPair& pair = *step.pair;
+  shapes_.answered += step.is_of_shape;
   samples_cut_ += step.samples_cut;
   deviation_cut_ = std::max(deviation_cut_, step.deviation_cut);
   if (step.answer->status == ContactArray::OK) {

@@ -4,6 +4,7 @@
 #include <ros/time.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -31,6 +32,17 @@ struct EvaluatedStep {
   /// The step has no transform, and none had one before, but TF may still be starting: there is
   /// nothing to warn of yet.
   bool is_starting = false;
+};
+
+/// What became of the accepted shapes since the start, each counted once for each tool:
+/// due = answered + superseded + forgotten + waiting.
+struct ShapeCounts {
+  std::uint64_t due = 0;
+  std::uint64_t answered = 0;    ///< a step was published, also if it failed
+  std::uint64_t superseded = 0;  ///< a newer shape came before the step
+  /// Before the step, the organ, the tool or all history was gone, or the organ got another frame.
+  std::uint64_t forgotten = 0;
+  std::uint64_t waiting = 0;  ///< now, for transforms
 };
 
 /// Decides which tool is evaluated against which organ, when, and from which pose: at each new
@@ -99,12 +111,11 @@ class StepScheduler {
   const DurationStatistics& query_times() const { return query_times_; }
   /// Poses of tips that came while an earlier one was still due: one step covers both.
   std::size_t poses_merged() const { return poses_merged_; }
-  /// Shapes that a newer one replaced before a tool was evaluated against them; counted for each
-  /// tool.
-  std::size_t shapes_superseded() const { return shapes_superseded_; }
+  ShapeCounts shapes() const;
 
  private:
   void add_shape(const DeformableOrgan& organ, SteadyTime now);
+  void forget(const std::function<void()>& history);
 
   // These find out which steps are due.
   void plan_waiting(const OrganRegistry& organs, SteadyTime now);
@@ -136,7 +147,7 @@ class StepScheduler {
   std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
   bool tick_is_due_ = false;
   bool keeps_all_shapes_ = false;
-  std::size_t shapes_superseded_ = 0;
+  ShapeCounts shapes_;  ///< without those that wait
   std::size_t poses_merged_ = 0;
   std::size_t samples_cut_ = 0;
   double deviation_cut_ = 0.0;

@@ -34,7 +34,7 @@ class StepWorkers {
   void start_for(std::size_t steps);
   void prepare(std::size_t worker);
 
-  const PickerKind picker_;
+  const PickerSettings picker_;
   const int realtime_priority_;                         ///< 0: ordinary scheduling
   std::vector<std::unique_ptr<ContactQuery>> queries_;  ///< by worker
   WorkerThreads threads_;  ///< the last member: its threads end before what they use

@@ -202,6 +202,8 @@ TEST_F(OrganMessageQueueTest, SaysOfWhichOrgansMessagesWait) {
 TEST_F(OrganMessageQueueTest, TheOldestVerticesGoWhereTooManyWait) {
   queue_.add(mesh("liver", 1, kFaces));
   for (std::uint32_t i = 0; i < 250; ++i) queue_.add(vertices("liver", i));
+  EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
+  EXPECT_EQ(queue_.dropped(), 151U);
   let(1);
   wait_for_wakes(1);
   take_all();

@@ -112,6 +112,27 @@ TEST_F(OrganTopicsTest, RemoveDoesWhatAnEmptyMeshDoes) {
   EXPECT_FALSE(topics_.next());
 }
 
+TEST_F(OrganTopicsTest, TellsWhatBecameOfEachMessage) {
+  topics_.take_vertices(vertices(1));
+  topics_.next();  // It is refused: there is no mesh.
+  topics_.take_mesh(mesh(OrganMessageQueue::kLarge + 1));
+  topics_.take_vertices(vertices(1));
+  EXPECT_EQ(topics_.counts().received, 3U);
+  EXPECT_EQ(topics_.counts().refused, 1U);
+  EXPECT_EQ(topics_.counts().waiting, 2U);
+  EXPECT_EQ(topics_.counts().applied, 0U);
+  while (topics_.counts().waiting > 0) {
+    callbacks_.callOne(ros::WallDuration(0.1));
+    topics_.next();
+  }
+  topics_.remove("liver");
+  topics_.next();
+  EXPECT_EQ(topics_.counts().received, 4U);
+  EXPECT_EQ(topics_.counts().applied, 2U);
+  EXPECT_EQ(topics_.counts().removals, 1U);
+  EXPECT_EQ(topics_.counts().dropped, 0U);
+}
+
 TEST_F(OrganTopicsTest, ALargeMeshWakesTheThreadThatWaitsForIt) {
   topics_.take_mesh(mesh(OrganMessageQueue::kLarge + 1));
   std::optional<OrganUpdate> update = topics_.next();

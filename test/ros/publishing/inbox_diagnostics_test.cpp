@@ -27,8 +27,8 @@ class InboxDiagnosticsTest : public testing::Test, protected NodeParts {
 
   NodeCounters counters;
   diagnostic_updater::DiagnosticStatusWrapper status;
-  InboxDiagnostics diagnostics{
-      {parameters.mesh_timeout_sec, tools, organs, counters.meshes, counters.rejected}};
+  InboxDiagnostics diagnostics{{parameters.mesh_timeout_sec, tools, organs, organ_topics,
+                                counters.meshes, counters.rejected}};
 };
 
 }  // namespace
@@ -43,6 +43,20 @@ TEST_F(InboxDiagnosticsTest, RejectedMessagesByReason) {
   EXPECT_EQ(status.message, "8 numbers");
   EXPECT_EQ(values(&InboxDiagnostics::messages).at("rejected, wrong size"), "2");
   EXPECT_EQ(status.level, DiagnosticStatus::OK);  // No new failure.
+}
+
+TEST_F(InboxDiagnosticsTest, WhatBecameOfOrganMessages) {
+  send_mesh(48.0, 0.0);
+  send_vertices(48.1, 0.1F);
+  send_vertices(48.2, std::nanf(""));
+  auto shown = values(&InboxDiagnostics::messages);
+  EXPECT_EQ(shown.at("organ messages received"), "3");
+  EXPECT_EQ(shown.at("organ messages applied"), "2");
+  EXPECT_EQ(shown.at("organ messages refused"), "1");
+  EXPECT_EQ(shown.at("organ messages that remove"), "0");
+  EXPECT_EQ(shown.at("organ messages dropped behind a large mesh"), "0");
+  EXPECT_EQ(shown.at("organ messages waiting"), "0");
+  EXPECT_EQ(shown.at("organ messages lost before they came"), "0");
 }
 
 TEST_F(InboxDiagnosticsTest, AToolWithAFaultIsAnError) {

@@ -76,10 +76,16 @@ TEST_F(QueryDiagnosticsTest, MotionThatWasNotSweptThrough) {
 TEST_F(QueryDiagnosticsTest, ShapesThatNewerOnesReplacedAndStepsWhileTfWasStarting) {
   for (const double time : {1.0, 2.0, 3.0, 4.0}) send_mesh(time, 0.0);
   counters.starting = 3;
+  counters.published = 5;
   auto shown = values(&QueryDiagnostics::queries);
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
+  EXPECT_EQ(shown.at("shapes due"), "4");
+  EXPECT_EQ(shown.at("shapes answered"), "0");
   EXPECT_EQ(shown.at("shapes superseded by newer ones"), "2");
+  EXPECT_EQ(shown.at("shapes forgotten before their step"), "0");
+  EXPECT_EQ(shown.at("shapes waiting"), "2");
   EXPECT_EQ(shown.at("steps while TF was starting"), "3");
+  EXPECT_EQ(shown.at("answers published"), "5");
 }
 
 TEST_F(QueryDiagnosticsTest, FailedEvaluationsAndMisspeltNamesWarn) {

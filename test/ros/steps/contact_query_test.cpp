@@ -83,4 +83,5 @@ TEST_P(ContactQueryTest, TimesWhatItAnswered) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPickers, ContactQueryTest,
-                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect));
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));

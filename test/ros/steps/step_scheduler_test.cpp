@@ -141,7 +141,49 @@ TEST_F(StepSchedulerTest, WaitingShapeIsNotReplacedByNewerOnes) {
 TEST_F(StepSchedulerTest, CountsTheShapesThatNewerOnesReplace) {
   send_mesh(1.0, 0.0);
   for (int i = 1; i < 5; ++i) send_vertices(1.0 + 0.1 * i, 0.1f);
-  EXPECT_EQ(steps.shapes_superseded(), 3u);
+  EXPECT_EQ(steps.shapes().superseded, 3u);
+}
+
+/// Compares all counts, whose sum must always be right.
+void expect_shapes(const ShapeCounts& shapes, std::uint64_t answered, std::uint64_t superseded,
+                   std::uint64_t forgotten, std::uint64_t waiting) {
+  EXPECT_EQ(shapes.due, answered + superseded + forgotten + waiting);
+  EXPECT_EQ(shapes.answered, answered);
+  EXPECT_EQ(shapes.superseded, superseded);
+  EXPECT_EQ(shapes.forgotten, forgotten);
+  EXPECT_EQ(shapes.waiting, waiting);
+}
+
+TEST_F(StepSchedulerTest, TellsWhatBecameOfEachShape) {
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  expect_shapes(steps.shapes(), 0, 0, 0, 1);
+  evaluate();
+  expect_shapes(steps.shapes(), 1, 0, 0, 0);
+  pose();
+  tick();  // Poses and ticks bring no shape.
+  expect_shapes(steps.shapes(), 1, 0, 0, 0);
+  send_vertices(1.1, 0.1f);
+  ASSERT_EQ(evaluate(milliseconds(20)).at(0).status, ContactArray::NO_TRANSFORM);
+  expect_shapes(steps.shapes(), 2, 0, 0, 0);
+  for (const double time : {1.2, 1.3, 1.4}) send_vertices(time, 0.1f);
+  expect_shapes(steps.shapes(), 2, 1, 0, 2);
+  steps.start_anew(organs);
+  expect_shapes(steps.shapes(), 2, 1, 2, 0);
+  send_vertices(1.5, 0.1f);
+  tools.clear();
+  steps.change_tools(organs, {});
+  expect_shapes(steps.shapes(), 2, 1, 3, 0);
+}
+
+TEST_F(StepSchedulerTest, CountsTheWaitingShapesOfAnOrganThatIsGone) {
+  tools.push_back(shaft_tool("lost", 0.01));
+  send_mesh(1.0, 0.0);
+  OrganMesh removal;
+  removal.organ = "liver";
+  organ_topics.take_mesh(boost::make_shared<OrganMesh>(removal));
+  apply_organ_messages();
+  expect_shapes(steps.shapes(), 0, 0, 2, 0);
 }
 
 TEST_F(StepSchedulerTest, KeepsAllShapesIfToldSo) {
@@ -151,7 +193,7 @@ TEST_F(StepSchedulerTest, KeepsAllShapesIfToldSo) {
   send_tip(1.0, kAbove);
   send_tip(1.5, kAbove);
   EXPECT_EQ(evaluate().size(), 5u);
-  EXPECT_EQ(steps.shapes_superseded(), 0u);
+  EXPECT_EQ(steps.shapes().superseded, 0u);
 }
 
 TEST_F(StepSchedulerTest, SaysHowLateTransformsWereAndHowLongItWaited) {
