@@ -22,12 +22,13 @@ bool Inbox::watch_clock() {
   if (jumped_back) {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
-    transforms_.clear();
+    transforms_.clear({last_now_, now});
     pose_topics_.forget_stamps();
-    forget_organ_history();
   }
   last_now_ = now;
-  return jumped_back;
+  const bool starts_anew = transforms_.has_started_anew() || jumped_back;
+  if (starts_anew) forget_organ_history();
+  return starts_anew;
 }
 
 void Inbox::forget_organ_history() {

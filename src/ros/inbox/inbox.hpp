@@ -40,8 +40,9 @@ class Inbox {
   PoseTopics& pose_topics() { return pose_topics_; }
 
   /// Compares ROS time with that of the last call. If it jumped back, forgets all transforms and
-  /// the organs' history, and returns true. Call it before each message, so that no message meets
-  /// state from before the jump.
+  /// the organs' history, and returns true. The same if transforms that came behind such a jump
+  /// were still of the time before. Call it before each message, so that no message meets state
+  /// from before the jump.
   bool watch_clock();
   /// Forgets all that is known of the past of the organs.
   void forget_organ_history();

@@ -139,6 +139,9 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
+  if (!sinks_.transforms.admit(stream.tool.tip_frame, stamp)) {
+    return reject(stream.tool.tip_frame, "has a stamp of the time before the clock jumped back");
+  }
   // Several poses may arrive within one tick of simulated time. Each gets a different stamp.
   if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
   if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {

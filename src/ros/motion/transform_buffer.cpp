@@ -47,6 +47,23 @@ void TransformBuffer::clear() {
   }
 }
 
+void TransformBuffer::clear(const ClockJump& jump) {
+  clear();
+  jump_ = jump;
+  for (Frame& frame : frames_) frame.order.add(jump);
+}
+
+bool TransformBuffer::admit(const std::string& frame, ros::Time stamp) {
+  using Verdict = StampOrder::Verdict;
+  Frame& known = frames_[index_of(tf_frame(frame))];
+  const Verdict verdict = known.order.judge(stamp, ros::Time::now());
+  if (verdict == Verdict::kTakeAnew && !known.stamps.empty()) {
+    clear();
+    has_started_anew_ = true;
+  }
+  return verdict != Verdict::kRefuse;
+}
+
 bool TransformBuffer::has_heard(const std::string& frame) const {
   const auto known = indices_.find(frame);
   return known != indices_.end() && !frames_[known->second].stamps.empty();
@@ -74,7 +91,10 @@ void TransformBuffer::set_answered(const std::string& target, const Frames& sour
 
 std::size_t TransformBuffer::index_of(const std::string& frame) {
   const auto [known, is_new] = indices_.try_emplace(frame, frames_.size());
-  if (is_new) frames_.push_back({StampRecord(getCacheLength()), {}, {}});
+  if (is_new) {
+    frames_.push_back({StampRecord(getCacheLength()), {}, {}, {}});
+    if (jump_) frames_.back().order.add(*jump_);
+  }
   return known->second;
 }
 

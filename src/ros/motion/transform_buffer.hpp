@@ -6,9 +6,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "stamp_order.hpp"
 #include "stamp_record.hpp"
 
 namespace organ_collision {
@@ -25,6 +28,14 @@ class TransformBuffer : public tf2::BufferCore {
            bool resting = false);
   /// Forgets all transforms but the static ones, which are not sent again.
   void clear();
+  /// The same, because the clock jumped back.
+  void clear(const ClockJump& jump);
+  /// Whether a transform that is not static may be added; false: its stamp is of the time before
+  /// the clock jumped back. Call it once for each, in the order in which they come. Behind such
+  /// stamps it may forget all transforms once more (stamp_order.hpp).
+  bool admit(const std::string& frame, ros::Time stamp);
+  /// Whether admit() has forgotten all transforms since the last call.
+  bool has_started_anew() { return std::exchange(has_started_anew_, false); }
 
   /// Whether the record has a transform of the frame.
   bool has_heard(const std::string& frame) const;
@@ -41,6 +52,7 @@ class TransformBuffer : public tf2::BufferCore {
  private:
   struct Frame {
     StampRecord stamps;
+    StampOrder order;
     ros::Time answered;                ///< poses were used up to this stamp; zero: never
     std::vector<std::size_t> parents;  ///< recent parents, as indices
   };
@@ -53,6 +65,8 @@ class TransformBuffer : public tf2::BufferCore {
 
   std::map<std::string, std::size_t> indices_;  ///< into frames_, by name
   std::vector<Frame> frames_;
+  std::optional<ClockJump> jump_;  ///< the last one
+  bool has_started_anew_ = false;
   std::size_t late_ = 0;
 };
 

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "ros/interface/checked_messages.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -13,13 +15,13 @@ constexpr std::uint32_t kQueue = 1000;
 }  // namespace
 
 void TransformTopics::subscribe(ros::NodeHandle node) {
-  using Event = ros::MessageEvent<tf2_msgs::TFMessage const>;
   const auto subscribe_to = [&](const std::string& topic, bool resting) {
-    const boost::function<void(const Event&)> callback = [this, resting](const Event& event) {
-      take(*event.getConstMessage(), event.getPublisherName(), resting);
-    };
-    subscribers_.push_back(node.subscribe<tf2_msgs::TFMessage>(topic, kQueue, callback, {},
-                                                               ros::TransportHints().tcpNoDelay()));
+    subscribers_.push_back(subscribe_checked<tf2_msgs::TFMessage>(
+        node, topic, kQueue,
+        [this, resting](const auto& event) {
+          take(*event.getConstMessage(), event.getPublisherName(), resting);
+        },
+        rejected_));
   };
   subscribe_to("/tf", false);
   subscribe_to("/tf_static", true);
@@ -28,13 +30,22 @@ void TransformTopics::subscribe(ros::NodeHandle node) {
 void TransformTopics::take(const tf2_msgs::TFMessage& message, const std::string& authority,
                            bool resting) {
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    if (!resting && !buffer_.admit(transform.child_frame_id, transform.header.stamp)) {
+      reject(transform, "its stamp is of the time before the clock jumped back");
+      continue;
+    }
     try {
       buffer_.add(transform, authority, resting);
     } catch (const std::runtime_error& error) {
-      rejected_.add("transform", "transform of '" + transform.child_frame_id + "': " + error.what(),
-                    std::chrono::steady_clock::now());
+      reject(transform, error.what());
     }
   }
+}
+
+void TransformTopics::reject(const geometry_msgs::TransformStamped& transform,
+                             const std::string& why) {
+  rejected_.add("transform", "transform of '" + transform.child_frame_id + "': " + why,
+                std::chrono::steady_clock::now());
 }
 
 }  // namespace organ_collision

@@ -20,11 +20,13 @@ class TransformTopics {
 
   void subscribe(ros::NodeHandle node);
 
-  /// Adds the transforms of a message. A transform for which tf2 throws is counted as rejected; the
-  /// others are added.
+  /// Adds the transforms of a message. A transform for which tf2 throws, or whose stamp is of the
+  /// time before a jump of the clock, is counted as rejected; the others are added.
   void take(const tf2_msgs::TFMessage& message, const std::string& authority, bool resting);
 
  private:
+  void reject(const geometry_msgs::TransformStamped& transform, const std::string& why);
+
   TransformBuffer& buffer_;
   FailureLog& rejected_;
   std::vector<ros::Subscriber> subscribers_;

@@ -18,6 +18,8 @@ geometry_msgs::TransformStamped transform(const std::string& child, double time)
 
 class TransformTopicsTest : public testing::Test {
  protected:
+  TransformTopicsTest() { ros::Time::init(); }
+
   void take(const std::vector<geometry_msgs::TransformStamped>& transforms, bool resting) {
     tf2_msgs::TFMessage message;
     message.transforms = transforms;

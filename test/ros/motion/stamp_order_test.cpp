@@ -1,0 +1,122 @@
+#include "ros/motion/stamp_order.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace organ_collision;
+
+namespace {
+
+using Verdict = StampOrder::Verdict;
+constexpr double kTick = 0.001;  // [s]
+
+class StampOrderTest : public testing::Test {
+ protected:
+  /// Of the next transform, which comes at `now`.
+  Verdict judge(double stamp, double now) { return order_.judge(ros::Time(stamp), ros::Time(now)); }
+  void jump(double from, double to) { order_.add({ros::Time(from), ros::Time(to)}); }
+
+  StampOrder order_;
+};
+
+}  // namespace
+
+TEST_F(StampOrderTest, WithoutAJumpEveryStampIsTaken) {
+  for (const double stamp : {1.0, 100.0, 2.0, 2.0, 0.0, 4e9}) {
+    EXPECT_EQ(judge(stamp, 1.0), Verdict::kTake);
+  }
+}
+
+TEST_F(StampOrderTest, StampsFarAheadOfTheClockAreOfTheTimeBefore) {
+  judge(49.9, 50.0);
+  jump(50.0, 3.0);
+  EXPECT_EQ(judge(49.95, 3.0), Verdict::kRefuse);
+  EXPECT_EQ(judge(50.0, 3.2), Verdict::kRefuse);
+}
+
+TEST_F(StampOrderTest, AFrameThatIsNewMayBeALittleAheadOfTheClock) {
+  jump(50.0, 3.0);
+  EXPECT_EQ(judge(3.09, 3.0), Verdict::kTake);
+  EXPECT_EQ(judge(3.19, 3.1), Verdict::kTake);
+  EXPECT_EQ(judge(3.31, 3.2), Verdict::kRefuse);
+}
+
+TEST_F(StampOrderTest, OfAShortJumpHalfIsAllowed) {
+  jump(3.1, 3.0);
+  EXPECT_EQ(judge(3.04, 3.0), Verdict::kTake);
+  EXPECT_EQ(judge(3.09, 3.0), Verdict::kRefuse);
+}
+
+// A node that was stopped for 0.4 s gets all transforms of that time before the clock goes on.
+// Without them, the tool would be swept on another way.
+TEST_F(StampOrderTest, OnceTheStampsSteppedBackTheyMayBeFarAheadOfTheClock) {
+  judge(49.999, 50.0);
+  jump(50.0, 3.0);
+  EXPECT_EQ(judge(50.0, 3.0), Verdict::kRefuse);
+  EXPECT_EQ(judge(3.0, 3.0), Verdict::kTakeAnew);
+  for (double stamp = 3.0 + kTick; stamp < 3.4; stamp += kTick) {
+    ASSERT_EQ(judge(stamp, 3.0), Verdict::kTake) << stamp;
+  }
+}
+
+TEST_F(StampOrderTest, WhereTheStampsStepBackBehindTakenOnesTheseAreForgotten) {
+  judge(9.6, 9.9);
+  jump(10.0, 9.7);
+  EXPECT_EQ(judge(9.75, 9.7), Verdict::kTake) << "as if the frame had stepped back already";
+  EXPECT_EQ(judge(9.85, 9.75), Verdict::kTake);
+  EXPECT_EQ(judge(9.7, 9.75), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(9.71, 9.75), Verdict::kTake);
+}
+
+// Then there is a gap in what was taken.
+TEST_F(StampOrderTest, WhenTheClockHasCaughtUpWithRefusedStampsTakenOnesAreForgotten) {
+  judge(9.4, 9.9);
+  jump(10.0, 9.7);
+  EXPECT_EQ(judge(9.75, 9.7), Verdict::kTake);
+  EXPECT_EQ(judge(9.81, 9.7), Verdict::kRefuse);
+  EXPECT_EQ(judge(9.82, 9.8), Verdict::kRefuse);
+  EXPECT_EQ(judge(9.83, 9.9), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(10.02, 9.91), Verdict::kRefuse) << "these were of the time before as well";
+  EXPECT_EQ(judge(9.7, 9.92), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(10.2, 9.93), Verdict::kTake);
+}
+
+// A second jump, of which the node is told before the stamps of the first one have come.
+TEST_F(StampOrderTest, TheStampsMayStepBackTwice) {
+  judge(50.0, 50.0);
+  jump(50.0, 30.0);
+  jump(30.1, 3.0);
+  EXPECT_EQ(judge(50.001, 3.0), Verdict::kRefuse);
+  EXPECT_EQ(judge(30.0, 3.0), Verdict::kTakeAnew) << "it has stepped back once";
+  EXPECT_EQ(judge(30.1, 3.0), Verdict::kTake);
+  EXPECT_EQ(judge(3.0, 3.0), Verdict::kTakeAnew);
+}
+
+TEST_F(StampOrderTest, StampsThatGoOnThroughSmallJumpsAreTaken) {
+  double now = 3.0;
+  for (int tick = 0; tick < 1000; ++tick) {  // Every tenth tick, the clock steps back.
+    const bool is_back = tick % 10 == 0;
+    if (is_back) jump(now, now - 0.3 * kTick);
+    now += is_back ? -0.3 * kTick : kTick;
+    const Verdict verdict = judge(now, now);
+    ASSERT_NE(verdict, Verdict::kRefuse) << tick;
+    ASSERT_TRUE(is_back || verdict == Verdict::kTake) << tick;
+  }
+}
+
+TEST_F(StampOrderTest, LaterAllHasArrived) {
+  jump(50.0, 3.0);
+  EXPECT_EQ(judge(49.9, 4.999), Verdict::kRefuse);
+  EXPECT_EQ(judge(49.9, 5.0), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(5.0, 5.1), Verdict::kTake) << "it may step back as without a jump";
+}
+
+// Differences of ros::Time throw if they exceed 2^31 s.
+TEST_F(StampOrderTest, StampsMayBeOfAnySize) {
+  jump(4e9, 1.0);
+  EXPECT_EQ(judge(1.0, 1.0), Verdict::kTake);
+  EXPECT_EQ(judge(4e9, 1.0), Verdict::kRefuse);
+  EXPECT_EQ(judge(0.0, 1.0), Verdict::kTakeAnew);
+  const ros::Time last(0xffffffffU, 0);
+  order_.add({last, last});
+  EXPECT_EQ(order_.judge(last, last), Verdict::kTake);
+}
