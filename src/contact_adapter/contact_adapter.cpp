@@ -12,6 +12,7 @@
 #include "forces/force_limit.hpp"
 #include "forces/vertex_forces.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/checked_messages.hpp"
 #include "ros/interface/plain_text.hpp"
 #include "ros/interface/rejection.hpp"
 #include "shaft_radius.hpp"
@@ -32,18 +33,20 @@ ContactAdapter::ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& priv
                          LiveContactAdapterParameters& live = parameters_;
                          live = changed(parameters_, changes);
                        }),
-      updater_(node, private_node, private_node.getNamespace()) {
+      updater_(node, private_node, private_node.getNamespace()),
+      master_(private_node.getNamespace()) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
   live_parameters_.advertise();
   updater_.setHardwareID("none");
   updater_.add("contacts", this, &ContactAdapter::diagnose);
+  master_.add_to(updater_);
   // A timer of wall time, because the updater's own period stops when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(parameters_.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  subscriber_ =
-      node.subscribe(ros::names::append(names::kNode, names::kContacts), kQueue,
-                     &ContactAdapter::on_contacts, this, ros::TransportHints().tcpNoDelay());
+  subscriber_ = subscribe_checked<ContactArray>(
+      node, ros::names::append(names::kNode, names::kContacts), kQueue,
+      [this](const auto& event) { on_contacts(*event.getConstMessage()); }, failures_);
   ROS_INFO("ready: contacts of %s, %g N/m", subscriber_.getTopic().c_str(), parameters_.stiffness);
 }
 

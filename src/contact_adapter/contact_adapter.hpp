@@ -15,6 +15,7 @@
 #include "force_law.hpp"
 #include "forces/pair_names.hpp"
 #include "ros/interface/failure_log.hpp"
+#include "ros/interface/master_watch.hpp"
 
 namespace organ_collision {
 
@@ -56,6 +57,7 @@ class ContactAdapter {
   diagnostic_updater::Updater updater_;
   ros::WallTimer diagnostic_timer_;
   ros::Subscriber subscriber_;
+  MasterWatch master_;
 };
 
 }  // namespace organ_collision

@@ -3,12 +3,14 @@
 #include "contact_adapter.hpp"
 #include "contact_adapter_help.hpp"
 #include "contact_adapter_names.hpp"
+#include "ros/interface/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
   if (const auto exit_code = answer_arguments(argc, argv, contact_adapter_help()))
     return *exit_code;
   ros::init(argc, argv, names::kContactAdapter);
+  guard_parameter_updates();
   const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
   try {
     ContactAdapter adapter(node, ros::NodeHandle("~"));

@@ -96,7 +96,11 @@ std::vector<HelpEntry> parameters() {
       {names::kMeshTimeoutSec, shown(defaults.mesh_timeout_sec),
        "[s] with an older mesh there is no answer; 0: never"},
       {names::kPicker, kPickerDefault,
-       "feedback (GL_FEEDBACK, fast) or select (GL_SELECT, as in the 1999 paper)"},
+       "feedback (GL_FEEDBACK), select (GL_SELECT, as in the 1999 paper; slow) or cpu (without "
+       "OpenGL)"},
+      {names::kGl, kGlDefault,
+       "where the OpenGL for picking comes from: osmesa, egl, or auto (OSMesa where there is one, "
+       "else EGL)"},
       {names::kMaxFaces, shown(defaults.max_faces), "larger organs are refused"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},

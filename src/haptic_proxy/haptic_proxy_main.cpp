@@ -6,6 +6,7 @@
 #include "haptic_proxy_help.hpp"
 #include "haptic_proxy_names.hpp"
 #include "haptic_proxy_node.hpp"
+#include "ros/interface/parameter_updates.hpp"
 #include "ros/node/realtime.hpp"
 
 namespace {
@@ -24,6 +25,7 @@ int main(int argc, char** argv) {
   using namespace organ_collision;
   if (const auto exit_code = answer_arguments(argc, argv, haptic_proxy_help())) return *exit_code;
   ros::init(argc, argv, names::kHapticProxy, ros::init_options::NoSigintHandler);
+  guard_parameter_updates();
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
   const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
   const ros::NodeHandle private_node("~");

@@ -72,7 +72,7 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       publisher_(private_node_, inbox_.organs(), counters_.failed, loaded_.parameters.publish_tf),
       markers_(private_node_, loaded_.parameters.markers),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
-                          counters_.meshes, counters_.rejected}),
+                          inbox_.organ_topics(), counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_.queue()),
       organ_services_({inbox_.organs(), inbox_.organ_topics(), loop_.queue(), background_.queue()}),
@@ -90,7 +90,8 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
           }),
       live_parameters_(on_queue(private_node, background_.queue()),
                        live_parameters(loaded_.parameters),
-                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
+                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }),
+      master_(private_node_.getNamespace()) {
   try {
     start();
   } catch (...) {
@@ -113,6 +114,7 @@ void HapticProxyNode::start() {
   updater_.add("proxies", this, &HapticProxyNode::diagnose);
   inbox_diagnostics_.add_to(updater_);
   realtime_.add_to(updater_);
+  master_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),

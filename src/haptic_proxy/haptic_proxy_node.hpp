@@ -18,6 +18,7 @@
 #include "proxy_publisher.hpp"
 #include "ros/inbox/inbox.hpp"
 #include "ros/interface/live_parameters.hpp"
+#include "ros/interface/master_watch.hpp"
 #include "ros/interface/rejection.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/message_loop.hpp"
@@ -118,6 +119,7 @@ class HapticProxyNode {
   // What works in the background thread.
   ToolReload tool_reload_;
   LiveParameters live_parameters_;
+  MasterWatch master_;
 };
 
 }  // namespace organ_collision

@@ -60,11 +60,12 @@ void check_graph_names(const ParameterGroup& all, const std::vector<ToolParamete
 LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& private_namespace) {
   const ParameterGroup all(
       "~", private_namespace,
-      {names::kTools,         names::kFrame,       names::kStiffness,        names::kDamping,
-       names::kMaxForce,      names::kMaxTorque,   names::kClearance,        names::kJump,
-       names::kPunctureForce, names::kFriction,    names::kPoseTimeoutSec,   names::kMeshTimeoutSec,
-       names::kPicker,        names::kMaxFaces,    names::kDiagnosticPeriod, names::kPublishTf,
-       names::kMarkersRate,   names::kSurfaceRate, names::kRealtimePriority, names::kLockMemory});
+      {names::kTools,         names::kFrame,       names::kStiffness,      names::kDamping,
+       names::kMaxForce,      names::kMaxTorque,   names::kClearance,      names::kJump,
+       names::kPunctureForce, names::kFriction,    names::kPoseTimeoutSec, names::kMeshTimeoutSec,
+       names::kPicker,        names::kGl,          names::kMaxFaces,       names::kDiagnosticPeriod,
+       names::kPublishTf,     names::kMarkersRate, names::kSurfaceRate,    names::kRealtimePriority,
+       names::kLockMemory});
   LoadedTools tools = parse_tools(all);
   LoadedHapticProxyParameters loaded{{}, std::move(tools.misspelt)};
   HapticProxyParameters& p = loaded.parameters;

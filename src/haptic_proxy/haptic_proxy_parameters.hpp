@@ -36,7 +36,7 @@ struct HapticProxyParameters : LiveHapticProxyParameters {
   std::string frame;  ///< the proxy's frame; empty: that of the first organ
   double pose_timeout_sec = 0.1;
   double mesh_timeout_sec = 0.0;  ///< 0: never stale
-  PickerKind picker = PickerKind::kFeedback;
+  PickerSettings picker;
   int max_faces = kMaxFacesDefault;
   double diagnostic_period_sec = 1.0;  ///< of wall time
   RealtimeParameters realtime;

@@ -27,7 +27,8 @@ std::uint32_t outgoing_queue(const MeshAdapterParameters& parameters) {
 OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : node_(node),
       parameters_(load_mesh_adapter_parameters(private_node)),
-      updater_(node, private_node, private_node.getNamespace()) {
+      updater_(node, private_node, private_node.getNamespace()),
+      master_(private_node.getNamespace()) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
   // Not latched: a latched topic keeps only the last message. A new subscriber would get only one
@@ -43,6 +44,7 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
   for (const OrganParameters& organ : parameters_.organs) add_organ(organ, last_topology);
   updater_.setHardwareID("none");
   updater_.add("meshes", this, &OrganMeshAdapter::diagnose);
+  master_.add_to(updater_);
   // A timer of wall time, because the updater's own period stops when simulated time stops.
   diagnostic_timer_ =
       private_node.createWallTimer(ros::WallDuration(parameters_.diagnostic_period_sec),

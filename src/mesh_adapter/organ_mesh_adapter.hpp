@@ -15,6 +15,7 @@
 #include "mesh_adapter_parameters.hpp"
 #include "organ_source.hpp"
 #include "ros/interface/failure_log.hpp"
+#include "ros/interface/master_watch.hpp"
 
 namespace organ_collision {
 
@@ -52,6 +53,7 @@ class OrganMeshAdapter {
   std::vector<ros::Subscriber> subscribers_;
   diagnostic_updater::Updater updater_;
   ros::WallTimer diagnostic_timer_;
+  MasterWatch master_;
 };
 
 }  // namespace organ_collision

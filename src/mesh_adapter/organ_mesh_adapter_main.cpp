@@ -3,11 +3,13 @@
 #include "mesh_adapter_help.hpp"
 #include "mesh_adapter_names.hpp"
 #include "organ_mesh_adapter.hpp"
+#include "ros/interface/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
   if (const auto exit_code = answer_arguments(argc, argv, mesh_adapter_help())) return *exit_code;
   ros::init(argc, argv, names::kMeshAdapter);
+  guard_parameter_updates();
   const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
   try {
     OrganMeshAdapter adapter(node, ros::NodeHandle("~"));

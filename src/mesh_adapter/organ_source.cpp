@@ -2,12 +2,14 @@
 
 #include <ros/console.h>
 
+#include <stdexcept>
 #include <utility>
 
 #include "mesh_conversions.hpp"
 #include "message_error.hpp"
 #include "point_cloud_reader.hpp"
 #include "ros/interface/conversions.hpp"
+#include "ros/interface/held_message.hpp"
 #include "ros/interface/legal_name.hpp"
 
 namespace organ_collision {
@@ -23,7 +25,10 @@ bool is(const ShapeShifter& message) {
 template <typename Message>
 boost::shared_ptr<Message> instance(const ShapeShifter& message) {
   try {
-    return message.instantiate<Message>();
+    if (message.getMD5Sum() != ros::message_traits::md5sum<Message>()) {
+      throw std::runtime_error("they have another md5sum");
+    }
+    return held_message<Message>(message);
   } catch (const std::exception& error) {
     throw MessageError("unreadable message", std::to_string(message.size()) + " bytes are no " +
                                                  message.getDataType() + ": " + error.what() +

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
+#include "ros/interface/held_message.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
@@ -64,7 +65,7 @@ void Replay::handle(
   namespace traits = ros::message_traits;
   topics_[topic] = {traits::datatype<Message>(), traits::md5sum<Message>()};
   handlers_.emplace(topic, [handler = std::move(handler)](const rosbag::MessageInstance& instance) {
-    handler(instance.instantiate<Message>(), instance);
+    handler(held_message<Message>(instance), instance);
   });
 }
 

@@ -137,6 +137,8 @@ void read(RecordedMessages& messages, const std::string& file,
     messages.for_each(take);
   } catch (const rosbag::BagException& error) {
     throw InputError(file + ": cannot be read to its end: " + plain_text(error.what(), 200));
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw InputError(file + ": a message is damaged: it is shorter than its contents say");
   }
 }
 

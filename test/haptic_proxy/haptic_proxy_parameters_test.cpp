@@ -56,7 +56,8 @@ TEST(HapticProxyParameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.friction, 0.0);
   EXPECT_EQ(p.pose_timeout_sec, 0.1);
   EXPECT_EQ(p.mesh_timeout_sec, 0.0);
-  EXPECT_EQ(p.picker, PickerKind::kFeedback);
+  EXPECT_EQ(p.picker.kind, PickerKind::kFeedback);
+  EXPECT_EQ(p.picker.gl, GlPlatform::kAuto);
   EXPECT_EQ(p.max_faces, 2'000'000);
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_EQ(p.realtime.priority, 0);
@@ -79,6 +80,7 @@ TEST(HapticProxyParameters, AllAreRead) {
   all["pose_timeout_sec"] = 0.05;
   all["mesh_timeout_sec"] = 4.0;
   all["picker"] = "select";
+  all["gl"] = "egl";
   all["max_faces"] = 1000;
   all["diagnostic_period"] = 0.5;
   all["realtime_priority"] = 40;
@@ -96,7 +98,8 @@ TEST(HapticProxyParameters, AllAreRead) {
   EXPECT_EQ(p.friction, 0.5);
   EXPECT_EQ(p.pose_timeout_sec, 0.05);
   EXPECT_EQ(p.mesh_timeout_sec, 4.0);
-  EXPECT_EQ(p.picker, PickerKind::kSelect);
+  EXPECT_EQ(p.picker.kind, PickerKind::kSelect);
+  EXPECT_EQ(p.picker.gl, GlPlatform::kEgl);
   EXPECT_EQ(p.max_faces, 1000);
   EXPECT_EQ(p.diagnostic_period_sec, 0.5);
   EXPECT_EQ(p.realtime.priority, 40);

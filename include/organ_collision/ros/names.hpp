@@ -29,6 +29,7 @@ inline constexpr char kReloadTools[] = "reload_tools";
 /// A parameter.
 inline constexpr char kTools[] = "tools";
 inline constexpr char kPicker[] = "picker";
+inline constexpr char kGl[] = "gl";
 inline constexpr char kRate[] = "rate";
 inline constexpr char kOrganMotion[] = "organ_motion";
 inline constexpr char kMotionSampleSec[] = "motion_sample_sec";

@@ -5,6 +5,8 @@
 
 #include <sstream>
 
+#include "checked_messages.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -107,7 +109,9 @@ void LiveParameters::advertise() {
   updates_ = private_node_.advertise<Config>("parameter_updates", 1, true);
   descriptions_.publish(description(parameters_));
   updates_.publish(values(parameters_));
-  server_ = private_node_.advertiseService("set_parameters", &LiveParameters::on_set, this);
+  server_ = advertise_checked<dynamic_reconfigure::Reconfigure>(
+      private_node_, "set_parameters",
+      [this](auto& request, auto& response) { return on_set(request, response); });
 }
 
 Config LiveParameters::set(const Config& request) {

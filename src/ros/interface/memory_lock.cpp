@@ -29,7 +29,10 @@ std::string lock_memory() {
   if (limit.rlim_cur != RLIM_INFINITY && !is_above_limits()) {
     return "locked memory is limited to " + std::to_string(limit.rlim_cur / 1024) + " kB";
   }
-  return mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? std::string() : std::strerror(errno);
+  // What the process takes later is locked page by page, as it is used: roscpp reserves as much
+  // memory as a peer announces, up to a gigabyte for each connection.
+  const bool is_locked = mlockall(MCL_CURRENT) == 0 && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0;
+  return is_locked ? std::string() : std::strerror(errno);
 }
 
 long long locked_memory() {

@@ -49,7 +49,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       query_diagnostics_({loaded_.misspelt, pipeline_.gl_version(), pipeline_.steps(),
                           pipeline_.transforms(), services_.statistics(), counters_}),
       inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
-                          counters_.meshes, counters_.rejected}),
+                          pipeline_.organ_topics(), counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_.queue()),
       organ_services_(
@@ -62,7 +62,8 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
           }),
       live_parameters_(on_queue(private_node, background_.queue()),
                        live_parameters(loaded_.parameters),
-                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }) {
+                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }),
+      master_(private_node_.getNamespace()) {
   try {
     start();
   } catch (...) {
@@ -87,6 +88,7 @@ void CollisionNode::start() {
   query_diagnostics_.add_to(updater_);
   inbox_diagnostics_.add_to(updater_);
   realtime_.add_to(updater_);
+  master_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.
   diagnostic_timer_ = private_node_.createWallTimer(
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),

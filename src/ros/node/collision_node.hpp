@@ -11,6 +11,7 @@
 #include "queue_thread.hpp"
 #include "realtime.hpp"
 #include "ros/interface/live_parameters.hpp"
+#include "ros/interface/master_watch.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
 #include "ros/parameters/node_parameters.hpp"
@@ -78,6 +79,7 @@ class CollisionNode {
   // What works in the background thread.
   ToolReload tool_reload_;
   LiveParameters live_parameters_;
+  MasterWatch master_;
 };
 
 }  // namespace organ_collision

@@ -4,11 +4,13 @@
 #include "node_help.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "realtime.hpp"
+#include "ros/interface/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
   if (const auto exit_code = answer_arguments(argc, argv, node_help())) return *exit_code;
   ros::init(argc, argv, names::kNode);
+  guard_parameter_updates();
   const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
   const ros::NodeHandle private_node("~");
   try {

@@ -6,6 +6,8 @@
 #include <exception>
 #include <utility>
 
+#include "ros/interface/parameter_updates.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -26,6 +28,7 @@ void RestartingNodelet::stop() {
 /// Returns when the node works. If it cannot be constructed, throws its exception, so that loading
 /// the nodelet fails.
 void RestartingNodelet::onInit() {
+  guard_parameter_updates();
   std::promise<void> ready;
   std::future<void> outcome = ready.get_future();
   // The promise moves to the worker, which may still use it when this function has returned.

@@ -27,6 +27,7 @@ ParameterGroup node_group(const XmlRpcValue& private_namespace) {
           private_namespace,
           {names::kTools,
            names::kPicker,
+           names::kGl,
            names::kRate,
            names::kOrganMotion,
            names::kMotionSampleSec,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "marker_settings.hpp"
-#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/interface/parameter_group.hpp"
 #include "shared_parameters.hpp"
@@ -28,7 +28,7 @@ struct LiveNodeParameters {
 /// The node's parameters after validation. The defaults are the documented ones.
 struct NodeParameters : LiveNodeParameters {
   std::vector<ToolParameters> tools;
-  PickerKind picker = PickerKind::kFeedback;
+  PickerSettings picker;
   int threads = 0;           ///< of steps, and of batches; 0: one for each processor
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;

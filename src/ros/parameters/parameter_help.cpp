@@ -12,7 +12,11 @@ std::vector<HelpEntry> parameter_help() {
        "list of tools. A shaft has name, trocar_frame, tip_frame or tip_pose_topic, and radius "
        "[m]. A robot's tool has name and links. Each may have margin [m] and max_near"},
       {names::kPicker, kPickerDefault,
-       "feedback (GL_FEEDBACK, fast) or select (GL_SELECT, as in the 1999 paper)"},
+       "feedback (GL_FEEDBACK), select (GL_SELECT, as in the 1999 paper; slow) or cpu (without "
+       "OpenGL)"},
+      {names::kGl, kGlDefault,
+       "where the OpenGL for picking comes from: osmesa, egl, or auto (OSMesa where there is one, "
+       "else EGL)"},
       {names::kRate, shown(defaults.rate_hz),
        "[Hz] the node also evaluates at this rate; 0: only at new shapes and pose messages"},
       {names::kOrganMotion, shown(defaults.organ_motion),

@@ -4,8 +4,9 @@
 
 namespace organ_collision {
 
-PickerKind parse_picker(const ParameterGroup& all) {
-  return picker_kind(all.choice(names::kPicker, kPickerDefault, {"feedback", "select"}));
+PickerSettings parse_picker(const ParameterGroup& all) {
+  return {picker_kind(all.choice(names::kPicker, kPickerDefault, {"feedback", "select", "cpu"})),
+          gl_platform(all.choice(names::kGl, kGlDefault, {"auto", "osmesa", "egl"}))};
 }
 
 RealtimeParameters parse_realtime(const ParameterGroup& all) {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "organ_collision/picking/picker_kind.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "ros/interface/parameter_group.hpp"
 
 namespace organ_collision {
@@ -19,9 +19,10 @@ inline constexpr NumberRange kDiagnosticPeriodRange{0.01, 3600.0};
 /// The defaults.
 inline constexpr int kMaxFacesDefault = 2'000'000;
 inline constexpr char kPickerDefault[] = "feedback";
+inline constexpr char kGlDefault[] = "auto";
 
-/// The parameter `picker`. Throws ParameterError.
-PickerKind parse_picker(const ParameterGroup& all);
+/// The parameters `picker` and `gl`. Throws ParameterError.
+PickerSettings parse_picker(const ParameterGroup& all);
 
 /// What a node asks of the system, so that nothing else delays its steps.
 struct RealtimeParameters {

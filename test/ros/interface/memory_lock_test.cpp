@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,25 @@ void lock_and_take_more() {
   _exit((refusal.empty() ? is_locked : is_as_before) ? 0 : 1);
 }
 
-/// The same without the right to lock memory beyond `limit` bytes. The system must refuse.
+/// [bytes] of memory that this process has in RAM.
+long resident_memory() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+/// Locks the memory of this process, reserves much more, and ends the process. Exit status 0: what
+/// is not used takes no RAM. A peer makes roscpp reserve a gigabyte with four bytes.
+void lock_and_reserve_more() {
+  constexpr std::size_t kMuch = 500'000'000;  // [bytes]
+  lock_memory();
+  const long before = resident_memory();
+  volatile char* const reserved = new char[kMuch];
+  reserved[kMuch / 2] = 'x';
+  _exit(resident_memory() - before < static_cast<long>(kMuch / 10) ? 0 : 1);
+}
+
+/// Locks memory without the right to lock memory beyond `limit` bytes. The system must refuse.
 void lock_without_rights(rlim_t limit) {
   const rlimit limits{limit, limit};
   setrlimit(RLIMIT_MEMLOCK, &limits);
@@ -37,6 +56,10 @@ void lock_without_rights(rlim_t limit) {
 
 TEST(MemoryLock, HoldsAlsoWhatIsTakenLaterUnlessTheSystemRefuses) {
   EXPECT_EXIT(lock_and_take_more(), testing::ExitedWithCode(0), "");
+}
+
+TEST(MemoryLock, WhatIsReservedAndNotUsedTakesNoMemory) {
+  EXPECT_EXIT(lock_and_reserve_more(), testing::ExitedWithCode(0), "");
 }
 
 TEST(MemoryLock, ALimitIsARefusal) {

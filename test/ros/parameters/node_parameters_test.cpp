@@ -64,7 +64,8 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   const LoadedParameters loaded = parse_parameters(one_tool());
   const NodeParameters& p = loaded.parameters;
-  EXPECT_EQ(p.picker, PickerKind::kFeedback);
+  EXPECT_EQ(p.picker.kind, PickerKind::kFeedback);
+  EXPECT_EQ(p.picker.gl, GlPlatform::kAuto);
   EXPECT_EQ(p.rate_hz, 0.0);
   EXPECT_TRUE(p.organ_motion);
   EXPECT_EQ(p.motion_sample_sec, 0.001);
@@ -92,6 +93,7 @@ TEST(Parameters, EveryValueIsTaken) {
   all["tools"][1] = tool("grasper");
   all["tools"][1]["radius"] = 1;
   all["picker"] = "select";
+  all["gl"] = "egl";
   all["rate"] = 500;
   all["organ_motion"] = false;
   all["motion_sample_sec"] = 0.5;
@@ -114,7 +116,8 @@ TEST(Parameters, EveryValueIsTaken) {
   EXPECT_EQ(p.tools[1].trocar_frame, "grasper_trocar");
   EXPECT_EQ(p.tools[1].tip_frame, "grasper_tip");
   EXPECT_EQ(p.tools[1].radius, 1.0);
-  EXPECT_EQ(p.picker, PickerKind::kSelect);
+  EXPECT_EQ(p.picker.kind, PickerKind::kSelect);
+  EXPECT_EQ(p.picker.gl, GlPlatform::kEgl);
   EXPECT_EQ(p.rate_hz, 500.0);
   EXPECT_FALSE(p.organ_motion);
   EXPECT_EQ(p.motion_sample_sec, 0.5);
