@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+/// Called by libFuzzer, and by replay_main.cpp, with bytes of which nothing is known. Each target
+/// defines it. It returns 0. What it must not do is crash, hang, take much memory or throw.
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+/// Called once before the first input. See setup.cpp.
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
+
+namespace organ_collision {
+
+/// The bytes of an input, read from front to back. After the end, all bytes are 0.
+class FuzzInput {
+ public:
+  FuzzInput(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
+
+  bool empty() const { return left_ == 0; }
+  std::uint8_t byte() { return number<std::uint8_t>(); }
+
+  /// Any value of the type, also infinity and NaN.
+  template <typename Number>
+  Number number() {
+    Number number{};
+    const std::size_t size = std::min(sizeof(number), left_);
+    if (size > 0) std::memcpy(&number, data_, size);
+    skip(size);
+    return number;
+  }
+
+  /// At most `size` bytes.
+  std::string text(std::size_t size) {
+    const std::size_t taken = std::min(size, left_);
+    std::string text(reinterpret_cast<const char*>(data_), taken);
+    skip(taken);
+    return text;
+  }
+  std::string rest() { return text(left_); }
+
+  /// The next bytes, at most as many as two bytes before them say.
+  std::string sized_text() { return text(number<std::uint16_t>()); }
+
+ private:
+  void skip(std::size_t size) {
+    data_ += size;
+    left_ -= size;
+  }
+
+  const std::uint8_t* data_;
+  std::size_t left_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,336 @@
+#!/usr/bin/python3
+"""Writes the inputs in corpus/, with which fuzzing begins: small and legal ones, and a few that are broken.
+
+Usage: make_corpus.py [--check]
+Run it in the environment of the devel space. --check writes nothing; the exit code is 1 if a file is not as this
+script would write it. Files whose names begin with "found_" are findings of the past, which are kept by hand.
+"""
+
+import argparse
+import io
+import pathlib
+import struct
+import sys
+
+import genpy
+from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, TransformStamped, Vector3
+from organ_collision.msg import (Clearance, Contact, ContactArray, LinkMotion, OrganMesh, OrganVertices, ToolMotion)
+from organ_collision.srv import QueryCollisionBatchRequest, QueryCollisionRequest
+from pcl_msgs.msg import PolygonMesh, Vertices
+from sensor_msgs.msg import PointCloud2, PointField
+from shape_msgs.msg import Mesh, MeshTriangle
+from std_msgs.msg import Header
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker
+
+FOLDER = pathlib.Path(__file__).resolve().parent / 'corpus'
+TOOLS = FOLDER.parent.parent / 'data' / 'tools'
+
+SHEET = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]
+SHEET_FACES = [0, 1, 2, 0, 2, 3]
+SOLID = [0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1]
+SOLID_FACES = [0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3]
+
+
+def wire(message):
+    """A message as roscpp gets it, after its size in two bytes."""
+    data = io.BytesIO()
+    message.serialize(data)
+    return struct.pack('<H', len(data.getvalue())) + data.getvalue()
+
+
+def record(kind, message=None):
+    return bytes([kind]) + (wire(message) if message else b'')
+
+
+def header(seconds=1, frame='world'):
+    return Header(stamp=genpy.Time(seconds), frame_id=frame)
+
+
+def mesh(vertices=SHEET, faces=SHEET_FACES, topology=1, seconds=1, organ='liver'):
+    return OrganMesh(header(seconds), organ, topology, vertices, faces)
+
+
+def vertices(height, seconds, organ='liver'):
+    return OrganVertices(header(seconds), organ, 1, [c + height for c in SHEET])
+
+
+def transform(child, xyz, seconds=1, parent='world', turn=(0, 0, 0, 1)):
+    message = TransformStamped(header=header(seconds, parent), child_frame_id=child)
+    message.transform.translation = Vector3(*xyz)
+    message.transform.rotation = Quaternion(*turn)
+    return message
+
+
+def pose(xyz, seconds=1, frame='world', turn=(0, 0, 0, 1)):
+    return PoseStamped(header(seconds, frame), Pose(Point(*xyz), Quaternion(*turn)))
+
+
+def hook(height, seconds):
+    return TFMessage([transform('hook_trocar', (0, 0, 1), seconds), transform('hook_tip', (0.1, 0.2, height), seconds),
+                      transform('arm/wrist', (0.3, 0.2, height), seconds),
+                      transform('arm/jaw', (0.2, 0.2, height), seconds, turn=(0, 0.6, 0, 0.8))])
+
+
+def motion(end=-0.3, radius=0.01):
+    return ToolMotion(Point(0, 0, 1), Point(0.1, 0.2, 0.3), Point(0, 0, 1), Point(0.1, 0.2, end), radius)
+
+
+def link_motion(end=-0.3):
+    return LinkMotion(*[[Pose(Point(0.1, 0.2, z), Quaternion(0, 0, 0, 1))] * 2 for z in (0.3, end)])
+
+
+def feedback():
+    triangle = [1795.0, 3.0] + 3 * [1, 2, 0.25, 1, 1, 1, 1, 0.5, 0.125, 3, 2]
+    line = [1799.0] + 2 * [1, 2, 0.25, 1, 1, 1, 1, 0.5, 0.125, 4, 0]
+    point = [1793.0] + [1, 2, 0.25, 1, 1, 1, 1, 0.5, 0.125, 5, 0]
+    pack = lambda *floats: struct.pack('<%df' % len(floats), *floats)
+    return {'primitives': b'\0' + pack(*triangle, *line, *point),
+            'cut_off': b'\0' + pack(*triangle[:20]),
+            'without_count': b'\0' + pack(1795.0),
+            'huge_count': b'\0' + pack(1795.0, 1e9, 1, 2, 3),
+            'unknown_token': b'\0' + pack(7.0, *triangle),
+            'spare': b'\5' + pack(*triangle, *([0.0] * 5))}
+
+
+def organ_messages():
+    huge = bytearray(record(0, mesh()))
+    place = len(huge) - 4 * len(SHEET_FACES) - 4 - 4 * len(SHEET) - 4
+    huge[place:place + 4] = struct.pack('<I', 0x40000002)
+    return {'sheet': record(0, mesh()) + record(1, vertices(0.1, 2)),
+            'solid': record(0, mesh(SOLID, SOLID_FACES)),
+            'new_topology': record(0, mesh()) + record(0, mesh(SOLID, SOLID_FACES, 2)),
+            'removed': record(0, mesh()) + record(0, mesh([], [])) + record(1, vertices(0.1, 2)),
+            'wrong_index': record(0, mesh(faces=[0, 1, 4])),
+            'not_finite': record(0, mesh([float('nan')] + SHEET[1:])),
+            'far': record(0, mesh([3e38] + SHEET[1:])),
+            'huge_array': bytes(huge),
+            'late_stamp': record(0, OrganMesh(Header(stamp=genpy.Time(0xffffffff, 999999999), frame_id='world'),
+                                              'liver', 1, SHEET, SHEET_FACES))}
+
+
+def query_requests():
+    ask = lambda **more: QueryCollisionRequest(header=header(0, 'liver_frame'), organ='liver', **more)
+    batch = lambda **more: QueryCollisionBatchRequest(header=header(0, 'liver_frame'), organ='liver', **more)
+    return {'static': record(0, ask(motion=motion(), mode=0)),
+            'swept': record(0, ask(motion=motion(), mode=1, organ_motion=True, regions=True)),
+            'clearance': record(0, ask(motion=motion(0.2), mode=1, margin=0.5, clearance=True, max_near=5)),
+            'placement': record(0, ask(motion=motion(), mode=0, placement=True)),
+            'paper': record(0, ask(motion=motion(), mode=3)),
+            'naive': record(0, ask(motion=motion(), mode=4)),
+            'tool': record(0, ask(tool='hook', mode=1)),
+            'links': record(0, ask(tool='grasper', mode=1, link_motion=link_motion())),
+            'both': record(0, ask(tool='hook', mode=1, motion=motion(), link_motion=link_motion())),
+            'unknown_organ': record(0, QueryCollisionRequest(header=header(), organ='heart', motion=motion())),
+            'not_finite': record(0, ask(motion=motion(float('inf')), mode=1)),
+            'batch': record(1, batch(motions=[motion(), motion(0.2), motion(radius=0)], mode=1)),
+            'batch_of_tool': record(1, batch(tool='probe', motions=[motion(radius=0)] * 3, mode=1,
+                                             stop_at_first_contact=True)),
+            'batch_of_links': record(1, batch(tool='grasper', link_motions=[link_motion()] * 2, mode=1, clearance=True,
+                                              placement=True, margin=0.1)),
+            'large_batch': record(1, batch(motions=[motion()] * 51, mode=0))}
+
+
+def motion_messages():
+    return {'hook': record(0, hook(0.3, 1)) + record(0, hook(-0.3, 2)),
+            'static': record(1, hook(0.3, 0)),
+            'stylus': record(2, pose((0, 0, 0.1), 1, 'base')) + record(3, pose((1, 0, 0))) + record(
+                1, TFMessage([transform('stylus_trocar', (0, 0, 1), 0)])) + record(2, pose((0, 0, 0.2), 2, 'base')),
+            'loop': record(0, TFMessage([transform('hook_tip', (1, 0, 0), 1, 'hook_trocar'),
+                                         transform('hook_trocar', (1, 0, 0), 1, 'hook_tip')])),
+            'own_parent': record(0, TFMessage([transform('world', (1, 0, 0))])),
+            'no_rotation': record(0, TFMessage([transform('hook_tip', (1, 0, 0), turn=(0, 0, 0, 0))])),
+            'late': record(0, hook(0.3, 0xffffffff)) + record(0, hook(0.3, 1)),
+            'far': record(2, pose((1e300, 0, 0)))}
+
+
+def node_messages():
+    tick, later, reset = record(5), record(6) + b'\x40', record(7)
+    return {'touch': record(0, mesh()) + record(3, TFMessage([transform('hook_trocar', (0, 0, 1), 0)]))
+            + record(4, pose((0.1, 0.2, 0.3), 1)) + record(1, vertices(0.1, 2)) + record(4, pose((0.1, 0.2, -0.3), 3)),
+            'links': record(2, hook(0.3, 1)) + record(2, hook(-0.3, 2)) + record(0, mesh(seconds=1))
+            + record(1, vertices(0.0, 2)) + tick,
+            'without_tf': record(0, mesh()) + tick + reset,
+            'jump': record(0, mesh()) + record(2, hook(0.3, 1)) + later + record(1, vertices(0.0, 2)) + record(6)
+            + b'\x05' + tick,
+            'removed': record(2, hook(-0.3, 1)) + record(0, mesh()) + record(0, mesh([], [])) + tick}
+
+
+def haptic_proxy():
+    trocar = record(2, TFMessage([transform('stylus_trocar', (0, 0, 1))]))
+    hand = lambda height, seconds: record(3, pose((0.1, 0.2, height), seconds))
+    scene = record(0, mesh()) + trocar
+    return {'press': b'\0' + scene + b''.join(hand(0.03 - 0.02 * i, 1 + i) for i in range(4)),
+            'free': b'\1' + scene + b''.join(hand(0.03 - 0.02 * i, 1 + i) for i in range(4)),
+            'organ_moves': b'\0' + scene + hand(0.05, 1) + record(1, vertices(0.06, 2)) + hand(0.05, 3),
+            'jump': b'\0' + scene + hand(0.5, 1) + hand(-0.5, 2),
+            'solid': b'\0' + record(0, mesh(SOLID, SOLID_FACES)) + trocar + hand(0.5, 1) + hand(0.1, 2),
+            'no_organ': b'\0' + trocar + hand(0.1, 1)}
+
+
+def mesh_adapter():
+    points = [Point(*SHEET[i:i + 3]) for i in range(0, 12, 3)]
+    shape = Mesh([MeshTriangle(SHEET_FACES[i:i + 3]) for i in (0, 3)], points)
+    fields = [PointField(name, 4 * i, PointField.FLOAT32, 1) for i, name in enumerate('xyz')]
+    cloud = PointCloud2(header(), 1, 4, fields, False, 12, 48, struct.pack('<12f', *SHEET), True)
+    polygons = PolygonMesh(header(), cloud, [Vertices([0, 1, 2, 3])])
+    marker = Marker(header=header(), ns='organ', id=3, type=Marker.TRIANGLE_LIST, points=points[:3] + points[1:])
+    marker.scale = Vector3(1, 1, 1)
+    deletion = Marker(header=header(), ns='organ', id=3, action=Marker.DELETE)
+    doubles = [PointField(name, 8 * i + 4, PointField.FLOAT64, 1) for i, name in enumerate('zyx')]
+    big = PointCloud2(header(), 2, 2, doubles, True, 32, 64, bytes(128), True)
+    return {'shape': b'\1' + record(0, shape) * 2,
+            'polygons': b'\0' + record(1, polygons) + record(3, cloud),
+            'marker': b'\0' + record(2, marker) + record(2, deletion),
+            'doubles': b'\0' + record(1, polygons) + record(3, big),
+            'no_frame': b'\0' + record(0, shape),
+            'huge_width': b'\0' + record(1, polygons) + record(3, PointCloud2(
+                header(), 0xffffffff, 0xffffffff, fields, False, 12, 48, bytes(48), True))}
+
+
+def contact(face=0, normal=(0, 0, -1), depth=0.002, link=0):
+    return Contact(face=face, vertices=[0, 1, 2], link=link, fraction=0.5, point=Point(0.1, 0.2, 0),
+                   normal=Vector3(*normal), barycentric=[0.2, 0.3, 0.5], shaft=1.0, depth=depth,
+                   end_point=Point(0.1, 0.2, 0))
+
+
+def contact_adapter():
+    def answer(*contacts, mode=1, **more):
+        return ContactArray(header=header(), organ='liver', tool='hook', links=['', 'jaw'], mode=mode, topology=1,
+                            contacts=list(contacts), **more)
+    inside = ContactArray(header=header(), organ='liver', tool='hook', links=[''], mode=1, topology=1)
+    inside.placement.tip = 2
+    inside.clearance = Clearance(state=2, distance=0.01, vertices=[0, 1, 2], barycentric=[0.2, 0.3, 0.5],
+                                 normal=Vector3(0, 0, 1), normal_defined=True)
+    return {'deeper': record(1, answer(contact())) + record(1, answer(contact(depth=0.004))) + record(1, answer()),
+            'unknown_radius': record(0, answer(contact(), contact(1, (0, 0.6, -0.8)))),
+            'past': record(1, answer(contact(depth=0.008), mode=0)) + record(1, answer(contact(depth=0.012))) + record(
+                1, answer(contact(normal=(0, 0, 1), depth=0.008))),
+            'link': record(1, answer(contact(link=1), contact(1, link=1))),
+            'inside': record(1, inside) * 2,
+            'paper': record(1, answer(contact(), mode=2)),
+            'failed': record(1, answer(status=3, message='stale')),
+            'not_unit': record(1, answer(contact(normal=(0, 0, 2)))),
+            'deep': record(1, answer(contact(depth=1e300)))}
+
+
+def obj_file():
+    return {'sheet': b'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1/1 3//2 4/3/3\n',
+            'polygon': b'# quad\r\nv 0 0 0 1\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf -4 -3 -2 -1\r\n',
+            'no_face': b'v 0 0 0\n', 'empty': b'\n',
+            'huge_index': b'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n',
+            'not_finite': b'v nan 1e999 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'}
+
+
+HEAD = b'query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,tip_x,tip_y,tip_z,radius\n'
+
+
+def motion_file():
+    return {'modes': HEAD + b'1,static,0,0,1,,,,0.1,0.2,-0.1,0.01\n2,swept,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\n'
+            b'3,paper_static,0,0,1,,,,0.1,0.2,-0.1,0.01\n4,paper_swept,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\n'
+            b'5,paper_naive,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\n',
+            'names': b'b,swept,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\r\n\r\na,static,0,0,1,,,,1e5,-1e5,1e-300,1e5\r\n',
+            'twice': b'1,static,0,0,1,,,,0,0,0,1\n1,static,0,0,1,,,,0,0,0,1\n',
+            'columns': b'1,static,0,0,1\n', 'not_finite': b'1,static,nan,0,1,,,,inf,0,0,1\n',
+            'zero_length': b'1,swept,0,0,0,0,0,0,0,0,0,1e-300\n'}
+
+
+def urdf():
+    link = '<link name="%s"><collision><origin xyz="0.1 0 0" rpy="0 1.5 0"/><geometry>%s</geometry></collision></link>'
+    joint = '<joint name="%s" type="%s"><parent link="%s"/><child link="%s"/><axis xyz="0 0 1"/>%s</joint>'
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    robot = lambda *parts: ('<?xml version="1.0"?><robot name="r">%s</robot>' % ''.join(parts)).encode()
+    return {'chain': robot(link % ('shaft', '<cylinder radius="0.004" length="0.3"/>'),
+                           link % ('wrist', '<box size="0.02 0.04 0.06"/>'), link % ('tip', '<sphere radius="0.01"/>'),
+                           joint % ('a', 'revolute', 'shaft', 'wrist', limit), joint % ('b', 'fixed', 'wrist', 'tip', '')),
+            'mesh': robot(link % ('tip', '<mesh filename="package://organ_collision/no.stl" scale="1 1 1"/>')),
+            'loop': robot(link % ('tip', '<sphere radius="1"/>'), joint % ('a', 'fixed', 'tip', 'tip', '')),
+            'two_roots': robot('<link name="tip"/><link name="shaft"/>'),
+            'not_finite': robot(link % ('tip', '<sphere radius="nan"/>')),
+            'entities': b'<!DOCTYPE r [<!ENTITY a "b">]>' + robot('<link name="&a;&#0;&#x110000;"/>')}
+
+
+def robot_reply():
+    text = lambda kind, content: struct.pack('<QQ', kind, len(content)) + content
+    numbers = lambda *n: struct.pack('<%dd' % len(n), *n)
+    here = numbers(0.1, 0.2, 0.3, 0, 0, 0, 1)
+    joint = lambda content: struct.pack('<Q', len(content)) + content
+    shapes = [(0, here + numbers(0.01)), (1, here + numbers(0.01, 0.3)), (2, here + numbers(0.01, 0.02, 0.03)),
+              (3, text(4, b'abcd')[8:] + struct.pack('<Q', 4) + numbers(*SOLID) + struct.pack('<Q', 4)
+               + struct.pack('<12I', *SOLID_FACES))]
+    links = struct.pack('<QQ', 3, 1) + joint(b'jaw_joint') + struct.pack('<Q', len(shapes)) + b''.join(
+        struct.pack('<Q', kind) + shape for kind, shape in shapes)
+    return {'links': text(1, b"mesh 'a'") + links, 'refusal': text(2, b'no legal URDF'),
+            'cut_off': links[:-9], 'huge_list': struct.pack('<QQ', 1, 2**63), 'nothing': b'\0',
+            'huge_count': struct.pack('<QQ', 3, 2**62)}
+
+
+def tool_mesh():
+    files = [('jaw_ascii.stl', 0), ('jaw_binary.stl', 0), ('jaw.dae', 1), ('jaw.obj', 2), ('jaw_ascii.ply', 3),
+             ('jaw_binary.ply', 3), ('cut_off.ply', 3), ('wrong_index.ply', 3)]
+    return {name.replace('.', '_'): bytes([kind]) + (TOOLS / name).read_bytes() for name, kind in files}
+
+
+def parameters():
+    """Trees in the encoding of parameters_fuzz.cpp."""
+    names = ['tools', 'picker', 'rate', 'organ_motion']
+    index = {name: i for i, name in enumerate(names)}
+    index.update(name=20, trocar_frame=21, tip_frame=22, radius=25, links=26, urdf=28, max_force=34, stiffness=33,
+                 organs=45, topic=46)
+    text = lambda content: bytes([3, 8 * len(content) + 1]) + content
+    number = lambda value: b'\2' + struct.pack('<d', value)
+    group = lambda **members: bytes([6, len(members)]) + b''.join(
+        bytes([index[name]]) + value for name, value in members.items())
+    listed = lambda *values: bytes([5, len(values)]) + b''.join(values)
+    shaft = group(name=text(b'hook'), trocar_frame=text(b'a'), tip_frame=text(b'b'), radius=number(0.005))
+    links = group(name=text(b'jaw'), links=listed(text(b'tip')), urdf=text(b'/a'))
+    root = lambda **members: group(**members)[1:]
+    return {'tools': root(tools=listed(shaft, links), rate=number(30.0), organ_motion=b'\0\1'),
+            'forces': root(tools=listed(shaft), max_force=number(5.0), stiffness=number(300.0)),
+            'organs': root(organs=listed(group(name=text(b'liver'), topic=text(b'mesh')))),
+            'wrong_types': root(tools=number(1.0), rate=text(b'fast'), organs=listed(listed())),
+            'not_finite': root(tools=listed(shaft), rate=number(float('nan')), max_force=number(float('inf')))}
+
+
+def parameter_file():
+    hook = b'tools:\n  - {name: hook, trocar_frame: a, tip_frame: b, radius: 0.005}\n'
+    return {'node': hook + b'rate: 30.0\npicker: select\norgan_motion: true\n',
+            'tree': b'organ_collision:\n  tools:\n  - name: jaw\n    links: [tip]\nrobot_description: "<robot/>"\n',
+            'anchors': b'a: &a [x, y]\nb: &b [*a, *a]\nc: [*b, *b, *b]\n' + hook,
+            'own_member': b'a: &a {b: *a}\n', 'not_a_map': b'[1, 2]\n', 'tag': b'a: !!binary aGk=\n' + hook,
+            'no_tools': b'rate: .nan\n', 'broken': b'tools: [{name: "hook\n'}
+
+
+CORPORA = [contact_adapter, feedback, haptic_proxy, mesh_adapter, motion_file, motion_messages, node_messages, obj_file,
+           organ_messages, parameter_file, parameters, query_requests, robot_reply, tool_mesh, urdf]
+
+
+def files():
+    """The content of each file by its path."""
+    return {FOLDER / corpus.__name__ / name: content for corpus in CORPORA for name, content in corpus().items()}
+
+
+def check(expected):
+    """The paths that are not as they should be."""
+    present = {path for path in FOLDER.glob('*/*') if not path.name.startswith('found_')}
+    return sorted((present ^ set(expected)) | {path for path in present & set(expected)
+                                               if path.read_bytes() != expected[path]})
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
+    parser.add_argument('--check', action='store_true', help='write nothing, and compare')
+    expected = files()
+    if parser.parse_args().check:
+        wrong = check(expected)
+        for path in wrong:
+            print('%s: is not what make_corpus.py writes; run it without --check' % path)
+        return 1 if wrong else 0
+    for path, content in expected.items():
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(content)
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,141 @@
+// All topics of the node in any order: bytes from the wire, to the answers of steps. Kinds of
+// message: mesh, vertices, /tf, /tf_static, a pose of a tip, a tick, a later time, a reset.
+#include <ros/callback_queue.h>
+
+#include <boost/make_shared.hpp>
+
+#include "demand.hpp"
+#include "ros/inbox/inbox.hpp"
+#include "ros/motion/tool_poses.hpp"
+#include "ros/steps/step_scheduler.hpp"
+#include "ros/steps/step_workers.hpp"
+#include "test/ros/tools/hand_made_tools.hpp"
+#include "wire_message.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+std::vector<Tool> make_tools() {
+  std::vector<Tool> tools = {shaft_tool("hook", 0.01), grasper()};
+  tools[0].parameters.tip_pose_topic = "hook/pose";
+  tools[0].parameters.margin = 0.1;
+  tools[0].parameters.max_near = 2;
+  return tools;
+}
+
+NodeParameters make_parameters(const std::vector<Tool>& tools) {
+  NodeParameters parameters;
+  for (const Tool& tool : tools) parameters.tools.push_back(tool.parameters);
+  parameters.threads = 1;
+  parameters.max_faces = 100;
+  parameters.motion_samples_max = 10;
+  parameters.publish_regions = true;
+  return parameters;
+}
+
+void check(const ContactArray& answer) {
+  demand(answer.status != ContactArray::PICKER_FAILED, "no step fails");
+  demand(answer.status == ContactArray::OK || answer.contacts.empty(), "a failure has no contacts");
+  demand((answer.status == ContactArray::OK) == answer.message.empty(), "a failure has a message");
+  for (const Contact& contact : answer.contacts) {
+    demand(std::isfinite(contact.depth) && std::isfinite(contact.point.x), "contacts are finite");
+  }
+}
+
+/// The parts of CollisionPipeline. The workers are those of all inputs, because a new OpenGL
+/// context takes 25 ms. They remember nothing.
+class Node {
+ public:
+  Node() { go_to(50); }
+
+  void take(FuzzInput& input) {
+    switch (input.byte() % 8) {
+      case 0:
+        if (auto mesh = shared<OrganMesh>(input)) inbox_.organ_topics().take_mesh(mesh);
+        break;
+      case 1:
+        if (auto mesh = shared<OrganVertices>(input)) inbox_.organ_topics().take_vertices(mesh);
+        break;
+      case 2:
+        if (auto message = next_message<tf2_msgs::TFMessage>(input)) take(*message, false);
+        break;
+      case 3:
+        if (auto message = next_message<tf2_msgs::TFMessage>(input)) take(*message, true);
+        break;
+      case 4:
+        if (auto pose = next_message<geometry_msgs::PoseStamped>(input)) {
+          inbox_.pose_topics().take_tip(0, *pose);
+        }
+        break;
+      case 5:
+        steps_.add_tick();
+        break;
+      case 6:
+        go_to(input.byte());
+        break;
+      default:
+        inbox_.forget_organ_history();
+        steps_.reset();
+    }
+    while (const auto update = inbox_.organ_topics().next()) {
+      steps_.add(inbox_.organs(), *update, now_);
+    }
+    steps_.evaluate(inbox_.organs(), now_);
+  }
+
+  /// Answers what still waits for transforms.
+  void finish() {
+    while (const auto deadline = steps_.next_deadline()) {
+      demand(*deadline > now_, "what is due was evaluated");
+      now_ = *deadline;
+      steps_.evaluate(inbox_.organs(), now_);
+    }
+  }
+
+ private:
+  template <typename Message>
+  static boost::shared_ptr<const Message> shared(FuzzInput& input) {
+    const auto message = next_message<Message>(input);
+    return message ? boost::make_shared<const Message>(*message) : nullptr;
+  }
+  void take(const tf2_msgs::TFMessage& message, bool resting) {
+    inbox_.transform_topics().take(message, "fuzz", resting);
+  }
+  void go_to(std::uint32_t seconds) {
+    ros::Time::setNow(ros::Time(seconds, 0));
+    if (inbox_.watch_clock()) steps_.start_anew(inbox_.organs());
+  }
+  static const std::vector<Tool>& tools() {
+    static const std::vector<Tool> tools = make_tools();
+    return tools;
+  }
+  static const NodeParameters& parameters() {
+    static const NodeParameters parameters = make_parameters(tools());
+    return parameters;
+  }
+  static StepWorkers& workers() {
+    static StepWorkers workers(parameters());
+    return workers;
+  }
+
+  FailureLog rejected_;
+  ros::CallbackQueue callbacks_;
+  SteadyTime now_{std::chrono::hours(1)};
+  Inbox inbox_{parameters().max_faces,
+               parameters().tools,
+               {[this](std::size_t tool) { steps_.add_pose(tool); }, rejected_, callbacks_}};
+  ToolPoses poses_{inbox_.transforms(), {0.001, 10}};
+  StepScheduler steps_{parameters(), tools(), poses_, workers(),
+                       [](const EvaluatedStep& step) { check(*step.answer); }};
+};
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  Node node;
+  while (!input.empty()) node.take(input);
+  node.finish();
+  return 0;
+}

@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""Broken OBJ files give either a mesh or a MeshFileError."""
+
+import pathlib
+import random
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+from organ_collision.mesh_file_error import MeshFileError
+from organ_collision.obj_file import read_obj
+
+CORPUS = pathlib.Path(__file__).resolve().parent / 'corpus' / 'obj_file'
+MUTATIONS = 1000
+TOKENS = [b'-1', b'0', b'99999999999999999999', b'1e999', b'nan', b'/', b'//', b'#', b'\n', b'\r', b'f', b'v', b' ',
+          b'\0', b'\xff\xfe', b'_', b'1_0', '\u0663'.encode()]
+
+
+def mutated(content, generator):
+    """The content, changed in one to four places."""
+    content = bytearray(content)
+    for _ in range(generator.randint(1, 4)):
+        at = generator.randint(0, len(content))
+        end = min(len(content), at + generator.randint(0, 8))
+        content[at:end] = generator.choice([generator.choice(TOKENS), b'', content[at:end] * 2,
+                                            bytes([generator.randrange(256)])])
+    return bytes(content)
+
+
+class PythonFilesTest(unittest.TestCase):
+    def test_broken_obj_files(self):
+        generator = random.Random(1)
+        contents = [file.read_bytes() for file in sorted(CORPUS.iterdir())]
+        read = 0
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / 'organ.obj'
+            for number in range(MUTATIONS):
+                content = mutated(generator.choice(contents), generator)
+                path.write_bytes(content)
+                with self.subTest(content):
+                    try:
+                        vertices, faces = read_obj(str(path))
+                    except MeshFileError:
+                        continue
+                    read += 1
+                    self.assertTrue(not len(faces) or np.max(faces) < len(vertices))
+                    self.assertTrue(not len(faces) or np.min(faces) >= 0)
+        self.assertGreater(read, MUTATIONS // 10)
+
+
+if __name__ == '__main__':
+    sys.argv[1:] = []
+    unittest.main()
