@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "findings.hpp"
+#include "test/rostest/load/findings.hpp"
 
 namespace organ_collision::stress {
 

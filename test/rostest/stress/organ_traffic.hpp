@@ -5,7 +5,7 @@
 
 #include <cstddef>
 
-#include "sheet.hpp"
+#include "test/rostest/load/sheet.hpp"
 
 namespace organ_collision::stress {
 

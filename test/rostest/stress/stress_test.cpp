@@ -22,12 +22,12 @@
 #include <string>
 
 #include "clients.hpp"
-#include "findings.hpp"
 #include "moving_tools.hpp"
 #include "operator.hpp"
 #include "organ_traffic.hpp"
 #include "repeated.hpp"
 #include "simulated_clock.hpp"
+#include "test/rostest/load/findings.hpp"
 
 namespace organ_collision::stress {
 namespace {
@@ -85,11 +85,12 @@ class StressTest : public testing::Test {
  protected:
   StressTest() {
     spinner_.start();
-    contacts_ = node_.subscribe<ContactArray>("organ_collision/contacts", 1000,
-                                              [this](const ContactArrayConstPtr& answer) {
-                                                findings_.check("contacts", *answer);
-                                                answerers_.add(*answer);
-                                              });
+    using Event = ros::MessageEvent<const ContactArray>;
+    const boost::function<void(const Event&)> take = [this](const Event& event) {
+      findings_.check_step(*event.getConstMessage(), event.getPublisherName());
+      answerers_.add(*event.getConstMessage());
+    };
+    contacts_ = node_.subscribe<ContactArray>("organ_collision/contacts", 1000, take);
   }
 
   /// Starts what goes on during the whole test.

@@ -1,15 +1,24 @@
 #include "findings.hpp"
 
-#include "answer_check.hpp"
+#include "check_contacts/answer_rules.hpp"
 
 namespace organ_collision::stress {
 
 void Findings::check(const std::string& source, const ContactArray& answer) {
-  const std::string broken = broken_contract(answer);
+  const Faults faults = check_answer(answer);
   const std::lock_guard lock(mutex_);
+  count(source, answer, faults);
+}
+
+void Findings::check_step(const ContactArray& answer, const std::string& publisher) {
+  const std::lock_guard lock(mutex_);
+  count("contacts", answer, steps_.check(answer, publisher));
+}
+
+void Findings::count(const std::string& source, const ContactArray& answer, const Faults& faults) {
   ++checked_;
   answered_ += answer.status == ContactArray::OK;
-  if (!broken.empty()) sentences_.insert(source + ": " + broken);
+  for (const Fault& fault : faults.all()) sentences_.insert(source + ": " + fault.sentence);
 }
 
 void Findings::add(const std::string& sentence) {
