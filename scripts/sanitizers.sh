@@ -1,0 +1,44 @@
+# shellcheck shell=bash
+# What run_tests needs for tests under a sanitizer. It uses functions and variables of setup.sh.
+
+sanitizers=$repository/test/sanitizers
+
+# short_tests SANITIZER: prints the names of the few tests for .ci/run.
+short_tests() { awk -v sanitizer="$1" '$1 == sanitizer {print $2}' "$sanitizers/short.txt"; }
+
+# left_out_tests SANITIZER: prints a regular expression for the names of the tests that it leaves out.
+left_out_tests() {
+  awk -v sanitizer="$1" '
+    $1 == sanitizer || $1 == "both" {
+      gsub(/\./, "[.]", $2)
+      names = names (names ? "|" : "") "^" $2 "$|_" $2 "$"
+    }
+    END {print names}' "$sanitizers/left_out.txt"
+}
+
+# under_sanitizer SANITIZER COMMAND...: runs it, and prints what the sanitizer found. Fails if the command fails or if
+# there is anything.
+under_sanitizer() {
+  local sanitizer=$1 result=0 report log=$build/found
+  shift
+  rm -rf "$log"
+  mkdir -p "$log"
+  # A node that is reported ends with an error, but its test may not notice. The files tell of all programs.
+  export ASAN_OPTIONS="log_path=$log/report"
+  export LSAN_OPTIONS="suppressions=$sanitizers/leak.supp print_suppressions=0"
+  export UBSAN_OPTIONS="log_path=$log/report print_stacktrace=1"
+  # What libraries without checks do with memory is left out, because the sanitizer does not see how they synchronize.
+  export TSAN_OPTIONS="suppressions=$sanitizers/thread.supp ignore_noninstrumented_modules=1 history_size=4"
+  TSAN_OPTIONS+=" log_path=$log/report"
+  # /usr/bin/nodelet is built without a sanitizer, which must be loaded before our libraries.
+  export ORGAN_COLLISION_NODELET_PREFIX="env LD_PRELOAD=$(gcc -print-file-name="lib${sanitizer:0:1}san.so")"
+  # Without random addresses, because ThreadSanitizer needs some of them.
+  setarch --addr-no-randomize "$@" || result=1
+  for report in "$log"/report*; do
+    [ -e "$report" ] || continue
+    say "Found: $report"
+    cat "$report"
+    result=1
+  done
+  return $result
+}
