@@ -2,16 +2,28 @@
 # prefix may be moved.
 set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
 
-# Finds errors that tests cannot see: wrong use of memory, or of data that several threads share. The
-# libraries of others stay as they are; test/tsan_suppressions.txt lists what is known of them.
+# Finds errors that tests cannot see: wrong use of memory and undefined behaviour, or data that several
+# threads share. `./run_tests --sanitize` sets it. The libraries of others stay as they are; the files in
+# test/sanitizers list what is known of them.
 set(ORGAN_COLLISION_SANITIZE "" CACHE STRING "A sanitizer for all targets of the package: address, thread or none")
-set_property(CACHE ORGAN_COLLISION_SANITIZE PROPERTY STRINGS "" address thread)
-if(ORGAN_COLLISION_SANITIZE)
+set_property(CACHE ORGAN_COLLISION_SANITIZE PROPERTY STRINGS "" address thread fuzzer)
+if(ORGAN_COLLISION_SANITIZE STREQUAL fuzzer)
+  # What run_fuzz builds with clang. The code also counts its branches, for libFuzzer. Alignment is not checked,
+  # because roscpp reads numbers at any address.
+  set(checks fuzzer-no-link,address,undefined,float-cast-overflow)
+  add_compile_options(-fsanitize=${checks} -fno-sanitize=alignment -fno-sanitize-recover=all
+                      -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${checks})
+elseif(ORGAN_COLLISION_SANITIZE)
+  set(sanitizers ${ORGAN_COLLISION_SANITIZE})
+  if(sanitizers STREQUAL "address")
+    set(sanitizers address,undefined)
+  endif()
   # In code with checks in it, GCC 12 takes values for uninitialized that are not.
-  add_compile_options(-fsanitize=${ORGAN_COLLISION_SANITIZE} -fno-omit-frame-pointer -g1
+  add_compile_options(-fsanitize=${sanitizers} -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1
                       -Wno-maybe-uninitialized -Wno-uninitialized)
   # Inline functions of headers are in the libraries of others, too, without checks. Ours must call their own.
-  add_link_options(-fsanitize=${ORGAN_COLLISION_SANITIZE} -Wl,-Bsymbolic-functions)
+  add_link_options(-fsanitize=${sanitizers} -Wl,-Bsymbolic-functions)
 endif()
 
 # organ_collision_target(TARGET): sets the warnings that every target of the package is built with.

@@ -81,7 +81,9 @@ build_jobs() {
   echo "$cores"
 }
 
-# build_package CMAKE_OPTIONS...: builds in Release, into build/ and devel/.
+# Configures and builds in Release, into build/ and devel/. targets: what to build; nothing: all.
+targets=()
+# build_package CMAKE_OPTIONS...
 build_package() {
   local folder stranger
   for folder in "$build" "$devel"; do
@@ -92,7 +94,7 @@ build_package() {
   use_ros
   say "Building in $build"
   cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release "$@"
-  cmake --build "$build" --parallel "$(build_jobs)"
+  cmake --build "$build" --parallel "$(build_jobs)" ${targets:+--target "${targets[@]}"}
 }
 
 # Loads the ROS of /opt/ros if there is one. Debian's own ROS packages need no setup.

@@ -19,7 +19,7 @@ SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) 
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'proxy_proof', 'paper_misses', 'stab_forces',
                'collision_benchmark', 'force_benchmark', 'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches',
-               'motions_benchmark')
+               'motions_benchmark', 'soak_simulator', 'soak_judge', '_fuzz')
 # The page of each node. Its tables, in this order, are of topics, services and parameters.
 PAGES = {'organ_collision_node': 'doc/interface.md', 'contact_adapter': 'doc/forces.md',
          'organ_mesh_adapter': 'doc/meshes.md', 'haptic_proxy': 'doc/haptic_interface.md'}
@@ -74,7 +74,7 @@ class HelpTest(unittest.TestCase):
                     self.assertRegex(done.stdout.lower(), r'\A\s*usage')
 
     def test_an_unknown_option_is_refused(self):
-        for name in [*PAGES, 'liver_simulator', 'demo_report', 'robot_reader']:
+        for name in [*PAGES, 'liver_simulator', 'demo_report', 'robot_reader', 'check_contacts']:
             done = run(program(name), '--no-such-option')
             with self.subTest(program=name):
                 self.assertEqual((done.returncode, done.stdout), (2, ''))

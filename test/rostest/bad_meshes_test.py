@@ -11,6 +11,7 @@ import rostest
 
 from support import oracle, scenes
 from support.contact_case import ContactCase
+from support.contract import KeepsContract
 from support.node_client import NodeClient, shaft, wait_until
 
 NAN, INFINITY = float('nan'), float('inf')
@@ -19,7 +20,7 @@ AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
 GOOD = rospy.Time(5)
 
 
-class BadMeshesTest(ContactCase):
+class BadMeshesTest(KeepsContract, ContactCase):
     @classmethod
     def setUpClass(cls):
         cls.node = NodeClient()

@@ -11,6 +11,7 @@ import rostest
 
 from support import clearance_oracle, oracle, scenes
 from support.contact_case import faces_of, xyz
+from support.contract import KeepsContract
 from support.node_client import shaft
 from support.tool_case import ToolCase
 from support.vectors import length, lerp, scaled, sub
@@ -28,7 +29,7 @@ BELOW = ((0.02, -0.03, 0.3), (0.004, -0.003, -0.04))
 FAR = ((0.3, 0.3, 0.3), (0.25, 0.3, 0.2))
 
 
-class ClearanceTest(ToolCase):
+class ClearanceTest(KeepsContract, ToolCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()

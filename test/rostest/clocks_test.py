@@ -9,6 +9,7 @@ import rospy
 import rostest
 
 from support import oracle
+from support.contract import KeepsContract
 from support.node_client import NodeClient
 from support.tool_case import ToolCase
 from support.tool_over_sheet import RADIUS, SHEET, at_height
@@ -18,7 +19,7 @@ PERIOD = rospy.Duration(0, 10_000_000)  # of poses
 SPEED = 0.2  # [m/s] of the tool, downwards
 
 
-class ClocksTest(ToolCase):
+class ClocksTest(KeepsContract, ToolCase):
     def true_axis(self, stamp):
         """The tool on its way down. It touches the sheet at `self.touch`."""
         return at_height(RADIUS - SPEED * (stamp - self.touch).to_sec())

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Sends hundreds of random messages and requests with a fixed seed, most of them malformed. The
-node must survive, and answers about a good organ must stay the same."""
+"""Sends random messages and requests with a fixed seed, most of them malformed: three in each of ~rounds rounds. The
+node must survive, and answers about a good organ must stay the same. ~process: of the nodelet, if it is one."""
 
 import random
 import sys
@@ -12,6 +12,7 @@ import rostest
 
 from support import oracle, scenes
 from support.contact_case import ContactCase
+from support.contract import KeepsContract
 from support.node_client import NodeClient, TfSender, shaft, wait_until
 
 SHEET = scenes.sheet(0.1, 4)
@@ -32,10 +33,10 @@ ODD = [
 ]
 
 
-class FuzzTest(ContactCase):
+class FuzzTest(KeepsContract, ContactCase):
     @classmethod
     def setUpClass(cls):
-        cls.node = NodeClient()
+        cls.node = NodeClient(process=rospy.get_param('~process', None))
         cls.rng = random.Random(4711)
         cls.tf = TfSender()
         cls.tf.wait_for(cls.node)
@@ -113,7 +114,7 @@ class FuzzTest(ContactCase):
     def test_the_node_lives_and_the_good_organ_answers(self):
         expected = oracle.static_contacts(SHEET, AXIS, 0.005)
         statuses = set()
-        for i in range(600):
+        for i in range(rospy.get_param('~rounds', 600)):
             self.node.meshes.publish(self.mesh())
             self.node.shapes.publish(self.moved())
             result = self.query()

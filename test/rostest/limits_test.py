@@ -1,17 +1,22 @@
 #!/usr/bin/python3
 """Names and batches of any size. If one is too large, it is refused, and the answer is small and
-says what is legal."""
+says what is legal. Damaged messages, whose arrays are larger than the message."""
 
 import io
+import struct
 import sys
+import xmlrpc.client
 
-from organ_collision.msg import ContactArray
+from organ_collision.msg import ContactArray, OrganMesh
+from organ_collision.srv import QueryCollisionBatchRequest
+import rosgraph
 import rospy
 from rosgraph_msgs.msg import Log
 import rostest
 
 from support import oracle, scenes
 from support.contact_case import ContactCase
+from support.contract import KeepsContract
 from support.node_client import NodeClient, TfSender, shaft, wait_until
 
 SHEET = scenes.sheet(0.1, 4)
@@ -19,6 +24,9 @@ AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
 GOOD = rospy.Time(5)
 HUGE = 'x' * 10**7
 ILLEGAL = (HUGE, 'a\nb', '\x1b[31m')
+# [items] In 32 bits, these are 8 bytes of floats.
+DAMAGED_COUNT = 0x40000002
+PEAK = 2 * 1024**2  # [kB] of the node's memory; the array of a damaged message would take 4 GiB
 SMALL = 4000  # [bytes] more than the longest names and the longest message together
 
 
@@ -28,7 +36,33 @@ def size(message):
     return len(buffer.getvalue())
 
 
-class LimitsTest(ContactCase):
+class DamagedMesh(OrganMesh):
+    """Has vertices without end, as it says."""
+
+    def serialize(self, buff):
+        self.header.serialize(buff)
+        name = self.organ.encode()
+        buff.write(struct.pack('<I%dsII2fI' % len(name), len(name), name, 1, DAMAGED_COUNT, 0, 0, 0))
+
+
+class DamagedBatch(QueryCollisionBatchRequest):
+    """Has motions without end, as it says."""
+
+    def serialize(self, buff):
+        self.header.serialize(buff)
+        name = self.organ.encode()
+        buff.write(struct.pack('<I%dsI' % len(name), len(name), name, 20 * 10**6) + bytes(1000))
+
+
+def peak_memory(node):
+    """[kB] The most memory that a node of this machine has had."""
+    address = rosgraph.Master('/limits_test').lookupNode(node)
+    pid = xmlrpc.client.ServerProxy(address).getPid('/limits_test')[2]
+    with open('/proc/%d/status' % pid) as lines:
+        return int(next(line for line in lines if line.startswith('VmHWM')).split()[1])
+
+
+class LimitsTest(KeepsContract, ContactCase):
     @classmethod
     def setUpClass(cls):
         cls.node = NodeClient()
@@ -124,6 +158,20 @@ class LimitsTest(ContactCase):
         answer = self.node.answer_batch('good', [through_all] * 30)
         self.assert_refused(answer, 'first %d of 30' % (fit + 1), '100000', 'max_batch_bytes')
         self.assertEqual(answer.results, [])
+
+    def test_damaged_messages(self):
+        self.node.meshes.publish(DamagedMesh(organ='damaged'))
+        wait_until(
+            lambda: [m for m in self.log if 'are no organ_collision/OrganMesh' in m.msg],
+            'the damaged mesh in the log',
+        )
+        with self.assertRaises(rospy.ServiceException):
+            self.node.batch_service(DamagedBatch(organ='good'))
+        # The node goes on.
+        motion = shaft(*AXIS, 0.005)
+        self.assertEqual(self.node.query('damaged', motion).status, ContactArray.UNKNOWN_ORGAN)
+        self.assertEqual(self.node.answer_batch('good', [motion]).status, ContactArray.OK)
+        self.assertLess(peak_memory('/organ_collision'), PEAK)
 
 
 if __name__ == '__main__':

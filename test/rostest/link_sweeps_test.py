@@ -12,6 +12,7 @@ import rostest
 
 from support import oracle, scenes
 from support.contact_case import xyz
+from support.contract import KeepsContract
 from support.link_case import LinkCase, ball_contacts
 from support.rigid_mesh import RigidMesh
 from support.tool_case import WORLD_LIVER
@@ -87,7 +88,7 @@ OVER = Swing((0.003, 0.007, -0.035), (0, 150), (0.2, 140), (0.45, 95), (0.7, 60)
 UP = Swing((-0.02, 0.007, 0.002), (0, -65), (0.3, -40), (0.6, 5), (0.8, 30), (1, 60))
 
 
-class LinkSweepsTest(LinkCase):
+class LinkSweepsTest(KeepsContract, LinkCase):
     link_frames = {'hook': ('hook_trocar', 'hook_tip', 'hook/ball')}
 
     def send(self, tool, swing, begin, end):

@@ -12,6 +12,7 @@ import rostest
 from std_srvs.srv import Trigger
 
 from support import scenes
+from support.contract import KeepsContract
 from support.node_client import LIMIT, TfSender, is_heard, wait_until
 from support.tool_case import ToolCase
 
@@ -40,7 +41,7 @@ def at_height(height):
     return ((0.013, 0.007, 0.4), (0.013, 0.007, height))
 
 
-class LiveChangesTest(ToolCase):
+class LiveChangesTest(KeepsContract, ToolCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()

@@ -13,6 +13,7 @@ import rostest
 
 from support import scenes
 from support.contact_case import ContactCase, xyz
+from support.contract import KeepsContract
 from support.node_client import FAR_AWAY, LIMIT, NodeClient, shaft, wait_until
 
 KIDNEY = scenes.box((0.12, 0.09, 0.06)).moved(lambda v: (v[0] + 0.3, v[1], v[2] - 0.2))
@@ -28,7 +29,7 @@ REFUSED = scenes.Mesh(KIDNEY.vertices, KIDNEY.faces + [(0, 1, 77)])
 NOT_FINITE = KIDNEY.moved(lambda v: (v[0], v[1], float('nan')))
 
 
-class OrgansTest(ContactCase):
+class OrgansTest(KeepsContract, ContactCase):
     @classmethod
     def setUpClass(cls):
         cls.node = NodeClient()
@@ -63,6 +64,7 @@ class OrgansTest(ContactCase):
         self.organ = self.id().split('.')[-1]
 
     def tearDown(self):
+        super().tearDown()
         self.remove_service(self.organ)
 
     def send(self, mesh, **named):

@@ -11,6 +11,7 @@ import rostest
 
 from support import scenes, side_oracle
 from support.contact_case import xyz
+from support.contract import KeepsContract
 from support.link_case import LinkCase
 from support.node_client import shaft, wait_until
 
@@ -53,7 +54,7 @@ OPEN = scenes.Mesh(TETRAHEDRON.vertices, TETRAHEDRON.faces[:3])
 CENTRE = (0.0013, -0.0021, 0.0017)  # [m] inside the tetrahedron
 
 
-class PlacementTest(LinkCase):
+class PlacementTest(KeepsContract, LinkCase):
     link_frames = {
         'ball': ('ball',),
         'tipped': ('ball', 'tipped_tip'),

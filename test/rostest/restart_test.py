@@ -12,6 +12,7 @@ import rostest
 
 from support import scenes
 from support.contact_case import ContactCase
+from support.contract import KeepsContract
 from support.node_client import NodeClient, TfSender
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
@@ -19,7 +20,7 @@ SIMULATOR = os.path.join(os.path.dirname(os.path.abspath(__file__)), 'organ_simu
 TIP = (0.013, 0.007, 0.0)
 
 
-class RestartTest(ContactCase):
+class RestartTest(KeepsContract, ContactCase):
     @classmethod
     def setUpClass(cls):
         cls.node = NodeClient()

@@ -3,9 +3,11 @@
 it accepts a latched mesh that is older than itself."""
 
 import copy
+import os
 import sys
 
 from organ_collision.msg import ContactArray, OrganMesh
+import roslib.packages
 import rospy
 import rostest
 
@@ -29,7 +31,8 @@ ILLEGAL = [
     ({'tools': 3}, ['tools', '3', 'list']),
     ({'tools': ['grasper']}, ['tools', 'grasper']),
     ({'picker': 'raytrace'}, ['picker', 'raytrace', 'feedback', 'select']),
-    ({'picker': 7}, ['picker', '7', 'feedback', 'select']),
+    ({'picker': 7}, ['picker', '7', 'feedback', 'select', 'cpu']),
+    ({'gl': 'glx'}, ['gl', 'glx', 'auto', 'osmesa', 'egl']),
     ({'rate': -1.5}, ['rate', '-1.5', '0']),
     ({'rate': 'fast'}, ['rate', 'fast', 'number']),
     ({'rate': float('nan')}, ['rate', 'nan', '0']),
@@ -140,6 +143,38 @@ class StartTest(ContactCase, NodeStarter):
         node.send_mesh('sheet', SHEET, rospy.Time(1))  # 32 faces
         node.wait_for_shape('sheet', rospy.Time(1))
         self.stop(process)
+
+    def without(self, libraries):
+        """The words of a command that runs a node where these GL libraries are missing: files that
+        are no libraries come first."""
+        return ['env', 'LD_LIBRARY_PATH=%s:%s' % (
+            os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl', libraries),
+            os.environ.get('LD_LIBRARY_PATH', ''))]
+
+    def assert_finds_contacts(self):
+        node = NodeClient(self.name)
+        node.send_mesh('sheet', SHEET, rospy.Time(1))
+        node.wait_for_shape('sheet', rospy.Time(1))
+        axis = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+        self.assert_contacts(
+            node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(SHEET, axis, 0.005)
+        )
+
+    def test_without_osmesa_there_is_egl(self):
+        process = self.start(self.name, {'tools': [TOOL]}, through=self.without('osmesa'))
+        self.assert_finds_contacts()
+        self.assertIn('on EGL', self.stop(process))
+
+    def test_without_any_opengl_it_stops_and_names_the_way_out(self):
+        process = self.start(self.name, {'tools': [TOOL]}, through=self.without('osmesa_egl'))
+        self.assert_refused(process, ['libOSMesa.so.8', 'libEGL.so.1', 'picker: cpu'])
+
+    def test_without_any_opengl_the_cpu_picks(self):
+        process = self.start(
+            self.name, {'tools': [TOOL], 'picker': 'cpu'}, through=self.without('osmesa_egl')
+        )
+        self.assert_finds_contacts()
+        self.assertIn('GL none', self.stop(process))
 
     def test_a_latched_mesh_waits_for_the_node(self):
         """The organ is sent once, before the node starts. The node starts, is killed, and starts

@@ -9,6 +9,7 @@ import rostest
 
 from support import oracle, scenes
 from support.contact_case import faces_of
+from support.contract import KeepsContract
 from support.node_client import wait_until
 from support.tool_case import ToolCase
 
@@ -20,7 +21,7 @@ ASIDE = ((0.3, 0.3, 0.3), (0.25, 0.3, 0.2))
 GRASPER, HOOK = 0.005, 0.003
 
 
-class StepsTest(ToolCase):
+class StepsTest(KeepsContract, ToolCase):
     def test_a_stab_through_a_sheet(self):
         """The first step is static, the second is swept through the sheet, and the later ones are
         past it and clear of it."""
