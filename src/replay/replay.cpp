@@ -93,6 +93,7 @@ void Replay::take(const rosbag::MessageInstance& message) {
   }
   const auto [first, last] = handlers_.equal_range(message.getTopic());
   for (auto handler = first; handler != last; ++handler) handler->second(message);
+  pipeline_.watch_clock();
   // A shape whose time ends now may still get its transform from another message of this time.
   pipeline_.evaluate(steady(now_) - std::chrono::nanoseconds(1));
 }

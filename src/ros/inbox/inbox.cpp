@@ -23,11 +23,13 @@ bool Inbox::watch_clock() {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
     transforms_.clear({last_now_, now});
-    pose_topics_.forget_stamps();
   }
   last_now_ = now;
   const bool starts_anew = transforms_.has_started_anew() || jumped_back;
-  if (starts_anew) forget_organ_history();
+  if (starts_anew) {
+    pose_topics_.forget_stamps();
+    forget_organ_history();
+  }
   return starts_anew;
 }
 

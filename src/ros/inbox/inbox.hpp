@@ -41,8 +41,8 @@ class Inbox {
 
   /// Compares ROS time with that of the last call. If it jumped back, forgets all transforms and
   /// the organs' history, and returns true. The same if transforms that came behind such a jump
-  /// were still of the time before. Call it before each message, so that no message meets state
-  /// from before the jump.
+  /// turned out to be of the time before, or to have a gap. Call it before and after each message,
+  /// so that no message and no step meets state from before the jump.
   bool watch_clock();
   /// Forgets all that is known of the past of the organs.
   void forget_organ_history();

@@ -136,12 +136,12 @@ void PoseTopics::subscribe(Stream& stream, ros::NodeHandle node) {
 
 void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   Stream& stream = *streams_[tool];
+  if (!sinks_.transforms.admit(stream.tool.tip_frame, pose.header.stamp)) {
+    return reject(stream.tool.tip_frame, "has a stamp of the time before the clock jumped back");
+  }
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
-  if (!sinks_.transforms.admit(stream.tool.tip_frame, stamp)) {
-    return reject(stream.tool.tip_frame, "has a stamp of the time before the clock jumped back");
-  }
   // Several poses may arrive within one tick of simulated time. Each gets a different stamp.
   if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
   if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {

@@ -8,32 +8,50 @@ namespace {
 
 // [s]
 constexpr double kArrival = 2.0;
-/// Legal stamps may be ahead of a /clock that ticks rarely.
-constexpr double kAhead = 0.1;
+/// Legal stamps are ahead of a /clock that ticks rarely.
+constexpr double kMostAhead = 0.25;
+/// Clocks of several hosts differ by less.
+constexpr double kShortestJump = 0.02;
 
 }  // namespace
 
 void StampOrder::add(const ClockJump& jump) {
-  era_ = Era::kUnknown;
-  arrived_ = jump.to.toSec() + kArrival;
-  ahead_ = std::min(0.5 * (jump.from.toSec() - jump.to.toSec()), kAhead);
+  const double from = jump.from.toSec(), to = jump.to.toSec();
+  if (from - to < kShortestJump) return;
+  const double middle = 0.5 * (from + to);
+  // The transforms may have come before the /clock that goes with them.
+  const bool has_stepped_back = std::exchange(stepped_from_, 0.0) > middle && latest_ < middle;
+  era_ = has_stepped_back ? Era::kNow : Era::kUnknown;
+  most_ahead_ = std::min(middle - to, kMostAhead);
+  has_begun_ = false;
 }
 
 StampOrder::Verdict StampOrder::judge(ros::Time stamp, ros::Time now) {
+  const double ahead = stamp.toSec() - now.toSec();
   const double before = std::exchange(latest_, stamp.toSec());
-  const double ahead_of_clock = latest_ - now.toSec();
-  const bool has_all_arrived = now.toSec() >= arrived_;
-  const bool steps_back = !has_all_arrived && latest_ < before - ahead_;
+  const bool back = steps_back(before, ahead);
+  was_ahead_ = ahead > 0.0;
+  if (era_ == Era::kNow) {
+    if (latest_ < before) stepped_from_ = before;
+    return Verdict::kTake;
+  }
+  if (!std::exchange(has_begun_, true)) settled_ = now.toSec() + kArrival;
   const bool was_refused = era_ == Era::kBeforeJump;
-  if (steps_back || has_all_arrived) {
+  if (back || now.toSec() >= settled_) {
     era_ = Era::kNow;
-  } else if (era_ == Era::kUnknown && ahead_of_clock > ahead_) {
+  } else if (ahead > most_ahead_) {
     era_ = Era::kBeforeJump;
-  } else if (was_refused && ahead_of_clock <= 0.0) {
+  } else if (ahead <= 0.0) {
     era_ = Era::kUnknown;
   }
   if (era_ == Era::kBeforeJump) return Verdict::kRefuse;
-  return steps_back || was_refused ? Verdict::kTakeAnew : Verdict::kTake;
+  return back || was_refused ? Verdict::kTakeAnew : Verdict::kTake;
+}
+
+/// Whether the stamps step back to the time of the clock. By how much does not matter if the one
+/// before was ahead of the clock.
+bool StampOrder::steps_back(double before, double ahead) const {
+  return ahead <= most_ahead_ && latest_ < before - (was_ahead_ ? 0.0 : most_ahead_);
 }
 
 }  // namespace organ_collision

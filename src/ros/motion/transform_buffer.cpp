@@ -55,7 +55,10 @@ void TransformBuffer::clear(const ClockJump& jump) {
 
 bool TransformBuffer::admit(const std::string& frame, ros::Time stamp) {
   using Verdict = StampOrder::Verdict;
-  Frame& known = frames_[index_of(tf_frame(frame))];
+  const std::string name = tf_frame(frame);
+  // Without a jump, a frame is known only when tf2 has taken a transform of it.
+  if (stamp.isZero() || (!jump_ && indices_.count(name) == 0)) return true;
+  Frame& known = frames_[index_of(name)];
   const Verdict verdict = known.order.judge(stamp, ros::Time::now());
   if (verdict == Verdict::kTakeAnew && !known.stamps.empty()) {
     clear();

@@ -30,9 +30,9 @@ class TransformBuffer : public tf2::BufferCore {
   void clear();
   /// The same, because the clock jumped back.
   void clear(const ClockJump& jump);
-  /// Whether a transform that is not static may be added; false: its stamp is of the time before
-  /// the clock jumped back. Call it once for each, in the order in which they come. Behind such
-  /// stamps it may forget all transforms once more (stamp_order.hpp).
+  /// Whether a transform that is not static may be added; false: its stamp seems to be of the time
+  /// before the clock jumped back. Call it once for each, in the order in which they come. Behind
+  /// such stamps it may forget all transforms once more (stamp_order.hpp).
   bool admit(const std::string& frame, ros::Time stamp);
   /// Whether admit() has forgotten all transforms since the last call.
   bool has_started_anew() { return std::exchange(has_started_anew_, false); }

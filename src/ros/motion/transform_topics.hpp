@@ -29,6 +29,7 @@ class TransformTopics {
 
   TransformBuffer& buffer_;
   FailureLog& rejected_;
+  std::vector<char> admitted_;  ///< by transform of one message
   std::vector<ros::Subscriber> subscribers_;
 };
 

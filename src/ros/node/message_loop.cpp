@@ -33,7 +33,6 @@ void MessageLoop::receive(std::optional<SteadyTime> deadline) {
   }
   // A transform may be among the callbacks that are left. The time that they take does not count.
   heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
-  actions_.watch_clock();
 }
 
 /// How long to wait for the first callback.
@@ -50,6 +49,7 @@ bool MessageLoop::call_one(ros::WallDuration wait) {
   actions_.watch_clock();
   bool called = true;
   guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
+  actions_.watch_clock();
   guard([this] { actions_.handle(clock_.now()); });
   return called;
 }

@@ -17,7 +17,7 @@ class MessageLoop {
  public:
   /// What the node does around the callbacks.
   struct Actions {
-    std::function<void()> watch_clock;           ///< before each callback, and after a batch
+    std::function<void()> watch_clock;           ///< before and after each callback
     std::function<void(SteadyTime now)> handle;  ///< after each callback; `now`: of now()
   };
 
