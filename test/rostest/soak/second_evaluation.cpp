@@ -12,7 +12,12 @@ namespace {
 
 using oracle::ToolStep;
 
-constexpr double kTolerance = 1e-7;  // [m]
+// [m]
+constexpr double kTolerance = 1e-7;
+/// The node leaves out poses that change the way of a link by at most 1e-6 m (PathBuilder).
+constexpr double kLinkTolerance = kTolerance + 1e-6;
+/// What the search for contacts leaves undecided.
+constexpr double kUndecided = 1e-8;
 constexpr Tick kLongest = 50;
 /// [m] Nothing of a tool is farther than this from its axis or from the origin of its link.
 constexpr double kShaftReach = 3e-3, kJawReach = 11e-3;
@@ -24,13 +29,16 @@ struct ToolShape {
   double radius = 0.0;  ///< [m] of the shaft; 0: there is none
   Eigen::Vector3d trocar = Eigen::Vector3d::Zero();
   std::vector<Link> links = {};
+
+  double tolerance() const { return links.empty() ? kTolerance : kLinkTolerance; }
 };
 
-ToolShape shape_of(const std::string& tool) {
-  if (tool == "probe") return {2e-3, stress::kProbeTrocar};
-  if (tool == "needle") return {1e-3, stress::kNeedleTrocar};
-  if (tool == "stylus") return {1.5e-3, stress::kStylusTrocar};
-  const Eigen::Vector3d size(0.004, 0.003, 0.02);
+/// `smaller`: by how much its surface lies further inside [m].
+ToolShape shape_of(const std::string& tool, double smaller = 0.0) {
+  if (tool == "probe") return {2e-3 - smaller, stress::kProbeTrocar};
+  if (tool == "needle") return {1e-3 - smaller, stress::kNeedleTrocar};
+  if (tool == "stylus") return {1.5e-3 - smaller, stress::kStylusTrocar};
+  const Eigen::Vector3d size = Eigen::Vector3d(0.004, 0.003, 0.02).array() - 2.0 * smaller;
   return {0.0, {}, {{"jaw", {LinkPart::box(Eigen::Isometry3d::Identity(), size)}}}};
 }
 
@@ -139,7 +147,7 @@ std::string wrong_contacts(const Script& script, const AnsweredStep& step) {
     const std::vector<std::size_t> faces(touched.begin(), touched.end());
     const ToolStep contacts = shapes.step(faces, path, tool);
     for (std::size_t i = 0; i < faces.size(); ++i) {  // One link: one contact for each face.
-      if (!is_within(contacts, i, answer.contacts[i].fraction, kTolerance)) {
+      if (!is_within(contacts, i, answer.contacts[i].fraction, tool.tolerance())) {
         return "a contact does not touch";
       }
     }
@@ -152,8 +160,9 @@ std::string wrong_contacts(const Script& script, const AnsweredStep& step) {
   }
   if (near.empty()) return "";
   double closest = INFINITY;
-  if (stays_above(shapes.step(near, path, tool), -kTolerance, closest)) return "";
-  return closest < -kTolerance ? "a touched face has no contact" : "";
+  const ToolShape inside = shape_of(answer.tool, tool.tolerance());
+  if (stays_above(shapes.step(near, path, inside), kUndecided, closest)) return "";
+  return closest < kUndecided ? "a touched face has no contact" : "";
 }
 
 }  // namespace organ_collision::soak

@@ -22,7 +22,7 @@ std::string why_not_checkable(const Script& script, const AnsweredStep& step);
 /// What is wrong with the contacts of an answer; empty: nothing. The oracle of test/proof evaluates
 /// the step again, from the script alone: each contact touches at its time, and no other face comes
 /// within the tool at any time of the step. Both by exact distances or by a search that bounds
-/// them; up to 1e-7 m.
+/// them; up to 1e-7 m for shafts, and 1.1e-6 m for links.
 std::string wrong_contacts(const Script& script, const AnsweredStep& step);
 
 }  // namespace organ_collision::soak
