@@ -149,6 +149,10 @@ int main(int argc, char** argv) {
     std::signal(signal, fail);
   }
   const std::filesystem::path place = argv[1];
+  if (!std::filesystem::exists(place)) {
+    std::cerr << place << " does not exist\n";
+    return 2;
+  }
   const std::vector<Input> corpus =
       std::filesystem::is_directory(place) ? read_corpus(place) : std::vector<Input>{read(place)};
   if (corpus.empty()) {

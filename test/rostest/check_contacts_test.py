@@ -27,12 +27,15 @@ def good(fraction=0.5):
     return answer
 
 
+def program():
+    return roslib.packages.find_node('organ_collision', 'check_contacts')[0]
+
+
 class CheckContactsTest(NodeStarter):
     def start_watching(self, *topics):
-        path = roslib.packages.find_node('organ_collision', 'check_contacts')[0]
         publishers = [rospy.Publisher(topic, ContactArray, queue_size=10) for topic in topics]
         process = subprocess.Popen(
-            [path, '__name:=' + NODE.strip('/'), *topics],
+            [program(), '__name:=' + NODE.strip('/'), *topics],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             universal_newlines=True,
@@ -81,7 +84,7 @@ class CheckContactsTest(NodeStarter):
     def test_it_ends_by_itself(self):
         done = subprocess.run(
             # This test has the name that the program has by default.
-            ['rosrun', 'organ_collision', 'check_contacts', '/e/contacts', '--seconds', '0.2', '__name:=ending'],
+            [program(), '/e/contacts', '--seconds', '0.2', '__name:=ending'],
             timeout=LIMIT,
         )
         self.assertEqual(done.returncode, 3)

@@ -47,7 +47,8 @@ class CollisionPipeline {
   PoseTopics& pose_topics() { return inbox_.pose_topics(); }
 
   /// Compares ROS time with that of the last call. If it jumped back, forgets all history. Call it
-  /// before and after each message, so that no message and no step meets state from before the jump.
+  /// before and after each message, so that no message and no step meets state from before the
+  /// jump.
   void watch_clock();
   /// Applies the organ messages that can be applied now. Their shapes become due.
   void apply_organ_messages(SteadyTime now);

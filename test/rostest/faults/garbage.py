@@ -27,7 +27,7 @@ def length(rng):
 
 
 def noise(rng):
-    return rng.randbytes(rng.choice([0, 1, 3, 4, 5, 30, 300, 2000]))
+    return bytes(rng.getrandbits(8) for _ in range(rng.choice([0, 1, 3, 4, 5, 30, 300, 2000])))
 
 
 def spoiled(rng, body):

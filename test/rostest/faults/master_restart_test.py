@@ -41,10 +41,10 @@ class MasterRestartTest(unittest.TestCase):
         for node in sorted(NODES - {'/manager'}):
             name = node.strip('/')
             self.master.run(program(name + '_node' if name == 'organ_collision' else name), '__name:=' + name)
-        self.master.run('rosrun', 'nodelet', 'nodelet', 'manager', '__name:=manager')
-        self.master.run(
-            'rosrun', 'nodelet', 'nodelet', 'load', 'organ_collision/CollisionNodelet', 'manager', '__name:=nodelet'
-        )
+        nodelet = roslib.packages.find_node('nodelet', 'nodelet')[0]
+        prefix = os.environ.get('ORGAN_COLLISION_NODELET_PREFIX', '').split()
+        self.master.run(*prefix, nodelet, 'manager', '__name:=manager')
+        self.master.run(nodelet, 'load', 'organ_collision/CollisionNodelet', 'manager', '__name:=nodelet')
 
     def record(self):
         """What the master knows of the package's nodes."""

@@ -84,7 +84,13 @@ class Publisher:
         self.uri = 'http://localhost:%d/' % self.slave.server_address[1]
         for work in (self.slave.serve_forever, self.accept):
             threading.Thread(target=work, daemon=True).start()
-        self.master.registerPublisher(name, topic, message_class._type, self.uri)
+        self.register()
+
+    def register(self):
+        self.master.registerPublisher(self.name, self.topic, self.message_class._type, self.uri)
+
+    def unregister(self):
+        self.master.unregisterPublisher(self.name, self.topic, self.uri)
 
     def request_topic(self, caller, topic, protocols):
         return [1, '', ['TCPROS', 'localhost', self.listener.getsockname()[1]]]
@@ -114,15 +120,20 @@ class Publisher:
             self.subscribers = [peer for peer in self.subscribers if said(peer, data)]
             return len(self.subscribers)
 
+    def start_anew(self):
+        """Hangs up, and leaves the master for a moment. roscpp does not always connect again by itself."""
+        self.unregister()
+        self.hang_up()
+        self.register()
+
     def hang_up(self):
-        """roscpp connects again by itself, after a moment."""
         with self.lock:
             for peer in self.subscribers:
                 peer.close()
             self.subscribers = []
 
     def close(self):
-        self.master.unregisterPublisher(self.name, self.topic, self.uri)
+        self.unregister()
         self.hang_up()
         self.listener.close()
         self.slave.shutdown()

@@ -75,7 +75,7 @@ bool Judge::is_connected() const {
 }
 
 void Judge::take(const ContactArrayConstPtr& answer) {
-  findings_.check("contacts", *answer);
+  findings_.check_step(*answer, "contacts");
   const std::lock_guard lock(mutex_);
   count_losses(answer->header.seq);
   ++statuses_[answer->status];
@@ -134,6 +134,8 @@ void Judge::work() {
     lock.lock();
     next_.reset();
     ++rechecked_;
+    ++rechecked_tools_[(step.answer->mode == ContactArray::SWEPT ? "swept " : "static ") +
+                       step.answer->tool];
     rechecked_contacts_ += step.answer->contacts.size();
     empty_ += step.answer->contacts.empty();
   }
@@ -145,7 +147,9 @@ void Judge::report(std::ostream& out) const {
       << ", \"lost\": " << lost_ << ", \"rechecked\": " << rechecked_
       << ", \"rechecked contacts\": " << rechecked_contacts_
       << ", \"rechecked without contacts\": " << empty_ << ", \"sums\": " << sums_
-      << ", \"statuses\": ";
+      << ", \"rechecked tools\": ";
+  print_map(out, rechecked_tools_);
+  out << ", \"statuses\": ";
   print_map(out, statuses_);
   out << ", \"not checkable\": ";
   print_map(out, not_checkable_);

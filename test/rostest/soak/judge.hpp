@@ -51,6 +51,7 @@ class Judge {
   std::map<std::string, ros::Time> before_jump_;        ///< by tool, until it is known to be over
   std::optional<std::uint32_t> last_number_;
   std::uint64_t lost_ = 0, sums_ = 0, rechecked_ = 0, rechecked_contacts_ = 0, empty_ = 0;
+  std::map<std::string, std::uint64_t> rechecked_tools_;  ///< by mode and tool
   std::map<int, std::uint64_t> statuses_;
   std::map<std::string, std::uint64_t> not_checkable_;
   std::optional<AnsweredStep> next_;

@@ -32,6 +32,7 @@ def column(run):
         'answers OK': judged['ok'],
         'answers evaluated a second time': judged['rechecked'],
         'their contacts': judged['rechecked contacts'],
+        'of them swept': sum(count for what, count in judged['rechecked tools'].items() if what.startswith('swept')),
         'times that all sums were checked': judged['sums'],
     })
     told.update({f'disturbance: {name.replace("_", " ")}': count for name, count in run['disturbances'].items()})
@@ -48,6 +49,6 @@ def markdown(result):
         rows = [['', *runs]] + [[name, *(told.get(name, 0) for told in runs.values())] for name in names]
         lines += ['', table(rows), '',
                   f'Memory is the lowest resident memory of a window. The first {WARM_UP:.0%} of a run are left out. '
-                  'It may grow by ' + ' and '.join(f'{most_growth(run["memory"]) // MEBIBYTE} MiB ({kind})'
+                  'It may grow by ' + ' and '.join(f'{most_growth(run) // MEBIBYTE} MiB ({kind})'
                                                   for kind, run in result['runs'].items()) + '.']
     return '\n'.join(lines) + '\n'

@@ -2,6 +2,8 @@
 
 import statistics
 
+from organ_collision.msg import ContactArray
+
 MEBIBYTE = 2**20
 # Of a run, this share from the start is left out: the node's pools and queues grow to their size.
 WARM_UP = 0.3
@@ -10,6 +12,9 @@ WARM_UP = 0.3
 MOST_GROWTH = 24 * MEBIBYTE
 MOST_GROWTH_OF_SHORT_RUN = 200 * MEBIBYTE
 SHORT_RUN = 120.0  # [s]
+# What a node may answer whose transforms have gaps, whose organs come and go, and some of whose shapes are illegal.
+LEGAL = {ContactArray.OK, ContactArray.NO_MESH, ContactArray.NO_TRANSFORM, ContactArray.INVALID_REQUEST}
+TOOLS = ('probe', 'needle', 'jaw', 'stylus')
 
 
 def lowest(samples, begin, end):
@@ -44,8 +49,21 @@ def open_accounts(run):
     return wrong
 
 
-def most_growth(samples):
-    return MOST_GROWTH_OF_SHORT_RUN if samples[-1][0] < SHORT_RUN else MOST_GROWTH
+def is_short(run):
+    return run['memory'][-1][0] < SHORT_RUN
+
+
+def most_growth(run):
+    return MOST_GROWTH_OF_SHORT_RUN if is_short(run) else MOST_GROWTH
+
+
+def missing(run):
+    """What must happen in a long run, and did not."""
+    wanted = {f'answers of {tool} evaluated a second time': run['judged']['rechecked tools'].get(f'swept {tool}', 0)
+              for tool in TOOLS}
+    wanted.update({f'disturbances: {name}': count for name, count in run['disturbances'].items()})
+    wanted.update({f'simulator: {name}': count for name, count in run['sent'].items()})
+    return [f'there were no {what}' for what, count in wanted.items() if count == 0]
 
 
 def findings(run):
@@ -55,8 +73,12 @@ def findings(run):
     judged = run['judged']
     wrong = judged['findings'] + open_accounts(run)
     growth, _ = memory_trend(run['memory'])
-    if growth > most_growth(run['memory']):
+    if growth > most_growth(run):
         wrong.append(f'memory has grown by {growth / MEBIBYTE:.1f} MiB')
+    wrong += [f'{count} answers have the status {status}' for status, count in judged['statuses'].items()
+              if int(status) not in LEGAL]
+    if not is_short(run):
+        wrong += missing(run)
     for what in ('ok', 'rechecked', 'rechecked contacts', 'sums'):
         if judged[what] == 0:
             wrong.append(f'nothing was judged: {what} is 0')
