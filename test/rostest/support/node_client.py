@@ -166,6 +166,8 @@ class NodeClient:
 
     def _keep_diagnostics(self, message):
         for status in message.status:
+            if status.message == 'Node starting up':
+                continue  # diagnostic_updater says so before the node has said anything.
             if status.name.lstrip('/').startswith(self.node.lstrip('/') + ':'):
                 name = status.name.split(': ')[-1]
                 self.summaries[name], self.levels[name] = status.message, status.level
