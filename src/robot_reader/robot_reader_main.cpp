@@ -5,15 +5,12 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <exception>
 #include <iostream>
 #include <iterator>
-#include <new>
 
 #include "process_limits.hpp"
 #include "resource.hpp"
-#include "robot_model.hpp"
-#include "ros/tools/robot_reply.hpp"
+#include "robot_answer.hpp"
 
 using namespace organ_collision;
 
@@ -49,16 +46,6 @@ std::string read_urdf(const std::string& name) {
   return {std::istreambuf_iterator<char>(std::cin), {}};
 }
 
-std::string read_links(int argc, char** argv, const ReplyStream& reply) {
-  const RobotModel robot(read_urdf(argv[1]));
-  std::vector<LinkDescription> links;
-  for (int i = 2; i < argc; ++i) {
-    links.push_back(
-        robot.link(argv[i], [&](const std::string& what) { reply.write(reading_record(what)); }));
-  }
-  return links_record(std::move(links));
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -72,12 +59,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   const ReplyStream reply;
-  try {
+  const auto urdf = [&] {
     limit_process();
-    reply.write(read_links(argc, argv, reply));
-  } catch (const std::bad_alloc&) {
-    reply.write(refusal_record("there is not enough memory to read it"));
-  } catch (const std::exception& error) {
-    reply.write(refusal_record(error.what()));
-  }
+    return read_urdf(argv[1]);
+  };
+  answer_with_links(urdf, {argv + 2, argv + argc},
+                    [&](const std::string& record) { reply.write(record); });
 }
