@@ -3,7 +3,9 @@
 #include <ros/callback_queue.h>
 
 #include <boost/make_shared.hpp>
+#include <iostream>
 
+#include "check_contacts/contact_contract.hpp"
 #include "demand.hpp"
 #include "ros/inbox/inbox.hpp"
 #include "ros/motion/tool_poses.hpp"
@@ -34,14 +36,21 @@ NodeParameters make_parameters(const std::vector<Tool>& tools) {
   return parameters;
 }
 
-void check(const ContactArray& answer) {
-  demand(answer.status != ContactArray::PICKER_FAILED, "no step fails");
-  demand(answer.status == ContactArray::OK || answer.contacts.empty(), "a failure has no contacts");
-  demand((answer.status == ContactArray::OK) == answer.message.empty(), "a failure has a message");
-  for (const Contact& contact : answer.contacts) {
-    demand(std::isfinite(contact.depth) && std::isfinite(contact.point.x), "contacts are finite");
+/// Checks the answers of one node, in their order.
+class AnswerCheck {
+ public:
+  void operator()(ContactArray answer) {
+    demand(answer.status != ContactArray::PICKER_FAILED, "no step fails");
+    answer.header.seq = ++seq_;  // As the publisher counts them.
+    const Faults faults = contract_.check(answer, "node");
+    if (!faults.empty()) std::cerr << faults.all().front().sentence << '\n';
+    demand(faults.empty(), "answers keep their contract");
   }
-}
+
+ private:
+  ContactContract contract_;
+  std::uint32_t seq_ = 0;
+};
 
 /// The parts of CollisionPipeline. The workers are those of all inputs, because a new OpenGL
 /// context takes 25 ms. They remember nothing.
@@ -126,8 +135,9 @@ class Node {
                parameters().tools,
                {[this](std::size_t tool) { steps_.add_pose(tool); }, rejected_, callbacks_}};
   ToolPoses poses_{inbox_.transforms(), {0.001, 10}};
+  AnswerCheck check_;
   StepScheduler steps_{parameters(), tools(), poses_, workers(),
-                       [](const EvaluatedStep& step) { check(*step.answer); }};
+                       [this](const EvaluatedStep& step) { check_(*step.answer); }};
 };
 
 }  // namespace

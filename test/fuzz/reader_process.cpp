@@ -1,0 +1,122 @@
+#include "reader_process.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdint>
+#include <cstdlib>
+
+#include "demand.hpp"
+#include "robot_reader/process_limits.hpp"
+#include "robot_reader/robot_answer.hpp"
+
+namespace organ_collision {
+namespace {
+
+constexpr int kRequests = 500;  ///< of one process
+/// [ms] After so much real time, reading a file hangs. It is long, because other programs may keep
+/// the processors busy.
+constexpr int kHangs = 50'000;
+
+// Requests and answers are blocks: their size, and so many bytes. An empty block ends an answer.
+
+bool write_all(int descriptor, const void* data, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = write(descriptor, static_cast<const char*>(data) + done, size - done);
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool write_block(int descriptor, const std::string& block) {
+  const std::uint64_t size = block.size();
+  return write_all(descriptor, &size, sizeof(size)) &&
+         write_all(descriptor, block.data(), block.size());
+}
+
+/// False: the other process has ended.
+bool read_all(int descriptor, void* data, std::size_t size) {
+  for (std::size_t done = 0; done < size;) {
+    const ssize_t count = read(descriptor, static_cast<char*>(data) + done, size - done);
+    if (count <= 0) return false;
+    done += static_cast<std::size_t>(count);
+  }
+  return true;
+}
+
+bool read_block(int descriptor, std::string& block) {
+  std::uint64_t size = 0;
+  if (!read_all(descriptor, &size, sizeof(size))) return false;
+  block.resize(size);
+  return read_all(descriptor, block.data(), size);
+}
+
+/// A crash ends the process at once, without reports of those who catch signals.
+[[noreturn]] void serve(int input, int output) {
+  for (const int signal : {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL, SIGALRM}) {
+    std::signal(signal, SIG_DFL);
+  }
+  dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+  limit_process();
+  for (std::string urdf; read_block(input, urdf);) {
+    answer_with_links([&] { return urdf; }, {"tip"},
+                      [&](const std::string& record) {
+                        if (!write_block(output, record)) _exit(EXIT_FAILURE);
+                      });
+    if (!write_block(output, "")) break;
+  }
+  _exit(EXIT_SUCCESS);
+}
+
+}  // namespace
+
+std::string ReaderProcess::read(const std::string& urdf) {
+  if (requests_ == kRequests) end();
+  if (process_ < 0) start();
+  ++requests_;
+  std::string answer;
+  bool lives = write_block(to_, urdf);
+  for (std::string record; lives;) {
+    pollfd ready{from_, POLLIN, 0};
+    demand(poll(&ready, 1, kHangs) == 1, "reading a file ends");
+    lives = read_block(from_, record);
+    if (!lives || record.empty()) break;
+    answer += record;
+  }
+  if (!lives) end();
+  return answer;
+}
+
+void ReaderProcess::start() {
+  int requests[2], answers[2];
+  demand(pipe2(requests, O_CLOEXEC) == 0 && pipe2(answers, O_CLOEXEC) == 0, "there are pipes");
+  std::signal(SIGPIPE, SIG_IGN);
+  process_ = fork();
+  demand(process_ >= 0, "there is a process");
+  if (process_ == 0) {
+    close(requests[1]);
+    close(answers[0]);
+    serve(requests[0], answers[1]);
+  }
+  close(requests[0]);
+  close(answers[1]);
+  to_ = requests[1];
+  from_ = answers[0];
+  requests_ = 0;
+}
+
+void ReaderProcess::end() {
+  if (process_ < 0) return;
+  close(to_);
+  close(from_);
+  int status = 0;
+  waitpid(process_, &status, 0);
+  demand(!WIFSIGNALED(status) || WTERMSIG(status) != SIGXCPU, "reading a file ends");
+  process_ = -1;
+}
+
+}  // namespace organ_collision
