@@ -25,8 +25,10 @@ void check_name(const char* what, const std::string& name, Faults& faults) {
 /// Only a shaft has no name, and it comes first.
 void check_links(const ContactArray& answer, Faults& faults) {
   if (answer.links.empty()) faults.add("names", "links is empty; a tool has a shaft or links");
-  for (std::size_t i = 1; i < answer.links.size(); ++i)
-    check_name("a link", answer.links[i], faults);
+  for (std::size_t i = 0; i < answer.links.size(); ++i) {
+    const bool is_shaft = i == 0 && answer.links[i].empty();
+    if (!is_shaft) check_name("a link", answer.links[i], faults);
+  }
 }
 
 /// Of a failure, nothing is known.

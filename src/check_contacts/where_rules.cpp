@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <string>
 
 #include "place_rules.hpp"
 #include "ros/interface/conversions.hpp"
@@ -52,6 +53,26 @@ void check_least(const ContactArray& answer, Faults& faults) {
   } else if (!(clearance.least <= clearance.distance)) {
     faults.add("clearance", "least of the clearance is ", clearance.least,
                "; must be at most its distance, ", clearance.distance);
+  }
+}
+
+/// What touches at the end of the step is a contact, and what is a contact in a static answer
+/// touches.
+void check_touch(const ContactArray& answer, Faults& faults) {
+  const Clearance& clearance = answer.clearance;
+  const double rounding = kRounding + kRoundingShare * to_eigen(clearance.on_organ).norm();
+  const bool is_known = clearance.state == Clearance::KNOWN;
+  if (is_known && answer.contacts.empty() && clearance.distance < -rounding) {
+    faults.add("clearance", "distance of the clearance is ", clearance.distance,
+               "; what it touches must be among the contacts");
+  }
+  const bool must_touch =
+      answer.contacts.size() > answer.unresolved && answer.mode == ContactArray::STATIC;
+  if (!must_touch || clearance.unresolved) return;
+  if (!is_known || clearance.distance > rounding) {
+    faults.add("clearance", answer.contacts.size() - answer.unresolved,
+               " faces are touched, but the clearance is ",
+               is_known ? std::to_string(clearance.distance) + " m" : "beyond its margin");
   }
 }
 
@@ -119,7 +140,10 @@ void check_clearance_fields(const ContactArray& answer, Faults& faults) {
     faults.add("clearance", "state of the clearance is ", int{clearance.state},
                "; must be from 0 to ", int{Clearance::KNOWN});
   }
-  if (clearance.state != Clearance::NOT_ASKED) check_margin(clearance, faults);
+  if (clearance.state != Clearance::NOT_ASKED) {
+    check_margin(clearance, faults);
+    check_touch(answer, faults);
+  }
   if (clearance.state == Clearance::KNOWN) check_known(answer, faults);
 }
 

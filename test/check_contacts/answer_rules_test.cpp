@@ -44,6 +44,25 @@ TEST(AnswerRulesTest, AnAnswerWithNothingInItBreaksNone) {
   EXPECT_EQ(broken_rules(answer), "");
 }
 
+TEST(AnswerRulesTest, TheFirstLinkMayHaveAName) {
+  ContactArray answer = good_answer();
+  answer.contacts.clear();
+  answer.regions.clear();
+  answer.placement = {};
+  answer.links = {"wrist", "jaw"};
+  EXPECT_EQ(broken_rules(answer), "");
+  answer.links[0] = std::string(10000, 'w');
+  EXPECT_EQ(broken_rules(answer), "names");
+}
+
+TEST(AnswerRulesTest, UpperBoundsOfADistanceMayBeAboveThatOfAContact) {
+  ContactArray answer = good_static_answer();
+  answer.clearance.distance = answer.clearance.least = 0.01;
+  answer.clearance.on_organ.z = -0.01;
+  answer.clearance.unresolved = true;
+  EXPECT_EQ(broken_rules(answer), "");
+}
+
 TEST(AnswerRulesTest, PaperModesHaveNoGeometry) {
   ContactArray answer = good_answer();
   answer.mode = ContactArray::PAPER_SWEPT;
@@ -144,6 +163,22 @@ INSTANTIATE_TEST_SUITE_P(
         Flaw{"clearance",
              [](auto& a) { a.contacts.clear(), a.regions.clear(), a.clearance.least = 0.02; }},
         Flaw{"clearance", [](auto& a) { a = good_static_answer(), a.clearance.least = 0.0; }},
+        Flaw{"clearance",
+             [](auto& a) {
+               a = good_static_answer();
+               a.clearance.distance = a.clearance.least = 0.01;
+               a.clearance.on_organ.z = -0.01;
+             }},
+        Flaw{"clearance",
+             [](auto& a) {
+               a = good_static_answer(), a.clearance.state = Clearance::BEYOND_MARGIN;
+             }},
+        Flaw{"clearance",
+             [](auto& a) {
+               a.contacts.clear(), a.regions.clear();
+               a.clearance.distance = a.clearance.least = -0.01;
+               a.clearance.on_organ.z = 0.01;
+             }},
         Flaw{"shares", [](auto& a) { a.clearance.least_fraction = 1.1; }},
         Flaw{"unit normals, clearance", [](auto& a) { a.clearance.normal.x = 0.1; }},
         Flaw{"finite numbers, clearance", [](auto& a) { a.clearance.on_organ.x = kNan; }},

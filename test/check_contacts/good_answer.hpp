@@ -89,8 +89,9 @@ inline ContactArray good_static_answer() {
       contact.end_point = contact.point;
     }
   }
-  answer.clearance.least = answer.clearance.distance;
+  answer.clearance.distance = answer.clearance.least = -0.003;
   answer.clearance.least_fraction = 0.0;
+  answer.clearance.on_organ.z = 0.003;
   return answer;
 }
 
