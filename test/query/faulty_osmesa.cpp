@@ -21,6 +21,7 @@ using AnyFunction = void (*)();
 Fault fault = Fault::kNone;
 Duration duration = Duration::kOnce;
 int calls_before_fault = 0;
+int contexts = 0;
 bool is_in_faulty_draw = false;
 bool is_error_pending = false;
 GLfloat* feedback = nullptr;  ///< the buffers that GL writes to
@@ -109,15 +110,20 @@ void faulty_osmesa::befall(Fault its_fault, int number, Duration its_duration) {
 
 bool faulty_osmesa::has_befallen() { return calls_before_fault < 0; }
 
+int faulty_osmesa::living_contexts() { return contexts; }
+
 extern "C" {
 
 Context OSMesaCreateContextExt(GLenum format, GLint depth, GLint stencil, GLint accum,
                                Context shared) {
-  return real("OSMesaCreateContextExt", &OSMesaCreateContextExt)(format, depth, stencil, accum,
-                                                                 shared);
+  Context const context = real("OSMesaCreateContextExt", &OSMesaCreateContextExt)(
+      format, depth, stencil, accum, shared);
+  if (context != nullptr) ++contexts;
+  return context;
 }
 
 void OSMesaDestroyContext(Context context) {
+  if (context != nullptr) --contexts;
   real("OSMesaDestroyContext", &OSMesaDestroyContext)(context);
 }
 

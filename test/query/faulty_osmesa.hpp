@@ -22,4 +22,7 @@ void befall(Fault fault, int number, Duration duration = Duration::kOnce);
 /// Whether the last fault has befallen.
 bool has_befallen();
 
+/// How many contexts were created and not destroyed.
+int living_contexts();
+
 }  // namespace faulty_osmesa

@@ -94,6 +94,28 @@ TEST_P(GlFaults, ThatStayMakeEachQueryFail) {
   EXPECT_EQ(touching, 3);
 }
 
+// LeakSanitizer cannot tell, because Mesa itself keeps memory.
+TEST_P(GlFaults, LeaveNoContextBehind) {
+  const int before = faulty_osmesa::living_contexts();
+  Random random(53);
+  const LinkScene scene(true, random);
+  {
+    CollisionQuery query({picker(), GlPlatform::kOsmesa});
+    query.evaluate(scene.request, result_);
+    const int of_one_query = faulty_osmesa::living_contexts();
+    EXPECT_GT(of_one_query, before);
+    for (int i = 0; i < 5; ++i) {
+      faulty_osmesa::befall(fault(), 0, faulty_osmesa::Duration::kForGood);
+      EXPECT_THROW(query.evaluate(scene.request, result_), GlError);
+      EXPECT_LE(faulty_osmesa::living_contexts(), of_one_query);
+      faulty_osmesa::befall(Fault::kNone, 0);
+      query.evaluate(scene.request, result_);
+      EXPECT_EQ(faulty_osmesa::living_contexts(), of_one_query);
+    }
+  }
+  EXPECT_EQ(faulty_osmesa::living_contexts(), before);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Pickers, GlFaults,
     testing::Combine(testing::Values(PickerKind::kFeedback, PickerKind::kSelect),
