@@ -25,7 +25,12 @@ bool Inbox::watch_clock() {
     transforms_.clear({last_now_, now});
   }
   last_now_ = now;
-  const bool starts_anew = transforms_.has_started_anew() || jumped_back;
+  const bool was_mixed = transforms_.has_started_anew();
+  if (was_mixed) {
+    ROS_WARN(
+        "transforms of before the clock's jump had been taken: all history is forgotten again");
+  }
+  const bool starts_anew = was_mixed || jumped_back;
   if (starts_anew) {
     pose_topics_.forget_stamps();
     forget_organ_history();
