@@ -47,7 +47,7 @@ def children(parent):
 
 
 class Answers:
-    """What came on `contacts` since `begin()`, with stamps of after it."""
+    """What came on `contacts` since `begin()`, with stamps of after it. `pairs` are those that touch."""
 
     def __init__(self):
         self.lock = threading.Lock()
@@ -63,7 +63,8 @@ class Answers:
         with self.lock:
             if answer.status != ContactArray.OK or answer.header.stamp < self.begun:
                 return
-            self.pairs.add((answer.organ, answer.tool))
+            if answer.contacts:
+                self.pairs.add((answer.organ, answer.tool))
             self.has_seen_static |= answer.mode == ContactArray.STATIC
             if answer.step_start < self.begun:
                 self.too_long.append('%s and %s: from %s to %s, in a life that began at %s' % (
