@@ -129,10 +129,14 @@ void Judge::work() {
     if (stop_) return;
     const AnsweredStep step = *next_;
     lock.unlock();
-    const std::string wrong = wrong_contacts(script_, step);
-    if (!wrong.empty()) findings_.add(wrong + " (" + told(step) + ")");
+    const std::optional<std::string> wrong = wrong_contacts(script_, step);
+    if (wrong && !wrong->empty()) findings_.add(*wrong + " (" + told(step) + ")");
     lock.lock();
     next_.reset();
+    if (!wrong) {
+      ++not_checkable_["the second evaluation is undecided"];
+      continue;
+    }
     ++rechecked_;
     ++rechecked_tools_[(step.answer->mode == ContactArray::SWEPT ? "swept " : "static ") +
                        step.answer->tool];

@@ -129,7 +129,7 @@ std::string why_not_checkable(const Script& script, const AnsweredStep& step) {
   return "";
 }
 
-std::string wrong_contacts(const Script& script, const AnsweredStep& step) {
+std::optional<std::string> wrong_contacts(const Script& script, const AnsweredStep& step) {
   const ContactArray& answer = *step.answer;
   const Glitch glitch = script.glitch(tick_of(answer.mesh_stamp));
   if (glitch == Glitch::kHuge || glitch == Glitch::kNotFinite)
@@ -162,7 +162,8 @@ std::string wrong_contacts(const Script& script, const AnsweredStep& step) {
   double closest = INFINITY;
   const ToolShape inside = shape_of(answer.tool, tool.tolerance());
   if (stays_above(shapes.step(near, path, inside), kUndecided, closest)) return "";
-  return closest < kUndecided ? "a touched face has no contact" : "";
+  if (closest < kUndecided) return "a touched face has no contact";
+  return std::nullopt;
 }
 
 }  // namespace organ_collision::soak

@@ -3,6 +3,7 @@
 import contextlib
 import json
 import pathlib
+import signal
 import subprocess
 import time
 
@@ -17,6 +18,7 @@ LOAD = pathlib.Path(__file__).resolve().parent.parent / 'load'
 CONTACTS = '/organ_collision/contacts'
 REGISTERED = 60.0  # [s] at most, until the ROS master knows the node
 SETTLED = 60.0  # [s] at most, for the last messages to arrive
+SHUT_DOWN = 30.0  # [s] at most, from Ctrl-C to the end of the node
 
 
 class Subject:
@@ -68,6 +70,8 @@ class Subject:
                 if not open_accounts(run) or time.monotonic() > give_up:
                     break
             run['ended'] = self._ended()
+            self.node.send_signal(signal.SIGINT)
+            run['exit code'] = self.node.wait(SHUT_DOWN)
         return run
 
     def _ended(self):

@@ -72,6 +72,8 @@ def findings(run):
         return [f'{name} has ended with {code}' for name, code in run['ended'].items()]
     judged = run['judged']
     wrong = judged['findings'] + open_accounts(run)
+    if run['exit code'] != 0:
+        wrong.append(f'at the end, {run["kind"]} shut down with exit code {run["exit code"]}')
     growth, _ = memory_trend(run['memory'])
     if growth > most_growth(run):
         wrong.append(f'memory has grown by {growth / MEBIBYTE:.1f} MiB')
