@@ -5,12 +5,17 @@ import subprocess
 import sys
 
 
+# As a planner that must not take the processors from the simulation. The node's batch threads have the same.
+NICENESS = 19
+
+
 class Batches:
     """The program ask_batches, in the namespace of the node that it asks."""
 
     def __init__(self, workspace, namespace, faces, tool):
-        self.process = subprocess.Popen(workspace.command('ask_batches', faces, tool, f'__ns:={namespace}'),
-                                        stdin=subprocess.PIPE, stdout=subprocess.PIPE, universal_newlines=True)
+        command = workspace.command('ask_batches', faces, tool, f'__ns:={namespace}')
+        self.process = subprocess.Popen(['nice', '-n', str(NICENESS), *command], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, universal_newlines=True)
 
     def publish_organ(self):
         self._send('organ')
