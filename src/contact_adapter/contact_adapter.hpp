@@ -15,7 +15,7 @@
 #include "force_law.hpp"
 #include "forces/pair_names.hpp"
 #include "ros/interface/failure_log.hpp"
-#include "ros/interface/master_watch.hpp"
+#include "ros/master/master_watch.hpp"
 
 namespace organ_collision {
 

@@ -3,7 +3,7 @@
 #include "contact_adapter.hpp"
 #include "contact_adapter_help.hpp"
 #include "contact_adapter_names.hpp"
-#include "ros/interface/parameter_updates.hpp"
+#include "ros/master/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;

@@ -6,7 +6,7 @@
 #include "haptic_proxy_help.hpp"
 #include "haptic_proxy_names.hpp"
 #include "haptic_proxy_node.hpp"
-#include "ros/interface/parameter_updates.hpp"
+#include "ros/master/parameter_updates.hpp"
 #include "ros/node/realtime.hpp"
 
 namespace {

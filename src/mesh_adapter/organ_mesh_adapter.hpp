@@ -15,7 +15,7 @@
 #include "mesh_adapter_parameters.hpp"
 #include "organ_source.hpp"
 #include "ros/interface/failure_log.hpp"
-#include "ros/interface/master_watch.hpp"
+#include "ros/master/master_watch.hpp"
 
 namespace organ_collision {
 

@@ -3,7 +3,7 @@
 #include "mesh_adapter_help.hpp"
 #include "mesh_adapter_names.hpp"
 #include "organ_mesh_adapter.hpp"
-#include "ros/interface/parameter_updates.hpp"
+#include "ros/master/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;

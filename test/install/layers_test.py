@@ -17,8 +17,8 @@ LAYERS = ['geometry', 'picking', 'query', 'ros']
 # The folders of a layer, in the order in which data flows through them.
 ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],
          'picking': ['volumes', 'culling', 'gl', 'pickers'],
-         'ros': ['interface', 'parameters', 'organs', 'tools', 'motion', 'inbox', 'steps', 'queries', 'pipeline',
-                 'publishing', 'node']}
+         'ros': ['interface', 'master', 'parameters', 'organs', 'tools', 'motion', 'inbox', 'steps', 'queries',
+                 'pipeline', 'publishing', 'node']}
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
 CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR, ROBOT_READER, SNAPSHOT = sys.argv[6:11]
@@ -92,7 +92,7 @@ class LayersTest(unittest.TestCase):
         self.assertIn('picking/gl/gl_context.hpp', found)
 
     def test_the_adapters_include_nothing_of_picking_query_and_the_node(self):
-        for room in ('ros/interface', 'forces', 'contact_adapter', 'mesh_adapter', 'check_contacts'):
+        for room in ('ros/interface', 'ros/master', 'forces', 'contact_adapter', 'mesh_adapter', 'check_contacts'):
             found = 0
             for path, included in includes(room):
                 found += 1

@@ -11,7 +11,7 @@
 #include "queue_thread.hpp"
 #include "realtime.hpp"
 #include "ros/interface/live_parameters.hpp"
-#include "ros/interface/master_watch.hpp"
+#include "ros/master/master_watch.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/organs/surface_inspector.hpp"
 #include "ros/parameters/node_parameters.hpp"

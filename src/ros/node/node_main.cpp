@@ -4,7 +4,7 @@
 #include "node_help.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "realtime.hpp"
-#include "ros/interface/parameter_updates.hpp"
+#include "ros/master/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;

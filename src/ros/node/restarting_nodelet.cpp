@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-#include "ros/interface/parameter_updates.hpp"
+#include "ros/master/parameter_updates.hpp"
 
 namespace organ_collision {
 namespace {

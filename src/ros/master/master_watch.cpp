@@ -8,7 +8,7 @@
 #include <exception>
 #include <utility>
 
-#include "thread_scheduling.hpp"
+#include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
 namespace {
