@@ -14,6 +14,7 @@ const std::array<std::string, 4> kTools = {"probe", "needle", "jaw", "stylus"};
 constexpr char kOrgan[] = "sheet";
 constexpr std::uint32_t kQueue = 100'000;  // [messages]
 constexpr int kNiceness = 19;
+constexpr std::uint64_t kMostAhead = 5;  // [evaluations] of one tool before another
 
 std::string told(const AnsweredStep& step) {
   const ContactArray& answer = *step.answer;
@@ -109,9 +110,10 @@ void Judge::count_losses(std::uint32_t number) {
   latest_.clear();
 }
 
-/// For the thread of second evaluations, if it has nothing to do.
+/// For the thread of second evaluations, if it has nothing to do. No tool gets far ahead of the
+/// others, whose answers come at the same moments.
 void Judge::offer(const AnsweredStep& step) {
-  if (next_) return;
+  if (next_ || is_ahead(step.answer->tool)) return;
   const std::string why_not = why_not_checkable(script_, step);
   if (!why_not.empty()) {
     ++not_checkable_[why_not];
@@ -119,6 +121,16 @@ void Judge::offer(const AnsweredStep& step) {
   }
   next_ = step;
   has_work_.notify_one();
+}
+
+bool Judge::is_ahead(const std::string& tool) const {
+  const auto count = [this](const std::string& other) {
+    const auto found = evaluations_.find(other);
+    return found == evaluations_.end() ? 0 : found->second;
+  };
+  return std::any_of(kTools.begin(), kTools.end(), [&](const std::string& other) {
+    return count(tool) >= count(other) + kMostAhead;
+  });
 }
 
 void Judge::work() {
@@ -133,6 +145,7 @@ void Judge::work() {
     if (wrong && !wrong->empty()) findings_.add(*wrong + " (" + told(step) + ")");
     lock.lock();
     next_.reset();
+    ++evaluations_[step.answer->tool];
     if (!wrong) {
       ++not_checkable_["the second evaluation is undecided"];
       continue;

@@ -39,6 +39,7 @@ class Judge {
   void take(const ContactArrayConstPtr& answer);
   void count_losses(std::uint32_t number);
   void offer(const AnsweredStep& step);
+  bool is_ahead(const std::string& tool) const;
   bool may_not_know_of_jump(const ContactArray& answer);
   void work();
 
@@ -51,6 +52,7 @@ class Judge {
   std::map<std::string, ros::Time> before_jump_;        ///< by tool, until it is known to be over
   std::optional<std::uint32_t> last_number_;
   std::uint64_t lost_ = 0, sums_ = 0, rechecked_ = 0, rechecked_contacts_ = 0, empty_ = 0;
+  std::map<std::string, std::uint64_t> evaluations_;      ///< by tool
   std::map<std::string, std::uint64_t> rechecked_tools_;  ///< by mode and tool
   std::map<int, std::uint64_t> statuses_;
   std::map<std::string, std::uint64_t> not_checkable_;
