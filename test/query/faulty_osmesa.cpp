@@ -88,11 +88,6 @@ void APIENTRY draw_arrays(GLenum mode, GLint first, GLsizei count) {
   real("glDrawArrays", &glDrawArrays)(mode, first, count);
 }
 
-void APIENTRY vertex(const GLfloat* position) {
-  if (is_in_faulty_draw && fault == Fault::kDrawsNothing) return;
-  real("glVertex3fv", &glVertex3fv)(position);
-}
-
 GLenum APIENTRY get_error() {
   if (!is_error_pending) return real("glGetError", &glGetError)();
   is_error_pending = false;
@@ -144,7 +139,6 @@ AnyFunction OSMesaGetProcAddress(const char* name) {
   }
   if (std::strcmp(name, "glSelectBuffer") == 0) return reinterpret_cast<AnyFunction>(select_buffer);
   if (std::strcmp(name, "glDrawArrays") == 0) return reinterpret_cast<AnyFunction>(draw_arrays);
-  if (std::strcmp(name, "glVertex3fv") == 0) return reinterpret_cast<AnyFunction>(vertex);
   if (std::strcmp(name, "glGetError") == 0) return reinterpret_cast<AnyFunction>(get_error);
   return real("OSMesaGetProcAddress", &OSMesaGetProcAddress)(name);
 }

@@ -26,6 +26,14 @@ void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
   });
 }
 
+void DrawList::assign_all(const ViewingVolume& volume, const TriangleMesh& mesh) {
+  vertices_.clear();
+  undrawn_.clear();
+  for (std::size_t i = 0; i < mesh.face_count(); ++i) {
+    add(shifted(mesh.triangle(mesh.faces()[i]), volume.origin()), static_cast<std::uint32_t>(i));
+  }
+}
+
 ViewingVolume DrawList::assign(const PartSweep& part, const OrganMotion& organ) {
   const Eigen::Vector3d& origin = part.origin();
   const double organ_extent = organ.extent(origin);

@@ -29,6 +29,9 @@ class DrawList {
   /// the same half-space.
   void assign(const ViewingVolume& volume, const TriangleMesh& mesh);
 
+  /// Replaces the list by all faces of `mesh`.
+  void assign_all(const ViewingVolume& volume, const TriangleMesh& mesh);
+
   /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
   /// is drawn where it is half way. Returns the volume to clip them to: it contains the space that
   /// the part sweeps, and has grown by the largest distance of a drawn face from its place half

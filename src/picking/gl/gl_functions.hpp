@@ -6,11 +6,10 @@
 
 // Every GL function that picking calls, without its gl prefix.
 // clang-format off
-#define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                         \
-  F(Begin) F(ClipPlane) F(DepthRange) F(DrawArrays) F(Enable) F(EnableClientState) F(End)       \
-  F(FeedbackBuffer) F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd)        \
-  F(LoadName) F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(Vertex3fv)         \
-  F(VertexPointer)
+#define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                       \
+  F(ClipPlane) F(DepthRange) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)   \
+  F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd) F(LoadName)            \
+  F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
 // clang-format on
 
 namespace organ_collision {

@@ -8,12 +8,18 @@
 #include "picker.hpp"
 #include "picking/culling/draw_list.hpp"
 #include "picking/gl/witness.hpp"
+#include "picking/volumes/middle_face.hpp"
 
 namespace organ_collision {
 
 inline void sort_by_face(std::vector<Candidate>& candidates) {
   std::sort(candidates.begin(), candidates.end(),
             [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+}
+
+/// Lets GL draw the witness last, unless it has to draw nothing.
+inline void add_witness(const ViewingVolume& volume, DrawList& list) {
+  if (!list.vertices().empty()) list.add(middle_face(volume), kWitness);
 }
 
 /// Replaces `candidates` by all faces that GL was to decide on.
@@ -40,7 +46,7 @@ inline void sort_returned(std::size_t face_count, GlContext& context,
                std::to_string(face_count));
 }
 
-/// Removes the witness, which GL drew last. Returns whether it was there.
+/// Removes the witness, which GL returns last. Returns whether it was there.
 inline bool take_witness(std::vector<Candidate>& candidates) {
   if (candidates.empty() || candidates.back().face != kWitness) return false;
   candidates.pop_back();

@@ -5,13 +5,13 @@
 #include "candidates.hpp"
 #include "picking/gl/feedback.hpp"
 #include "picking/gl/witness.hpp"
-#include "picking/volumes/middle_face.hpp"
 
 namespace organ_collision {
 
 void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                           std::vector<Candidate>& candidates) {
   draw_list_.assign(volume, mesh);
+  add_witness(volume, draw_list_);
   if (!clip(volume, candidates)) {
     fail_if_blind(context_);
     clip(volume, candidates);
@@ -22,6 +22,7 @@ void FeedbackPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
 void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
                           std::vector<Candidate>& candidates) {
   const ViewingVolume volume = draw_list_.assign(part, organ);
+  add_witness(volume, draw_list_);
   if (!clip(volume, candidates)) {
     fail_if_blind(context_);
     take_drawn(draw_list_, candidates);
@@ -31,11 +32,10 @@ void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
 }
 
 /// Replaces `candidates` by the faces of the draw list that meet the volume. Returns whether GL
-/// also returned the witness, or nothing had to be drawn.
+/// also returned the witness, which is the last one in the list, or nothing had to be drawn.
 bool FeedbackPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
   candidates.clear();
   if (draw_list_.vertices().empty()) return true;
-  draw_list_.add(middle_face(volume), kWitness);
   const std::size_t size = draw_feedback(context_, volume, draw_list_.vertices(), buffer_);
   try {
     read(size, volume, candidates);

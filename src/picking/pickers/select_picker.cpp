@@ -7,7 +7,6 @@
 #include "picking/gl/clip_to.hpp"
 #include "picking/gl/gl_functions.hpp"
 #include "picking/gl/witness.hpp"
-#include "picking/volumes/middle_face.hpp"
 
 namespace organ_collision {
 namespace {
@@ -40,35 +39,27 @@ double window_depth(std::uint32_t recorded) {
   return (depth - kNearDepth) / (kFarDepth - kNearDepth);
 }
 
-void draw_witness(const ViewingVolume& volume, const GlFunctions& gl) {
-  gl.LoadName(kWitness);
-  gl.Begin(GL_TRIANGLES);
-  for (const Eigen::Vector3d& corner : middle_face(volume)) {
-    gl.Vertex3fv(corner.cast<float>().eval().data());
+/// Draws each face under its own name. Not by glBegin and glEnd: in GL_SELECT mode, Mesa 22.3 loses
+/// a buffer of 512 KB whenever such vertices have filled it.
+void draw_named(const std::vector<DrawVertex>& vertices, const GlFunctions& gl) {
+  constexpr GLsizei kStride = sizeof(DrawVertex);
+  gl.VertexPointer(3, GL_FLOAT, kStride, vertices.data()->position.data());
+  gl.TexCoordPointer(2, GL_FLOAT, kStride, vertices.data()->number.data());
+  for (std::size_t i = 0; i < vertices.size(); i += 3) {
+    gl.LoadName(face_number(vertices[i].number[0], vertices[i].number[1]));
+    gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(i), 3);
   }
-  gl.End();
 }
 
 }  // namespace
 
 void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                         std::vector<Candidate>& candidates) {
-  vertices_.resize(mesh.vertex_count());
-  for (std::size_t i = 0; i < vertices_.size(); ++i) {
-    vertices_[i] = (mesh.vertex(i) - volume.origin()).cast<float>();
-  }
-  const auto draw_named = [&](const GlFunctions& gl) {
-    const std::vector<FaceIndices>& faces = mesh.faces();
-    for (std::size_t i = 0; i < faces.size(); ++i) {
-      gl.LoadName(static_cast<GLuint>(i));
-      gl.Begin(GL_TRIANGLES);
-      for (const std::uint32_t vertex : faces[i]) gl.Vertex3fv(vertices_[vertex].data());
-      gl.End();
-    }
-  };
-  if (!clip(volume, mesh.face_count(), draw_named, candidates)) {
+  draw_list_.assign_all(volume, mesh);
+  add_witness(volume, draw_list_);
+  if (!clip(volume, candidates)) {
     fail_if_blind(context_);
-    clip(volume, mesh.face_count(), draw_named, candidates);
+    clip(volume, candidates);
   }
   sort_returned(mesh.face_count(), context_, candidates);
 }
@@ -76,16 +67,8 @@ void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
 void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
                         std::vector<Candidate>& candidates) {
   const ViewingVolume volume = draw_list_.assign(part, organ);
-  const std::vector<DrawVertex>& vertices = draw_list_.vertices();
-  const auto draw_named = [&](const GlFunctions& gl) {
-    for (std::size_t i = 0; i < vertices.size(); i += 3) {
-      gl.LoadName(face_number(vertices[i].number[0], vertices[i].number[1]));
-      gl.Begin(GL_TRIANGLES);
-      for (std::size_t k = i; k < i + 3; ++k) gl.Vertex3fv(vertices[k].position.data());
-      gl.End();
-    }
-  };
-  if (!clip(volume, vertices.size() / 3, draw_named, candidates)) {
+  add_witness(volume, draw_list_);
+  if (!clip(volume, candidates)) {
     fail_if_blind(context_);
     take_drawn(draw_list_, candidates);
   }
@@ -93,34 +76,26 @@ void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
   sort_returned(organ.after().face_count(), context_, candidates);
 }
 
-/// Replaces `candidates` by the faces that `draw_named(gl)` draws, `count` in all, and that meet
-/// the volume. Returns whether GL also returned the witness, or nothing had to be drawn.
-template <typename Draw>
-bool SelectPicker::clip(const ViewingVolume& volume, std::size_t count, Draw draw_named,
-                        std::vector<Candidate>& candidates) {
+/// Replaces `candidates` by the faces of the draw list that meet the volume. Returns whether GL
+/// also returned the witness, which is the last one in the list, or nothing had to be drawn.
+bool SelectPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
   candidates.clear();
-  if (count == 0) return true;
-  buffer_.resize(kRecord * (count + 1));
+  if (draw_list_.vertices().empty()) return true;
+  buffer_.resize(kRecord * (draw_list_.vertices().size() / 3));
   context_.make_current();
-  const GlFunctions& gl = context_.functions();
-  clip_to(volume, gl);
-  const std::size_t hits = select(gl, [&] {
-    draw_named(gl);
-    draw_witness(volume, gl);
-  });
-  read(hits, volume, candidates);
+  clip_to(volume, context_.functions());
+  read(select(context_.functions()), volume, candidates);
   return take_witness(candidates);
 }
 
-/// Returns the number of hit records of what `draw_all()` draws.
-template <typename DrawAll>
-std::size_t SelectPicker::select(const GlFunctions& gl, DrawAll draw_all) {
+/// Draws the list. Returns the number of hit records.
+std::size_t SelectPicker::select(const GlFunctions& gl) {
   const ScopedDepthRange scoped_depth_range(gl);
   gl.SelectBuffer(static_cast<GLsizei>(buffer_.size()), buffer_.data());
   gl.RenderMode(GL_SELECT);
   gl.InitNames();
   gl.PushName(0);
-  draw_all();
+  draw_named(draw_list_.vertices(), gl);
   const GLint hits = gl.RenderMode(GL_RENDER);
   context_.check("a select query");
   if (hits >= 0 && kRecord * static_cast<std::size_t>(hits) <= buffer_.size()) {

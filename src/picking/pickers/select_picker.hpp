@@ -27,17 +27,13 @@ class SelectPicker : public Picker {
   const std::string& gl_version() const override { return context_.version(); }
 
  private:
-  template <typename Draw>
-  bool clip(const ViewingVolume& volume, std::size_t count, Draw draw_named,
-            std::vector<Candidate>& candidates);
-  template <typename DrawAll>
-  std::size_t select(const GlFunctions& gl, DrawAll draw_all);
+  bool clip(const ViewingVolume& volume, std::vector<Candidate>& candidates);
+  std::size_t select(const GlFunctions& gl);
   void read(std::size_t hits, const ViewingVolume& volume,
             std::vector<Candidate>& candidates) const;
 
   GlContext context_;
   DrawList draw_list_;
-  std::vector<Eigen::Vector3f> vertices_;
   std::vector<std::uint32_t> buffer_;
 };
 

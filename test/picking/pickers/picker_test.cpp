@@ -1,9 +1,11 @@
 #include "picking/pickers/picker.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <array>
+#include <fstream>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PickerTest,
 ViewingVolume box() {
   return ViewingVolume::orthographic(
       {Vector3d(3, -2, 5), Vector3d::Zero(), Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
+}
+
+/// [bytes]
+long resident_memory() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
 }
 
 Triangle moved(const Triangle& face, const Vector3d& by) {
@@ -106,6 +115,28 @@ TEST_P(PickerTest, AnswersDoNotDependOnEarlierQueries) {
     EXPECT_EQ(numbers(pick(plain, mesh)), expected_plain);
     other->pick(plain, mesh, ignored);
   }
+}
+
+// If faces were drawn by glBegin in GL_SELECT mode, Mesa would lose a buffer of 512 KB after every
+// 2200 such queries.
+TEST_P(PickerTest, TakesNoMemoryForEachQuery) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "memory that is freed stays with the sanitizer";
+#endif
+  Soup soup;
+  for (int i = 0; i < 5; ++i) {
+    soup.add(
+        moved({Vector3d(-4, 0, 0.1 * i), Vector3d(4, 0, 0), Vector3d(0, 4, 0)}, box().origin()));
+  }
+  const TriangleMesh mesh = soup.mesh();
+  std::vector<Candidate> candidates;
+  long before = 0;
+  for (int i = 0; i < 24'000; ++i) {
+    if (i == 4000) before = resident_memory();
+    picker_->pick(box(), mesh, candidates);
+    ASSERT_EQ(candidates.size(), soup.size());
+  }
+  EXPECT_LT(resident_memory() - before, 2'000'000);
 }
 
 TEST(Picker, WithoutOpenGlSaysSo) {
