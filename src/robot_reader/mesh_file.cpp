@@ -4,6 +4,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
@@ -109,19 +110,29 @@ void check_indices(const aiScene& scene) {
 
 bool is_space(char character) { return std::isspace(static_cast<unsigned char>(character)) != 0; }
 
-/// Whether the text contains the word with white space on both sides.
-bool has_word(const std::string& text, const std::string& word) {
+/// Whether a line of the text begins with the word, before white space.
+bool has_line(const std::string& text, const std::string& word) {
   for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
     const std::size_t end = at + word.size();
-    if (is_space(text[at - 1]) && end < text.size() && is_space(text[end])) return true;
+    const bool begins_line = text[at - 1] == '\n' || text[at - 1] == '\r';
+    if (begins_line && end < text.size() && is_space(text[end])) return true;
   }
   return false;
 }
 
+/// assimp reads PLY files also if their first line is in capitals.
+bool is_ply(const std::string& content) {
+  const std::string magic = "ply";
+  return content.size() >= magic.size() &&
+         std::equal(magic.begin(), magic.end(), content.begin(), [](char expected, char found) {
+           return std::tolower(static_cast<unsigned char>(found)) == expected;
+         });
+}
+
 /// If the header of a PLY file has no end, as in a truncated file, assimp never stops reading.
 void check_ply_header(const std::string& content) {
-  if (content.compare(0, 3, "ply") == 0 && !has_word(content, "end_header")) {
-    throw ToolError("its header has no end_header; the file may be cut off");
+  if (is_ply(content) && !has_line(content, "end_header")) {
+    throw ToolError("its header has no line end_header; the file may be cut off");
   }
 }
 

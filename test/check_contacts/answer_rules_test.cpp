@@ -48,6 +48,7 @@ TEST(AnswerRulesTest, TheFirstLinkMayHaveAName) {
   ContactArray answer = good_answer();
   answer.contacts.clear();
   answer.regions.clear();
+  answer.near.clear();
   answer.placement = {};
   answer.links = {"wrist", "jaw"};
   EXPECT_EQ(broken_rules(answer), "");

@@ -136,12 +136,16 @@ TEST(MeshFile, WrongIndicesAreNamed) {
 TEST(MeshFile, CutOffPlyIsRefused) {
   // assimp would never stop reading it.
   expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
+  expect_words(refusal("endless.ply"), {tool_file("endless.ply"), "end_header"});
   const std::string whole = tool_text("jaw_ascii.ply"), path = testing::TempDir() + "cut_off.ply";
   const std::size_t end = whole.find("end_header");
   std::string joined = whole;
   joined.erase(end + 10, 1);
+  std::string in_capitals = whole.substr(0, end);
+  in_capitals[1] = 'L';
   for (const std::string& text :
-       {whole.substr(0, end + 10), whole.substr(0, end) + "9" + whole.substr(end), joined}) {
+       {whole.substr(0, end + 10), whole.substr(0, end) + "9" + whole.substr(end), joined,
+        in_capitals, whole.substr(0, end) + "comment " + whole.substr(end)}) {
     std::ofstream(path) << text;
     expect_words(tool_error([&] { read_mesh_file(path, kUnit, kAtOrigin); }), {path, "end_header"});
   }
