@@ -108,14 +108,13 @@ void check_indices(const aiScene& scene) {
   }
 }
 
-bool is_space(char character) { return std::isspace(static_cast<unsigned char>(character)) != 0; }
+bool ends_line(char character) { return character == '\n' || character == '\r'; }
 
-/// Whether a line of the text begins with the word, before white space.
+/// Whether one line of the text, other than the first, is this word.
 bool has_line(const std::string& text, const std::string& word) {
   for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
     const std::size_t end = at + word.size();
-    const bool begins_line = text[at - 1] == '\n' || text[at - 1] == '\r';
-    if (begins_line && end < text.size() && is_space(text[end])) return true;
+    if (ends_line(text[at - 1]) && end < text.size() && ends_line(text[end])) return true;
   }
   return false;
 }

@@ -145,7 +145,8 @@ TEST(MeshFile, CutOffPlyIsRefused) {
   in_capitals[1] = 'L';
   for (const std::string& text :
        {whole.substr(0, end + 10), whole.substr(0, end) + "9" + whole.substr(end), joined,
-        in_capitals, whole.substr(0, end) + "comment " + whole.substr(end)}) {
+        in_capitals, whole.substr(0, end) + "comment " + whole.substr(end),
+        whole.substr(0, end + 10) + "\v" + whole.substr(end + 10)}) {
     std::ofstream(path) << text;
     expect_words(tool_error([&] { read_mesh_file(path, kUnit, kAtOrigin); }), {path, "end_header"});
   }
