@@ -110,11 +110,11 @@ void check_indices(const aiScene& scene) {
 
 bool ends_line(char character) { return character == '\n' || character == '\r'; }
 
-/// Whether one line of the text, other than the first, is this word.
+/// Whether one line of the text, other than the first, is this word. Blanks may follow it.
 bool has_line(const std::string& text, const std::string& word) {
   for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
-    const std::size_t end = at + word.size();
-    if (ends_line(text[at - 1]) && end < text.size() && ends_line(text[end])) return true;
+    const std::size_t end = text.find_first_not_of(" \t", at + word.size());
+    if (ends_line(text[at - 1]) && end != std::string::npos && ends_line(text[end])) return true;
   }
   return false;
 }

@@ -133,6 +133,15 @@ TEST(MeshFile, WrongIndicesAreNamed) {
   expect_words(refusal("wrong_index.ply"), {tool_file("wrong_index.ply"), "100000000", "of 3"});
 }
 
+TEST(MeshFile, BlanksMayFollowTheHeaderOfPly) {
+  std::string text = tool_text("jaw_ascii.ply");
+  text.insert(text.find("end_header") + 10, " \t");
+  const std::string path = testing::TempDir() + "blanks.ply";
+  std::ofstream(path) << text;
+  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 4U);
+  std::remove(path.c_str());
+}
+
 TEST(MeshFile, CutOffPlyIsRefused) {
   // assimp would never stop reading it.
   expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
