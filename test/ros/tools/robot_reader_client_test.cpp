@@ -4,6 +4,8 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <cstdio>
+#include <fstream>
 
 #include "ros/tools/link_description.hpp"
 #include "tool_files.hpp"
@@ -62,16 +64,23 @@ TEST(RobotReader, TooMuchMemoryNamesTheFile) {
                {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
-// Some versions of the parser hang on this file. This process sets itself a lower limit, which the
-// reader inherits, so that it ends sooner.
-TEST(RobotReader, FilesThatMayHangTheReaderAreRefusedByName) {
+// This process sets itself a lower limit of processor time, which the reader inherits: it would
+// read for half a minute.
+TEST(RobotReader, FilesThatTakeTooLongAreRefusedByName) {
+  const std::string path = testing::TempDir() + "slow.obj";
+  {
+    std::ofstream file(path);
+    for (int i = 0; i < 150'000; ++i) file << "v 0.125 0.25 0.5\n";
+    file << "f 1 2 3\n";
+  }
   const auto former_action = std::signal(SIGXCPU, SIG_IGN);
   rlimit former{};
   getrlimit(RLIMIT_CPU, &former);
   const rlimit lower{1, former.rlim_max};
   setrlimit(RLIMIT_CPU, &lower);
-  expect_words(refusal(robot_of(tool_file("endless.ply"))),
-               {"link 'tip': mesh '" + tool_file("endless.ply") + "'"});
+  expect_words(refusal(robot_of(path), std::vector<std::string>(1000, "tip")),
+               {"link 'tip': mesh '" + path + "'", "was ended by signal"});
   setrlimit(RLIMIT_CPU, &former);
   std::signal(SIGXCPU, former_action);
+  std::remove(path.c_str());
 }
