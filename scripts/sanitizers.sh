@@ -16,6 +16,12 @@ left_out_tests() {
     END {print names}' "$sanitizers/left_out.txt"
 }
 
+# is_of_parser REPORT: whether it tells of a crash within the parsers of robot files. They run in robot_reader, and tests
+# crash them on purpose.
+is_of_parser() {
+  grep -q "ERROR: AddressSanitizer" "$1" && grep -m 6 -E '^ +#[0-5] ' "$1" | grep -qE 'lib(assimp|urdfdom_model)[.]so'
+}
+
 # under_sanitizer SANITIZER CTEST ARGUMENT...: runs ctest, and prints what the sanitizer found. Fails if a test fails or
 # if there is anything.
 under_sanitizer() {
@@ -42,6 +48,7 @@ under_sanitizer() {
   fi
   for report in "$log"/report*; do
     [ -e "$report" ] || continue
+    if is_of_parser "$report"; then continue; fi
     say "Found: $report"
     cat "$report"
     result=1

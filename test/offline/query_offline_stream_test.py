@@ -2,6 +2,7 @@
 """--motions -: motions from standard input are answered at once, in their order."""
 
 import os
+import re
 import select
 import subprocess
 import time
@@ -53,11 +54,13 @@ class Conversation:
         return not self.arrived and not select.select([self.process.stdout], [], [], 0.0)[0]
 
     def end(self):
-        """What is left of the output, stderr and the exit status, when there is no more input."""
+        """What is left of the output, stderr and the exit status, when there is no more input. Without the progress,
+        which is printed once a second."""
         self.process.stdin.close()
         self.process.stdin = None
         rest, error = self.process.communicate(timeout=LIMIT)
-        return (self.arrived + rest).decode(), error.decode(), self.process.returncode
+        said = re.sub(r'^query_offline: \d+ motions\n', '', error.decode(), flags=re.M)
+        return (self.arrived + rest).decode(), said, self.process.returncode
 
 
 class StreamTest(ProgramCase):

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <organ_collision/OrganMesh.h>
 
-#include <cstring>
+#include <algorithm>
 
 namespace organ_collision {
 namespace {
@@ -12,7 +12,7 @@ namespace {
 struct Holder {
   std::uint32_t size() const { return static_cast<std::uint32_t>(bytes.size()); }
   void write(ros::serialization::OStream& stream) const {
-    std::memcpy(stream.advance(size()), bytes.data(), size());
+    std::copy(bytes.begin(), bytes.end(), stream.advance(size()));
   }
   std::vector<std::uint8_t> bytes;
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "link_motion_fixture.hpp"
@@ -125,7 +126,8 @@ TEST(GivenMotion, TheTipOfLinksIsKnownIfALinkHasItsFrame) {
   };
   EXPECT_EQ(tip(""), std::nullopt);
   EXPECT_EQ(tip("arm/point"), std::nullopt);
-  EXPECT_EQ(tip("arm/jaw"), request.path[0].links[1].translation());
+  const std::optional<Vector3d> found = tip("arm/jaw");
+  EXPECT_EQ(found, request.path[0].links[1].translation());
 }
 
 TEST_F(LinkMotionTest, IllegalMotionsAreRefusedWithTheirValue) {
