@@ -30,7 +30,7 @@ under_sanitizer() {
   rm -rf "$log"
   mkdir -p "$log"
   # A node that is reported ends with an error, but its test may not notice. The files tell of all programs.
-  export ASAN_OPTIONS="log_path=$log/report"
+  export ASAN_OPTIONS="suppressions=$sanitizers/address.supp log_path=$log/report"
   export LSAN_OPTIONS="suppressions=$sanitizers/leak.supp print_suppressions=0"
   export UBSAN_OPTIONS="log_path=$log/report print_stacktrace=1"
   # What libraries without checks do with memory is left out, because the sanitizer does not see how they synchronize.

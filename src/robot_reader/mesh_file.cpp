@@ -9,6 +9,7 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 #include <cctype>
+#include <chrono>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -17,8 +18,10 @@
 #include <vector>
 
 #include "geometry/concatenate.hpp"
+#include "process_limits.hpp"
 #include "resource.hpp"
 #include "ros/tools/link_description.hpp"
+#include "ros/tools/reader_limits.hpp"
 
 namespace organ_collision {
 namespace {
@@ -135,6 +138,12 @@ void check_ply_header(const std::string& content) {
   }
 }
 
+/// assimp believes the lengths of lists that a broken file claims to have, for example.
+std::chrono::milliseconds time_for(const std::string& content) {
+  const auto more = content.size() / reader_limits::kMeshBytesPerMillisecond;
+  return reader_limits::kMeshTime + std::chrono::milliseconds(more);
+}
+
 /// Why the importer failed. If memory ran out, its error is only the text of std::bad_alloc.
 std::string reason(const Assimp::Importer& importer) {
   const std::string error = importer.GetErrorString();
@@ -169,6 +178,7 @@ MeshDescription read_mesh_file(const std::string& file, const Vector3d& scale,
   try {
     check_scale(scale);
     check_ply_header(content);
+    const ScopedTimeLimit limit(time_for(content));
     return parse(file, content, T_link_mesh * Eigen::Scaling(scale));
   } catch (const std::exception& error) {
     throw ToolError("mesh '" + file + "': " + error.what());

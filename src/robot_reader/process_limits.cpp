@@ -2,6 +2,7 @@
 
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -37,7 +38,21 @@ void limit(Resource resource, rlim_t value) {
   throw std::system_error(errno, std::generic_category(), "setrlimit");
 }
 
+/// Zero: never.
+void set_timer(std::chrono::milliseconds time) {
+  itimerval timer{};
+  timer.it_value.tv_sec = time.count() / 1000;
+  timer.it_value.tv_usec = time.count() % 1000 * 1000;
+  if (setitimer(ITIMER_PROF, &timer, nullptr) != 0) {
+    throw std::system_error(errno, std::generic_category(), "setitimer");
+  }
+}
+
 }  // namespace
+
+ScopedTimeLimit::ScopedTimeLimit(std::chrono::milliseconds time) { set_timer(time); }
+
+ScopedTimeLimit::~ScopedTimeLimit() { set_timer(std::chrono::milliseconds::zero()); }
 
 void limit_process() {
   limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());

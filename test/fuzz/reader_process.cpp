@@ -115,7 +115,7 @@ void ReaderProcess::end() {
   close(from_);
   int status = 0;
   waitpid(process_, &status, 0);
-  demand(!WIFSIGNALED(status) || WTERMSIG(status) != SIGXCPU, "reading a file ends");
+  demand(!WIFSIGNALED(status) || WTERMSIG(status) != SIGXCPU, "reading a file ends soon");
   process_ = -1;
 }
 

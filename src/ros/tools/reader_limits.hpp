@@ -13,6 +13,10 @@ inline constexpr std::size_t kFileBytes = 100'000'000;
 inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;
 /// Of processor time: files of the largest legal size take a few seconds.
 inline constexpr std::chrono::seconds kProcessorTime{10};
+/// Of processor time for one mesh file: this, and some more for each byte. Parsers read
+/// about 30 MB a second. Some never stop reading a broken file.
+inline constexpr std::chrono::milliseconds kMeshTime{200};
+inline constexpr std::size_t kMeshBytesPerMillisecond = 2000;
 
 /// Of real time, which is longer than processor time on a busy machine.
 inline constexpr std::chrono::seconds kTime{30};

@@ -67,9 +67,16 @@ TEST(RobotReader, TooMuchMemoryNamesTheFile) {
                {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
+// A face claims to have a million corners. The parser would need minutes.
+TEST(RobotReader, FilesThatTakeTooLongForTheirSizeAreRefusedByName) {
+  expect_words(refusal(robot_of(tool_file("long_face.ply"))),
+               {"link 'tip': mesh '" + tool_file("long_face.ply") + "'",
+                "was ended by signal " + std::to_string(SIGPROF)});
+}
+
 // This process sets itself a lower limit of processor time, which the reader inherits: it would
 // read for half a minute.
-TEST(RobotReader, FilesThatTakeTooLongAreRefusedByName) {
+TEST(RobotReader, ManyFilesThatTakeTooLongAreRefusedByName) {
   const std::string path = testing::TempDir() + "slow.obj";
   {
     std::ofstream file(path);
