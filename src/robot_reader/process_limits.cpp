@@ -38,19 +38,19 @@ void limit(Resource resource, rlim_t value) {
   throw std::system_error(errno, std::generic_category(), "setrlimit");
 }
 
-/// Zero: never.
-void set_timer(std::chrono::milliseconds time) {
+/// Zero: never. Returns whether it succeeded.
+bool set_timer(std::chrono::milliseconds time) {
   itimerval timer{};
   timer.it_value.tv_sec = time.count() / 1000;
   timer.it_value.tv_usec = time.count() % 1000 * 1000;
-  if (setitimer(ITIMER_PROF, &timer, nullptr) != 0) {
-    throw std::system_error(errno, std::generic_category(), "setitimer");
-  }
+  return setitimer(ITIMER_PROF, &timer, nullptr) == 0;
 }
 
 }  // namespace
 
-ScopedTimeLimit::ScopedTimeLimit(std::chrono::milliseconds time) { set_timer(time); }
+ScopedTimeLimit::ScopedTimeLimit(std::chrono::milliseconds time) {
+  if (!set_timer(time)) throw std::system_error(errno, std::generic_category(), "setitimer");
+}
 
 ScopedTimeLimit::~ScopedTimeLimit() { set_timer(std::chrono::milliseconds::zero()); }
 
