@@ -22,8 +22,8 @@ is_of_parser() {
   grep -q "ERROR: AddressSanitizer" "$1" && grep -m 6 -E '^ +#[0-5] ' "$1" | grep -qE 'lib(assimp|urdfdom_model)[.]so'
 }
 
-# under_sanitizer SANITIZER CTEST ARGUMENT...: runs ctest, and prints what the sanitizer found. Fails if a test fails or
-# if there is anything.
+# under_sanitizer SANITIZER COMMAND...: runs it, and prints what the sanitizer found. Fails if the command fails or if
+# there is anything.
 under_sanitizer() {
   local sanitizer=$1 result=0 report log=$build/found
   shift
@@ -40,12 +40,6 @@ under_sanitizer() {
   export ORGAN_COLLISION_NODELET_PREFIX="env LD_PRELOAD=$(gcc -print-file-name="lib${sanitizer:0:1}san.so")"
   # Without random addresses, because ThreadSanitizer needs some of them.
   setarch --addr-no-randomize "$@" || result=1
-  # LeakSanitizer itself may crash if a thread of Mesa ends while it looks for leaks. These tests run once more.
-  if report=$(grep -ls "Tracer caught signal" "$log"/report*); then
-    say "LeakSanitizer has crashed; running what failed once more"
-    xargs rm <<<"$report"
-    setarch --addr-no-randomize "$@" --rerun-failed && result=0
-  fi
   for report in "$log"/report*; do
     [ -e "$report" ] || continue
     if is_of_parser "$report"; then continue; fi

@@ -13,8 +13,8 @@ inline constexpr std::size_t kFileBytes = 100'000'000;
 inline constexpr std::size_t kMemoryBytes = std::size_t{2} << 30;
 /// Of processor time: files of the largest legal size take a few seconds.
 inline constexpr std::chrono::seconds kProcessorTime{10};
-/// Of processor time for one mesh file: this, and some more for each byte. Parsers read
-/// about 30 MB a second. Some never stop reading a broken file.
+/// Of processor time for one mesh file: this, and some more for each byte. An OBJ file is read with
+/// 30 MB a second. Parsers never stop reading some broken files.
 inline constexpr std::chrono::milliseconds kMeshTime{200};
 inline constexpr std::size_t kMeshBytesPerMillisecond = 2000;
 

@@ -67,7 +67,7 @@ TEST(RobotReader, TooMuchMemoryNamesTheFile) {
                {"link 'tip': mesh '" + tool_file("huge.ply") + "'", "not enough memory"});
 }
 
-// A face claims to have a million corners. The parser would need minutes.
+// A face claims to have 300 000 corners. The parser would need more than 10 s.
 TEST(RobotReader, FilesThatTakeTooLongForTheirSizeAreRefusedByName) {
   expect_words(refusal(robot_of(tool_file("long_face.ply"))),
                {"link 'tip': mesh '" + tool_file("long_face.ply") + "'",
@@ -75,7 +75,7 @@ TEST(RobotReader, FilesThatTakeTooLongForTheirSizeAreRefusedByName) {
 }
 
 // This process sets itself a lower limit of processor time, which the reader inherits: it would
-// read for half a minute.
+// read for ten seconds and more.
 TEST(RobotReader, ManyFilesThatTakeTooLongAreRefusedByName) {
   const std::string path = testing::TempDir() + "slow.obj";
   {
