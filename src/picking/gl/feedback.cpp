@@ -5,6 +5,7 @@
 #include <string>
 
 #include "clip_to.hpp"
+#include "draw_from.hpp"
 #include "gl_functions.hpp"
 
 namespace organ_collision {
@@ -37,9 +38,7 @@ std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
   context.make_current();
   const GlFunctions& gl = context.functions();
   clip_to(volume, gl);
-  constexpr GLsizei kStride = sizeof(DrawVertex);
-  gl.VertexPointer(3, GL_FLOAT, kStride, vertices.data()->position.data());
-  gl.TexCoordPointer(2, GL_FLOAT, kStride, vertices.data()->number.data());
+  draw_from(vertices, gl);
   while (true) {
     gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
     gl.RenderMode(GL_FEEDBACK);

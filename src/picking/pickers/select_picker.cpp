@@ -5,6 +5,7 @@
 
 #include "candidates.hpp"
 #include "picking/gl/clip_to.hpp"
+#include "picking/gl/draw_from.hpp"
 #include "picking/gl/gl_functions.hpp"
 #include "picking/gl/witness.hpp"
 
@@ -42,9 +43,7 @@ double window_depth(std::uint32_t recorded) {
 /// Draws each face under its own name. Not by glBegin and glEnd: in GL_SELECT mode, Mesa 22.3 loses
 /// a buffer of 512 KB whenever such vertices have filled it.
 void draw_named(const std::vector<DrawVertex>& vertices, const GlFunctions& gl) {
-  constexpr GLsizei kStride = sizeof(DrawVertex);
-  gl.VertexPointer(3, GL_FLOAT, kStride, vertices.data()->position.data());
-  gl.TexCoordPointer(2, GL_FLOAT, kStride, vertices.data()->number.data());
+  draw_from(vertices, gl);
   for (std::size_t i = 0; i < vertices.size(); i += 3) {
     gl.LoadName(face_number(vertices[i].number[0], vertices[i].number[1]));
     gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(i), 3);

@@ -1,17 +1,16 @@
 #include "picking/pickers/picker.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <array>
-#include <fstream>
 #include <utility>
 #include <vector>
 
 #include "picker_fixture.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 #include "test/picking/volumes/random_motions.hpp"
+#include "test/resident_memory.hpp"
 
 namespace organ_collision {
 namespace {
@@ -27,13 +26,6 @@ INSTANTIATE_TEST_SUITE_P(Kinds, PickerTest,
 ViewingVolume box() {
   return ViewingVolume::orthographic(
       {Vector3d(3, -2, 5), Vector3d::Zero(), Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
-}
-
-/// [bytes]
-long resident_memory() {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return resident * sysconf(_SC_PAGESIZE);
 }
 
 Triangle moved(const Triangle& face, const Vector3d& by) {

@@ -4,9 +4,10 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "test/resident_memory.hpp"
 
 namespace organ_collision {
 namespace {
@@ -24,13 +25,6 @@ void lock_and_take_more() {
   const bool is_locked = locked > 0 && has_grown;
   const bool is_as_before = locked == 0 && locked_memory() == 0;
   _exit((refusal.empty() ? is_locked : is_as_before) ? 0 : 1);
-}
-
-/// [bytes] of memory that this process has in RAM.
-long resident_memory() {
-  long pages = 0, resident = 0;
-  std::ifstream("/proc/self/statm") >> pages >> resident;
-  return resident * sysconf(_SC_PAGESIZE);
 }
 
 /// Locks the memory of this process, reserves much more, and ends the process. Exit status 0: what

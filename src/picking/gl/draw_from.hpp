@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "gl_functions.hpp"
+#include "picking/culling/draw_list.hpp"
+
+namespace organ_collision {
+
+/// Makes GL's DrawArrays draw `vertices`, with their numbers as texture coordinates, until the next
+/// call. There must be some, and they must stay where they are.
+void draw_from(const std::vector<DrawVertex>& vertices, const GlFunctions& gl);
+
+}  // namespace organ_collision
