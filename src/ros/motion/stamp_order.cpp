@@ -1,6 +1,8 @@
 #include "stamp_order.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 namespace organ_collision {
@@ -12,17 +14,25 @@ constexpr double kArrival = 2.0;
 constexpr double kMostAhead = 0.25;
 /// Clocks of several hosts differ by less.
 constexpr double kShortestJump = 0.02;
+constexpr double kAnything = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
 void StampOrder::add(const ClockJump& jump) {
   const double from = jump.from.toSec(), to = jump.to.toSec();
-  if (from - to < kShortestJump) return;
+  if (from - to < kShortestJump) {
+    if (era_ == Era::kNow) start(kAnything, Era::kUnknown);
+    return;
+  }
   const double middle = 0.5 * (from + to);
   // The transforms may have come before the /clock that goes with them.
   const bool has_stepped_back = std::exchange(stepped_from_, 0.0) > middle && latest_ < middle;
-  era_ = has_stepped_back ? Era::kNow : Era::kUnknown;
-  most_ahead_ = std::min(middle - to, kMostAhead);
+  start(std::min(middle - to, kMostAhead), has_stepped_back ? Era::kNow : Era::kUnknown);
+}
+
+void StampOrder::start(double most_ahead, Era era) {
+  most_ahead_ = most_ahead;
+  era_ = era;
   has_begun_ = false;
 }
 
@@ -48,9 +58,10 @@ StampOrder::Verdict StampOrder::judge(ros::Time stamp, ros::Time now) {
   return back || was_refused ? Verdict::kTakeAnew : Verdict::kTake;
 }
 
-/// Whether the stamps step back to the time of the clock. By how much does not matter if the one
-/// before was ahead of the clock.
+/// Whether the stamps step back to the time of the clock. After a jump of 20 ms or more, it does
+/// not matter by how much if the one before was ahead of the clock.
 bool StampOrder::steps_back(double before, double ahead) const {
+  if (std::isinf(most_ahead_)) return latest_ < before - kShortestJump;
   return ahead <= most_ahead_ && latest_ < before - (was_ahead_ ? 0.0 : most_ahead_);
 }
 

@@ -112,6 +112,24 @@ TEST_F(StampOrderTest, AStepBackToATimeBetweenTwoJumpsIsNotTheLast) {
   EXPECT_EQ(judge(3.0, 3.0), Verdict::kTakeAnew);
 }
 
+// A node that was stopped while the clock jumped back sees only a small jump, or a part of a larger
+// one. It gets the transforms of both times.
+TEST_F(StampOrderTest, WhereTheStampsStepFarBackBehindASmallJumpThoseBeforeAreForgotten) {
+  for (const double seen : {0.02, 0.002}) {
+    order_ = StampOrder();
+    judge(545.292, 545.292);
+    jump(545.292, 545.292 - seen);
+    const double now = 545.292 - seen;
+    for (double stamp = 545.293; stamp < 545.7; stamp += kTick) {
+      ASSERT_NE(judge(stamp, now), Verdict::kTakeAnew) << stamp;
+    }
+    EXPECT_EQ(judge(545.0, now), Verdict::kTakeAnew);
+    for (double stamp = 545.001; stamp < now + 0.1; stamp += kTick) {
+      ASSERT_EQ(judge(stamp, now), Verdict::kTake) << stamp;
+    }
+  }
+}
+
 TEST_F(StampOrderTest, StampsThatGoOnThroughSmallJumpsAreTaken) {
   double now = 3.0;
   for (int tick = 0; tick < 1000; ++tick) {  // Every tenth tick, the clock steps back.
