@@ -1,6 +1,8 @@
 #include "surface_touch.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <tuple>
 
 #include "organ_collision/geometry/tolerances.hpp"
@@ -11,6 +13,12 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
+
+/// [1] The ball of a face at rest stands for the face if the box's longest edge is more than this
+/// many times the ball's radius.
+constexpr double kSmall = 2.0;
+/// Balls of fewer faces than this are not sifted by single triangles.
+constexpr std::size_t kFew = 8;
 
 /// A triangle of a link during one leg, in the organ's frame [m].
 class MovingTriangle {
@@ -25,6 +33,17 @@ class MovingTriangle {
       for (const Vector3d& corner : in_link) arm = std::max(arm, link.arm(corner));
     }
     deviation_ = arm * link.angle() * link.angle() / 8.0;
+  }
+
+  /// A box that holds the triangle, grown by a radius [m], during the whole leg.
+  Slabs bounds(double radius) const {
+    const Eigen::Matrix3d axes = this->axes();
+    Eigen::AlignedBox3d box;
+    for (const Triangle* place : {&start_, &end_}) {
+      for (const Vector3d& corner : *place) box.extend(Vector3d(axes.transpose() * corner));
+    }
+    const double reach = radius + deviation_;
+    return {axes, box.min().array() - reach, box.max().array() + reach};
   }
 
   /// As SweptBox::clear_until(). Tests the planes of face and triangle at the start of the leg.
@@ -43,6 +62,14 @@ class MovingTriangle {
   }
 
  private:
+  /// The normal, a direction along the first edge, and one across; any axes if it is degenerate.
+  Eigen::Matrix3d axes() const {
+    if (normal_.isZero(0.0)) return Eigen::Matrix3d::Identity();
+    const Vector3d along = (start_[1] - start_[0]).stableNormalized();
+    Eigen::Matrix3d axes;
+    axes << normal_, along, normal_.cross(along);
+    return axes;
+  }
   static Triangle placed(const Eigen::Isometry3d& pose, const Triangle& in_link) {
     return {pose * in_link[0], pose * in_link[1], pose * in_link[2]};
   }
@@ -81,48 +108,80 @@ bool precedes(const FirstTouch& touch, const FirstTouch& other) {
 /// Takes faces down the tree of boxes.
 class SurfaceTouches::Descent {
  public:
-  using Kept = std::vector<DescendingFace*>::iterator;
-
-  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget)
-      : surface_(surface), motion_(motion), radius_(radius), budget_(budget) {}
-
-  /// Finds the touches of the faces [begin, end) with the triangles below a node.
-  void visit(std::uint32_t index, Kept begin, Kept end) const {
-    const ToolSurface::Node& node = surface_.nodes()[index];
-    const SweptBox box(node.box, motion_, radius_);
-    budget_.spend(static_cast<std::uint64_t>(end - begin));
-    const Kept kept = std::partition(begin, end, [&](const DescendingFace* face) {
-      return !is_settled(*face->touch) &&
-             box.clear_until(face->bounded, closer(*face->touch, radius_)) <= latest(*face->touch);
-    });
-    if (kept == begin) return;
-    if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, kept);
-    const bool is_leaf = node.second == 0;
-    if (is_leaf) {
-      for (std::uint32_t face = node.begin; face < node.end; ++face) touch(face, begin, kept);
-    } else {
-      visit(index + 1, begin, kept);
-      visit(node.second, begin, kept);
+  Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget,
+          std::vector<DescendingFace>& faces, BallSieve& sieve)
+      : surface_(surface),
+        motion_(motion),
+        radius_(radius),
+        budget_(budget),
+        faces_(faces),
+        sieve_(sieve) {
+    for (const DescendingFace& face : faces) {
+      const bool rests = motion.rests() && face.bounded.rests;
+      largest_ =
+          std::max(largest_, rests ? face.bounded.radius : std::numeric_limits<double>::infinity());
     }
   }
 
+  /// Finds the touches of the faces of a range with the triangles below a node.
+  void visit(std::uint32_t index, const BallSieve::Range& range) {
+    const SweptBox box(surface_.nodes()[index].box, motion_, radius_);
+    budget_.spend(range.size());
+    BallSieve::Range near = sieve_.sift(range, {box.axes(), box.low(), box.high()});
+    keep_near(box, near);
+    if (!near.empty()) descend(surface_.nodes()[index], index + 1, near);
+    sieve_.forget(near);
+  }
+
  private:
-  /// Marks the touches of the faces [begin, end) as unresolved. A face without a touch gets one
-  /// with the triangle.
-  void leave_unresolved(std::uint32_t index, Kept begin, Kept end) const {
-    const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
-    for (Kept kept = begin; kept != end; ++kept) {
-      FaceTouch& face = *(*kept)->touch;
+  /// Takes the faces out of the range that surely stay too far from the box to matter.
+  void keep_near(const SweptBox& box, BallSieve::Range& range) {
+    const double extent = (box.high() - box.low()).maxCoeff();
+    if (kSmall * largest_ < extent) return;
+    sieve_.keep_if(range, [&](std::uint32_t number) {
+      const auto& [face, touch] = faces_[number];
+      return box.clear_until(face, closer(*touch, radius_)) <= latest(*touch);
+    });
+  }
+
+  void descend(const ToolSurface::Node& node, std::uint32_t first, const BallSieve::Range& near) {
+    if (budget_.is_used_up()) return leave_unresolved(node.begin, near);
+    const bool is_leaf = node.second == 0;
+    if (is_leaf) {
+      for (std::uint32_t triangle = node.begin; triangle < node.end; ++triangle) {
+        touch(triangle, near);
+      }
+    } else {
+      visit(first, near);
+      visit(node.second, near);
+    }
+  }
+
+  /// Marks the touches of the faces of a range as unresolved. A face without a touch gets one with
+  /// the triangle.
+  void leave_unresolved(std::uint32_t triangle, const BallSieve::Range& range) {
+    const CoreMotion core(ConvexCore(surface_.triangle(triangle)), motion_);
+    for (std::size_t place = range.begin; place < range.end; ++place) {
+      FaceTouch& face = *faces_[sieve_.number(place)].touch;
       if (!face.first) face.first = first_touch(core, face.motion, radius_, budget_);
       face.first->is_resolved = false;
     }
   }
 
-  /// Finds the touches of the faces [begin, end) with one triangle of the surface.
-  void touch(std::uint32_t index, Kept begin, Kept end) const {
+  /// Finds the touches of the faces of a range with one triangle of the surface.
+  void touch(std::uint32_t index, const BallSieve::Range& range) {
     const MovingTriangle triangle(surface_.triangle(index), motion_);
-    for (Kept kept = begin; kept != end; ++kept) {
-      FaceTouch& face = *(*kept)->touch;
+    if (range.size() < kFew) return touch(index, triangle, range);
+    const BallSieve::Range near = sieve_.sift(range, triangle.bounds(radius_));
+    touch(index, triangle, near);
+    sieve_.forget(near);
+  }
+
+  void touch(std::uint32_t index, const MovingTriangle& triangle, const BallSieve::Range& range) {
+    std::optional<CoreMotion> core;
+    for (std::size_t place = range.begin; place < range.end; ++place) {
+      const DescendingFace& descending = faces_[sieve_.number(place)];
+      FaceTouch& face = *descending.touch;
       if (is_settled(face)) continue;
       if (face.first && budget_.is_used_up()) {
         face.first->is_resolved = false;  // This triangle may touch earlier.
@@ -131,10 +190,11 @@ class SurfaceTouches::Descent {
       const double until = latest(face);
       budget_.spend(1);
       const double reach = radius_ - closer(face, radius_);
-      if (triangle.clear_until((*kept)->bounded, reach) > until) continue;
-      const CoreMotion core(ConvexCore(surface_.triangle(index)), motion_);
-      const auto found = first_touch(core, face.motion, radius_, budget_, until);
+      if (triangle.clear_until(descending.bounded, reach) > until) continue;
+      if (!core) core.emplace(ConvexCore(surface_.triangle(index)), motion_);
+      const auto found = first_touch(*core, face.motion, radius_, budget_, until);
       if (found && (!face.first || precedes(*found, *face.first))) face.first = found;
+      if (is_settled(face)) sieve_.remove(sieve_.number(place));
     }
   }
 
@@ -142,18 +202,23 @@ class SurfaceTouches::Descent {
   const RigidMotion& motion_;
   double radius_;
   WorkBudget& budget_;
+  std::vector<DescendingFace>& faces_;
+  BallSieve& sieve_;
+  /// [m] The largest radius of a face's ball; infinite if a face or the tool moves.
+  double largest_ = 0.0;
 };
 
 void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion, double radius,
                           WorkBudget& budget, std::vector<FaceTouch>& faces) {
   faces_.clear();
-  kept_.clear();
+  sieve_.clear(motion.start() * surface.nodes().front().box.center);
   for (FaceTouch& face : faces) {
     face.first.reset();
-    faces_.push_back({BoundedFace(face.motion), &face});
+    const BoundedFace bounded(face.motion);
+    faces_.push_back({bounded, &face});
+    sieve_.add(bounded.center, bounded.radius);
   }
-  for (DescendingFace& face : faces_) kept_.push_back(&face);
-  Descent(surface, motion, radius, budget).visit(0, kept_.begin(), kept_.end());
+  Descent(surface, motion, radius, budget, faces_, sieve_).visit(0, sieve_.all());
 }
 
 }  // namespace organ_collision

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "ball_sieve.hpp"
 #include "bounded_face.hpp"
 #include "first_touch.hpp"
 #include "geometry/tool/rigid_motion.hpp"
@@ -19,8 +20,8 @@ struct FaceTouch {
 };
 
 /// Finds the first touches of faces with the surface of a link. The faces descend the surface's
-/// tree of boxes. Below a box, only the faces that may reach it are kept; in a leaf each of them is
-/// tested against each triangle. Keeps its memory between calls.
+/// tree of boxes together. Below a box, only the faces that may reach it are kept; in a leaf each
+/// of them is tested against each triangle. Keeps its memory between calls.
 class SurfaceTouches {
  public:
   /// Sets the first touch of each of `faces`: when the face first comes within `radius` [m] of the
@@ -38,7 +39,7 @@ class SurfaceTouches {
   class Descent;
 
   std::vector<DescendingFace> faces_;
-  std::vector<DescendingFace*> kept_;  ///< those that the present box may reach come first
+  BallSieve sieve_;  ///< with the balls of these faces, under the same numbers
 };
 
 }  // namespace organ_collision

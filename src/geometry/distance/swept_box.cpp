@@ -11,10 +11,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [1] The ball of a face at rest stands for the face if the box's longest edge is more than this
-/// many times the ball's radius.
-constexpr double kSmall = 2.0;
-
 /// [m] The same bound as CoreMotion::chord_deviation(), for any point of the box.
 double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
   if (motion.angle() == 0.0) return 0.0;
@@ -47,11 +43,6 @@ SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d&
 
 double SweptBox::clear_until(const BoundedFace& face, double closer) const {
   const double reach = reach_ - closer;
-  const Vector3d center = axes_.transpose() * face.center;
-  const double beyond = (center - high_).cwiseMax(low_ - center).maxCoeff();
-  if (beyond > face.radius + reach) return 2.0;
-  if (rests_ && face.rests && kSmall * face.radius < (high_ - low_).maxCoeff()) return 0.0;
-
   double until = 0.0;
   for (int i = 0; i < 3 && until <= 1.0; ++i) {
     const Vector3d axis = axes_.col(i);

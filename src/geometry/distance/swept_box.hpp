@@ -25,8 +25,7 @@ class SweptBox {
 
   /// A time of the leg before which the face surely stays farther from the box than the radius less
   /// `closer` [m]; above 1 if it does so during the whole leg. Tests fixed planes: those at right
-  /// angles to axes(), and the face's own plane at the start. If box and face rest and the face's
-  /// ball is small beside the box, only the ball is tested: the result is then 0 or above 1.
+  /// angles to axes(), and the face's own plane at the start.
   double clear_until(const BoundedFace& face, double closer = 0.0) const;
   /// [m] A lower bound of the distance between the covered space and the face during the leg.
   double distance_bound(const FaceMotion& face) const;

@@ -2,16 +2,11 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 
+#include "geometry/lanes.hpp"
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 
 namespace organ_collision {
-
-// The compiler's vector type. Four floats fit the registers of every 64-bit processor.
-inline constexpr std::size_t kLanes = 4;
-using Lanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
-using LaneCodes = std::int32_t __attribute__((vector_size(sizeof(float) * kLanes)));
 
 /// One value, or one outcode, for each of FaceClusters::kRun points.
 using ValueRun = std::array<Lanes, FaceClusters::kRun / kLanes>;
