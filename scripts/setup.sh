@@ -81,6 +81,13 @@ build_jobs() {
   echo "$cores"
 }
 
+# If ccache is installed, what was compiled in one clone is not compiled again in another one.
+use_ccache() {
+  command -v ccache >/dev/null || return 0
+  export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$repository CCACHE_NOHASHDIR=true
+  export CCACHE_SLOPPINESS=pch_defines,time_macros # without these, nothing that uses precompiled headers is found again
+}
+
 # Configures and builds in Release, into build/ and devel/. targets: what to build; nothing: all.
 targets=()
 # build_package CMAKE_OPTIONS...
@@ -92,6 +99,7 @@ build_package() {
     [ -z "$stranger" ] || fail "cannot write $stranger, made by $(stat -c %U "$stranger"); remove build/ and devel/ first: sudo rm -r $build $devel"
   done
   use_ros
+  use_ccache
   say "Building in $build"
   cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release "$@"
   cmake --build "$build" --parallel "$(build_jobs)" ${targets:+--target "${targets[@]}"}
