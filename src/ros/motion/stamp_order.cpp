@@ -1,8 +1,6 @@
 #include "stamp_order.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <utility>
 
 namespace organ_collision {
@@ -14,25 +12,24 @@ constexpr double kArrival = 2.0;
 constexpr double kMostAhead = 0.25;
 /// Clocks of several hosts differ by less.
 constexpr double kShortestJump = 0.02;
-constexpr double kAnything = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+bool is_small(const ClockJump& jump) { return jump.from.toSec() - jump.to.toSec() < kShortestJump; }
+
 void StampOrder::add(const ClockJump& jump) {
-  const double from = jump.from.toSec(), to = jump.to.toSec();
-  if (from - to < kShortestJump) {
-    if (era_ == Era::kNow) start(kAnything, Era::kUnknown);
+  if (is_small(jump)) {
+    if (era_ != Era::kNow) return;
+    watches_steps_ = true;
+    has_begun_ = false;
     return;
   }
-  const double middle = 0.5 * (from + to);
+  const double to = jump.to.toSec(), middle = 0.5 * (jump.from.toSec() + to);
   // The transforms may have come before the /clock that goes with them.
   const bool has_stepped_back = std::exchange(stepped_from_, 0.0) > middle && latest_ < middle;
-  start(std::min(middle - to, kMostAhead), has_stepped_back ? Era::kNow : Era::kUnknown);
-}
-
-void StampOrder::start(double most_ahead, Era era) {
-  most_ahead_ = most_ahead;
-  era_ = era;
+  era_ = has_stepped_back ? Era::kNow : Era::kUnknown;
+  most_ahead_ = std::min(middle - to, kMostAhead);
+  watches_steps_ = false;
   has_begun_ = false;
 }
 
@@ -41,13 +38,17 @@ StampOrder::Verdict StampOrder::judge(ros::Time stamp, ros::Time now) {
   const double before = std::exchange(latest_, stamp.toSec());
   const bool back = steps_back(before, ahead);
   was_ahead_ = ahead > 0.0;
+  if (!std::exchange(has_begun_, true)) settled_ = now.toSec() + kArrival;
+  const bool is_settled = now.toSec() >= settled_;
   if (era_ == Era::kNow) {
     if (latest_ < before) stepped_from_ = before;
-    return Verdict::kTake;
+    watches_steps_ = watches_steps_ && !is_settled;
+    const bool steps_far = watches_steps_ && latest_ < before - kShortestJump;
+    if (steps_far) watches_steps_ = false;
+    return steps_far ? Verdict::kTakeAnew : Verdict::kTake;
   }
-  if (!std::exchange(has_begun_, true)) settled_ = now.toSec() + kArrival;
   const bool was_refused = era_ == Era::kBeforeJump;
-  if (back || now.toSec() >= settled_) {
+  if (back || is_settled) {
     era_ = Era::kNow;
   } else if (ahead > most_ahead_) {
     era_ = Era::kBeforeJump;
@@ -58,10 +59,9 @@ StampOrder::Verdict StampOrder::judge(ros::Time stamp, ros::Time now) {
   return back || was_refused ? Verdict::kTakeAnew : Verdict::kTake;
 }
 
-/// Whether the stamps step back to the time of the clock. After a jump of 20 ms or more, it does
-/// not matter by how much if the one before was ahead of the clock.
+/// Whether the stamps step back to the time of the clock. By how much does not matter if the one
+/// before was ahead of the clock.
 bool StampOrder::steps_back(double before, double ahead) const {
-  if (std::isinf(most_ahead_)) return latest_ < before - kShortestJump;
   return ahead <= most_ahead_ && latest_ < before - (was_ahead_ ? 0.0 : most_ahead_);
 }
 

@@ -9,6 +9,9 @@ struct ClockJump {
   ros::Time from, to;
 };
 
+/// Whether the clock jumped by less than 20 ms. Clocks of several hosts may differ by so much.
+bool is_small(const ClockJump& jump);
+
 /// The order in which the stamps of one frame's transforms come after a jump back of the clock.
 ///
 /// Messages that were on their way during the jump arrive after it, with stamps of the time before.
@@ -24,9 +27,10 @@ class StampOrder {
     kTakeAnew,  ///< what was taken before it is of another time, or there is a gap between them
   };
 
-  /// Notes that the clock jumped back. After a jump of less than 20 ms, no stamp seems to be of the
-  /// time before it. But a node that was stopped may have seen only the end of a longer jump.
-  /// Therefore stamps that step back by more than 20 ms are taken anew.
+  /// Notes that the clock jumped back. After a small jump, no stamp seems to be of the time before
+  /// it. But a node that was stopped may have seen only the end of a longer jump. Therefore a stamp
+  /// that steps back by more than 20 ms is then taken anew, once, and for as long as after any
+  /// jump. While a larger jump is being watched, a small one changes nothing.
   void add(const ClockJump& jump);
   /// What to do with the next transform. A stamp seems to be of the time before if it is ahead of
   /// the clock by more than 0.25 s (after a jump of less than 0.5 s: by more than half of it), and
@@ -38,17 +42,17 @@ class StampOrder {
  private:
   enum class Era { kUnknown, kBeforeJump, kNow };
 
-  void start(double most_ahead, Era era);
   bool steps_back(double before, double ahead) const;
 
   // In seconds, because differences of ros::Time throw if they exceed 2^31 s.
-  double latest_ = 0.0;        ///< the last stamp
-  bool was_ahead_ = false;     ///< of the clock, when it came
-  double stepped_from_ = 0.0;  ///< the stamp before the last step back that followed no jump
-  double most_ahead_ = 0.0;    ///< by how much a stamp may be ahead of the clock; may be infinite
-  bool has_begun_ = false;     ///< a transform has come since the jump
-  double settled_ = 0.0;       ///< 2 s after it
-  Era era_ = Era::kNow;        ///< that of the last stamp
+  double latest_ = 0.0;         ///< the last stamp
+  bool was_ahead_ = false;      ///< of the clock, when it came
+  double stepped_from_ = 0.0;   ///< the stamp before the last step back that followed no jump
+  double most_ahead_ = 0.0;     ///< by how much a stamp may be ahead of the clock
+  bool watches_steps_ = false;  ///< after a small jump
+  bool has_begun_ = false;      ///< a transform has come since the jump
+  double settled_ = 0.0;        ///< 2 s after it
+  Era era_ = Era::kNow;         ///< that of the last stamp
 };
 
 }  // namespace organ_collision

@@ -49,7 +49,7 @@ void TransformBuffer::clear() {
 
 void TransformBuffer::clear(const ClockJump& jump) {
   clear();
-  jump_ = jump;
+  if (!is_small(jump)) jump_ = jump;
   for (Frame& frame : frames_) frame.order.add(jump);
 }
 

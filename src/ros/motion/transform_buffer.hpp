@@ -65,7 +65,7 @@ class TransformBuffer : public tf2::BufferCore {
 
   std::map<std::string, std::size_t> indices_;  ///< into frames_, by name
   std::vector<Frame> frames_;
-  std::optional<ClockJump> jump_;  ///< the last one
+  std::optional<ClockJump> jump_;  ///< the last one that was not small
   bool has_started_anew_ = false;
   std::size_t late_ = 0;
 };
