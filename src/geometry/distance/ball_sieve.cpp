@@ -65,7 +65,7 @@ BallSieve::Range BallSieve::sift(const Range& range, const Slabs& box) {
                &d = balls_[number[3]];
     const Lanes x{a.x, b.x, c.x, d.x}, y{a.y, b.y, c.y, d.y}, z{a.z, b.z, c.z, d.z};
     const Lanes radius{a.radius, b.radius, c.radius, d.radius};
-    LaneCodes meets = x == x;
+    LaneCodes meets = {-1, -1, -1, -1};
     for (const Slab& slab : slabs) {
       const Lanes along = slab.x * x + slab.y * y + slab.z * z;
       meets &= (along - radius <= slab.high) & (along + radius >= slab.low);

@@ -16,8 +16,11 @@ struct Slabs {
 };
 
 /// Sifts balls by boxes: of some balls, finds those that may meet a box, four at a time. It
-/// computes in 32 bits and allows for their rounding: no ball that meets the box is left out. Keeps
-/// its memory.
+/// computes in 32 bits and allows for their rounding: no ball that meets the box is left out,
+/// unless it was removed. Keeps its memory.
+///
+/// What it finds is listed behind what was found before, as on a stack: a walk down a tree sifts
+/// what it has sifted above, and forgets it on the way back.
 class BallSieve {
  public:
   /// Consecutive places in the sieve's list of balls.
@@ -28,10 +31,11 @@ class BallSieve {
     bool empty() const { return begin == end; }
   };
 
-  /// Starts anew without balls. All coordinates are in one frame [m]; rounding takes least near
-  /// `origin`.
+  /// Starts anew without balls. All coordinates are in one frame [m]. The allowance for rounding is
+  /// smallest for balls near `origin`.
   void clear(const Eigen::Vector3d& origin);
-  /// Adds a ball [m]. Balls have numbers, from 0 on. Only before the first call of sift().
+  /// Adds a ball [m]: finite, its radius not negative. Balls have numbers, from 0 on. Only before
+  /// the first call of sift().
   void add(const Eigen::Vector3d& center, double radius);
   /// From now on, sift() leaves a ball out.
   void remove(std::uint32_t number);

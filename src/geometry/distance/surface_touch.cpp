@@ -14,10 +14,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [1] The ball of a face at rest stands for the face if the box's longest edge is more than this
-/// many times the ball's radius.
+/// [1] The ball of a face stands for the face if both the face and the tool rest, and the longest
+/// edge of the grown box is more than this many times the ball's radius.
 constexpr double kSmall = 2.0;
-/// Balls of fewer faces than this are not sifted by single triangles.
+/// The balls of fewer faces than this are not sifted by single triangles.
 constexpr std::size_t kFew = 8;
 
 /// A triangle of a link during one leg, in the organ's frame [m].
@@ -116,11 +116,8 @@ class SurfaceTouches::Descent {
         budget_(budget),
         faces_(faces),
         sieve_(sieve) {
-    for (const DescendingFace& face : faces) {
-      const bool rests = motion.rests() && face.bounded.rests;
-      largest_ =
-          std::max(largest_, rests ? face.bounded.radius : std::numeric_limits<double>::infinity());
-    }
+    for (const DescendingFace& face : faces)
+      largest_ = std::max(largest_, ball_at_rest(face.bounded));
   }
 
   /// Finds the touches of the faces of a range with the triangles below a node.
@@ -134,13 +131,20 @@ class SurfaceTouches::Descent {
   }
 
  private:
-  /// Takes the faces out of the range that surely stay too far from the box to matter.
+  /// [m] The radius of a face's ball; infinite if the face or the tool moves.
+  double ball_at_rest(const BoundedFace& face) const {
+    return motion_.rests() && face.rests ? face.radius : std::numeric_limits<double>::infinity();
+  }
+
+  /// Takes the faces out of the range that surely stay too far from the box to matter, unless their
+  /// balls stand for them.
   void keep_near(const SweptBox& box, BallSieve::Range& range) {
-    const double extent = (box.high() - box.low()).maxCoeff();
-    if (kSmall * largest_ < extent) return;
+    const double small = (box.high() - box.low()).maxCoeff() / kSmall;
+    if (largest_ < small) return;
     sieve_.keep_if(range, [&](std::uint32_t number) {
       const auto& [face, touch] = faces_[number];
-      return box.clear_until(face, closer(*touch, radius_)) <= latest(*touch);
+      return ball_at_rest(face) < small ||
+             box.clear_until(face, closer(*touch, radius_)) <= latest(*touch);
     });
   }
 
@@ -204,8 +208,7 @@ class SurfaceTouches::Descent {
   WorkBudget& budget_;
   std::vector<DescendingFace>& faces_;
   BallSieve& sieve_;
-  /// [m] The largest radius of a face's ball; infinite if a face or the tool moves.
-  double largest_ = 0.0;
+  double largest_ = 0.0;  ///< [m] the largest ball_at_rest()
 };
 
 void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion, double radius,
