@@ -19,7 +19,8 @@ left_out_tests() {
 # is_of_parser REPORT: whether it tells of a crash within the parsers of robot files. They run in robot_reader, and tests
 # crash them on purpose.
 is_of_parser() {
-  grep -q "ERROR: AddressSanitizer" "$1" && grep -m 6 -E '^ +#[0-5] ' "$1" | grep -qE 'lib(assimp|urdfdom_model)[.]so'
+  grep -qE "ERROR: (Address|Thread)Sanitizer" "$1" &&
+    grep -m 6 -E '^ +#[0-5] ' "$1" | grep -qE 'lib(assimp|urdfdom_model)[.]so'
 }
 
 # under_sanitizer SANITIZER COMMAND...: runs it, and prints what the sanitizer found. Fails if the command fails or if

@@ -21,6 +21,11 @@ def line(query, tip=TIP):
     return motion_line(query, 'swept', TROCAR, BEFORE, tip, 0.005) + '\n'
 
 
+def without_progress(error):
+    """What the program says on stderr besides its progress, which it prints once a second."""
+    return re.sub(r'^query_offline: \d+ motions\n', '', error, flags=re.M)
+
+
 class Conversation:
     """The program with a pipe into it and one out of it. A line that does not come raises an error."""
 
@@ -54,13 +59,11 @@ class Conversation:
         return not self.arrived and not select.select([self.process.stdout], [], [], 0.0)[0]
 
     def end(self):
-        """What is left of the output, stderr and the exit status, when there is no more input. Without the progress,
-        which is printed once a second."""
+        """What is left of the output, stderr without progress, and the exit status, when there is no more input."""
         self.process.stdin.close()
         self.process.stdin = None
         rest, error = self.process.communicate(timeout=LIMIT)
-        said = re.sub(r'^query_offline: \d+ motions\n', '', error.decode(), flags=re.M)
-        return (self.arrived + rest).decode(), said, self.process.returncode
+        return (self.arrived + rest).decode(), without_progress(error.decode()), self.process.returncode
 
 
 class StreamTest(ProgramCase):
@@ -82,7 +85,7 @@ class StreamTest(ProgramCase):
     def piped(self, text, *options):
         done = subprocess.run([PROGRAM, *FILES, *options], cwd=self.folder, input=text, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, universal_newlines=True, timeout=100)
-        return done.stdout, done.stderr, done.returncode
+        return done.stdout, without_progress(done.stderr), done.returncode
 
     def test_each_answer_comes_before_the_next_motion(self):
         for jobs in '1', '3':

@@ -56,7 +56,9 @@ TEST(RobotReader, FilesThatMayCrashTheReaderAreRefusedByName) {
     expect_words(refusal(robot_of(tool_file(name))),
                  {"link 'tip': mesh '" + tool_file(name) + "'"});
   }
+#ifndef __SANITIZE_THREAD__  // Its printf does not crash, so the file is read.
   EXPECT_FALSE(refusal(tool_text("crashing.urdf")).empty());
+#endif
 }
 
 TEST(RobotReader, TooMuchMemoryNamesTheFile) {

@@ -115,7 +115,9 @@ TEST(ToolLoader, FilesThatCrashOrHangTheirParsersAreFaults) {
     expect_words(tool.fault, {"PSM1: parameter 'robot_description': link 'tip'", tool_file(name)});
     EXPECT_TRUE(tool.links.empty());
   }
+#ifndef __SANITIZE_THREAD__  // Its printf does not crash, so the file is read.
   ToolParameters parameters = gripper({"tip"});
   parameters.urdf = tool_file("crashing.urdf");
   expect_fault(parameters, {"crashing.urdf'"});
+#endif
 }
