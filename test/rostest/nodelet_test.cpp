@@ -71,7 +71,7 @@ class NodeletTest : public testing::Test {
   }
 
   static bool wait_for(const std::function<bool()>& condition) {
-    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(10.0);
+    const ros::WallTime give_up = ros::WallTime::now() + ros::WallDuration(60.0);
     while (!condition() && ros::WallTime::now() < give_up) {
       ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
     }
