@@ -85,7 +85,8 @@ build_jobs() {
 use_ccache() {
   command -v ccache >/dev/null || return 0
   export CMAKE_CXX_COMPILER_LAUNCHER=ccache CCACHE_BASEDIR=$repository CCACHE_NOHASHDIR=true
-  export CCACHE_SLOPPINESS=pch_defines,time_macros # without these, nothing that uses precompiled headers is found again
+  # Without these, nothing that uses precompiled headers is found again. CMake writes their sources anew in each clone.
+  export CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime
 }
 
 # Configures and builds in Release, into build/ and devel/. targets: what to build; nothing: all.
