@@ -37,7 +37,7 @@ under_sanitizer() {
   # What libraries without checks do with memory is left out, because the sanitizer does not see how they synchronize.
   export TSAN_OPTIONS="suppressions=$sanitizers/thread.supp ignore_noninstrumented_modules=1 history_size=4"
   TSAN_OPTIONS+=" log_path=$log/report"
-  # /usr/bin/nodelet is built without a sanitizer, which must be loaded before our libraries.
+  # The program nodelet is built without a sanitizer, which must be loaded before our libraries.
   export ORGAN_COLLISION_NODELET_PREFIX="env LD_PRELOAD=$(gcc -print-file-name="lib${sanitizer:0:1}san.so")"
   # Without random addresses, because ThreadSanitizer needs some of them.
   setarch --addr-no-randomize "$@" || result=1
