@@ -13,6 +13,9 @@ constexpr double kMostAhead = 0.25;
 /// Clocks of several hosts differ by less.
 constexpr double kShortestJump = 0.02;
 
+/// [steps] No more: the stamps of a frame with two senders may step back again and again.
+constexpr int kMostSteps = 3;
+
 }  // namespace
 
 bool is_small(const ClockJump& jump) { return jump.from.toSec() - jump.to.toSec() < kShortestJump; }
@@ -20,7 +23,7 @@ bool is_small(const ClockJump& jump) { return jump.from.toSec() - jump.to.toSec(
 void StampOrder::add(const ClockJump& jump) {
   if (is_small(jump)) {
     if (era_ != Era::kNow) return;
-    watches_steps_ = true;
+    steps_to_watch_ = kMostSteps;
     has_begun_ = false;
     return;
   }
@@ -29,7 +32,7 @@ void StampOrder::add(const ClockJump& jump) {
   const bool has_stepped_back = std::exchange(stepped_from_, 0.0) > middle && latest_ < middle;
   era_ = has_stepped_back ? Era::kNow : Era::kUnknown;
   most_ahead_ = std::min(middle - to, kMostAhead);
-  watches_steps_ = false;
+  steps_to_watch_ = kMostSteps;
   has_begun_ = false;
 }
 
@@ -42,9 +45,9 @@ StampOrder::Verdict StampOrder::judge(ros::Time stamp, ros::Time now) {
   const bool is_settled = now.toSec() >= settled_;
   if (era_ == Era::kNow) {
     if (latest_ < before) stepped_from_ = before;
-    watches_steps_ = watches_steps_ && !is_settled;
-    const bool steps_far = watches_steps_ && latest_ < before - kShortestJump;
-    if (steps_far) watches_steps_ = false;
+    if (is_settled) steps_to_watch_ = 0;
+    const bool steps_far = steps_to_watch_ > 0 && latest_ < before - kShortestJump;
+    if (steps_far) --steps_to_watch_;
     return steps_far ? Verdict::kTakeAnew : Verdict::kTake;
   }
   const bool was_refused = era_ == Era::kBeforeJump;

@@ -124,7 +124,20 @@ TEST_F(StampOrderTest, WhereTheStampsStepFarBackBehindASmallJumpThoseBeforeAreFo
   for (double stamp = 545.001; stamp < 545.5; stamp += kTick) {
     ASSERT_EQ(judge(stamp, 545.290), Verdict::kTake) << stamp;
   }
-  EXPECT_EQ(judge(545.0, 545.5), Verdict::kTake) << "once for each jump";
+  EXPECT_EQ(judge(545.2, 545.5), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(545.0, 545.5), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(544.9, 545.5), Verdict::kTake) << "three times for each jump";
+}
+
+// While the node was stopped, the clock jumped back twice.
+TEST_F(StampOrderTest, BehindALargeJumpStampsThatStepBackAgainAreTakenAnew) {
+  judge(102.04, 102.04);
+  jump(102.04, 99.336);
+  EXPECT_EQ(judge(102.041, 99.336), Verdict::kRefuse);
+  EXPECT_EQ(judge(99.443, 99.336), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(99.491, 99.336), Verdict::kTake);
+  EXPECT_EQ(judge(98.748, 99.336), Verdict::kTakeAnew);
+  EXPECT_EQ(judge(98.749, 99.336), Verdict::kTake);
 }
 
 TEST_F(StampOrderTest, EachSmallJumpIsWatchedForTwoSeconds) {
