@@ -15,6 +15,15 @@ bool is_ready(const OrganMessage& message) {
          message.built.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
+bool is_removal(const OrganMesh& mesh) { return mesh.vertices.empty() && mesh.triangles.empty(); }
+
+/// Whether the organ ends in the same state without a message that `next` follows. Without its
+/// removal, an organ might refuse the mesh behind it.
+bool is_replaced(const OrganMessage& message, const OrganMessage& next) {
+  if (message.vertices) return true;
+  return next.mesh && (!is_removal(*message.mesh) || is_removal(*next.mesh));
+}
+
 template <typename Messages>
 OrganMessage take_front(Messages& messages) {
   OrganMessage message = std::move(messages.front());
@@ -37,13 +46,7 @@ OrganMessageQueue::~OrganMessageQueue() {
 }
 
 void OrganMessageQueue::add(const OrganMeshConstPtr& message, const Connection& connection) {
-  OrganMessage entry{message, connection};
-  const bool is_large = message->triangles.size() > 3 * kLarge;
-  const bool waits = waiting_.count(message->organ) > 0;
-  if (is_large && (waits || functions_.is_new(*message, connection))) {
-    entry.built = start_building(message);
-  }
-  add(std::move(entry));
+  add(OrganMessage{message, connection});
 }
 
 void OrganMessageQueue::add(const OrganVerticesConstPtr& message) {
@@ -53,17 +56,32 @@ void OrganMessageQueue::add(const OrganVerticesConstPtr& message) {
 }
 
 void OrganMessageQueue::add(OrganMessage message) {
-  const auto waiting = waiting_.find(message.organ());
-  if (waiting == waiting_.end() && is_ready(message)) return ready_.push_back(std::move(message));
+  if (waiting_.count(message.organ()) == 0) {
+    begin(message);
+    if (is_ready(message)) return ready_.push_back(std::move(message));
+  }
   Messages& messages = waiting_[message.organ()];
   messages.push_back(std::move(message));
-  if (messages.size() <= kMostWaiting) return;
-  const auto oldest = std::find_if(messages.begin(), messages.end(), [](const OrganMessage& waits) {
-    return waits.vertices != nullptr;
-  });
-  if (oldest == messages.end()) return;
-  messages.erase(oldest);
-  ++dropped_;
+  if (messages.size() > kMostWaiting) drop_oldest(messages);
+}
+
+/// Has the mesh of a message built if it must be. All earlier messages of the organ must be taken.
+void OrganMessageQueue::begin(OrganMessage& message) {
+  const bool is_large = message.mesh && message.mesh->triangles.size() > 3 * kLarge;
+  if (!is_large || message.built.valid()) return;
+  if (functions_.is_new(*message.mesh, message.connection)) {
+    message.built = start_building(message.mesh);
+  }
+}
+
+/// Never drops the first message, whose mesh is being built, nor the last one.
+void OrganMessageQueue::drop_oldest(Messages& messages) {
+  for (auto message = messages.begin() + 1; message + 1 != messages.end(); ++message) {
+    if (!is_replaced(*message, *(message + 1))) continue;
+    messages.erase(message);
+    ++dropped_;
+    return;
+  }
 }
 
 std::size_t OrganMessageQueue::waiting() const {
@@ -81,6 +99,7 @@ bool OrganMessageQueue::has(const std::string& organ) const {
 std::optional<OrganMessage> OrganMessageQueue::next() {
   if (!ready_.empty()) return take_front(ready_);
   for (auto organ = waiting_.begin(); organ != waiting_.end(); ++organ) {
+    begin(organ->second.front());
     if (!is_ready(organ->second.front())) continue;
     OrganMessage message = take_front(organ->second);
     if (organ->second.empty()) waiting_.erase(organ);

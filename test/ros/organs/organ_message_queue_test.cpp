@@ -203,14 +203,61 @@ TEST_F(OrganMessageQueueTest, TheOldestVerticesGoWhereTooManyWait) {
   queue_.add(mesh("liver", 1, kFaces));
   for (std::uint32_t i = 0; i < 250; ++i) queue_.add(vertices("liver", i));
   EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
-  EXPECT_EQ(queue_.dropped(), 151U);
+  EXPECT_EQ(queue_.dropped(), 251U - OrganMessageQueue::kMostWaiting);
   let(1);
   wait_for_wakes(1);
   take_all();
   ASSERT_EQ(taken_.size(), OrganMessageQueue::kMostWaiting);
   EXPECT_EQ(taken_[0], "liver mesh 1, 10001");
-  EXPECT_EQ(taken_[1], "liver vertices 151");
+  EXPECT_EQ(taken_[1], "liver vertices 241");
   EXPECT_EQ(taken_.back(), "liver vertices 249");
+}
+
+TEST_F(OrganMessageQueueTest, AStreamOfEqualMeshesIsBuiltOnce) {
+  for (int i = 0; i < 5; ++i) queue_.add(mesh("liver", 1, kFaces));
+  let(1);
+  wait_for_wakes(1);
+  known_ = 1;  // The first one is applied before the others are asked about.
+  take_all();
+  EXPECT_EQ(taken_, (Texts{"liver mesh 1, 10001", "liver mesh 1", "liver mesh 1", "liver mesh 1",
+                           "liver mesh 1"}));
+}
+
+TEST_F(OrganMessageQueueTest, OfMeshesThatComeTooFastTheNewestStay) {
+  for (std::uint32_t i = 1; i <= 200; ++i) queue_.add(mesh("liver", i, kFaces));
+  EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
+  for (std::uint32_t i = 1; i <= 200; ++i) let(i);
+  take_until(OrganMessageQueue::kMostWaiting);
+  EXPECT_EQ(taken_.front(), "liver mesh 1, 10001");
+  EXPECT_EQ(taken_.back(), "liver mesh 200, 10001");
+}
+
+TEST_F(OrganMessageQueueTest, AMeshWithVerticesStaysAsLongAsItHasThem) {
+  queue_.add(mesh("liver", 1, kFaces));
+  queue_.add(mesh("liver", 2, 1));
+  for (int i = 0; i < 50; ++i) queue_.add(vertices("liver", 2));
+  let(1);
+  wait_for_wakes(1);
+  take_all();
+  EXPECT_EQ(taken_[1], "liver mesh 2");
+  EXPECT_EQ(taken_[2], "liver vertices 2");
+}
+
+TEST_F(OrganMessageQueueTest, TheRemovalBeforeAMeshStays) {
+  const auto removal = boost::make_shared<OrganMesh>();
+  removal->organ = "liver";
+  queue_.add(mesh("liver", 1, kFaces));
+  for (int i = 0; i < 50; ++i) {
+    queue_.add(removal);
+    queue_.add(mesh("liver", 2, 1));
+  }
+  EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
+  let(1);
+  wait_for_wakes(1);
+  take_all();
+  ASSERT_GE(taken_.size(), 2U);
+  EXPECT_EQ(taken_[taken_.size() - 2], "liver mesh 0") << "the removal";
+  EXPECT_EQ(taken_.back(), "liver mesh 2");
 }
 
 TEST_F(OrganMessageQueueTest, EndsWhileMeshesAreStillToBeBuilt) {
