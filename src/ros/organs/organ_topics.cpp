@@ -54,13 +54,13 @@ void OrganTopics::subscribe(const ros::NodeHandle& private_node) {
 }
 
 void OrganTopics::take_mesh(const OrganMeshConstPtr& message, const Connection& connection) {
-  ++counts_.received;
   queue_.add(message, connection);
+  ++counts_.received;
 }
 
 void OrganTopics::take_vertices(const OrganVerticesConstPtr& message) {
-  ++counts_.received;
   queue_.add(message);
+  ++counts_.received;
 }
 
 OrganMessageCounts OrganTopics::counts() const {
@@ -96,6 +96,9 @@ std::optional<OrganUpdate> OrganTopics::next() {
     count(rejection);
     update.status = rejection.status();
     update.why_not = rejection.what();
+  } catch (...) {  // Usually std::bad_alloc. The node counts it as an exception.
+    ++counts_.refused;
+    throw;
   }
   return update;
 }

@@ -32,7 +32,7 @@ struct OrganMessageCounts {
   std::uint64_t applied = 0;   ///< an organ has a new shape
   std::uint64_t removals = 0;  ///< of organs, also of unknown ones
   std::uint64_t refused = 0;
-  std::uint64_t dropped = 0;  ///< vertices, because too many waited for a large mesh
+  std::uint64_t dropped = 0;  ///< replaced by later ones, behind a large mesh
   std::uint64_t waiting = 0;  ///< now, for their turn or for a large mesh
   /// Not received, because a queue on the way was full: gaps in the numbers of the messages.
   std::uint64_t lost = 0;
