@@ -18,7 +18,7 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
   for (const auto& [name, organ] : organs.organs()) {
     if (is_stale(organ.latest(), now, mesh_timeout_sec)) {
       throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH),
-                      stale_message(organ, now, mesh_timeout_sec));
+                      stale_message(name, organ.latest(), now, mesh_timeout_sec));
     }
     const auto T_organ_proxy = look_up(transforms, organ.frame(), frame, ros::Time(0));
     if (!T_organ_proxy.found) {

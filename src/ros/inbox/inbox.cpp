@@ -23,6 +23,7 @@ bool Inbox::watch_clock() {
     ROS_WARN("the clock jumped back from %f to %f s: all history is forgotten", last_now_.toSec(),
              now.toSec());
     transforms_.clear({last_now_, now});
+    organs_.receive_anew(now);
   }
   last_now_ = now;
   const bool was_mixed = transforms_.has_started_anew();

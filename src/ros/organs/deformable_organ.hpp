@@ -2,6 +2,7 @@
 
 #include <ros/time.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 
@@ -23,10 +24,10 @@ struct OrganShape {
     return surface->is_found() ? &surface->topology() : nullptr;
   }
 
-  /// [s] The time since the stamp, or since the message came if it has no stamp. Negative if the
-  /// stamp is in the future.
+  /// [s] The time since the stamp, or since the message came if it has no stamp, or one that was in
+  /// the future then.
   double age(ros::Time now) const {
-    return now.toSec() - (stamp.isZero() ? received : stamp).toSec();
+    return now.toSec() - (stamp.isZero() ? received : std::min(stamp, received)).toSec();
   }
 };
 
@@ -54,6 +55,8 @@ class DeformableOrgan {
 
   void set_frame(std::string frame) { frame_ = std::move(frame); }
   void forget_previous() { previous_ = {}; }
+  /// For a clock that jumped back to `now`: the latest shape counts as received then.
+  void receive_anew(ros::Time now) { latest_.received = now; }
 
  private:
   std::string name_;

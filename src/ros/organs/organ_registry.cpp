@@ -194,6 +194,10 @@ void OrganRegistry::forget_previous_shapes() {
   for (auto& [name, organ] : organs_) organ.forget_previous();
 }
 
+void OrganRegistry::receive_anew(ros::Time now) {
+  for (auto& [name, organ] : organs_) organ.receive_anew(now);
+}
+
 std::string OrganRegistry::known_organs() const {
   if (organs_.empty()) return "no organ is known yet";
   std::vector<std::string> names;

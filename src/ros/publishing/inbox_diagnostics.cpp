@@ -58,7 +58,7 @@ void InboxDiagnostics::organs(DiagnosticStatusWrapper& status) {
     status.add(name + ", age of mesh [s]", shape.age(now));
     show_organ(organ, sources_.organs.last_refusal(name), status);
     if (is_stale(shape, now, timeout)) {
-      status.mergeSummary(DiagnosticStatus::WARN, stale_message(organ, now, timeout));
+      status.mergeSummary(DiagnosticStatus::WARN, stale_message(name, shape, now, timeout));
     }
   }
 }

@@ -64,9 +64,10 @@ bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec) {
   return timeout_sec > 0.0 && shape.age(now) > timeout_sec;
 }
 
-std::string stale_message(const DeformableOrgan& organ, ros::Time now, double timeout_sec) {
-  return concatenate("mesh of organ '", organ.name(), "' is ", organ.latest().age(now),
-                     " s old; at most ", timeout_sec, " s are allowed (mesh_timeout_sec)");
+std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
+                          double timeout_sec) {
+  return concatenate("mesh of organ '", organ, "' is ", shape.age(now), " s old; at most ",
+                     timeout_sec, " s are allowed (mesh_timeout_sec)");
 }
 
 }  // namespace organ_collision

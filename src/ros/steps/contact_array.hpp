@@ -41,6 +41,7 @@ void count_failure(FailureLog& log, std::uint8_t status, const std::string& mess
 /// Whether the shape is older than `timeout_sec`; false if that is 0.
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
 /// The message of STALE_MESH, with the age and the limit.
-std::string stale_message(const DeformableOrgan& organ, ros::Time now, double timeout_sec);
+std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
+                          double timeout_sec);
 
 }  // namespace organ_collision

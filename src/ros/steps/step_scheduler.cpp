@@ -61,7 +61,15 @@ void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
 bool StepScheduler::evaluate_due() {
   if (due_.empty()) return false;
   const ScopedClear clear(due_);
-  workers_.run(evaluator_, due_, deliver_);
+  const auto of_shapes = static_cast<std::size_t>(std::count_if(
+      due_.begin(), due_.end(), [](const DueStep& step) { return step.is_of_shape; }));
+  const std::size_t answered = shapes_.answered;
+  try {
+    workers_.run(evaluator_, due_, deliver_);
+  } catch (...) {
+    shapes_.forgotten += of_shapes - (shapes_.answered - answered);
+    throw;
+  }
   return true;
 }
 
@@ -143,9 +151,10 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
     return plan_failure(std::move(step), stamp, ContactArray::INVALID_TOOL, fault);
   }
-  if (is_stale(organ.latest(), stamp, parameters_.mesh_timeout_sec)) {
-    return plan_failure(std::move(step), stamp, ContactArray::STALE_MESH,
-                        stale_message(organ, stamp, parameters_.mesh_timeout_sec));
+  if (is_stale(pair.current, stamp, parameters_.mesh_timeout_sec)) {
+    return plan_failure(
+        std::move(step), stamp, ContactArray::STALE_MESH,
+        stale_message(organ.name(), pair.current, stamp, parameters_.mesh_timeout_sec));
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (end.found) {

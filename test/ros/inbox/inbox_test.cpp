@@ -47,6 +47,20 @@ TEST_F(InboxTest, OrgansAreKeptUnderTheirNames) {
   EXPECT_EQ(inbox_.organs().at("liver").frame(), "liver_frame");
 }
 
+TEST_F(InboxTest, AfterTheClockJumpedBackAShapeBecomesOldAgain) {
+  const auto mesh = boost::make_shared<OrganMesh>();
+  mesh->header.frame_id = "liver_frame";
+  mesh->header.stamp = ros::Time(49.0);
+  mesh->organ = "liver";
+  mesh->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  mesh->triangles = {0, 1, 2};
+  inbox_.organ_topics().take_mesh(mesh);
+  ASSERT_TRUE(inbox_.organ_topics().next());
+  ros::Time::setNow(ros::Time(3.0));
+  EXPECT_TRUE(inbox_.watch_clock());
+  EXPECT_EQ(inbox_.organs().at("liver").latest().age(ros::Time(5.0)), 2.0);
+}
+
 TEST_F(InboxTest, PosesOfTipsAreToldAndBecomeTransforms) {
   inbox_.pose_topics().take_tip(1, tip(49.0));
   EXPECT_EQ(posed_, std::vector<std::size_t>{1});

@@ -86,9 +86,11 @@ TEST(Answers, StaleIsOlderThanTheLimit) {
   EXPECT_FALSE(is_stale(shape, ros::Time(12), 2.0));
   EXPECT_TRUE(is_stale(shape, ros::Time(12.1), 2.0));
   EXPECT_FALSE(is_stale(shape, ros::Time(3), 2.0));  // The clock has jumped back.
+  EXPECT_TRUE(is_stale({nullptr, ros::Time(3600), ros::Time(10)}, ros::Time(13), 2.0))
+      << "a stamp of the future does not keep a shape fresh";
 }
 
 TEST(Answers, StaleSaysHowOldAndWhatIsAllowed) {
-  EXPECT_EQ(stale_message(liver(), ros::Time(15), 2.5),
+  EXPECT_EQ(stale_message("liver", liver().latest(), ros::Time(15), 2.5),
             "mesh of organ 'liver' is 5 s old; at most 2.5 s are allowed (mesh_timeout_sec)");
 }

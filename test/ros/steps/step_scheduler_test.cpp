@@ -303,6 +303,16 @@ TEST_F(StepSchedulerTest, TicksSayWhenTheMeshIsStale) {
   EXPECT_EQ(tick().at(0).step_start, ros::Time(49.0));
 }
 
+TEST_F(StepSchedulerTest, TheShapeThatIsEvaluatedIsStaleNotTheOneThatWaits) {
+  parameters.mesh_timeout_sec = 2.0;
+  send_tip(49.0, kAbove);
+  send_mesh(49.0, 0.0);
+  evaluate();
+  ros::Time::setNow(ros::Time(51.5));
+  send_mesh(51.4, 0.1);  // It waits for its transform.
+  EXPECT_EQ(tick().at(0).status, ContactArray::STALE_MESH);
+}
+
 TEST_F(StepSchedulerTest, ResetMakesTheNextStepStatic) {
   send_tip(1.0, kAbove);
   send_mesh(1.0, 0.0);
