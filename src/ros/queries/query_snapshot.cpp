@@ -1,5 +1,7 @@
 #include "query_snapshot.hpp"
 
+#include <algorithm>
+
 #include "query_checks.hpp"
 #include "ros/interface/conversions.hpp"
 #include "ros/interface/plain_text.hpp"
@@ -57,7 +59,8 @@ void SnapshotTaker::check_age(const DeformableOrgan& organ) const {
   const ros::Time now = ros::Time::now();
   const double timeout_sec = sources_.parameters.mesh_timeout_sec;
   if (!is_stale(organ.latest(), now, timeout_sec)) return;
-  throw Rejection(ContactArray::STALE_MESH, "stale mesh", stale_message(organ, now, timeout_sec));
+  throw Rejection(ContactArray::STALE_MESH, "stale mesh",
+                  stale_message(organ.name(), organ.latest(), now, timeout_sec));
 }
 
 void SnapshotTaker::read_motion_frame(const QuerySubject& subject, const DeformableOrgan& organ,
@@ -87,6 +90,9 @@ void SnapshotTaker::read_tool_motion(const QuerySubject& subject, const Deformab
     snapshot.path = resting_path(end.found->value);
     return;
   }
+  // Poses that rest are of the present, which the last step may have reached meanwhile.
+  const bool is_now = end.found->stamp.isZero() && subject.header.stamp.isZero();
+  if (is_now) answer.header.stamp = std::max(answer.header.stamp, last->stamp);
   if (answer.header.stamp < last->stamp) {
     refuse("the step would end at ", answer.header.stamp,
            " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",

@@ -83,6 +83,16 @@ TEST_F(QuerySnapshotTest, HasTheToolsPathSinceItsLastStep) {
   EXPECT_EQ(answer.step_start, ros::Time(1.1));
 }
 
+TEST_F(QuerySnapshotTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater) {
+  tool = "hook";
+  set_point(transforms, "liver_frame", "hook_tip", 0.0, kAbove, true);
+  evaluate();
+  tick();  // At 50 s, which is later than the time of the query.
+  take(true);
+  EXPECT_EQ(answer.header.stamp, ros::Time(50.0));
+  EXPECT_EQ(answer.step_start, ros::Time(50.0));
+}
+
 TEST_F(QuerySnapshotTest, HasTheFrameOfAMotion) {
   set_point(transforms, "liver_frame", "table", 4.0, {0.5, -0.3, 0.2});
   header.frame_id = "table";
