@@ -144,7 +144,8 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   ros::Time& stamp = stamped.header.stamp;
   // Several poses may arrive within one tick of simulated time. Each gets a different stamp.
   if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
-  if (!sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose")) {
+  const bool is_taken = sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose");
+  if (!is_taken && !came_for_another_tool(stream, stamp)) {
     return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
   }
   stream.latest = std::max(stream.latest, stamp);
@@ -153,6 +154,15 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
     place_base(stream);
   }
   sinks_.arrived(tool);
+}
+
+/// Whether a tool with the same topic and tip frame has already taken the pose with this stamp.
+bool PoseTopics::came_for_another_tool(const Stream& stream, ros::Time stamp) const {
+  return sinks_.transforms.has(stream.tool.tip_frame, stamp) &&
+         std::any_of(streams_.begin(), streams_.end(), [&](const auto& other) {
+           return other.get() != &stream && other->tool.tip_frame == stream.tool.tip_frame &&
+                  other->tool.tip_pose_topic == stream.tool.tip_pose_topic;
+         });
 }
 
 void PoseTopics::take_base(std::size_t tool, const PoseStamped& pose) {

@@ -57,6 +57,7 @@ class PoseTopics {
   };
   void subscribe(Stream& stream, ros::NodeHandle node);
   std::unique_ptr<Stream>* find_stream(const ToolParameters& tool);
+  bool came_for_another_tool(const Stream& stream, ros::Time stamp) const;
   void place_base(const Stream& stream);
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
   void reject(const std::string& frame, const std::string& wrong);

@@ -39,6 +39,11 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   return true;
 }
 
+bool TransformBuffer::has(const std::string& frame, ros::Time stamp) const {
+  const auto known = indices_.find(tf_frame(frame));
+  return known != indices_.end() && frames_[known->second].stamps.contains(stamp);
+}
+
 void TransformBuffer::clear() {
   BufferCore::clear();
   for (Frame& frame : frames_) {

@@ -26,6 +26,8 @@ class TransformBuffer : public tf2::BufferCore {
   /// Throws std::runtime_error for extreme stamps, as tf2 does.
   bool add(const geometry_msgs::TransformStamped& transform, const std::string& authority,
            bool resting = false);
+  /// Whether a transform of this frame with this stamp was added that is not static.
+  bool has(const std::string& frame, ros::Time stamp) const;
   /// Forgets all transforms but the static ones, which are not sent again.
   void clear();
   /// The same, because the clock jumped back.

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "geometry/concatenate.hpp"
 #include "ros/interface/checked_messages.hpp"
 
 namespace organ_collision {
@@ -11,6 +12,15 @@ namespace {
 /// [messages] If more messages wait, the oldest are dropped, and the sweep connects the poses of
 /// the others directly.
 constexpr std::uint32_t kQueue = 1000;
+
+/// What tf2 may have refused: a parent, a stamp, or numbers.
+std::string contents(const geometry_msgs::TransformStamped& transform) {
+  const auto& p = transform.transform.translation;
+  const auto& q = transform.transform.rotation;
+  return concatenate("tf2 does not take it, with the parent '", transform.header.frame_id,
+                     "', the stamp ", transform.header.stamp, ", the translation (", p.x, ", ", p.y,
+                     ", ", p.z, ") and the rotation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w, ")");
+}
 
 }  // namespace
 
@@ -40,7 +50,10 @@ void TransformTopics::take(const tf2_msgs::TFMessage& message, const std::string
       continue;
     }
     try {
-      buffer_.add(transform, authority, resting);
+      const bool is_taken = buffer_.add(transform, authority, resting);
+      const bool is_repeated =
+          !resting && buffer_.has(transform.child_frame_id, transform.header.stamp);
+      if (!is_taken && !is_repeated) reject(transform, contents(transform));
     } catch (const std::runtime_error& error) {
       reject(transform, error.what());
     }

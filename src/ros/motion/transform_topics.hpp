@@ -20,8 +20,9 @@ class TransformTopics {
 
   void subscribe(ros::NodeHandle node);
 
-  /// Adds the transforms of a message. A transform for which tf2 throws, or whose stamp is of the
-  /// time before a jump of the clock, is counted as rejected; the others are added.
+  /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is of the time
+  /// before a jump of the clock, is counted as rejected; the others are added. One with the stamp
+  /// of an earlier one is left out: senders repeat transforms.
   void take(const tf2_msgs::TFMessage& message, const std::string& authority, bool resting);
 
  private:

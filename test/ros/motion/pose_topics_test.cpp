@@ -147,6 +147,19 @@ TEST_F(PoseTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
   EXPECT_EQ(rejected(), 2u);
 }
 
+TEST_F(PoseTopicsTest, ToolsMayShareATipAndItsPoses) {
+  ToolParameters wide = streamed_tool("left");
+  wide.name = "wide";
+  PoseTopics topics({streamed_tool("left"), wide},
+                    {buffer_, rejected_, [this](std::size_t i) { arrived_.push_back(i); }});
+  for (const double time : {1.0, 1.1}) {
+    topics.take_tip(0, pose("base", time, {time, 0.0, 0.0}));
+    topics.take_tip(1, pose("base", time, {time, 0.0, 0.0}));
+  }
+  EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 1, 0, 1}));
+  EXPECT_EQ(rejected(), 0u);
+}
+
 TEST_F(PoseTopicsTest, OrientationsAreNormalised) {
   auto nearly = pose("world", 1.0, {10.0, 0.0, 0.0});
   nearly.pose.orientation.w = 0.9995;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace organ_collision;
 
 namespace {
@@ -39,6 +41,19 @@ TEST_F(TransformTopicsTest, TransformsGoToTheBufferWithTheirStamps) {
   EXPECT_TRUE(buffer_.canTransform("trocar", "tip", ros::Time(1.5)));
   EXPECT_EQ(buffer_.stamps_between("trocar", {"tip"}, ros::Time(0.5), ros::Time(3.0)),
             (std::vector<ros::Time>{ros::Time(1.0), ros::Time(1.0005), ros::Time(2.0)}));
+}
+
+TEST_F(TransformTopicsTest, WhatTfRefusesIsCountedButNoRepetition) {
+  geometry_msgs::TransformStamped broken = transform("tip", 1.0);
+  broken.transform.translation.y = std::nan("");
+  take({broken, transform("tip", 1.0), transform("tip", 1.0)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1u);
+  EXPECT_NE(rejected_.by_reason()["transform"].latest.find("(1, nan, 0)"), std::string::npos)
+      << rejected_.by_reason()["transform"].latest;
+  take({transform("tip", 100.0), transform("tip", 1.5)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 2u) << "1.5 is too old";
+  take({broken}, true);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 3u);
 }
 
 TEST_F(TransformTopicsTest, WhatTfThrowsAtIsCountedAndTheOthersStay) {
