@@ -10,11 +10,11 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] For each subscriber. A surface of two million faces has 245.
-constexpr std::uint32_t kQueue = 300;
+/// [messages] For each subscriber. A surface of two million faces has 977.
+constexpr std::uint32_t kQueue = 1200;
 /// After each message, so that roscpp's thread, which also receives organs and transforms, is never
 /// busy with markers for long.
-constexpr std::chrono::microseconds kPause(500);
+constexpr std::chrono::microseconds kPause(125);
 /// [Hz] If markers are switched off, an empty picture is drawn at this rate. It deletes what is
 /// still shown.
 constexpr double kEmptyRate = 1.0;

@@ -9,8 +9,9 @@
 namespace organ_collision {
 
 /// The faces in one marker. A large surface consists of several markers, so that no message keeps
-/// a socket, and with it the messages of others, for long.
-inline constexpr std::size_t kFacesPerMarker = 8192;
+/// for long a socket, with the messages of others, or roscpp's lock of all topics, which it holds
+/// while it writes a message into bytes.
+inline constexpr std::size_t kFacesPerMarker = 2048;
 
 /// The number of markers of a surface.
 std::size_t surface_marker_count(const SceneOrgan& organ);
