@@ -55,7 +55,10 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
 
 void OrganMeshAdapter::add_organ(const OrganParameters& parameters, std::uint32_t last_topology) {
   const OrganFeed::Outlet outlet{
-      [this](const OrganMeshPtr& message) { meshes_.publish(message); },
+      [this](const OrganMeshPtr& message) {
+        meshes_.publish(message);
+        ++meshes_sent_;
+      },
       [this](const OrganVerticesPtr& message) { vertices_.publish(message); }};
   Organ& organ = organs_.emplace_back(Organ{{parameters, last_topology, outlet}});
   subscribe(organ, parameters.topic, kSurfaceQueue, &OrganSource::take_surface);
@@ -107,10 +110,14 @@ void OrganMeshAdapter::diagnose(diagnostic_updater::DiagnosticStatusWrapper& sta
   show_failures("refused", refused_, status);
 }
 
-/// Sends a new subscriber all organs in their latest shape.
+/// Sends a new subscriber all organs in their latest shape. roscpp numbers only the messages to
+/// all subscribers, from 0; these get the number of the last one, so that none seems to be lost.
 void OrganMeshAdapter::welcome(const ros::SingleSubscriberPublisher& newcomer) const {
   for (const Organ& organ : organs_) {
-    if (const OrganMeshPtr mesh = organ.source.mesh()) newcomer.publish(mesh);
+    const OrganMeshPtr mesh = organ.source.mesh();
+    if (!mesh) continue;
+    mesh->header.seq = meshes_sent_ - 1;
+    newcomer.publish(mesh);
   }
 }
 

@@ -49,6 +49,7 @@ class OrganMeshAdapter {
   FailureLog refused_;
   ros::Publisher meshes_;
   ros::Publisher vertices_;
+  std::uint32_t meshes_sent_ = 0;
   std::list<Organ> organs_;
   std::vector<ros::Subscriber> subscribers_;
   diagnostic_updater::Updater updater_;

@@ -60,6 +60,16 @@ class MeshAdapterLateTest(MeshAdapterCase, NodeStarter):
             self.wait_for_contacts('first', first, node)
             node.close()
             self.stop(process)
+        self.check_numbers()
+
+    def check_numbers(self):
+        """The numbers of the meshes go on behind those with which a new subscriber is greeted."""
+        late = MessageLog('/late/organ_mesh', OrganMesh)
+        wait_until(lambda: late.of('third'), 'the greeting')
+        greeting = late.of('third')[-1].header.seq
+        self.publish('/early/third', marker(FINE))
+        wait_until(lambda: len(late.of('third')) > 1, 'the next mesh')
+        self.assertEqual(late.of('third')[-1].header.seq, greeting + 1)
 
 
 if __name__ == '__main__':

@@ -33,10 +33,10 @@ class StampOrder {
   /// What to do with the next transform. A stamp seems to be of the time before if it is ahead of
   /// the clock by more than 0.25 s (after a jump of less than 0.5 s: by more than half of it), and
   /// so do those that follow it, until the stamps step back or the clock has caught up with them.
-  /// Stamps that step back by more than 20 ms later on are taken anew, up to three times: a node that
-  /// was stopped sees several jumps of the clock as one, or only the end of one. All this ends 2 s of
-  /// ROS time after the first transform that comes behind the jump. By then, all that was on its way
-  /// should have arrived.
+  /// Stamps that step back by more than 20 ms later on are taken anew, up to three times: a node
+  /// that was stopped sees several jumps of the clock as one, or only the end of one. All this ends
+  /// 2 s of ROS time after the first transform that comes behind the jump. By then, all that was on
+  /// its way should have arrived.
   Verdict judge(ros::Time stamp, ros::Time now);
 
  private:
@@ -45,14 +45,14 @@ class StampOrder {
   bool steps_back(double before, double ahead) const;
 
   // In seconds, because differences of ros::Time throw if they exceed 2^31 s.
-  double latest_ = 0.0;         ///< the last stamp
-  bool was_ahead_ = false;      ///< of the clock, when it came
-  double stepped_from_ = 0.0;   ///< the stamp before the last step back that followed no jump
-  double most_ahead_ = 0.0;     ///< by how much a stamp may be ahead of the clock
-  int steps_to_watch_ = 0;      ///< how many more steps back are taken anew
-  bool has_begun_ = false;      ///< a transform has come since the jump
-  double settled_ = 0.0;        ///< 2 s after it
-  Era era_ = Era::kNow;         ///< that of the last stamp
+  double latest_ = 0.0;        ///< the last stamp
+  bool was_ahead_ = false;     ///< of the clock, when it came
+  double stepped_from_ = 0.0;  ///< the stamp before the last step back that followed no jump
+  double most_ahead_ = 0.0;    ///< by how much a stamp may be ahead of the clock
+  int steps_to_watch_ = 0;     ///< how many more steps back are taken anew
+  bool has_begun_ = false;     ///< a transform has come since the jump
+  double settled_ = 0.0;       ///< 2 s after it
+  Era era_ = Era::kNow;        ///< that of the last stamp
 };
 
 }  // namespace organ_collision
