@@ -14,6 +14,7 @@ import os
 import pathlib
 import tempfile
 
+from awake_cores import measure_awake_cores
 from beside_batch import measure_beside_batch
 from busy_machine import measure_busy_machine
 from hands import SIZES as HAND_SIZES
@@ -24,7 +25,7 @@ from shapes import HIGHEST_RATE, measure_size
 from subject import Workspace
 
 
-PARTS = ('hands', 'shapes', 'batch', 'busy')
+PARTS = ('hands', 'shapes', 'batch', 'busy', 'awake')
 
 
 def main():
@@ -57,6 +58,9 @@ def main():
             if 'busy' in parts:
                 print('shapes on busy cores', flush=True)
                 reports += measure_busy_machine(master, workspaces[''], given.seconds)
+            if 'awake' in parts:
+                print('shapes on awake cores', flush=True)
+                reports += measure_awake_cores(master, workspaces[''], given.seconds)
     given.folder.mkdir(exist_ok=True)
     (given.folder / 'end_to_end.json').write_text(json.dumps(reports, indent=1) + '\n')
     (given.folder / 'end_to_end.md').write_text(markdown(reports))

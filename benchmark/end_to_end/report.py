@@ -64,8 +64,15 @@ def load_table(reports):
     return table(('', 'parameters', 'cores', 'sent', 'skipped', *LATENCY_HEAD), rows)
 
 
+def awake_table(reports):
+    rows = [(r['kind'], r['picker'], r['tools'], r['cores'], r['sent'], r['skipped'], *latencies(r), whole(r['query']))
+            for r in reports if r['what'] == 'awake cores']
+    return table(('', 'picker', 'tools', 'cores', 'sent', 'skipped', *LATENCY_HEAD, 'of it the query, µs'), rows)
+
+
 SECTIONS = ((WHAT, 'Latencies', latency_table), ({'shapes'}, 'At the same rate', comparison_table),
-            ({'beside a batch'}, 'Steps while batches run', batch_table), ({'load'}, 'Steps on busy cores', load_table))
+            ({'beside a batch'}, 'Steps while batches run', batch_table), ({'load'}, 'Steps on busy cores', load_table),
+            ({'awake cores'}, 'Steps on awake cores', awake_table))
 
 
 def markdown(reports):

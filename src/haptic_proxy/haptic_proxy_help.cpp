@@ -109,6 +109,8 @@ std::vector<HelpEntry> parameters() {
        "scheduling"},
       {names::kLockMemory, shown(defaults.realtime.lock_memory),
        "true: all memory of the process stays in RAM"},
+      {names::kAwakeCores, shown(defaults.realtime.awake_cores),
+       "true: no core of the machine sleeps while the node runs"},
       {names::kPublishTf, shown(defaults.publish_tf), "false: no frames TOOL_proxy on /tf"},
       {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),
        "[Hz] how often markers are published; 0: never"},

@@ -65,7 +65,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
        names::kPunctureForce, names::kFriction,    names::kPoseTimeoutSec, names::kMeshTimeoutSec,
        names::kPicker,        names::kGl,          names::kMaxFaces,       names::kDiagnosticPeriod,
        names::kPublishTf,     names::kMarkersRate, names::kSurfaceRate,    names::kRealtimePriority,
-       names::kLockMemory});
+       names::kLockMemory,    names::kAwakeCores});
   LoadedTools tools = parse_tools(all);
   LoadedHapticProxyParameters loaded{{}, std::move(tools.misspelt)};
   HapticProxyParameters& p = loaded.parameters;

@@ -16,7 +16,7 @@ using XmlRpc::XmlRpcValue;
 namespace {
 
 /// Names of parameters, and one that is none.
-const std::array<const char*, 64> kNames = {"tools",
+const std::array<const char*, 65> kNames = {"tools",
                                             "picker",
                                             "rate",
                                             "organ_motion",
@@ -36,6 +36,7 @@ const std::array<const char*, 64> kNames = {"tools",
                                             "threads",
                                             "realtime_priority",
                                             "lock_memory",
+                                            "awake_cores",
                                             "name",
                                             "trocar_frame",
                                             "tip_frame",

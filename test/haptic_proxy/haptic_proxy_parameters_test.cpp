@@ -62,6 +62,7 @@ TEST(HapticProxyParameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_EQ(p.realtime.priority, 0);
   EXPECT_FALSE(p.realtime.lock_memory);
+  EXPECT_FALSE(p.realtime.awake_cores);
   EXPECT_TRUE(p.publish_tf);
   EXPECT_TRUE(loaded.misspelt.empty());
 }
@@ -85,8 +86,11 @@ TEST(HapticProxyParameters, AllAreRead) {
   all["diagnostic_period"] = 0.5;
   all["realtime_priority"] = 40;
   all["lock_memory"] = true;
+  all["awake_cores"] = true;
   all["publish_tf"] = false;
-  const HapticProxyParameters p = parse_haptic_proxy_parameters(all).parameters;
+  const LoadedHapticProxyParameters loaded = parse_haptic_proxy_parameters(all);
+  EXPECT_TRUE(loaded.misspelt.empty());
+  const HapticProxyParameters& p = loaded.parameters;
   EXPECT_EQ(p.frame, "world");
   EXPECT_EQ(p.stiffness, 500.0);
   EXPECT_EQ(p.damping, 0.75);
@@ -104,6 +108,7 @@ TEST(HapticProxyParameters, AllAreRead) {
   EXPECT_EQ(p.diagnostic_period_sec, 0.5);
   EXPECT_EQ(p.realtime.priority, 40);
   EXPECT_TRUE(p.realtime.lock_memory);
+  EXPECT_TRUE(p.realtime.awake_cores);
   EXPECT_FALSE(p.publish_tf);
 }
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Real-time scheduling and locked memory: what the node says on /diagnostics is what the system
-says about its threads, whether the system grants it or refuses it."""
+"""Real-time scheduling, locked memory and awake cores: what the node says on /diagnostics is what the system says
+about its process, whether the system grants it or refuses it."""
 
 import os
 import sys
@@ -20,6 +20,7 @@ PARAMETERS = {
     'diagnostic_period': 0.1,
     'realtime_priority': PRIORITY,
     'lock_memory': True,
+    'awake_cores': True,
 }
 # Commands that run another one without the right to real-time scheduling and locked memory.
 WITHOUT_LIMITS = ['prlimit', '--rtprio=0:0', '--memlock=65536:65536']
@@ -46,6 +47,11 @@ def realtime_threads(process):
 def locked_kilobytes(process):
     with open('/proc/%d/status' % process, encoding='utf-8') as status:
         return [int(line.split()[1]) for line in status if line.startswith('VmLck:')][0]
+
+
+def keeps_cores_awake(process):
+    folder = '/proc/%d/fd/' % process
+    return any(os.readlink(folder + name) == '/dev/cpu_dma_latency' for name in os.listdir(folder))
 
 
 def process_of(node):
@@ -87,11 +93,14 @@ class RealtimeTest(NodeStarter):
             self.assertEqual(values['scheduling'], 'ordinary')
         shown = float(values['locked memory of the process [MiB]'])
         self.assertEqual(shown > 0.0, locked_kilobytes(process.pid) > 0)
-        is_whole = bool(granted) and shown > 0.0
+        is_awake = keeps_cores_awake(process.pid)
+        self.assertEqual(values.get('idle cores') == 'awake', is_awake)
+        is_whole = bool(granted) and shown > 0.0 and is_awake
         self.assertEqual(status.level, DiagnosticStatus.OK if is_whole else DiagnosticStatus.WARN)
         printed = self.stop(process)
         self.assertEqual('realtime_priority 7 is refused' in printed, not granted, printed)
         self.assertEqual('lock_memory is refused' in printed, shown == 0.0, printed)
+        self.assertEqual('awake_cores is refused' in printed, not is_awake, printed)
 
     def test_the_node(self):
         self.check('/fast_node', 'organ_collision_node')
@@ -119,6 +128,7 @@ class RealtimeTest(NodeStarter):
         self.assertEqual(bool(granted), values['scheduling'].startswith('SCHED_FIFO'))
         self.assertNotIn(manager, granted)
         self.assertEqual(locked_kilobytes(manager), 0)
+        self.assertFalse(keeps_cores_awake(manager))
 
 
 if __name__ == '__main__':

@@ -48,6 +48,7 @@ inline constexpr char kMarkersDepth[] = "markers_depth";
 inline constexpr char kThreads[] = "threads";
 inline constexpr char kRealtimePriority[] = "realtime_priority";
 inline constexpr char kLockMemory[] = "lock_memory";
+inline constexpr char kAwakeCores[] = "awake_cores";
 ///@}
 
 ///@{

@@ -30,6 +30,13 @@ std::string ask_for_lock(bool is_wanted) {
          "; the node goes on without it. Set the user's limit memlock to unlimited";
 }
 
+std::string told_refusal(const std::optional<AwakeCores>& cores) {
+  if (!cores || cores->refusal().empty()) return {};
+  return "awake_cores is refused: " + cores->refusal() +
+         "; the node goes on, and idle cores sleep. Permit this user to write to "
+         "/dev/cpu_dma_latency";
+}
+
 void warn(const std::string& text) {
   if (!text.empty()) ROS_WARN("%s", text.c_str());
 }
@@ -45,8 +52,10 @@ Realtime::Realtime(const RealtimeParameters& parameters)
     : priority_refused_(ask_for_priority(parameters.priority)),
       shows_locked_memory_(parameters.lock_memory),
       lock_refused_(ask_for_lock(parameters.lock_memory)) {
+  if (parameters.awake_cores) awake_cores_.emplace();
   warn(priority_refused_);
   warn(lock_refused_);
+  warn(told_refusal(awake_cores_));
 }
 
 void Realtime::add_to(diagnostic_updater::Updater& updater) {
@@ -61,8 +70,10 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.add("locked memory of the process [MiB]",
                static_cast<double>(locked_memory()) / kMebibyte);
   }
+  if (awake_cores_ && awake_cores_->refusal().empty()) status.add("idle cores", "awake");
   show(priority_refused_, status);
   show(lock_refused_, status);
+  show(told_refusal(awake_cores_), status);
 }
 
 void make_ros_realtime(const ros::NodeHandle& private_node) {

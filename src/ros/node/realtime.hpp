@@ -3,15 +3,17 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
+#include <optional>
 #include <string>
 
+#include "ros/interface/awake_cores.hpp"
 #include "ros/parameters/shared_parameters.hpp"
 
 namespace organ_collision {
 
-/// Asks the system for the scheduling and the locked memory that a node's parameters name. Where
-/// the system refuses, the node goes on as usual: a warning says what to change, in the log and on
-/// /diagnostics.
+/// Asks the system for the scheduling, the locked memory and the awake cores that a node's
+/// parameters name. Where the system refuses, the node goes on as usual: a warning says what to
+/// change, in the log and on /diagnostics.
 class Realtime {
  public:
   /// Construct it in the node's thread: this thread gets the priority. Step workers ask for theirs
@@ -27,6 +29,7 @@ class Realtime {
   std::string priority_refused_;
   bool shows_locked_memory_;  ///< only on request, because the system takes time to find it out
   std::string lock_refused_;
+  std::optional<AwakeCores> awake_cores_;  ///< empty: not wanted
 };
 
 /// Gives the priority to roscpp's threads, through which messages and ticks come. For programs that

@@ -45,7 +45,8 @@ ParameterGroup node_group(const XmlRpcValue& private_namespace) {
            names::kMarkersDepth,
            names::kThreads,
            names::kRealtimePriority,
-           names::kLockMemory}};
+           names::kLockMemory,
+           names::kAwakeCores}};
 }
 
 /// Missing members keep their values.

@@ -44,6 +44,8 @@ std::vector<HelpEntry> parameter_help() {
        "scheduling"},
       {names::kLockMemory, shown(defaults.realtime.lock_memory),
        "true: all memory of the process stays in RAM"},
+      {names::kAwakeCores, shown(defaults.realtime.awake_cores),
+       "true: no core of the machine sleeps while the node runs"},
       {names::kMarkersRate, shown(defaults.markers.markers_rate_hz),
        "[Hz] how often markers are published; 0: never"},
       {names::kSurfaceRate, shown(defaults.markers.surface_rate_hz),

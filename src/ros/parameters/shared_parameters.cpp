@@ -14,6 +14,7 @@ RealtimeParameters parse_realtime(const ParameterGroup& all) {
   constexpr NumberRange kPriorities{0, 99};
   p.priority = all.whole_number(names::kRealtimePriority, p.priority, kPriorities);
   p.lock_memory = all.flag(names::kLockMemory, p.lock_memory);
+  p.awake_cores = all.flag(names::kAwakeCores, p.awake_cores);
   return p;
 }
 

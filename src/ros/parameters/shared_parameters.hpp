@@ -28,9 +28,10 @@ PickerSettings parse_picker(const ParameterGroup& all);
 struct RealtimeParameters {
   int priority = 0;          ///< of SCHED_FIFO, from 1 to 99; 0: ordinary scheduling
   bool lock_memory = false;  ///< true: the memory of the process stays in RAM
+  bool awake_cores = false;  ///< true: no core of the machine sleeps while the node runs
 };
 
-/// The parameters `realtime_priority` and `lock_memory`. Throws ParameterError.
+/// The parameters `realtime_priority`, `lock_memory` and `awake_cores`. Throws ParameterError.
 RealtimeParameters parse_realtime(const ParameterGroup& all);
 
 }  // namespace organ_collision

@@ -82,6 +82,7 @@ TEST(Parameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.diagnostic_period_sec, 1.0);
   EXPECT_EQ(p.realtime.priority, 0);
   EXPECT_FALSE(p.realtime.lock_memory);
+  EXPECT_FALSE(p.realtime.awake_cores);
   EXPECT_EQ(p.markers.markers_rate_hz, 30.0);
   EXPECT_EQ(p.markers.surface_rate_hz, 30.0);
   EXPECT_EQ(p.markers.markers_depth, 0.01);
@@ -110,7 +111,10 @@ TEST(Parameters, EveryValueIsTaken) {
   all["diagnostic_period"] = 0.25;
   all["realtime_priority"] = 99;
   all["lock_memory"] = true;
-  const NodeParameters p = parse_parameters(all).parameters;
+  all["awake_cores"] = true;
+  const LoadedParameters loaded = parse_parameters(all);
+  EXPECT_TRUE(loaded.misspelt.empty());
+  const NodeParameters& p = loaded.parameters;
   ASSERT_EQ(p.tools.size(), 2u);
   EXPECT_EQ(p.tools[0].name, "hook");
   EXPECT_EQ(p.tools[1].trocar_frame, "grasper_trocar");
@@ -135,6 +139,7 @@ TEST(Parameters, EveryValueIsTaken) {
   EXPECT_EQ(p.diagnostic_period_sec, 0.25);
   EXPECT_EQ(p.realtime.priority, 99);
   EXPECT_TRUE(p.realtime.lock_memory);
+  EXPECT_TRUE(p.realtime.awake_cores);
 }
 
 TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
@@ -159,6 +164,7 @@ TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
                {"~realtime_priority", "'100'", "at least 0, at most 99"});
   expect_words(refusal("realtime_priority", 40.0), {"~realtime_priority", "whole number"});
   expect_words(refusal("lock_memory", 1), {"~lock_memory", "'1'", "true or false"});
+  expect_words(refusal("awake_cores", 1), {"~awake_cores", "'1'", "true or false"});
   expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
 }
 
