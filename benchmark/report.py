@@ -12,8 +12,8 @@ import matplotlib
 matplotlib.use('Agg')
 from matplotlib import pyplot  # noqa: E402
 
-ENGINES = ['ours', 'ours_no_clusters', 'select_paper', 'scan', 'bullet', 'bullet_gimpact', 'embree', 'fcl', 'cgal',
-           'vertex_pass', 'memcpy']
+ENGINES = ['ours', 'ours_egl', 'cpu', 'ours_no_clusters', 'select_paper', 'scan', 'bullet', 'bullet_gimpact', 'embree',
+           'fcl', 'cgal', 'vertex_pass', 'memcpy']
 PARTS = ['step', 'update', 'static', 'swept', 'static_rigid', 'swept_rigid']
 CONTACT_PARTS = ['contacts', 'step_contacts', 'contacts_moving', 'step_moving']
 
@@ -104,7 +104,7 @@ def grasper_table(results):
     swept = results.median.get(('grasper_swept', 'ours', 1224, False))
     rows = [['ours', microseconds(static['ours']), microseconds(swept)], ['fcl', microseconds(static['fcl']), ''],
             ['fcl / ours', f"{static['fcl'] / static['ours']:.1f}", '']]
-    return table(['a grasper of four links', 'static, µs', 'swept, µs'], rows)
+    return table(['a shaft and three links', 'static, µs', 'swept, µs'], rows)
 
 
 def where_table(results):

@@ -5,7 +5,7 @@ set(CMAKE_INSTALL_RPATH "$ORIGIN;$ORIGIN/..")
 # Finds errors that tests cannot see: wrong use of memory and undefined behaviour, or data that several
 # threads share. `./run_tests --sanitize` sets it. The libraries of others stay as they are; the files in
 # test/sanitizers list what is known of them.
-set(ORGAN_COLLISION_SANITIZE "" CACHE STRING "A sanitizer for all targets of the package: address, thread or none")
+set(ORGAN_COLLISION_SANITIZE "" CACHE STRING "A sanitizer for all targets of the package: address, thread, fuzzer or none")
 set_property(CACHE ORGAN_COLLISION_SANITIZE PROPERTY STRINGS "" address thread fuzzer)
 if(ORGAN_COLLISION_SANITIZE STREQUAL fuzzer)
   # What run_fuzz builds with clang. The code also counts its branches, for libFuzzer. Alignment is not checked,

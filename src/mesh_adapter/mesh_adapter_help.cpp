@@ -14,7 +14,6 @@
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {
-namespace {}  // namespace
 
 ProgramHelp mesh_adapter_help() {
   const MeshAdapterParameters defaults;

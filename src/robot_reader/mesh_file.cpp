@@ -138,7 +138,8 @@ void check_ply_header(const std::string& content) {
   }
 }
 
-/// assimp believes the lengths of lists that a broken file claims to have, for example.
+/// The processor time that reading a mesh file may take. With some broken files, assimp would not
+/// end.
 std::chrono::milliseconds time_for(const std::string& content) {
   const auto more = content.size() / reader_limits::kMeshBytesPerMillisecond;
   return reader_limits::kMeshTime + std::chrono::milliseconds(more);

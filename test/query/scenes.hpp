@@ -118,7 +118,7 @@ inline void expect_same(const std::vector<FaceContact>& a, const std::vector<Fac
   for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i], slack);
 }
 
-/// A query with either picker.
+/// A query with one of the pickers.
 class CollisionQueryWith : public testing::TestWithParam<PickerKind> {
  protected:
   std::vector<FaceContact> contacts(const CollisionRequest& request) {

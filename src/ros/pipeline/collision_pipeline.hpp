@@ -27,7 +27,7 @@ class CollisionPipeline {
  public:
   /// Where results go; all must outlive this.
   struct Sinks {
-    std::function<void(const EvaluatedStep&)> step;  ///< gets each step as soon as it is evaluated
+    std::function<void(const EvaluatedStep&)> step;  ///< gets the steps in their order
     std::function<void(const OrganUpdate&)> update;  ///< gets what each organ message did
     FailureLog& rejected;                            ///< counts the messages that were refused
     ros::CallbackQueueInterface& callbacks;          ///< gets a callback when a mesh was built

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cstddef>
 
-/// What reading a robot's description may cost. The program robot_reader sets the first three
-/// limits for itself. The node enforces the others on the program.
+/// What reading a robot's description may cost. The program robot_reader sets limits for
+/// itself. The node enforces the last two on the program.
 namespace organ_collision::reader_limits {
 
 /// [bytes] Of the URDF, and of each mesh file. An STL file of two million triangles has this size.
