@@ -41,6 +41,7 @@ class MeshAdapterLateTest(MeshAdapterCase, NodeStarter):
         for organ in ('second', 'third'):
             wait_until(lambda: shapes.of(organ), 'vertices of ' + organ)
         wait_until(lambda: not meshes.of('gone')[-1].triangles, 'the removal')
+        meshes.subscriber.unregister()
 
     def test_a_late_node_gets_every_organ_as_it_is(self):
         stamp = rospy.Time.now()
