@@ -37,7 +37,7 @@ class FirstPicture:
     def __init__(self, topic):
         self.frame, self.corners = None, []
         self.complete = threading.Event()
-        self.subscriber = rospy.Subscriber(topic, MarkerArray, self.on_markers, queue_size=1000)
+        self.subscriber = rospy.Subscriber(topic, MarkerArray, self.on_markers, queue_size=4000)
 
     def on_markers(self, array):
         for marker in array.markers:

@@ -10,7 +10,7 @@ namespace organ_collision {
 namespace {
 
 constexpr double kUpdateSec = 0.01;
-constexpr std::uint32_t kQueueSize = 1000;
+constexpr std::uint32_t kQueueSize = 4000;
 
 }  // namespace
 

@@ -51,7 +51,14 @@ def locked_kilobytes(process):
 
 def keeps_cores_awake(process):
     folder = '/proc/%d/fd/' % process
-    return any(os.readlink(folder + name) == '/dev/cpu_dma_latency' for name in os.listdir(folder))
+
+    def target(name):
+        try:
+            return os.readlink(folder + name)
+        except FileNotFoundError:  # It was closed since the list was made.
+            return ''
+
+    return any(target(name) == '/dev/cpu_dma_latency' for name in os.listdir(folder))
 
 
 def process_of(node):

@@ -156,9 +156,10 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   sinks_.arrived(tool);
 }
 
-/// Whether a tool with the same topic and tip frame has already taken the pose with this stamp.
+/// Whether a tool with the same topic and tip frame has already taken the pose with this stamp, and
+/// this one has not.
 bool PoseTopics::came_for_another_tool(const Stream& stream, ros::Time stamp) const {
-  return sinks_.transforms.has(stream.tool.tip_frame, stamp) &&
+  return stamp > stream.latest && sinks_.transforms.has(stream.tool.tip_frame, stamp) &&
          std::any_of(streams_.begin(), streams_.end(), [&](const auto& other) {
            return other.get() != &stream && other->tool.tip_frame == stream.tool.tip_frame &&
                   other->tool.tip_pose_topic == stream.tool.tip_pose_topic;

@@ -28,7 +28,7 @@ class StampOrder {
   };
 
   /// Notes that the clock jumped back. After a small jump, no stamp seems to be of the time before
-  /// it. While a larger jump is being watched, a small one changes nothing.
+  /// it. While stamps may still be of the time before a larger jump, a small one changes nothing.
   void add(const ClockJump& jump);
   /// What to do with the next transform. A stamp seems to be of the time before if it is ahead of
   /// the clock by more than 0.25 s (after a jump of less than 0.5 s: by more than half of it), and

@@ -25,9 +25,11 @@ struct OrganShape {
   }
 
   /// [s] The time since the stamp, or since the message came if it has no stamp, or one that was in
-  /// the future then.
+  /// the future then. (Before the first /clock, messages come at time zero, and every stamp
+  /// counts.)
   double age(ros::Time now) const {
-    return now.toSec() - (stamp.isZero() ? received : std::min(stamp, received)).toSec();
+    const bool is_of_future = received < stamp && !received.isZero();
+    return now.toSec() - (stamp.isZero() || is_of_future ? received : stamp).toSec();
   }
 };
 
@@ -55,8 +57,8 @@ class DeformableOrgan {
 
   void set_frame(std::string frame) { frame_ = std::move(frame); }
   void forget_previous() { previous_ = {}; }
-  /// For a clock that jumped back to `now`: the latest shape counts as received then.
-  void receive_anew(ros::Time now) { latest_.received = now; }
+  /// For a clock that jumped back to `now`: the latest shape counts as received then at the latest.
+  void receive_anew(ros::Time now) { latest_.received = std::min(latest_.received, now); }
 
  private:
   std::string name_;

@@ -17,8 +17,8 @@ bool is_ready(const OrganMessage& message) {
 
 bool is_removal(const OrganMesh& mesh) { return mesh.vertices.empty() && mesh.triangles.empty(); }
 
-/// Whether the organ ends in the same state without a message that `next` follows. Without its
-/// removal, an organ might refuse the mesh behind it.
+/// Whether the organ ends in the same state without a message that `next` follows, if `next` is
+/// accepted. Without its removal, an organ might refuse the mesh behind it.
 bool is_replaced(const OrganMessage& message, const OrganMessage& next) {
   if (message.vertices) return true;
   return next.mesh && (!is_removal(*message.mesh) || is_removal(*next.mesh));

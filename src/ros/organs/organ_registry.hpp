@@ -59,8 +59,8 @@ class OrganRegistry {
   /// Why the organ's last mesh was refused. Empty if it was accepted, or if none came.
   std::string last_refusal(const std::string& organ) const;
 
-  /// For a clock that jumped back to `now`: the latest shapes count as received then, so that they
-  /// can become stale.
+  /// For a clock that jumped back to `now`: the latest shapes count as received then at the latest,
+  /// so that they can become stale.
   void receive_anew(ros::Time now);
   /// Makes each organ keep only its latest shape.
   void forget_previous_shapes();

@@ -87,9 +87,9 @@ std::optional<OrganUpdate> OrganTopics::next() {
     if (update.change != OrganChange::kRemoved) {
       ++counts_.applied;
     } else {
-      ++counts_.removals;
       update.status = ContactArray::NO_MESH;
       update.why_not = "organ '" + update.message.organ() + "' was removed";
+      ++counts_.removals;
     }
   } catch (const Rejection& rejection) {
     ++counts_.refused;

@@ -76,8 +76,8 @@ bool StepScheduler::evaluate_due() {
 void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
     ShapeQueue& queue = history_.of(organ.name(), tool).queue;
-    ++shapes_.due;
     if (queue.push({organ.latest(), now}, keeps_all_shapes_)) ++shapes_.superseded;
+    ++shapes_.due;
   }
 }
 

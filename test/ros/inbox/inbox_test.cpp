@@ -59,6 +59,12 @@ TEST_F(InboxTest, AfterTheClockJumpedBackAShapeBecomesOldAgain) {
   ros::Time::setNow(ros::Time(3.0));
   EXPECT_TRUE(inbox_.watch_clock());
   EXPECT_EQ(inbox_.organs().at("liver").latest().age(ros::Time(5.0)), 2.0);
+  ros::Time::setNow(ros::Time(13.0));
+  EXPECT_FALSE(inbox_.watch_clock());
+  ros::Time::setNow(ros::Time(12.9));
+  EXPECT_TRUE(inbox_.watch_clock());
+  EXPECT_EQ(inbox_.organs().at("liver").latest().age(ros::Time(13.0)), 10.0)
+      << "a small jump does not make it young";
 }
 
 TEST_F(InboxTest, PosesOfTipsAreToldAndBecomeTransforms) {

@@ -158,6 +158,9 @@ TEST_F(PoseTopicsTest, ToolsMayShareATipAndItsPoses) {
   }
   EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 1, 0, 1}));
   EXPECT_EQ(rejected(), 0u);
+  topics.take_tip(0, pose("base", 1.1, {2.0, 0.0, 0.0}));
+  topics.take_tip(1, pose("base", 1.1, {2.0, 0.0, 0.0}));
+  EXPECT_EQ(rejected(), 2u) << "another pose with the same stamp";
 }
 
 TEST_F(PoseTopicsTest, OrientationsAreNormalised) {

@@ -115,4 +115,6 @@ TEST(DeformableOrgan, AgeOfAnUnstampedShapeIsSinceItsArrival) {
   EXPECT_EQ((OrganShape{nullptr, ros::Time(3), ros::Time(4)}.age(ros::Time(10))), 7.0);
   EXPECT_EQ((OrganShape{nullptr, ros::Time(0), ros::Time(4)}.age(ros::Time(10))), 6.0);
   EXPECT_EQ((OrganShape{nullptr, ros::Time(4294967295u, 0), ros::Time(4)}.age(ros::Time(10))), 6.0);
+  EXPECT_EQ((OrganShape{nullptr, ros::Time(8), ros::Time(0)}.age(ros::Time(10))), 2.0)
+      << "it came before the first /clock";
 }

@@ -14,7 +14,7 @@ class Viewer:
     def __init__(self, topic):
         self.lock = threading.Lock()
         self.markers, self.surfaces = {}, 0
-        self.subscriber = rospy.Subscriber(topic, MarkerArray, self._show, queue_size=1000)
+        self.subscriber = rospy.Subscriber(topic, MarkerArray, self._show, queue_size=4000)
 
     def _show(self, array):
         with self.lock:
