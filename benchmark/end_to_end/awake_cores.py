@@ -20,6 +20,7 @@ def may_ask():
 
 @contextlib.contextmanager
 def awake_cores():
+    """While this lasts, no core of the machine sleeps, as the parameter `awake_cores` has it."""
     device = os.open(DEVICE, os.O_RDWR)
     try:
         os.write(device, struct.pack('i', 0))

@@ -111,6 +111,21 @@ void check_indices(const aiScene& scene) {
   }
 }
 
+/// Triangles of a file take at least a byte each: the index of one more corner. assimp gives each
+/// face of a PLY file as many corners as it claims, even if the file ends before them.
+void check_triangle_count(const aiScene& scene, std::size_t bytes) {
+  std::size_t triangles = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned j = 0; j < mesh.mNumFaces; ++j) {
+      triangles += std::max(mesh.mFaces[j].mNumIndices, 2u) - 2;
+    }
+  }
+  if (triangles <= bytes) return;
+  throw ToolError(concatenate("its faces claim to be ", triangles, " triangles, but it has only ",
+                              bytes, " bytes; the file may be damaged"));
+}
+
 bool ends_line(char character) { return character == '\n' || character == '\r'; }
 
 /// Whether one line of the text, other than the first, is this word. Blanks may follow it.
@@ -163,6 +178,7 @@ MeshDescription parse(const std::string& file, const std::string& content,
       importer.ReadFileFromMemory(content.data(), content.size(), 0, extension(file).c_str());
   if (scene) {
     check_indices(*scene);
+    check_triangle_count(*scene, content.size());
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (!scene) throw ToolError(reason(importer));

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
 #include <cstdint>
 #include <cstdlib>
@@ -22,10 +23,12 @@ constexpr int kRequests = 500;  ///< of one process
 constexpr int kHangs = 50'000;
 
 // Requests and answers are blocks: their size, and so many bytes. An empty block ends an answer.
+// libFuzzer's timer interrupts what waits for them, which then begins again.
 
 bool write_all(int descriptor, const void* data, std::size_t size) {
   for (std::size_t done = 0; done < size;) {
-    const ssize_t count = write(descriptor, static_cast<const char*>(data) + done, size - done);
+    const ssize_t count =
+        TEMP_FAILURE_RETRY(write(descriptor, static_cast<const char*>(data) + done, size - done));
     if (count <= 0) return false;
     done += static_cast<std::size_t>(count);
   }
@@ -41,7 +44,8 @@ bool write_block(int descriptor, const std::string& block) {
 /// False: the other process has ended.
 bool read_all(int descriptor, void* data, std::size_t size) {
   for (std::size_t done = 0; done < size;) {
-    const ssize_t count = read(descriptor, static_cast<char*>(data) + done, size - done);
+    const ssize_t count =
+        TEMP_FAILURE_RETRY(read(descriptor, static_cast<char*>(data) + done, size - done));
     if (count <= 0) return false;
     done += static_cast<std::size_t>(count);
   }
@@ -76,13 +80,20 @@ bool read_block(int descriptor, std::string& block) {
 
 std::string ReaderProcess::read(const std::string& urdf) {
   if (requests_ == kRequests) end();
+  const bool is_used = process_ >= 0;
+  const std::string answer = ask(urdf);
+  const bool has_died = process_ < 0;
+  return is_used && has_died ? ask(urdf) : answer;
+}
+
+std::string ReaderProcess::ask(const std::string& urdf) {
   if (process_ < 0) start();
   ++requests_;
   std::string answer;
   bool lives = write_block(to_, urdf);
   for (std::string record; lives;) {
     pollfd ready{from_, POLLIN, 0};
-    demand(poll(&ready, 1, kHangs) == 1, "reading a file ends");
+    demand(TEMP_FAILURE_RETRY(poll(&ready, 1, kHangs)) == 1, "reading a file ends");
     lives = read_block(from_, record);
     if (!lives || record.empty()) break;
     answer += record;
@@ -114,7 +125,7 @@ void ReaderProcess::end() {
   close(to_);
   close(from_);
   int status = 0;
-  waitpid(process_, &status, 0);
+  TEMP_FAILURE_RETRY(waitpid(process_, &status, 0));
   demand(!WIFSIGNALED(status) || WTERMSIG(status) != SIGXCPU, "reading a file ends soon");
   process_ = -1;
 }

@@ -9,7 +9,8 @@ namespace organ_collision {
 /// A process that does the work of the program robot_reader, for one request after the other. It is
 /// a copy of the fuzz target, because to start robot_reader takes 20 ms under a sanitizer. The
 /// parsers of mesh files may end it; the next request then goes to a new one. So does each 500th,
-/// because robot_reader's limit of processor time is for the whole process.
+/// because robot_reader's limit of processor time is for the whole process. A process that has read
+/// other files before may end because of them. The request is then made once more.
 class ReaderProcess {
  public:
   ReaderProcess() = default;
@@ -22,6 +23,8 @@ class ReaderProcess {
   std::string read(const std::string& urdf);
 
  private:
+  /// Has no process afterwards if it has ended.
+  std::string ask(const std::string& urdf);
   void start();
   void end();
 

@@ -162,6 +162,18 @@ TEST(MeshFile, CutOffPlyIsRefused) {
   std::remove(path.c_str());
 }
 
+TEST(MeshFile, FacesThatClaimTooManyCornersAreRefused) {
+  // assimp believes them. To make triangles of them takes ever longer.
+  std::string text = tool_text("jaw_ascii.ply");
+  text.replace(text.find("uchar"), 5, "uint");
+  text.replace(text.find("3 2 0 3"), 1, "3000");
+  const std::string path = testing::TempDir() + "many_corners.ply";
+  std::ofstream(path) << text;
+  expect_words(tool_error([&] { read_mesh_file(path, kUnit, kAtOrigin); }),
+               {path, "triangles", std::to_string(text.size()) + " bytes"});
+  std::remove(path.c_str());
+}
+
 TEST(MeshFile, NoSurfaceIsRefused) {
   for (const std::string name : {"points.obj", "nodes_only.dae"}) {
     EXPECT_TRUE(read_mesh_file(tool_file(name), kUnit, kAtOrigin).triangles.empty()) << name;

@@ -50,10 +50,10 @@ void TransformTopics::take(const tf2_msgs::TFMessage& message, const std::string
       continue;
     }
     try {
-      const bool is_taken = buffer_.add(transform, authority, resting);
+      if (buffer_.add(transform, authority, resting)) continue;
       const bool is_repeated =
           !resting && buffer_.has(transform.child_frame_id, transform.header.stamp);
-      if (!is_taken && !is_repeated) reject(transform, contents(transform));
+      if (!is_repeated) reject(transform, contents(transform));
     } catch (const std::runtime_error& error) {
       reject(transform, error.what());
     }

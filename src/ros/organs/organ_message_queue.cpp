@@ -5,6 +5,7 @@
 #include <new>
 #include <utility>
 
+#include "organ_registry.hpp"
 #include "ros/interface/thread_scheduling.hpp"
 
 namespace organ_collision {
@@ -14,8 +15,6 @@ bool is_ready(const OrganMessage& message) {
   return !message.built.valid() ||
          message.built.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
-
-bool is_removal(const OrganMesh& mesh) { return mesh.vertices.empty() && mesh.triangles.empty(); }
 
 /// Whether the organ ends in the same state without a message that `next` follows, if `next` is
 /// accepted. Without its removal, an organ might refuse the mesh behind it.

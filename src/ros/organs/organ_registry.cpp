@@ -58,6 +58,8 @@ bool has_new_topology(const DeformableOrgan& organ, const OrganMesh& message) {
 
 }  // namespace
 
+bool is_removal(const OrganMesh& mesh) { return mesh.vertices.empty() && mesh.triangles.empty(); }
+
 TriangleMesh OrganRegistry::build(const OrganMeshConstPtr& message) const {
   return {vertices_of(message), message->triangles, message->topology, limits_};
 }
@@ -83,7 +85,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
   const OrganMesh& message = *pointer;
   if (message.organ.empty()) refuse("empty name", "organ mesh without a name in `organ`");
   check_name("organ", message.organ);
-  if (message.vertices.empty() && message.triangles.empty()) {
+  if (is_removal(message)) {
     organs_.erase(message.organ);
     connections_.erase(message.organ);
     refusals_.erase(message.organ);

@@ -25,6 +25,9 @@ enum class OrganChange {
   kRemoved  ///< the organ is gone
 };
 
+/// Whether a mesh message says that its organ is gone: it has neither vertices nor triangles.
+bool is_removal(const OrganMesh& mesh);
+
 /// All known organs by name. A message that is refused changes nothing.
 class OrganRegistry {
  public:

@@ -61,15 +61,7 @@ void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
 bool StepScheduler::evaluate_due() {
   if (due_.empty()) return false;
   const ScopedClear clear(due_);
-  const auto of_shapes = static_cast<std::size_t>(std::count_if(
-      due_.begin(), due_.end(), [](const DueStep& step) { return step.is_of_shape; }));
-  const std::size_t answered = shapes_.answered;
-  try {
-    workers_.run(evaluator_, due_, deliver_);
-  } catch (...) {
-    shapes_.forgotten += of_shapes - (shapes_.answered - answered);
-    throw;
-  }
+  workers_.run(evaluator_, due_, deliver_);
   return true;
 }
 
@@ -116,6 +108,7 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, O
   }
   pair.current = entry.shape;
   pair.queue.pop();
+  ++shapes_.forgotten;  // Until deliver(), which an exception may prevent.
   DueStep step{&organ, tool, &pair};
   step.is_of_shape = true;
   const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
@@ -242,7 +235,10 @@ void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const 
 /// Makes the step the last one of its pair, and publishes it.
 void StepScheduler::deliver(DueStep& step) {
   OrganToolPair& pair = *step.pair;
-  shapes_.answered += step.is_of_shape;
+  if (step.is_of_shape) {
+    ++shapes_.answered;
+    --shapes_.forgotten;
+  }
   samples_cut_ += step.samples_cut;
   deviation_cut_ = std::max(deviation_cut_, step.deviation_cut);
   if (step.answer->status == ContactArray::OK) {

@@ -40,7 +40,8 @@ struct ShapeCounts {
   std::uint64_t due = 0;
   std::uint64_t answered = 0;    ///< a step was published, also if it failed
   std::uint64_t superseded = 0;  ///< a newer shape came before the step
-  /// Before the step, the organ, the tool or all history was gone, or the organ got another frame.
+  /// Before the step, the organ, the tool or all history was gone, or the organ got another frame,
+  /// or an exception ended the round.
   std::uint64_t forgotten = 0;
   std::uint64_t waiting = 0;  ///< now, for transforms
 };

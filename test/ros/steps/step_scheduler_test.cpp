@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <new>
+
 #include "node_parts.hpp"
 
 using namespace organ_collision;
@@ -184,6 +186,17 @@ TEST_F(StepSchedulerTest, CountsTheWaitingShapesOfAnOrganThatIsGone) {
   organ_topics.take_mesh(boost::make_shared<OrganMesh>(removal));
   apply_organ_messages();
   expect_shapes(steps.shapes(), 0, 0, 2, 0);
+}
+
+TEST_F(StepSchedulerTest, CountsTheShapesOfARoundThatAnExceptionEnds) {
+  tools.push_back(shaft_tool("needle", 0.01));
+  set_point(transforms, "liver_frame", "needle_trocar", 0.0, {0.0, 0.0, 1.0}, true);
+  set_point(transforms, "liver_frame", "needle_tip", 1.0, kAbove);
+  send_tip(1.0, kAbove);
+  send_mesh(1.0, 0.0);
+  watch = [](const EvaluatedStep&) { throw std::bad_alloc(); };
+  EXPECT_THROW(evaluate(), std::bad_alloc);
+  expect_shapes(steps.shapes(), 1, 0, 1, 0);
 }
 
 TEST_F(StepSchedulerTest, KeepsAllShapesIfToldSo) {

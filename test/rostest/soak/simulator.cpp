@@ -1,8 +1,10 @@
 #include "simulator.hpp"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <organ_collision/ListOrgans.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
+#include <ros/service.h>
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -55,6 +57,11 @@ bool Simulator::has_listener() const {
   return std::all_of(std::begin(all), std::end(all), [](const ros::Publisher& publisher) {
     return publisher.getNumSubscribers() > 0;
   });
+}
+
+bool Simulator::scene_has_come() const {
+  ListOrgans list;
+  return ros::service::call("organ_collision/list_organs", list) && !list.response.organs.empty();
 }
 
 void Simulator::send_scene() {

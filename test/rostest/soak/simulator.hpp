@@ -29,6 +29,9 @@ class Simulator {
   bool has_listener() const;
   /// Sends what the node keeps: the trocars and the organ.
   void send_scene();
+  /// Whether the node knows the organ. Before, vertices may overtake the mesh, because they come
+  /// over another connection.
+  bool scene_has_come() const;
   /// One tick, with disturbances.
   void tick();
   /// One tick without disturbances. The last message of each topic tells the node how many

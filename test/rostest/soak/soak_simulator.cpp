@@ -30,9 +30,10 @@ constexpr int kCalmTicks = 40;
 constexpr auto kCalmTick = 50ms;
 constexpr auto kStart = 60s;
 
-bool wait_for_listener(const Simulator& simulator) {
+template <typename Condition>
+bool wait_for(const Condition& condition) {
   const auto give_up = SteadyClock::now() + kStart;
-  while (!simulator.has_listener()) {
+  while (!condition()) {
     if (SteadyClock::now() > give_up) return false;
     std::this_thread::sleep_for(20ms);
   }
@@ -64,13 +65,17 @@ int main(int argc, char** argv) {
     return 2;
   }
   Simulator simulator(std::strtoull(argv[1], nullptr, 10));
-  if (!wait_for_listener(simulator)) {
+  if (!wait_for([&] { return simulator.has_listener(); })) {
     std::cerr << "soak_simulator: no node listens\n";
     return 1;
   }
   ros::AsyncSpinner spinner(1);
   spinner.start();
   simulator.send_scene();
+  if (!wait_for([&] { return simulator.scene_has_come(); })) {
+    std::cerr << "soak_simulator: the node does not know the organ\n";
+    return 1;
+  }
   // The node counts losses from the first message that it gets. It must be the first one of all.
   simulator.calm_tick();
   wait_for_node(simulator, 0, kStart);

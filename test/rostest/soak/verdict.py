@@ -12,10 +12,8 @@ WARM_UP = 0.3
 MOST_GROWTH = 24 * MEBIBYTE
 MOST_GROWTH_OF_SHORT_RUN = 200 * MEBIBYTE
 SHORT_RUN = 120.0  # [s]
-# What a node may answer whose transforms have gaps, whose organs come and go, and some of whose shapes are illegal. At
-# the start, vertices may overtake the first mesh, which comes over another connection.
-LEGAL = {ContactArray.OK, ContactArray.NO_MESH, ContactArray.NO_TRANSFORM, ContactArray.INVALID_REQUEST,
-         ContactArray.UNKNOWN_ORGAN}
+# What a node may answer whose transforms have gaps, whose organs come and go, and some of whose shapes are illegal.
+LEGAL = {ContactArray.OK, ContactArray.NO_MESH, ContactArray.NO_TRANSFORM, ContactArray.INVALID_REQUEST}
 TOOLS = ('probe', 'needle', 'jaw', 'stylus')
 
 
