@@ -1,4 +1,4 @@
-"""Blocks, sections and a cluster of a real Morton order; step, legs and a span of a tool's path."""
+"""Blocks, sections and a cluster of an organ; step, legs and a span of a tool's path."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -9,13 +9,14 @@ RUN = 16
 SIDE = 32
 
 
-def morton(x, y):
-    return sum(((x >> bit & 1) << 2 * bit) | ((y >> bit & 1) << 2 * bit + 1) for bit in range(5))
+def place_in_order(x, y):
+    """The place of a vertex if the grid is halved again and again across its longest side."""
+    return sum(((y >> bit & 1) << 2 * bit) | ((x >> bit & 1) << 2 * bit + 1) for bit in range(5))
 
 
 def draw_organ(axes):
     style.drawing(axes, 'An organ of 32 x 32 vertices: 64 blocks in 4 sections')
-    order = {(x, y): morton(x, y) for x in range(SIDE) for y in range(SIDE)}
+    order = {(x, y): place_in_order(x, y) for x in range(SIDE) for y in range(SIDE)}
     block = {vertex: place // RUN for vertex, place in order.items()}
     faces = [corners for x in range(SIDE - 1) for y in range(SIDE - 1)
              for corners in (((x, y), (x + 1, y), (x + 1, y + 1)),

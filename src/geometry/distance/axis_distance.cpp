@@ -24,9 +24,10 @@ double nearest_place(const Vector3d& point, const Vector3d& segment, double if_d
 
 /// Collects pairs of points of an axis and a face. At least one of them is a nearest pair: where
 /// the axis pierces the face, each end of the axis with its projection into the face, each edge
-/// with the axis and with both its ends, each corner with the axis. Both points of a pair lie on
-/// axis and face, so rounding never makes a distance too small. All points are relative to the
-/// trocar.
+/// with the axis and with both its ends, each corner with the axis. The ends are left out if the
+/// whole face is beside the axis, between the planes through its ends: each point of the face then
+/// has a nearest point within the axis. Both points of a pair lie on axis and face, so rounding
+/// never makes a distance too small. All points are relative to the trocar.
 class NearestPair {
  public:
   struct Pair {
@@ -38,7 +39,8 @@ class NearestPair {
 
   NearestPair(const ShaftAxis& axis, const Triangle& face)
       : axis_(axis.tip - axis.trocar),
-        face_{face[0] - axis.trocar, face[1] - axis.trocar, face[2] - axis.trocar} {
+        face_{face[0] - axis.trocar, face[1] - axis.trocar, face[2] - axis.trocar},
+        is_beside_(is_beside()) {
     consider_inside();
     for (int i = 0; i < 3; ++i) {
       consider_edge(i, (i + 1) % 3);
@@ -64,6 +66,19 @@ class NearestPair {
   }
 
  private:
+  /// Whether the whole face is clearly beside the axis. The margins are far above the rounding: if
+  /// an end of the axis is in a face that is perpendicular to it, only that end is near.
+  bool is_beside() const {
+    constexpr double kMargin = 1e-3;   // [1] of the axis, at each end
+    constexpr double kFarthest = 1e6;  // [axis lengths] of a corner from the trocar
+    const double length2 = axis_.squaredNorm();
+    return std::all_of(face_.begin(), face_.end(), [&](const Vector3d& corner) {
+      const double along = corner.dot(axis_);
+      return kMargin * length2 < along && along < (1.0 - kMargin) * length2 &&
+             corner.squaredNorm() < kFarthest * kFarthest * length2;
+    });
+  }
+
   /// Adds a pair. The caller sets the barycentric coordinates in the result: passing them as an
   /// argument would copy a vector just after its components were written one by one, which stalls
   /// the processor.
@@ -83,8 +98,8 @@ class NearestPair {
     if (!(area.squaredNorm() > 0.0)) return;
     const double tip = area.dot(axis_ - face_[0]);
     const double trocar = area.dot(-face_[0]);
-    consider_projection(1.0, area);
-    consider_projection(0.0, area);
+    if (!is_beside_) consider_projection(1.0, area);
+    if (!is_beside_) consider_projection(0.0, area);
     if ((tip < 0.0) != (trocar < 0.0)) consider_projection(trocar / (trocar - tip), area);
   }
 
@@ -97,8 +112,8 @@ class NearestPair {
 
   void consider_edge(int from, int to) {
     const Vector3d edge = face_[to] - face_[from];
-    consider_on_edge(from, to, 1.0, edge);
-    consider_on_edge(from, to, 0.0, edge);
+    if (!is_beside_) consider_on_edge(from, to, 1.0, edge);
+    if (!is_beside_) consider_on_edge(from, to, 0.0, edge);
     // The nearest points of the two lines. The usual determinant of dot products would lose half
     // the digits if the lines are nearly parallel; cross products do not.
     const Vector3d across = axis_.cross(edge);
@@ -118,6 +133,7 @@ class NearestPair {
 
   const Vector3d axis_;
   const Triangle face_;
+  const bool is_beside_;
   std::array<Pair, 15> pairs_;
   std::size_t count_ = 0;
 };

@@ -25,39 +25,40 @@ Box empty_box() {
 Array4f load(const float* xyz) { return Eigen::Map<const Array4f>(xyz); }
 Array4f load_last(const float* xyz) { return {xyz[0], xyz[1], xyz[2], 0.0F}; }
 
-/// Fits the boxes of blocks that are runs of vertices. Returns the sum of all coordinates.
-float fit_runs(const std::vector<float>& vertices, const std::vector<std::uint32_t>& block_of_run,
-               std::vector<Box>& blocks) {
+/// Fits the boxes of blocks that are made of pieces. Iterates over the vertices, not over the
+/// blocks, because the boxes fit into the cache and the vertices may not. Returns the sum of all
+/// coordinates.
+float fit_pieces(const std::vector<float>& vertices,
+                 const std::vector<std::uint32_t>& block_of_piece, std::vector<Box>& blocks) {
   // The processor's own prefetching stops at the end of a page.
-  constexpr std::size_t kAhead = 128;
+  constexpr std::size_t kAhead = 128, kPiece = FaceClusters::kPiece;
   const Box empty = empty_box();
   const float* const xyz = vertices.data();
   const std::size_t last = vertices.size() / 3 - 1;
   Array4f sum = Array4f::Zero();
-  for (std::size_t run = 0; run < block_of_run.size(); ++run) {
-    const std::size_t begin = run * kRun, end = std::min(begin + kRun, last);
+  for (std::size_t piece = 0; piece < block_of_piece.size(); ++piece) {
+    const std::size_t begin = piece * kPiece, end = std::min(begin + kPiece, last);
     __builtin_prefetch(xyz + 3 * std::min(begin + kAhead, last));
     Box box = empty;
-    Array4f run_sum = Array4f::Zero();
+    Array4f piece_sum = Array4f::Zero();
     for (std::size_t i = begin; i < end; ++i) {
       const Array4f vertex = load(xyz + 3 * i);
       box = join(box, vertex);
-      run_sum += vertex;
+      piece_sum += vertex;
     }
-    blocks[block_of_run[run]] = box;
-    sum += run_sum;
+    Box& block = blocks[block_of_piece[piece]];
+    block = block.join(box);
+    sum += piece_sum;
   }
   const Array4f vertex = load_last(xyz + 3 * last);
-  Box& box = blocks[block_of_run.back()];
+  Box& box = blocks[block_of_piece.back()];
   box = join(box, vertex);
   return (sum + vertex).sum();
 }
 
-/// The same for blocks that are not runs. Iterates over the vertices, not over the blocks, because
-/// the boxes fit into the cache and the vertices may not.
-float fit_scattered(const std::vector<float>& vertices,
-                    const std::vector<std::uint32_t>& block_of_vertex, std::vector<Box>& blocks) {
-  std::fill(blocks.begin(), blocks.end(), empty_box());
+/// The same for pieces of one vertex.
+float fit_vertices(const std::vector<float>& vertices,
+                   const std::vector<std::uint32_t>& block_of_vertex, std::vector<Box>& blocks) {
   const float* const xyz = vertices.data();
   const std::size_t last = vertices.size() / 3 - 1;
   Array4f sum = Array4f::Zero();
@@ -92,9 +93,10 @@ bool all_finite(const std::vector<float>& values) {
 
 bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& vertices) {
   resize(clusters.block_count(), blocks_);
-  const float sum = clusters.block_of_run().empty()
-                        ? fit_scattered(vertices, clusters.block_of_vertex(), blocks_)
-                        : fit_runs(vertices, clusters.block_of_run(), blocks_);
+  std::fill(blocks_.begin(), blocks_.end(), empty_box());
+  const std::vector<std::uint32_t>& block_of = clusters.block_of_piece();
+  const float sum = clusters.piece_size() == 1 ? fit_vertices(vertices, block_of, blocks_)
+                                               : fit_pieces(vertices, block_of, blocks_);
   fit_groups(clusters);
   const Box all = join_run(groups_[clusters.level_count() - 1], 0);
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};

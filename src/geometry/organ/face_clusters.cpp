@@ -5,42 +5,15 @@
 #include <numeric>
 #include <utility>
 
+#include "compact_order.hpp"
+
 namespace organ_collision {
 namespace {
 
 constexpr std::uint32_t kNone = ~0U;
 
-/// Spreads the lowest ten bits so that two zeros stand between neighbours.
-std::uint32_t spread(std::uint32_t bits) {
-  bits = (bits | (bits << 16)) & 0x030000FFU;
-  bits = (bits | (bits << 8)) & 0x0300F00FU;
-  bits = (bits | (bits << 4)) & 0x030C30C3U;
-  return (bits | (bits << 2)) & 0x09249249U;
-}
-
 Eigen::Vector3f vertex(const std::vector<float>& vertices, std::size_t i) {
   return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]);
-}
-
-/// The numbers of every `stride`-th vertex, in their order along a Morton curve through a grid of
-/// 1024 cells along each side.
-std::vector<std::uint32_t> morton_order(const std::vector<float>& vertices, std::size_t stride) {
-  const auto count = static_cast<Eigen::Index>(vertices.size() / 3);
-  const Eigen::Map<const Eigen::Matrix3Xf> points(vertices.data(), 3, count);
-  const Eigen::Vector3d low = points.rowwise().minCoeff().cast<double>();
-  const Eigen::Vector3d size = points.rowwise().maxCoeff().cast<double>() - low;
-  const double cells = size.maxCoeff() > 0.0 ? 1023.0 / size.maxCoeff() : 0.0;
-
-  std::vector<std::uint64_t> keyed;
-  for (std::size_t i = 0; 3 * i < vertices.size(); i += stride) {
-    const Eigen::Vector3d cell = (vertex(vertices, i).cast<double>() - low) * cells;
-    const std::uint64_t key = spread(static_cast<std::uint32_t>(cell.x())) |
-                              spread(static_cast<std::uint32_t>(cell.y())) << 1 |
-                              spread(static_cast<std::uint32_t>(cell.z())) << 2;
-    keyed.push_back(key << 32 | i);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  return {keyed.begin(), keyed.end()};
 }
 
 /// Whether vertices that follow each other in the sender's order are neighbours in space: on
@@ -63,12 +36,9 @@ bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>
 }  // namespace
 
 FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
-                           const std::vector<float>& vertices) {
-  if (is_coherent(faces, vertices)) {
-    order_runs(vertices);
-  } else {
-    order_vertices(vertices);
-  }
+                           const std::vector<float>& vertices)
+    : piece_size_(is_coherent(faces, vertices) ? kPiece : 1) {
+  order_pieces(vertices);
   Numbers block_of(vertices.size() / 3);
   for (std::uint32_t i = 0; i < order_.size(); ++i) block_of[order_[i]] = i / kRun;
   sort_faces(faces, block_of);
@@ -79,22 +49,15 @@ FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
     group_counts_.push_back(count);
   } while (count > kRun);
   find_borders();
-  if (block_of_run_.empty()) block_of_vertex_ = std::move(block_of);
 }
 
-void FaceClusters::order_runs(const std::vector<float>& vertices) {
-  const std::size_t last = vertices.size() / 3 - 1;
-  block_of_run_.resize(last / kRun + 1);
-  for (const std::uint32_t first : morton_order(vertices, kRun)) {
-    block_of_run_[first / kRun] = static_cast<std::uint32_t>(order_.size() / kRun);
-    for (std::uint32_t i = 0; i < kRun; ++i) {
-      order_.push_back(std::min(first + i, static_cast<std::uint32_t>(last)));
-    }
+void FaceClusters::order_pieces(const std::vector<float>& vertices) {
+  const auto last = static_cast<std::uint32_t>(vertices.size() / 3 - 1);
+  block_of_piece_.resize(last / piece_size_ + 1);
+  for (const std::uint32_t first : compact_order(vertices, piece_size_, kRun / piece_size_)) {
+    block_of_piece_[first / piece_size_] = static_cast<std::uint32_t>(order_.size() / kRun);
+    for (std::uint32_t i = 0; i < piece_size_; ++i) order_.push_back(std::min(first + i, last));
   }
-}
-
-void FaceClusters::order_vertices(const std::vector<float>& vertices) {
-  order_ = morton_order(vertices, 1);
   order_.resize((order_.size() + kRun - 1) / kRun * kRun, order_.back());
 }
 

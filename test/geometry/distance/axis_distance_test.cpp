@@ -128,6 +128,36 @@ TEST(AxisDistance, TipOverTheInside) {
   EXPECT_TRUE(found.barycentric.isApprox(Vector3d(0.5, 0.25, 0.25), 1e-14));
 }
 
+// Only an end of the axis is near the inside of such a face, if it does not pierce it.
+TEST(AxisDistance, AcrossAFaceNearOneOfItsEnds) {
+  Random random(11);
+  for (const double length : {1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 0.0}) {
+    for (const double place : {-1e-2, -1e-16, 0.0, 1e-16, 1e-8, 1e-3, 0.5, 1.0 - 1e-3, 1.0 - 1e-8,
+                               1.0 - 1e-16, 1.0, 1.0 + 1e-16, 1.0 + 1e-2}) {
+      for (const double tilt : {0.0, 1e-17, 1e-12, 1e-6}) {
+        const Vector3d along = random.direction(), trocar = random.point(0.1);
+        const Vector3d u = 0.05 * along.cross(random.direction()).normalized();
+        const Vector3d v = along.cross(u) + tilt * along;
+        const Vector3d crossing = trocar + place * length * along;
+        const ShaftAxis axis{trocar, trocar + length * along};
+        const Triangle face{crossing + u, crossing - 0.5 * u + v, crossing - 0.5 * u - v};
+        EXPECT_NEAR(axis_closest_points(axis, face).distance,
+                    oracle::distance(oracle::core(axis), face), 1e-15 + tolerance::kTie)
+            << "length " << length << ", place " << place << ", tilt " << tilt;
+      }
+    }
+  }
+}
+
+TEST(AxisDistance, AnEndWithinAFaceAcrossIsNearestForBothSidesOfTheFace) {
+  const Vector3d middle(0.25, 0.15, 0.5), beyond(0.25, 0.15, 1.0);
+  const Triangle turned = {kFace[0], kFace[2], kFace[1]};
+  for (const Triangle& face : {kFace, turned}) {
+    EXPECT_NEAR(axis_closest_points({middle, beyond}, face).distance, 0.0, 1e-15);
+    EXPECT_NEAR(axis_closest_points({beyond, middle}, face).distance, 0.0, 1e-15);
+  }
+}
+
 TEST(AxisDistance, BallAndPointHaveOneNearestPair) {
   const Vector3d center(0.3, 0.7, 0.2), corner(0.3, 0.4, 0.6);
   const ClosestPoints found = axis_closest_points({center, center}, {corner, corner, corner});

@@ -24,6 +24,16 @@ std::vector<std::uint32_t> blocks_of_vertices(const FaceClusters& clusters, std:
   return block_of;
 }
 
+/// The block of each vertex as block_of_piece() tells it.
+std::vector<std::uint32_t> blocks_by_pieces(const FaceClusters& clusters, std::size_t count) {
+  std::vector<std::uint32_t> block_of;
+  EXPECT_EQ(clusters.block_of_piece().size(), (count - 1) / clusters.piece_size() + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    block_of.push_back(clusters.block_of_piece()[i / clusters.piece_size()]);
+  }
+  return block_of;
+}
+
 /// The set of numbers, each of which must occur once.
 std::set<std::uint32_t> set_of(const FaceClusters::Range<std::uint32_t>& range) {
   const std::set<std::uint32_t> set(range.begin(), range.end());
@@ -62,19 +72,15 @@ std::size_t blocks_of_all_clusters(const FaceClusters& clusters) {
   return blocks;
 }
 
-TEST(FaceClusters, TakeRunsOfACoherentSurface) {
+TEST(FaceClusters, TakePiecesOfACoherentSurface) {
   for (const int side : {1, 2, 9, 40, 101}) {
     const GridSurface grid = grid_surface(side);
     const FaceClusters clusters(grid.faces, grid.vertices);
     const std::size_t vertex_count = grid.vertices.size() / 3;
     expect_covering(clusters, grid.faces, vertex_count);
-    EXPECT_LT(blocks_of_all_clusters(clusters), 7 * clusters.block_count());
-    ASSERT_EQ(clusters.block_of_run().size(), (vertex_count + kRun - 1) / kRun);
-    EXPECT_TRUE(clusters.block_of_vertex().empty());
-    for (std::uint32_t vertex = 0; vertex < vertex_count; ++vertex) {
-      const std::uint32_t block = clusters.block_of_run()[vertex / kRun];
-      EXPECT_EQ(clusters.vertices(block)[vertex % kRun], vertex);
-    }
+    EXPECT_LT(blocks_of_all_clusters(clusters), 5 * clusters.block_count());
+    EXPECT_EQ(clusters.piece_size(), FaceClusters::kPiece);
+    EXPECT_EQ(blocks_by_pieces(clusters, vertex_count), blocks_of_vertices(clusters, vertex_count));
   }
 }
 
@@ -97,9 +103,9 @@ TEST(FaceClusters, ReorderAShuffledSurfaceIntoCompactBlocks) {
   const FaceClusters clusters(grid.faces, grid.vertices);
   const std::size_t vertex_count = grid.vertices.size() / 3;
   expect_covering(clusters, grid.faces, vertex_count);
-  EXPECT_TRUE(clusters.block_of_run().empty());
-  EXPECT_EQ(clusters.block_of_vertex(), blocks_of_vertices(clusters, vertex_count));
-  EXPECT_LT(blocks_of_all_clusters(clusters), 7 * clusters.block_count());
+  EXPECT_EQ(clusters.piece_size(), 1U);
+  EXPECT_EQ(blocks_by_pieces(clusters, vertex_count), blocks_of_vertices(clusters, vertex_count));
+  EXPECT_LT(blocks_of_all_clusters(clusters), 5 * clusters.block_count());
 }
 
 TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
