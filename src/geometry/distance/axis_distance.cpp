@@ -66,11 +66,12 @@ class NearestPair {
   }
 
  private:
-  /// Whether the whole face is clearly beside the axis. The margins are far above the rounding: if
-  /// an end of the axis is in a face that is perpendicular to it, only that end is near.
+  /// Whether the whole face is clearly beside the axis. Without the two limits, rounding could hide
+  /// that an axis pierces a face close to an end, or a sliver that is much longer than the axis.
+  /// That end would be the only other point near the inside of the face.
   bool is_beside() const {
-    constexpr double kMargin = 1e-3;   // [1] of the axis, at each end
-    constexpr double kFarthest = 1e6;  // [axis lengths] of a corner from the trocar
+    constexpr double kMargin = 1e-3;   // [axis lengths] from the planes through both ends
+    constexpr double kFarthest = 1e3;  // [axis lengths] of a corner from the trocar
     const double length2 = axis_.squaredNorm();
     return std::all_of(face_.begin(), face_.end(), [&](const Vector3d& corner) {
       const double along = corner.dot(axis_);

@@ -71,12 +71,8 @@ float fit_vertices(const std::vector<float>& vertices,
   return sum.sum();
 }
 
-/// Makes room for `count` boxes and pads them with empty ones. Boxes may be left from other
-/// clusters.
-void resize(std::size_t count, std::vector<Box>& boxes) {
-  boxes.resize((count + kRun - 1) / kRun * kRun);
-  std::fill(boxes.begin() + static_cast<std::ptrdiff_t>(count), boxes.end(), empty_box());
-}
+/// `count`, rounded up to a multiple of kRun.
+std::size_t padded(std::size_t count) { return (count + kRun - 1) / kRun * kRun; }
 
 /// The box around kRun members of a group.
 Box join_run(const std::vector<Box>& members, std::size_t group) {
@@ -92,8 +88,7 @@ bool all_finite(const std::vector<float>& values) {
 }  // namespace
 
 bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& vertices) {
-  resize(clusters.block_count(), blocks_);
-  std::fill(blocks_.begin(), blocks_.end(), empty_box());
+  blocks_.assign(padded(clusters.block_count()), empty_box());
   const std::vector<std::uint32_t>& block_of = clusters.block_of_piece();
   const float sum = clusters.piece_size() == 1 ? fit_vertices(vertices, block_of, blocks_)
                                                : fit_pieces(vertices, block_of, blocks_);
@@ -108,7 +103,7 @@ void BlockBoxes::fit_groups(const FaceClusters& clusters) {
   groups_.resize(std::max(groups_.size(), clusters.level_count()));
   for (std::size_t level = 0; level < clusters.level_count(); ++level) {
     const std::vector<Box>& members = level == 0 ? blocks_ : groups_[level - 1];
-    resize(clusters.group_count(level), groups_[level]);
+    groups_[level].assign(padded(clusters.group_count(level)), empty_box());
     for (std::size_t group = 0; group < clusters.group_count(level); ++group) {
       groups_[level][group] = join_run(members, group);
     }

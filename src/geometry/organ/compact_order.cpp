@@ -12,11 +12,11 @@ struct Piece {
   std::uint32_t first_vertex;
 };
 
-/// The largest power of 2 below a count above 1.
-std::ptrdiff_t half_of(std::ptrdiff_t count) {
-  std::ptrdiff_t half = 1;
-  while (2 * half < count) half *= 2;
-  return half;
+/// The size of the first part: the largest power of 2 below a count above 1.
+std::ptrdiff_t first_part(std::ptrdiff_t count) {
+  std::ptrdiff_t size = 1;
+  while (2 * size < count) size *= 2;
+  return size;
 }
 
 void order(Piece* begin, Piece* end, std::ptrdiff_t together) {
@@ -25,7 +25,7 @@ void order(Piece* begin, Piece* end, std::ptrdiff_t together) {
   for (const Piece* piece = begin; piece < end; ++piece) box.extend(piece->place);
   Eigen::Index longest = 0;
   box.sizes().maxCoeff(&longest);
-  Piece* const middle = begin + half_of(end - begin);
+  Piece* const middle = begin + first_part(end - begin);
   std::nth_element(begin, middle, end, [longest](const Piece& a, const Piece& b) {
     return a.place[longest] < b.place[longest];
   });

@@ -11,6 +11,10 @@
 namespace organ_collision {
 namespace {
 
+bool is_large(const OrganMesh& mesh) {
+  return std::max(mesh.triangles.size(), mesh.vertices.size()) > 3 * OrganMessageQueue::kLarge;
+}
+
 bool is_ready(const OrganMessage& message) {
   return !message.built.valid() ||
          message.built.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
@@ -66,8 +70,7 @@ void OrganMessageQueue::add(OrganMessage message) {
 
 /// Has the mesh of a message built if it must be. All earlier messages of the organ must be taken.
 void OrganMessageQueue::begin(OrganMessage& message) {
-  const bool is_large = message.mesh && message.mesh->triangles.size() > 3 * kLarge;
-  if (!is_large || message.built.valid()) return;
+  if (!message.mesh || !is_large(*message.mesh) || message.built.valid()) return;
   if (functions_.is_new(*message.mesh, message.connection)) {
     message.built = start_building(message.mesh);
   }

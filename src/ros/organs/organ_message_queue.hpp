@@ -38,7 +38,8 @@ struct OrganMessage {
 /// triangles are new: the meshes before it may bring the same ones.
 class OrganMessageQueue {
  public:
-  /// [faces] Meshes up to this size are built when they are applied, in less than a millisecond.
+  /// [faces, and vertices] Meshes up to this size are built when they are applied, in a millisecond
+  /// or less.
   static constexpr std::size_t kLarge = 10'000;
   /// If more messages of one organ wait, with the mesh that is being built, the oldest that a later
   /// one replaces are dropped: vertices, and meshes with another mesh behind them. The others are
