@@ -19,13 +19,13 @@ Eigen::Vector3f vertex(const std::vector<float>& vertices, std::size_t i) {
 /// Whether vertices that follow each other in the sender's order are neighbours in space: on
 /// average over a sample, their distance is at most kFar times the length of an edge.
 bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
-  constexpr std::size_t kSamples = 4096;
+  constexpr std::size_t kMostSamples = 4096;
   constexpr double kFar = 4.0;
-  const std::size_t count = vertices.size() / 3;
+  const std::size_t count = vertices.size() / 3, samples = std::min(count, kMostSamples);
   double steps = 0.0, edges = 0.0;
-  for (std::size_t i = 0; i < kSamples; ++i) {
-    const std::size_t place = i * count / kSamples;
-    const FaceIndices& face = faces[i * faces.size() / kSamples];
+  for (std::size_t i = 0; i < samples; ++i) {
+    const std::size_t place = i * count / samples;
+    const FaceIndices& face = faces[i * faces.size() / samples];
     const std::size_t next = std::min(place + 1, count - 1);
     steps += (vertex(vertices, next) - vertex(vertices, place)).norm();
     edges += (vertex(vertices, face[1]) - vertex(vertices, face[0])).norm();
