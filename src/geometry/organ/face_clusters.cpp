@@ -53,11 +53,12 @@ FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
 
 void FaceClusters::order_pieces(const std::vector<float>& vertices) {
   const auto last = static_cast<std::uint32_t>(vertices.size() / 3 - 1);
-  block_of_piece_.resize(last / piece_size_ + 1);
+  const std::uint32_t size = piece_size_;
+  block_of_piece_.resize(last / size + 1);
   order_.reserve(vertices.size() / 3 + kRun);
-  for (const std::uint32_t first : compact_order(vertices, piece_size_, kRun / piece_size_)) {
-    block_of_piece_[first / piece_size_] = static_cast<std::uint32_t>(order_.size() / kRun);
-    for (std::uint32_t i = 0; i < piece_size_; ++i) order_.push_back(std::min(first + i, last));
+  for (const std::uint32_t first : compact_order(vertices, size, kRun / size)) {
+    block_of_piece_[first / size] = static_cast<std::uint32_t>(order_.size() / kRun);
+    for (std::uint32_t i = 0; i < size; ++i) order_.push_back(std::min(first + i, last));
   }
   order_.resize((order_.size() + kRun - 1) / kRun * kRun, order_.back());
 }
