@@ -111,21 +111,6 @@ void check_indices(const aiScene& scene) {
   }
 }
 
-/// Triangles of a file take at least a byte each: the index of one more corner. assimp gives each
-/// face of a PLY file as many corners as it claims, even if the file ends before them.
-void check_triangle_count(const aiScene& scene, std::size_t bytes) {
-  std::size_t triangles = 0;
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    const aiMesh& mesh = *scene.mMeshes[i];
-    for (unsigned j = 0; j < mesh.mNumFaces; ++j) {
-      triangles += std::max(mesh.mFaces[j].mNumIndices, 2u) - 2;
-    }
-  }
-  if (triangles <= bytes) return;
-  throw ToolError(concatenate("its faces claim to be ", triangles, " triangles, but it has only ",
-                              bytes, " bytes; the file may be damaged"));
-}
-
 bool ends_line(char character) { return character == '\n' || character == '\r'; }
 
 /// Whether one line of the text, other than the first, is this word. Blanks may follow it.
@@ -153,6 +138,22 @@ void check_ply_header(const std::string& content) {
   }
 }
 
+/// In a PLY file, each triangle takes at least a byte: the index of one more corner. assimp gives
+/// each face as many corners as it claims, even if the file ends before them.
+void check_ply_faces(const aiScene& scene, const std::string& content) {
+  if (!is_ply(content)) return;
+  std::size_t triangles = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[i];
+    for (unsigned j = 0; j < mesh.mNumFaces; ++j) {
+      triangles += std::max(mesh.mFaces[j].mNumIndices, 2u) - 2;
+    }
+  }
+  if (triangles <= content.size()) return;
+  throw ToolError(concatenate("its faces claim to be ", triangles, " triangles, but it has only ",
+                              content.size(), " bytes; the file may be damaged"));
+}
+
 /// The processor time that reading a mesh file may take. With some broken files, assimp would not
 /// end.
 std::chrono::milliseconds time_for(const std::string& content) {
@@ -178,7 +179,7 @@ MeshDescription parse(const std::string& file, const std::string& content,
       importer.ReadFileFromMemory(content.data(), content.size(), 0, extension(file).c_str());
   if (scene) {
     check_indices(*scene);
-    check_triangle_count(*scene, content.size());
+    check_ply_faces(*scene, content);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (!scene) throw ToolError(reason(importer));

@@ -125,7 +125,7 @@ class ShippedFilesTest(ContactCase, NodeStarter):
                 if '/liver_simulator' in launched.nodes:
                     self.check_scene(proxies='/haptic_proxy' in launched.nodes)
                     scenes_shown += 1
-            wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path, 120.0)
+            wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
             self.assertNotIn('has died', launched.printed, path)
             self.assertNotIn('escalating', launched.printed, path)
         self.assertEqual(scenes_shown, 2)

@@ -99,8 +99,10 @@ class NearestPair {
     if (!(area.squaredNorm() > 0.0)) return;
     const double tip = area.dot(axis_ - face_[0]);
     const double trocar = area.dot(-face_[0]);
-    if (!is_beside_) consider_projection(1.0, area);
-    if (!is_beside_) consider_projection(0.0, area);
+    if (!is_beside_) {
+      consider_projection(1.0, area);
+      consider_projection(0.0, area);
+    }
     if ((tip < 0.0) != (trocar < 0.0)) consider_projection(trocar / (trocar - tip), area);
   }
 
@@ -113,8 +115,10 @@ class NearestPair {
 
   void consider_edge(int from, int to) {
     const Vector3d edge = face_[to] - face_[from];
-    if (!is_beside_) consider_on_edge(from, to, 1.0, edge);
-    if (!is_beside_) consider_on_edge(from, to, 0.0, edge);
+    if (!is_beside_) {
+      consider_on_edge(from, to, 1.0, edge);
+      consider_on_edge(from, to, 0.0, edge);
+    }
     // The nearest points of the two lines. The usual determinant of dot products would lose half
     // the digits if the lines are nearly parallel; cross products do not.
     const Vector3d across = axis_.cross(edge);

@@ -15,7 +15,7 @@ namespace organ_collision {
 /// parts again. The first part has the largest power of 2 of places, and not half of them, so that
 /// each part but the last consists of whole groups. Source: Bentley 1975. A curve through a grid,
 /// such as Morton's, would be found in a third to half of the time, but its parts are not compact:
-/// queries would take up to four times as long.
+/// queries would take up to seven times as long.
 std::vector<std::uint32_t> compact_order(const std::vector<float>& vertices, std::size_t piece,
                                          std::size_t together);
 

@@ -111,6 +111,17 @@ TEST_F(OrganMessageQueueTest, SmallMeshesAndVerticesPassAtOnce) {
   EXPECT_EQ(taken_, (Texts{"liver mesh 1", "liver vertices 1"}));
 }
 
+TEST_F(OrganMessageQueueTest, ManyVerticesMakeAMeshLargeToo) {
+  const auto soup = boost::make_shared<OrganMesh>(*mesh("liver", 1, 1));
+  soup->vertices.resize(3 * kFaces);
+  queue_.add(OrganMeshConstPtr(soup));
+  take_all();
+  EXPECT_EQ(taken_, Texts{}) << "it is being built";
+  let(1);
+  take_until(1);
+  EXPECT_EQ(taken_, Texts{"liver mesh 1, 1"});
+}
+
 TEST_F(OrganMessageQueueTest, LargeMeshesAreBuiltElsewhereAndOtherOrgansDoNotWait) {
   queue_.add(mesh("liver", 1, kFaces));
   queue_.add(vertices("liver", 1));
