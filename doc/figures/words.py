@@ -5,7 +5,7 @@ import numpy as np
 
 import style
 
-RUN = 16
+BLOCK = 8
 SIDE = 32
 
 
@@ -15,9 +15,9 @@ def place_in_order(x, y):
 
 
 def draw_organ(axes):
-    style.drawing(axes, 'An organ of 32 x 32 vertices: 64 blocks in 4 sections')
+    style.drawing(axes, 'An organ of 32 x 32 vertices: 128 blocks in 8 sections')
     order = {(x, y): place_in_order(x, y) for x in range(SIDE) for y in range(SIDE)}
-    block = {vertex: place // RUN for vertex, place in order.items()}
+    block = {vertex: place // BLOCK for vertex, place in order.items()}
     faces = [corners for x in range(SIDE - 1) for y in range(SIDE - 1)
              for corners in (((x, y), (x + 1, y), (x + 1, y + 1)),
                              ((x, y), (x + 1, y + 1), (x, y + 1)))]
@@ -34,11 +34,11 @@ def draw_organ(axes):
         strong = number in touched
         axes.add_patch(plt.Rectangle(low, *size, fill=False, ec=style.TOOL if strong else '#c8c8c8',
                                      lw=1.6 if strong else 0.7))
-    for corner in ((0, 0), (16, 0), (0, 16), (16, 16)):
-        axes.add_patch(plt.Rectangle(np.array(corner) - 0.48, 15.96, 15.96, fill=False,
+    for corner in ((x, y) for x in (0, 16) for y in (0, 8, 16, 24)):
+        axes.add_patch(plt.Rectangle(np.array(corner) - 0.48, 15.96, 7.96, fill=False,
                                      ec=style.BOUND, lw=1.8))
     style.label(axes, (32.6, 26), 'section:\n16 blocks', style.BOUND)
-    style.label(axes, (32.6, 16), 'block: 16 vertices\n(blue: the blocks that\nhold the '
+    style.label(axes, (32.6, 16), 'block: 8 vertices\n(blue: the blocks that\nhold the '
                 'vertices of\nthe red cluster)', style.TOOL)
     style.label(axes, (32.6, 8), 'cluster: the faces\nwhose first vertex\nis in one block',
                 style.FACE)

@@ -35,14 +35,14 @@ void FaceSearch::rank_top(float squared_bound) {
 }
 
 void FaceSearch::rank_members(const Ranked& group, float squared_bound) {
-  rank_groups(group.level - 1, group.index * FaceClusters::kRun, squared_bound);
+  rank_groups(group.level - 1, group.index * FaceClusters::kGroup, squared_bound);
 }
 
-/// Ranks at most kRun groups of a level, from `begin` on.
+/// Ranks at most kGroup groups of a level, from `begin` on.
 void FaceSearch::rank_groups(std::uint32_t level, std::size_t begin, float squared_bound) {
   const std::vector<Box>& after = organ_->after().block_boxes().groups(level);
   const std::vector<Box>& before = organ_->boxes_before().groups(level);
-  const std::size_t end = std::min(begin + FaceClusters::kRun, clusters().group_count(level));
+  const std::size_t end = std::min(begin + FaceClusters::kGroup, clusters().group_count(level));
   for (std::size_t group = begin; group < end; ++group) {
     const Box box = organ_->rests() ? after[group] : after[group].join(before[group]);
     push({squared_distance(box), static_cast<std::uint32_t>(group), level}, squared_bound, groups_);
@@ -52,8 +52,8 @@ void FaceSearch::rank_groups(std::uint32_t level, std::size_t begin, float squar
 void FaceSearch::rank_blocks(std::uint32_t section, float squared_bound) {
   blocks_.clear();
   const auto count = static_cast<std::uint32_t>(clusters().block_count());
-  const std::uint32_t begin = section * FaceClusters::kRun;
-  const std::uint32_t end = std::min<std::uint32_t>(begin + FaceClusters::kRun, count);
+  const std::uint32_t begin = section * FaceClusters::kGroup;
+  const std::uint32_t end = std::min<std::uint32_t>(begin + FaceClusters::kGroup, count);
   for (std::uint32_t block = begin; block < end; ++block) {
     push({squared_distance(box_around(block)), block, 0}, squared_bound, blocks_);
   }
@@ -68,7 +68,7 @@ void FaceSearch::place_vertices(std::uint32_t block) {
   for (const std::uint32_t part : clusters().blocks(block)) {
     if (std::exchange(block_is_placed_[part], 1) != 0) continue;
     const std::uint32_t* const vertices = clusters().vertices(part);
-    for (std::size_t i = 0; i < FaceClusters::kRun; ++i) {
+    for (std::size_t i = 0; i < FaceClusters::kBlock; ++i) {
       const Array4f after = in_box(organ_->after(), vertices[i]);
       const Array4f before = organ_->rests() ? after : in_box(organ_->before(), vertices[i]);
       placed_[vertices[i]] = {after.min(before), after.max(before)};

@@ -37,17 +37,17 @@ bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>
 
 FaceClusters::FaceClusters(const std::vector<FaceIndices>& faces,
                            const std::vector<float>& vertices)
-    : piece_size_(is_coherent(faces, vertices) ? kPiece : 1) {
+    : piece_size_(is_coherent(faces, vertices) ? kBlock : 1) {
   order_pieces(vertices);
   Numbers block_of(vertices.size() / 3);
-  for (std::uint32_t i = 0; i < order_.size(); ++i) block_of[order_[i]] = i / kRun;
+  for (std::uint32_t i = 0; i < order_.size(); ++i) block_of[order_[i]] = i / kBlock;
   sort_faces(faces, block_of);
   find_blocks(block_of);
   std::size_t count = block_count();
   do {
-    count = (count + kRun - 1) / kRun;
+    count = (count + kGroup - 1) / kGroup;
     group_counts_.push_back(count);
-  } while (count > kRun);
+  } while (count > kGroup);
   find_borders();
 }
 
@@ -55,12 +55,12 @@ void FaceClusters::order_pieces(const std::vector<float>& vertices) {
   const auto last = static_cast<std::uint32_t>(vertices.size() / 3 - 1);
   const std::uint32_t size = piece_size_;
   block_of_piece_.resize(last / size + 1);
-  order_.reserve(vertices.size() / 3 + kRun);
-  for (const std::uint32_t first : compact_order(vertices, size, kRun / size)) {
-    block_of_piece_[first / size] = static_cast<std::uint32_t>(order_.size() / kRun);
+  order_.reserve(vertices.size() / 3 + kBlock);
+  for (const std::uint32_t first : compact_order(vertices, size, kBlock / size)) {
+    block_of_piece_[first / size] = static_cast<std::uint32_t>(order_.size() / kBlock);
     for (std::uint32_t i = 0; i < size; ++i) order_.push_back(std::min(first + i, last));
   }
-  order_.resize((order_.size() + kRun - 1) / kRun * kRun, order_.back());
+  order_.resize((order_.size() + kBlock - 1) / kBlock * kBlock, order_.back());
 }
 
 /// Sorts the faces by their first block. Counting sort keeps the numbers within a cluster rising.
@@ -92,10 +92,10 @@ void FaceClusters::find_blocks(const Numbers& block_of) {
 void FaceClusters::find_borders() {
   Numbers found_for(block_count(), kNone);
   for (std::uint32_t section = 0; section < group_count(0); ++section) {
-    const std::size_t end = std::min((section + 1) * kRun, block_count());
-    for (std::size_t block = section * kRun; block < end; ++block) {
+    const std::size_t end = std::min((section + 1) * kGroup, block_count());
+    for (std::size_t block = section * kGroup; block < end; ++block) {
       for (const std::uint32_t part : blocks(block)) {
-        const bool is_beyond = part / kRun != section;
+        const bool is_beyond = part / kGroup != section;
         if (is_beyond && std::exchange(found_for[part], section) != section) {
           borders_.all.push_back(part);
         }

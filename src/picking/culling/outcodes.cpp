@@ -10,7 +10,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kRun = FaceClusters::kRun;
+constexpr std::size_t kGroup = FaceClusters::kGroup;
 
 // [1] Bounds on the rounding error of a dot product with a unit normal in 32 bits, as shares of the
 // sum of the magnitudes of the point's coordinates. The error is at most four roundings, and seven
@@ -19,9 +19,9 @@ constexpr std::size_t kRun = FaceClusters::kRun;
 constexpr float kSlack = 8.0F / (1 << 24);
 constexpr float kSlackBetween = 16.0F / (1 << 24);
 
-BoxRun load_boxes(const std::vector<BlockBoxes::Box>& boxes, std::size_t begin) {
-  return {load_points([&](std::size_t i) { return boxes[begin + i].min.data(); }),
-          load_points([&](std::size_t i) { return boxes[begin + i].max.data(); })};
+BoxRun load_boxes(const BlockBoxes::Box* boxes) {
+  return {load_points([&](std::size_t i) { return boxes[i].min.data(); }),
+          load_points([&](std::size_t i) { return boxes[i].max.data(); })};
 }
 
 /// Vertices as boxes without extent.
@@ -66,21 +66,19 @@ void Outcodes::set_planes(const ViewingVolume& volume) {
 }
 
 void Outcodes::add_members(std::size_t level, std::size_t group) {
-  find_group_codes(level - 1, group);
+  find_group_codes(level - 1, group * kGroup);
 }
 
-/// Finds the outcodes of a run of kRun groups.
-void Outcodes::find_group_codes(std::size_t level, std::size_t run) {
-  find_codes(
-      load_boxes(boxes().groups(level), run * kRun),
-      [&] { return load_boxes(organ_->boxes_before().groups(level), run * kRun); },
-      &group_codes_[level][run * kRun]);
+/// Finds the outcodes of kGroup groups from `begin` on.
+void Outcodes::find_group_codes(std::size_t level, std::size_t begin) {
+  find_member_codes(&boxes().groups(level)[begin], &organ_->boxes_before().groups(level)[begin],
+                    &group_codes_[level][begin]);
 }
 
 bool Outcodes::cluster_is_outside(std::size_t block) {
   unsigned code = ~0U;
   for (const std::uint32_t part : clusters().blocks(block)) {
-    find_block_codes(part / kRun);
+    find_block_codes(part / kGroup);
     code &= block_codes_[part];
     if (code == 0) return false;
   }
@@ -90,10 +88,18 @@ bool Outcodes::cluster_is_outside(std::size_t block) {
 /// Finds the outcodes of a section's blocks, unless that is done.
 void Outcodes::find_block_codes(std::size_t section) {
   if (std::exchange(section_found_for_[section], query_) == query_) return;
-  find_codes(
-      load_boxes(boxes().blocks(), section * kRun),
-      [&] { return load_boxes(organ_->boxes_before().blocks(), section * kRun); },
-      &block_codes_[section * kRun]);
+  const std::size_t begin = section * kGroup;
+  find_member_codes(&boxes().blocks()[begin], &organ_->boxes_before().blocks()[begin],
+                    &block_codes_[begin]);
+}
+
+/// Finds the outcodes of the kGroup boxes of a group's members.
+void Outcodes::find_member_codes(const BlockBoxes::Box* after, const BlockBoxes::Box* before,
+                                 Code* codes) const {
+  for (std::size_t i = 0; i < kGroup; i += kRun) {
+    find_codes(
+        load_boxes(after + i), [&] { return load_boxes(before + i); }, codes + i);
+  }
 }
 
 void Outcodes::add_vertices(std::size_t block) {

@@ -65,8 +65,10 @@ class Outcodes {
   template <typename Visit>
   void visit_group(std::size_t level, std::size_t group, const Visit& visit);
   void set_planes(const ViewingVolume& volume);
-  void find_group_codes(std::size_t level, std::size_t run);
+  void find_group_codes(std::size_t level, std::size_t begin);
   void find_block_codes(std::size_t section);
+  void find_member_codes(const BlockBoxes::Box* after, const BlockBoxes::Box* before,
+                         Code* codes) const;
   template <typename LoadBefore>
   void find_codes(const BoxRun& after, LoadBefore load_before, Code* codes) const;
   CodeRun find_codes(const BoxRun& boxes, const ValueRun& slack) const;
@@ -93,8 +95,8 @@ void Outcodes::for_each_face(Visit visit) {
 template <typename Visit>
 void Outcodes::visit_group(std::size_t level, std::size_t group, const Visit& visit) {
   if (group_is_outside(level, group)) return;
-  const std::size_t begin = group * FaceClusters::kRun;
-  const std::size_t end = begin + FaceClusters::kRun;
+  const std::size_t begin = group * FaceClusters::kGroup;
+  const std::size_t end = begin + FaceClusters::kGroup;
   if (level > 0) {
     add_members(level, group);
     for (std::size_t i = begin; i < std::min(end, clusters().group_count(level - 1)); ++i) {

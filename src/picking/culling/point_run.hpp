@@ -8,9 +8,14 @@
 
 namespace organ_collision {
 
-/// One value, or one outcode, for each of FaceClusters::kRun points.
-using ValueRun = std::array<Lanes, FaceClusters::kRun / kLanes>;
-using CodeRun = std::array<LaneCodes, FaceClusters::kRun / kLanes>;
+/// The points, or boxes, that one loop processes together: the vertices of a block, or a part of a
+/// group's members.
+inline constexpr std::size_t kRun = FaceClusters::kBlock;
+static_assert(FaceClusters::kGroup % kRun == 0);
+
+/// One value, or one outcode, for each point of a run.
+using ValueRun = std::array<Lanes, kRun / kLanes>;
+using CodeRun = std::array<LaneCodes, kRun / kLanes>;
 
 /// Coordinates of a run of points [m].
 struct PointRun {

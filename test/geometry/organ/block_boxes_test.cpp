@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kRun = FaceClusters::kRun;
+constexpr std::size_t kGroup = FaceClusters::kGroup;
 
 Eigen::Array3f vertex(const GridSurface& grid, std::uint32_t index) {
   return Eigen::Map<const Eigen::Array3f>(&grid.vertices[3 * index]);
@@ -58,19 +58,20 @@ TEST(BlockBoxes, AreTheSmallestInEveryShape) {
           const auto corner = [&](std::size_t i) {
             return vertex(grid, clusters.vertices(block)[i]);
           };
-          EXPECT_TRUE(plain(boxes.blocks()[block]).isApprox(box_around(kRun, corner), 0.0F));
+          EXPECT_TRUE(plain(boxes.blocks()[block])
+                          .isApprox(box_around(FaceClusters::kBlock, corner), 0.0F));
         }
         std::vector<Eigen::AlignedBox3f> members;
         for (std::size_t block = 0; block < clusters.block_count(); ++block) {
           members.push_back(plain(boxes.blocks()[block]));
           for (const std::uint32_t part : clusters.blocks(block)) {
-            const bool is_beyond = part / kRun != block / kRun;
+            const bool is_beyond = part / kGroup != block / kGroup;
             if (is_beyond) members.back().extend(plain(boxes.blocks()[part]));
           }
         }
         for (std::size_t level = 0; level < clusters.level_count(); ++level) {
           std::vector<Eigen::AlignedBox3f> groups(clusters.group_count(level));
-          for (std::size_t i = 0; i < members.size(); ++i) groups[i / kRun].extend(members[i]);
+          for (std::size_t i = 0; i < members.size(); ++i) groups[i / kGroup].extend(members[i]);
           for (std::size_t group = 0; group < groups.size(); ++group) {
             EXPECT_TRUE(plain(boxes.groups(level)[group]).isApprox(groups[group], 0.0F));
           }

@@ -9,12 +9,12 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kRun = FaceClusters::kRun;
+constexpr std::size_t kGroup = FaceClusters::kGroup;
 
 std::vector<std::uint32_t> blocks_of_vertices(const FaceClusters& clusters, std::size_t count) {
   std::vector<std::uint32_t> block_of(count, ~0U);
   for (std::uint32_t block = 0; block < clusters.block_count(); ++block) {
-    for (std::size_t i = 0; i < kRun; ++i) {
+    for (std::size_t i = 0; i < FaceClusters::kBlock; ++i) {
       const std::uint32_t vertex = clusters.vertices(block)[i];
       EXPECT_TRUE(block_of[vertex] == ~0U || block_of[vertex] == block) << "in two blocks";
       block_of[vertex] = block;
@@ -49,9 +49,9 @@ void expect_covering(const FaceClusters& clusters, const std::vector<FaceIndices
   std::vector<int> seen(faces.size(), 0);
   for (std::size_t block = 0; block < clusters.block_count(); ++block) {
     const std::set<std::uint32_t> blocks = set_of(clusters.blocks(block));
-    const std::set<std::uint32_t> border = set_of(clusters.border(block / kRun));
+    const std::set<std::uint32_t> border = set_of(clusters.border(block / kGroup));
     for (const std::uint32_t part : blocks) {
-      EXPECT_EQ(border.count(part), part / kRun == block / kRun ? 0U : 1U);
+      EXPECT_EQ(border.count(part), part / kGroup == block / kGroup ? 0U : 1U);
     }
     std::uint32_t last = 0;
     for (const FaceClusters::Face& face : clusters.faces(block)) {
@@ -72,14 +72,14 @@ std::size_t blocks_of_all_clusters(const FaceClusters& clusters) {
   return blocks;
 }
 
-TEST(FaceClusters, TakePiecesOfACoherentSurface) {
+TEST(FaceClusters, TakeBlocksOfACoherentSurface) {
   for (const int side : {1, 2, 9, 40, 101}) {
     const GridSurface grid = grid_surface(side);
     const FaceClusters clusters(grid.faces, grid.vertices);
     const std::size_t vertex_count = grid.vertices.size() / 3;
     expect_covering(clusters, grid.faces, vertex_count);
     EXPECT_LT(blocks_of_all_clusters(clusters), 5 * clusters.block_count());
-    EXPECT_EQ(clusters.piece_size(), FaceClusters::kPiece);
+    EXPECT_EQ(clusters.piece_size(), FaceClusters::kBlock);
     EXPECT_EQ(blocks_by_pieces(clusters, vertex_count), blocks_of_vertices(clusters, vertex_count));
   }
 }
@@ -90,11 +90,11 @@ TEST(FaceClusters, HaveLevelsUpToAFewGroups) {
     const FaceClusters clusters(grid.faces, grid.vertices);
     std::size_t count = clusters.block_count();
     for (std::size_t level = 0; level < clusters.level_count(); ++level) {
-      EXPECT_TRUE(level == 0 || count > kRun) << "a level above few groups";
-      EXPECT_EQ(clusters.group_count(level), (count + kRun - 1) / kRun);
+      EXPECT_TRUE(level == 0 || count > kGroup) << "a level above few groups";
+      EXPECT_EQ(clusters.group_count(level), (count + kGroup - 1) / kGroup);
       count = clusters.group_count(level);
     }
-    EXPECT_LE(count, kRun);
+    EXPECT_LE(count, kGroup);
   }
 }
 

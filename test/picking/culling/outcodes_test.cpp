@@ -48,7 +48,7 @@ double farthest_outside(const Triangle& face, const ViewingVolume& volume) {
 bool some_group_is_outside(Outcodes& outcodes, const FaceClusters& clusters, std::size_t block) {
   std::vector<std::size_t> groups;  // by level
   for (std::size_t level = 0; level < clusters.level_count(); ++level) {
-    groups.push_back((level == 0 ? block : groups.back()) / FaceClusters::kRun);
+    groups.push_back((level == 0 ? block : groups.back()) / FaceClusters::kGroup);
   }
   for (std::size_t level = clusters.level_count(); level-- > 0;) {
     if (outcodes.group_is_outside(level, groups[level])) return true;

@@ -25,7 +25,7 @@ class BlockBoxes {
   /// more blocks than before.
   bool refit(const FaceClusters& clusters, const std::vector<float>& vertices);
 
-  /// The boxes of the blocks, padded with empty boxes to a multiple of FaceClusters::kRun.
+  /// The boxes of the blocks, padded with empty boxes to a multiple of FaceClusters::kGroup.
   const std::vector<Box>& blocks() const { return blocks_; }
   /// The boxes around the vertices of a level's groups and of the faces of their clusters, padded
   /// in the same way. Level 0 is the sections.

@@ -14,31 +14,29 @@ using FaceIndices = std::array<std::uint32_t, 3>;
 /// the triangles change. The boxes around them are fitted to each new shape (BlockBoxes). See
 /// doc/geometry.md, Words.
 ///
-/// - A block is kRun vertices that lie near each other. If vertices that follow each other in the
-///   sender's order are also neighbours in space, a block is made of pieces: kPiece consecutive
-///   vertices of that order. One pass over the vertices then fits the boxes faster.
+/// - A block is kBlock vertices that lie near each other. If vertices that follow each other in the
+///   sender's order are also neighbours in space, a block is consecutive vertices of that order.
+///   One pass over the vertices then fits the boxes faster.
 /// - The cluster of a block is the faces that have a vertex in this block and none in an earlier
 ///   block.
-/// - A section is kRun blocks that follow each other. These, too, lie near each other.
-/// - Sections are the lowest level of a tree: a group of each further level is kRun groups of the
-///   level below it. The top level has at most kRun groups.
+/// - A section is kGroup blocks that follow each other. These, too, lie near each other.
+/// - Sections are the lowest level of a tree: a group of each further level is kGroup groups of the
+///   level below it. The top level has at most kGroup groups.
 class FaceClusters {
  public:
-  /// The vertices in a block, the blocks in a section, and the members of each larger group: few
-  /// enough for tight boxes, and enough to fill vector registers.
-  static constexpr std::size_t kRun = 16;
-  /// The vertices in a piece. With 4, a query would take up to 12 % less time, and fitting the
-  /// boxes 20 % more.
-  static constexpr std::uint32_t kPiece = 8;
+  /// The vertices in a block.
+  static constexpr std::uint32_t kBlock = 8;
+  /// The blocks in a section, and the members of each larger group.
+  static constexpr std::size_t kGroup = 16;
 
   /// `vertices`: x y z x y z ... [m], finite. `faces` refer to them.
   FaceClusters(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
   /// The number of blocks, which is also the number of clusters.
-  std::size_t block_count() const { return order_.size() / kRun; }
+  std::size_t block_count() const { return order_.size() / kBlock; }
   /// The number of levels of groups. Level 0 is the sections.
   std::size_t level_count() const { return group_counts_.size(); }
-  /// The number of groups of a level. The last one may have fewer than kRun members.
+  /// The number of groups of a level. The last one may have fewer than kGroup members.
   std::size_t group_count(std::size_t level) const { return group_counts_[level]; }
 
   /// Consecutive items to iterate over.
@@ -63,9 +61,10 @@ class FaceClusters {
   /// The blocks of other sections that contain vertices of the faces of a section's clusters.
   Range<std::uint32_t> border(std::size_t section) const { return borders_.of(section); }
 
-  /// The kRun vertices of a block. In an incomplete block a vertex is repeated.
-  const std::uint32_t* vertices(std::size_t block) const { return &order_[kRun * block]; }
-  /// The vertices in a piece: kPiece, or 1 if the sender's order does not follow space.
+  /// The kBlock vertices of a block. In an incomplete block a vertex is repeated.
+  const std::uint32_t* vertices(std::size_t block) const { return &order_[kBlock * block]; }
+  /// The consecutive vertices that stay together: kBlock, or 1 if the sender's order does not
+  /// follow space.
   std::uint32_t piece_size() const { return piece_size_; }
   /// The block of each piece in the sender's order. The last piece may be incomplete.
   const std::vector<std::uint32_t>& block_of_piece() const { return block_of_piece_; }
