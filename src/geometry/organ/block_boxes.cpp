@@ -79,7 +79,7 @@ float fit_vertices(const std::vector<float>& vertices, const std::vector<std::ui
 std::size_t padded(std::size_t count) { return (count + kGroup - 1) / kGroup * kGroup; }
 
 /// The box around kGroup members of a group.
-Box join_run(const std::vector<Box>& members, std::size_t group) {
+Box join_members(const std::vector<Box>& members, std::size_t group) {
   Box box = members[group * kGroup];
   for (std::size_t i = 1; i < kGroup; ++i) box = box.join(members[group * kGroup + i]);
   return box;
@@ -98,7 +98,7 @@ bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& v
                                                : fit_blocks(vertices, block_of, blocks_);
   blocks_.resize(padded(blocks_.size()), empty_box());
   fit_groups(clusters);
-  const Box all = join_run(groups_[clusters.level_count() - 1], 0);
+  const Box all = join_members(groups_[clusters.level_count() - 1], 0);
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};
   // If the sum is finite, so are all coordinates. If it is not, it may merely have overflowed.
   return std::isfinite(sum) || all_finite(vertices);
@@ -110,7 +110,7 @@ void BlockBoxes::fit_groups(const FaceClusters& clusters) {
     const std::vector<Box>& members = level == 0 ? blocks_ : groups_[level - 1];
     groups_[level].assign(padded(clusters.group_count(level)), empty_box());
     for (std::size_t group = 0; group < clusters.group_count(level); ++group) {
-      groups_[level][group] = join_run(members, group);
+      groups_[level][group] = join_members(members, group);
     }
     if (level == 0) add_borders(clusters);
   }
