@@ -59,30 +59,49 @@ Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
   return flip ? Vector3d(-normal) : normal;
 }
 
-/// [m] The support value of a link along a unit direction, in the organ's frame: the largest value
-/// of direction · point over its points.
-double support_value(const Link& link, const Eigen::Isometry3d& T_organ_link,
-                     const Vector3d& direction) {
+/// [m] What a link covers along a unit direction, in the organ's frame.
+ProjectionInterval project_onto(const Vector3d& direction, const Link& link,
+                                const Eigen::Isometry3d& T_organ_link) {
   const Vector3d in_link = T_organ_link.linear().transpose() * direction;
-  double highest = -std::numeric_limits<double>::infinity();
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  ProjectionInterval covered = {kInfinity, -kInfinity};
   for (const LinkPart& part : link.parts) {
-    highest = std::max(highest, part.support_value(in_link) + part.radius);
+    const ProjectionInterval of_part = part.project_onto(in_link);
+    covered.low = std::min(covered.low, of_part.low - part.radius);
+    covered.high = std::max(covered.high, of_part.high + part.radius);
   }
-  return highest + direction.dot(T_organ_link.translation());
+  const double place = direction.dot(T_organ_link.translation());
+  return {covered.low + place, covered.high + place};
 }
 
-/// The normal if a link pierces the face: the face's own, with the sign for which the motion along
-/// -normal that parts them is shorter.
-Vector3d piercing_normal(const Link& link, const Eigen::Isometry3d& T_organ_link,
-                         const Triangle& face) {
+struct Piercing {
+  Vector3d normal;
+  /// [m] How far the tool reaches along the normal at the end of the step: the support value of the
+  /// link, or of the ball around the tip.
+  double reach_at_end;
+};
+
+/// What follows from piercing a face that was there at a time of the leg.
+Piercing piercing(const PartLeg& part, double time, const Triangle& face) {
+  if (!part.end.link) {
+    const Vector3d normal = piercing_normal(part.core.at(time).axis(), face);
+    return {normal, normal.dot(part.end.axis.tip) + part.radius};
+  }
+  // The face's own normal, with the sign for which the motion along -normal that parts them is
+  // shorter.
   Vector3d normal = face_normal(face);
   if (normal.isZero(0.0)) normal = perpendicular(longest_edge(face), Vector3d::Zero());
-  const double offset = normal.dot(face[0]);
-  const double forward = support_value(link, T_organ_link, normal) - offset;
-  const double backward = support_value(link, T_organ_link, -normal) + offset;
+  const Eigen::Isometry3d pose = part.core.link()->at(time);
+  ProjectionInterval covered = project_onto(normal, *part.end.link, pose);
+  const double place = normal.dot(face[0]);
+  const double forward = covered.high - place, backward = place - covered.low;
   const bool is_tie = std::abs(forward - backward) <= tolerance::kTie;
   const bool flip = is_tie ? !first_nonzero_is_positive(normal) : backward < forward;
-  return flip ? Vector3d(-normal) : normal;
+  constexpr double kSamePose = 1e-15;  // [1] but for the rounding that makes it a rotation
+  if (!pose.isApprox(part.end.pose, kSamePose)) {
+    covered = project_onto(normal, *part.end.link, part.end.pose);
+  }
+  return flip ? Piercing{-normal, -covered.low} : Piercing{normal, covered.high};
 }
 
 /// Where the point of the core that touched is at the end of the step.
@@ -90,14 +109,6 @@ Vector3d at_end(const FirstTouch& touch, const PartLeg& part) {
   if (!part.end.link) return part.end.axis.at(touch.closest.shaft);
   const Eigen::Isometry3d pose = part.core.link()->at(touch.time);
   return part.end.pose * (pose.inverse() * touch.closest.on_core);
-}
-
-/// [m] How far the tool reaches along the normal of a pierced face at the end of the step: the
-/// support value of the link, or of the ball around the tip.
-double support_value_at_end(const PartLeg& part, const Vector3d& normal) {
-  const PartEnd& end = part.end;
-  return end.link ? support_value(*end.link, end.pose, normal)
-                  : normal.dot(end.axis.tip) + part.radius;
 }
 
 }  // namespace
@@ -115,12 +126,9 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   contact.end_point = point_at(face.end, closest.barycentric);
   contact.shaft = part.end.link ? 0.0 : closest.shaft;
   if (closest.distance <= tolerance::kPierced) {
-    const Triangle face_now = face.motion.at(touch.time);
-    contact.normal =
-        part.end.link ? piercing_normal(*part.end.link, part.core.link()->at(touch.time), face_now)
-                      : piercing_normal(part.core.at(touch.time).axis(), face_now);
-    contact.depth =
-        support_value_at_end(part, contact.normal) - contact.normal.dot(contact.end_point);
+    const auto [normal, reach_at_end] = piercing(part, touch.time, face.motion.at(touch.time));
+    contact.normal = normal;
+    contact.depth = reach_at_end - normal.dot(contact.end_point);
   } else {
     contact.normal = closest.separation.normalized();
     contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);

@@ -13,7 +13,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   for (LinkDescription& description : *reply.links) {
     try {
       for (const LinkPart& part : build_link("jaw", std::move(description)).parts) {
-        demand(std::isfinite(part.support_value({0.6, 0.0, 0.8})), "parts are finite");
+        demand(std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high), "parts are finite");
       }
     } catch (const ToolError&) {
     }

@@ -33,7 +33,7 @@ void check(LinkDescription description) {
     const Link link = build_link("tip", std::move(description));
     demand(!link.parts.empty(), "a link has parts");
     for (const LinkPart& part : link.parts) {
-      demand(std::isfinite(part.support_value({0.6, 0.0, 0.8})), "parts are finite");
+      demand(std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high), "parts are finite");
     }
   } catch (const ToolError&) {
   }

@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         const Link link = build_link(name, robot.link(name, [](const std::string&) {}));
         demand(!link.parts.empty(), "a link has parts");
         for (const LinkPart& part : link.parts) {
-          demand(std::isfinite(part.support_value({0.6, 0.0, 0.8})), "parts are finite");
+          demand(std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high), "parts are finite");
         }
       } catch (const ToolError& error) {
         demand(std::string(error.what()).find("link '") == 0, "an error names the link");

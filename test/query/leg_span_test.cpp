@@ -131,7 +131,8 @@ TEST(LegSpan, TheBallHoldsAllPartsOfTheLink) {
     for (int k = 0; k < 3; ++k) link.parts.push_back(random_part(false, random));
     const LinkBall ball = ball_around(link);
     for (const LinkPart& part : link.parts) {
-      const double farthest = part.support_value((part.bounds.center - ball.center).normalized());
+      const double farthest =
+          part.project_onto((part.bounds.center - ball.center).normalized()).high;
       EXPECT_LE(farthest - ball.center.dot((part.bounds.center - ball.center).normalized()),
                 ball.radius + 1e-12);
     }

@@ -2,22 +2,27 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 
 #include "geometry/organ/face_motion.hpp"
 #include "geometry/tool/core_motion.hpp"
+#include "organ_collision/geometry/projection_interval.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
 
-/// Unit normal of a triangle's plane; zero if the triangle is degenerate.
-inline Eigen::Vector3d plane_normal(const Triangle& corners) {
-  return twice_area(corners).stableNormalized();
+/// The direction of a vector, of length 1; zero if the vector is zero. Faster than Eigen's
+/// stableNormalized(), and as exact.
+inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& vector) {
+  const double squared = vector.squaredNorm();
+  const bool is_exact = squared > 1e-200 && squared < 1e200;  // The square has all its digits.
+  return is_exact ? Eigen::Vector3d(vector / std::sqrt(squared)) : vector.stableNormalized();
 }
 
-/// What a shape covers along a direction: the least and the greatest direction · point.
-struct ProjectionInterval {
-  double low, high;
-};
+/// Unit normal of a triangle's plane; zero if the triangle is degenerate.
+inline Eigen::Vector3d plane_normal(const Triangle& corners) {
+  return unit_vector(twice_area(corners));
+}
 
 inline ProjectionInterval project_onto(const Eigen::Vector3d& direction, const Triangle& corners) {
   const double a = direction.dot(corners[0]), b = direction.dot(corners[1]);

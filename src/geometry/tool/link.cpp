@@ -46,8 +46,9 @@ LinkPart LinkPart::mesh(ToolSurface surface) {
   return {{}, shared, tolerance::kConvexMargin, bounds};
 }
 
-double LinkPart::support_value(const Vector3d& direction) const {
-  return surface ? surface->support_value(direction) : core.support_value(direction);
+ProjectionInterval LinkPart::project_onto(const Vector3d& direction) const {
+  if (surface) return surface->project_onto(direction);
+  return {-core.support_value(-direction), core.support_value(direction)};
 }
 
 }  // namespace organ_collision

@@ -18,9 +18,11 @@ using Reason = MeshError::Reason;
 /// The largest number of faces in a leaf. Testing boxes around fewer faces costs more than it
 /// saves.
 constexpr std::uint32_t kLeafFaces = 4;
-/// If a node has at most this many faces, its support value is found by scanning their corners,
-/// without the boxes below it.
+/// If a node has at most this many faces, they are projected by scanning their corners, without the
+/// boxes below it.
 constexpr std::uint32_t kScannedFaces = 512;
+/// The corners that are projected together.
+constexpr Eigen::Index kRows = 8;
 
 template <typename... Parts>
 [[noreturn]] void refuse(Reason reason, const Parts&... parts) {
@@ -153,35 +155,47 @@ void ToolSurface::list_corners(std::uint32_t node, std::vector<Vector3d>& corner
   used.erase(std::unique(used.begin(), used.end()), used.end());
   corner_lists_[node].begin = static_cast<Eigen::Index>(corners.size());
   for (const std::uint32_t vertex : used) corners.push_back(vertices_[vertex]);
+  while (corners.size() % kRows != 0) corners.push_back(corners.back());
   corner_lists_[node].end = static_cast<Eigen::Index>(corners.size());
 }
 
-double ToolSurface::support_value(const Vector3d& direction) const {
-  double value = -std::numeric_limits<double>::infinity();
-  raise_support_value(0, direction, value);
-  return value;
+ProjectionInterval ToolSurface::project_onto(const Vector3d& direction) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  ProjectionInterval interval = {kInfinity, -kInfinity};
+  extend(interval, 0, direction);
+  return interval;
 }
 
-/// Raises `value` to the support value of the node's faces if that is greater. The child whose box
-/// reaches farther comes first; the other is visited only if its box reaches farther than `value`.
-void ToolSurface::raise_support_value(std::uint32_t node, const Vector3d& direction,
-                                      double& value) const {
+/// Extends `interval` by the node's faces. A child is visited only if its box reaches beyond the
+/// interval; the one that reaches farther comes first.
+void ToolSurface::extend(ProjectionInterval& interval, std::uint32_t node,
+                         const Vector3d& direction) const {
   const CornerList& list = corner_lists_[node];
   if (list.begin < list.end) {
-    const auto corners = corners_.middleRows(list.begin, list.end - list.begin).array();
-    value = std::max(value, (corners.col(0) * direction.x() + corners.col(1) * direction.y() +
-                             corners.col(2) * direction.z())
-                                .maxCoeff());
+    Eigen::Array<double, kRows, 1> low, high;
+    low.setConstant(interval.low);
+    high.setConstant(interval.high);
+    for (Eigen::Index row = list.begin; row < list.end; row += kRows) {
+      const auto corners = corners_.middleRows<kRows>(row).array();
+      const Eigen::Array<double, kRows, 1> places = corners.col(0) * direction.x() +
+                                                    corners.col(1) * direction.y() +
+                                                    corners.col(2) * direction.z();
+      low = low.min(places);
+      high = high.max(places);
+    }
+    interval = {low.minCoeff(), high.maxCoeff()};
     return;
   }
-  const std::uint32_t first = node + 1, second = nodes_[node].second;
-  const double of_first = nodes_[first].box.support_value(direction);
-  const double of_second = nodes_[second].box.support_value(direction);
-  const bool swap = of_second > of_first;
-  raise_support_value(swap ? second : first, direction, value);
-  constexpr double kBoxRounding = 1e-12;  // A box may be too small by this share.
-  if (std::min(of_first, of_second) >= value - kBoxRounding * std::abs(value)) {
-    raise_support_value(swap ? first : second, direction, value);
+  std::uint32_t children[] = {node + 1, nodes_[node].second};
+  const auto high = [&](std::uint32_t child) { return nodes_[child].box.support_value(direction); };
+  if (high(children[1]) > high(children[0])) std::swap(children[0], children[1]);
+  for (const std::uint32_t child : children) {
+    constexpr double kBoxRounding = 1e-12;  // A box may be too small by this share.
+    const double low = -nodes_[child].box.support_value(-direction);
+    if (high(child) >= interval.high - kBoxRounding * std::abs(interval.high) ||
+        low <= interval.low + kBoxRounding * std::abs(interval.low)) {
+      extend(interval, child, direction);
+    }
   }
 }
 

@@ -43,8 +43,8 @@ void expect_tight_bounds(const LinkPart& part) {
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = box.axes.col(i);
     const double middle = axis.dot(box.center);
-    EXPECT_NEAR(part.support_value(axis), middle + box.half_size[i], 1e-15);
-    EXPECT_NEAR(part.support_value(-axis), box.half_size[i] - middle, 1e-15);
+    EXPECT_NEAR(part.project_onto(axis).high, middle + box.half_size[i], 1e-15);
+    EXPECT_NEAR(part.project_onto(-axis).high, box.half_size[i] - middle, 1e-15);
   }
 }
 
@@ -104,19 +104,24 @@ TEST(LinkPart, MeshHasItsSurfaceAndTheBoxAroundIt) {
   EXPECT_EQ(part.bounds.half_size, part.surface->nodes().front().box.half_size);
 }
 
-TEST(LinkPart, SupportValueIsThatOfSurfaceOrCore) {
+TEST(LinkPart, IsProjectedAsItsSurfaceOrCore) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
     const ToolMesh mesh =
         box_mesh(oracle::random_pose(0.1, random), {0.02, random.scale(1e-3, 0.1), 0.05});
     const LinkPart part = LinkPart::mesh(mesh.surface());
     const Vector3d direction = random.direction();
-    double highest = -INFINITY;
-    for (const Vector3d& vertex : mesh.vertices) highest = std::max(highest, direction.dot(vertex));
-    EXPECT_NEAR(part.support_value(direction), highest, 1e-15);
+    double lowest = INFINITY, highest = -INFINITY;
+    for (const Vector3d& vertex : mesh.vertices) {
+      lowest = std::min(lowest, direction.dot(vertex));
+      highest = std::max(highest, direction.dot(vertex));
+    }
+    EXPECT_NEAR(part.project_onto(direction).low, lowest, 1e-15);
+    EXPECT_NEAR(part.project_onto(direction).high, highest, 1e-15);
     ConvexCore core = oracle::make_core(3, random);
     const LinkPart convex{core, nullptr, 0.01, {}};
-    EXPECT_EQ(convex.support_value(direction), core.support_value(direction));
+    EXPECT_EQ(convex.project_onto(direction).low, -core.support_value(-direction));
+    EXPECT_EQ(convex.project_onto(direction).high, core.support_value(direction));
   }
 }
 

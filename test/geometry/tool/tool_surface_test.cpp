@@ -126,17 +126,20 @@ TEST(ToolSurface, HugeAndTinyCoordinatesAreLegal) {
   for (const double scale : {1e-9, 1.0, 0.9e7}) expect_tree(wavy_mesh(8, scale));
 }
 
-TEST(ToolSurface, SupportValueIsThatOfTheFarthestVertex) {
+TEST(ToolSurface, ProjectsOntoADirectionAsItsVertices) {
   Random random(4);
   for (const std::size_t faces : {1, 150, 3000}) {
     const ToolSurface surface = scattered_mesh(faces, random).surface();
     for (int i = 0; i < 300; ++i) {
       const Vector3d direction = random.scale(1e-3, 1e3) * random.direction();
-      double highest = -INFINITY;
+      double lowest = INFINITY, highest = -INFINITY;
       for (const Vector3d& vertex : surface.vertices()) {
+        lowest = std::min(lowest, direction.dot(vertex));
         highest = std::max(highest, direction.dot(vertex));
       }
-      EXPECT_NEAR(surface.support_value(direction), highest, 1e-15 * direction.norm());
+      const ProjectionInterval found = surface.project_onto(direction);
+      EXPECT_NEAR(found.low, lowest, 1e-15 * direction.norm());
+      EXPECT_NEAR(found.high, highest, 1e-15 * direction.norm());
     }
   }
 }

@@ -33,11 +33,11 @@ TEST(LinkBuilder, ShapesInTheirOrderAndWhereTheyAre) {
   EXPECT_EQ(link.name, "tip");
   ASSERT_EQ(link.parts.size(), 4u);
   EXPECT_EQ(link.parts[0].radius, 0.5);
-  EXPECT_NEAR(link.parts[0].support_value(Vector3d::UnitX()), 0.1, 1e-15);
-  EXPECT_NEAR(link.parts[1].support_value(Vector3d::UnitZ()), 1.3, 1e-15);
-  EXPECT_NEAR(link.parts[2].support_value(Vector3d::UnitX()), 1.1,
+  EXPECT_NEAR(link.parts[0].project_onto(Vector3d::UnitX()).high, 0.1, 1e-15);
+  EXPECT_NEAR(link.parts[1].project_onto(Vector3d::UnitZ()).high, 1.3, 1e-15);
+  EXPECT_NEAR(link.parts[2].project_onto(Vector3d::UnitX()).high, 1.1,
               1e-15);  // Half of the side along y.
-  EXPECT_EQ(link.parts[3].support_value(Vector3d::UnitX()), 1.0);
+  EXPECT_EQ(link.parts[3].project_onto(Vector3d::UnitX()).high, 1.0);
 }
 
 TEST(LinkBuilder, IllegalSizesAreNamed) {

@@ -112,7 +112,7 @@ bool is_whole(const Tool& tool) {
   return std::all_of(tool.links.begin(), tool.links.end(), [](const Link& link) {
     return !link.parts.empty() &&
            std::all_of(link.parts.begin(), link.parts.end(), [](const LinkPart& part) {
-             return std::isfinite(part.support_value({0.6, 0.0, 0.8})) && part.radius > 0.0;
+             return std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high) && part.radius > 0.0;
            });
   });
 }

@@ -26,7 +26,7 @@ std::string find_text(const std::string& parameter) {
 
 /// The support value of a part along an axis, with its radius.
 double reach(const LinkPart& part, const Vector3d& direction) {
-  return part.support_value(direction) + part.radius;
+  return part.project_onto(direction).high + part.radius;
 }
 
 /// The box around a part, aligned with the link's axes.

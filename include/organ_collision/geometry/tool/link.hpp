@@ -35,8 +35,8 @@ struct LinkPart {
   /// clearance is measured from these shapes themselves.
   double ball_radius() const { return !surface && core.count == 1 ? radius : 0.0; }
 
-  /// The greatest direction · point of the core or the surface, without the radius.
-  double support_value(const Eigen::Vector3d& direction) const;
+  /// The least and the greatest direction · point of the core or the surface, without the radius.
+  ProjectionInterval project_onto(const Eigen::Vector3d& direction) const;
 };
 
 /// A rigid link of a tool.

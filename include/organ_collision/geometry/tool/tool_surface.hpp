@@ -6,6 +6,7 @@
 
 #include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/projection_interval.hpp"
 #include "organ_collision/geometry/tool/oriented_box.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 
@@ -29,8 +30,8 @@ class ToolSurface {
     return {vertices_[faces_[face][0]], vertices_[faces_[face][1]], vertices_[faces_[face][2]]};
   }
 
-  /// The greatest direction · vertex. `direction` need not be unit.
-  double support_value(const Eigen::Vector3d& direction) const;
+  /// The least and the greatest direction · vertex. `direction` need not be unit.
+  ProjectionInterval project_onto(const Eigen::Vector3d& direction) const;
 
   /// A box around the faces [begin, end). The two children of an inner node share its faces: the
   /// first child is the next node, the second one stands at `second`. In a leaf `second` is 0.
@@ -46,14 +47,15 @@ class ToolSurface {
  private:
   void build(std::uint32_t begin, std::uint32_t end);
   void list_corners(std::uint32_t node, std::vector<Eigen::Vector3d>& corners);
-  void raise_support_value(std::uint32_t node, const Eigen::Vector3d& direction,
-                           double& value) const;
+  void extend(ProjectionInterval& interval, std::uint32_t node,
+              const Eigen::Vector3d& direction) const;
 
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<FaceIndices> faces_;
   std::vector<Node> nodes_;
-  /// The corners of a node's faces, each corner once: rows [begin, end) of corners_. Empty if the
-  /// node has many faces, or if a node above it has such a list.
+  /// The corners of a node's faces: rows [begin, end) of corners_. Each corner is there once, only
+  /// the last one is repeated. Empty if the node has many faces, or if a node above it has such a
+  /// list.
   struct CornerList {
     Eigen::Index begin = 0, end = 0;
   };
