@@ -5,6 +5,7 @@
 #include "axis_distance.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
+#include "triangle_crossing.hpp"
 #include "turning_plane.hpp"
 
 namespace organ_collision {
@@ -14,6 +15,16 @@ namespace {
 /// the nearest one, so that it needs no iteration.
 FirstTouch unresolved_at_start(const CoreMotion& core, const FaceMotion& face) {
   return {0.0, axis_closest_points(core.start().axis(), face.start), false};
+}
+
+/// As closest_points(). Of triangles that touch when a leg begins, most cross each other.
+ClosestPoints closest_at_start(const ConvexCore& core, const Triangle& face,
+                               double distance_bound) {
+  if (core.is_triangle()) {
+    const auto decided = triangle_crossing(core.triangle(), face, distance_bound);
+    if (decided) return *decided;
+  }
+  return closest_points(core, face, distance_bound);
 }
 
 /// [m] Distances up to this count as a touch.
@@ -42,7 +53,7 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
 
   const double farthest_move = core.farthest_move() + face.farthest_move();
   const double out_of_reach = radius + farthest_move;
-  const ClosestPoints at_start = closest_points(core.start(), face.start, out_of_reach);
+  const ClosestPoints at_start = closest_at_start(core.start(), face.start, out_of_reach);
   budget.spend(at_start.steps);
   if (at_start.distance <= radius) return FirstTouch{0.0, at_start};
   if (at_start.distance > out_of_reach || until == 0.0) return std::nullopt;
