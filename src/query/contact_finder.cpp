@@ -102,7 +102,9 @@ void ContactFinder::find_contacts_on_leg(const Step& step, std::size_t leg, cons
       const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
       // If the tool only trembles, the same plane separates part and face on most legs.
       const double beyond = on_leg.radius + tolerance::kTouch;
-      if (stays_beyond(pending.normal, on_leg.core, face, beyond)) continue;
+      if (!pending.normal.isZero(0.0) && stays_beyond(pending.normal, on_leg.core, face, beyond)) {
+        continue;
+      }
       touches_.push_back({pending.face, face, {}});
     }
     find_touches(on_leg, part.shape, on_leg.radius);

@@ -39,8 +39,9 @@ class MovingTriangle {
   Slabs bounds(double radius) const {
     const Eigen::Matrix3d axes = this->axes();
     Eigen::AlignedBox3d box;
-    for (const Triangle* place : {&start_, &end_}) {
-      for (const Vector3d& corner : *place) box.extend(Vector3d(axes.transpose() * corner));
+    for (const Vector3d& corner : start_) box.extend(Vector3d(axes.transpose() * corner));
+    if (!rests_) {
+      for (const Vector3d& corner : end_) box.extend(Vector3d(axes.transpose() * corner));
     }
     const double reach = radius + deviation_;
     return {axes, box.min().array() - reach, box.max().array() + reach};
@@ -65,7 +66,7 @@ class MovingTriangle {
   /// The normal, a direction along the first edge, and one across; any axes if it is degenerate.
   Eigen::Matrix3d axes() const {
     if (normal_.isZero(0.0)) return Eigen::Matrix3d::Identity();
-    const Vector3d along = (start_[1] - start_[0]).stableNormalized();
+    const Vector3d along = unit_vector(start_[1] - start_[0]);
     Eigen::Matrix3d axes;
     axes << normal_, along, normal_.cross(along);
     return axes;

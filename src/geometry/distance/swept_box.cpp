@@ -33,7 +33,8 @@ SweptBox::SweptBox(const OrientedBox& box, const RigidMotion& motion, double rad
 SweptBox::Place SweptBox::place(const OrientedBox& box, const Eigen::Isometry3d& pose) const {
   Place place;
   place.center = pose * box.center;
-  place.half_edges = pose.linear() * box.axes * box.half_size.asDiagonal();
+  const Matrix3d axes = rests_ ? axes_ : Matrix3d(pose.linear() * box.axes);
+  place.half_edges = axes * box.half_size.asDiagonal();
   const Vector3d center = axes_.transpose() * place.center;
   const Vector3d half = (axes_.transpose() * place.half_edges).cwiseAbs().rowwise().sum();
   place.low = center - half;
