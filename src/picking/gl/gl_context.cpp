@@ -18,6 +18,17 @@ struct Source {
 constexpr std::array<Source, 2> kSources = {{{GlPlatform::kOsmesa, "OSMesa", new_osmesa_context},
                                              {GlPlatform::kEgl, "EGL", new_egl_context}}};
 
+// What this package has made current last in this thread. Platforms do not know of each other: EGL
+// says that its context is current even if OSMesa's has taken its place.
+thread_local const PlatformContext* latest = nullptr;
+
+bool make_latest(PlatformContext& context) {
+  // EGL does nothing for a context that it takes for current.
+  if (context.is_current()) context.release();
+  latest = &context;
+  return context.make_current();
+}
+
 }  // namespace
 
 struct GlContext::State {
@@ -30,7 +41,7 @@ struct GlContext::State {
 /// Leaves the context current. Throws GlError if it does not work.
 GlContext::State::State(const Source& source, const GlFramebuffer& framebuffer)
     : context(source.create(framebuffer)) {
-  if (!context->make_current()) throw GlError("the new context cannot be made current");
+  if (!make_latest(*context)) throw GlError("the new context cannot be made current");
   functions = load_gl_functions(*context);
   if (functions.GetString(GL_VERSION) == nullptr) {
     throw GlError(
@@ -72,18 +83,21 @@ void GlContext::make() {
                 "without OpenGL (picker: cpu)");
 }
 
-bool GlContext::is_current() const { return state_->context->is_current(); }
+bool GlContext::is_current() const {
+  return latest == state_->context.get() && state_->context->is_current();
+}
 
 void GlContext::make_current() {
   if (has_failed_) {
     make();
-  } else if (!is_current() && !state_->context->make_current()) {
+  } else if (!is_current() && !make_latest(*state_->context)) {
     fail("OpenGL cannot make its context current: is it current in another thread?");
   }
 }
 
 void GlContext::release() {
-  if (is_current()) state_->context->release();
+  // Even if another one has taken its place: EGL gives no other thread what it takes for current.
+  if (state_->context->is_current()) state_->context->release();
 }
 
 const GlFunctions& GlContext::functions() const { return state_->functions; }

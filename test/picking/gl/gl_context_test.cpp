@@ -42,6 +42,15 @@ bool sees_face(GlContext& context, const ViewingVolume& volume) {
   return draw_feedback(context, volume, face, buffer) > 0;
 }
 
+/// Lets GL drop the face of sees_face(), in this context only.
+void cull_face(GlContext& context) {
+  context.make_current();
+  const auto front_face =
+      reinterpret_cast<decltype(&glFrontFace)>(context.find_function("glFrontFace"));
+  context.functions().Enable(GL_CULL_FACE);
+  front_face(GL_CW);
+}
+
 ViewingVolume box_without_face() {
   ViewingVolume cut = box();
   cut.add_user_plane({Eigen::Vector3d::UnitX(), 0.1});
@@ -92,12 +101,8 @@ TEST_P(GlContextOf, ContextsAlternateAndKeepTheirOwnState) {
 
 TEST_P(GlContextOf, StateOfOneDoesNotReachAnother) {
   GlContext first = context(), second = context();
-  first.make_current();
-  const auto front_face =
-      reinterpret_cast<decltype(&glFrontFace)>(first.find_function("glFrontFace"));
-  first.functions().Enable(GL_CULL_FACE);
   EXPECT_TRUE(sees_face(first, box()));
-  front_face(GL_CW);
+  cull_face(first);
   EXPECT_FALSE(sees_face(first, box()));
   EXPECT_TRUE(sees_face(second, box()));
 }
@@ -158,17 +163,47 @@ TEST_P(GlContextOf, OneForEachThreadSideBySide) {
   EXPECT_EQ(seen, std::vector<int>(3, 20));
 }
 
+// EGL says that its context is current even if OSMesa's has taken its place.
 TEST(GlContext, ContextsOfBothPlatformsAlternate) {
-  GlContext osmesa(GlPlatform::kOsmesa);
-  osmesa.release();
-  GlContext egl(GlPlatform::kEgl);
-  egl.release();
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_TRUE(sees_face(osmesa, box()));
-    osmesa.release();
-    EXPECT_FALSE(sees_face(egl, box_without_face()));
-    EXPECT_TRUE(sees_face(egl, box()));
-    egl.release();
+  GlContext osmesa(GlPlatform::kOsmesa), egl(GlPlatform::kEgl);
+  cull_face(osmesa);
+  for (const bool releases : {true, false, true}) {
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_FALSE(sees_face(osmesa, box()));
+      if (releases) osmesa.release();
+      EXPECT_TRUE(sees_face(egl, box()));
+      if (releases) egl.release();
+    }
+  }
+}
+
+TEST(GlContext, OutlivesThoseOfTheOtherPlatform) {
+  for (const GlPlatform other : {GlPlatform::kOsmesa, GlPlatform::kEgl}) {
+    GlContext context(other == GlPlatform::kEgl ? GlPlatform::kOsmesa : GlPlatform::kEgl);
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_TRUE(sees_face(context, box()));
+      GlContext passing(other);
+      EXPECT_TRUE(sees_face(passing, box()));
+    }
+    EXPECT_TRUE(sees_face(context, box()));
+  }
+}
+
+// A context that another one has replaced is released as well: otherwise its platform does not
+// give it to another thread.
+TEST(GlContext, ReplacedAndReleasedWorksInAnotherThread) {
+  for (const GlPlatform other : {GlPlatform::kOsmesa, GlPlatform::kEgl}) {
+    GlContext context(other == GlPlatform::kEgl ? GlPlatform::kOsmesa : GlPlatform::kEgl);
+    GlContext second(other);
+    EXPECT_TRUE(sees_face(second, box()));
+    context.release();
+    bool sees_elsewhere = false;
+    std::thread([&] {
+      sees_elsewhere = sees_face(context, box());
+      context.release();
+    }).join();
+    EXPECT_TRUE(sees_elsewhere);
+    EXPECT_TRUE(sees_face(second, box()));
   }
 }
 
