@@ -9,6 +9,8 @@ namespace organ_collision::bench {
 namespace {
 
 struct Answers {
+  explicit Answers(PickerKind picker) : query(picker) {}
+
   CollisionQuery query;
   CollisionResult result;
 };
@@ -30,12 +32,15 @@ MotionEngines::Ask MotionEngines::asker(const std::string& engine) const {
       return faces.size();
     };
   }
-  if (engine != "static" && engine != "swept") {
-    throw std::invalid_argument("the engine is '" + engine +
-                                "'; legal are static, swept, fcl and fcl_touches");
-  }
-  const QueryMode mode = engine == "static" ? QueryMode::kStatic : QueryMode::kSwept;
-  return [this, mode, answers = std::make_shared<Answers>()](const ToolPath& path) {
+  if (engine == "static") return own_asker(QueryMode::kStatic, PickerKind::kFeedback);
+  if (engine == "static_cpu") return own_asker(QueryMode::kStatic, PickerKind::kCpu);
+  if (engine == "swept") return own_asker(QueryMode::kSwept, PickerKind::kFeedback);
+  throw std::invalid_argument("the engine is '" + engine +
+                              "'; legal are static, static_cpu, swept, fcl and fcl_touches");
+}
+
+MotionEngines::Ask MotionEngines::own_asker(QueryMode mode, PickerKind picker) const {
+  return [this, mode, answers = std::make_shared<Answers>(picker)](const ToolPath& path) {
     answers->query.evaluate(request(path, mode), answers->result);
     return answers->result.contacts.size();
   };

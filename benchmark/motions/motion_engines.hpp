@@ -21,6 +21,7 @@ class MotionEngines {
 
   /// What one thread asks `engine`:
   /// - "static" and "swept": CollisionQuery, all contacts with their full geometry;
+  /// - "static_cpu": the same as "static", but without OpenGL;
   /// - "fcl": FCL's static query, the faces with FCL's contacts;
   /// - "fcl_touches": FCL's static query, which ends at the first face; 1 if there is one.
   /// Throws std::invalid_argument for any other.
@@ -35,6 +36,7 @@ class MotionEngines {
   Comparison compare(std::size_t count) const;
 
  private:
+  Ask own_asker(QueryMode mode, PickerKind picker) const;
   CollisionRequest request(const ToolPath& path, QueryMode mode) const;
 
   const MotionSet& motions_;

@@ -30,7 +30,8 @@ TOOLS = ('shaft', 'grasper')
 THREADS = (1, 2)
 MODES = ('static', 'swept')
 SECONDS = 0.5  # of a round of one engine
-COLUMNS = {'library static': 'library, static', 'fcl': 'FCL, static', 'fcl_touches': 'FCL, touch or not',
+COLUMNS = {'library static': 'library, static', 'library static_cpu': 'the same, picker: cpu',
+           'fcl': 'FCL, static', 'fcl_touches': 'FCL, touch or not',
            'batch static': 'query_batch, static', 'offline static': 'query_offline, static',
            'library swept': 'library, swept', 'batch swept': 'query_batch, swept', 'offline swept': 'query_offline, swept'}
 
@@ -51,6 +52,7 @@ def measure(master, workspace, faces, tool, rounds):
             for threads in THREADS:
                 add('fcl', threads, library.rate('fcl', threads, SECONDS))
                 add('fcl_touches', threads, library.rate('fcl_touches', threads, SECONDS))
+                add('library static_cpu', threads, library.rate('static_cpu', threads, SECONDS))
                 for mode in MODES:
                     add(f'library {mode}', threads, library.rate(mode, threads, SECONDS))
                     add(f'batch {mode}', threads, nodes[threads].rate(mode, SECONDS))
@@ -67,14 +69,16 @@ def markdown(reports):
         rows += [(r['tool'], r['faces'], threads, *(whole(rates.get(f'{what}/{threads}')) for what in COLUMNS))
                  for threads in THREADS]
         ratios.append((r['tool'], r['faces'],
-                       *(f"{rates[f'library static/{threads}'] / rates[f'fcl/{threads}']:.1f}" for threads in THREADS),
+                       *(f"{rates[f'library {engine}/{threads}'] / rates[f'fcl/{threads}']:.1f}"
+                         for engine in ('static', 'static_cpu') for threads in THREADS),
                        *(f"{rates[f'{what}/{THREADS[1]}'] / rates[f'{what}/{THREADS[0]}']:.2f}"
                          if f'{what}/{THREADS[0]}' in rates else ''
                          for what in ('library static', 'batch static', 'batch swept', 'offline swept', 'fcl'))))
         compared.append((r['tool'], r['faces'], *r['compared'].values()))
     return '\n'.join([
         '# Motions a second\n', table(('', 'faces', 'threads', *COLUMNS.values()), rows),
-        table(('', 'faces', 'library / FCL, 1 thread', '2 threads', 'two threads / one: library, static',
+        table(('', 'faces', 'library / FCL, 1 thread', '2 threads', 'picker: cpu / FCL, 1 thread',
+               '2 threads', 'two threads / one: library, static',
                'query_batch, static', 'query_batch, swept', 'query_offline, swept', 'FCL'), ratios),
         table(('', 'faces', 'contacts', 'missed by FCL', 'only by FCL'), compared)])
 

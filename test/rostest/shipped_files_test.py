@@ -10,10 +10,11 @@ import tempfile
 from xml.etree import ElementTree
 
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray, OrganMesh, ProxyState
+from organ_collision.msg import Contact, ContactArray, OrganMesh, OrganVertices, ProxyState
 import roslib.packages
 import rospy
 import rostest
+from sensor_msgs.msg import JointState
 from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
 import yaml
@@ -30,6 +31,17 @@ PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
 HANDS = ['config/demo_hands.yaml', 'examples/haptics.yaml']  # The tools of haptic_proxy.
 SHEET = scenes.sheet(0.1, 4)
 AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+# What these nodes of Python send once all their topics are registered at the ROS master. None may be
+# stopped before: rospy's signal handler calls the ROS master, and waits forever if it interrupted
+# such a call.
+FIRST_MESSAGES = {
+    '/simulator': ('/organ_collision/organ_vertices', OrganVertices),
+    '/sheet': ('/sheet_collision/organ_vertices', OrganVertices),
+    '/dvrk_robot': ('/PSM2/jaw/measured_js', JointState),
+    '/dvrk_organ': ('/organ_collision/organ_vertices', OrganVertices),
+    '/MTML/force': ('/MTML/body/servo_cf', WrenchStamped),
+    '/MTMR/force': ('/MTMR/body/servo_cf', WrenchStamped),
+}
 
 
 def files(folder, ending):
@@ -118,6 +130,8 @@ class ShippedFilesTest(ContactCase, NodeStarter):
                 if '/fem_tissue' in launched.nodes:
                     # It runs the collision node, which has no name of its own in this list.
                     rospy.wait_for_message('/fem_tissue/impulse', WrenchStamped, timeout=30.0)
+                for node in set(FIRST_MESSAGES) & set(launched.nodes):
+                    rospy.wait_for_message(*FIRST_MESSAGES[node], timeout=30.0)
                 if '/organ_mesh_adapter' in launched.nodes:
                     self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))
                 for urdf_file in urdf_files:
