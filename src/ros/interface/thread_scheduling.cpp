@@ -2,8 +2,6 @@
 
 #include <sched.h>
 #include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -22,10 +20,12 @@ int make_realtime(pid_t thread, int priority) {
   return sched_setscheduler(thread, flags, &parameters) == 0 ? 0 : errno;
 }
 
-/// From 0 (ordinary) to 19. On Linux, each thread has a niceness of its own.
-void set_niceness(int niceness) {
-  setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), niceness);
-}
+/// [niceness] The system makes it at most 19.
+constexpr int kBackgroundNiceness = 10;
+constexpr int kMostNiceness = 19;
+
+/// On Linux, each thread has a niceness of its own.
+void set_niceness(int niceness) { setpriority(PRIO_PROCESS, kThisThread, niceness); }
 
 std::string error_text(int error) { return error == 0 ? std::string() : std::strerror(error); }
 
@@ -44,9 +44,11 @@ std::string make_all_threads_realtime(int priority) {
   return {};
 }
 
-void lower_priority_of_this_thread() { set_niceness(10); }
+void lower_priority_of_this_thread() {
+  set_niceness(getpriority(PRIO_PROCESS, kThisThread) + kBackgroundNiceness);
+}
 
-void yield_to_all_threads() { set_niceness(19); }
+void yield_to_all_threads() { set_niceness(kMostNiceness); }
 
 std::string scheduling_of_this_thread() {
   sched_param parameters{};

@@ -15,8 +15,9 @@ std::string make_this_thread_realtime(int priority);
 /// The same for all threads that the process has now.
 std::string make_all_threads_realtime(int priority);
 
-/// Lowers the priority of the calling thread (niceness 10): if all processors are busy, ordinary
-/// threads such as the node's come first. If the system refuses, the thread keeps its priority.
+/// Lowers the priority of the calling thread: its niceness grows by 10, to at most 19. If all
+/// processors are busy, the process's other threads come first, whatever niceness the process was
+/// started with. If the system refuses, the thread keeps its priority.
 void lower_priority_of_this_thread();
 
 /// Gives the calling thread the lowest ordinary priority (niceness 19): if all processors are busy,

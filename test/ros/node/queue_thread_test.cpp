@@ -40,6 +40,18 @@ TEST(QueueThread, YieldsToThisThread) {
   EXPECT_EQ(niceness(), here);
 }
 
+TEST(QueueThread, YieldsToAThreadThatIsNiceItself) {
+  const auto niceness = [] { return getpriority(PRIO_PROCESS, 0); };
+  const int nicer = std::min(niceness() + 8, 18);
+  int background = 0;
+  std::thread([&] {  // Its niceness ends with it.
+    setpriority(PRIO_PROCESS, 0, nicer);
+    QueueThread thread;
+    background = in_background(thread, niceness);
+  }).join();
+  EXPECT_EQ(background, std::min(nicer + 10, 19));
+}
+
 TEST(QueueThread, EndsWithItsPresentCallback) {
   std::vector<int> called;
   std::promise<void> started, finish;
