@@ -69,9 +69,10 @@ void check_times(const ContactArray& answer, Faults& faults) {
 }
 
 void check_success(const ContactArray& answer, Faults& faults) {
-  if (!answer.message.empty()) {
-    faults.add("messages", "status is OK, and message is '",
-               plain_text(answer.message, kLongestName), "'; must be empty");
+  if (answer.message.empty() == answer.path_incomplete) {
+    faults.add("messages", "status is OK, path_incomplete is ", answer.path_incomplete != 0,
+               ", and message is '", plain_text(answer.message, kLongestName),
+               "'; must be empty unless path_incomplete is true");
   }
   check_name("frame_id", answer.header.frame_id, faults);
   check_name("organ", answer.organ, faults);

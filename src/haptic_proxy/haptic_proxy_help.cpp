@@ -101,6 +101,8 @@ std::vector<HelpEntry> parameters() {
       {names::kGl, kGlDefault,
        "where the OpenGL for picking comes from: osmesa, egl, or auto (OSMesa where there is one, "
        "else EGL)"},
+      {names::kMaxAheadSec, shown(defaults.max_ahead_sec),
+       "[s] shapes, poses and transforms with stamps further ahead of the clock are refused"},
       {names::kMaxFaces, shown(defaults.max_faces), "larger organs are refused"},
       {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
        "[s] between messages on /diagnostics"},

@@ -60,7 +60,8 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       loaded_(load_haptic_proxy_parameters(private_node_)),
       realtime_(loaded_.parameters.realtime),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
-      inbox_(loaded_.parameters.max_faces, loaded_.parameters.tools,
+      inbox_({loaded_.parameters.max_faces, loaded_.parameters.max_ahead_sec},
+             loaded_.parameters.tools,
              {[this](std::size_t tool) {
                 if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
               },
@@ -432,7 +433,7 @@ void HapticProxyNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
 }
 
 bool HapticProxyNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  inbox_.forget_organ_history();
+  inbox_.forget_history();
   reset_proxies("reset was called");
   return true;
 }

@@ -65,7 +65,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
        names::kPunctureForce, names::kFriction,    names::kPoseTimeoutSec, names::kMeshTimeoutSec,
        names::kPicker,        names::kGl,          names::kMaxFaces,       names::kDiagnosticPeriod,
        names::kPublishTf,     names::kMarkersRate, names::kSurfaceRate,    names::kRealtimePriority,
-       names::kLockMemory,    names::kAwakeCores});
+       names::kLockMemory,    names::kAwakeCores,  names::kMaxAheadSec});
   LoadedTools tools = parse_tools(all);
   LoadedHapticProxyParameters loaded{{}, std::move(tools.misspelt)};
   HapticProxyParameters& p = loaded.parameters;
@@ -76,6 +76,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
   p.pose_timeout_sec = all.number(names::kPoseTimeoutSec, p.pose_timeout_sec, kTimerPeriod);
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kMeshTimeoutRange);
   p.picker = parse_picker(all);
+  p.max_ahead_sec = all.number(names::kMaxAheadSec, p.max_ahead_sec, kMaxAheadRange);
   p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, kMaxFacesRange);
   p.diagnostic_period_sec =
       all.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kDiagnosticPeriodRange);

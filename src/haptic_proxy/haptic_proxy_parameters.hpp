@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/parameters/marker_settings.hpp"
 #include "ros/parameters/shared_parameters.hpp"
@@ -37,6 +38,7 @@ struct HapticProxyParameters : LiveHapticProxyParameters {
   double pose_timeout_sec = 0.1;
   double mesh_timeout_sec = 0.0;  ///< 0: never stale
   PickerSettings picker;
+  double max_ahead_sec = kMaxAheadDefault;
   int max_faces = kMaxFacesDefault;
   double diagnostic_period_sec = 1.0;  ///< of wall time
   RealtimeParameters realtime;

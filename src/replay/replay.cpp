@@ -21,6 +21,8 @@ namespace {
 const ros::Duration kDisorder(0.1);
 /// Through a longer gap in the bag, the node does not tick.
 const ros::Duration kLongestGap(10.0);
+/// After a longer silence, the node may have taken a step before the next message.
+const ros::Duration kSilence(1.0);
 
 }  // namespace
 
@@ -131,6 +133,12 @@ void Replay::go_to(ros::Time time) {
 
 /// Evaluates what is due between now and `time`: ticks, and shapes whose transforms did not come.
 void Replay::evaluate_before(ros::Time time) {
+  evaluate_deadlines(time);
+  // The node looks for steps that become too long also while no message comes.
+  if (time - now_ > kSilence) pipeline_.evaluate(steady(time) - std::chrono::nanoseconds(1));
+}
+
+void Replay::evaluate_deadlines(ros::Time time) {
   const bool ticks = parameters_.rate_hz > 0.0 && time <= next_tick_ + kLongestGap;
   while (true) {
     const auto deadline = pipeline_.next_deadline();

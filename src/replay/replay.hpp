@@ -53,6 +53,7 @@ class Replay {
   void apply_organ_messages();
   void go_to(ros::Time time);
   void evaluate_before(ros::Time time);
+  void evaluate_deadlines(ros::Time time);
   SteadyTime steady(ros::Time time) const;
   ros::Time ros_time(SteadyTime time) const;
   void report(const OrganUpdate& update);

@@ -131,7 +131,7 @@ class Node {
   FailureLog rejected_;
   ros::CallbackQueue callbacks_;
   SteadyTime now_{std::chrono::hours(1)};
-  Inbox inbox_{parameters().max_faces,
+  Inbox inbox_{{parameters().max_faces, parameters().max_ahead_sec},
                parameters().tools,
                {[this](std::size_t tool) { steps_.add_pose(tool); }, rejected_, callbacks_}};
   ToolPoses poses_{inbox_.transforms(), {0.001, 10}};

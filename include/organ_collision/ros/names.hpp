@@ -36,6 +36,7 @@ inline constexpr char kMotionSampleSec[] = "motion_sample_sec";
 inline constexpr char kMotionSamplesMax[] = "motion_samples_max";
 inline constexpr char kTfTimeoutSec[] = "tf_timeout_sec";
 inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
+inline constexpr char kMaxAheadSec[] = "max_ahead_sec";
 inline constexpr char kMaxFaces[] = "max_faces";
 inline constexpr char kMaxBatch[] = "max_batch";
 inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";

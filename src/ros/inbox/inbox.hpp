@@ -2,12 +2,12 @@
 
 #include <ros/callback_queue_interface.h>
 #include <ros/node_handle.h>
-#include <ros/time.h>
 
 #include <cstddef>
 #include <functional>
 #include <vector>
 
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "ros/motion/pose_topics.hpp"
 #include "ros/motion/transform_buffer.hpp"
@@ -29,8 +29,13 @@ class Inbox {
     ros::CallbackQueueInterface& callbacks;      ///< gets a callback when a mesh was built
   };
 
-  /// `max_faces`: larger organs are refused.
-  Inbox(int max_faces, const std::vector<ToolParameters>& tools, const Sinks& sinks);
+  /// What is refused.
+  struct Limits {
+    int max_faces;         ///< of an organ
+    double max_ahead_sec;  ///< of a stamp before the clock
+  };
+
+  Inbox(const Limits& limits, const std::vector<ToolParameters>& tools, const Sinks& sinks);
 
   /// Subscribes to the topics of organs, of TF and of poses.
   void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
@@ -39,25 +44,25 @@ class Inbox {
   TransformTopics& transform_topics() { return transform_topics_; }
   PoseTopics& pose_topics() { return pose_topics_; }
 
-  /// Compares ROS time with that of the last call. If it jumped back, forgets all transforms and
-  /// the organs' history, and returns true. The same if transforms that came behind such a jump
-  /// turned out to be of the time before, or to have a gap. Call it before and after each message,
-  /// so that no message and no step meets state from before the jump.
+  /// If ROS time jumped back since the last call, or began before the stamps of what was taken,
+  /// forgets all history and returns true. Call it before and after each message, so that no
+  /// message and no step meets state from before the jump.
   bool watch_clock();
-  /// Forgets all that is known of the past of the organs.
-  void forget_organ_history();
+  /// Forgets all transforms but the static ones, and all that is known of the past of the organs.
+  void forget_history();
 
   const OrganRegistry& organs() const { return organs_; }
   TransformBuffer& transforms() { return transforms_; }
   const TransformBuffer& transforms() const { return transforms_; }
 
  private:
+  double max_ahead_sec_;
   OrganRegistry organs_;
   TransformBuffer transforms_;
   OrganTopics organ_topics_;
   TransformTopics transform_topics_;
   PoseTopics pose_topics_;
-  ros::Time last_now_;
+  ClockWatch clock_;
 };
 
 }  // namespace organ_collision

@@ -20,12 +20,8 @@ using geometry_msgs::PoseStamped;
 /// [messages] If more poses wait, the oldest are dropped, and the sweep connects the others
 /// directly.
 constexpr std::uint32_t kQueue = 1000;
-/// [s] TF keeps transforms for this long. A pose further in the future would make it drop all
-/// others.
-constexpr double kAhead = 10.0;
-
 /// Why a pose is illegal; empty if it is legal.
-std::string fault(const PoseStamped& pose) {
+std::string fault(const PoseStamped& pose, double max_ahead_sec) {
   const auto& p = pose.pose.position;
   const auto& q = pose.pose.orientation;
   std::ostringstream text;
@@ -36,9 +32,10 @@ std::string fault(const PoseStamped& pose) {
   } else if (!is_in_range(Eigen::Vector3d(p.x, p.y, p.z))) {
     text << "is at (" << p.x << ", " << p.y << ", " << p.z << "); must be finite and within "
          << tolerance::kFarthest << " m";
-  } else if (pose.header.stamp.toSec() > ros::Time::now().toSec() + kAhead) {
-    text << "is of " << pose.header.stamp << ", more than " << kAhead
-         << " s from now; the sender needs the same clock";
+  } else if (const std::string ahead =
+                 ahead_fault(pose.header.stamp, ros::Time::now(), max_ahead_sec);
+             !ahead.empty()) {
+    text << "is refused: " << ahead;
   } else if (!is_unit(q)) {
     text << "has the orientation (" << q.x << ", " << q.y << ", " << q.z << ", " << q.w
          << "); must be a quaternion of length 1";
@@ -136,9 +133,6 @@ void PoseTopics::subscribe(Stream& stream, ros::NodeHandle node) {
 
 void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   Stream& stream = *streams_[tool];
-  if (!sinks_.transforms.admit(stream.tool.tip_frame, pose.header.stamp)) {
-    return reject(stream.tool.tip_frame, "has a stamp of the time before the clock jumped back");
-  }
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
@@ -187,7 +181,7 @@ void PoseTopics::forget_stamps() {
 bool PoseTopics::check(const PoseStamped& pose, const std::string& frame) {
   const std::string wrong = tf_frame(pose.header.frame_id) == frame && !frame.empty()
                                 ? "is in its own frame"
-                                : fault(pose);
+                                : fault(pose, sinks_.max_ahead_sec);
   if (!wrong.empty()) reject(frame, wrong);
   return wrong.empty();
 }

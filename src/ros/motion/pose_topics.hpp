@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "transform_buffer.hpp"
@@ -27,6 +28,8 @@ class PoseTopics {
     TransformBuffer& transforms;
     FailureLog& rejected;
     std::function<void(std::size_t)> arrived;
+    double max_ahead_sec =
+        kMaxAheadDefault;  ///< poses with stamps further ahead of the clock are refused
   };
   PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks);
   PoseTopics(const PoseTopics&) = delete;  ///< The subscriptions refer to this.

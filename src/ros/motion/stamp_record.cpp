@@ -6,11 +6,15 @@
 namespace organ_collision {
 
 void StampRecord::add(ros::Time stamp) {
+  heard_ = stamp;
   rising_.insert(std::upper_bound(rising_.begin(), rising_.end(), stamp), stamp);
   // In whole nanoseconds, because the arithmetic of ros::Time throws for extreme stamps.
   const std::uint64_t latest = rising_.back().toNSec();
   const auto kept = static_cast<std::uint64_t>(kept_.toNSec());
-  while (rising_.size() > kMost || latest - rising_.front().toNSec() > kept) rising_.pop_front();
+  while (rising_.size() > kMost || latest - rising_.front().toNSec() > kept) {
+    forgotten_ = std::max(forgotten_, rising_.front());
+    rising_.pop_front();
+  }
 }
 
 bool StampRecord::contains(ros::Time stamp) const {

@@ -20,13 +20,20 @@ class StampRecord {
   void add(ros::Time stamp);
   bool contains(ros::Time stamp) const;
   bool empty() const { return rising_.empty(); }
-  void clear() { rising_.clear(); }
+  void clear() { *this = StampRecord(kept_); }
+  /// The largest stamp; zero if there is none.
+  ros::Time latest() const { return empty() ? ros::Time() : rising_.back(); }
+  /// The stamp that came last; zero if there is none.
+  ros::Time heard() const { return heard_; }
+  /// The latest stamp that was forgotten; zero if there is none.
+  ros::Time forgotten() const { return forgotten_; }
   /// Appends the stamps after `from` and before `to`, in rising order.
   void append_between(ros::Time from, ros::Time to, std::vector<ros::Time>& stamps) const;
 
  private:
   ros::Duration kept_;
   std::deque<ros::Time> rising_;
+  ros::Time heard_, forgotten_;
 };
 
 }  // namespace organ_collision

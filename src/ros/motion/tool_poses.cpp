@@ -4,9 +4,11 @@
 #include <cstdint>
 #include <utility>
 
+#include "geometry/concatenate.hpp"
 #include "geometry/coordinate_range.hpp"
 #include "path_builder.hpp"
 #include "path_simplification.hpp"
+#include "ros/interface/clock_rules.hpp"
 
 namespace organ_collision {
 namespace {
@@ -87,14 +89,28 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
 }
 
 /// The stamps that TF received, and evenly spaced times between stamps that are further apart than
-/// sample_sec. `cut`: how many more there would be without samples_max.
+/// sample_sec. Notes in `lost` how many more there would be without samples_max, and which of them
+/// are not known.
 std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
                                                ros::Time from, ros::Time to,
-                                               std::size_t& cut) const {
-  std::vector<ros::Time> stamps = buffer_.stamps_between(organ_frame, swept_frames(tool), from, to);
+                                               SampledPath& lost) const {
+  const TransformBuffer::Frames frames = swept_frames(tool);
+  std::vector<ros::Time> stamps = buffer_.stamps_between(organ_frame, frames, from, to);
+  if (const ros::Time forgotten = buffer_.forgotten(organ_frame, frames); forgotten > from) {
+    lost.unknown = concatenate("the tool's way from ", from, " s to ", std::min(forgotten, to),
+                               " s is not known: it is longer ago than transforms are kept (",
+                               buffer_.getCacheLength().toSec(), " s)");
+  }
+  const std::size_t heard = stamps.size();
   const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
-  cut = thin_out(stamps, std::max(kMostRead, samples_max));
-  if (cut > 0) return stamps;
+  lost.samples_cut = thin_out(stamps, std::max(kMostRead, samples_max));
+  if (lost.samples_cut > 0) {
+    if (lost.unknown.empty()) {
+      lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", stamps.size(),
+                                 " were read; steps must be shorter");
+    }
+    return stamps;
+  }
   stamps.push_back(to);
   const double spacing = std::max(sampling_.sample_sec, seconds(from, to) / sampling_.samples_max);
   std::vector<ros::Time> times;
@@ -109,7 +125,7 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
     from = stamp;
   }
   times.pop_back();
-  cut = static_cast<std::size_t>(wanted - sampled);
+  lost.samples_cut = static_cast<std::size_t>(wanted - sampled);
   return times;
 }
 
@@ -167,6 +183,18 @@ Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& or
   return {{{std::move(pose), stamps.earliest}}, ""};
 }
 
+bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_frame,
+                                    ros::Time from, ros::Time to) const {
+  return seconds(from, to) >= longest_step().toSec() ||
+         buffer_.stamps_between(organ_frame, swept_frames(tool), from, to).size() >= kMostRead / 2;
+}
+
+bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
+                             ros::Time stamp) const {
+  const auto until = buffer_.believed_until(organ_frame, swept_frames(tool));
+  return until && stamp.toSec() > until->toSec() + kClockTolerance;
+}
+
 std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::string& why_not) const {
   const bool silent = !tool.tip_pose_topic.empty() && !buffer_.has_heard(tool.tip_frame);
   return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
@@ -177,8 +205,8 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   const double duration = nanoseconds(from.stamp, to.stamp);
   const PathDeviation deviation(tool.links);
   PathBuilder path(deviation, from.value);
-  std::size_t samples_cut = 0;
-  for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, samples_cut)) {
+  SampledPath sampled;
+  for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
     if (const auto between = look_up_pose(tool, organ_frame, time, TipOfLinks::kUnused);
         between.found && is_near(between.found->value)) {
@@ -188,7 +216,10 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   path.add(1.0, to.value);
   SimplifiedPath simplified =
       simplify_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
-  return {std::move(simplified.path), samples_cut + simplified.dropped, simplified.deviation};
+  sampled.path = std::move(simplified.path);
+  sampled.samples_cut += simplified.dropped;
+  sampled.deviation_cut = simplified.deviation;
+  return sampled;
 }
 
 }  // namespace organ_collision

@@ -23,6 +23,7 @@ struct SampledPath {
   ToolPath path;
   std::size_t samples_cut = 0;
   double deviation_cut = 0.0;  ///< [m] the largest distance of a dropped pose from the path
+  std::string unknown;         ///< what is not known of the tool's way; empty: all is known
 };
 
 /// The poses of tools in the frame of an organ, from TF.
@@ -42,9 +43,19 @@ class ToolPoses {
   /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
   /// Samples that TF cannot give are dropped, PathBuilder drops redundant ones, and simplify_path
   /// reduces the rest to samples_max. At most max(1000, samples_max) of the stamps are read, evenly
-  /// spread.
+  /// spread; if there are more, or if TF has forgotten some, the path is not wholly known.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
+
+  /// Whether the path since `from` will soon not be wholly known, because TF forgets its beginning
+  /// or it has more poses than are read. Where a step to `to` is taken now, it is known.
+  bool is_nearly_forgotten(const Tool& tool, const std::string& organ_frame, ros::Time from,
+                           ros::Time to) const;
+  /// Half of the time that TF keeps transforms. Nothing is forgotten if steps are no longer.
+  ros::Duration longest_step() const { return buffer_.getCacheLength() * 0.5; }
+  /// Whether a step that ended at `stamp` used transforms that are not believed any more
+  /// (TransformBuffer::believed_until).
+  bool is_disproved(const Tool& tool, const std::string& organ_frame, ros::Time stamp) const;
 
   /// Notes that a step of the tool up to `time` was answered. Transforms that come later but belong
   /// to that step are counted as late.
@@ -58,7 +69,7 @@ class ToolPoses {
   /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
-                                      ros::Time from, ros::Time to, std::size_t& cut) const;
+                                      ros::Time from, ros::Time to, SampledPath& lost) const;
 
   TransformBuffer& buffer_;
   PathSampling sampling_;

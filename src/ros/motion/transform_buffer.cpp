@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/conversions.hpp"
 
 namespace organ_collision {
@@ -33,7 +34,10 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   if (!taken) return false;
   const std::size_t parent = index_of(tf_frame(transform.header.frame_id));
   Frame& frame = frames_[index_of(tf_frame(transform.child_frame_id))];
-  if (!resting) frame.stamps.add(stamp);
+  if (!resting) {
+    frame.stamps.add(stamp);
+    latest_ = std::max(latest_, stamp);
+  }
   insert(frame.parents, parent);
   if (frame.parents.size() > kMostParents) frame.parents.erase(frame.parents.begin());
   return true;
@@ -50,26 +54,29 @@ void TransformBuffer::clear() {
     frame.stamps.clear();
     frame.answered = ros::Time();
   }
+  latest_ = ros::Time();
 }
 
-void TransformBuffer::clear(const ClockJump& jump) {
-  clear();
-  if (!is_small(jump)) jump_ = jump;
-  for (Frame& frame : frames_) frame.order.add(jump);
-}
-
-bool TransformBuffer::admit(const std::string& frame, ros::Time stamp) {
-  using Verdict = StampOrder::Verdict;
-  const std::string name = tf_frame(frame);
-  // Without a jump, a frame is known only when tf2 has taken a transform of it.
-  if (stamp.isZero() || (!jump_ && indices_.count(name) == 0)) return true;
-  Frame& known = frames_[index_of(name)];
-  const Verdict verdict = known.order.judge(stamp, ros::Time::now());
-  if (verdict == Verdict::kTakeAnew && !known.stamps.empty()) {
-    clear();
-    has_started_anew_ = true;
+std::optional<ros::Time> TransformBuffer::believed_until(const std::string& target,
+                                                         const Frames& sources) const {
+  const ros::Time now = ros::Time::now();
+  if (latest_ <= now) return std::nullopt;
+  std::optional<ros::Time> until;
+  for (const std::size_t frame : chain(target, sources)) {
+    const StampRecord& stamps = frames_[frame].stamps;
+    const bool steps_back = stamps.heard().toSec() < stamps.latest().toSec() - kClockTolerance;
+    if (stamps.latest() <= now || !steps_back) continue;
+    until = until ? std::min(*until, stamps.heard()) : stamps.heard();
   }
-  return verdict != Verdict::kRefuse;
+  return until;
+}
+
+ros::Time TransformBuffer::forgotten(const std::string& target, const Frames& sources) const {
+  ros::Time latest;
+  for (const std::size_t frame : chain(target, sources)) {
+    latest = std::max(latest, frames_[frame].stamps.forgotten());
+  }
+  return latest;
 }
 
 bool TransformBuffer::has_heard(const std::string& frame) const {
@@ -100,8 +107,7 @@ void TransformBuffer::set_answered(const std::string& target, const Frames& sour
 std::size_t TransformBuffer::index_of(const std::string& frame) {
   const auto [known, is_new] = indices_.try_emplace(frame, frames_.size());
   if (is_new) {
-    frames_.push_back({StampRecord(getCacheLength()), {}, {}, {}});
-    if (jump_) frames_.back().order.add(*jump_);
+    frames_.push_back({StampRecord(getCacheLength()), {}, {}});
   }
   return known->second;
 }

@@ -8,10 +8,8 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "stamp_order.hpp"
 #include "stamp_record.hpp"
 
 namespace organ_collision {
@@ -30,14 +28,15 @@ class TransformBuffer : public tf2::BufferCore {
   bool has(const std::string& frame, ros::Time stamp) const;
   /// Forgets all transforms but the static ones, which are not sent again.
   void clear();
-  /// The same, because the clock jumped back.
-  void clear(const ClockJump& jump);
-  /// Whether a transform that is not static may be added; false: its stamp seems to be of the time
-  /// before the clock jumped back. Call it once for each, in the order in which they come. Behind
-  /// such stamps it may forget all transforms once more (stamp_order.hpp).
-  bool admit(const std::string& frame, ros::Time stamp);
-  /// Whether admit() has forgotten all transforms since the last call.
-  bool has_started_anew() { return std::exchange(has_started_anew_, false); }
+  /// The largest stamp of a transform that is not static; zero if there is none.
+  ros::Time latest() const { return latest_; }
+  /// Until when the transforms between `target` and `sources` can be believed; std::nullopt: all of
+  /// them can. A stamp that is ahead of the clock is not believed any more once its sender sends an
+  /// earlier one: then what the sender sent last counts, until the clock gets there.
+  std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
+  /// The latest stamp of the transforms between `target` and `sources` that were forgotten, because
+  /// they are older than TF keeps them; zero if there is none.
+  ros::Time forgotten(const std::string& target, const Frames& sources) const;
 
   /// Whether the record has a transform of the frame.
   bool has_heard(const std::string& frame) const;
@@ -54,7 +53,6 @@ class TransformBuffer : public tf2::BufferCore {
  private:
   struct Frame {
     StampRecord stamps;
-    StampOrder order;
     ros::Time answered;                ///< poses were used up to this stamp; zero: never
     std::vector<std::size_t> parents;  ///< recent parents, as indices
   };
@@ -67,8 +65,7 @@ class TransformBuffer : public tf2::BufferCore {
 
   std::map<std::string, std::size_t> indices_;  ///< into frames_, by name
   std::vector<Frame> frames_;
-  std::optional<ClockJump> jump_;  ///< the last one that was not small
-  bool has_started_anew_ = false;
+  ros::Time latest_;  ///< the largest stamp of all frames
   std::size_t late_ = 0;
 };
 

@@ -60,11 +60,16 @@ NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
 
 }  // namespace
 
-Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
+Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
                                   const std::string& source, ros::Time time) {
   if (target == source) return {{{Eigen::Isometry3d::Identity(), time}}, ""};
+  const std::optional<ros::Time> until = buffer.believed_until(target, {source});
+  if (until && time > *until) return late(target, source, *until, time);
   try {
-    const geometry_msgs::TransformStamped found = buffer.lookupTransform(target, source, time);
+    geometry_msgs::TransformStamped found = buffer.lookupTransform(target, source, time);
+    if (until && found.header.stamp > *until) {
+      found = buffer.lookupTransform(target, source, *until);
+    }
     const Eigen::Isometry3d T_target_source = to_eigen(found.transform);
     if (!T_target_source.matrix().allFinite()) {
       return {std::nullopt, "transform from " + source + " to " + target + " is not finite"};
@@ -75,10 +80,12 @@ Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::stri
   }
 }
 
-bool has_transform(const tf2::BufferCore& buffer, const std::string& target,
+bool has_transform(const TransformBuffer& buffer, const std::string& target,
                    const std::string& source, ros::Time time) {
+  if (target == source) return true;
+  const std::optional<ros::Time> until = buffer.believed_until(target, {source});
   try {
-    return target == source || buffer.canTransform(target, source, time);
+    return !(until && time > *until) && buffer.canTransform(target, source, time);
   } catch (const std::runtime_error&) {  // From ros::Time for extreme stamps.
     return false;
   }

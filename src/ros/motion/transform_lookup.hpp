@@ -1,11 +1,12 @@
 #pragma once
 
 #include <ros/time.h>
-#include <tf2/buffer_core.h>
 
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+
+#include "transform_buffer.hpp"
 
 namespace organ_collision {
 
@@ -24,14 +25,15 @@ struct Lookup {
   bool is_late = false;  ///< the transforms are known, but the newest is older than the time
 };
 
-/// T_target_source at a time; time zero means the latest common time. The frame names must have no
-/// leading slash.
-Lookup<Eigen::Isometry3d> look_up(const tf2::BufferCore& buffer, const std::string& target,
+/// T_target_source at a time; time zero means the latest common time. Transforms that are not
+/// believed any more (TransformBuffer::believed_until) count as not yet known. The frame names must
+/// have no leading slash.
+Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
                                   const std::string& source, ros::Time time);
 
 /// Whether TF has that transform. Costs less than a look_up() that finds none, because no error is
 /// put into words.
-bool has_transform(const tf2::BufferCore& buffer, const std::string& target,
+bool has_transform(const TransformBuffer& buffer, const std::string& target,
                    const std::string& source, ros::Time time);
 
 }  // namespace organ_collision

@@ -39,14 +39,12 @@ void TransformTopics::subscribe(ros::NodeHandle node) {
 
 void TransformTopics::take(const tf2_msgs::TFMessage& message, const std::string& authority,
                            bool resting) {
-  admitted_.clear();
+  const ros::Time now = ros::Time::now();
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    admitted_.push_back(resting || buffer_.admit(transform.child_frame_id, transform.header.stamp));
-  }
-  for (std::size_t i = 0; i < message.transforms.size(); ++i) {
-    const geometry_msgs::TransformStamped& transform = message.transforms[i];
-    if (!admitted_[i]) {
-      reject(transform, "its stamp is of the time before the clock jumped back");
+    const std::string ahead =
+        resting ? "" : ahead_fault(transform.header.stamp, now, max_ahead_sec_);
+    if (!ahead.empty()) {
+      reject(transform, ahead);
       continue;
     }
     try {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/failure_log.hpp"
 #include "transform_buffer.hpp"
 
@@ -15,14 +16,15 @@ namespace organ_collision {
 class TransformTopics {
  public:
   /// Both must outlive this.
-  TransformTopics(TransformBuffer& buffer, FailureLog& rejected)
-      : buffer_(buffer), rejected_(rejected) {}
+  TransformTopics(TransformBuffer& buffer, FailureLog& rejected,
+                  double max_ahead_sec = kMaxAheadDefault)
+      : buffer_(buffer), rejected_(rejected), max_ahead_sec_(max_ahead_sec) {}
 
   void subscribe(ros::NodeHandle node);
 
-  /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is of the time
-  /// before a jump of the clock, is counted as rejected; the others are added. One with the stamp
-  /// of an earlier one is left out: senders repeat transforms.
+  /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
+  /// ahead of the clock, is counted as rejected; the others are added. One with the stamp of an
+  /// earlier one is left out: senders repeat transforms.
   void take(const tf2_msgs::TFMessage& message, const std::string& authority, bool resting);
 
  private:
@@ -30,7 +32,7 @@ class TransformTopics {
 
   TransformBuffer& buffer_;
   FailureLog& rejected_;
-  std::vector<char> admitted_;  ///< by transform of one message
+  double max_ahead_sec_;
   std::vector<ros::Subscriber> subscribers_;
 };
 

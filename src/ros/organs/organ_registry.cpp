@@ -98,6 +98,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
     check_name("header.frame_id", frame);
+    check_stamp(message.header.stamp, now, "mesh of organ " + quoted(message.organ));
     const OrganChange change = apply_checked(pointer, connection, frame, now, built);
     connections_[message.organ].add(connection);
     without_mesh_.erase(message.organ);
@@ -160,6 +161,7 @@ OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time
            named + ": header.frame_id is " + quoted(frame) + "; must be that of its mesh, " +
                quoted(organ.frame()));
   }
+  check_stamp(message.header.stamp, now, named);
   const std::uint32_t topology = organ.latest().mesh->topology();
   if (message.topology != topology) {
     refuse("other topology", named + ": topology is " + std::to_string(message.topology) +
@@ -198,6 +200,11 @@ void OrganRegistry::forget_previous_shapes() {
 
 void OrganRegistry::receive_anew(ros::Time now) {
   for (auto& [name, organ] : organs_) organ.receive_anew(now);
+}
+
+void OrganRegistry::check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const {
+  const std::string ahead = ahead_fault(stamp, now, max_ahead_sec_);
+  if (!ahead.empty()) refuse("stamp ahead", named + ": " + ahead);
 }
 
 std::string OrganRegistry::known_organs() const {

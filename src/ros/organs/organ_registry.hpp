@@ -12,6 +12,7 @@
 
 #include "connection.hpp"
 #include "deformable_organ.hpp"
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/rejection.hpp"
 
 namespace organ_collision {
@@ -31,7 +32,9 @@ bool is_removal(const OrganMesh& mesh);
 /// All known organs by name. A message that is refused changes nothing.
 class OrganRegistry {
  public:
-  explicit OrganRegistry(const MeshLimits& limits) : limits_(limits) {}
+  /// Refuses larger meshes, and shapes whose stamps are further ahead of the clock.
+  explicit OrganRegistry(const MeshLimits& limits, double max_ahead_sec = kMaxAheadDefault)
+      : limits_(limits), max_ahead_sec_(max_ahead_sec) {}
 
   /// The surface that a mesh message describes. Throws MeshError. May be called from any thread.
   TriangleMesh build(const OrganMeshConstPtr& message) const;
@@ -76,7 +79,10 @@ class OrganRegistry {
                         const Connection& connection) const;
   std::string known_organs() const;
 
+  void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;
+
   MeshLimits limits_;
+  double max_ahead_sec_;
   std::map<std::string, DeformableOrgan> organs_;
   std::map<std::string, ConnectionSet> connections_;  ///< by organ: its meshes' connections
   std::set<std::string> without_mesh_;                ///< known names: removed, or never valid

@@ -34,6 +34,7 @@ ParameterGroup node_group(const XmlRpcValue& private_namespace) {
            names::kMotionSamplesMax,
            names::kTfTimeoutSec,
            names::kMeshTimeoutSec,
+           names::kMaxAheadSec,
            names::kMaxFaces,
            names::kMaxBatch,
            names::kMaxBatchBytes,
@@ -80,6 +81,7 @@ LoadedParameters parse_parameters(const XmlRpcValue& private_namespace) {
   p.motion_sample_sec = all.number(names::kMotionSampleSec, p.motion_sample_sec, kPositive);
   p.motion_samples_max =
       all.whole_number(names::kMotionSamplesMax, p.motion_samples_max, {1, 100'000});
+  p.max_ahead_sec = all.number(names::kMaxAheadSec, p.max_ahead_sec, kMaxAheadRange);
   p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, kMaxFacesRange);
   p.max_batch = all.whole_number(names::kMaxBatch, p.max_batch, {1, 1'000'000});
   p.max_batch_bytes =

@@ -8,6 +8,7 @@
 
 #include "marker_settings.hpp"
 #include "organ_collision/picking/picker_settings.hpp"
+#include "ros/interface/clock_rules.hpp"
 #include "ros/interface/live_parameters.hpp"
 #include "ros/interface/parameter_group.hpp"
 #include "shared_parameters.hpp"
@@ -33,6 +34,7 @@ struct NodeParameters : LiveNodeParameters {
   bool organ_motion = true;  ///< organs move linearly from shape to shape; false: they jump
   double motion_sample_sec = 0.001;
   int motion_samples_max = 100;
+  double max_ahead_sec = kMaxAheadDefault;
   int max_faces = kMaxFacesDefault;
   int max_batch = 100'000;             ///< [motions] in one call of query_batch
   int max_batch_bytes = 256 << 20;     ///< [bytes] of all results of a batch, serialized

@@ -29,6 +29,8 @@ std::vector<HelpEntry> parameter_help() {
        "[s] how long a new shape waits for its transforms"},
       {names::kMeshTimeoutSec, shown(defaults.mesh_timeout_sec),
        "[s] an older mesh is answered with STALE_MESH; 0: never"},
+      {names::kMaxAheadSec, shown(defaults.max_ahead_sec),
+       "[s] shapes, poses and transforms with stamps further ahead of the clock are refused"},
       {names::kMaxFaces, shown(defaults.max_faces), "larger organs are refused"},
       {names::kMaxBatch, shown(defaults.max_batch), "motions in one call of query_batch"},
       {names::kMaxBatchBytes, shown(defaults.max_batch_bytes),

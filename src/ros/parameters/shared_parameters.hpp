@@ -11,6 +11,8 @@ namespace organ_collision {
 
 /// [s] 0: a mesh is never stale.
 inline constexpr NumberRange kMeshTimeoutRange{0.0, std::numeric_limits<double>::infinity()};
+/// [s] At most half of what TF keeps: a stamp ahead by more would make TF forget all others.
+inline constexpr NumberRange kMaxAheadRange{0.0, 5.0};
 /// [faces] With more, a message would be too large: each face has three indices of four bytes.
 inline constexpr NumberRange kMaxFacesRange{1, 83'333'333};
 /// [s]

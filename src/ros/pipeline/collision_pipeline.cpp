@@ -13,7 +13,7 @@ CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
                                      const std::vector<Tool>& tools, const Sinks& sinks)
     : update_(sinks.update),
       inbox_(
-          parameters.max_faces, parameters.tools,
+          {parameters.max_faces, parameters.max_ahead_sec}, parameters.tools,
           {[this](std::size_t tool) { steps_.add_pose(tool); }, sinks.rejected, sinks.callbacks}),
       poses_(inbox_.transforms(), sampling(parameters)),
       workers_(parameters),
@@ -34,7 +34,7 @@ void CollisionPipeline::apply_organ_messages(SteadyTime now) {
 }
 
 void CollisionPipeline::reset() {
-  inbox_.forget_organ_history();
+  inbox_.forget_history();
   steps_.reset();
 }
 

@@ -143,6 +143,7 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
         snapshot, collision);
   }
   const double query_sec = query_.evaluate(collision, answer);
+  set_incomplete(answer, snapshot.unknown);
   if (answer.status == ContactArray::OK) statistics_.add_query(query_sec);
 }
 

@@ -1,6 +1,7 @@
 #include "query_snapshot.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "query_checks.hpp"
 #include "ros/interface/conversions.hpp"
@@ -86,7 +87,8 @@ void SnapshotTaker::read_tool_motion(const QuerySubject& subject, const Deformab
 
   const auto index = static_cast<std::size_t>(&tool - sources_.tools.data());
   const LastStep* last = sources_.history.last(organ.name(), index);
-  if (!last || is_static_mode(subject.mode)) {
+  const bool is_disproved = last && sources_.poses.is_disproved(tool, organ.frame(), last->stamp);
+  if (!last || is_disproved || is_static_mode(subject.mode)) {
     snapshot.path = resting_path(end.found->value);
     return;
   }
@@ -98,10 +100,10 @@ void SnapshotTaker::read_tool_motion(const QuerySubject& subject, const Deformab
            " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
            last->stamp, " s; header.stamp must not be earlier");
   }
-  snapshot.path = sources_.poses
-                      .path(tool, organ.frame(), {last->pose, last->stamp},
-                            {end.found->value, answer.header.stamp})
-                      .path;
+  SampledPath sampled = sources_.poses.path(tool, organ.frame(), {last->pose, last->stamp},
+                                            {end.found->value, answer.header.stamp});
+  snapshot.path = std::move(sampled.path);
+  snapshot.unknown = std::move(sampled.unknown);
   answer.step_start = last->stamp;
 }
 

@@ -2,7 +2,6 @@
 
 #include <organ_collision/ContactArray.h>
 #include <std_msgs/Header.h>
-#include <tf2/buffer_core.h>
 
 #include <Eigen/Geometry>
 #include <optional>
@@ -27,6 +26,8 @@ struct QuerySnapshot {
   std::optional<Tool> tool;  ///< the tool that is asked about; empty: a shaft of the request
   /// The tool's path in TF. Empty if the request itself gives the motion.
   ToolPath path;
+  /// What is not known of that path; empty: all is known.
+  std::string unknown = {};
   /// Where the tip of links is in TF at the end of that path, if they have one.
   std::optional<Eigen::Vector3d> tip;
   /// From the frame of the request's motions to the organ's.
@@ -50,7 +51,7 @@ class SnapshotTaker {
     const NodeParameters& parameters;
     const std::vector<Tool>& tools;
     const OrganRegistry& organs;
-    const tf2::BufferCore& transforms;
+    const TransformBuffer& transforms;
     const ToolPoses& poses;
     const StepHistory& history;
   };

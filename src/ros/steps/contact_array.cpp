@@ -42,6 +42,13 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.near_left_out = answer.near_unresolved = 0;
   answer.clearance = {};
   answer.placement = {};
+  answer.path_incomplete = false;
+}
+
+void set_incomplete(ContactArray& answer, const std::string& unknown) {
+  if (unknown.empty() || answer.status != ContactArray::OK) return;
+  answer.path_incomplete = true;
+  answer.message = plain_text(unknown, kLongestMessage);
 }
 
 ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,

@@ -29,6 +29,10 @@ void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganSh
 /// kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
+/// Sets `path_incomplete` and the message of an answer that is OK. `unknown`: what is not known of
+/// the tool's way; empty: nothing changes.
+void set_incomplete(ContactArray& answer, const std::string& unknown);
+
 /// The answer about an organ that could not be evaluated at all, for example because its mesh was
 /// refused. `header`: of the message that brought no shape; an unstamped one becomes now.
 ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,

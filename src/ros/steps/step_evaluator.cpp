@@ -23,9 +23,11 @@ QueryMode mode_of(const OrganToolPair& pair) {
 
 void StepEvaluator::evaluate(DueStep& step, ContactQuery& query) const {
   step.request = request_of(step);
-  step.request.path = take_path(step);
+  std::string unknown;
+  step.request.path = take_path(step, unknown);
   step.answer = answer_about(step, step.end->stamp);
   step.query_sec = query.evaluate(step.request, *step.answer);
+  set_incomplete(*step.answer, unknown);
 }
 
 void StepEvaluator::set_failed(DueStep& step, ros::Time stamp, std::uint8_t status,
@@ -46,13 +48,14 @@ ContactArrayPtr StepEvaluator::answer_about(const DueStep& step, ros::Time end) 
 }
 
 /// The path from the last pose to the end of the step. Notes what it lost.
-ToolPath StepEvaluator::take_path(DueStep& step) const {
+ToolPath StepEvaluator::take_path(DueStep& step, std::string& unknown) const {
   if (step.motion == DueStep::Motion::kNone) return resting_path(step.end->value);
   const LastStep& last = *step.pair->last;
   SampledPath sampled =
       poses_.path(tools_[step.tool], step.organ->frame(), {last.pose, last.stamp}, *step.end);
   step.samples_cut = sampled.samples_cut;
   step.deviation_cut = sampled.deviation_cut;
+  unknown = std::move(sampled.unknown);
   return std::move(sampled.path);
 }
 

@@ -30,7 +30,7 @@ class StepEvaluator {
 
  private:
   ContactArrayPtr answer_about(const DueStep& step, ros::Time end) const;
-  ToolPath take_path(DueStep& step) const;
+  ToolPath take_path(DueStep& step, std::string& unknown) const;
   CollisionRequest request_of(const DueStep& step) const;
 
   const NodeParameters& parameters_;

@@ -26,6 +26,7 @@ struct LastStep {
   ToolPose pose;
   ros::Time stamp;
   std::shared_ptr<const TriangleMesh> mesh;
+  SteadyTime taken = {};  ///< when the step was evaluated
 };
 
 /// The shapes of an organ against which one tool is still to be evaluated: the shape that waits for

@@ -1,5 +1,7 @@
 #include "step_scheduler.hpp"
 
+#include <ros/console.h>
+
 #include <algorithm>
 #include <chrono>
 #include <utility>
@@ -13,6 +15,9 @@ namespace {
 /// How long the transforms of a tool and an organ may be missing before the first step. Nodes that
 /// start together need that long.
 constexpr std::chrono::seconds kStart(2);
+
+/// How often the node looks for steps that become too long.
+constexpr std::chrono::milliseconds kLookout(100);
 
 /// Empties a list at the end, also by an exception. It keeps its memory.
 class ScopedClear {
@@ -46,6 +51,7 @@ void StepScheduler::add_pose(std::size_t tool) {
 }
 
 void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
+  now_ = now;
   do {
     plan_waiting(organs, now);
   } while (evaluate_due());  // Behind each shape, another one may wait.
@@ -54,6 +60,10 @@ void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
   }
   evaluate_due();
   if (std::exchange(tick_is_due_, false)) plan_tick(organs, now);
+  evaluate_due();
+  if (now < next_lookout_) return;
+  next_lookout_ = now + kLookout;
+  plan_long_steps(organs, now);
   evaluate_due();
 }
 
@@ -98,6 +108,7 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, O
   const ShapeQueue::Entry& entry = *pair.queue.front();
   const ros::Time stamp = entry.shape.stamp;
   const bool may_wait = now < deadline(entry);
+  forget_if_disproved(organ, tool, pair);
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
@@ -139,6 +150,7 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
                                 bool only_new) {
   OrganToolPair& pair = history_.of(organ.name(), tool);
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
+  forget_if_disproved(organ, tool, pair);
   DueStep step{&organ, tool, &pair};
   const ros::Time stamp = ros::Time::now();
   if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
@@ -156,6 +168,36 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   } else {
     plan_without_transform(std::move(step), stamp, end.why_not, now);
   }
+}
+
+/// The pairs whose last step was so long ago that TF would soon forget how the tool moved since.
+void StepScheduler::plan_long_steps(const OrganRegistry& organs, SteadyTime now) {
+  const auto longest = std::chrono::nanoseconds(poses_.longest_step().toNSec());
+  for (auto& [key, pair] : history_.pairs()) {
+    if (!pair.last) continue;
+    const auto& [organ_name, tool] = key;
+    const DeformableOrgan& organ = organs.at(organ_name);
+    const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+    if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
+    const ros::Time from = pair.last->stamp, to = pose.found->stamp;
+    const bool is_long =
+        to > from && (now - pair.last->taken >= longest ||
+                      poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
+    if (is_long) plan_latest(organ, tool, now, true);
+  }
+}
+
+/// The step is then static. A tool would otherwise be held at the pose of a stamp that turned out
+/// to be wrong.
+void StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,
+                                        OrganToolPair& pair) {
+  if (!pair.last || !poses_.is_disproved(tools_[tool], organ.frame(), pair.last->stamp)) return;
+  ROS_WARN_THROTTLE(
+      1.0,
+      "tool '%s': the last step ended at %f s, ahead of the clock, and then transforms "
+      "came with earlier stamps: the history of the tool is forgotten",
+      tools_[tool].parameters.name.c_str(), pair.last->stamp.toSec());
+  pair.last.reset();
 }
 
 void StepScheduler::change_tools(const OrganRegistry& organs, const KeptTools& kept) {
@@ -244,7 +286,7 @@ void StepScheduler::deliver(DueStep& step) {
   if (step.answer->status == ContactArray::OK) {
     query_times_.add(step.query_sec);
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
-    pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh};
+    pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_};
   }
   pair.answer = step.answer;
   publish_({step.answer, *pair.current.mesh, step.request.path, step.query_sec, step.is_starting});

@@ -84,7 +84,8 @@ class StepScheduler {
 
   /// Evaluates what is due: first the shapes whose transforms have come or are past their deadline,
   /// then the tools whose tips moved, then, at a tick, all tools. The latter two use the latest
-  /// poses.
+  /// poses. At last, the tools whose ways TF would soon forget: no step is longer than half of what
+  /// it keeps.
   void evaluate(const OrganRegistry& organs, SteadyTime now);
 
   /// For a new list of tools, which must be in place already. The kept tools keep their history and
@@ -122,9 +123,11 @@ class StepScheduler {
   void plan_waiting(const OrganRegistry& organs, SteadyTime now);
   void plan_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now);
   void plan_tick(const OrganRegistry& organs, SteadyTime now);
+  void plan_long_steps(const OrganRegistry& organs, SteadyTime now);
   void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                   SteadyTime now);
   void plan_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now, bool only_new);
+  void forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   void plan_step(DueStep step, Timed<ToolPose> end);
   void plan_held(DueStep step);
   void plan_failure(DueStep step, ros::Time stamp, std::uint8_t status, const std::string& message);
@@ -147,6 +150,8 @@ class StepScheduler {
   std::vector<DueStep> due_;       ///< the steps of one round
   std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
   bool tick_is_due_ = false;
+  SteadyTime now_;           ///< of the last call of evaluate()
+  SteadyTime next_lookout_;  ///< for steps that become too long
   bool keeps_all_shapes_ = false;
   ShapeCounts shapes_;  ///< without those that wait
   std::size_t poses_merged_ = 0;

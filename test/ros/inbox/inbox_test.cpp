@@ -28,7 +28,7 @@ class InboxTest : public testing::Test {
   FailureLog rejected_;
   ros::CallbackQueue callbacks_;
   std::vector<std::size_t> posed_;
-  Inbox inbox_{100,
+  Inbox inbox_{{100, 1.0},
                {{"left", "trocar", "left_tip", 0.01}, {"right", "trocar", "right_tip", 0.01}},
                {[this](std::size_t tool) { posed_.push_back(tool); }, rejected_, callbacks_}};
 };
@@ -83,55 +83,4 @@ TEST_F(InboxTest, WhenTheClockJumpsBackTransformsAreForgotten) {
   EXPECT_TRUE(inbox_.watch_clock());
   EXPECT_FALSE(inbox_.transforms().has_heard("right_tip"));
   EXPECT_FALSE(inbox_.watch_clock()) << "it jumped only once";
-}
-
-/// Otherwise TF would interpolate between the poses of now and those of the time before the jump.
-TEST_F(InboxTest, WhatWasOnItsWayWhileTheClockJumpedBackIsRefused) {
-  ros::Time::setNow(ros::Time(42.0));
-  inbox_.watch_clock();
-  inbox_.pose_topics().take_tip(1, tip(49.99));
-  tf2_msgs::TFMessage transforms;
-  transforms.transforms.resize(1);
-  transforms.transforms[0].header.frame_id = "base";
-  transforms.transforms[0].header.stamp = ros::Time(49.99);
-  transforms.transforms[0].child_frame_id = "jaw";
-  transforms.transforms[0].transform.rotation.w = 1.0;
-  inbox_.transform_topics().take(transforms, "robot", false);
-  EXPECT_FALSE(inbox_.transforms().has_heard("right_tip"));
-  EXPECT_FALSE(inbox_.transforms().has_heard("jaw"));
-  EXPECT_EQ(rejected_.by_reason()["pose"].count, 1U);
-  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1U);
-  EXPECT_TRUE(posed_.empty());
-  inbox_.transform_topics().take(transforms, "robot", true);
-  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1U) << "what rests is of no time";
-  inbox_.pose_topics().take_tip(1, tip(42.05));
-  EXPECT_TRUE(inbox_.transforms().has_heard("right_tip"));
-}
-
-/// A node that was stopped may get them before the /clock that goes with them.
-TEST_F(InboxTest, PosesThatSteppedBackAsTheClockDidMayBeAheadOfIt) {
-  inbox_.pose_topics().take_tip(1, tip(49.98));
-  inbox_.pose_topics().take_tip(1, tip(49.99));
-  ros::Time::setNow(ros::Time(42.0));
-  EXPECT_TRUE(inbox_.watch_clock());
-  inbox_.pose_topics().take_tip(1, tip(50.0));
-  EXPECT_EQ(rejected_.by_reason()["pose"].count, 1U);
-  for (const double stamp : {42.0, 42.1, 42.2, 42.3}) inbox_.pose_topics().take_tip(1, tip(stamp));
-  EXPECT_EQ(rejected_.by_reason()["pose"].count, 1U);
-  EXPECT_EQ(posed_.size(), 6U);
-  EXPECT_FALSE(inbox_.watch_clock()) << "nothing of the time before was taken";
-}
-
-TEST_F(InboxTest, PosesOfTheTimeBeforeThatWereTakenAreForgottenWhenTheStampsStepBack) {
-  ros::Time::setNow(ros::Time(49.8));
-  EXPECT_TRUE(inbox_.watch_clock());
-  inbox_.pose_topics().take_tip(1, tip(49.85));
-  inbox_.pose_topics().take_tip(0, tip(49.85));
-  EXPECT_FALSE(inbox_.watch_clock());
-  inbox_.pose_topics().take_tip(1, tip(49.8));
-  EXPECT_TRUE(inbox_.watch_clock());
-  EXPECT_FALSE(inbox_.watch_clock()) << "it is told once";
-  EXPECT_TRUE(inbox_.transforms().has_heard("right_tip"));
-  EXPECT_FALSE(inbox_.transforms().has_heard("left_tip"));
-  EXPECT_TRUE(rejected_.by_reason().empty());
 }

@@ -9,6 +9,9 @@
 
 namespace organ_collision {
 
+/// Looking transforms up needs a clock.
+inline const bool kClockIsReady = (ros::Time::init(), true);
+
 /// Adds a transform to a TF buffer, as a listener would.
 inline void set_transform(TransformBuffer& buffer, const std::string& parent,
                           const std::string& child, double time,

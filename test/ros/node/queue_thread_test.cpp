@@ -48,7 +48,8 @@ TEST(QueueThread, YieldsToAThreadThatIsNiceItself) {
     setpriority(PRIO_PROCESS, 0, nicer);
     QueueThread thread;
     background = in_background(thread, niceness);
-  }).join();
+  })
+      .join();
   EXPECT_EQ(background, std::min(nicer + 10, 19));
 }
 

@@ -85,28 +85,6 @@ TEST_F(CollisionPipelineTest, AnswersWithoutTopics) {
   EXPECT_FALSE(pipeline_.next_deadline());
 }
 
-TEST_F(CollisionPipelineTest, AClockThatJumpsBackForgetsTheHistory) {
-  send_tool(50.0);
-  send_mesh(50.0);
-  EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
-  send_mesh(49.0);
-  EXPECT_EQ(evaluate().at(0).mode, ContactArray::SWEPT);
-  go_to(7.0);
-  send_mesh(7.0);
-  EXPECT_TRUE(evaluate().empty());  // The transforms are forgotten, too.
-  send_tool(7.0);
-  EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
-}
-
-TEST_F(CollisionPipelineTest, AResetKeepsTransforms) {
-  send_tool(50.0);
-  send_mesh(50.0);
-  evaluate();
-  pipeline_.reset();
-  send_mesh(50.0);
-  EXPECT_EQ(evaluate().at(0).mode, ContactArray::STATIC);
-}
-
 TEST_F(CollisionPipelineTest, InspectsSurfacesAtOnceIfItIsTold) {
   send_mesh(50.0);
   EXPECT_FALSE(pipeline_.organs().at("liver").surface()->is_found());

@@ -65,6 +65,7 @@ class FastTipTest : public testing::Test, protected NodeParts {
 }  // namespace
 
 TEST_F(FastTipTest, NoneOfTenThousandIsLostOrLate) {
+  ros::Time::setNow(ros::Time(1000.0));
   send_mesh(1.0, 0.0);
   evaluate();
   int touches = 0, lost = 0, late = 0, invented = 0, trips = 0;
