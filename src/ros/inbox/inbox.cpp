@@ -21,7 +21,9 @@ bool Inbox::watch_clock() {
   // They were taken before simulated time began.
   const bool are_ahead =
       !ahead_fault(transforms_.latest(), now, max_ahead_sec_ + kClockTolerance).empty();
-  if (!has_jumped_back && !are_ahead) return false;
+  if (has_jumped_back) jumped_ = now.toSec();
+  const bool is_mixed = transforms_.has_stepped_back() && now.toSec() - jumped_ < kArrival;
+  if (!has_jumped_back && !are_ahead && !is_mixed) return false;
   organs_.receive_anew(now);
   forget_history();
   return true;

@@ -45,8 +45,9 @@ class Inbox {
   PoseTopics& pose_topics() { return pose_topics_; }
 
   /// If ROS time jumped back since the last call, or began before the stamps of what was taken,
-  /// forgets all history and returns true. Call it before and after each message, so that no
-  /// message and no step meets state from before the jump.
+  /// forgets all history and returns true. The same if, soon after a jump, stamps step back: what
+  /// was taken before was on its way during the jump. Call it before and after each message, so
+  /// that no message and no step meets state from before the jump.
   bool watch_clock();
   /// Forgets all transforms but the static ones, and all that is known of the past of the organs.
   void forget_history();
@@ -56,7 +57,11 @@ class Inbox {
   const TransformBuffer& transforms() const { return transforms_; }
 
  private:
+  /// [s] of ROS time: what was on its way during a jump has arrived by then.
+  static constexpr double kArrival = 2.0;
+
   double max_ahead_sec_;
+  double jumped_ = -kArrival;  ///< [s] when the clock jumped back last
   OrganRegistry organs_;
   TransformBuffer transforms_;
   OrganTopics organ_topics_;

@@ -37,10 +37,16 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   if (!resting) {
     frame.stamps.add(stamp);
     latest_ = std::max(latest_, stamp);
+    has_stepped_back_ = has_stepped_back_ || frame.steps_back(ros::Time::now());
   }
   insert(frame.parents, parent);
   if (frame.parents.size() > kMostParents) frame.parents.erase(frame.parents.begin());
   return true;
+}
+
+bool TransformBuffer::Frame::steps_back(ros::Time now) const {
+  return stamps.latest() > now &&
+         stamps.heard().toSec() < stamps.latest().toSec() - kClockTolerance;
 }
 
 bool TransformBuffer::has(const std::string& frame, ros::Time stamp) const {
@@ -55,6 +61,7 @@ void TransformBuffer::clear() {
     frame.answered = ros::Time();
   }
   latest_ = ros::Time();
+  has_stepped_back_ = false;
 }
 
 std::optional<ros::Time> TransformBuffer::believed_until(const std::string& target,
@@ -63,10 +70,9 @@ std::optional<ros::Time> TransformBuffer::believed_until(const std::string& targ
   if (latest_ <= now) return std::nullopt;
   std::optional<ros::Time> until;
   for (const std::size_t frame : chain(target, sources)) {
-    const StampRecord& stamps = frames_[frame].stamps;
-    const bool steps_back = stamps.heard().toSec() < stamps.latest().toSec() - kClockTolerance;
-    if (stamps.latest() <= now || !steps_back) continue;
-    until = until ? std::min(*until, stamps.heard()) : stamps.heard();
+    if (!frames_[frame].steps_back(now)) continue;
+    const ros::Time heard = frames_[frame].stamps.heard();
+    until = until ? std::min(*until, heard) : heard;
   }
   return until;
 }

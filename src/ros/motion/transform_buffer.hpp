@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stamp_record.hpp"
@@ -28,6 +29,9 @@ class TransformBuffer : public tf2::BufferCore {
   bool has(const std::string& frame, ros::Time stamp) const;
   /// Forgets all transforms but the static ones, which are not sent again.
   void clear();
+  /// Whether, since the last call, the stamps of a frame stepped back while its latest one was
+  /// ahead of the clock.
+  bool has_stepped_back() { return std::exchange(has_stepped_back_, false); }
   /// The largest stamp of a transform that is not static; zero if there is none.
   ros::Time latest() const { return latest_; }
   /// Until when the transforms between `target` and `sources` can be believed; std::nullopt: all of
@@ -52,6 +56,9 @@ class TransformBuffer : public tf2::BufferCore {
 
  private:
   struct Frame {
+    /// Whether the sender's last stamp shows that an earlier one, ahead of the clock, was wrong.
+    bool steps_back(ros::Time now) const;
+
     StampRecord stamps;
     ros::Time answered;                ///< poses were used up to this stamp; zero: never
     std::vector<std::size_t> parents;  ///< recent parents, as indices
@@ -66,6 +73,7 @@ class TransformBuffer : public tf2::BufferCore {
   std::map<std::string, std::size_t> indices_;  ///< into frames_, by name
   std::vector<Frame> frames_;
   ros::Time latest_;  ///< the largest stamp of all frames
+  bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };
 
