@@ -102,7 +102,7 @@ build_package() {
   use_ros
   use_ccache
   say "Building in $build"
-  cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release "$@"
+  cmake -S "$repository" -B "$build" -DCATKIN_DEVEL_PREFIX="$devel" -DCMAKE_BUILD_TYPE=Release -DORGAN_COLLISION_STRICT=OFF "$@"
   cmake --build "$build" --parallel "$(build_jobs)" ${targets:+--target "${targets[@]}"}
 }
 

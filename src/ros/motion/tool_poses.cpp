@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "geometry/concatenate.hpp"
@@ -105,6 +106,7 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
   const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
   lost.samples_cut = thin_out(stamps, std::max(kMostRead, samples_max));
   if (lost.samples_cut > 0) {
+    lost.deviation_cut = std::numeric_limits<double>::infinity();
     if (lost.unknown.empty()) {
       lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", stamps.size(),
                                  " were read; steps must be shorter");
@@ -218,7 +220,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
       simplify_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
   sampled.path = std::move(simplified.path);
   sampled.samples_cut += simplified.dropped;
-  sampled.deviation_cut = simplified.deviation;
+  sampled.deviation_cut = std::max(sampled.deviation_cut, simplified.deviation);
   return sampled;
 }
 

@@ -22,8 +22,9 @@ struct PathSampling {
 struct SampledPath {
   ToolPath path;
   std::size_t samples_cut = 0;
-  double deviation_cut = 0.0;  ///< [m] the largest distance of a dropped pose from the path
-  std::string unknown;         ///< what is not known of the tool's way; empty: all is known
+  /// [m] the largest distance of a dropped pose from the path; infinite if some were not even read
+  double deviation_cut = 0.0;
+  std::string unknown;  ///< what is not known of the tool's way; empty: all is known
 };
 
 /// The poses of tools in the frame of an organ, from TF.

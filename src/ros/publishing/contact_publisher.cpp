@@ -42,6 +42,11 @@ void ContactPublisher::publish(const EvaluatedStep& step) {
   } else {
     count_failure(counters_.failed, step.answer->status, step.answer->message);
   }
+  if (step.answer->path_incomplete) {
+    counters_.incomplete.add("path not wholly known",
+                             "tool '" + step.answer->tool + "': " + step.answer->message,
+                             SteadyClock::now());
+  }
   contacts_.publish(step.answer);
   ++counters_.published;
   counters_.contacts.count();

@@ -16,6 +16,7 @@ struct NodeCounters {
   std::uint64_t starting = 0;   ///< steps without TF that may be starting
   FailureLog rejected;          ///< messages that were refused
   FailureLog failed;            ///< steps without an answer
+  FailureLog incomplete;        ///< steps with an answer whose path is not wholly known
   FailureLog refused;           ///< service calls without an answer
 };
 

@@ -36,6 +36,7 @@ void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
   show_failures("unanswered", sources_.counters.failed, status);
+  show_failures("answered in part", sources_.counters.incomplete, status);
   show_failures("refused", sources_.counters.refused, status);
 }
 

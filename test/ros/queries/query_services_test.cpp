@@ -72,6 +72,34 @@ TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
   EXPECT_EQ(services.query(request).step_start, ros::Time(1.05));
 }
 
+TEST_F(QueryServicesTest, AStampThatWasAheadDoesNotHoldTheTool) {
+  request.tool = "hook";
+  request.motion = {};
+  send_tip(50.8, kAbove);
+  send_vertices(50.8, 0.0);
+  evaluate();
+  send_tip(50.01, kBelow);
+  const ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
+  EXPECT_EQ(answer.header.stamp, ros::Time(50.01));
+  EXPECT_EQ(answer.step_start, ros::Time(50.01));
+  EXPECT_EQ(answer.contacts.size(), 1u);
+}
+
+TEST_F(QueryServicesTest, AWayThatIsNotWhollyKnownIsSaid) {
+  request.tool = "hook";
+  request.motion = {};
+  send_tip(1.0, kAbove);
+  evaluate();
+  send_tip(2.0, kBelow);
+  send_tip(15.0, kAbove);
+  const ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
+  EXPECT_TRUE(answer.path_incomplete);
+  EXPECT_NE(answer.message.find("longer ago than transforms are kept"), std::string::npos)
+      << answer.message;
+}
+
 TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
   request.tool = "hook";
   request.motion = {};
