@@ -93,8 +93,12 @@ TEST(RobotModel, MovingJoints) {
 }
 
 TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
-  expect_words(refusal(""), {"no legal URDF", "empty"});
-  expect_words(refusal("<robot name='probe'><link name='tip'></robot>"), {"end tag"});
+  // Where the file is no XML, the reason is in the words of urdfdom's parser, which versions
+  // change.
+  for (const std::string no_xml : {"", "<robot name='probe'><link name='tip'></robot>"}) {
+    expect_words(refusal(no_xml), {"no legal URDF: "});
+    EXPECT_GT(refusal(no_xml).size(), std::string("no legal URDF: ").size());
+  }
   expect_words(refusal("<sdf/>"), {"'robot'"});
   expect_words(refusal(robot("<link name='a'/><link name='b'/>")), {"root", "[a]", "[b]"});
   expect_words(refusal(robot("<link name='a'/><link name='a'/>")), {"'a'", "not unique"});
