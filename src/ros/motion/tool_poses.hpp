@@ -25,6 +25,9 @@ struct SampledPath {
   double deviation_cut = 0.0;  ///< [m] the largest distance of a dropped pose from the path
 };
 
+/// The frames that determine the pose of what is swept.
+TransformBuffer::Frames swept_frames(const Tool& tool);
+
 /// The poses of tools in the frame of an organ, from TF.
 class ToolPoses {
  public:
