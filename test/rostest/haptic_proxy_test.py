@@ -454,14 +454,13 @@ class HapticProxyTest(unittest.TestCase):
                     and abs(state.wrench.force.z - expected) < 1e-3,
                     'the force of the organ on the pin',
                 )
-                del self.states['pin'].messages[:]
+                states = self.states['pin'].messages
                 wait_until(
-                    lambda: self.states['pin'].last(
-                        lambda state: state.state == ProxyState.NO_ANSWER and state.wrench.force.z == 0.0
-                    ),
+                    lambda: states[-1].state == ProxyState.NO_ANSWER and states[-1].wrench.force.z == 0.0,
                     'the force is gone, because the organ is silent',
                 )
-                lost = [s for s in self.states['pin'].messages if s.state == ProxyState.NO_ANSWER]
+                answered = max(i for i, s in enumerate(states) if s.state != ProxyState.NO_ANSWER)
+                lost = states[answered + 1 :]
                 self.assertIn("frame 'rising_frame' is ", lost[0].message)
                 self.assertIn('(frame_timeout_sec)', lost[0].message)
                 forces = [state.wrench.force.z for state in lost]
