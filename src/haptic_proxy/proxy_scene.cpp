@@ -44,12 +44,13 @@ Rejection stale_frame(const NewestTransform& newest, const FrameLimit& limit, ro
                       " s are allowed (", limit.parameter, ")")};
 }
 
-/// The oldest of the newest transforms between two frames. `otherwise`: if there is none.
-NewestTransform oldest_between(const TransformBuffer& transforms, const std::string& a,
-                               const std::string& b, const NewestTransform& otherwise) {
-  const NewestTransform of_a = oldest_transform(transforms, a, {b}).value_or(otherwise);
-  const NewestTransform of_b = oldest_transform(transforms, b, {a}).value_or(of_a);
-  return of_b.stamp < of_a.stamp ? of_b : of_a;
+/// The frame between these two whose newest transform is the oldest; the first if there is none.
+std::string oldest_between(const TransformBuffer& transforms, const std::string& a,
+                           const std::string& b) {
+  const auto of_a = oldest_transform(transforms, a, {b}),
+             of_b = oldest_transform(transforms, b, {a});
+  if (of_b && (!of_a || of_b->stamp < of_a->stamp)) return of_b->frame;
+  return of_a ? of_a->frame : a;
 }
 
 }  // namespace
@@ -74,9 +75,9 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
                       "organ '" + name + "': " + T_organ_proxy.why_not);
     }
     if (is_old(T_organ_proxy.found->stamp, limit, now)) {
-      throw stale_frame(oldest_between(transforms, organ.frame(), frame,
-                                       {organ.frame(), T_organ_proxy.found->stamp}),
-                        limit, now);
+      throw stale_frame(
+          {oldest_between(transforms, organ.frame(), frame), T_organ_proxy.found->stamp}, limit,
+          now);
     }
     scene.moved = std::max(scene.moved, T_organ_proxy.found->stamp);
     scene.organs.push_back(

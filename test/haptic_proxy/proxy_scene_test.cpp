@@ -70,7 +70,10 @@ TEST_F(ProxySceneTest, AnOldMeshIsRefused) {
 
 TEST_F(ProxySceneTest, AnOldFrameIsRefusedAndNamed) {
   apply(new_mesh(), ros::Time(7));
-  set_point(transforms_, "world", "table", 6.5, {0.1, 0.2, 0.3});
+  for (const double time : {6.0, 6.5}) {
+    set_point(transforms_, "world", "table", time, {0.1, 0.2, 0.3});
+  }
+  set_point(transforms_, "world", "stand", 6.2, {0.1, 0.2, 0.3});
   for (const double time : {6.0, 7.6}) {
     set_point(transforms_, "table", "liver_frame", time, {0.0, 0.1, 0.0});
   }
@@ -95,6 +98,7 @@ TEST_F(ProxySceneTest, AnOldFrameIsRefusedAndNamed) {
     }
   }
   EXPECT_NO_THROW(scene("table", {0.0, 0.5})) << "the table carries both";
+  expect_refused("stand", {0.0, 1.6}, ContactArray::STALE_MESH, "frame 'stand' is 1.8 s old");
 }
 
 TEST_F(ProxySceneTest, AFrameThatIsStaticOrAheadOfTheClockHasNoAge) {
