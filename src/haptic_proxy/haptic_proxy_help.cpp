@@ -94,7 +94,11 @@ std::vector<HelpEntry> parameters() {
       {names::kPoseTimeoutSec, shown(defaults.pose_timeout_sec),
        "[s] of wall time after the last pose of the hand, the force fades"},
       {names::kMeshTimeoutSec, shown(defaults.mesh_timeout_sec),
-       "[s] with an older mesh there is no answer; 0: never"},
+       "[s] with an older mesh, or an older frame of an organ, there is no answer; 0: never"},
+      {names::kFrameTimeoutSec, shown(defaults.frame_timeout_sec),
+       "[s] with an older frame of an organ on TF there is no answer; static frames have no age; "
+       "0: "
+       "never"},
       {names::kPicker, kPickerDefault,
        "feedback (GL_FEEDBACK), select (GL_SELECT, as in the 1999 paper; slow) or cpu (without "
        "OpenGL)"},

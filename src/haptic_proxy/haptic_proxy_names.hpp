@@ -27,6 +27,7 @@ inline constexpr char kJump[] = "jump";
 inline constexpr char kPunctureForce[] = "puncture_force";
 inline constexpr char kFriction[] = "friction";
 inline constexpr char kPoseTimeoutSec[] = "pose_timeout_sec";
+inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
 inline constexpr char kPublishTf[] = "publish_tf";
 ///@}
 

@@ -43,6 +43,10 @@ std::vector<ToolParameters> parameters_of(const std::vector<Tool>& tools) {
   return parameters;
 }
 
+AgeLimits age_limits(const HapticProxyParameters& parameters) {
+  return {parameters.mesh_timeout_sec, parameters.frame_timeout_sec};
+}
+
 SteadyClock::duration duration(double seconds) {
   return std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -216,8 +220,13 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   hand.is_waiting = false;
   try {
     if (hand.is_leaving) throw Rejection(*hand.why_not);
-    if (const auto pose = new_pose(tool, now)) {
-      tick(hand, *pose, now);
+    const Timed<ToolPose> pose = latest_pose(tool);
+    const auto before = std::exchange(hand.organs, std::nullopt);
+    const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
+                                         age_limits(loaded_.parameters), ros::Time::now());
+    hand.organs = scene.moved;
+    if (is_due(tool, pose.stamp, hand.organs != before, now)) {
+      tick(hand, pose, scene, now);
     } else if (hand.why_not) {
       throw Rejection(*hand.why_not);
     }
@@ -230,12 +239,9 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   }
 }
 
-/// The pose of the tool's hand if there is to be a tick for it: it is new, or the force fades or
-/// rises. A pose that is valid at any time counts as new whenever an organ has a new shape. Throws
-/// Rejection if the pose is not known, or too old.
-std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time now) {
-  Hand& hand = hands_[tool];
-  if (!hand.proxy) {
+/// Throws Rejection if the pose of the tool's hand is not known.
+Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
+  if (!hands_[tool].proxy) {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
                     tools_[tool].fault);
   }
@@ -247,29 +253,37 @@ std::optional<Timed<ToolPose>> HapticProxyNode::new_pose(std::size_t tool, Time 
     throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
                     pose.why_not);
   }
-  const ros::Time stamp = pose.found->stamp;
+  return std::move(*pose.found);
+}
+
+/// Whether there is to be a tick for the tool's hand: its pose is new, or the force fades or rises.
+/// A pose that is valid at any time counts as new whenever an organ moves. Throws Rejection if the
+/// pose is too old, or the frame in which it is given.
+bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now) {
+  Hand& hand = hands_[tool];
   const bool is_at_any_time = stamp.isZero();
-  const bool is_new = !hand.heard || (is_at_any_time ? has_new_shape_ : stamp != hand.stamp);
+  const bool is_new = !hand.heard || stamp != hand.stamp ||
+                      (is_at_any_time && (has_new_shape_ || have_organs_moved));
   if (is_new) {
     hand.stamp = stamp;
     hand.heard = now;
-    return std::move(pose.found);
+    return true;
   }
-  const double timeout = loaded_.parameters.pose_timeout_sec;
+  const HapticProxyParameters& parameters = loaded_.parameters;
+  check_age(inbox_.transforms(), frame_.name(), swept_frames(tools_[tool]), stamp,
+            age_limits(parameters), ros::Time::now());
+  const double timeout = parameters.pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
     throw Rejection(
         ContactArray::NO_TRANSFORM, "no pose",
         concatenate("the hand's last pose came more than ", timeout, " s ago (pose_timeout_sec)"));
   }
-  const bool is_due = !hand.why_not && hand.proxy->is_ramping() && now - hand.told >= kFadeStep;
-  if (is_due) return std::move(pose.found);
-  return std::nullopt;
+  return !hand.why_not && hand.proxy->is_ramping() && now - hand.told >= kFadeStep;
 }
 
-void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, Time now) {
+void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene,
+                           Time now) {
   const HapticProxyParameters& parameters = loaded_.parameters;
-  const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
-                                       parameters.mesh_timeout_sec, ros::Time::now());
   const ProxyReport report = hand.proxy->follow(pose, scene, now);
   publisher_.publish(report);
   hand.told = now;
@@ -295,8 +309,11 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, Time now) {
 void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   Hand& hand = hands_[tool];
   const bool is_fading = hand.proxy && hand.proxy->is_ramping();
-  const bool is_known = hand.why_not && std::string(hand.why_not->what()) == why.what();
-  if (is_known && !is_fading && now - hand.told < kRepetition) return;
+  const bool is_recent = now - hand.told < kRepetition;
+  // The age in a message goes on; that alone is no news.
+  const bool is_known = hand.why_not && hand.why_not->reason() == why.reason() &&
+                        (is_recent || std::string(hand.why_not->what()) == why.what());
+  if (is_known && !is_fading && is_recent) return;
   const ToolParameters& parameters = tools_[tool].parameters;
   if (!is_known && (hand.had_answer || now - started_ > kStart)) {
     counters_.failed.add(why.reason(), "tool '" + parameters.name + "': " + why.what(), now);

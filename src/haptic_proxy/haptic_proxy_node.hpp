@@ -59,6 +59,7 @@ class HapticProxyNode {
   struct Hand {
     std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
     ros::Time stamp = {};                   ///< of the last pose; zero: it is valid at any time
+    std::optional<ros::Time> organs = {};   ///< ProxyScene::moved; empty: there is no scene
     std::optional<Time> heard = {};         ///< when that pose came; empty: no pose came yet
     bool is_waiting = false;                ///< a pose came on its topic, and is to be followed
     bool is_leaving = false;                ///< its tool will be removed or changed soon
@@ -76,8 +77,9 @@ class HapticProxyNode {
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
-  std::optional<Timed<ToolPose>> new_pose(std::size_t tool, Time now);
-  void tick(Hand& hand, const Timed<ToolPose>& pose, Time now);
+  Timed<ToolPose> latest_pose(std::size_t tool) const;
+  bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
+  void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);
   std::vector<ProxyView> views() const;
   void lose(std::size_t tool, const Rejection& why, Time now);
   std::optional<SteadyTime> next_deadline();

@@ -58,14 +58,19 @@ void check_graph_names(const ParameterGroup& all, const std::vector<ToolParamete
 }  // namespace
 
 LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& private_namespace) {
-  const ParameterGroup all(
-      "~", private_namespace,
-      {names::kTools,         names::kFrame,       names::kStiffness,      names::kDamping,
-       names::kMaxForce,      names::kMaxTorque,   names::kClearance,      names::kJump,
-       names::kPunctureForce, names::kFriction,    names::kPoseTimeoutSec, names::kMeshTimeoutSec,
-       names::kPicker,        names::kGl,          names::kMaxFaces,       names::kDiagnosticPeriod,
-       names::kPublishTf,     names::kMarkersRate, names::kSurfaceRate,    names::kRealtimePriority,
-       names::kLockMemory,    names::kAwakeCores,  names::kMaxAheadSec});
+  const ParameterGroup all("~", private_namespace,
+                           {names::kTools,          names::kFrame,
+                            names::kStiffness,      names::kDamping,
+                            names::kMaxForce,       names::kMaxTorque,
+                            names::kClearance,      names::kJump,
+                            names::kPunctureForce,  names::kFriction,
+                            names::kPoseTimeoutSec, names::kMeshTimeoutSec,
+                            names::kPicker,         names::kGl,
+                            names::kMaxFaces,       names::kDiagnosticPeriod,
+                            names::kPublishTf,      names::kMarkersRate,
+                            names::kSurfaceRate,    names::kRealtimePriority,
+                            names::kLockMemory,     names::kAwakeCores,
+                            names::kMaxAheadSec,    names::kFrameTimeoutSec});
   LoadedTools tools = parse_tools(all);
   LoadedHapticProxyParameters loaded{{}, std::move(tools.misspelt)};
   HapticProxyParameters& p = loaded.parameters;
@@ -75,6 +80,7 @@ LoadedHapticProxyParameters parse_haptic_proxy_parameters(const XmlRpcValue& pri
   if (all.has(names::kFrame)) p.frame = parse_frame(all, names::kFrame);
   p.pose_timeout_sec = all.number(names::kPoseTimeoutSec, p.pose_timeout_sec, kTimerPeriod);
   p.mesh_timeout_sec = all.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kMeshTimeoutRange);
+  p.frame_timeout_sec = all.number(names::kFrameTimeoutSec, p.frame_timeout_sec, kMeshTimeoutRange);
   p.picker = parse_picker(all);
   p.max_ahead_sec = all.number(names::kMaxAheadSec, p.max_ahead_sec, kMaxAheadRange);
   p.max_faces = all.whole_number(names::kMaxFaces, p.max_faces, kMaxFacesRange);

@@ -36,7 +36,8 @@ struct HapticProxyParameters : LiveHapticProxyParameters {
   std::vector<ToolParameters> tools;
   std::string frame;  ///< the proxy's frame; empty: that of the first organ
   double pose_timeout_sec = 0.1;
-  double mesh_timeout_sec = 0.0;  ///< 0: never stale
+  double mesh_timeout_sec = 0.0;   ///< 0: never stale
+  double frame_timeout_sec = 0.5;  ///< of the organs' frames that are not static; 0: never stale
   PickerSettings picker;
   double max_ahead_sec = kMaxAheadDefault;
   int max_faces = kMaxFacesDefault;

@@ -2,34 +2,99 @@
 
 #include <organ_collision/ContactArray.h>
 
+#include <algorithm>
+
+#include "geometry/concatenate.hpp"
+#include "haptic_proxy_names.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "ros/interface/duration_text.hpp"
 #include "ros/motion/transform_lookup.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
+namespace {
+
+/// How old the newest transform of a frame may be.
+struct FrameLimit {
+  double seconds;
+  const char* parameter;  ///< its name
+};
+
+FrameLimit frame_limit(const AgeLimits& limits) {
+  const FrameLimit of_meshes{limits.mesh_sec, names::kMeshTimeoutSec};
+  const FrameLimit of_frames{limits.frame_sec, names::kFrameTimeoutSec};
+  if (of_frames.seconds == 0.0) return of_meshes;
+  const bool is_first = of_meshes.seconds > 0.0 && of_meshes.seconds < of_frames.seconds;
+  return is_first ? of_meshes : of_frames;
+}
+
+/// [s] A stamp that is ahead of the clock has no age, and neither has zero, that of static frames.
+double age(ros::Time stamp, ros::Time now) {
+  return stamp.isZero() ? 0.0 : std::max(0.0, now.toSec() - stamp.toSec());
+}
+
+bool is_old(ros::Time stamp, const FrameLimit& limit, ros::Time now) {
+  return limit.seconds > 0.0 && age(stamp, now) > limit.seconds;
+}
+
+Rejection stale_frame(const NewestTransform& newest, const FrameLimit& limit, ros::Time now) {
+  return {ContactArray::STALE_MESH, "stale frame",
+          concatenate("the newest transform of frame '", newest.frame, "' is ",
+                      duration_text(age(newest.stamp, now)), " old; at most ", limit.seconds,
+                      " s are allowed (", limit.parameter, ")")};
+}
+
+/// The frame between these two whose newest transform is the oldest; the first if there is none.
+std::string oldest_between(const TransformBuffer& transforms, const std::string& a,
+                           const std::string& b) {
+  const auto of_a = oldest_transform(transforms, a, {b}),
+             of_b = oldest_transform(transforms, b, {a});
+  if (of_b && (!of_a || of_b->stamp < of_a->stamp)) return of_b->frame;
+  return of_a ? of_a->frame : a;
+}
+
+}  // namespace
 
 Rejection no_organ() {
   return {ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh"};
 }
 
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
-                       const std::string& frame, double mesh_timeout_sec, ros::Time now) {
+                       const std::string& frame, const AgeLimits& limits, ros::Time now) {
   if (organs.organs().empty()) throw no_organ();
+  const FrameLimit limit = frame_limit(limits);
   ProxyScene scene{frame, {}, {}};
   for (const auto& [name, organ] : organs.organs()) {
-    if (is_stale(organ.latest(), now, mesh_timeout_sec)) {
+    if (is_stale(organ.latest(), now, limits.mesh_sec)) {
       throw Rejection(ContactArray::STALE_MESH, reason_of(ContactArray::STALE_MESH),
-                      stale_message(name, organ.latest(), now, mesh_timeout_sec));
+                      stale_message(name, organ.latest(), now, limits.mesh_sec));
     }
     const auto T_organ_proxy = look_up(transforms, organ.frame(), frame, ros::Time(0));
     if (!T_organ_proxy.found) {
       throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
                       "organ '" + name + "': " + T_organ_proxy.why_not);
     }
+    if (is_old(T_organ_proxy.found->stamp, limit, now)) {
+      throw stale_frame(
+          {oldest_between(transforms, organ.frame(), frame), T_organ_proxy.found->stamp}, limit,
+          now);
+    }
+    scene.moved = std::max(scene.moved, T_organ_proxy.found->stamp);
     scene.organs.push_back(
         {name, organ.latest().mesh, organ.latest().topology(), T_organ_proxy.found->value});
     scene.sources.push_back(&organ);
   }
   return scene;
+}
+
+void check_age(const TransformBuffer& transforms, const std::string& frame,
+               const TransformBuffer::Frames& tool_frames, ros::Time stamp, const AgeLimits& limits,
+               ros::Time now) {
+  const FrameLimit limit = frame_limit(limits);
+  // No transform behind the pose is older than the pose.
+  if (!is_old(stamp, limit, now)) return;
+  const auto oldest = oldest_transform(transforms, frame, tool_frames);
+  if (oldest && is_old(oldest->stamp, limit, now)) throw stale_frame(*oldest, limit, now);
 }
 
 }  // namespace organ_collision

@@ -17,6 +17,14 @@ struct ProxyScene {
   std::string frame;  ///< the proxy's
   std::vector<ProxyOrgan> organs;
   std::vector<const DeformableOrgan*> sources;  ///< of `organs`, in the same order
+  /// Of the newest transform that counts; zero if the organs' frames are static.
+  ros::Time moved = {};
+};
+
+/// How old may be what is known of organs [s of ROS time]; 0: there is no limit.
+struct AgeLimits {
+  double mesh_sec = 0.0;   ///< their shapes, and their frames
+  double frame_sec = 0.0;  ///< their frames, unless these are static
 };
 
 /// Why there is no answer without organs.
@@ -24,8 +32,15 @@ Rejection no_organ();
 
 /// The organs with their latest shapes, at their latest poses in `frame`. They are valid as long as
 /// the registry does not change. Throws Rejection if there is no answer with these organs: there is
-/// none, one has no transform to the frame, or one is older than `mesh_timeout_sec` (0: never).
+/// none, one has no transform to the frame, or its shape or a transform is older than allowed.
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
-                       const std::string& frame, double mesh_timeout_sec, ros::Time now);
+                       const std::string& frame, const AgeLimits& limits, ros::Time now);
+
+/// Throws Rejection if the proxy's frame itself moves against the tool, and a transform of it is
+/// older than allowed. `tool_frames`: those that determine the tool's pose; `stamp`: that of the
+/// latest pose.
+void check_age(const TransformBuffer& transforms, const std::string& frame,
+               const TransformBuffer::Frames& tool_frames, ros::Time stamp, const AgeLimits& limits,
+               ros::Time now);
 
 }  // namespace organ_collision

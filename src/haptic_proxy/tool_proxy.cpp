@@ -2,6 +2,7 @@
 
 #include <organ_collision/ContactArray.h>
 
+#include <cmath>
 #include <utility>
 
 #include "forces/force_limit.hpp"
@@ -12,9 +13,6 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
-
-/// [s] Over a longer interval, the difference of two pulls is no velocity.
-constexpr double kLongestInterval = 0.1;
 
 ProxyTool proxy_tool(const Tool& tool) {
   return {tool.parameters.radius, tool.links, tool.parameters.freedom};
@@ -31,6 +29,20 @@ double seconds_between(ros::Time from, ros::Time to) {
 }
 
 }  // namespace
+
+const Vector3d& PullVelocity::update(const Vector3d& pull, ros::Time stamp, bool leaps) {
+  const double interval = seconds_between(begun_, stamp);
+  if (!since_ || leaps || interval < 0.0) {
+    since_ = pull;
+    begun_ = stamp;
+  } else if (interval >= kLeastInterval) {
+    const double share = 1.0 - std::exp(-interval / kTimeConstant);
+    velocity_ += share * ((pull - *since_) / interval - velocity_);
+    since_ = pull;
+    begun_ = stamp;
+  }
+  return velocity_;
+}
 
 ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
     : tool_(tool.parameters),
@@ -72,7 +84,7 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
                             const std::string& frame, Time now) {
   is_lost_ = true;
   is_released_ = false;
-  pull_.reset();
+  velocity_ = {};
   const double share = ramp_.fall(now);
   ProxyReport report{tool_,
                      frame_.empty() ? frame : frame_,
@@ -132,23 +144,16 @@ void ToolProxy::set_forces(ProxyReport& report, double share) const {
   report.clipped_by = forces_.clipped_by;
 }
 
-/// The damping force on the hand [N]. It never turns the spring's force around, because tissue only
-/// pushes.
+/// The damping force on the hand [N]. It is at most as large as the spring's, so it never turns
+/// that around, because tissue only pushes.
 Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
-  const double interval = seconds_between(pulled_, stamp);
-  const bool has_velocity = pull_ && !answer.is_placed_anew && !answer.pull.isZero(0.0) &&
-                            interval > 0.0 && interval <= kLongestInterval;
-  Vector3d force = Vector3d::Zero();
-  if (has_velocity) {
-    // The pull is from the hand to the proxy.
-    force = parameters_.damping * (answer.pull - *pull_) / interval;
-    const double spring = parameters_.stiffness * answer.pull.squaredNorm();
-    const double against = -force.dot(answer.pull);
-    if (against > spring) force *= spring / against;
-  }
-  pull_ = answer.pull;
-  pulled_ = stamp;
-  return force;
+  if (answer.is_placed_anew) velocity_ = {};
+  // Where a needle pierces a face, the pull falls at once.
+  const std::size_t before = std::exchange(crossings_, answer.crossings.size());
+  const bool leaps = before != crossings_;
+  // The pull is from the hand to the proxy.
+  const Vector3d force = parameters_.damping * velocity_.update(answer.pull, stamp, leaps);
+  return share_within_limit(force, parameters_.stiffness * answer.pull.norm()) * force;
 }
 
 void ToolProxy::reset() {
@@ -156,7 +161,7 @@ void ToolProxy::reset() {
   is_lost_ = true;
   is_released_ = false;
   answer_ = nullptr;
-  pull_.reset();
+  velocity_ = {};
 }
 
 void ToolProxy::update_settings() { proxy_.set_settings(proxy_settings(parameters_, tool_)); }

@@ -19,6 +19,27 @@
 
 namespace organ_collision {
 
+/// The velocity [m/s] at which a pull [m] changes, from its values at the stamps of the poses:
+/// finite differences through a low-pass of first order. This is the filtered derivative of PID
+/// controllers (Astrom and Murray, Feedback Systems, 2008, section 10.5).
+class PullVelocity {
+ public:
+  /// [s] Of poses that are closer together, the displacements add up until it is over: the
+  /// difference of two such poses says more about their stamps than about the hand.
+  static constexpr double kLeastInterval = 5e-4;
+  /// [s] The time constant of the low-pass, 80 Hz.
+  static constexpr double kTimeConstant = 2e-3;
+
+  /// The velocity behind a pose. `leaps`: the pull changed at once, not by a motion. Neither such a
+  /// change nor a stamp that is not later than the last one changes the velocity.
+  const Eigen::Vector3d& update(const Eigen::Vector3d& pull, ros::Time stamp, bool leaps);
+
+ private:
+  std::optional<Eigen::Vector3d> since_;  ///< the pull from which the displacement counts
+  ros::Time begun_;                       ///< when it was that
+  Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
+};
+
 /// The proxy of one tool and its force. The force is limited, and it is faded out when there is no
 /// answer any more, and in when there is one again.
 class ToolProxy {
@@ -76,8 +97,8 @@ class ToolProxy {
   LimitedForces forces_;  ///< of the last answer, or of the last place while that force fades
   std::string frame_;     ///< of forces_, hand_ and held_
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
-  std::optional<Eigen::Vector3d> pull_;  ///< at the last tick
-  ros::Time pulled_;                     ///< the stamp of that tick
+  PullVelocity velocity_;                ///< of the hand against the proxy
+  std::size_t crossings_ = 0;            ///< how many faces the proxy had pierced at the last tick
 };
 
 }  // namespace organ_collision

@@ -94,7 +94,7 @@ class Node {
     try {
       const auto pose = poses_.pose(hand_.tool, frame_.name(), ros::Time(0));
       if (!pose.found) throw Rejection(ContactArray::NO_TRANSFORM, "no pose", pose.why_not);
-      const ProxyScene scene = proxy_scene(organs_, transforms_, frame_.name(), 0.0, ros::Time(50));
+      const ProxyScene scene = proxy_scene(organs_, transforms_, frame_.name(), {}, ros::Time(50));
       ProxyReport report = hand_.proxy.follow(*pose.found, scene, hand_.now);
       report.scene = nullptr;  // It ends here.
       return report;

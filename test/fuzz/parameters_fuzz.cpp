@@ -16,7 +16,7 @@ using XmlRpc::XmlRpcValue;
 namespace {
 
 /// Names of parameters, and one that is none.
-const std::array<const char*, 65> kNames = {"tools",
+const std::array<const char*, 66> kNames = {"tools",
                                             "picker",
                                             "rate",
                                             "organ_motion",
@@ -60,6 +60,7 @@ const std::array<const char*, 65> kNames = {"tools",
                                             "friction",
                                             "frame",
                                             "pose_timeout_sec",
+                                            "frame_timeout_sec",
                                             "publish_tf",
                                             "way_out",
                                             "organs",

@@ -56,6 +56,7 @@ TEST(HapticProxyParameters, DefaultsAreTheDocumentedOnes) {
   EXPECT_EQ(p.friction, 0.0);
   EXPECT_EQ(p.pose_timeout_sec, 0.1);
   EXPECT_EQ(p.mesh_timeout_sec, 0.0);
+  EXPECT_EQ(p.frame_timeout_sec, 0.5);
   EXPECT_EQ(p.picker.kind, PickerKind::kFeedback);
   EXPECT_EQ(p.picker.gl, GlPlatform::kAuto);
   EXPECT_EQ(p.max_faces, 2'000'000);
@@ -80,6 +81,7 @@ TEST(HapticProxyParameters, AllAreRead) {
   all["friction"] = 0.5;
   all["pose_timeout_sec"] = 0.05;
   all["mesh_timeout_sec"] = 4.0;
+  all["frame_timeout_sec"] = 0.75;
   all["picker"] = "select";
   all["gl"] = "egl";
   all["max_faces"] = 1000;
@@ -102,6 +104,7 @@ TEST(HapticProxyParameters, AllAreRead) {
   EXPECT_EQ(p.friction, 0.5);
   EXPECT_EQ(p.pose_timeout_sec, 0.05);
   EXPECT_EQ(p.mesh_timeout_sec, 4.0);
+  EXPECT_EQ(p.frame_timeout_sec, 0.75);
   EXPECT_EQ(p.picker.kind, PickerKind::kSelect);
   EXPECT_EQ(p.picker.gl, GlPlatform::kEgl);
   EXPECT_EQ(p.max_faces, 1000);

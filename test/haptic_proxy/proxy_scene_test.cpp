@@ -9,14 +9,20 @@ namespace {
 
 class ProxySceneTest : public OrganRegistryTest {
  protected:
-  ProxyScene scene(const std::string& frame, double mesh_timeout_sec = 0.0) {
-    return proxy_scene(store_, transforms_, frame, mesh_timeout_sec, ros::Time(8));
+  ProxyScene scene(const std::string& frame, const AgeLimits& limits = {}) {
+    return proxy_scene(store_, transforms_, frame, limits, ros::Time(8));
   }
 
-  void expect_refused(const std::string& frame, double mesh_timeout_sec, std::uint8_t status,
+  static OrganMesh new_mesh() {
+    OrganMesh message = mesh("liver");
+    message.header.stamp = ros::Time(7.9);
+    return message;
+  }
+
+  void expect_refused(const std::string& frame, const AgeLimits& limits, std::uint8_t status,
                       const std::string& word) {
     try {
-      scene(frame, mesh_timeout_sec);
+      scene(frame, limits);
       ADD_FAILURE() << "accepted";
     } catch (const Rejection& rejection) {
       EXPECT_EQ(rejection.status(), status);
@@ -30,7 +36,7 @@ class ProxySceneTest : public OrganRegistryTest {
 }  // namespace
 
 TEST_F(ProxySceneTest, WithoutAnOrganThereIsNone) {
-  expect_refused("liver_frame", 0.0, ContactArray::NO_MESH, "there is no organ");
+  expect_refused("liver_frame", {}, ContactArray::NO_MESH, "there is no organ");
 }
 
 TEST_F(ProxySceneTest, HasEachOrganWithItsLatestShapeAndPose) {
@@ -53,11 +59,66 @@ TEST_F(ProxySceneTest, HasEachOrganWithItsLatestShapeAndPose) {
 
 TEST_F(ProxySceneTest, AnOrganWithoutATransformIsNamed) {
   apply(mesh("liver"), ros::Time(7));
-  expect_refused("world", 0.0, ContactArray::NO_TRANSFORM, "organ 'liver': frame");
+  expect_refused("world", {}, ContactArray::NO_TRANSFORM, "organ 'liver': frame");
 }
 
 TEST_F(ProxySceneTest, AnOldMeshIsRefused) {
   apply(mesh("liver"), ros::Time(7));
-  EXPECT_NO_THROW(scene("liver_frame", 3.5));
-  expect_refused("liver_frame", 2.5, ContactArray::STALE_MESH, "mesh_timeout_sec");
+  EXPECT_NO_THROW(scene("liver_frame", {3.5, 0.0}));
+  expect_refused("liver_frame", {2.5, 0.0}, ContactArray::STALE_MESH, "mesh_timeout_sec");
+}
+
+TEST_F(ProxySceneTest, AnOldFrameIsRefusedAndNamed) {
+  apply(new_mesh(), ros::Time(7));
+  for (const double time : {6.0, 6.5}) {
+    set_point(transforms_, "world", "table", time, {0.1, 0.2, 0.3});
+  }
+  set_point(transforms_, "world", "stand", 6.2, {0.1, 0.2, 0.3});
+  for (const double time : {6.0, 7.6}) {
+    set_point(transforms_, "table", "liver_frame", time, {0.0, 0.1, 0.0});
+  }
+  EXPECT_EQ(scene("world").moved, ros::Time(6.5));
+  struct {
+    AgeLimits limits;
+    const char* refusal;  ///< empty: accepted
+  } const rows[] = {
+      {{0.0, 0.0}, ""},
+      {{0.0, 1.6}, ""},
+      {{0.0, 1.4}, "frame 'table' is 1.5 s old; at most 1.4 s are allowed (frame_timeout_sec)"},
+      {{1.3, 0.0}, "frame 'table' is 1.5 s old; at most 1.3 s are allowed (mesh_timeout_sec)"},
+      {{1.3, 1.4}, "at most 1.3 s are allowed (mesh_timeout_sec)"},
+      {{1.4, 1.3}, "at most 1.3 s are allowed (frame_timeout_sec)"},
+  };
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.refusal);
+    if (std::string(row.refusal).empty()) {
+      EXPECT_NO_THROW(scene("world", row.limits));
+    } else {
+      expect_refused("world", row.limits, ContactArray::STALE_MESH, row.refusal);
+    }
+  }
+  EXPECT_NO_THROW(scene("table", {0.0, 0.5})) << "the table carries both";
+  expect_refused("stand", {0.0, 1.6}, ContactArray::STALE_MESH, "frame 'stand' is 1.8 s old");
+}
+
+TEST_F(ProxySceneTest, AFrameThatIsStaticOrAheadOfTheClockHasNoAge) {
+  apply(new_mesh(), ros::Time(7));
+  set_point(transforms_, "world", "liver_frame", 1.0, {0.1, 0.2, 0.3}, true);
+  EXPECT_NO_THROW(scene("world", {2.0, 0.5}));
+  EXPECT_EQ(scene("world").moved, ros::Time());
+  set_point(transforms_, "ahead", "world", 8.5, {0.1, 0.2, 0.3});
+  EXPECT_NO_THROW(scene("ahead", {2.0, 0.5}));
+}
+
+TEST_F(ProxySceneTest, TheProxysOwnFrameAgesAgainstTheTool) {
+  set_point(transforms_, "world", "liver_frame", 6.0, {0.1, 0.2, 0.3});
+  set_point(transforms_, "world", "tip", 7.9, {0.1, 0.2, 0.3});
+  set_point(transforms_, "liver_frame", "trocar", 7.0, {0.1, 0.2, 0.3});
+  const auto check = [this](const TransformBuffer::Frames& tool_frames) {
+    const ros::Time stamp(6.0);
+    check_age(transforms_, "liver_frame", tool_frames, stamp, {0.0, 0.5}, ros::Time(8));
+  };
+  EXPECT_THROW(check({"tip"}), Rejection);
+  EXPECT_THROW(check({"trocar", "tip"}), Rejection);
+  EXPECT_NO_THROW(check({"trocar"})) << "the frame of the organ carries it";
 }

@@ -192,12 +192,96 @@ TEST_F(ToolProxyTest, DampingResistsTheMotionButNeverPullsTheHandIn) {
   press(proxy, 0.0);
   const double velocity = 0.1;  // [m/s]
   const ProxyReport inward = follow(proxy, -0.001, 10.0);
-  EXPECT_NEAR(force(inward), spring(-0.001) + 2.0 * velocity, 1e-6);
-  EXPECT_NEAR(force(follow(proxy, -0.001, 10.0)), spring(-0.001), 1e-6);
+  EXPECT_NEAR(force(inward), spring(-0.001) + 2.0 * velocity, 2e-3);
+  EXPECT_NEAR(force(follow(proxy, -0.001, 10.0)), spring(-0.001), 2e-3);
   const ProxyReport outward = follow(proxy, 0.0, 10.0);
-  EXPECT_NEAR(force(outward), spring(0.0) - 2.0 * velocity, 1e-6);
+  EXPECT_NEAR(force(outward), spring(0.0) - 2.0 * velocity, 2e-3);
   const ProxyReport fast = follow(proxy, 0.004, 1.0);
   EXPECT_NEAR(force(fast), 0.0, 1e-9) << "2 N s/m times 4 m/s is more than the spring has";
+}
+
+TEST_F(ToolProxyTest, DampingIsNeverLargerThanTheSpringHoweverCloseThePosesAre) {
+  parameters_.damping = 2.0;
+  for (const double gap_ns : {0.0, 1.0, 1e3, 1e5, 4e5, 1e6, 1e7}) {
+    SCOPED_TRACE(gap_ns);
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, 0.0);
+    if (gap_ns == 0.0) stamp_ = ros::Time();  // The pose is valid at any time.
+    for (const double height : {-0.0001, -0.0003, -0.0006, -0.001, -0.001, -0.0007, -0.0003}) {
+      const ProxyReport report = follow(proxy, height, 1e-6 * gap_ns);
+      EXPECT_GE(force(report), -1e-9);
+      EXPECT_LE(force(report), 2.0 * spring(height) + 1e-6);
+    }
+    if (gap_ns == 0.0) stamp_ = ros::Time(50.0);
+  }
+}
+
+TEST_F(ToolProxyTest, PosesCloseTogetherAreDampedAsTheHandMovesOverall) {
+  parameters_.damping = 2.0;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  const double velocity = 0.1;  // [m/s] in pairs of poses, 1 ns apart
+  double height = 0.0;
+  for (int pair = 0; pair < 20; ++pair) {
+    height -= 0.4e-3 * velocity;
+    const double first = force(follow(proxy, height, 1.0 - 1e-6));
+    if (pair > 8) {
+      EXPECT_NEAR(first - spring(height), 2.0 * velocity, 0.01);
+    }
+    height -= 0.6e-3 * velocity;
+    const double second = force(follow(proxy, height, 1e-6));
+    EXPECT_NEAR(second - first, parameters_.stiffness * 0.6e-3 * velocity, 1e-6)
+        << "the second one changes the spring's force alone";
+  }
+}
+
+TEST_F(ToolProxyTest, APoseOfAnEarlierOrTheSameTimeChangesNoDamping) {
+  parameters_.damping = 2.0;
+  for (const double milliseconds : {0.0, -1.0, -5000.0}) {
+    SCOPED_TRACE(milliseconds);
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, 0.0);
+    for (const double height : {-0.001, -0.002, -0.003}) follow(proxy, height, 10.0);
+    const double damping = force(follow(proxy, -0.004, 10.0)) - spring(-0.004);
+    EXPECT_NEAR(damping, 0.2, 2e-3);
+    stamp_ += ros::Duration(1e-3 * milliseconds);
+    EXPECT_NEAR(force(follow(proxy, -0.0045, 0.0)) - spring(-0.0045), damping, 1e-6);
+    EXPECT_NEAR(force(follow(proxy, -0.0055, 10.0)) - spring(-0.0055), 0.2, 0.11)
+        << "and time goes on from there";
+  }
+}
+
+TEST_F(ToolProxyTest, AHandThatRestedIsDampedByWhatItDoesThen) {
+  parameters_.damping = 2.0;
+  for (const bool sends_poses : {true, false}) {
+    SCOPED_TRACE(sends_poses);
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, 0.0);
+    follow(proxy, -0.002, 10.0);
+    for (int second = 0; sends_poses && second < 10; ++second) follow(proxy, -0.002, 1000.0);
+    const double after = sends_poses ? 1.0 : 10'000.0;
+    EXPECT_NEAR(force(follow(proxy, -0.0021, after)) - spring(-0.0021), 0.1, 0.101);
+    for (const double height : {-0.0022, -0.0023, -0.0024, -0.0025, -0.0026, -0.0027, -0.0028}) {
+      follow(proxy, height, 1.0);
+    }
+    EXPECT_NEAR(force(follow(proxy, -0.0029, 1.0)) - spring(-0.0029), 0.2, 0.01);
+  }
+}
+
+TEST_F(ToolProxyTest, TheLeapOfANeedleThatPiercesIsNoVelocity) {
+  parameters_.damping = 2.0;
+  parameters_.puncture_force = 3.0;
+  parameters_.friction = 1.0;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  int ticks_in_tissue = 0;
+  for (double height = 0.0; ticks_in_tissue < 5; height -= 1e-4) {
+    ASSERT_GT(height, -0.02);
+    const ProxyReport report = follow(proxy, height, 1.0);
+    if (report.answer->state != ProxyStatus::kPunctured) continue;
+    EXPECT_GT(force(report), 0.9) << "the friction, and 0.1 m/s against it";
+    ++ticks_in_tissue;
+  }
 }
 
 TEST_F(ToolProxyTest, ResetPlacesTheProxyAnew) {
@@ -219,6 +303,7 @@ TEST_F(ToolProxyTest, AfterAResetTheForceFadesEvenIfNoPoseComes) {
 }
 
 TEST_F(ToolProxyTest, AnIllegalHandIsRefusedAndTheProxyStays) {
+  parameters_.damping = 2.0;
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.01);
   EXPECT_THROW(follow(proxy, std::nan("")), std::invalid_argument);

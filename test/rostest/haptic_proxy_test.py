@@ -25,7 +25,7 @@ NODE = '/haptic_proxy'
 FRAME = 'liver_frame'
 STIFFNESS = 200.0  # [N/m]
 CLEARANCE = 1e-4  # [m]
-RADIUS = {'needle': 0.003, 'probe': 0.005, 'stylus': 0.004}  # [m]
+RADIUS = {'needle': 0.003, 'pin': 0.003, 'probe': 0.005, 'stylus': 0.004}  # [m]
 SHEET = scenes.sheet(0.1, 4)
 X, Y = 0.013, 0.007  # [m] where the hands stab
 TROCAR = (0.02, -0.01, 0.3)
@@ -69,7 +69,7 @@ class HapticProxyTest(unittest.TestCase):
         cls.tf = TfSender()
         cls.states = {
             tool: Log('%s/%s/state' % (NODE, tool), ProxyState)
-            for tool in ('needle', 'probe', 'stylus', 'grasper')
+            for tool in ('needle', 'pin', 'probe', 'stylus', 'grasper')
         }
         cls.proxies = Log(NODE + '/needle/proxy', PoseStamped)
         cls.contacts = Log(NODE + '/contacts', ContactArray)
@@ -97,16 +97,17 @@ class HapticProxyTest(unittest.TestCase):
     def organs():
         return [organ.name for organ in rospy.ServiceProxy(NODE + '/list_organs', ListOrgans)().organs]
 
-    def send_sheet(self):
+    def send_sheet(self, organ=None, frame=FRAME):
+        organ = organ or self.organ
         mesh = OrganMesh(
-            organ=self.organ,
+            organ=organ,
             topology=1,
             vertices=SHEET.flat_vertices(),
             triangles=SHEET.flat_faces(),
         )
-        mesh.header.frame_id = FRAME
+        mesh.header.frame_id = frame
         self.meshes.publish(mesh)
-        wait_until(lambda: self.organ in self.organs(), 'the organ')
+        wait_until(lambda: organ in self.organs(), 'the organ')
 
     @staticmethod
     def set_number(name, value):
@@ -367,15 +368,7 @@ class HapticProxyTest(unittest.TestCase):
         raised = 'raised_frame'
         self.tf.send_resting((FRAME, raised, scenes.Pose((0, 0, 0, 1), (0.0, 0.0, 0.01))))
         name = self.organ + '_raised'
-        mesh = OrganMesh(
-            organ=name,
-            topology=1,
-            vertices=SHEET.flat_vertices(),
-            triangles=SHEET.flat_faces(),
-        )
-        mesh.header.frame_id = raised
-        self.meshes.publish(mesh)
-        wait_until(lambda: name in self.organs(), 'the raised organ')
+        self.send_sheet(name, raised)
         try:
             wrenches = Log('%s/%s/needle/wrench' % (NODE, name), WrenchStamped)
             self.hold_until(
@@ -394,6 +387,94 @@ class HapticProxyTest(unittest.TestCase):
                 lambda: wrenches.last(lambda wrench: abs(wrench.wrench.force.z - expected) < 1e-3),
                 'its wrench',
             )
+        finally:
+            rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(name)
+            wait_until(lambda: name not in self.organs(), 'removal')
+
+    def check_age_is_told(self, frame, tip):
+        """Of a hand whose poses come, the frame of an organ is too old."""
+        state = self.hold_until(
+            'needle',
+            tip,
+            lambda state: state.state == ProxyState.NO_ANSWER
+            and "frame '%s' is " % frame in state.message
+            and state.wrench.force.z == 0.0,
+            'the frame is too old',
+        )
+        self.assertIn('(frame_timeout_sec)', state.message)
+
+    def test_the_frame_of_the_proxies_may_be_the_one_that_is_too_old(self):
+        frame = 'own_frame'
+        pose = scenes.Pose((0, 0, 0, 1), (0.0, 0.0, -0.01))
+        self.tf.send((FRAME, frame, pose, rospy.Time.now()))
+        self.send_sheet(frame=frame)
+
+        def is_followed(state):
+            self.tf.send((FRAME, frame, pose, rospy.Time.now()))
+            return state.state == ProxyState.FREE and state.header.frame_id == frame
+
+        for _ in range(2):  # After the silence, it goes on.
+            self.hold_until('needle', (X, Y, 0.03), is_followed, 'the needle in the air')
+            self.check_age_is_told(frame, (X, Y, 0.03))
+
+    def test_an_organ_that_rises_into_a_hand_pushes_it_until_its_frame_is_too_old(self):
+        self.send_sheet()
+        name = self.organ + '_rising'
+        tip = (X, Y, 0.05)
+        self.tf.send_resting(
+            *((FRAME, 'pin_' + end, scenes.Pose((0, 0, 0, 1), at)) for end, at in (('trocar', TROCAR), ('tip', tip)))
+        )
+
+        def raise_to(height):
+            pose = scenes.Pose((0, 0, 0, 1), (0.0, 0.0, height))
+            self.tf.send((FRAME, 'rising_frame', pose, rospy.Time.now()))
+            time.sleep(0.002)
+
+        def reaches(height, condition, what):
+            """Keeps the organ there until the condition holds for the last state of the pin."""
+
+            def holds():
+                raise_to(height)
+                state = self.states['pin'].last()
+                return state and condition(state)
+
+            wait_until(holds, lambda: '%s; the last state is %s' % (what, self.states['pin'].last()))
+
+        raise_to(0.03)
+        self.send_sheet(name, 'rising_frame')
+        expected = self.spring('pin', 0.0)
+        try:
+            for _ in range(2):  # After the silence, it goes on.
+                reaches(0.03, lambda state: state.state == ProxyState.FREE, 'the organ below the pin')
+                for i in range(1, 20):
+                    raise_to(0.03 + 1e-3 * i)
+                reaches(
+                    tip[2],
+                    lambda state: state.state == ProxyState.TOUCHING
+                    and abs(state.wrench.force.z - expected) < 1e-3,
+                    'the force of the organ on the pin',
+                )
+                states = self.states['pin'].messages
+                wait_until(
+                    lambda: states[-1].state == ProxyState.NO_ANSWER and states[-1].wrench.force.z == 0.0,
+                    'the force is gone, because the organ is silent',
+                )
+                answered = max(i for i, s in enumerate(states) if s.state != ProxyState.NO_ANSWER)
+                lost = states[answered + 1 :]
+                self.assertIn("frame 'rising_frame' is ", lost[0].message)
+                self.assertIn('(frame_timeout_sec)', lost[0].message)
+                forces = [state.wrench.force.z for state in lost]
+                self.assertAlmostEqual(forces[0], expected, delta=1e-3, msg='it fades from where it was')
+                self.assertEqual(forces, sorted(forces, reverse=True), 'the force must only fall')
+                self.check_age_is_told('rising_frame', tip)
+                wait_until(
+                    lambda: self.diagnostics.last(
+                        lambda message: any(
+                            "frame 'rising_frame'" in status.message for status in message.status
+                        )
+                    ),
+                    'the reason on /diagnostics',
+                )
         finally:
             rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(name)
             wait_until(lambda: name not in self.organs(), 'removal')

@@ -74,7 +74,8 @@ void add_even_times(ros::Time from, ros::Time to, std::size_t count,
   }
 }
 
-/// The frames that determine the pose of what is swept.
+}  // namespace
+
 TransformBuffer::Frames swept_frames(const Tool& tool) {
   const ToolParameters& parameters = tool.parameters;
   TransformBuffer::Frames frames;
@@ -82,8 +83,6 @@ TransformBuffer::Frames swept_frames(const Tool& tool) {
   for (const Link& link : tool.links) frames.push_back(parameters.link_frame(link.name));
   return frames;
 }
-
-}  // namespace
 
 void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time) {
   buffer_.set_answered(organ_frame, swept_frames(tool), time);

@@ -27,6 +27,9 @@ struct SampledPath {
   std::string unknown;  ///< what is not known of the tool's way; empty: all is known
 };
 
+/// The frames that determine the pose of what is swept.
+TransformBuffer::Frames swept_frames(const Tool& tool);
+
 /// The poses of tools in the frame of an organ, from TF.
 class ToolPoses {
  public:

@@ -2,6 +2,7 @@
 
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <sstream>
 #include <stdexcept>
 
@@ -13,6 +14,10 @@ namespace organ_collision {
 namespace {
 
 using NotFound = Lookup<Eigen::Isometry3d>;
+
+bool contains(const std::vector<std::string>& frames, const std::string& frame) {
+  return std::find(frames.begin(), frames.end(), frame) != frames.end();
+}
 
 /// [s] In whole nanoseconds, because ros::Duration overflows for extreme stamps.
 double elapsed_sec(ros::Time from, ros::Time to) {
@@ -27,6 +32,16 @@ ros::Time latest(const tf2::BufferCore& buffer, const std::string& target,
   } catch (const std::runtime_error&) {
     return {};
   }
+}
+
+/// The frame and those above it, each once.
+std::vector<std::string> upward(const tf2::BufferCore& buffer, const std::string& frame) {
+  std::vector<std::string> frames{frame};
+  std::string parent;
+  while (buffer._getParent(frames.back(), ros::Time(0), parent) && !contains(frames, parent)) {
+    frames.push_back(parent);
+  }
+  return frames;
 }
 
 NotFound unknown(const std::string& frame) {
@@ -89,6 +104,24 @@ bool has_transform(const TransformBuffer& buffer, const std::string& target,
   } catch (const std::runtime_error&) {  // From ros::Time for extreme stamps.
     return false;
   }
+}
+
+std::optional<NewestTransform> oldest_transform(const tf2::BufferCore& buffer,
+                                                const std::string& frame,
+                                                const std::vector<std::string>& others) {
+  std::vector<std::vector<std::string>> above_others;
+  for (const std::string& other : others) above_others.push_back(upward(buffer, other));
+  const std::vector<std::string> above = upward(buffer, frame);
+  std::optional<NewestTransform> oldest;
+  for (std::size_t i = 0; i + 1 < above.size(); ++i) {
+    const bool carries_all =
+        std::all_of(above_others.begin(), above_others.end(),
+                    [&](const auto& frames) { return contains(frames, above[i]); });
+    if (carries_all) break;
+    const ros::Time stamp = latest(buffer, above[i + 1], above[i]);
+    if (!stamp.isZero() && (!oldest || stamp < oldest->stamp)) oldest = {above[i], stamp};
+  }
+  return oldest;
 }
 
 }  // namespace organ_collision

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "transform_buffer.hpp"
 
@@ -35,5 +36,18 @@ Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::stri
 /// put into words.
 bool has_transform(const TransformBuffer& buffer, const std::string& target,
                    const std::string& source, ros::Time time);
+
+/// A frame, and the stamp of the newest transform to its parent.
+struct NewestTransform {
+  std::string frame;
+  ros::Time stamp;
+};
+
+/// Of the frames that carry `frame`, the one whose newest transform is the oldest; a static one has
+/// no age. These are `frame` and those above it, without those that also carry each of `others`:
+/// what they do, moves none against the other. Empty if nothing but static transforms is left.
+std::optional<NewestTransform> oldest_transform(const tf2::BufferCore& buffer,
+                                                const std::string& frame,
+                                                const std::vector<std::string>& others);
 
 }  // namespace organ_collision

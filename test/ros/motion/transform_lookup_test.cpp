@@ -121,3 +121,31 @@ TEST(HasTransform, AgreesWithLookUp) {
     }
   }
 }
+
+TEST(OldestTransform, IsThatOfAFrameBelowTheFirstThatCarriesBoth) {
+  TransformBuffer buffer;
+  const auto send = [&](const std::string& parent, const std::string& child, double time,
+                        bool resting = false) {
+    set_transform(buffer, parent, child, time, pose(0.1, 0.2), resting);
+  };
+  send("world", "room", 1.0);
+  send("room", "table", 7.0);
+  send("table", "patient", 3.0);
+  send("table", "patient", 6.0);
+  send("patient", "liver", 0.0, true);
+  send("room", "arm", 2.0);
+  send("patient", "trocar", 0.0, true);
+  const auto oldest = [&](const std::string& frame, const std::vector<std::string>& others) {
+    const auto found = oldest_transform(buffer, frame, others);
+    return found ? found->frame + std::to_string(static_cast<int>(found->stamp.toSec())) : "none";
+  };
+  EXPECT_EQ(oldest("liver", {"arm"}), "patient6");
+  EXPECT_EQ(oldest("arm", {"liver"}), "arm2");
+  EXPECT_EQ(oldest("liver", {"trocar"}), "none");
+  EXPECT_EQ(oldest("liver", {"trocar", "arm"}), "patient6");
+  EXPECT_EQ(oldest("room", {"liver"}), "none");
+  EXPECT_EQ(oldest("liver", {"world"}), "room1");
+  EXPECT_EQ(oldest("liver", {"liver"}), "none");
+  EXPECT_EQ(oldest("liver", {"nowhere"}), "room1");
+  EXPECT_EQ(oldest("nowhere", {"liver"}), "none");
+}
