@@ -1,5 +1,3 @@
-#include <array>
-
 #include "engine.hpp"
 #include "picking/gl/feedback.hpp"
 #include "scan_outcodes.hpp"
@@ -31,12 +29,7 @@ class OursNoClusters : public Engine {
 
  private:
   void draw(std::uint32_t face, const Eigen::Vector3d& origin) {
-    const std::array<float, 2> number = {static_cast<float>(face & 0xffff),
-                                         static_cast<float>(face >> 16)};
-    for (const Eigen::Vector3d& corner : corners(*organ_, *vertices_, face)) {
-      const Eigen::Vector3f p = (corner - origin).cast<float>();
-      drawn_.push_back({{p.x(), p.y(), p.z()}, number});
-    }
+    drawn_.add(shifted(corners(*organ_, *vertices_, face), origin), face);
   }
 
   GlContext context_;
@@ -44,7 +37,7 @@ class OursNoClusters : public Engine {
   const std::vector<float>* vertices_ = nullptr;
   std::vector<std::uint8_t> outcodes_;
   std::vector<std::uint32_t> survivors_;
-  std::vector<DrawVertex> drawn_;
+  DrawnFaces drawn_;
   std::vector<float> buffer_ = std::vector<float>(4096);
 };
 

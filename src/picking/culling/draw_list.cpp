@@ -19,6 +19,28 @@ std::uint32_t face_number(float lower, float upper) {
   return static_cast<std::uint32_t>(lower) | static_cast<std::uint32_t>(upper) << 16;
 }
 
+void DrawnFaces::clear() {
+  positions_.clear();
+  numbers_.clear();
+}
+
+void DrawnFaces::add(const Triangle& face, std::uint32_t number) {
+  std::array<Position, 3> positions;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      positions[i][axis] = static_cast<float>(face[i][static_cast<Eigen::Index>(axis)]);
+    }
+  }
+  positions_.push_back(positions);
+  const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
+  numbers_.push_back({halves, halves, halves});
+}
+
+std::uint32_t DrawnFaces::number(std::size_t face) const {
+  const auto& [lower, upper] = numbers_[face].front();
+  return face_number(lower, upper);
+}
+
 void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
   start(volume, OrganMotion(mesh));
   outcodes_.for_each_face([&](const FaceClusters::Face& face) {
@@ -27,7 +49,7 @@ void DrawList::assign(const ViewingVolume& volume, const TriangleMesh& mesh) {
 }
 
 void DrawList::assign_all(const ViewingVolume& volume, const TriangleMesh& mesh) {
-  vertices_.clear();
+  faces_.clear();
   undrawn_.clear();
   for (std::size_t i = 0; i < mesh.face_count(); ++i) {
     add(shifted(mesh.triangle(mesh.faces()[i]), volume.origin()), static_cast<std::uint32_t>(i));
@@ -59,18 +81,9 @@ ViewingVolume DrawList::assign(const PartSweep& part, const OrganMotion& organ) 
 }
 
 void DrawList::start(const ViewingVolume& volume, const OrganMotion& organ) {
-  vertices_.clear();
+  faces_.clear();
   undrawn_.clear();
   outcodes_.assign(volume, organ);
-}
-
-void DrawList::add(const Triangle& face, std::uint32_t number) {
-  const std::array<float, 2> halves = {static_cast<float>(number & 0xffff),
-                                       static_cast<float>(number >> 16)};
-  for (const Eigen::Vector3d& corner : face) {
-    const Eigen::Vector3f position = corner.cast<float>();
-    vertices_.push_back({{position.x(), position.y(), position.z()}, halves});
-  }
 }
 
 }  // namespace organ_collision

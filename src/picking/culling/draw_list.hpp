@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -11,14 +12,32 @@
 
 namespace organ_collision {
 
-/// A corner of a drawn face. GL returns the number as a texture coordinate.
-struct DrawVertex {
-  std::array<float, 3> position;  ///< in the volume's shifted coordinates [m]
-  std::array<float, 2> number;    ///< of the face: its lower and upper 16 bits, exact
-};
-
 /// The face's number from its lower and upper 16 bits.
 std::uint32_t face_number(float lower, float upper);
+
+/// Faces as GL reads them. Each corner has the number of its face, which GL returns as a texture
+/// coordinate. Positions and numbers are two arrays with different strides: see draw_from().
+class DrawnFaces {
+ public:
+  using Position = std::array<float, 3>;  ///< in the volume's shifted coordinates [m]
+  using Number = std::array<float, 2>;    ///< the lower and upper 16 bits, exact
+
+  void clear();
+  /// Adds a face in the volume's shifted coordinates.
+  void add(const Triangle& face, std::uint32_t number);
+
+  bool empty() const { return positions_.empty(); }
+  std::size_t size() const { return positions_.size(); }
+  std::uint32_t number(std::size_t face) const;
+
+  /// Of the three corners of each face. There must be some faces.
+  const Position& first_position() const { return positions_.front().front(); }
+  const Number& first_number() const { return numbers_.front().front(); }
+
+ private:
+  std::vector<std::array<Position, 3>> positions_;
+  std::vector<std::array<Number, 3>> numbers_;
+};
 
 /// The faces that GL draws, in the order in which they were added. Keeps its memory between
 /// queries.
@@ -41,16 +60,16 @@ class DrawList {
   ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
 
   /// Adds a face in the volume's shifted coordinates.
-  void add(const Triangle& face, std::uint32_t number);
+  void add(const Triangle& face, std::uint32_t number) { faces_.add(face, number); }
 
-  const std::vector<DrawVertex>& vertices() const { return vertices_; }
+  const DrawnFaces& faces() const { return faces_; }
   /// Numbers of the faces that may meet the part and that GL does not decide on.
   const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:
   void start(const ViewingVolume& volume, const OrganMotion& organ);
 
-  std::vector<DrawVertex> vertices_;
+  DrawnFaces faces_;
   std::vector<std::uint32_t> undrawn_;
   Outcodes outcodes_;
 };

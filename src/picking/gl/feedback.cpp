@@ -33,16 +33,16 @@ std::uint32_t FeedbackVertex::face() const {
                 ", " + std::to_string(upper));
 }
 
-std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
-                          const std::vector<DrawVertex>& vertices, std::vector<float>& buffer) {
+std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
+                          std::vector<float>& buffer) {
   context.make_current();
   const GlFunctions& gl = context.functions();
   clip_to(volume, gl);
-  draw_from(vertices, gl);
+  draw_from(faces, gl);
   while (true) {
     gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
     gl.RenderMode(GL_FEEDBACK);
-    gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(vertices.size()));
+    gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * faces.size()));
     const GLint written = gl.RenderMode(GL_RENDER);
     context.check("a feedback query");
     if (written > static_cast<GLint>(buffer.size())) {
@@ -50,11 +50,10 @@ std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
                    " floats to a buffer of " + std::to_string(buffer.size()));
     }
     if (written >= 0) return static_cast<std::size_t>(written);
-    const std::size_t most = std::min(most_floats(vertices.size() / 3), kMostFloats);
+    const std::size_t most = std::min(most_floats(faces.size()), kMostFloats);
     if (buffer.size() >= most) {
-      context.fail("OpenGL's feedback buffer is too small for " +
-                   std::to_string(vertices.size() / 3) + " faces with " +
-                   std::to_string(buffer.size()) + " floats");
+      context.fail("OpenGL's feedback buffer is too small for " + std::to_string(faces.size()) +
+                   " faces with " + std::to_string(buffer.size()) + " floats");
     }
     buffer.resize(std::min(4 * buffer.size(), most));
   }

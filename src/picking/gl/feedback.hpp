@@ -19,18 +19,18 @@ class FeedbackVertex {
 
   /// GL's depth in [0, 1].
   double window_depth() const { return floats_[2]; }
-  /// The number of the face, as in DrawVertex. Throws GlError if it cannot be one.
+  /// The number of the face, as in DrawnFaces. Throws GlError if it cannot be one.
   std::uint32_t face() const;
 
  private:
   const float* floats_;
 };
 
-/// Draws each three consecutive `vertices` as a triangle in GL_FEEDBACK mode, clipped to `volume`.
-/// There must be some. Makes the context current. Enlarges `buffer` until everything fits. Returns
-/// the number of floats written to it. Throws GlError if GL did not work.
-std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume,
-                          const std::vector<DrawVertex>& vertices, std::vector<float>& buffer);
+/// Draws `faces` in GL_FEEDBACK mode, clipped to `volume`. There must be some. Makes the context
+/// current. Enlarges `buffer` until everything fits. Returns the number of floats written to it.
+/// Throws GlError if GL did not work.
+std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
+                          std::vector<float>& buffer);
 
 /// Calls visit(vertex) for each vertex in the first `size` floats of a feedback buffer, in the
 /// order drawn. Throws GlError for a token that clipped triangles cannot produce, and if the buffer

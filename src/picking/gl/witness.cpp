@@ -13,11 +13,8 @@ bool is_blind(GlContext& context) {
   const ViewingVolume box =
       ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
                                    Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
-  std::vector<DrawVertex> face;
-  for (const Eigen::Vector3d& corner : middle_face(box)) {
-    const Eigen::Vector3f position = corner.cast<float>();
-    face.push_back({{position.x(), position.y(), position.z()}, {}});
-  }
+  DrawnFaces face;
+  face.add(middle_face(box), kWitness);
   std::vector<float> buffer(100);
   return draw_feedback(context, box, face, buffer) == 0;
 }

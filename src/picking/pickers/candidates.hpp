@@ -19,15 +19,14 @@ inline void sort_by_face(std::vector<Candidate>& candidates) {
 
 /// Lets GL draw the witness last, unless it has to draw nothing.
 inline void add_witness(const ViewingVolume& volume, DrawList& list) {
-  if (!list.vertices().empty()) list.add(middle_face(volume), kWitness);
+  if (!list.faces().empty()) list.add(middle_face(volume), kWitness);
 }
 
 /// Replaces `candidates` by all faces that GL was to decide on.
 inline void take_drawn(const DrawList& list, std::vector<Candidate>& candidates) {
   candidates.clear();
-  for (std::size_t i = 0; i < list.vertices().size(); i += 3) {
-    const auto& [lower, upper] = list.vertices()[i].number;
-    const std::uint32_t face = face_number(lower, upper);
+  for (std::size_t i = 0; i < list.faces().size(); ++i) {
+    const std::uint32_t face = list.faces().number(i);
     if (face != kWitness) candidates.push_back({face, 0.0, 0.0});
   }
 }

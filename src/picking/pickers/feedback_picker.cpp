@@ -35,8 +35,8 @@ void FeedbackPicker::pick(const PartSweep& part, const OrganMotion& organ,
 /// also returned the witness, which is the last one in the list, or nothing had to be drawn.
 bool FeedbackPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
   candidates.clear();
-  if (draw_list_.vertices().empty()) return true;
-  const std::size_t size = draw_feedback(context_, volume, draw_list_.vertices(), buffer_);
+  if (draw_list_.faces().empty()) return true;
+  const std::size_t size = draw_feedback(context_, volume, draw_list_.faces(), buffer_);
   try {
     read(size, volume, candidates);
   } catch (const GlError& error) {

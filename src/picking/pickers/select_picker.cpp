@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "candidates.hpp"
 #include "picking/gl/clip_to.hpp"
@@ -42,15 +43,21 @@ double window_depth(std::uint32_t recorded) {
 
 /// Draws each face under its own name. Not by glBegin and glEnd: in GL_SELECT mode, Mesa 22.3 loses
 /// a buffer of 512 KB whenever such vertices have filled it.
-void draw_named(const std::vector<DrawVertex>& vertices, const GlFunctions& gl) {
-  draw_from(vertices, gl);
-  for (std::size_t i = 0; i < vertices.size(); i += 3) {
-    gl.LoadName(face_number(vertices[i].number[0], vertices[i].number[1]));
-    gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(i), 3);
+void draw_named(const DrawnFaces& faces, const GlFunctions& gl) {
+  draw_from(faces, gl);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    gl.LoadName(faces.number(i));
+    gl.DrawArrays(GL_TRIANGLES, static_cast<GLint>(3 * i), 3);
   }
 }
 
 }  // namespace
+
+// Mesa compiles another vertex pipeline for the first draw in GL_FEEDBACK mode, which
+// fail_if_blind() may do in any query. Here it stalls no loop.
+SelectPicker::SelectPicker(GlContext context) : context_(std::move(context)) {
+  fail_if_blind(context_);
+}
 
 void SelectPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
                         std::vector<Candidate>& candidates) {
@@ -79,8 +86,8 @@ void SelectPicker::pick(const PartSweep& part, const OrganMotion& organ,
 /// also returned the witness, which is the last one in the list, or nothing had to be drawn.
 bool SelectPicker::clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
   candidates.clear();
-  if (draw_list_.vertices().empty()) return true;
-  buffer_.resize(kRecord * (draw_list_.vertices().size() / 3));
+  if (draw_list_.faces().empty()) return true;
+  buffer_.resize(kRecord * draw_list_.faces().size());
   context_.make_current();
   clip_to(volume, context_.functions());
   read(select(context_.functions()), volume, candidates);
@@ -94,7 +101,7 @@ std::size_t SelectPicker::select(const GlFunctions& gl) {
   gl.RenderMode(GL_SELECT);
   gl.InitNames();
   gl.PushName(0);
-  draw_named(draw_list_.vertices(), gl);
+  draw_named(draw_list_.faces(), gl);
   const GLint hits = gl.RenderMode(GL_RENDER);
   context_.check("a select query");
   if (hits >= 0 && kRecord * static_cast<std::size_t>(hits) <= buffer_.size()) {

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "picker.hpp"
@@ -17,7 +16,8 @@ namespace organ_collision {
 /// not decide are drawn.
 class SelectPicker : public Picker {
  public:
-  explicit SelectPicker(GlContext context) : context_(std::move(context)) {}
+  /// Throws GlError.
+  explicit SelectPicker(GlContext context);
 
   void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
             std::vector<Candidate>& candidates) override;

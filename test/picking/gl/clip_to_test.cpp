@@ -27,10 +27,8 @@ ViewingVolume cut_box() {
 }
 
 bool is_in_view(GlContext& context, const ViewingVolume& volume) {
-  std::vector<DrawVertex> face(3);
-  face[0].position = {0.5F, 0.0F, 0.0F};
-  face[1].position = {0.6F, 0.1F, 0.0F};
-  face[2].position = {0.5F, 0.1F, 0.1F};
+  DrawnFaces face;
+  face.add({Vector3d(0.5, 0.0, 0.0), Vector3d(0.6, 0.1, 0.0), Vector3d(0.5, 0.1, 0.1)}, 0);
   std::vector<float> buffer(100);
   return draw_feedback(context, volume, face, buffer) > 0;
 }

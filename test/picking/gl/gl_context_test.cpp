@@ -36,8 +36,10 @@ INSTANTIATE_TEST_SUITE_P(Platforms, GlContextOf,
 
 /// Whether GL returns a face at x from 0.5 to 0.6 m, clipped to `volume`.
 bool sees_face(GlContext& context, const ViewingVolume& volume) {
-  const std::vector<DrawVertex> face = {
-      {{0.5F, 0.0F, 0.0F}, {}}, {{0.6F, 0.1F, 0.0F}, {}}, {{0.5F, 0.1F, 0.1F}, {}}};
+  DrawnFaces face;
+  face.add({Eigen::Vector3d(0.5, 0.0, 0.0), Eigen::Vector3d(0.6, 0.1, 0.0),
+            Eigen::Vector3d(0.5, 0.1, 0.1)},
+           0);
   std::vector<float> buffer(100);
   return draw_feedback(context, volume, face, buffer) > 0;
 }
