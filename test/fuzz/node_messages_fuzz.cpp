@@ -84,7 +84,7 @@ class Node {
         go_to(input.byte());
         break;
       default:
-        inbox_.forget_organ_history();
+        inbox_.forget_history();
         steps_.reset();
     }
     while (const auto update = inbox_.organ_topics().next()) {
