@@ -10,7 +10,7 @@ from organ_collision.mesh_file_error import MeshFileError
 def read_obj(path):
     """The vertices, n x 3 floats, and faces, m x 3 indices from 0, of an OBJ file. Raises MeshFileError."""
     vertices, faces = [], []
-    with open(path, encoding='utf-8', errors='replace') as lines:
+    with open(path, encoding='utf-8-sig', errors='replace') as lines:
         for number, line in enumerate(lines, 1):
             words = line.split('#')[0].split()
             try:

@@ -47,8 +47,35 @@ class ReplayProgress {
   Clock::time_point shown_ = Clock::now();
 };
 
+/// What is in the file system instead of a regular file.
+std::string kind_of(std::filesystem::file_type type) {
+  switch (type) {
+    case std::filesystem::file_type::symlink:
+      return "a symbolic link";
+    case std::filesystem::file_type::directory:
+      return "a folder";
+    case std::filesystem::file_type::fifo:
+      return "a FIFO";
+    case std::filesystem::file_type::socket:
+      return "a socket";
+    default:
+      return "a device";
+  }
+}
+
+/// Throws InputError if something is there that the output must not replace.
+void check_replaceable(const std::string& file) {
+  using std::filesystem::file_type;
+  std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
+  const file_type type = std::filesystem::symlink_status(file, ignored).type();
+  if (type == file_type::none || type == file_type::not_found || type == file_type::regular) return;
+  throw InputError("replay: " + file + " is " + kind_of(type) +
+                   ", and only a regular file is replaced; name another OUT.bag");
+}
+
 void check_files(const ReplayOptions& options) {
   for (const std::string& written : {options.out, incomplete(options.out)}) {
+    check_replaceable(written);
     std::error_code ignored;
     if (std::filesystem::equivalent(options.in, written, ignored)) {
       throw InputError("replay: " + written + " is also the input; name another OUT.bag");

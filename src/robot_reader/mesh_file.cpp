@@ -14,6 +14,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -122,6 +123,17 @@ bool has_line(const std::string& text, const std::string& word) {
   return false;
 }
 
+/// Removes a UTF-8 byte order mark, with which assimp would lose the first line of an OBJ file. It
+/// stays in an STL file, because the header of the binary form may be any bytes.
+void remove_byte_order_mark(const std::string& file, std::string& content) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (content.compare(0, kMark.size(), kMark) != 0) return;
+  std::string format = extension(file);
+  std::transform(format.begin(), format.end(), format.begin(),
+                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  if (format != "stl") content.erase(0, kMark.size());
+}
+
 /// assimp reads PLY files also if their first line is in capitals.
 bool is_ply(const std::string& content) {
   const std::string magic = "ply";
@@ -192,7 +204,8 @@ MeshDescription parse(const std::string& file, const std::string& content,
 
 MeshDescription read_mesh_file(const std::string& file, const Vector3d& scale,
                                const Affine3d& T_link_mesh) {
-  const std::string content = read_resource(file);
+  std::string content = read_resource(file);
+  remove_byte_order_mark(file, content);
   try {
     check_scale(scale);
     check_ply_header(content);

@@ -1,8 +1,14 @@
 #!/usr/bin/python3
-"""Broken OBJ files give either a mesh or a MeshFileError."""
+"""Broken OBJ files give either a mesh or a MeshFileError. A fuzz target keeps the input that ended it.
 
+Usage: python_files_test.py FUZZ_TARGET
+"""
+
+import os
 import pathlib
 import random
+import signal
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -49,6 +55,29 @@ class PythonFilesTest(unittest.TestCase):
         self.assertGreater(read, MUTATIONS // 10)
 
 
+def handles(process, number):
+    """Whether the process has a handler of this signal."""
+    status = pathlib.Path('/proc/%d/status' % process.pid).read_text()
+    return int(status.split('SigCgt:')[1].split()[0], 16) >> (number - 1) & 1
+
+
+class FailedInputTest(unittest.TestCase):
+    def test_it_is_kept_beside_the_program_and_not_where_the_program_was_started(self):
+        kept = pathlib.Path(TARGET + '.failed_input')
+        kept.unlink(missing_ok=True)
+        with tempfile.TemporaryDirectory() as folder:
+            command = [TARGET, str(CORPUS.with_name('feedback')), '1000000000']
+            with subprocess.Popen(command, cwd=folder, stderr=subprocess.PIPE, text=True) as process:
+                while not handles(process, signal.SIGABRT):
+                    self.assertIsNone(process.poll())
+                process.send_signal(signal.SIGABRT)
+                said = process.communicate()[1]
+            self.assertEqual(process.returncode, -signal.SIGABRT)
+            self.assertIn(str(kept), said)
+            self.assertEqual(os.listdir(folder), [])
+        kept.unlink()
+
+
 if __name__ == '__main__':
-    sys.argv[1:] = []
+    TARGET = sys.argv.pop()
     unittest.main()

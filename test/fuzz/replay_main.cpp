@@ -1,6 +1,6 @@
 // The program of a fuzz target that was not built with libFuzzer: runs the inputs of its corpus,
 // and mutations of them, which are the same each time. An input that crashes or takes longer than
-// kMost ends the program; it is then in the file "failed_input", in the current folder.
+// kMost ends the program; it is then in the file PROGRAM.failed_input.
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -15,6 +15,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "fuzz_input.hpp"
@@ -29,15 +30,22 @@ constexpr unsigned kMost = 60;
 /// [bytes] Of mutated inputs.
 constexpr std::size_t kLargest = 4096;
 
-Input running;  ///< what fail() writes
+Input running;             ///< what fail() writes
+std::string failed_input;  ///< where; not in the current folder, which may be that of the sources
 
 /// Writes the input, and ends the program as the signal would have. Calls only what signal
 /// handlers may call.
 void fail(int signal) {
-  const int file = open("failed_input", O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int file = open(failed_input.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   const bool written = file >= 0 && write(file, running.data(), running.size()) >= 0;
-  constexpr char kText[] = "The input in the file failed_input crashed or took too long.\n";
-  if (written && write(STDERR_FILENO, kText, sizeof(kText) - 1) < 0) std::_Exit(EXIT_FAILURE);
+  const auto say = [](const char* text) {
+    if (write(STDERR_FILENO, text, std::strlen(text)) < 0) std::_Exit(EXIT_FAILURE);
+  };
+  if (written) {
+    say("The input in the file ");
+    say(failed_input.c_str());
+    say(" crashed or took too long.\n");
+  }
   std::signal(signal, SIG_DFL);
   std::raise(signal);
 }
@@ -145,6 +153,7 @@ int main(int argc, char** argv) {
                  "mutations of them are run\n";
     return 2;
   }
+  failed_input = std::filesystem::read_symlink("/proc/self/exe").string() + ".failed_input";
   for (const int signal : {SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
     std::signal(signal, fail);
   }

@@ -49,6 +49,13 @@ TEST(ObjReader, takes_every_form_of_a_corner) {
   EXPECT_EQ(faces_of("f -5/-1/-1 2 -3//-1  # a comment\n"), expected);
 }
 
+TEST(ObjReader, takes_a_byte_order_mark) {
+  const std::string text = kVertices + "f 1 2 3\n";
+  const ObjFile marked = read("\xEF\xBB\xBF" + text), plain = read(text);
+  EXPECT_EQ(marked.vertices, plain.vertices);
+  EXPECT_EQ(faces_of(marked), faces_of(plain));
+}
+
 TEST(ObjReader, counts_negative_indices_from_the_last_vertex_so_far) {
   const ObjFile obj = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -3 -2 -1\n");
   EXPECT_EQ(faces_of(obj), (Faces{{0, 1, 2}, {1, 2, 3}}));

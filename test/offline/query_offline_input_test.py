@@ -31,6 +31,18 @@ class InputTest(ProgramCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertGreater(done.stdout.count('\n'), 1)
 
+    def test_drivers_of_opengl(self):
+        """Mesa ends the process if it does not know the driver."""
+        for driver in ('nonsense', 'zink', 'swr'):
+            done = self.run_program(*FILES, GALLIUM_DRIVER=driver)
+            self.assertEqual((done.returncode, done.stdout), (1, ''), done.stderr)
+            self.assertRegex(done.stderr, '^query_offline: .*GALLIUM_DRIVER is "%s".*llvmpipe.*softpipe.*\n$' % driver)
+            done = self.run_program(*FILES, '--picker', 'cpu', GALLIUM_DRIVER=driver)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for driver in ('llvmpipe', 'softpipe', ''):
+            done = self.run_program(*FILES, GALLIUM_DRIVER=driver)
+            self.assertEqual(done.returncode, 0, done.stderr)
+
     def test_meshes(self):
         for text, line, *words in [
                 ('', 1, 'f line'),

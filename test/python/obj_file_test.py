@@ -47,7 +47,7 @@ class ObjFileTest(unittest.TestCase):
 
     def write(self, name, text):
         path = os.path.join(self.folder.name, name)
-        with open(path, 'w') as file:
+        with open(path, 'w', encoding='utf-8') as file:
             file.write(text)
         return path
 
@@ -57,15 +57,25 @@ class ObjFileTest(unittest.TestCase):
         np.testing.assert_array_equal(vertices[2], [1, 1, 0])
         np.testing.assert_array_equal(faces, FACES)
 
+    def test_a_byte_order_mark_is_no_part_of_the_first_line(self):
+        text = FORMS[FORMS.index('v 0 0 0'):]
+        vertices, faces = read_obj(self.write('marked.obj', '\ufeff' + text))
+        np.testing.assert_array_equal(vertices, read_obj(self.write('plain.obj', text))[0])
+        np.testing.assert_array_equal(faces, FACES)
+
     def test_faces_have_the_numbers_of_query_offline(self):
-        """A ball at the centre of each face touches, of all faces, that one only."""
-        path = self.write('forms.obj', FORMS)
+        """A ball at the centre of each face touches, of all faces, that one only. So it is with byte order marks."""
+        for mark in ('', '\ufeff'):
+            self.check_numbers(mark)
+
+    def check_numbers(self, mark):
+        path = self.write('forms.obj', mark + FORMS[FORMS.index('v 0 0 0'):])
         vertices, faces = read_obj(path)
         rows = ['query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,tip_x,tip_y,tip_z,radius']
         for face, corners in enumerate(faces):
             centre = '%r,%r,%r' % tuple(vertices[corners].mean(axis=0).tolist())
             rows.append('%d,static,%s,%s,%s,0.01' % (face, centre, centre, centre))
-        motions = self.write('motions.csv', '\n'.join(rows) + '\n')
+        motions = self.write('motions.csv', mark + '\n'.join(rows) + '\n')
         answer = subprocess.check_output([os.environ['QUERY_OFFLINE'], '--mesh', path, '--motions', motions], text=True)
         self.assertEqual([(int(row['query']), int(row['face'])) for row in csv.DictReader(answer.splitlines())],
                          [(face, face) for face in range(len(faces))])

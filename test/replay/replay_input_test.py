@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 """Bad input to replay: one clear line, exit code 2, and no OUT.bag."""
 
+import contextlib
 import os
 import shutil
 import signal
+import socket
+import stat
 import subprocess
 import unittest
 
@@ -139,6 +142,44 @@ class ReplayInputTest(ReplayCase):
         os.rename(self.recorded, recorded)
         self.assert_refused(run('--parameters', file, recorded, self.path('x.bag')), 'also the input')
         self.assertGreater(len(serialized(recorded)), 0)
+
+    def test_an_output_that_is_no_regular_file_is_kept(self):
+        self.record_scene()
+        file = self.write('parameters.yaml', TOOLS)
+        target, folder = self.write('target', 'precious'), self.path('folder')
+        os.mkdir(folder)
+        with socket.socket(socket.AF_UNIX) as bound:
+            bound.bind(self.path('socket'))
+        os.mkfifo(self.path('fifo'))
+        os.symlink(target, self.path('link'))
+        os.symlink(self.path('nothing'), self.path('dangling'))
+        kinds = {'link': 'a symbolic link', 'dangling': 'a symbolic link', 'fifo': 'a FIFO', 'folder': 'a folder',
+                 'socket': 'a socket'}
+        with contextlib.suppress(PermissionError):  # Only root may make devices.
+            os.mknod(self.path('device'), stat.S_IFCHR | 0o600, os.makedev(1, 3))
+            kinds['device'] = 'a device'
+        before = sorted(os.listdir(self.folder))
+        for name, kind in kinds.items():
+            mode = os.lstat(self.path(name)).st_mode
+            for written in (name, name + '.incomplete'):
+                if written != name:
+                    os.rename(self.path(name), self.path(written))
+                with self.subTest(written):
+                    done = run('--parameters', file, self.recorded, self.path(name))
+                    self.assert_refused(done, self.path(written) + ' is ' + kind, 'regular file')
+                    self.assertEqual(os.lstat(self.path(written)).st_mode, mode)
+            os.rename(self.path(written), self.path(name))
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+        with open(target) as text:
+            self.assertEqual(text.read(), 'precious')
+
+    def test_a_regular_file_is_replaced(self):
+        self.record_scene()
+        self.write('out.bag', 'no bag')
+        self.write('out.bag.incomplete', 'no bag either')
+        self.replay()
+        self.assertGreater(len(serialized(self.answers)), 0)
+        self.assertFalse(os.path.exists(self.answers + '.incomplete'))
 
     def test_an_interrupted_replay_leaves_no_file(self):
         with self.record() as bag:

@@ -142,6 +142,21 @@ TEST(MeshFile, BlanksMayFollowTheHeaderOfPly) {
   std::remove(path.c_str());
 }
 
+TEST(MeshFile, AByteOrderMarkChangesNothing) {
+  for (const std::string name :
+       {"jaw.obj", "jaw_ascii.stl", "jaw_ascii.ply", "jaw_binary.ply", "jaw.dae"}) {
+    std::string text = tool_text(name);
+    if (name == "jaw.obj") text.erase(0, text.find("\nv ") + 1);  // A vertex follows the mark.
+    const std::string path = testing::TempDir() + "marked_" + name;
+    std::ofstream(path, std::ios::binary) << "\xEF\xBB\xBF" << text;
+    const MeshDescription marked = read_mesh_file(path, kUnit, kAtOrigin);
+    const MeshDescription plain = read_mesh_file(tool_file(name), kUnit, kAtOrigin);
+    EXPECT_EQ(marked.vertices, plain.vertices) << name;
+    EXPECT_EQ(marked.triangles, plain.triangles) << name;
+    std::remove(path.c_str());
+  }
+}
+
 TEST(MeshFile, CutOffPlyIsRefused) {
   // assimp would never stop reading it.
   expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});

@@ -92,6 +92,13 @@ class StartTest(ContactCase, NodeStarter):
         cases.append(({'tools': [TOOL, copy.copy(TOOL)]}, ['tools', 'grasper', 'unique']))
         self.refused(cases)
 
+    def test_drivers_of_opengl(self):
+        """Mesa ends the process if it does not know the driver."""
+        for platform in ('osmesa', 'egl'):
+            parameters = {'tools': [TOOL], 'gl': platform}
+            node = self.start(self.name + '_' + platform, parameters, through=('env', 'GALLIUM_DRIVER=nonsense'))
+            self.assert_refused(node, ['GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'])
+
     def test_tools_are_required(self):
         self.refused(
             [({}, ['tools', 'missing']), ({'tool': [TOOL]}, ['tools', "'tools'", 'tool '])]

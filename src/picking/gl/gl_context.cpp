@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
 
 #include "picking/volumes/viewing_volume.hpp"
@@ -21,6 +23,20 @@ constexpr std::array<Source, 2> kSources = {{{GlPlatform::kOsmesa, "OSMesa", new
 // What this package has made current last in this thread. Platforms do not know of each other: EGL
 // says that its context is current even if OSMesa's has taken its place.
 thread_local const PlatformContext* latest = nullptr;
+
+/// Throws GlError if the environment names a driver that Mesa does not know as one for the CPU.
+/// OSMesa would end the process, and EGL would give no reason.
+void check_driver() {
+  const char* const driver = std::getenv("GALLIUM_DRIVER");
+  if (driver == nullptr) return;
+  for (const char* const legal : {"", "llvmpipe", "softpipe"}) {
+    if (std::strcmp(driver, legal) == 0) return;
+  }
+  throw GlError(
+      std::string("the environment variable GALLIUM_DRIVER is \"") + driver +
+      "\": must be \"llvmpipe\" or \"softpipe\", which draw on the CPU, or not be set; or "
+      "pick without OpenGL (picker: cpu)");
+}
 
 bool make_latest(PlatformContext& context) {
   // EGL does nothing for a context that it takes for current.
@@ -65,6 +81,7 @@ GlContext& GlContext::operator=(GlContext&&) noexcept = default;
 
 /// Makes a context of the first platform whose contexts work.
 void GlContext::make() {
+  check_driver();
   std::string reasons;
   for (const Source& source : kSources) {
     if (platform_ != GlPlatform::kAuto && platform_ != source.platform) continue;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -227,6 +228,47 @@ TEST(GlContext, WithoutItsFramebufferFailsAndIsMadeAnew) {
   ASSERT_EQ(destroy_surface(display, surface), static_cast<EGLBoolean>(EGL_TRUE));
   EXPECT_THROW(sees_face(context, box()), GlError);
   EXPECT_TRUE(sees_face(context, box()));
+}
+
+/// Sets an environment variable as long as it lives.
+class ScopedVariable {
+ public:
+  ScopedVariable(const char* name, const char* value) : name_(name) {
+    const char* const before = std::getenv(name);
+    if (before != nullptr) before_ = before;
+    setenv(name, value, 1);
+  }
+  ~ScopedVariable() {
+    if (before_) setenv(name_, before_->c_str(), 1);
+    if (!before_) unsetenv(name_);
+  }
+  ScopedVariable(const ScopedVariable&) = delete;
+  ScopedVariable& operator=(const ScopedVariable&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+// With a driver that it does not know, OSMesa would end the process.
+TEST_P(GlContextOf, RefusesDriversThatDoNotDrawOnTheCpu) {
+  for (const char* driver : {"nonsense", "zink", "swr", "d3d12", "llvmpipe,softpipe"}) {
+    const ScopedVariable variable("GALLIUM_DRIVER", driver);
+    try {
+      context();
+      FAIL() << "there was a context with " << driver;
+    } catch (const GlError& error) {
+      const std::string what = error.what();
+      for (const char* part : {"GALLIUM_DRIVER", driver, "llvmpipe", "softpipe", "picker: cpu"}) {
+        EXPECT_NE(what.find(part), std::string::npos) << what;
+      }
+    }
+  }
+  for (const char* driver : {"llvmpipe", "softpipe", ""}) {
+    const ScopedVariable variable("GALLIUM_DRIVER", driver);
+    GlContext context = this->context();
+    EXPECT_TRUE(sees_face(context, box())) << driver;
+  }
 }
 
 // What a system lacks is simulated by files in LD_LIBRARY_PATH that are no libraries.
