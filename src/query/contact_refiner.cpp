@@ -132,6 +132,9 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   } else {
     contact.normal = closest.separation.normalized();
     contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);
+    // Of tied points, those nearest the tip may be farther apart than the least distance.
+    const bool is_tied = -tolerance::kTie < contact.depth && contact.depth < 0.0;
+    if (is_tied && closest.distance <= part.radius) contact.depth = 0.0;
   }
   contact.behind = face_normal(face.end).dot(core_end - contact.end_point) < -tolerance::kTie;
   return contact;

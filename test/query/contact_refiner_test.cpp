@@ -188,6 +188,20 @@ TEST(Contact, OfATipAboveTheFace) {
   EXPECT_FALSE(contact->behind);
 }
 
+// The ends of the axis are tied, but only one of them is within the radius.
+TEST(Contact, OfATieIsDecidedByTheLeastDistance) {
+  const Triangle face = {Vector3d(-1.0, -1.0, 0.0), Vector3d(1.0, -1.0, 0.0),
+                         Vector3d(1.0, 1.0, 0.0)};
+  const Vector3d low(0.0, 0.0, 0.005), high(0.1, 0.0, 0.005 + 9e-13);
+  for (const ShaftAxis& axis : {ShaftAxis{low, high}, ShaftAxis{high, low}}) {
+    const auto contact = refine(at_rest(axis, face), 0.005 + 2.25e-13);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->shaft, 1.0);
+    EXPECT_GE(contact->depth, 0.0);
+    EXPECT_LT(contact->depth, 1e-12);
+  }
+}
+
 TEST(Contact, OfATipBelowTheFaceIsBehind) {
   const Vector3d below(0.0, 0.0, 0.0);
   const auto contact = refine(at_rest({below, {0.0, 0.0, 0.097}}, kFace), kRadius);

@@ -6,6 +6,7 @@
 
 #include "query/contact_refiner.hpp"
 #include "scenes.hpp"
+#include "test/grid_surface.hpp"
 #include "test/proof/link_trials.hpp"
 
 namespace organ_collision {
@@ -129,6 +130,39 @@ TEST_F(WorkLimit, OfLinksReportsWhatIsNotResolved) {
     const RigidMotion motion(request_.path[0].links[0], request_.path[1].links[0]);
     expect_none_missed({{part.core, motion}, part.radius, {{}, &links[0], motion.end()}}, request_,
                        result_);
+  }
+}
+
+/// The contacts of a link, 0.3 m long, that turns by an angle [rad] through a finely meshed organ.
+CollisionResult through_tissue(const LinkPart& part, double angle) {
+  const GridSurface sheet = grid_surface(80);
+  const TriangleMesh organ(sheet.vertices, sheet.triangles());
+  const std::vector<Link> links = {{"link", {part}}};
+  CollisionRequest request = swept(organ, {}, 0.0);
+  request.links = &links;
+  Isometry3d start = Isometry3d::Identity();
+  start.translate(Vector3d(0.01, -0.02, 0.024));
+  start.rotate(Eigen::AngleAxisd(1.52, Vector3d(0.1, 1.0, 0.05).normalized()));
+  Isometry3d end = start;
+  end.translation() += Vector3d(-0.01, 0.01, -0.012);
+  end.linear() = Eigen::AngleAxisd(angle, Vector3d(0.03, 0.04, 1.0).normalized()) * end.linear();
+  request.path = {{0.0, {}, {start}}, {1.0, {}, {end}}};
+  CollisionQuery query;
+  CollisionResult result;
+  query.evaluate(request, result);
+  return result;
+}
+
+// Ordinary scenes: a tool turns in the plane of the tissue, by up to half a turn.
+TEST(WorkLimitOfOrdinaryScenes, IsNotReached) {
+  const Isometry3d pose = Isometry3d::Identity();
+  for (const double angle : {0.4, 0.6, 1.5, 3.0}) {
+    for (const LinkPart& part :
+         {LinkPart::cylinder(pose, 0.005, 0.3), LinkPart::box(pose, {0.01, 0.01, 0.3})}) {
+      const CollisionResult result = through_tissue(part, angle);
+      EXPECT_GT(result.contacts.size(), 400U);
+      EXPECT_EQ(result.unresolved, 0U) << "angle " << angle;
+    }
   }
 }
 

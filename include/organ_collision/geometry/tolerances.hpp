@@ -28,7 +28,7 @@ inline constexpr double kPierced = 1e-9;
 inline constexpr double kConvexMargin = 1e-8;
 
 /// [m] Nearest pairs are tied if their separation vectors differ by less than this. Of tied pairs,
-/// the one nearest the tip is used.
+/// the points nearest the tip are used. The least distance decides whether there is a touch.
 inline constexpr double kTie = 1e-12;
 
 /// [1] Two directions count as parallel below this sine of the angle between them. An axis then

@@ -37,8 +37,8 @@ struct ToolClearance {
   /// The smallest distance at any time of the step. In a static query it equals `distance`. If
   /// anything was touched during a swept step, it is 0, even if `distance` is negative.
   double least = 0.0;
-  /// A time at which the distance is `least`, as a fraction of the step, in [0, 1]. If anything was
-  /// touched, the first touch.
+  /// A time at which the distance is within 1e-6 m of `least`, as a fraction of the step, in
+  /// [0, 1]. If anything was touched, the first touch.
   double least_fraction = 0.0;
   /// The face with the nearest point at the end of the step.
   std::uint32_t face = 0;

@@ -48,17 +48,21 @@ class NearestPair {
     }
   }
 
-  /// The nearest pair; among ties, the one nearest the tip. Tied pairs of two convex shapes have
-  /// the same separation vector, so pairs whose vectors differ are not tied, however similar their
-  /// distances.
-  const Pair& nearest() const {
-    const auto begin = pairs_.begin(), end = pairs_.begin() + count_;
-    const auto least = std::min_element(
-        begin, end, [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
-    const Pair* best = least;
-    for (auto pair = begin; pair != end; ++pair) {
-      if (pair->shaft > best->shaft && (pair->separation - least->separation).squaredNorm() <
-                                           tolerance::kTie * tolerance::kTie) {
+  /// The pair with the least distance.
+  const Pair& least() const {
+    return *std::min_element(
+        pairs_.begin(), pairs_.begin() + count_,
+        [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
+  }
+
+  /// Of the pairs that are tied with the least one, the one nearest the tip. Tied pairs of two
+  /// convex shapes have the same separation vector, so pairs whose vectors differ are not tied,
+  /// however similar their distances.
+  const Pair& nearest_tip(const Pair& least) const {
+    const Pair* best = &least;
+    for (auto pair = pairs_.begin(); pair != pairs_.begin() + count_; ++pair) {
+      if (pair->shaft > best->shaft &&
+          (pair->separation - least.separation).squaredNorm() < tolerance::kTie * tolerance::kTie) {
         best = pair;
       }
     }
@@ -147,8 +151,9 @@ class NearestPair {
 
 ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face) {
   const NearestPair pairs(axis, face);
-  const auto& [shaft, barycentric, separation, distance2] = pairs.nearest();
-  return {std::sqrt(distance2),        shaft,     barycentric, axis.at(shaft),
+  const NearestPair::Pair& least = pairs.least();
+  const auto& [shaft, barycentric, separation, distance2] = pairs.nearest_tip(least);
+  return {std::sqrt(least.distance2),  shaft,     barycentric, axis.at(shaft),
           point_at(face, barycentric), separation};
 }
 

@@ -22,7 +22,8 @@ class NearestToCylinder {
         radius_(cylinder.rim.col(0).norm()) {
     consider_inside();
     for (int i = 0; i < 3 && !is_found_; ++i) consider_edge(i, (i + 1) % 3);
-    nearest_.steps = steps_;
+    constexpr int kSlopesForAStep = 6;
+    nearest_.steps = 3 + slopes_ / kSlopesForAStep;
   }
 
   const ClosestPoints& nearest() const { return nearest_; }
@@ -80,16 +81,18 @@ class NearestToCylinder {
   }
 
   /// The place on an edge, in [0, 1], with the least distance. The slope rises along the edge, so
-  /// Newton's method finds where it is zero. The bracket is halved instead if Newton's step leaves
-  /// it or makes less progress than halving.
+  /// Newton's method finds where it is zero, except for rounding. The bracket is halved instead if
+  /// Newton's step leaves it or makes less progress than halving.
   double nearest_place(const Vector3d& corner, const Vector3d& edge) {
     constexpr int kMaxSteps = 200;  // Halving alone needs about sixty.
     if (slope(corner, edge).value >= 0.0) return 0.0;
     if (slope(corner + edge, edge).value <= 0.0) return 1.0;
+    const double extent = corner.norm() + (corner - cylinder_.points[0]).norm() + edge.norm();
+    const double rounding = std::numeric_limits<double>::epsilon() * extent * edge.norm();
     double low = 0.0, high = 1.0, place = 0.5, last_move = 1.0;
-    for (int step = 0; step < kMaxSteps; ++step, ++steps_) {
+    for (int step = 0; step < kMaxSteps; ++step, ++slopes_) {
       const Slope here = slope(corner + place * edge, edge);
-      if (here.value == 0.0) break;
+      if (std::abs(here.value) <= rounding) break;
       (here.value < 0.0 ? low : high) = place;
       const double newton = place - here.value / here.rise;
       const bool is_good =
@@ -137,7 +140,7 @@ class NearestToCylinder {
   const Vector3d along_;
   const double length_, radius_;
   bool is_found_ = false;  ///< no pair can be nearer than `nearest_`
-  int steps_ = 4;          ///< as in ClosestPoints
+  int slopes_ = 0;         ///< that Newton's method has computed
   ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
 };
 

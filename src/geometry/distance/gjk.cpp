@@ -55,6 +55,16 @@ class Simplex {
     return true;
   }
 
+  /// Whether the weights lead to nearest(). Those of a flat tetrahedron, which contains the origin,
+  /// may be noise.
+  bool is_exact() const {
+    Vector3d point = Vector3d::Zero();
+    for (int i = 0; i < nearest_.count; ++i) {
+      point += nearest_.weights[i] * vertices_[i].separation;
+    }
+    return (point - nearest_.point).norm() <= tolerance::kTie;
+  }
+
   ClosestPoints closest(const Triangle& face) const {
     ClosestPoints closest{nearest().norm(), 0.0, Vector3d::Zero(), Vector3d::Zero(), {}, nearest()};
     for (int i = 0; i < nearest_.count; ++i) {
@@ -180,6 +190,9 @@ ClosestPoints gjk_closest_points(const ConvexCore& hull, const Triangle& face,
       if (!hull.is_triangle()) break;
       return nearest_of_edges(hull.triangle(), face);
     }
+  }
+  if (hull.is_triangle() && simplex.nearest().isZero(0.0) && !simplex.is_exact()) {
+    return nearest_of_edges(hull.triangle(), face);
   }
   ClosestPoints closest = simplex.closest(face);
   closest.steps = step;

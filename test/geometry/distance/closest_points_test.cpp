@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "test/proof/core_distance_oracle.hpp"
+#include "test/proof/exact_distance.hpp"
 #include "test/proof/link_trials.hpp"
 
 namespace organ_collision {
@@ -120,6 +121,39 @@ TEST_P(CoreTrials, BeyondTheDistanceBoundTheResultIsALowerBound) {
       EXPECT_GT(found, bound);
     }
   });
+}
+
+/// A triangle of a length [m] that is nearly a segment. Some of its points are near the origin.
+Triangle needle(double length, Random& random) {
+  const Vector3d along = length * random.direction(), start = -random.uniform(0.0, 1.0) * along;
+  const Vector3d corner = start + random.uniform(-0.2, 1.2) * along +
+                          length * random.scale(1e-12, 1e-1) * random.direction();
+  Triangle face{start, start + along, corner};
+  std::rotate(face.begin(), face.begin() + random.integer(0, 2), face.end());
+  return face;
+}
+
+// Axes and triangles beside needles. Some cross them.
+TEST(ClosestPoints, OfNeedlesAreExactToABillionthOfTheirLength) {
+  Random random(17);
+  for (const double length : {1e-3, 0.1, 1.0, 10.0, 100.0, 1000.0}) {
+    for (int i = 0; i < 2000 && !HasFailure(); ++i) {
+      const Triangle face = needle(length, random);
+      Triangle core = needle(length * random.scale(1e-5, 1.0), random);
+      const Vector3d beside = length * random.scale(1e-10, 1e-2) * random.direction();
+      for (Vector3d& corner : core) corner += beside;
+      if (random.chance(0.5)) core[2] = core[1];
+      const ConvexCore shape =
+          core[2] == core[1] ? ConvexCore(ShaftAxis{core[0], core[1]}) : ConvexCore(core);
+      const double found = closest_points(shape, face).distance;
+      EXPECT_GE(found, oracle::distance(core, face) - 1e-15 * length);
+      EXPECT_LE(found, oracle::distance(core, face) + 1e-9 * length);
+      if (HasFailure()) {
+        const auto at_rest = Eigen::Isometry3d::Identity();
+        ADD_FAILURE() << LinkTrial{shape, at_rest, at_rest, face, 0.0};
+      }
+    }
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(

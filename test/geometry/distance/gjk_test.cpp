@@ -54,5 +54,19 @@ TEST(Gjk, TriangleThatCrossesASliver) {
   EXPECT_LT(closest(core, sliver).distance, 1e-15);
 }
 
+// The last tetrahedron of the iteration is flat. By its weights, which are noise, it once contained
+// the origin.
+TEST(Gjk, ANeedleBesideAnotherTriangleIsNotTouched) {
+  const ConvexCore core(
+      Triangle{Vector3d(-0.046553552150726318, -0.032878760248422623, -0.049334641546010971),
+               Vector3d(-0.046553418040275574, -0.032878056168556213, -0.049335330724716187),
+               Vector3d(-0.046556729823350906, -0.032880809158086777, -0.049332257360219955)});
+  const Triangle needle = {
+      Vector3d(-0.04655511091627338, -0.03287965463862242, -0.049333442159874084),
+      Vector3d(-0.22891719784133702, 0.026288247141443406, 0.17858188568535618),
+      Vector3d(-0.046556059741531652, -0.032879138507067696, -0.049331983062160856)};
+  EXPECT_NEAR(closest(core, needle).distance, 9.75e-8, 1e-10);
+}
+
 }  // namespace
 }  // namespace organ_collision
