@@ -25,13 +25,12 @@ void DrawnFaces::clear() {
 }
 
 void DrawnFaces::add(const Triangle& face, std::uint32_t number) {
-  std::array<Position, 3> positions;
+  std::array<Position, 3>& positions = positions_.emplace_back();
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       positions[i][axis] = static_cast<float>(face[i][static_cast<Eigen::Index>(axis)]);
     }
   }
-  positions_.push_back(positions);
   const Number halves = {static_cast<float>(number & 0xffff), static_cast<float>(number >> 16)};
   numbers_.push_back({halves, halves, halves});
 }
