@@ -124,8 +124,12 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
     const double share = std::max(clear_share(now, ahead, core, radius), clear_time() / length);
     const double distance_before = now.closest.distance;
     if (aim) aim->learn(length, ahead.closest.distance);
-    now = share > 1.0 ? ahead : Instant(now.time + share * length, core, face);
-    budget.spend(now.closest.steps);
+    if (share > 1.0) {
+      now = ahead;
+    } else {
+      now = Instant(now.time + share * length, core, face);
+      budget.spend(now.closest.steps);
+    }
     if (now.closest.distance <= touching) return FirstTouch{now.time, now.closest};
     if (now.time >= until) return std::nullopt;
     const double next =

@@ -6,7 +6,7 @@
 namespace organ_collision {
 
 /// Limits the work of one query's exact tests. Work is counted in steps, not timed, so that the
-/// same query always gets the same answer. A step takes about 0.1 us. The distance between an axis
+/// same query always gets the same answer. A step takes 0.1 to 0.15 us. The distance between an axis
 /// and a face costs two steps, that of a cylinder three and one more for six slopes of Newton's
 /// method, any other distance about one for each iteration, and a test against a box one. The quick
 /// tests that sort out faces before these are not counted.
@@ -17,7 +17,7 @@ class WorkBudget {
   static constexpr std::uint64_t kStepsForEachPair = 2;
   /// Queries with fewer pairs get the budget of this many.
   static constexpr std::uint64_t kLeastPairs = 100'000;
-  /// Queries with more pairs get the budget of this many: about two seconds.
+  /// Queries with more pairs get the budget of this many: two to three seconds.
   static constexpr std::uint64_t kMostPairs = 10'000'000;
 
   /// Closest approaches get this many steps for each pair, because each takes several distances.
