@@ -12,6 +12,7 @@ namespace {
 class StaticComparisonTest : public testing::Test {
  protected:
   StaticComparisonTest() {
+    ros::Time::init();
     comparison_.set_triangles({0, 1, 2, 3, 4, 5});
     set_transform("organ", "trocar", 0.5, true);
   }

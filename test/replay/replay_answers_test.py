@@ -134,8 +134,8 @@ class ReplayAnswersTest(ReplayCase):
         heights = [0.05, 0.02, -0.03]
         with self.record() as bag:
             bag.resting(1.0)
-            for time in (1.0, 3.0):
-                bag.frame(time, 'hook_trocar', at_height(0.0)[0], at=1.0)
+            for time, at in ((1.0, 1.0), (2.5, 1.9)):
+                bag.frame(time, 'hook_trocar', at_height(0.0)[0], at=at)
             bag.mesh(2.0, SHEET)
             for i, height in enumerate(heights):
                 bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, at_height(height)[1])

@@ -6,10 +6,10 @@
 namespace organ_collision {
 
 /// Limits the work of one query's exact tests. Work is counted in steps, not timed, so that the
-/// same query always gets the same answer. A step takes 0.1 to 0.15 us. The distance between an axis
-/// and a face costs two steps, that of a cylinder three and one more for six slopes of Newton's
-/// method, any other distance about one for each iteration, and a test against a box one. The quick
-/// tests that sort out faces before these are not counted.
+/// same query always gets the same answer. A step takes 0.1 to 0.15 us. The distance between an
+/// axis and a face costs two steps, that of a cylinder three and one more for six slopes of
+/// Newton's method, any other distance about one for each iteration, and a test against a box one.
+/// The quick tests that sort out faces before these are not counted.
 class WorkBudget {
  public:
   /// The budget is this many steps for each pair of a face and a convex part in the query, whether

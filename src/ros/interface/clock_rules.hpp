@@ -10,7 +10,8 @@ namespace organ_collision {
 /// that goes back by more has jumped, for example because a simulator was reset.
 inline constexpr double kClockTolerance = 0.02;
 
-/// [s] How far a stamp may be ahead of the clock, unless the parameter max_ahead_sec says otherwise.
+/// [s] How far a stamp may be ahead of the clock, unless the parameter max_ahead_sec says
+/// otherwise.
 inline constexpr double kMaxAheadDefault = 1.0;
 
 /// Why a stamp is not believed: it is ahead of the clock by more than `max_ahead_sec`. Empty if it
