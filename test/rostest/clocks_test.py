@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What doc/hosts.md says of clocks that differ by 50 ms: the robot sends its poses with the stamps of its own clock, the
+"""What doc/hosts.md says of clocks that differ: the robot sends its poses with the stamps of its own clock, the
 simulator sends shapes with those of another one."""
 
 import sys
@@ -10,7 +10,7 @@ import rostest
 
 from support import oracle
 from support.contract import KeepsContract
-from support.node_client import NodeClient
+from support.node_client import NodeClient, wait_until
 from support.tool_case import ToolCase
 from support.tool_over_sheet import RADIUS, SHEET, at_height
 
@@ -79,6 +79,27 @@ class ClocksTest(KeepsContract, ToolCase):
         self.assert_contacts(result, oracle.static_contacts(SHEET, old, RADIUS), 1e-6)
         self.assertEqual(result.contacts, [])
         self.assertGreater(len(self.touched_in_truth()), 0)
+
+    def test_stamps_far_ahead_are_refused_and_named(self):
+        """One shape and one transform that are 5 s ahead of the node's clock do not hold the tool."""
+        above, below = at_height(0.05), at_height(-0.02)
+        self.next_stamp()
+        self.place_and_wait('grasper', above, self.stamp)
+        self.assert_ok(self.send_and_get(self.node))
+        ahead = rospy.Time.now() + rospy.Duration(5)
+        self.place('grasper', (above, ahead))
+        self.node.send_mesh(self.organ, SHEET, ahead)
+        refused = self.node.contacts.wait_for(
+            self.organ, 'grasper', status=ContactArray.INVALID_REQUEST
+        )
+        self.assertIn("ahead of this node's clock", refused.message)
+        self.next_stamp()
+        self.place_and_wait('grasper', below, self.stamp)
+        result = self.send_and_get(self.node)
+        self.assertEqual(result.mode, ContactArray.SWEPT)
+        self.assert_contacts(result, oracle.swept_contacts(SHEET, above, below, RADIUS), 1e-6)
+        for count in ('rejected, stamp ahead', 'rejected, transform'):
+            wait_until(lambda count=count: count in self.node.diagnostics, count)
 
 
 if __name__ == '__main__':
