@@ -224,7 +224,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     const auto before = std::exchange(hand.organs, std::nullopt);
     const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
                                          age_limits(loaded_.parameters), ros::Time::now());
-    hand.organs = scene.moved;
+    hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
       tick(hand, pose, scene, now);
     } else if (hand.why_not) {

@@ -79,7 +79,7 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
           {oldest_between(transforms, organ.frame(), frame), T_organ_proxy.found->stamp}, limit,
           now);
     }
-    scene.moved = std::max(scene.moved, T_organ_proxy.found->stamp);
+    scene.stamps.push_back(T_organ_proxy.found->stamp);
     scene.organs.push_back(
         {name, organ.latest().mesh, organ.latest().topology(), T_organ_proxy.found->value});
     scene.sources.push_back(&organ);

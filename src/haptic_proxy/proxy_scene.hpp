@@ -17,8 +17,8 @@ struct ProxyScene {
   std::string frame;  ///< the proxy's
   std::vector<ProxyOrgan> organs;
   std::vector<const DeformableOrgan*> sources;  ///< of `organs`, in the same order
-  /// Of the newest transform that counts; zero if the organs' frames are static.
-  ros::Time moved = {};
+  /// The stamps of the organs' poses, in the same order; zero if an organ's frame is static.
+  std::vector<ros::Time> stamps = {};
 };
 
 /// How old may be what is known of organs [s of ROS time]; 0: there is no limit.

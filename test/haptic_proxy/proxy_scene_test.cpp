@@ -77,7 +77,7 @@ TEST_F(ProxySceneTest, AnOldFrameIsRefusedAndNamed) {
   for (const double time : {6.0, 7.6}) {
     set_point(transforms_, "table", "liver_frame", time, {0.0, 0.1, 0.0});
   }
-  EXPECT_EQ(scene("world").moved, ros::Time(6.5));
+  EXPECT_EQ(scene("world").stamps, std::vector<ros::Time>{ros::Time(6.5)});
   struct {
     AgeLimits limits;
     const char* refusal;  ///< empty: accepted
@@ -105,7 +105,7 @@ TEST_F(ProxySceneTest, AFrameThatIsStaticOrAheadOfTheClockHasNoAge) {
   apply(new_mesh(), ros::Time(7));
   set_point(transforms_, "world", "liver_frame", 1.0, {0.1, 0.2, 0.3}, true);
   EXPECT_NO_THROW(scene("world", {2.0, 0.5}));
-  EXPECT_EQ(scene("world").moved, ros::Time());
+  EXPECT_EQ(scene("world").stamps, std::vector<ros::Time>{ros::Time()});
   set_point(transforms_, "ahead", "world", 8.5, {0.1, 0.2, 0.3});
   EXPECT_NO_THROW(scene("ahead", {2.0, 0.5}));
 }

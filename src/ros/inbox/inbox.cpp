@@ -1,5 +1,7 @@
 #include "inbox.hpp"
 
+#include <ros/console.h>
+
 namespace organ_collision {
 
 Inbox::Inbox(const Limits& limits, const std::vector<ToolParameters>& tools, const Sinks& sinks)
@@ -15,15 +17,28 @@ void Inbox::subscribe(const ros::NodeHandle& node, const ros::NodeHandle& privat
   pose_topics_.subscribe(node);
 }
 
+bool Inbox::is_too_far_ahead(ros::Time stamp, ros::Time now) const {
+  return !ahead_fault(stamp, now, max_ahead_sec_ + kClockTolerance).empty();
+}
+
 bool Inbox::watch_clock() {
   const ros::Time now = ros::Time::now();
-  const bool has_jumped_back = clock_.has_jumped_back(now);
-  // They were taken before simulated time began.
-  const bool are_ahead =
-      !ahead_fault(transforms_.latest(), now, max_ahead_sec_ + kClockTolerance).empty();
-  if (has_jumped_back) jumped_ = now.toSec();
-  const bool is_mixed = transforms_.has_stepped_back() && now.toSec() - jumped_ < kArrival;
-  if (!has_jumped_back && !are_ahead && !is_mixed) return false;
+  if (clock_.has_jumped_back(now)) {
+    jumped_ = now.toSec();
+    may_forget_ = kMostForgotten;
+  } else if (transforms_.has_stepped_back() && may_forget_ > 0 &&
+             now.toSec() - jumped_ < kArrival) {
+    --may_forget_;
+    ROS_WARN(
+        "transforms of before the clock's jump had been taken: all history is forgotten again");
+  } else if (is_too_far_ahead(transforms_.latest(), now)) {
+    ROS_WARN(
+        "the clock is at %f s, and transforms with stamps up to %f s had been taken before it "
+        "began: all history is forgotten",
+        now.toSec(), transforms_.latest().toSec());
+  } else {
+    return false;
+  }
   organs_.receive_anew(now);
   forget_history();
   return true;

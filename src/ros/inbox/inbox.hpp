@@ -44,10 +44,10 @@ class Inbox {
   TransformTopics& transform_topics() { return transform_topics_; }
   PoseTopics& pose_topics() { return pose_topics_; }
 
-  /// If ROS time jumped back since the last call, or began before the stamps of what was taken,
-  /// forgets all history and returns true. The same if, soon after a jump, stamps step back: what
-  /// was taken before was on its way during the jump. Call it before and after each message, so
-  /// that no message and no step meets state from before the jump.
+  /// If ROS time jumped back since the last call, forgets all history and returns true. The same if
+  /// stamps step back soon after a jump (what was taken before was on its way during the jump), and
+  /// if simulated time begins long before the stamps of what was taken. Call it before and after
+  /// each message, so that no message and no step meets state from before the jump.
   bool watch_clock();
   /// Forgets all transforms but the static ones, and all that is known of the past of the organs.
   void forget_history();
@@ -59,9 +59,14 @@ class Inbox {
  private:
   /// [s] of ROS time: what was on its way during a jump has arrived by then.
   static constexpr double kArrival = 2.0;
+  /// No more often after a jump: a frame with two senders may step back again and again.
+  static constexpr int kMostForgotten = 3;
+
+  bool is_too_far_ahead(ros::Time stamp, ros::Time now) const;
 
   double max_ahead_sec_;
   double jumped_ = -kArrival;  ///< [s] when the clock jumped back last
+  int may_forget_ = 0;  ///< how often transforms that were on their way may still be forgotten
   OrganRegistry organs_;
   TransformBuffer transforms_;
   OrganTopics organ_topics_;

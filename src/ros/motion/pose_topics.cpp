@@ -137,12 +137,12 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
   // Several poses may arrive within one tick of simulated time. Each gets a different stamp.
-  if (stamp.isZero()) stamp = std::max(ros::Time::now(), after(stream.latest));
+  if (stamp.isZero()) stamp = arrival(stream);
   const bool is_taken = sinks_.transforms.add(to_transform(stamped, stream.tool.tip_frame), "pose");
   if (!is_taken && !came_for_another_tool(stream, stamp)) {
     return reject(stream.tool.tip_frame, "has the stamp of an earlier one, or is too old");
   }
-  stream.latest = std::max(stream.latest, stamp);
+  stream.latest = stamp;
   if (const std::string frame = tf_frame(pose.header.frame_id); frame != stream.frame) {
     stream.frame = frame;
     place_base(stream);
@@ -150,10 +150,18 @@ void PoseTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   sinks_.arrived(tool);
 }
 
+/// A stamp for a pose without one: now, but behind the last one. A last stamp that is ahead of the
+/// clock is of another sender, and may be wrong.
+ros::Time PoseTopics::arrival(const Stream& stream) {
+  const ros::Time now = ros::Time::now();
+  const bool is_ahead = stream.latest.toSec() > now.toSec() + kClockTolerance;
+  return is_ahead ? now : std::max(now, after(stream.latest));
+}
+
 /// Whether a tool with the same topic and tip frame has already taken the pose with this stamp, and
 /// this one has not.
 bool PoseTopics::came_for_another_tool(const Stream& stream, ros::Time stamp) const {
-  return stamp > stream.latest && sinks_.transforms.has(stream.tool.tip_frame, stamp) &&
+  return stamp != stream.latest && sinks_.transforms.has(stream.tool.tip_frame, stamp) &&
          std::any_of(streams_.begin(), streams_.end(), [&](const auto& other) {
            return other.get() != &stream && other->tool.tip_frame == stream.tool.tip_frame &&
                   other->tool.tip_pose_topic == stream.tool.tip_pose_topic;

@@ -209,9 +209,13 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   SampledPath sampled;
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
-    if (const auto between = look_up_pose(tool, organ_frame, time, TipOfLinks::kUnused);
-        between.found && is_near(between.found->value)) {
+    const auto between = look_up_pose(tool, organ_frame, time, TipOfLinks::kUnused);
+    if (between.found && is_near(between.found->value)) {
       path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
+    } else if (sampled.unknown.empty()) {
+      sampled.unknown =
+          concatenate("the tool's pose at ", time, " s is not known: ",
+                      between.found ? "it is too far away to be evaluated" : between.why_not);
     }
   }
   path.add(1.0, to.value);

@@ -51,11 +51,11 @@ class ToolPoses {
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
-  /// Whether the path since `from` will soon not be wholly known, because TF forgets its beginning
-  /// or it has more poses than are read. Where a step to `to` is taken now, it is known.
+  /// Whether a step from `from` should end at `to`, so that its path is wholly known: it is as long
+  /// as longest_step(), or has half as many poses as are read.
   bool is_nearly_forgotten(const Tool& tool, const std::string& organ_frame, ros::Time from,
                            ros::Time to) const;
-  /// Half of the time that TF keeps transforms. Nothing is forgotten if steps are no longer.
+  /// Half of the time for which TF keeps transforms.
   ros::Duration longest_step() const { return buffer_.getCacheLength() * 0.5; }
   /// Whether a step that ended at `stamp` used transforms that are not believed any more
   /// (TransformBuffer::believed_until).

@@ -35,18 +35,28 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   const std::size_t parent = index_of(tf_frame(transform.header.frame_id));
   Frame& frame = frames_[index_of(tf_frame(transform.child_frame_id))];
   if (!resting) {
+    judge(frame, stamp);
     frame.stamps.add(stamp);
     latest_ = std::max(latest_, stamp);
-    has_stepped_back_ = has_stepped_back_ || frame.steps_back(ros::Time::now());
   }
   insert(frame.parents, parent);
   if (frame.parents.size() > kMostParents) frame.parents.erase(frame.parents.begin());
   return true;
 }
 
-bool TransformBuffer::Frame::steps_back(ros::Time now) const {
-  return stamps.latest() > now &&
-         stamps.heard().toSec() < stamps.latest().toSec() - kClockTolerance;
+/// Finds out whether a new stamp of the frame disproves an earlier one, or reaches the one that was
+/// disproved.
+void TransformBuffer::judge(Frame& frame, ros::Time stamp) {
+  const ros::Time latest = frame.stamps.latest();
+  const bool was_disproved = !frame.disproved.isZero();
+  if (latest > ros::Time::now() && stamp.toSec() < latest.toSec() - kClockTolerance) {
+    frame.disproved = latest;
+    has_stepped_back_ = true;
+  } else if (stamp >= frame.disproved) {
+    frame.disproved = ros::Time();
+  }
+  disproved_ += static_cast<std::size_t>(!frame.disproved.isZero());
+  disproved_ -= static_cast<std::size_t>(was_disproved);
 }
 
 bool TransformBuffer::has(const std::string& frame, ros::Time stamp) const {
@@ -58,19 +68,19 @@ void TransformBuffer::clear() {
   BufferCore::clear();
   for (Frame& frame : frames_) {
     frame.stamps.clear();
-    frame.answered = ros::Time();
+    frame.answered = frame.disproved = ros::Time();
   }
   latest_ = ros::Time();
+  disproved_ = 0;
   has_stepped_back_ = false;
 }
 
 std::optional<ros::Time> TransformBuffer::believed_until(const std::string& target,
                                                          const Frames& sources) const {
-  const ros::Time now = ros::Time::now();
-  if (latest_ <= now) return std::nullopt;
+  if (disproved_ == 0) return std::nullopt;
   std::optional<ros::Time> until;
   for (const std::size_t frame : chain(target, sources)) {
-    if (!frames_[frame].steps_back(now)) continue;
+    if (frames_[frame].disproved.isZero()) continue;
     const ros::Time heard = frames_[frame].stamps.heard();
     until = until ? std::min(*until, heard) : heard;
   }
@@ -113,7 +123,7 @@ void TransformBuffer::set_answered(const std::string& target, const Frames& sour
 std::size_t TransformBuffer::index_of(const std::string& frame) {
   const auto [known, is_new] = indices_.try_emplace(frame, frames_.size());
   if (is_new) {
-    frames_.push_back({StampRecord(getCacheLength()), {}, {}});
+    frames_.push_back({StampRecord(getCacheLength()), {}, {}, {}});
   }
   return known->second;
 }

@@ -35,8 +35,8 @@ class TransformBuffer : public tf2::BufferCore {
   /// The largest stamp of a transform that is not static; zero if there is none.
   ros::Time latest() const { return latest_; }
   /// Until when the transforms between `target` and `sources` can be believed; std::nullopt: all of
-  /// them can. A stamp that is ahead of the clock is not believed any more once its sender sends an
-  /// earlier one: then what the sender sent last counts, until the clock gets there.
+  /// them can. A stamp that is ahead of the clock is disproved once its sender sends an earlier
+  /// one, by more than kClockTolerance. Until the sender gets there, what it sent last counts.
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
   /// The latest stamp of the transforms between `target` and `sources` that were forgotten, because
   /// they are older than TF keeps them; zero if there is none.
@@ -56,23 +56,24 @@ class TransformBuffer : public tf2::BufferCore {
 
  private:
   struct Frame {
-    /// Whether the sender's last stamp shows that an earlier one, ahead of the clock, was wrong.
-    bool steps_back(ros::Time now) const;
-
     StampRecord stamps;
+    /// A stamp that its sender showed to be wrong, until later ones come; zero: there is none.
+    ros::Time disproved;
     ros::Time answered;                ///< poses were used up to this stamp; zero: never
     std::vector<std::size_t> parents;  ///< recent parents, as indices
   };
   using Indices = std::vector<std::size_t>;
 
   std::size_t index_of(const std::string& frame);
+  void judge(Frame& frame, ros::Time stamp);
   Indices chain(const std::string& target, const Frames& sources) const;
   Indices upward(const std::string& frame) const;
   bool is_line(const Indices& frames) const;
 
   std::map<std::string, std::size_t> indices_;  ///< into frames_, by name
   std::vector<Frame> frames_;
-  ros::Time latest_;  ///< the largest stamp of all frames
+  ros::Time latest_;           ///< the largest stamp of all frames
+  std::size_t disproved_ = 0;  ///< how many frames have a disproved stamp
   bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };

@@ -57,8 +57,12 @@ class DeformableOrgan {
 
   void set_frame(std::string frame) { frame_ = std::move(frame); }
   void forget_previous() { previous_ = {}; }
-  /// For a clock that jumped back to `now`: the latest shape counts as received then at the latest.
-  void receive_anew(ros::Time now) { latest_.received = std::min(latest_.received, now); }
+  /// For a clock that jumped back to `now`, or began: the latest shape counts as received then at
+  /// the latest.
+  void receive_anew(ros::Time now) {
+    const bool came_before_time = latest_.received.isZero();
+    latest_.received = came_before_time ? now : std::min(latest_.received, now);
+  }
 
  private:
   std::string name_;

@@ -63,6 +63,8 @@ struct OrganToolPair {
   /// To the last step, whether it succeeded or failed; null if there was none.
   ContactArrayConstPtr answer;
   ShapeQueue queue;
+  /// When a step was tried because the last one was long ago; empty once it succeeded.
+  std::optional<SteadyTime> tried;
   /// When a step first had no transform; empty before that.
   std::optional<SteadyTime> first_without_transform;
 };

@@ -61,7 +61,8 @@ void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
   evaluate_due();
   if (std::exchange(tick_is_due_, false)) plan_tick(organs, now);
   evaluate_due();
-  if (now < next_lookout_) return;
+  // In a replay, `now` may go back.
+  if (now < next_lookout_ && next_lookout_ - now <= kLookout) return;
   next_lookout_ = now + kLookout;
   plan_long_steps(organs, now);
   evaluate_due();
@@ -177,27 +178,36 @@ void StepScheduler::plan_long_steps(const OrganRegistry& organs, SteadyTime now)
     if (!pair.last) continue;
     const auto& [organ_name, tool] = key;
     const DeformableOrgan& organ = organs.at(organ_name);
+    if (forget_if_disproved(organ, tool, pair)) {
+      plan_latest(organ, tool, now, true);
+      continue;
+    }
+    if (pair.tried && now - *pair.tried < longest) continue;
     const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
     if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
     const ros::Time from = pair.last->stamp, to = pose.found->stamp;
     const bool is_long =
         to > from && (now - pair.last->taken >= longest ||
                       poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
-    if (is_long) plan_latest(organ, tool, now, true);
+    if (!is_long) continue;
+    pair.tried = now;
+    plan_latest(organ, tool, now, true);
   }
 }
 
 /// The step is then static. A tool would otherwise be held at the pose of a stamp that turned out
 /// to be wrong.
-void StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,
+bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,
                                         OrganToolPair& pair) {
-  if (!pair.last || !poses_.is_disproved(tools_[tool], organ.frame(), pair.last->stamp)) return;
+  if (!pair.last) return false;
+  if (!poses_.is_disproved(tools_[tool], organ.frame(), pair.last->stamp)) return false;
   ROS_WARN_THROTTLE(
       1.0,
       "tool '%s': the last step ended at %f s, ahead of the clock, and then transforms "
       "came with earlier stamps: the history of the tool is forgotten",
       tools_[tool].parameters.name.c_str(), pair.last->stamp.toSec());
   pair.last.reset();
+  return true;
 }
 
 void StepScheduler::change_tools(const OrganRegistry& organs, const KeptTools& kept) {
@@ -287,6 +297,7 @@ void StepScheduler::deliver(DueStep& step) {
     query_times_.add(step.query_sec);
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
     pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_};
+    pair.tried.reset();
   }
   pair.answer = step.answer;
   publish_({step.answer, *pair.current.mesh, step.request.path, step.query_sec, step.is_starting});

@@ -127,7 +127,7 @@ class StepScheduler {
   void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
                   SteadyTime now);
   void plan_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now, bool only_new);
-  void forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
+  bool forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   void plan_step(DueStep step, Timed<ToolPose> end);
   void plan_held(DueStep step);
   void plan_failure(DueStep step, ros::Time stamp, std::uint8_t status, const std::string& message);

@@ -156,10 +156,11 @@ TEST_F(PoseTopicsTest, ToolsMayShareATipAndItsPoses) {
     topics.take_tip(0, pose("base", time, {time, 0.0, 0.0}));
     topics.take_tip(1, pose("base", time, {time, 0.0, 0.0}));
   }
-  EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 1, 0, 1}));
+  for (const std::size_t tool : {0, 1}) topics.take_tip(tool, pose("base", 1.05, {1.05, 0.0, 0.0}));
+  EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 1, 0, 1, 0, 1})) << "also with an earlier stamp";
   EXPECT_EQ(rejected(), 0u);
-  topics.take_tip(0, pose("base", 1.1, {2.0, 0.0, 0.0}));
-  topics.take_tip(1, pose("base", 1.1, {2.0, 0.0, 0.0}));
+  topics.take_tip(0, pose("base", 1.05, {2.0, 0.0, 0.0}));
+  topics.take_tip(1, pose("base", 1.05, {2.0, 0.0, 0.0}));
   EXPECT_EQ(rejected(), 2u) << "another pose with the same stamp";
 }
 

@@ -76,6 +76,7 @@ TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
   send_trocar(1.5);
   set_point(buffer_, "world", "tip", 1.5, {0.0, 1e9, 0.0});
   const SampledPath sampled = path(1.0, 2.0, {0.25, 100});
+  EXPECT_NE(sampled.unknown.find("1.5"), std::string::npos) << sampled.unknown;
   ASSERT_EQ(sampled.path.size(), 4u);
   EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.25);
   EXPECT_DOUBLE_EQ(sampled.path[2].fraction, 0.75);

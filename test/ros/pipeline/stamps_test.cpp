@@ -227,6 +227,33 @@ const std::vector<Case> kCases = {
        expect(node.hook(), kStatic, 1);
        EXPECT_EQ(node.hook().header.stamp, ros::Time(50.01));
      }},
+    {"NorDoesItIfNothingIsDueUntilTheClockGetsThere",
+     [](Node& node) {
+       begin(node);
+       node.tip(50.8, kAbove);
+       node.shape(50.8);
+       node.clock(50.01);
+       node.tip(50.01, kBelow);
+       node.evaluate(0.2);
+       expect(node.hook(), kStatic, 1);
+       for (const double stamp : {50.79, 50.8, 50.9}) node.tip(stamp, kAbove);
+       node.clock(50.9);
+       node.tick();
+       expect(node.hook(), kSwept, 1);
+     }},
+    {"ADisprovedStampIsNotBelievedAgainWhenTheClockReachesIt",
+     [](Node& node) {
+       begin(node);
+       node.tip(50.9, kAbove);
+       node.tip(50.5, kBelow);
+       node.clock(50.91);
+       node.answers.clear();
+       node.shape(50.75);
+       EXPECT_EQ(node.hook().mode, 99) << "it waits for its transform";
+       node.tick();
+       expect(node.hook(), kSwept, 1);
+       EXPECT_EQ(node.hook().header.stamp, ros::Time(50.5));
+     }},
     {"MessagesThatOvertakeEachOtherChangeNothing",
      [](Node& node) {
        begin(node);
@@ -345,6 +372,14 @@ const std::vector<Case> kCases = {
        EXPECT_FALSE(node.hook().path_incomplete) << node.hook().message;
        ASSERT_EQ(node.answers.size(), 4u);
        expect(node.answers[2], kSwept, 1);
+     }},
+    {"AStepThatCannotBeTakenIsNotTriedAllTheTime",
+     [](Node& node) {
+       node.parameters.mesh_timeout_sec = 1.0;
+       begin(node);
+       for (int i = 0; i < 8; ++i) node.second_of_motion(50.0 + i, kAbove);
+       EXPECT_EQ(node.hook().status, ContactArray::STALE_MESH);
+       EXPECT_EQ(node.answers.size(), 3u);
      }},
     {"WhatTfForgotIsSaid",
      [](Node& node) {
