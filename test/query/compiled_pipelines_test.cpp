@@ -112,8 +112,8 @@ TEST_P(CompiledPipelines, AreEnoughForQueriesOfAllKinds) {
   EXPECT_GT(contacts_, 1000U);
 }
 
-// In the paper's volume of a tool that moves nearly along its axis, rounding loses the face that shows
-// that GL works. GL then draws once more.
+// In the paper's volume of a tool that moves nearly along its axis, rounding loses the face that
+// shows that GL works. GL then draws once more.
 TEST_P(CompiledPipelines, AreEnoughWhereTheWitnessIsLost) {
   oracle::Random random(55);
   const TriangleMesh organ = mesh(liver());
