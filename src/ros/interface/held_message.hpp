@@ -16,7 +16,7 @@ boost::shared_ptr<Message> held_message(const Holder& holder) {
   std::vector<std::uint8_t> bytes(holder.size() + 1);  // One more, because Stream needs an address.
   ros::serialization::OStream copy(bytes.data(), holder.size());
   holder.write(copy);
-  const auto message = boost::make_shared<Message>();
+  auto message = boost::make_shared<Message>();
   CheckedStream(bytes.data(), holder.size()).next(*message);
   return message;
 }
