@@ -76,7 +76,8 @@ QueryServices::QueryServices(const Sources& sources)
       query_(sources.node.parameters.picker),
       workers_(sources.node.parameters.picker, sources.threads, statistics_) {}
 
-void QueryServices::advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node) {
+void QueryServices::advertise(const ros::NodeHandle& query_node,
+                              const ros::NodeHandle& batch_node) {
   servers_ = {advertise_checked<QueryCollision>(
                   query_node, names::kQuery,
                   [this](auto& request, auto& response) { return on_query(request, response); }),

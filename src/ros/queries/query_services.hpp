@@ -40,7 +40,7 @@ class QueryServices {
   explicit QueryServices(const Sources& sources);
 
   /// Each node handle must have a callback queue with a thread of its own.
-  void advertise(ros::NodeHandle query_node, ros::NodeHandle batch_node);
+  void advertise(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node);
   /// For any thread: a batch that is being answered ends soon, without an answer.
   void end() { workers_.end(); }
 
