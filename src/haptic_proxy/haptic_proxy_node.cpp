@@ -90,7 +90,12 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
           [this](LoadedToolList& loaded, const KeptTools& kept) {
             bool leaves = false;
             run_in_thread_of(loop_.queue(), [&] { leaves = release_leaving(kept); });
-            if (leaves) kFarewell.sleep();  // The node's thread lets the forces fade.
+            for (bool fades = leaves; fades;) {  // The node's thread lets the forces fade.
+              std::this_thread::sleep_for(kFadeStep);
+              fades = false;
+              run_in_thread_of(loop_.queue(), [&] { fades = do_leaving_hands_fade(); });
+            }
+            if (leaves) kFarewell.sleep();  // The last messages leave.
             run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
           }),
       live_parameters_(on_queue(private_node, background_.queue()),
@@ -414,6 +419,12 @@ bool HapticProxyNode::release_leaving(const KeptTools& kept) {
         Rejection(ContactArray::UNKNOWN_TOOL, "tool removed", "the tool was removed or changed");
   }
   return leaves;
+}
+
+bool HapticProxyNode::do_leaving_hands_fade() const {
+  return std::any_of(hands_.begin(), hands_.end(), [](const Hand& hand) {
+    return hand.is_leaving && hand.proxy && hand.proxy->is_ramping();
+  });
 }
 
 /// Runs in the node's thread.

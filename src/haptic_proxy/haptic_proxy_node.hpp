@@ -87,6 +87,7 @@ class HapticProxyNode {
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
   bool release_leaving(const KeptTools& kept);
+  bool do_leaving_hands_fade() const;
   void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
   void change_parameters(const XmlRpc::XmlRpcValue& changes);
   bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
