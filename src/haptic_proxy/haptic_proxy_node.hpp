@@ -59,8 +59,8 @@ class HapticProxyNode {
   struct Hand {
     std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
     ros::Time stamp = {};                   ///< of the last pose; zero: it is valid at any time
-    std::optional<std::vector<ros::Time>> organs =
-        {};                                 ///< ProxyScene::stamps; empty: there is no scene
+    /// ProxyScene::stamps; empty: there is no scene.
+    std::optional<std::vector<ros::Time>> organs = {};
     std::optional<Time> heard = {};         ///< when that pose came; empty: no pose came yet
     bool is_waiting = false;                ///< a pose came on its topic, and is to be followed
     bool is_leaving = false;                ///< its tool will be removed or changed soon

@@ -12,8 +12,9 @@
 
 namespace organ_collision {
 
-/// Checks once a second, in a thread of its own with niceness 10, that the ROS master lists this
-/// process, and registers it again after a restart of the master. Tells the log and /diagnostics.
+/// Checks once a second, in a thread of its own with lowered priority, that the ROS master lists
+/// this process, and registers it again after a restart of the master. Tells the log and
+/// /diagnostics.
 class MasterWatch {
  public:
   /// `parameters`: the namespace of the node's parameters, which it restores, too.

@@ -7,7 +7,7 @@
 
 namespace organ_collision {
 
-/// A thread that calls the callbacks of its own queue, with niceness 10: for work that no step
+/// A thread that calls the callbacks of its own queue, with lowered priority: for work that no step
 /// waits for. It ends with this object at the latest.
 class QueueThread {
  public:
