@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using oracle::Random;
 
-TEST_P(CollisionQueryWith, StaticIsSweptWithoutMotion) {
+TEST_P(CollisionInvarianceWith, StaticIsSweptWithoutMotion) {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     const TriangleMesh organ = mesh(scattered_faces(100, random));
@@ -34,7 +34,7 @@ TEST_P(CollisionQueryWith, StaticIsSweptWithoutMotion) {
   }
 }
 
-TEST_P(CollisionQueryWith, MotionSplitInTwoFindsTheUnion) {
+TEST_P(CollisionInvarianceWith, MotionSplitInTwoFindsTheUnion) {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
     const Soup soup = scattered_faces(100, random);
@@ -49,7 +49,7 @@ TEST_P(CollisionQueryWith, MotionSplitInTwoFindsTheUnion) {
   }
 }
 
-TEST_P(CollisionQueryWith, OrderOfFacesAndVerticesOnlyRenumbers) {
+TEST_P(CollisionInvarianceWith, OrderOfFacesAndVerticesOnlyRenumbers) {
   Random random(5);
   for (int i = 0; i < 30; ++i) {
     const Soup soup = scattered_faces(100, random);
@@ -81,7 +81,7 @@ TEST_P(CollisionQueryWith, OrderOfFacesAndVerticesOnlyRenumbers) {
 /// Rounds coordinates so that sums, and products with small powers of two, are exact.
 Vector3d on_lattice(const Vector3d& p) { return (p * 4096.0).array().round() / 4096.0; }
 
-TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
+TEST_P(CollisionInvarianceWith, TranslationRotationAndScalingCommute) {
   Random random(6);
   Eigen::Matrix3d rotation;  // about (1, 1, 1), without rounding
   rotation << 0, 0, 1, 1, 0, 0, 0, 1, 0;
@@ -120,7 +120,7 @@ TEST_P(CollisionQueryWith, TranslationRotationAndScalingCommute) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Pickers, CollisionQueryWith,
+INSTANTIATE_TEST_SUITE_P(Pickers, CollisionInvarianceWith,
                          testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
                                          PickerKind::kCpu));
 
