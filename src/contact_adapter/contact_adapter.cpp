@@ -24,23 +24,16 @@ constexpr std::uint32_t kQueue = 20;
 
 ContactAdapter::ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& private_node)
     : private_node_(private_node),
-      parameters_(load_contact_adapter_parameters(private_node)),
+      parameters_(load_parameters<ContactAdapterParameters>(private_node)),
       live_parameters_(private_node, live_parameters(parameters_),
                        [this](const XmlRpc::XmlRpcValue& changes) {
-                         LiveContactAdapterParameters& live = parameters_;
-                         live = changed(parameters_, changes);
+                         parameters_ = changed(parameters_, changes);
+                         return live_parameters(parameters_);
                        }),
-      updater_(node, private_node, private_node.getNamespace()),
-      master_(private_node.getNamespace()) {
+      diagnostics_(node, private_node, parameters_.diagnostic_period_sec) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
   live_parameters_.advertise();
-  updater_.setHardwareID("none");
-  updater_.add("contacts", this, &ContactAdapter::diagnose);
-  master_.add_to(updater_);
-  // A timer of wall time, because the updater's own period stops when simulated time stops.
-  diagnostic_timer_ = private_node_.createWallTimer(
-      ros::WallDuration(parameters_.diagnostic_period_sec),
-      [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  diagnostics_.updater().add("contacts", this, &ContactAdapter::diagnose);
   subscriber_ = subscribe_checked<ContactArray>(
       node, ros::names::append(names::kNode, names::kContacts), kQueue,
       [this](const auto& event) { on_contacts(*event.getConstMessage()); }, failures_);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <organ_collision/ContactArray.h>
 #include <ros/node_handle.h>
 
@@ -54,10 +53,8 @@ class ContactAdapter {
   std::uint64_t received_ = 0;  ///< messages, including those that report a failure
   FailureLog failures_;
   FailureLog clipped_;  ///< wrenches whose force was reduced to max_force
-  diagnostic_updater::Updater updater_;
-  ros::WallTimer diagnostic_timer_;
+  Diagnostics diagnostics_;
   ros::Subscriber subscriber_;
-  MasterWatch master_;
 };
 
 }  // namespace organ_collision

@@ -1,21 +1,12 @@
 #include <ros/ros.h>
 
 #include "contact_adapter.hpp"
-#include "contact_adapter_parameters.hpp"
-#include "ros/node/program.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  if (const auto exit_code = answer_arguments(argc, argv, contact_adapter_help()))
-    return *exit_code;
-  ros::init(argc, argv, names::kContactAdapter);
-  guard_parameter_updates();
-  const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
-  try {
-    ContactAdapter adapter(node, ros::NodeHandle("~"));
-    ros::spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
+  return run_program(argc, argv, contact_adapter_help(), names::kContactAdapter,
+                     [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+                       const ContactAdapter adapter(node, private_node);
+                       ros::spin();
+                     });
 }

@@ -6,61 +6,26 @@
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/VertexForces.h>
 #include <ros/names.h>
-#include <ros/service_traits.h>
 #include <std_msgs/UInt32MultiArray.h>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/parameters/parameter_group.hpp"
 
 namespace organ_collision {
-namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-constexpr NumberRange kStiffnessRange{0.0, kUnlimited, false};
-constexpr NumberRange kMaxForceRange{0.0, kUnlimited, false, true};
-
-/// Missing members keep their values.
-void parse_live(const ParameterGroup& group, LiveContactAdapterParameters& p) {
-  p.stiffness = group.number(names::kStiffness, p.stiffness, kStiffnessRange);
-  p.max_force = group.number(names::kMaxForce, p.max_force, kMaxForceRange);
-}
-
-}  // namespace
-
-ContactAdapterParameters parse_contact_adapter_parameters(const XmlRpc::XmlRpcValue& all) {
-  const ParameterGroup group(
-      "~", all, {names::kStiffness, names::kMaxForce, names::kWayOut, names::kDiagnosticPeriod});
-  ContactAdapterParameters p;
-  p.misspelt = group.misspelt();
-  parse_live(group, p);
-  p.way_out = group.flag(names::kWayOut, p.way_out);
-  p.diagnostic_period_sec =
-      group.number(names::kDiagnosticPeriod, p.diagnostic_period_sec, kTimerPeriod);
-  return p;
-}
-
-ContactAdapterParameters load_contact_adapter_parameters(const ros::NodeHandle& private_node) {
-  return parse_contact_adapter_parameters(all_parameters(private_node));
-}
-
-std::vector<LiveParameter> live_parameters(const LiveContactAdapterParameters& p) {
-  const std::vector<HelpEntry> help = contact_adapter_help().parameters;
-  const LiveContactAdapterParameters defaults;
-  return {{names::kStiffness, text_of(help, names::kStiffness), p.stiffness, defaults.stiffness,
-           kStiffnessRange},
-          {names::kMaxForce, text_of(help, names::kMaxForce), p.max_force, defaults.max_force,
-           kMaxForceRange}};
-}
-
-LiveContactAdapterParameters changed(const LiveContactAdapterParameters& parameters,
-                                     const XmlRpc::XmlRpcValue& changes) {
-  LiveContactAdapterParameters result = parameters;
-  parse_live(live_group(changes, live_parameters(parameters)), result);
-  return result;
+ParameterTable table_of(ContactAdapterParameters& p) {
+  ParameterTable t;
+  t.number(names::kStiffness, p.stiffness, kPositive, "[N/m] force for each metre of depth").live();
+  t.number(names::kMaxForce, p.max_force, kPositiveOrInfinite,
+           "[N] larger forces are clipped to it")
+      .live();
+  t.flag("way_out", p.way_out,
+         "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin");
+  t.number("diagnostic_period", p.diagnostic_period_sec, kTimerPeriod,
+           "[s] between messages on /diagnostics");
+  return t;
 }
 
 ProgramHelp contact_adapter_help() {
-  const ContactAdapterParameters defaults;
   const std::string pair = "~ORGAN/TOOL";
   ProgramHelp help{names::kContactAdapter,
                    "Turns the contacts of the collision node into a wrench, forces on vertices and "
@@ -78,17 +43,10 @@ ProgramHelp contact_adapter_help() {
        "the numbers of the touched faces"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "number of messages, of those without output by reason, of clipped forces"}};
-  help.services = {{"set_parameters",
-                    ros::service_traits::datatype<dynamic_reconfigure::Reconfigure>(),
+  help.services = {{"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
                     "changes stiffness and max_force while the node runs, as dynparam and "
                     "rqt_reconfigure do"}};
-  help.parameters = {
-      {names::kStiffness, shown(defaults.stiffness), "[N/m] force for each metre of depth"},
-      {names::kMaxForce, "no limit", "[N] larger forces are clipped to it"},
-      {names::kWayOut, shown(defaults.way_out),
-       "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin"},
-      {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
-       "[s] between messages on /diagnostics"}};
+  help.parameters = parameter_help<ContactAdapterParameters>();
   help.further =
       "roslaunch organ_collision contact_adapter.launch starts it. doc/forces.md explains the law "
       "of the force.";

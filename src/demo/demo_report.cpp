@@ -80,7 +80,7 @@ class DemoReport {
  public:
   DemoReport(ros::NodeHandle node, ros::NodeHandle collision_node, ros::NodeHandle haptic_node)
       : transform_listener_(transforms_),
-        comparison_(load_parameters(collision_node).parameters.tools, transforms_),
+        comparison_(load_parameters<NodeParameters>(collision_node).tools, transforms_),
         subscribers_{
             collision_node.subscribe("organ_mesh", 10, &DemoReport::on_mesh, this),
             collision_node.subscribe("organ_vertices", 1000, &DemoReport::on_vertices, this),

@@ -133,7 +133,7 @@ ProgramHelp help() {
                     {names::kOrganVertices, "organ_collision/OrganVertices", "its new shapes"},
                     {"/palpator/hand", "geometry_msgs/PoseStamped", "the hand, 8 for each shape"},
                     {"/tf, /tf_static", "tf2_msgs/TFMessage", "trocars, and the stabber's tip"}};
-  help.parameters = {{names::kRate, shown(kRate), "[Hz] of shapes"},
+  help.parameters = {{"rate", shown(kRate), "[Hz] of shapes"},
                      {"moves", shown(true), "false: the liver rests, and no instrument moves"},
                      {"collision_node", kCollisionNode, "name of the collision node"},
                      {"haptic_node", kHapticNode, "name of the node that has the proxies"}};
@@ -271,7 +271,7 @@ int main(int argc, char** argv) {
   if (const auto exit_code = answer_arguments(argc, argv, help())) return *exit_code;
   ros::init(argc, argv, "liver_simulator");
   ros::NodeHandle private_node("~");
-  const double rate = private_node.param<double>(names::kRate, kRate);
+  const double rate = private_node.param<double>("rate", kRate);
   const double fastest = 1.0 / kStabDuration;
   if (!(rate >= 20.0 && rate <= fastest)) {
     ROS_FATAL("rate is %g; it must be from 20 to %g Hz, so that a stab fits into one step", rate,

@@ -1,13 +1,29 @@
-#include <ros/ros.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/ListOrgans.h>
+#include <organ_collision/OrganMesh.h>
+#include <organ_collision/OrganVertices.h>
+#include <organ_collision/ProxyState.h>
+#include <organ_collision/RemoveOrgan.h>
+#include <organ_collision/VertexForces.h>
+#include <ros/names.h>
+#include <std_srvs/Empty.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <atomic>
 #include <csignal>
 
 #include "haptic_proxy_node.hpp"
 #include "haptic_proxy_parameters.hpp"
-#include "ros/node/program.hpp"
-#include "ros/node/realtime.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "ros/messages/text.hpp"
 
+namespace organ_collision {
 namespace {
 
 std::atomic<bool> is_to_stop{false};
@@ -18,21 +34,79 @@ void on_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
+std::vector<HelpEntry> subscribed_topics() {
+  return {
+      {names::kOrganMesh, message_type<OrganMesh>(), "an organ's surface: vertices and triangles"},
+      {names::kOrganVertices, message_type<OrganVertices>(), "an organ's new shape: its vertices"},
+      {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(), "where the hands and organs are"},
+      {"as each tool names it", message_type<geometry_msgs::PoseStamped>(),
+       "where the hand holds the tool's tip (tip_pose_topic, base_pose_topic)"},
+  };
+}
+
+std::vector<HelpEntry> published_topics() {
+  const std::string tool = "~TOOL", pair = "~ORGAN/TOOL";
+  return {
+      {ros::names::append(tool, names::kProxy), message_type<geometry_msgs::PoseStamped>(),
+       "where the proxy's tip or first link is; also the TF frame TOOL_proxy"},
+      {ros::names::append(tool, names::kState), message_type<ProxyState>(),
+       "what the proxy does, the whole wrench on the hand, and why there is no answer"},
+      {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
+       "force of the organ on the hand [N], torque about the origin of the proxy's frame [N m]"},
+      {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
+       "forces of the proxy on the tissue's vertices [N]"},
+      {names::kContacts, message_type<ContactArray>(),
+       "where tissue is near the proxy, for each organ and tool"},
+      {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
+       "what RViz shows: hands, proxies, forces, states and organs"},
+      {"/tf", message_type<tf2_msgs::TFMessage>(), "the frames TOOL_proxy"},
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
+       "times of ticks, what had no answer, clipped forces, refused messages"},
+  };
+}
+
+std::vector<HelpEntry> services() {
+  std::vector<std::string> live;
+  for (const LiveParameter& p : live_parameters(HapticProxyParameters())) live.push_back(p.name);
+  return {
+      {names::kListOrgans, service_type<ListOrgans>(),
+       "the organs: faces, box, volume, closed or not"},
+      {names::kRemoveOrgan, service_type<RemoveOrgan>(), "removes an organ"},
+      {names::kReset, service_type<std_srvs::Empty>(), "places all proxies anew"},
+      {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
+      {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
+       "changes " + listed(live) + " while the node runs"},
+  };
+}
+
+/// doc/haptic_interface.md explains the same names at length; a test compares both.
+ProgramHelp haptic_proxy_help() {
+  return {names::kHapticProxy,
+          "Gives each tool a proxy that follows the hand but stops at tissue, and the force of a "
+          "spring between both. The force and the torque have no upper limit unless max_force and "
+          "max_torque are set. The names "
+          "below are private to the node (~), whose default name is /" +
+              std::string(names::kHapticProxy) + ".",
+          subscribed_topics(),
+          published_topics(),
+          services(),
+          parameter_help<HapticProxyParameters>(),
+          "roslaunch organ_collision haptic_proxy.launch tools:=FILE.yaml starts the node with the "
+          "tools of a file. doc/haptic_interface.md explains all of this."};
+}
+
 }  // namespace
+}  // namespace organ_collision
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  if (const auto exit_code = answer_arguments(argc, argv, haptic_proxy_help())) return *exit_code;
-  ros::init(argc, argv, names::kHapticProxy, ros::init_options::NoSigintHandler);
-  guard_parameter_updates();
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
-  const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
-  const ros::NodeHandle private_node("~");
-  try {
-    make_ros_realtime(private_node);
-    HapticProxyNode(node, private_node).run([] { return is_to_stop.load(); });
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
+  return run_program(
+      argc, argv, haptic_proxy_help(), names::kHapticProxy,
+      [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+        for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_signal);
+        make_ros_realtime(node,
+                          load_parameters<HapticProxyParameters>(private_node).realtime.priority);
+        HapticProxyNode(node, private_node).run([] { return is_to_stop.load(); });
+      },
+      ros::init_options::NoSigintHandler);
 }

@@ -32,16 +32,8 @@ constexpr std::chrono::milliseconds kFadeStep(1);
 const ros::WallDuration kFarewell(0.1);
 /// How often it is repeated that there is no answer, for subscribers that came later.
 constexpr std::chrono::milliseconds kRepetition(100);
-/// After a breakdown, the node waits this long for the log and /diagnostics to leave.
-const ros::WallDuration kLastWords(1.0);
 /// ToolPoses::path() is not used.
 constexpr PathSampling kNoPaths{1.0, 1};
-
-std::vector<ToolParameters> parameters_of(const std::vector<Tool>& tools) {
-  std::vector<ToolParameters> parameters;
-  for (const Tool& tool : tools) parameters.push_back(tool.parameters);
-  return parameters;
-}
 
 AgeLimits age_limits(const HapticProxyParameters& parameters) {
   return {parameters.mesh_timeout_sec, parameters.frame_timeout_sec};
@@ -54,113 +46,81 @@ SteadyClock::duration duration(double seconds) {
 }  // namespace
 
 HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
-    : loop_(counters_.rejected, {[this] { watch_clock(); },
-                                 [this](SteadyTime) {
-                                   apply_organ_messages();
-                                   follow_waiting_hands();
-                                 }}),
-      node_(on_queue(node, loop_.queue())),
-      private_node_(on_queue(private_node, loop_.queue())),
-      loaded_(load_haptic_proxy_parameters(private_node_)),
-      realtime_(loaded_.parameters.realtime),
-      tools_(load_tools(loaded_.parameters.tools, private_node_)),
-      inbox_({loaded_.parameters.max_faces, loaded_.parameters.max_ahead_sec},
-             loaded_.parameters.tools,
+    : core_(node, private_node, callbacks()),
+      inbox_({core_.parameters().max_faces, core_.parameters().max_ahead_sec},
+             core_.parameters().tools,
              {[this](std::size_t tool) {
                 if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
               },
-              counters_.rejected, loop_.queue()}),
+              counters_.rejected, core_.loop().queue()}),
       poses_(inbox_.transforms(), kNoPaths),
-      frame_(loaded_.parameters.frame),
-      hands_(make_hands(tools_, KeptTools(tools_.size()))),
+      frame_(core_.parameters().frame),
+      hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
       started_(SteadyClock::now()),
-      publisher_(private_node_, inbox_.organs(), counters_.failed, loaded_.parameters.publish_tf),
-      markers_(private_node_, loaded_.parameters.markers),
-      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
+      publisher_(core_.private_node(), inbox_.organs(), counters_.failed,
+                 core_.parameters().publish_tf),
+      markers_(core_.private_node(), core_.parameters().markers),
+      inbox_diagnostics_({core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs(),
                           inbox_.organ_topics(), counters_.meshes, counters_.rejected}),
-      updater_(node_, private_node_, private_node_.getNamespace()),
-      surfaces_(background_.queue()),
-      organ_services_({inbox_.organs(), inbox_.organ_topics(), loop_.queue(), background_.queue()}),
-      tool_reload_(
-          on_queue(private_node, background_.queue()), tools_,
-          [this]() -> LoadedTools {
-            LoadedHapticProxyParameters loaded = load_haptic_proxy_parameters(private_node_);
-            return {std::move(loaded.parameters.tools), std::move(loaded.misspelt)};
-          },
-          [this](LoadedToolList& loaded, const KeptTools& kept) {
-            bool leaves = false;
-            run_in_thread_of(loop_.queue(), [&] { leaves = release_leaving(kept); });
-            for (bool fades = leaves; fades;) {  // The node's thread lets the forces fade.
-              std::this_thread::sleep_for(kFadeStep);
-              fades = false;
-              run_in_thread_of(loop_.queue(), [&] { fades = do_leaving_hands_fade(); });
-            }
-            if (leaves) kFarewell.sleep();  // The last messages leave.
-            run_in_thread_of(loop_.queue(), [&] { exchange_tools(loaded, kept); });
-          }),
-      live_parameters_(on_queue(private_node, background_.queue()),
-                       live_parameters(loaded_.parameters),
-                       [this](const XmlRpc::XmlRpcValue& changes) { change_parameters(changes); }),
-      master_(private_node_.getNamespace()) {
+      surfaces_(core_.background().queue()),
+      organ_services_({inbox_.organs(), inbox_.organ_topics(), core_.loop().queue(),
+                       core_.background().queue()}) {
   try {
     start();
   } catch (...) {
-    end_background();
+    core_.end();
     throw;
   }
 }
 
-HapticProxyNode::~HapticProxyNode() { end_background(); }
-
-void HapticProxyNode::start() {
-  warn_of_settings(tools_, loaded_.misspelt);
-  publisher_.set_tools(loaded_.parameters.tools);
-  inbox_.subscribe(node_, private_node_);
-  organ_services_.advertise(private_node_);
-  tool_reload_.advertise();
-  live_parameters_.advertise();
-  reset_ = private_node_.advertiseService(names::kReset, &HapticProxyNode::on_reset, this);
-  updater_.setHardwareID("none");
-  updater_.add("proxies", this, &HapticProxyNode::diagnose);
-  inbox_diagnostics_.add_to(updater_);
-  realtime_.add_to(updater_);
-  master_.add_to(updater_);
-  // The updater's own timer follows simulated time, and would stop when simulated time stops.
-  diagnostic_timer_ = private_node_.createWallTimer(
-      ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
-      [this](const ros::WallTimerEvent&) { updater_.force_update(); });
-  ROS_INFO("ready: %s with a proxy, %g N/m", counted(tools_.size(), "tool").c_str(),
-           loaded_.parameters.stiffness);
+NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
+  Core::Callbacks callbacks;
+  callbacks.loop = {[this] { watch_clock(); },
+                    [this](SteadyTime) {
+                      apply_organ_messages();
+                      follow_waiting_hands();
+                    }};
+  callbacks.work = [this] { work(); };
+  callbacks.next_deadline = [this] { return next_deadline(); };
+  callbacks.reset = [this] {
+    inbox_.forget_history();
+    reset_proxies("reset was called");
+  };
+  callbacks.parameters_changed = [this](const auto&) { change_parameters(); };
+  callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
+    let_leaving_hands_fade(kept);
+    core_.in_node_thread([&] { exchange_tools(loaded, kept); });
+  };
+  callbacks.break_down = [this](const std::string& why) { let_go("the node broke down: " + why); };
+  return callbacks;
 }
 
-/// Ends the wait of the background thread for this thread, and then that thread, which uses
-/// members.
-void HapticProxyNode::end_background() {
-  loop_.end();
-  background_.stop();
+void HapticProxyNode::start() {
+  publisher_.set_tools(core_.parameters().tools);
+  inbox_.subscribe(core_.node(), core_.private_node());
+  organ_services_.advertise(core_.private_node());
+  core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
+  inbox_diagnostics_.add_to(core_.updater());
+  core_.start();
+  ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
+           core_.parameters().stiffness);
 }
 
 void HapticProxyNode::run(const std::function<bool()>& stop) {
-  try {
-    while (private_node_.ok() && !stop()) {
-      loop_.receive(next_deadline());
-      if (broken_) std::rethrow_exception(broken_);
-      follow_hands();
-      loop_.guard([this] { markers_.update(inbox_.organs(), [this] { return views(); }); });
-      loop_.guard([this] { surfaces_.update(inbox_.organs(), SteadyClock::now()); });
-    }
-    let_go("the node ends");
-  } catch (const std::exception& error) {
-    report_breakdown(error.what());
-    kLastWords.sleep();
-    throw;
-  }
+  core_.run(stop);
+  let_go("the node ends");
+}
+
+void HapticProxyNode::work() {
+  follow_hands();
+  markers_.update(inbox_.organs(), [this] { return views(); });
+  surfaces_.update(inbox_.organs(), SteadyClock::now());
 }
 
 /// Lets all forces fade, and tells each hand why. Returns when the last messages have left.
 void HapticProxyNode::let_go(const std::string& why) {
   bool is_fading = true;
-  while (is_fading && private_node_.ok()) {
+  while (is_fading && core_.private_node().ok()) {
     is_fading = false;
     for (const Hand& hand : hands_) {
       if (!hand.proxy) continue;
@@ -170,16 +130,7 @@ void HapticProxyNode::let_go(const std::string& why) {
     }
     std::this_thread::sleep_for(kFadeStep);
   }
-  if (private_node_.ok()) kFarewell.sleep();
-}
-
-/// Never throws, because the caller rethrows the exception that ends the node.
-void HapticProxyNode::report_breakdown(const std::string& why) {
-  try {
-    let_go("the node broke down: " + why);
-    updater_.force_update();
-  } catch (const std::exception&) {  // Usually std::bad_alloc. There is nowhere left to report it.
-  }
+  if (core_.private_node().ok()) kFarewell.sleep();
 }
 
 void HapticProxyNode::watch_clock() {
@@ -201,13 +152,9 @@ void HapticProxyNode::apply_organ_messages() {
 void HapticProxyNode::follow_waiting_hands() {
   const Time now = SteadyClock::now();
   if (!batch_began_) batch_began_ = now;
-  if (broken_ || now - *batch_began_ > kLongestLag) return;
-  try {
-    for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
-      if (hands_[tool].is_waiting) follow_hand(tool, now);
-    }
-  } catch (...) {  // For example, std::bad_alloc. The loop would only count it.
-    broken_ = std::current_exception();
+  if (now - *batch_began_ > kLongestLag) return;
+  for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
+    if (hands_[tool].is_waiting) follow_hand(tool, now);
   }
 }
 
@@ -216,7 +163,7 @@ void HapticProxyNode::follow_hands() {
   batch_began_.reset();
   if (frame_.update(inbox_.organs())) reset_proxies("the proxy's frame changed");
   const Time now = SteadyClock::now();
-  for (std::size_t tool = 0; tool < tools_.size(); ++tool) follow_hand(tool, now);
+  for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) follow_hand(tool, now);
   has_new_shape_ = false;
 }
 
@@ -228,7 +175,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
     const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
-                                         age_limits(loaded_.parameters), ros::Time::now());
+                                         age_limits(core_.parameters()), ros::Time::now());
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
       tick(hand, pose, scene, now);
@@ -248,12 +195,12 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
 Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
   if (!hands_[tool].proxy) {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
-                    tools_[tool].fault);
+                    core_.tools()[tool].fault);
   }
   if (frame_.name().empty()) {
     throw no_organ();
   }
-  auto pose = poses_.pose(tools_[tool], frame_.name(), ros::Time(0));
+  auto pose = poses_.pose(core_.tools()[tool], frame_.name(), ros::Time(0));
   if (!pose.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
                     pose.why_not);
@@ -274,8 +221,8 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
     hand.heard = now;
     return true;
   }
-  const HapticProxyParameters& parameters = loaded_.parameters;
-  check_age(inbox_.transforms(), frame_.name(), swept_frames(tools_[tool]), stamp,
+  const HapticProxyParameters& parameters = core_.parameters();
+  check_age(inbox_.transforms(), frame_.name(), swept_frames(core_.tools()[tool]), stamp,
             age_limits(parameters), ros::Time::now());
   const double timeout = parameters.pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
@@ -288,7 +235,7 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
 
 void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene,
                            Time now) {
-  const HapticProxyParameters& parameters = loaded_.parameters;
+  const HapticProxyParameters& parameters = core_.parameters();
   const ProxyReport report = hand.proxy->follow(pose, scene, now);
   publisher_.publish(report);
   hand.told = now;
@@ -319,7 +266,7 @@ void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   const bool is_known = hand.why_not && hand.why_not->reason() == why.reason() &&
                         (is_recent || std::string(hand.why_not->what()) == why.what());
   if (is_known && !is_fading && is_recent) return;
-  const ToolParameters& parameters = tools_[tool].parameters;
+  const ToolParameters& parameters = core_.tools()[tool].parameters;
   if (!is_known && (hand.had_answer || now - started_ > kStart)) {
     counters_.failed.add(why.reason(), "tool '" + parameters.name + "': " + why.what(), now);
   }
@@ -344,10 +291,10 @@ void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
 std::vector<ProxyView> HapticProxyNode::views() const {
   std::vector<ProxyView> views;
   if (frame_.name().empty()) return views;
-  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+  for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) {
     const Hand& hand = hands_[tool];
     ProxyView view;
-    view.tool = tools_[tool];
+    view.tool = core_.tools()[tool];
     view.frame = frame_.name();
     if (hand.proxy) {
       view.hand = hand.proxy->hand();
@@ -368,22 +315,22 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   for (const Hand& hand : hands_) {
     if (hand.proxy && hand.proxy->is_ramping()) add(now + kFadeStep);
     if (!hand.why_not && hand.heard && !hand.stamp.isZero()) {
-      add(*hand.heard + duration(loaded_.parameters.pose_timeout_sec));
+      add(*hand.heard + duration(core_.parameters().pose_timeout_sec));
     }
   }
   if (!next) return std::nullopt;
-  return loop_.now() + (*next - now);
+  return core_.loop().now() + (*next - now);
 }
 
 /// One for each tool. Kept tools keep theirs. A tool whose proxy cannot be made gets a fault.
-/// Throws GlError; then nothing has changed.
+/// Throws GlError.
 std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>& tools,
                                                                const KeptTools& kept) {
   std::vector<Hand> hands(tools.size());
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
     if (kept[tool] || !tools[tool].fault.empty()) continue;
     try {
-      hands[tool].proxy = std::make_unique<ToolProxy>(tools[tool], loaded_.parameters);
+      hands[tool].proxy = std::make_unique<ToolProxy>(tools[tool], core_.parameters());
     } catch (const std::invalid_argument& error) {
       tools[tool].fault = tools[tool].parameters.name + ": " + error.what();
     }
@@ -427,43 +374,37 @@ bool HapticProxyNode::do_leaving_hands_fade() const {
   });
 }
 
-/// Runs in the node's thread.
-void HapticProxyNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
-  std::vector<ToolParameters> parameters = parameters_of(loaded.tools);
-  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-  inbox_.pose_topics().change_tools(parameters, node_);
-  try {
-    publisher_.set_tools(parameters);
-    hands_ = make_hands(loaded.tools, kept);
-    std::swap(tools_, loaded.tools);
-    std::swap(loaded_.misspelt, loaded.misspelt);
-    std::swap(loaded_.parameters.tools, parameters);
-    has_new_shape_ = true;
-    warn_of_settings(tools_, loaded_.misspelt);
-  } catch (...) {  // For example, std::bad_alloc. The node cannot go on with half of the exchange.
-    broken_ = std::current_exception();
-    throw;
+/// Runs in the background thread. The node's thread lets the forces fade meanwhile.
+void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
+  bool leaves = false;
+  core_.in_node_thread([&] { leaves = release_leaving(kept); });
+  if (!leaves) return;
+  for (bool fades = true; fades;) {
+    std::this_thread::sleep_for(kFadeStep);
+    core_.in_node_thread([&] { fades = do_leaving_hands_fade(); });
   }
+  kFarewell.sleep();  // The last messages leave.
 }
 
-/// Runs in the background thread.
-void HapticProxyNode::change_parameters(const XmlRpc::XmlRpcValue& changes) {
-  // Only this thread ever makes the node's thread change them.
-  const LiveHapticProxyParameters now = changed(loaded_.parameters, changes);
-  run_in_thread_of(loop_.queue(), [&] {
-    LiveHapticProxyParameters& parameters = loaded_.parameters;
-    parameters = now;
-    for (Hand& hand : hands_) {
-      if (hand.proxy) hand.proxy->update_settings();
-    }
-    markers_.set_settings(parameters.markers);
-  });
+void HapticProxyNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
+  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
+  core_.exchange_tools(
+      loaded,
+      [this](const auto& parameters) {
+        inbox_.pose_topics().change_tools(parameters, core_.node());
+      },
+      [&] {
+        publisher_.set_tools(core_.parameters().tools);
+        hands_ = make_hands(core_.tools(), kept);
+        has_new_shape_ = true;
+      });
 }
 
-bool HapticProxyNode::on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-  inbox_.forget_history();
-  reset_proxies("reset was called");
-  return true;
+void HapticProxyNode::change_parameters() {
+  for (Hand& hand : hands_) {
+    if (hand.proxy) hand.proxy->update_settings();
+  }
+  markers_.set_settings(core_.parameters().markers);
 }
 
 void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -478,14 +419,14 @@ void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& stat
   status.add("tick time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
   status.add("tick time, worst [us]", times.worst * kMicroseconds);
   status.add("poses merged into later ones", counters_.poses_merged);
-  for (const std::string& sentence : loaded_.misspelt) {
+  for (const std::string& sentence : core_.parameters().misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
-  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+  for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) {
     const std::optional<Rejection>& why_not = hands_[tool].why_not;
     if (!why_not) continue;
     status.mergeSummary(DiagnosticStatus::WARN,
-                        "tool '" + tools_[tool].parameters.name + "': " + why_not->what());
+                        "tool '" + core_.tools()[tool].parameters.name + "': " + why_not->what());
   }
   show_failures("unanswered", counters_.failed, status);
   show_failures("clipped", counters_.clipped, status);

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
-#include <std_srvs/Empty.h>
 
 #include <chrono>
-#include <exception>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,17 +14,12 @@
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "ros/markers/marker_publisher.hpp"
-#include "ros/messages/failure_log.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/node_core.hpp"
-#include "ros/node/program.hpp"
-#include "ros/node/realtime.hpp"
 #include "ros/organs/organ_report.hpp"
 #include "ros/organs/organ_services.hpp"
-#include "ros/parameters/live_parameters.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/steps/inbox.hpp"
-#include "ros/tools/tool.hpp"
 #include "tool_proxy.hpp"
 
 namespace organ_collision {
@@ -35,15 +27,13 @@ namespace organ_collision {
 /// The node: one proxy for each tool, against all organs. Its inbox is that of the collision node.
 /// Each pose of a hand gives one tick of its proxy, unless the node lags behind. Poses on TF are
 /// looked up after each batch of messages. While a force fades or rises, further ticks follow the
-/// last pose. One thread does all this (message_loop.hpp) and owns the GL contexts. The background
+/// last pose. One thread does all this (node_core.hpp) and owns the GL contexts. The background
 /// thread inspects surfaces, and loads new tools and parameters.
 class HapticProxyNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
   HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  ~HapticProxyNode();
-  HapticProxyNode(const HapticProxyNode&) = delete;
-  HapticProxyNode& operator=(const HapticProxyNode&) = delete;
+  ~HapticProxyNode() { core_.end(); }
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
   /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
@@ -51,6 +41,7 @@ class HapticProxyNode {
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:
+  using Core = NodeCore<HapticProxyParameters>;
   using Time = ToolProxy::Time;
 
   /// A tool's proxy, and what the node knows of its hand.
@@ -67,10 +58,10 @@ class HapticProxyNode {
     Time told = {};                         ///< when something was last published
   };
 
+  Core::Callbacks callbacks();
   void start();
-  void end_background();
+  void work();
   void let_go(const std::string& why);
-  void report_breakdown(const std::string& why);
   void watch_clock();
   void apply_organ_messages();
   void follow_waiting_hands();
@@ -86,20 +77,13 @@ class HapticProxyNode {
   void reset_proxies(const std::string& why);
   bool release_leaving(const KeptTools& kept);
   bool do_leaving_hands_fade() const;
-  void exchange_tools(LoadedToolList& loaded, const KeptTools& kept);
-  void change_parameters(const XmlRpc::XmlRpcValue& changes);
-  bool on_reset(std_srvs::Empty::Request& request, std_srvs::Empty::Response& response);
+  void let_leaving_hands_fade(const KeptTools& kept);
+  void exchange_tools(LoadedTools& loaded, const KeptTools& kept);
+  void change_parameters();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ProxyCounters counters_;
-  MessageLoop loop_;
-  QueueThread background_;
-  ros::NodeHandle node_;
-  ros::NodeHandle private_node_;
-  LoadedHapticProxyParameters loaded_;
-  Realtime realtime_;
-  std::vector<Tool> tools_;
-  std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
+  Core core_;
 
   Inbox inbox_;
   ToolPoses poses_;
@@ -111,17 +95,8 @@ class HapticProxyNode {
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
   InboxDiagnostics inbox_diagnostics_;
-  diagnostic_updater::Updater updater_;
-
   SurfaceInspector surfaces_;
   OrganServices organ_services_;
-  ros::ServiceServer reset_;
-  ros::WallTimer diagnostic_timer_;
-
-  // What works in the background thread.
-  ToolReload tool_reload_;
-  LiveParameters live_parameters_;
-  MasterWatch master_;
 };
 
 }  // namespace organ_collision

@@ -1,4 +1,3 @@
-#include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "haptic_proxy_node.hpp"
@@ -6,16 +5,7 @@
 
 namespace organ_collision {
 
-class HapticProxyNodelet : public RestartingNodelet {
- public:
-  ~HapticProxyNodelet() override { stop(); }
-
- private:
-  Run make_node() override {
-    const auto node = std::make_shared<HapticProxyNode>(getNodeHandle(), getPrivateNodeHandle());
-    return [node](const std::function<bool()>& stop) { node->run(stop); };
-  }
-};
+using HapticProxyNodelet = RestartingNodelet<HapticProxyNode>;
 
 }  // namespace organ_collision
 

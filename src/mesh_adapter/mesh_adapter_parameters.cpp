@@ -12,12 +12,14 @@
 #include <set>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {
 
 using XmlRpc::XmlRpcValue;
+
+constexpr char kName[] = "name";
+constexpr char kFrame[] = "frame";
 
 /// A legal ROS name of a topic or node. A private name is refused, because it would be in this
 /// adapter's namespace.
@@ -33,14 +35,10 @@ std::string graph_name(const ParameterGroup& group, const char* name) {
 
 OrganParameters parse_organ(const ParameterGroup& group) {
   OrganParameters organ;
-  organ.name = group.text(names::kOrganName);
-  group.check_name(names::kOrganName, organ.name);
+  organ.name = group.text(kName);
+  group.check_name(kName, organ.name);
   organ.topic = graph_name(group, names::kTopic);
-  if (group.has(names::kFrame)) {
-    organ.frame = tf_frame(group.text(names::kFrame));
-    if (organ.frame.empty()) group.refuse(names::kFrame, "must be the name of a TF frame");
-    group.check_name(names::kFrame, organ.frame);
-  }
+  if (group.has(kFrame)) organ.frame = group.frame(kFrame);
   if (group.has(names::kVerticesTopic)) {
     organ.vertices_topic = graph_name(group, names::kVerticesTopic);
   }
@@ -49,15 +47,14 @@ OrganParameters parse_organ(const ParameterGroup& group) {
 
 void parse_organs(const ParameterGroup& all, MeshAdapterParameters& parameters) {
   const XmlRpcValue& list =
-      all.list(names::kOrgans, "groups of name, topic and, if needed, frame and vertices_topic");
+      all.list("organs", "groups of name, topic and, if needed, frame and vertices_topic");
   std::set<std::string> organs, topics;
   for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup group(
-        all.path_of(names::kOrgans) + "[" + std::to_string(i) + "]", list[i],
-        {names::kOrganName, names::kTopic, names::kFrame, names::kVerticesTopic});
+    const ParameterGroup group("~organs[" + std::to_string(i) + "]", list[i],
+                               {kName, names::kTopic, kFrame, names::kVerticesTopic});
     const OrganParameters organ = parse_organ(group);
     if (!organs.insert(organ.name).second) {
-      group.refuse(names::kOrganName, "must be unique among the organs");
+      group.refuse(kName, "must be unique among the organs");
     }
     if (!topics.insert(organ.topic).second) {
       group.refuse(names::kTopic, "must be unique among all topics of the organs");
@@ -66,34 +63,29 @@ void parse_organs(const ParameterGroup& all, MeshAdapterParameters& parameters) 
       group.refuse(names::kVerticesTopic, "must be unique among all topics of the organs");
     }
     parameters.organs.push_back(organ);
-    for (std::string& sentence : group.misspelt()) {
-      parameters.misspelt.push_back(std::move(sentence));
-    }
+    for (const std::string& sentence : group.misspelt()) parameters.misspelt.push_back(sentence);
   }
 }
 
 }  // namespace
 
-MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpcValue& private_namespace) {
-  const ParameterGroup all("~", private_namespace,
-                           {names::kOrgans, names::kCollisionNode, names::kDiagnosticPeriod});
-  MeshAdapterParameters parameters;
-  parameters.misspelt = all.misspelt();
-  parse_organs(all, parameters);
-  if (all.has(names::kCollisionNode)) {
-    parameters.collision_node = graph_name(all, names::kCollisionNode);
-  }
-  parameters.diagnostic_period_sec =
-      all.number(names::kDiagnosticPeriod, parameters.diagnostic_period_sec, kTimerPeriod);
-  return parameters;
-}
-
-MeshAdapterParameters load_mesh_adapter_parameters(const ros::NodeHandle& private_node) {
-  return parse_mesh_adapter_parameters(all_parameters(private_node));
+ParameterTable table_of(MeshAdapterParameters& p) {
+  ParameterTable t;
+  t.other(
+      "organs", "required", [&p](const ParameterGroup& all) { parse_organs(all, p); },
+      "list of organs. Each has name and topic and, if needed, frame and vertices_topic");
+  t.other(
+      "collision_node", p.collision_node,
+      [&p](const ParameterGroup& all) {
+        if (all.has("collision_node")) p.collision_node = graph_name(all, "collision_node");
+      },
+      "the collision node, which gets the organs");
+  t.number("diagnostic_period", p.diagnostic_period_sec, kTimerPeriod,
+           "[s] between messages on /diagnostics");
+  return t;
 }
 
 ProgramHelp mesh_adapter_help() {
-  const MeshAdapterParameters defaults;
   ProgramHelp help{names::kMeshAdapter,
                    "Turns meshes of other message types into organs of the collision node."};
   help.subscribed = {
@@ -109,12 +101,7 @@ ProgramHelp mesh_adapter_help() {
                      message_type<OrganVertices>(), "surfaces with known triangles"},
                     {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
                      "messages of each organ: received, converted, refused by reason, age"}};
-  help.parameters = {
-      {names::kOrgans, "required",
-       "list of organs. Each has name and topic and, if needed, frame and vertices_topic"},
-      {names::kCollisionNode, defaults.collision_node, "the collision node, which gets the organs"},
-      {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
-       "[s] between messages on /diagnostics"}};
+  help.parameters = parameter_help<MeshAdapterParameters>();
   help.further =
       "roslaunch organ_collision organ_mesh_adapter.launch organs:=FILE.yaml starts it. "
       "doc/meshes.md explains all of this.";

@@ -26,9 +26,8 @@ std::uint32_t outgoing_queue(const MeshAdapterParameters& parameters) {
 
 OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : node_(node),
-      parameters_(load_mesh_adapter_parameters(private_node)),
-      updater_(node, private_node, private_node.getNamespace()),
-      master_(private_node.getNamespace()) {
+      parameters_(load_parameters<MeshAdapterParameters>(private_node)),
+      diagnostics_(node, private_node, parameters_.diagnostic_period_sec) {
   for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
   // Not latched: a latched topic keeps only the last message. A new subscriber would get only one
@@ -42,13 +41,7 @@ OrganMeshAdapter::OrganMeshAdapter(const ros::NodeHandle& node, const ros::NodeH
   // Random, because the collision node may still have meshes of an earlier adapter.
   const std::uint32_t last_topology = std::random_device()();
   for (const OrganParameters& organ : parameters_.organs) add_organ(organ, last_topology);
-  updater_.setHardwareID("none");
-  updater_.add("meshes", this, &OrganMeshAdapter::diagnose);
-  master_.add_to(updater_);
-  // A timer of wall time, because the updater's own period stops when simulated time stops.
-  diagnostic_timer_ =
-      private_node.createWallTimer(ros::WallDuration(parameters_.diagnostic_period_sec),
-                                   [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  diagnostics_.updater().add("meshes", this, &OrganMeshAdapter::diagnose);
   ROS_INFO("ready: %s, for %s", counted(organs_.size(), "organ").c_str(),
            collision_node.getNamespace().c_str());
 }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
 #include <topic_tools/shape_shifter.h>
@@ -52,9 +51,7 @@ class OrganMeshAdapter {
   std::uint32_t meshes_sent_ = 0;
   std::list<Organ> organs_;
   std::vector<ros::Subscriber> subscribers_;
-  diagnostic_updater::Updater updater_;
-  ros::WallTimer diagnostic_timer_;
-  MasterWatch master_;
+  Diagnostics diagnostics_;
 };
 
 }  // namespace organ_collision

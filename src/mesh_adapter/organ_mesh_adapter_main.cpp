@@ -1,20 +1,12 @@
 #include <ros/ros.h>
 
-#include "mesh_adapter_parameters.hpp"
 #include "organ_mesh_adapter.hpp"
-#include "ros/node/program.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  if (const auto exit_code = answer_arguments(argc, argv, mesh_adapter_help())) return *exit_code;
-  ros::init(argc, argv, names::kMeshAdapter);
-  guard_parameter_updates();
-  const ros::NodeHandle node;  // Without any node handle, ROS would not log the error below.
-  try {
-    OrganMeshAdapter adapter(node, ros::NodeHandle("~"));
-    ros::spin();
-  } catch (const std::exception& error) {
-    ROS_FATAL("%s", error.what());
-    return 1;
-  }
+  return run_program(argc, argv, mesh_adapter_help(), names::kMeshAdapter,
+                     [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
+                       const OrganMeshAdapter adapter(node, private_node);
+                       ros::spin();
+                     });
 }

@@ -171,15 +171,15 @@ void read(RecordedMessages& messages, const std::string& file,
 void replay(const ReplayOptions& options) {
   check_files(options);
   const YamlParameters parameters(options.parameters, options.node);
-  const LoadedParameters loaded = parameters.node_parameters();
-  for (const std::string& sentence : loaded.misspelt) std::cerr << "replay: " << sentence << '\n';
-  const std::vector<Tool> tools = load_tools(loaded.parameters, parameters);
+  const NodeParameters node = parameters.node_parameters();
+  for (const std::string& sentence : node.misspelt) std::cerr << "replay: " << sentence << '\n';
+  const std::vector<Tool> tools = load_tools(node, parameters);
 
   rosbag::Bag bag;
   open(bag, options.in);
   const std::string contacts = options.node + "/" + names::kContacts;
   AnswerBag answers(options.out, contacts);
-  Replay replay(loaded.parameters, tools, options.node, has_topic(bag, "/clock"),
+  Replay replay(node, tools, options.node, has_topic(bag, "/clock"),
                 [&](const ContactArray& answer, ros::Time time) { answers.add(answer, time); });
   check_organs(bag, options);
   check_types(bag, options.in, replay);

@@ -127,16 +127,16 @@ YamlParameters::YamlParameters(const std::string& file, const std::string& node)
   if (group && group->getType() == XmlRpcValue::TypeStruct) node_ = without_slash(node);
 }
 
-LoadedParameters YamlParameters::node_parameters() const {
+NodeParameters YamlParameters::node_parameters() const {
   const XmlRpcValue& group = *find(tree_, node_);
-  LoadedParameters loaded = parse_parameters(group);
-  if (!node_.empty()) return loaded;
+  NodeParameters parameters = parse_parameters<NodeParameters>(group);
+  if (!node_.empty()) return parameters;
   // The descriptions of robots, which stand beside the node's parameters, are not misspelt.
   std::set<std::string> robots;
-  for (const ToolParameters& tool : loaded.parameters.tools) {
+  for (const ToolParameters& tool : parameters.tools) {
     robots.insert(first_part(without_slash(tool.robot_description)));
   }
-  return parse_parameters(without(group, robots));
+  return parse_parameters<NodeParameters>(without(group, robots));
 }
 
 std::string YamlParameters::find_text(const std::string& parameter) const {

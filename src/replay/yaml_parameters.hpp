@@ -16,7 +16,7 @@ class YamlParameters {
   YamlParameters(const std::string& file, const std::string& node);
 
   /// Throws ParameterError.
-  LoadedParameters node_parameters() const;
+  NodeParameters node_parameters() const;
   /// The value of a text parameter, for example robot_description. It is searched in the node's
   /// namespace and upwards from there. Throws ToolError.
   std::string find_text(const std::string& parameter) const;

@@ -273,10 +273,9 @@ def tool_mesh():
 
 def parameters():
     """Trees in the encoding of parameters_fuzz.cpp."""
-    names = ['tools', 'picker', 'rate', 'organ_motion']
+    names = ['tools', 'organs', 'rate', 'organ_motion', 'stiffness', 'max_force', 'name', 'trocar_frame', 'tip_frame',
+             'radius', 'links', 'urdf', 'topic']
     index = {name: i for i, name in enumerate(names)}
-    index.update(name=20, trocar_frame=21, tip_frame=22, radius=25, links=26, urdf=28, max_force=34, stiffness=33,
-                 organs=45, topic=46)
     text = lambda content: bytes([3, 8 * len(content) + 1]) + content
     number = lambda value: b'\2' + struct.pack('<d', value)
     group = lambda **members: bytes([6, len(members)]) + b''.join(

@@ -1,5 +1,6 @@
 // Parameters of all nodes: any tree of values, as the parameter server may hold it.
-#include <array>
+#include <string>
+#include <vector>
 
 #include "contact_adapter/contact_adapter_parameters.hpp"
 #include "contact_adapter/contact_answer.hpp"
@@ -14,73 +15,44 @@ using XmlRpc::XmlRpcValue;
 
 namespace {
 
-/// Names of parameters, and one that is none.
-const std::array<const char*, 66> kNames = {"tools",
-                                            "picker",
-                                            "rate",
-                                            "organ_motion",
-                                            "motion_sample_sec",
-                                            "motion_samples_max",
-                                            "tf_timeout_sec",
-                                            "mesh_timeout_sec",
-                                            "max_faces",
-                                            "max_batch",
-                                            "max_batch_bytes",
-                                            "publish_regions",
-                                            "publish_placement",
-                                            "diagnostic_period",
-                                            "markers_rate",
-                                            "surface_rate",
-                                            "markers_depth",
-                                            "threads",
-                                            "realtime_priority",
-                                            "lock_memory",
-                                            "awake_cores",
-                                            "name",
-                                            "trocar_frame",
-                                            "tip_frame",
-                                            "tip_pose_topic",
-                                            "base_pose_topic",
-                                            "radius",
-                                            "links",
-                                            "robot_description",
-                                            "urdf",
-                                            "tf_prefix",
-                                            "margin",
-                                            "max_near",
-                                            "freedom",
-                                            "stiffness",
-                                            "max_force",
-                                            "max_torque",
-                                            "damping",
-                                            "clearance",
-                                            "jump",
-                                            "puncture_force",
-                                            "friction",
-                                            "frame",
-                                            "pose_timeout_sec",
-                                            "frame_timeout_sec",
-                                            "publish_tf",
-                                            "way_out",
-                                            "organs",
-                                            "topic",
-                                            "vertices_topic",
-                                            "collision_node",
-                                            "not_a_name",
-                                            "",
-                                            "/",
-                                            "~",
-                                            "rate",
-                                            "tools",
-                                            "tools",
-                                            "name",
-                                            "radius",
-                                            "links",
-                                            "trocar_frame",
-                                            "tip_frame",
-                                            "organs",
-                                            "topic",
-                                            "urdf"};
+/// The names of the parameters of all nodes, the keys of tools and organs, and texts that are no
+/// names.
+std::vector<std::string> known_names() {
+  // make_corpus.py knows the numbers of the first ones.
+  std::vector<std::string> names = {"tools",
+                                    "organs",
+                                    "rate",
+                                    "organ_motion",
+                                    "stiffness",
+                                    "max_force",
+                                    "name",
+                                    "trocar_frame",
+                                    "tip_frame",
+                                    "radius",
+                                    "links",
+                                    "urdf",
+                                    "topic",
+                                    "tip_pose_topic",
+                                    "base_pose_topic",
+                                    "robot_description",
+                                    "tf_prefix",
+                                    "margin",
+                                    "max_near",
+                                    "freedom",
+                                    "vertices_topic",
+                                    "not_a_name",
+                                    "",
+                                    "/",
+                                    "~"};
+  for (const auto& help :
+       {parameter_help<NodeParameters>(), parameter_help<HapticProxyParameters>(),
+        parameter_help<ContactAdapterParameters>(), parameter_help<MeshAdapterParameters>()}) {
+    for (const HelpEntry& entry : help) names.push_back(entry.name);
+  }
+  return names;
+}
+
+const std::vector<std::string> kNames = known_names();
 constexpr int kDeepest = 6;
 
 XmlRpcValue value(FuzzInput& input, int depth);
@@ -154,21 +126,21 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   const XmlRpcValue all = group(input, 0);
   load([&] {
-    const NodeParameters parameters = parse_parameters(all).parameters;
+    const NodeParameters parameters = parse_parameters<NodeParameters>(all);
     check(parameters);
     changed(parameters, all);
   });
   load([&] {
-    const HapticProxyParameters parameters = parse_haptic_proxy_parameters(all).parameters;
+    const HapticProxyParameters parameters = parse_parameters<HapticProxyParameters>(all);
     for (const ToolParameters& tool : parameters.tools) proxy_settings(parameters, tool);
     changed(parameters, all);
   });
   load([&] {
-    const ContactAdapterParameters parameters = parse_contact_adapter_parameters(all);
+    const ContactAdapterParameters parameters = parse_parameters<ContactAdapterParameters>(all);
     demand(parameters.max_force > 0.0, "the largest force is positive");
     changed(parameters, all);
   });
-  load([&] { parse_mesh_adapter_parameters(all); });
+  load([&] { parse_parameters<MeshAdapterParameters>(all); });
   if (all.hasMember("tools")) shaft_radius(all["tools"], "name");
   return 0;
 }

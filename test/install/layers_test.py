@@ -17,8 +17,8 @@ LAYERS = ['geometry', 'picking', 'query', 'ros']
 # The folders of a layer, in the order in which data flows through them.
 ROOMS = {'geometry': ['organ', 'tool', 'distance', 'sides'],
          'picking': ['volumes', 'culling', 'gl', 'pickers'],
-         'ros': ['interface', 'master', 'parameters', 'organs', 'tools', 'motion', 'inbox', 'steps', 'queries',
-                 'pipeline', 'publishing', 'node']}
+         'ros': ['messages', 'threads', 'parameters', 'organs', 'tools', 'motion', 'steps', 'publishing', 'queries',
+                 'markers', 'node']}
 LIBRARIES = dict(zip(LAYERS, sys.argv[2:5]))
 ROS_LIBRARY = sys.argv[5]
 CONTACT_ADAPTER, MESH_ADAPTER, LIVER_SIMULATOR, ROBOT_READER, SNAPSHOT = sys.argv[6:11]
@@ -26,10 +26,11 @@ ROS = re.compile(r'\b(ros|roscpp|tf2|nodelet|pluginlib|diagnostic_updater|\w+_ms
 GL = re.compile(r'\b(GL|EGL)/')
 GL_LIBRARIES = r'lib(OSMesa|GL|EGL)\.so'
 PARSERS = r'lib(assimp|urdfdom\w*|tinyxml2?)\.so'
-# The layers that the adapters must not use, and the folders of the node. The names of the modes are
+# The layers that the adapters must not use, and the folders and files of the node. The names of the modes are
 # allowed: that header links nothing.
 NODE = re.compile(r'(organ_collision/)?(picking|query)/(?!query_mode\.hpp)'
-                  r'|ros/(node|inbox|motion|organs|parameters|pipeline|publishing|queries|steps|tools)/')
+                  r'|ros/(markers|motion|organs|publishing|queries|steps|tools)/'
+                  r'|ros/node/(?!program)|ros/parameters/(node|tool)_parameters')
 
 
 def includes(room, files='*'):
@@ -92,7 +93,7 @@ class LayersTest(unittest.TestCase):
         self.assertIn('picking/gl/gl_context.hpp', found)
 
     def test_the_adapters_include_nothing_of_picking_query_and_the_node(self):
-        for room in ('ros/interface', 'ros/master', 'forces', 'contact_adapter', 'mesh_adapter', 'check_contacts'):
+        for room in ('ros/messages', 'ros/threads', 'forces', 'contact_adapter', 'mesh_adapter', 'check_contacts'):
             found = 0
             for path, included in includes(room):
                 found += 1
@@ -100,8 +101,7 @@ class LayersTest(unittest.TestCase):
             self.assertGreater(found, 0, room)
 
     def test_what_robot_reader_shares_with_the_node_includes_no_ros(self):
-        for room, files in (('ros/interface', 'legal_name'), ('ros/interface', 'plain_text'),
-                            ('ros/tools', 'robot_reply')):
+        for room, files in (('ros/messages', 'text'), ('ros/tools', 'robot_reply')):
             found = 0
             for path, included in includes(room, files):
                 found += 1

@@ -25,32 +25,8 @@ inline constexpr char kRemoveOrgan[] = "remove_organ";
 inline constexpr char kReloadTools[] = "reload_tools";
 ///@}
 
-///@{
-/// A parameter.
+/// A parameter. --help shows all others, whose names stand only in the tables of the nodes.
 inline constexpr char kTools[] = "tools";
-inline constexpr char kPicker[] = "picker";
-inline constexpr char kGl[] = "gl";
-inline constexpr char kRate[] = "rate";
-inline constexpr char kOrganMotion[] = "organ_motion";
-inline constexpr char kMotionSampleSec[] = "motion_sample_sec";
-inline constexpr char kMotionSamplesMax[] = "motion_samples_max";
-inline constexpr char kTfTimeoutSec[] = "tf_timeout_sec";
-inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
-inline constexpr char kMaxAheadSec[] = "max_ahead_sec";
-inline constexpr char kMaxFaces[] = "max_faces";
-inline constexpr char kMaxBatch[] = "max_batch";
-inline constexpr char kMaxBatchBytes[] = "max_batch_bytes";
-inline constexpr char kPublishRegions[] = "publish_regions";
-inline constexpr char kPublishPlacement[] = "publish_placement";
-inline constexpr char kDiagnosticPeriod[] = "diagnostic_period";
-inline constexpr char kMarkersRate[] = "markers_rate";
-inline constexpr char kSurfaceRate[] = "surface_rate";
-inline constexpr char kMarkersDepth[] = "markers_depth";
-inline constexpr char kThreads[] = "threads";
-inline constexpr char kRealtimePriority[] = "realtime_priority";
-inline constexpr char kLockMemory[] = "lock_memory";
-inline constexpr char kAwakeCores[] = "awake_cores";
-///@}
 
 ///@{
 /// A key of the entries of `tools`.

@@ -1,10 +1,11 @@
 #include "text.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/join.hpp>
+#include <boost/locale/utf.hpp>
 #include <cmath>
 #include <numeric>
 #include <sstream>
-#include <string_view>
 
 namespace organ_collision {
 namespace {
@@ -12,84 +13,10 @@ namespace {
 /// [bytes] Reserved for the note at the end of a shortened text.
 constexpr std::size_t kNote = 40;
 
-struct ByteRange {
-  unsigned char first, last;
-
-  bool contains(unsigned char byte) const { return first <= byte && byte <= last; }
-};
-
-/// The legal values of the third and fourth byte of a character, and of the second byte after most
-/// first bytes.
-constexpr ByteRange kContinuation{0x80, 0xBF};
-
-/// The legal second bytes after a character's first byte, by table 3-7 of the Unicode Standard. The
-/// table excludes overlong forms, surrogates and code points beyond U+10FFFF.
-ByteRange second_bytes(unsigned char first) {
-  switch (first) {
-    case 0xE0:
-      return {0xA0, 0xBF};
-    case 0xED:
-      return {0x80, 0x9F};
-    case 0xF0:
-      return {0x90, 0xBF};
-    case 0xF4:
-      return {0x80, 0x8F};
-    default:
-      return kContinuation;
-  }
+/// Whether a code point is a control character: in the set C0 or C1, or DEL.
+bool is_control(boost::locale::utf::code_point character) {
+  return character < 0x20 || (character >= 0x7F && character < 0xA0);
 }
-
-/// [bytes] The size of the first character of `text`, which must not be empty; 0 if its first byte
-/// does not begin a UTF-8 character.
-std::size_t first_character(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  if (first < 0xC2 || first > 0xF4) return 0;
-  const std::size_t size = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-  if (text.size() < size || !second_bytes(first).contains(byte(1))) return 0;
-  for (std::size_t i = 2; i < size; ++i) {
-    if (!kContinuation.contains(byte(i))) return 0;
-  }
-  return size;
-}
-
-/// Whether the character is a control character: in the set C0 or C1, or DEL.
-bool is_control(std::string_view character) {
-  const auto last = static_cast<unsigned char>(character.back());
-  if (character.size() == 1) return last < 0x20 || last == 0x7F;
-  return character.size() == 2 && character.front() == '\xC2' && last < 0xA0;
-}
-
-}  // namespace
-
-std::string plain_text(const std::string& text, std::size_t most) {
-  const std::size_t room = text.size() <= most ? most : most - kNote;
-  std::string plain;
-  std::string_view rest = text;
-  while (!rest.empty()) {
-    const std::size_t size = first_character(rest);
-    const std::string_view character = rest.substr(0, size);
-    const std::string_view shown = size == 0 ? "?" : is_control(character) ? " " : character;
-    if (plain.size() + shown.size() > room) break;
-    plain += shown;
-    rest.remove_prefix(size == 0 ? 1 : size);
-  }
-  if (!rest.empty()) plain += "... (" + std::to_string(rest.size()) + " more bytes)";
-  return plain;
-}
-
-std::string counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
-}
-
-std::string listed(const std::vector<std::string>& texts) {
-  std::string list;
-  for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + text;
-  return list;
-}
-
-namespace {
 
 /// The Levenshtein distance. Only one row of its table is in memory at a time.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -108,6 +35,38 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::string plain_text(const std::string& text, std::size_t most) {
+  using Utf8 = boost::locale::utf::utf_traits<char>;
+  const std::size_t room = text.size() <= most ? most : most - kNote;
+  std::string plain;
+  auto rest = text.begin();
+  while (rest != text.end()) {
+    auto next = rest;
+    const auto character = Utf8::decode(next, text.end());
+    const bool is_utf8 =
+        character != boost::locale::utf::illegal && character != boost::locale::utf::incomplete;
+    if (!is_utf8) next = rest + 1;
+    const std::string shown = !is_utf8                ? "?"
+                              : is_control(character) ? " "
+                                                      : std::string(rest, next);
+    if (plain.size() + shown.size() > room) break;
+    plain += shown;
+    rest = next;
+  }
+  if (rest != text.end()) {
+    plain += "... (" + std::to_string(text.end() - rest) + " more bytes)";
+  }
+  return plain;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
+}
+
+std::string listed(const std::vector<std::string>& texts) {
+  return boost::algorithm::join(texts, ", ");
+}
 
 std::string name_fault(const std::string& name) {
   const std::string shown = plain_text(name, kLongestName);

@@ -27,7 +27,7 @@ std::string counted(std::size_t count, const std::string& noun);
 std::string listed(const std::vector<std::string>& texts);
 
 /// What is wrong with a name, as "'NAME' has 300 bytes; a name must ..."; empty if it is legal. A
-/// legal name is plain text of at most kLongestName bytes (plain_text.hpp). It may be empty.
+/// legal name is plain text of at most kLongestName bytes (plain_text()). It may be empty.
 std::string name_fault(const std::string& name);
 
 /// The name of `legal` that needs the fewest insertions, deletions and replacements of a letter to

@@ -1,4 +1,3 @@
-#include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
 #include "collision_node.hpp"
@@ -6,16 +5,7 @@
 
 namespace organ_collision {
 
-class CollisionNodelet : public RestartingNodelet {
- public:
-  ~CollisionNodelet() override { stop(); }
-
- private:
-  Run make_node() override {
-    const auto node = std::make_shared<CollisionNode>(getNodeHandle(), getPrivateNodeHandle());
-    return [node](const std::function<bool()>& stop) { node->run(stop); };
-  }
-};
+using CollisionNodelet = RestartingNodelet<CollisionNode>;
 
 }  // namespace organ_collision
 

@@ -5,42 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <new>
-#include <utility>
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/tools/robot_reply.hpp"
-#include "scheduling.hpp"
 
 namespace organ_collision {
-namespace {
-
-/// How soon the thread notices that it is to end.
-const ros::WallDuration kStopPeriod(0.05);
-
-}  // namespace
-
-QueueThread::QueueThread() : thread_([this] { work(); }) {}
-
-QueueThread::~QueueThread() { stop(); }
-
-void QueueThread::stop() {
-  stop_ = true;
-  if (thread_.joinable()) thread_.join();
-}
-
-void QueueThread::work() {
-  lower_priority_of_this_thread();
-  while (!stop_) {
-    try {
-      queue_.callOne(kStopPeriod);
-    } catch (const std::bad_alloc&) {  // The callback is lost. The next one may have more memory.
-    }
-  }
-}
-
 namespace {
 
 using namespace std::chrono_literals;
@@ -55,6 +26,13 @@ constexpr std::chrono::milliseconds kShortestSimulatedWait(1);
 /// If the node cannot keep up with its messages, shapes wait at most this much longer than
 /// tf_timeout_sec for their transforms.
 constexpr std::chrono::seconds kLongestBacklog(1);
+
+/// A tool that would stop working is refused. One that did not work before may go on so.
+void check(const std::vector<Tool>& tools, const KeptTools& kept) {
+  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
+    if (!kept[tool] && !tools[tool].fault.empty()) throw ToolError(tools[tool].fault);
+  }
+}
 
 }  // namespace
 
@@ -81,43 +59,17 @@ ros::WallDuration MessageLoop::wait(std::optional<SteadyTime> deadline, SteadyTi
 
 /// Returns false if there was no callback.
 bool MessageLoop::call_one(ros::WallDuration wait) {
-  actions_.watch_clock();
-  bool called = true;
-  guard([&] { called = queue_.callOne(wait) == ros::CallbackQueue::Called; });
-  actions_.watch_clock();
-  guard([this] { actions_.handle(clock_.now()); });
+  callbacks_.watch_clock();
+  const bool called = queue_.callOne(wait) == ros::CallbackQueue::Called;
+  callbacks_.watch_clock();
+  callbacks_.handle(clock_.now());
   return called;
-}
-
-void MessageLoop::guard(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const std::exception& error) {  // Usually std::bad_alloc.
-    rejected_.add("exception", std::string("something was left out: ") + error.what(),
-                  SteadyClock::now());
-  }
 }
 
 void MessageLoop::end() {
   queue_.disable();
   queue_.clear();
 }
-
-ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
-  node.setCallbackQueue(&queue);
-  return node;
-}
-
-namespace {
-
-/// A tool that would stop working is refused. One that did not work before may go on so.
-void check(const std::vector<Tool>& tools, const KeptTools& kept) {
-  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    if (!kept[tool] && !tools[tool].fault.empty()) throw ToolError(tools[tool].fault);
-  }
-}
-
-}  // namespace
 
 std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
                              const ros::NodeHandle& private_node) {
@@ -141,13 +93,6 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
   }
 }
 
-ToolReload::ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools, Load load,
-                       Exchange exchange)
-    : private_node_(private_node),
-      tools_(tools),
-      load_(std::move(load)),
-      exchange_(std::move(exchange)) {}
-
 void ToolReload::advertise() {
   server_ = private_node_.advertiseService(names::kReloadTools, &ToolReload::on_reload, this);
 }
@@ -166,12 +111,10 @@ bool ToolReload::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Respo
 
 /// Returns which tools are new, changed, unchanged and removed.
 std::string ToolReload::reload() {
-  LoadedTools parameters = load_();
-  LoadedToolList loaded{load_tools(parameters.tools, private_node_),
-                        std::move(parameters.misspelt)};
+  LoadedTools loaded = callbacks_.load();
   const ToolChanges changes = compare_tools(tools_, loaded.tools);
   check(loaded.tools, changes.kept);
-  exchange_(loaded, changes.kept);
+  callbacks_.exchange(loaded, changes.kept);
   return changes.summary;
 }
 

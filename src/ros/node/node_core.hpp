@@ -2,57 +2,37 @@
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
+#include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 
-#include <atomic>
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
-#include <thread>
+#include <utility>
 #include <vector>
 
-#include "ros/messages/failure_log.hpp"
-#include "ros/parameters/tool_parameters.hpp"
+#include "organ_collision/ros/names.hpp"
+#include "program.hpp"
+#include "queues.hpp"
+#include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/wait_clock.hpp"
 #include "ros/tools/tool.hpp"
+#include "scheduling.hpp"
 
 namespace organ_collision {
-
-/// A thread that calls the callbacks of its own queue, with lowered priority: for work that no step
-/// waits for. It ends with this object at the latest.
-class QueueThread {
- public:
-  QueueThread();
-  ~QueueThread();
-  QueueThread(const QueueThread&) = delete;
-  QueueThread& operator=(const QueueThread&) = delete;
-
-  /// Ends the thread after the callback that it is calling. What else is in the queue stays there.
-  void stop();
-  /// What is added to this queue is called in the thread.
-  ros::CallbackQueue& queue() { return queue_; }
-
- private:
-  void work();
-
-  ros::CallbackQueue queue_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_;
-};
 
 /// The callback queue of a node, whose callbacks one thread calls in batches. That thread owns all
 /// state of the node, so that the state needs no locks.
 class MessageLoop {
  public:
   /// What the node does around the callbacks.
-  struct Actions {
+  struct Callbacks {
     std::function<void()> watch_clock;           ///< before and after each callback
     std::function<void(SteadyTime now)> handle;  ///< after each callback; `now`: of now()
   };
 
-  /// `rejected` gets the exceptions that guard() caught. It must outlive this.
-  MessageLoop(FailureLog& rejected, Actions actions)
-      : rejected_(rejected), actions_(std::move(actions)) {}
+  explicit MessageLoop(Callbacks callbacks) : callbacks_(std::move(callbacks)) {}
   ~MessageLoop() { end(); }
   MessageLoop(const MessageLoop&) = delete;
   MessageLoop& operator=(const MessageLoop&) = delete;
@@ -60,15 +40,13 @@ class MessageLoop {
   ros::CallbackQueue& queue() { return queue_; }
 
   /// Waits for the first callback, but not beyond `deadline`, a time of now(). Then calls all
-  /// callbacks that are there, for at most 2 ms.
+  /// callbacks that are there, for at most 2 ms. Throws what they throw.
   void receive(std::optional<SteadyTime> deadline);
   /// All messages that came before this time of now() have been handled.
   SteadyTime heard_until() const { return heard_until_; }
   /// The time of deadlines.
   SteadyTime now() { return clock_.now(); }
 
-  /// Runs an action. If it throws, the exception is counted, and the node goes on.
-  void guard(const std::function<void()>& action);
   /// Drops the callbacks, and all that come later. A thread that waits for one of them goes on.
   void end();
 
@@ -77,17 +55,14 @@ class MessageLoop {
   bool call_one(ros::WallDuration wait);
 
   ros::CallbackQueue queue_;
-  FailureLog& rejected_;
-  Actions actions_;
+  Callbacks callbacks_;
   WaitClock clock_;
   SteadyTime heard_until_;
 };
 
-/// The same node handle, with its callbacks in `queue`.
-ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue);
-
-/// The tools, and one sentence for each unknown name among all parameters.
-struct LoadedToolList {
+/// The tools that the parameter server has, and one sentence for each unknown name among all
+/// parameters.
+struct LoadedTools {
   std::vector<Tool> tools;
   std::vector<std::string> misspelt;
 };
@@ -103,15 +78,17 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
 /// have a callback queue with a thread of its own: the node's thread only exchanges the lists.
 class ToolReload {
  public:
-  /// Exchanges the node's lists for `loaded`, which then has the old ones.
-  using Exchange = std::function<void(LoadedToolList& loaded, const KeptTools& kept)>;
-
-  /// Reads the tools that the parameter server has now. Throws ParameterError.
-  using Load = std::function<LoadedTools()>;
+  struct Callbacks {
+    /// Reads the tools that the parameter server has now. Throws ParameterError.
+    std::function<LoadedTools()> load;
+    /// Exchanges the node's lists for `loaded`, which then has the old ones.
+    std::function<void(LoadedTools& loaded, const KeptTools& kept)> exchange;
+  };
 
   /// `tools`: the node's list, which only `exchange` may change.
-  ToolReload(ros::NodeHandle private_node, const std::vector<Tool>& tools, Load load,
-             Exchange exchange);
+  ToolReload(const ros::NodeHandle& private_node, const std::vector<Tool>& tools,
+             Callbacks callbacks)
+      : private_node_(private_node), tools_(tools), callbacks_(std::move(callbacks)) {}
 
   /// From now on, the exchange may be called at any time.
   void advertise();
@@ -122,9 +99,167 @@ class ToolReload {
 
   ros::NodeHandle private_node_;
   const std::vector<Tool>& tools_;
-  Load load_;
-  Exchange exchange_;
+  Callbacks callbacks_;
   ros::ServiceServer server_;
+};
+
+/// What all nodes with organs have: the loop of their thread, a background thread, parameters and
+/// tools that can be changed while the node runs, the service `reset`, real-time scheduling, and
+/// /diagnostics. `Parameters`: derived from OrganNodeParameters.
+template <typename Parameters>
+class NodeCore {
+ public:
+  /// What the node does. All are called in the node's thread, unless they say otherwise.
+  struct Callbacks {
+    MessageLoop::Callbacks loop;
+    /// After each batch of messages.
+    std::function<void()> work;
+    /// When `work` has something to do even if no message comes, as a time of the loop.
+    std::function<std::optional<SteadyTime>()> next_deadline;
+    std::function<void()> reset;
+    std::function<void(const Parameters& before)> parameters_changed;
+    /// In the background thread, which waits for its end: exchanges the tools, by exchange_tools().
+    decltype(ToolReload::Callbacks::exchange) exchange_tools;
+    /// Before the node ends because of an exception: tells the subscribers.
+    std::function<void(const std::string& why)> break_down;
+  };
+
+  /// Throws ParameterError. The same thread must call run().
+  NodeCore(const ros::NodeHandle& node, const ros::NodeHandle& private_node, Callbacks callbacks)
+      : callbacks_(std::move(callbacks)),
+        loop_(callbacks_.loop),
+        node_(on_queue(node, loop_.queue())),
+        private_node_(on_queue(private_node, loop_.queue())),
+        parameters_(load_parameters<Parameters>(private_node_)),
+        realtime_(parameters_.realtime),
+        tools_(load_tools(parameters_.tools, private_node_)),
+        diagnostics_(node_, private_node_, parameters_.diagnostic_period_sec),
+        tool_reload_(on_queue(private_node, background_.queue()), tools_,
+                     {[this] { return loaded_tools(); }, callbacks_.exchange_tools}),
+        live_parameters_(on_queue(private_node, background_.queue()), live_parameters(parameters_),
+                         [this](const auto& changes) { return change_parameters(changes); }) {}
+  ~NodeCore() { end(); }
+  NodeCore(const NodeCore&) = delete;
+  NodeCore& operator=(const NodeCore&) = delete;
+
+  MessageLoop& loop() { return loop_; }
+  QueueThread& background() { return background_; }
+  /// Their callbacks are called in the node's thread.
+  const ros::NodeHandle& node() const { return node_; }
+  ros::NodeHandle& private_node() { return private_node_; }
+  const Parameters& parameters() const { return parameters_; }
+  const std::vector<Tool>& tools() const { return tools_; }
+  std::vector<Tool>& tools() { return tools_; }
+  diagnostic_updater::Updater& updater() { return diagnostics_.updater(); }
+
+  /// From now on, the callbacks may be called.
+  void start() {
+    warn_of_settings(tools_, parameters_.misspelt);
+    tool_reload_.advertise();
+    live_parameters_.advertise();
+    reset_ = private_node_.advertiseService<std_srvs::Empty::Request, std_srvs::Empty::Response>(
+        names::kReset, [this](std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+          callbacks_.reset();
+          return true;
+        });
+    realtime_.add_to(updater());
+  }
+
+  /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
+  /// recover from, such as std::bad_alloc, after the node's last words.
+  void run(const std::function<bool()>& stop) {
+    try {
+      while (private_node_.ok() && !stop()) {
+        loop_.receive(callbacks_.next_deadline());
+        if (broken_) std::rethrow_exception(broken_);
+        callbacks_.work();
+      }
+    } catch (const std::exception& error) {
+      say_last_words(error.what());
+      throw;
+    }
+  }
+
+  /// Ends the waits of other threads for the node's thread, and then the background thread, which
+  /// uses members. A node must call it before it destroys what the callbacks use.
+  void end() {
+    loop_.end();
+    background_.stop();
+  }
+
+  /// In the background thread: runs an action in the node's thread, and waits for its end.
+  void in_node_thread(const std::function<void()>& action) {
+    run_in_thread_of(loop_.queue(), action);
+  }
+
+  /// Exchanges the tools and their parameters for `loaded`. `prepare` gets the new parameters; if
+  /// it throws, nothing has changed. `follow`: what the node does then. If that throws, the node
+  /// cannot go on with half of the exchange, and breaks down.
+  void exchange_tools(LoadedTools& loaded,
+                      const std::function<void(const std::vector<ToolParameters>&)>& prepare,
+                      const std::function<void()>& follow) {
+    std::vector<ToolParameters> parameters;
+    for (const Tool& tool : loaded.tools) parameters.push_back(tool.parameters);
+    prepare(parameters);
+    try {
+      std::swap(tools_, loaded.tools);
+      std::swap(parameters_.misspelt, loaded.misspelt);
+      std::swap(parameters_.tools, parameters);
+      follow();
+      warn_of_settings(tools_, parameters_.misspelt);
+    } catch (...) {
+      broken_ = std::current_exception();
+      throw;
+    }
+  }
+
+ private:
+  /// Runs in the background thread.
+  LoadedTools loaded_tools() {
+    Parameters parameters;
+    const ParameterTable table = table_of(parameters);
+    const ParameterGroup all = table.group(all_parameters(private_node_));
+    parameters.misspelt = all.misspelt();
+    table.read(all, names::kTools);
+    return {load_tools(parameters.tools, private_node_), std::move(parameters.misspelt)};
+  }
+
+  /// Runs in the background thread. Only this thread ever makes the node's thread change
+  /// parameters.
+  std::vector<LiveParameter> change_parameters(const XmlRpc::XmlRpcValue& changes) {
+    const Parameters now = changed(parameters_, changes);
+    in_node_thread([&] {
+      const Parameters before = std::exchange(parameters_, now);
+      callbacks_.parameters_changed(before);
+    });
+    return live_parameters(now);
+  }
+
+  void say_last_words(const std::string& why) {
+    const ros::WallDuration kFarewell(1.0);  // Until the messages have left.
+    try {
+      callbacks_.break_down(why);
+      updater().force_update();
+    } catch (const std::exception&) {  // The exception that ends the node is more important.
+    }
+    kFarewell.sleep();
+  }
+
+  Callbacks callbacks_;
+  MessageLoop loop_;
+  QueueThread background_;
+  ros::NodeHandle node_;
+  ros::NodeHandle private_node_;
+  Parameters parameters_;
+  Realtime realtime_;
+  std::vector<Tool> tools_;
+  std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
+  Diagnostics diagnostics_;
+  ros::ServiceServer reset_;
+
+  // What works in the background thread.
+  ToolReload tool_reload_;
+  LiveParameters live_parameters_;
 };
 
 }  // namespace organ_collision

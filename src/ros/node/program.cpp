@@ -1,15 +1,14 @@
 #include "program.hpp"
 
 #include <ros/console.h>
+#include <ros/init.h>
 #include <ros/master.h>
+#include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <xmlrpcpp/XmlRpcException.h>
 
-#include <chrono>
 #include <exception>
-#include <utility>
-
-#include "scheduling.hpp"
+#include <mutex>
 
 namespace ros::param {
 
@@ -22,9 +21,13 @@ void paramUpdateCallback(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& resul
 namespace organ_collision {
 namespace {
 
-constexpr char kMethod[] = "paramUpdate";
+const ros::WallDuration kMasterPeriod(1.0);
 
-void update(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
+constexpr char kNotListed[] =
+    "the ROS master does not list this node any more, as after a restart of the master: new nodes "
+    "cannot connect to it. Restart the node";
+
+void update_parameter(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
   try {
     ros::param::paramUpdateCallback(params, result);
   } catch (const std::exception& error) {
@@ -34,85 +37,78 @@ void update(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
 
 }  // namespace
 
+int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
+                const std::function<void(const ros::NodeHandle& node,
+                                         const ros::NodeHandle& private_node)>& run,
+                std::uint32_t options) {
+  if (const auto exit_code = answer_arguments(argc, argv, help)) return *exit_code;
+  ros::init(argc, argv, name, options);
+  guard_parameter_updates();
+  const ros::NodeHandle node;  // Without any node handle, ROS_FATAL below would not reach /rosout.
+  try {
+    run(node, ros::NodeHandle("~"));
+  } catch (const std::exception& error) {
+    ROS_FATAL("%s", error.what());
+    return 1;
+  }
+  return 0;
+}
+
 void guard_parameter_updates() {
   static std::once_flag is_guarded;
   std::call_once(is_guarded, [] {
+    constexpr char kMethod[] = "paramUpdate";
     const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
     manager->unbind(kMethod);
-    manager->bind(kMethod, update);
+    manager->bind(kMethod, update_parameter);
   });
 }
 
-namespace {
-
-constexpr std::chrono::seconds kPeriod(1);
-
-constexpr char kRegisteredAgain[] =
-    "the ROS master did not know this node, as after a restart of the master; the node has "
-    "registered its topics, services and parameters again. Parameters outside of its namespace, "
-    "such as robot_description, are lost: load them again";
-
-}  // namespace
-
-MasterWatch::MasterWatch(const std::string& parameters)
-    : registration_(parameters), thread_([this] { work(); }) {}
-
-MasterWatch::~MasterWatch() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stop_ = true;
-  }
-  stopped_.notify_all();
-  thread_.join();
+MasterWatch::MasterWatch() {
+  timer_ = on_queue(ros::NodeHandle(), thread_.queue())
+               .createWallTimer(kMasterPeriod, [this](const ros::WallTimerEvent&) { check(); });
 }
 
-void MasterWatch::work() {
-  lower_priority_of_this_thread();
-  while (wait()) check();
-}
-
-/// Returns whether to go on.
-bool MasterWatch::wait() {
-  std::unique_lock<std::mutex> lock(mutex_);
-  return !stopped_.wait_for(lock, kPeriod, [this] { return stop_; });
-}
-
-/// What fails is tried again by the next check.
+/// A restart is noticed once. What registers later, such as the topics of a new tool, makes the
+/// master list the node again, but without the rest.
 void MasterWatch::check() {
-  try {
-    take(registration_.check());
-  } catch (const XmlRpc::XmlRpcException&) {  // An answer had another form.
-  } catch (const std::exception&) {           // Usually std::bad_alloc.
-  }
+  if (state_ == State::kNotListed) return;
+  XmlRpc::XmlRpcValue arguments, response, uri;
+  arguments[0] = arguments[1] = ros::this_node::getName();
+  const bool is_listed = ros::master::execute("lookupNode", arguments, response, uri, false);
+  if (ros::isShuttingDown()) return;
+  const bool is_answered = response.valid();
+  state_ = is_listed ? State::kListed : is_answered ? State::kNotListed : State::kNoAnswer;
+  if (state_ == State::kNotListed) ROS_ERROR("%s", kNotListed);
 }
 
-void MasterWatch::take(MasterRegistration::Outcome outcome) {
-  using Outcome = MasterRegistration::Outcome;
-  if (outcome == Outcome::kRegisteredAgain) ROS_WARN("%s", kRegisteredAgain);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  is_answering_ = outcome != Outcome::kNoAnswer;
-  if (outcome != Outcome::kRegisteredAgain) return;
-  ++registered_again_;
-  ++not_yet_reported_;
-}
-
-void MasterWatch::add_to(diagnostic_updater::Updater& updater) {
-  updater.add("master", this, &MasterWatch::diagnose);
-}
-
-void MasterWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+void MasterWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   using diagnostic_msgs::DiagnosticStatus;
-  const std::lock_guard<std::mutex> lock(mutex_);
-  status.summary(DiagnosticStatus::OK, "listed");
-  status.add("registered again", registered_again_);
-  if (std::exchange(not_yet_reported_, 0) > 0) {
-    status.summary(DiagnosticStatus::WARN, kRegisteredAgain);
+  switch (state_) {
+    case State::kListed:
+      status.summary(DiagnosticStatus::OK, "listed");
+      break;
+    case State::kNotListed:
+      status.summary(DiagnosticStatus::ERROR, kNotListed);
+      break;
+    case State::kNoAnswer:
+      status.summary(
+          DiagnosticStatus::WARN,
+          "the ROS master at " + ros::master::getURI() +
+              " does not answer; nodes that are connected go on, and new ones cannot connect");
+      break;
   }
-  if (is_answering_) return;
-  status.summary(
-      DiagnosticStatus::WARN,
-      "the ROS master at " + ros::master::getURI() +
-          " does not answer; nodes that are connected go on, and new ones cannot connect");
+}
+
+Diagnostics::Diagnostics(const ros::NodeHandle& node, ros::NodeHandle private_node,
+                         double period_sec)
+    : updater_(node, private_node, private_node.getNamespace()) {
+  updater_.setHardwareID("none");
+  updater_.add("master", [this](auto& status) { master_.diagnose(status); });
+  // The updater's own timer follows simulated time, and would stop when simulated time stops.
+  timer_ =
+      private_node.createWallTimer(ros::WallDuration(period_sec),
+                                   [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
 }  // namespace organ_collision

@@ -1,53 +1,61 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
 
-#include <condition_variable>
+#include <atomic>
 #include <cstdint>
-#include <mutex>
+#include <functional>
 #include <string>
-#include <thread>
 
-#include "ros/master/master_registration.hpp"
+#include "queues.hpp"
+#include "ros/parameters/program_help.hpp"
 
 namespace organ_collision {
+
+/// The main function of a node. Answers --help; else starts ROS and calls `run`. Logs an exception
+/// that `run` throws. Returns the exit code. `name`: the node's default name. `options`: of
+/// ros::init_options.
+int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
+                const std::function<void(const ros::NodeHandle& node,
+                                         const ros::NodeHandle& private_node)>& run,
+                std::uint32_t options = 0);
 
 /// Protects this process from a call `paramUpdate` whose parameter has an illegal name: roscpp
 /// throws InvalidNameException in its XML-RPC thread, where nobody catches it, and the process
 /// ends. From now on, the caller gets a fault. To be called after ros::init(); further calls do
-/// nothing.
+/// nothing. run_program() calls it.
 void guard_parameter_updates();
 
-/// Checks once a second, in a thread of its own with lowered priority, that the ROS master lists
-/// this process, and registers it again after a restart of the master. Tells the log and
-/// /diagnostics.
+/// Notices that the ROS master does not list this process any more, as after a restart of the
+/// master: roscpp does not register again. Asks the master once a second, in a thread of its own.
 class MasterWatch {
  public:
-  /// `parameters`: the namespace of the node's parameters, which it restores, too.
-  explicit MasterWatch(const std::string& parameters);
-  /// Waits until a check that is in progress has ended.
-  ~MasterWatch();
-  MasterWatch(const MasterWatch&) = delete;
-  MasterWatch& operator=(const MasterWatch&) = delete;
+  MasterWatch();
 
-  void add_to(diagnostic_updater::Updater& updater);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
 
  private:
-  void work();
-  bool wait();
+  enum class State { kListed, kNoAnswer, kNotListed };
   void check();
-  void take(MasterRegistration::Outcome outcome);
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  MasterRegistration registration_;  ///< used by the thread only
+  std::atomic<State> state_{State::kListed};
+  QueueThread thread_;
+  ros::WallTimer timer_;
+};
 
-  std::mutex mutex_;
-  std::condition_variable stopped_;
-  bool stop_ = false;                   ///< this and the following are guarded by mutex_
-  bool is_answering_ = true;            ///< the master, at the last check
-  std::uint64_t registered_again_ = 0;  ///< times
-  std::uint64_t not_yet_reported_ = 0;  ///< of these
-  std::thread thread_;
+/// What a node publishes on /diagnostics: the tasks that its parts add, and what MasterWatch found.
+class Diagnostics {
+ public:
+  /// `period_sec`: of wall time. The thread that calls the callbacks of `private_node` publishes.
+  Diagnostics(const ros::NodeHandle& node, ros::NodeHandle private_node, double period_sec);
+
+  diagnostic_updater::Updater& updater() { return updater_; }
+
+ private:
+  diagnostic_updater::Updater updater_;
+  MasterWatch master_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace organ_collision

@@ -1,10 +1,35 @@
 #include "queues.hpp"
 
+#include <boost/make_shared.hpp>
 #include <future>
 #include <memory>
 #include <stdexcept>
+#include <utility>
+
+#include "scheduling.hpp"
 
 namespace organ_collision {
+namespace {
+
+/// A function as a callback of roscpp.
+class FunctionCallback : public ros::CallbackInterface {
+ public:
+  explicit FunctionCallback(std::function<void()> function) : function_(std::move(function)) {}
+
+  CallResult call() override {
+    function_();
+    return Success;
+  }
+
+ private:
+  std::function<void()> function_;
+};
+
+}  // namespace
+
+void call_later(ros::CallbackQueueInterface& queue, std::function<void()> function) {
+  queue.addCallback(boost::make_shared<FunctionCallback>(std::move(function)));
+}
 
 void run_in_thread_of(ros::CallbackQueue& queue, const std::function<void()>& action) {
   auto task = std::make_shared<std::packaged_task<void()>>(action);
@@ -16,6 +41,22 @@ void run_in_thread_of(ros::CallbackQueue& queue, const std::function<void()>& ac
   } catch (const std::future_error&) {
     throw std::runtime_error("the node is about to end");
   }
+}
+
+ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue) {
+  node.setCallbackQueue(&queue);
+  return node;
+}
+
+void QueueThread::stop() {
+  stop_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+void QueueThread::work() {
+  const ros::WallDuration kStopPeriod(0.05);  // How soon it notices that it is to end.
+  lower_priority_of_this_thread();
+  while (!stop_) queue_.callOne(kStopPeriod);
 }
 
 }  // namespace organ_collision

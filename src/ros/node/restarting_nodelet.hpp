@@ -1,34 +1,87 @@
 #pragma once
 
 #include <nodelet/nodelet.h>
+#include <ros/init.h>
 
+#include <algorithm>
 #include <atomic>
+#include <exception>
 #include <functional>
 #include <future>
+#include <memory>
 #include <thread>
+#include <utility>
+
+#include "program.hpp"
 
 namespace organ_collision {
 
 /// A node in a nodelet manager: messages of the same process arrive without copies. The node works
-/// in a thread of its own. If it breaks down, it is started again.
+/// in a thread of its own. If it breaks down, it is started again. `Node` has the functions of
+/// CollisionNode.
+template <typename Node>
 class RestartingNodelet : public nodelet::Nodelet {
  public:
-  /// Runs a node until it breaks down, which throws, or until `stop` returns true.
-  using Run = std::function<void(const std::function<bool()>& stop)>;
-
- protected:
-  /// To be called by the destructor of each derived class.
-  void stop();
+  ~RestartingNodelet() override {
+    stop_ = true;
+    if (worker_.joinable()) worker_.join();
+  }
 
  private:
-  /// Constructs the node, in the thread that runs it. Throws if it cannot be constructed.
-  virtual Run make_node() = 0;
+  /// [s] The pause before a restart. Without it, a node that breaks down at once would keep a
+  /// processor busy. It doubles each time the node cannot be constructed.
+  static constexpr double kShortestPauseSec = 0.2, kLongestPauseSec = 5.0;
 
-  void onInit() override;
-  void work(std::promise<void>& ready);
-  void run(Run run_node);
-  void pause(double seconds) const;
-  bool is_to_stop() const;
+  /// Returns when the node works. If it cannot be constructed, throws its exception, so that
+  /// loading the nodelet fails.
+  void onInit() override {
+    guard_parameter_updates();
+    std::promise<void> ready;
+    std::future<void> outcome = ready.get_future();
+    // The promise moves to the worker, which may still use it when this function has returned.
+    worker_ = std::thread([this, ready = std::move(ready)]() mutable { work(ready); });
+    outcome.get();
+  }
+
+  std::unique_ptr<Node> make_node() {
+    return std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle());
+  }
+
+  void work(std::promise<void>& ready) {
+    std::unique_ptr<Node> node;
+    try {
+      node = make_node();
+    } catch (const std::exception& error) {
+      NODELET_FATAL("%s", error.what());
+      return ready.set_exception(std::current_exception());
+    }
+    ready.set_value();
+    run(std::move(node));
+  }
+
+  /// A node that breaks down is started again. The manager and its other nodelets keep running.
+  void run(std::unique_ptr<Node> node) {
+    double pause_sec = kShortestPauseSec;
+    while (!is_to_stop()) {
+      try {
+        if (!node) node = make_node();
+        node->run([this] { return is_to_stop(); });
+        return;
+      } catch (const std::exception& error) {
+        NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
+        pause_sec = node ? kShortestPauseSec : std::min(2.0 * pause_sec, kLongestPauseSec);
+      }
+      node.reset();
+      pause(pause_sec);
+    }
+  }
+
+  void pause(double seconds) const {
+    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
+    while (!is_to_stop() && ros::WallTime::now() < end) ros::WallDuration(0.05).sleep();
+  }
+
+  bool is_to_stop() const { return stop_ || !ros::ok(); }
 
   std::atomic<bool> stop_{false};
   std::thread worker_;

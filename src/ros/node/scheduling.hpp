@@ -1,7 +1,10 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/node_handle.h>
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,7 +14,6 @@ namespace organ_collision {
 /// threads. Threads that it starts later are ordinary ones. `priority`: from 1 (lowest) to 99.
 /// Returns why the system refuses; empty: it did not. If it refuses, the thread stays as it was.
 std::string make_this_thread_realtime(int priority);
-
 /// The same for all threads that the process has now.
 std::string make_all_threads_realtime(int priority);
 
@@ -36,7 +38,6 @@ std::vector<pid_t> threads_of_this_process();
 /// Returns why the system refuses; empty: it did not. A limit of locked memory counts as a refusal:
 /// beyond it, the process would get no more memory at all.
 std::string lock_memory();
-
 /// [bytes] How much memory of the process is locked.
 long long locked_memory();
 
@@ -58,5 +59,35 @@ class AwakeCores {
   int request_;  ///< descriptor of the file; negative: it is not open
   std::string refusal_;
 };
+
+/// What a node asks of the system, so that nothing else delays its steps.
+struct RealtimeParameters {
+  int priority = 0;          ///< of SCHED_FIFO, from 1 to 99; 0: ordinary scheduling
+  bool lock_memory = false;  ///< true: the memory of the process stays in RAM
+  bool awake_cores = false;  ///< true: no core of the machine sleeps while the node runs
+};
+
+/// Asks the system for what the parameters name. Where the system refuses, the node goes on as
+/// usual: a warning says what to change, in the log and on /diagnostics.
+class Realtime {
+ public:
+  /// Construct it in the node's thread: this thread gets the priority. Other threads ask for
+  /// theirs.
+  explicit Realtime(const RealtimeParameters& parameters);
+
+  void add_to(diagnostic_updater::Updater& updater);
+
+ private:
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  bool shows_locked_memory_;  ///< only on request, because the system takes time to find it out
+  std::optional<AwakeCores> awake_cores_;  ///< empty: not wanted
+  std::vector<std::string> refusals_;      ///< and what to do about each
+};
+
+/// Gives a priority to roscpp's threads, through which messages and ticks come. For programs that
+/// have one node, before they construct it: all threads of the process get the priority. 0: does
+/// nothing.
+void make_ros_realtime(const ros::NodeHandle& node, int priority);
 
 }  // namespace organ_collision

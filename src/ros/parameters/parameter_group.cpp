@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
@@ -40,6 +41,10 @@ bool contains(const NumberRange& range, double number) {
          (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
 }
 
+const std::string& text_in(const XmlRpcValue& value) {
+  return static_cast<const std::string&>(value);
+}
+
 }  // namespace
 
 ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
@@ -51,82 +56,79 @@ ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
 }
 
 bool ParameterGroup::flag(const std::string& name, bool fallback) const {
-  const std::string legal = "must be true or false";
-  const XmlRpcValue* value = find(name, false, legal);
-  if (!value) return fallback;
-  if (value->getType() != XmlRpcValue::TypeBoolean) refuse(name, legal);
-  return static_cast<const bool&>(*value);
-}
-
-std::string ParameterGroup::text(const std::string& name) const {
-  const std::string legal = "must be a text that is not empty";
-  const XmlRpcValue* value = find(name, true, legal);
-  if (value->getType() != XmlRpcValue::TypeString) refuse(name, legal);
-  const std::string& text = static_cast<const std::string&>(*value);
-  if (text.empty()) refuse(name, legal);
-  return text;
+  const XmlRpcValue* value = find(name, XmlRpcValue::TypeBoolean, "must be true or false");
+  return value ? static_cast<const bool&>(*value) : fallback;
 }
 
 std::string ParameterGroup::choice(const std::string& name, const std::string& fallback,
                                    const std::vector<std::string>& legal_values) const {
   const std::string legal = "must be one of " + listed(legal_values);
-  const XmlRpcValue* value = find(name, false, legal);
+  const XmlRpcValue* value = find(name, XmlRpcValue::TypeString, legal);
   if (!value) return fallback;
-  if (value->getType() != XmlRpcValue::TypeString) refuse(name, legal);
-  const std::string& text = static_cast<const std::string&>(*value);
-  if (std::find(legal_values.begin(), legal_values.end(), text) == legal_values.end()) {
-    refuse(name, legal);
-  }
+  const std::string& text = text_in(*value);
+  const auto found = std::find(legal_values.begin(), legal_values.end(), text);
+  if (found == legal_values.end()) refuse(name, legal);
   return text;
 }
 
 double ParameterGroup::number(const std::string& name, std::optional<double> fallback,
                               const NumberRange& range) const {
   const std::string legal = "must be a number, " + written(range);
-  const XmlRpcValue* value = find(name, !fallback, legal);
-  if (!value) return *fallback;
-  double number = 0.0;
-  if (value->getType() == XmlRpcValue::TypeInt) {
-    number = static_cast<const int&>(*value);
-  } else if (value->getType() == XmlRpcValue::TypeDouble) {
-    number = static_cast<const double&>(*value);
-  } else {
-    refuse(name, legal);
+  if (!has(name)) {
+    if (!fallback) refuse_missing(name, legal);
+    return *fallback;
   }
+  const bool is_whole = value_[name].getType() == XmlRpcValue::TypeInt;
+  const XmlRpcValue& value =
+      require(name, is_whole ? XmlRpcValue::TypeInt : XmlRpcValue::TypeDouble, legal);
+  const double number =
+      is_whole ? static_cast<const int&>(value) : static_cast<const double&>(value);
   if (!contains(range, number)) refuse(name, legal);
+  if (number != 0.0 && number < range.least_above_zero) {
+    refuse(name, "must be 0 or at least " + written(range.least_above_zero));
+  }
   return number;
 }
 
 int ParameterGroup::whole_number(const std::string& name, int fallback,
                                  const NumberRange& range) const {
   const std::string legal = "must be a whole number, " + written(range);
-  const XmlRpcValue* value = find(name, false, legal);
-  if (!value) return fallback;
-  if (value->getType() != XmlRpcValue::TypeInt) refuse(name, legal);
-  const int number = static_cast<const int&>(*value);
-  if (!contains(range, number)) refuse(name, legal);
+  const XmlRpcValue* value = find(name, XmlRpcValue::TypeInt, legal);
+  const int number = value ? static_cast<const int&>(*value) : fallback;
+  if (value && !contains(range, number)) refuse(name, legal);
   return number;
 }
 
+std::string ParameterGroup::text(const std::string& name) const {
+  const std::string legal = "must be a text that is not empty";
+  const std::string text = text_in(require(name, XmlRpcValue::TypeString, legal));
+  if (text.empty()) refuse(name, legal);
+  return text;
+}
+
+std::string ParameterGroup::frame(const std::string& name) const {
+  std::string frame = tf_frame(text(name));
+  if (frame.empty()) refuse(name, "must be the name of a TF frame");
+  check_name(name, frame);
+  return frame;
+}
+
 const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::string& of_what) const {
-  const std::string legal = "must be a list of " + of_what;
-  const XmlRpcValue* value = find(name, true, legal);
-  if (value->getType() != XmlRpcValue::TypeArray) refuse(name, legal);
-  return *value;
+  return require(name, XmlRpcValue::TypeArray, "must be a list of " + of_what);
 }
 
 std::vector<std::string> ParameterGroup::texts(const std::string& name) const {
   const std::string legal = "must be a list, not empty, of texts that are not empty, each once";
-  const XmlRpcValue* value = find(name, true, legal);
-  if (value->getType() != XmlRpcValue::TypeArray || value->size() == 0) refuse(name, legal);
+  const XmlRpcValue& value = require(name, XmlRpcValue::TypeArray, legal);
   std::vector<std::string> texts;
-  for (int i = 0; i < value->size(); ++i) {
-    const XmlRpcValue& item = (*value)[i];
-    if (item.getType() != XmlRpcValue::TypeString) refuse(name, legal);
-    const std::string& text = static_cast<const std::string&>(item);
-    if (text.empty() || std::count(texts.begin(), texts.end(), text) > 0) refuse(name, legal);
+  for (int i = 0; i < value.size(); ++i) {
+    if (value[i].getType() != XmlRpcValue::TypeString) refuse(name, legal);
+    const std::string& text = text_in(value[i]);
+    const bool is_known = std::find(texts.begin(), texts.end(), text) != texts.end();
+    if (text.empty() || is_known) refuse(name, legal);
     texts.push_back(text);
   }
+  if (texts.empty()) refuse(name, legal);
   return texts;
 }
 
@@ -159,11 +161,17 @@ std::string ParameterGroup::path_of(const std::string& name) const {
   return path_ == "~" ? path_ + name : path_ + "/" + name;
 }
 
-const XmlRpcValue* ParameterGroup::find(const std::string& name, bool required,
+/// Returns null if there is no such member.
+const XmlRpcValue* ParameterGroup::find(const std::string& name, Type type,
                                         const std::string& legal) const {
-  if (has(name)) return &value_[name];
-  if (!required) return nullptr;
-  refuse_missing(name, legal);
+  return has(name) ? &require(name, type, legal) : nullptr;
+}
+
+const XmlRpcValue& ParameterGroup::require(const std::string& name, Type type,
+                                           const std::string& legal) const {
+  if (!has(name)) refuse_missing(name, legal);
+  if (value_[name].getType() != type) refuse(name, legal);
+  return value_[name];
 }
 
 XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {

@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -16,14 +17,20 @@ class ParameterError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+inline constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
 /// The legal values of a number.
 struct NumberRange {
   double lowest = 0.0;
-  double highest = 0.0;
+  double highest = kUnlimited;
   bool lowest_is_legal = true;
   bool infinity_is_legal = false;
+  double least_above_zero = 0.0;  ///< smaller numbers are refused, except zero
 };
 
+inline constexpr NumberRange kNotNegative{};
+inline constexpr NumberRange kPositive{0.0, kUnlimited, false};
+inline constexpr NumberRange kPositiveOrInfinite{0.0, kUnlimited, false, true};
 /// [s] Legal periods of timers. ROS timers do not accept much longer ones.
 inline constexpr NumberRange kTimerPeriod{0.0, 1e6, false};
 
@@ -51,6 +58,8 @@ class ParameterGroup {
   /// Required members. Each throws ParameterError if the member is missing or illegal.
   /// A text that is not empty.
   std::string text(const std::string& name) const;
+  /// The name of a TF frame, without a leading slash.
+  std::string frame(const std::string& name) const;
   /// A list of anything; `of_what` is for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
   /// A non-empty list of different, non-empty texts.
@@ -60,7 +69,7 @@ class ParameterGroup {
   std::vector<std::string> misspelt() const;
 
   /// Throws ParameterError if `text`, the value of the member `name`, is not a legal name
-  /// (legal_name.hpp).
+  /// (name_fault()).
   void check_name(const std::string& name, const std::string& text) const;
   /// Throws ParameterError: "~path/name is VALUE; LEGAL".
   [[noreturn]] void refuse(const std::string& name, const std::string& legal) const;
@@ -70,8 +79,11 @@ class ParameterGroup {
   std::string path_of(const std::string& name) const;
 
  private:
-  const XmlRpc::XmlRpcValue* find(const std::string& name, bool required,
+  using Type = XmlRpc::XmlRpcValue::Type;
+  const XmlRpc::XmlRpcValue* find(const std::string& name, Type type,
                                   const std::string& legal) const;
+  const XmlRpc::XmlRpcValue& require(const std::string& name, Type type,
+                                     const std::string& legal) const;
 
   std::string path_;
   XmlRpc::XmlRpcValue value_;

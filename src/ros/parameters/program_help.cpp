@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <iostream>
-#include <stdexcept>
 
 namespace organ_collision {
 namespace {
@@ -56,13 +55,6 @@ std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& he
   std::cerr << help.program << ": unknown argument '" << arguments[1]
             << "'; legal are --help, and ROS's NAME:=VALUE\n";
   return 2;
-}
-
-const std::string& text_of(const std::vector<HelpEntry>& entries, const std::string& name) {
-  for (const HelpEntry& entry : entries) {
-    if (entry.name == name) return entry.text;
-  }
-  throw std::out_of_range("no help on " + name);
 }
 
 }  // namespace organ_collision

@@ -57,7 +57,4 @@ std::string shown(const Value& value) {
   return text.str();
 }
 
-/// The text of the entry with this name. Throws std::out_of_range if there is none.
-const std::string& text_of(const std::vector<HelpEntry>& entries, const std::string& name);
-
 }  // namespace organ_collision

@@ -3,8 +3,6 @@
 #include <ros/names.h>
 
 #include <initializer_list>
-#include <limits>
-#include <utility>
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
@@ -13,12 +11,6 @@ namespace organ_collision {
 namespace {
 
 using XmlRpc::XmlRpcValue;
-
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-const NumberRange kPositive{0.0, kUnlimited, false};
-const NumberRange kMarginRange{0.0, kUnlimited};
-const NumberRange kMaxNearRange{0, 1'000'000};
 
 const std::string kShaft = "trocar_frame, tip_frame and radius";
 
@@ -62,11 +54,11 @@ void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParam
     tool.refuse(names::kBasePoseTopic, "goes with tip_pose_topic, in whose frame its poses are");
   }
   const bool is_named = tool.has(names::kTipFrame) || parsed.tip_pose_topic.empty();
-  parsed.tip_frame = is_named ? parse_frame(tool, names::kTipFrame) : unnamed;
+  parsed.tip_frame = is_named ? tool.frame(names::kTipFrame) : unnamed;
 }
 
 void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
-  parsed.trocar_frame = parse_frame(tool, names::kTrocarFrame);
+  parsed.trocar_frame = tool.frame(names::kTrocarFrame);
   parsed.radius = tool.number(names::kRadius, {}, kPositive);
   parse_tip(tool, parsed.name + "_tip", parsed);
   if (parsed.tip_frame == parsed.trocar_frame) {
@@ -89,8 +81,8 @@ void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
 }
 
 void parse_clearance(const ParameterGroup& tool, ToolParameters& parsed) {
-  parsed.margin = tool.number(names::kMargin, parsed.margin, kMarginRange);
-  parsed.max_near = tool.whole_number(names::kMaxNear, parsed.max_near, kMaxNearRange);
+  parsed.margin = tool.number(names::kMargin, parsed.margin, kNotNegative);
+  parsed.max_near = tool.whole_number(names::kMaxNear, parsed.max_near, {0, 1'000'000});
   if (parsed.max_near > 0 && parsed.margin == 0.0) {
     tool.refuse(names::kMaxNear, "must be 0 unless the tool has a margin above 0");
   }
@@ -135,19 +127,13 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
 
 }  // namespace
 
-std::string parse_frame(const ParameterGroup& group, const char* name) {
-  std::string frame = tf_frame(group.text(name));
-  if (frame.empty()) group.refuse(name, "must be the name of a TF frame");
-  group.check_name(name, frame);
-  return frame;
-}
-
 std::string ToolParameters::link_frame(const std::string& link) const {
   return tf_frame(tf_prefix.empty() ? link : tf_prefix + "/" + link);
 }
 
-LoadedTools parse_tools(const ParameterGroup& all) {
-  LoadedTools loaded{{}, all.misspelt()};
+std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
+                                        std::vector<std::string>& misspelt) {
+  std::vector<ToolParameters> tools;
   const XmlRpcValue& list =
       all.list(names::kTools, "groups of name and links, or name, " + kShaft + " [m]");
   for (int i = 0; i < list.size(); ++i) {
@@ -157,13 +143,13 @@ LoadedTools parse_tools(const ParameterGroup& all) {
          names::kBasePoseTopic, names::kRadius, names::kLinks, names::kRobotDescription,
          names::kUrdf, names::kTfPrefix, names::kMargin, names::kMaxNear, names::kFreedom});
     const ToolParameters tool = parse_tool(group);
-    for (const ToolParameters& other : loaded.tools) {
+    for (const ToolParameters& other : tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
     }
-    loaded.tools.push_back(tool);
-    for (std::string& sentence : group.misspelt()) loaded.misspelt.push_back(std::move(sentence));
+    tools.push_back(tool);
+    for (const std::string& sentence : group.misspelt()) misspelt.push_back(sentence);
   }
-  return loaded;
+  return tools;
 }
 
 }  // namespace organ_collision

@@ -32,16 +32,9 @@ struct ToolParameters {
   std::string link_frame(const std::string& link) const;
 };
 
-/// The tools alone, and one sentence for each unknown name among all parameters.
-struct LoadedTools {
-  std::vector<ToolParameters> tools;
-  std::vector<std::string> misspelt;
-};
-
-/// The name of a TF frame, without a leading slash. Throws ParameterError.
-std::string parse_frame(const ParameterGroup& group, const char* name);
-
-/// Reads the list `tools` of a node. `all`: all parameters of the node. Throws ParameterError.
-LoadedTools parse_tools(const ParameterGroup& all);
+/// Reads the list `tools` of a node. `all`: all parameters of the node. `misspelt` gets a sentence
+/// for each unknown key of a tool. Throws ParameterError.
+std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
+                                        std::vector<std::string>& misspelt);
 
 }  // namespace organ_collision

@@ -14,42 +14,28 @@ const Vector3d kVector(0.3, -2.5, 1e-7);
 
 }  // namespace
 
-TEST(Conversions, PointsThereAndBack) {
-  const geometry_msgs::Point message = tf2::toMsg(kVector);
-  EXPECT_EQ(message.x, 0.3);
-  EXPECT_EQ(message.y, -2.5);
-  EXPECT_EQ(message.z, 1e-7);
-  EXPECT_EQ(to_eigen(message), kVector);
+TEST(Conversions, PointsAndVectorsThereAndBack) {
+  const geometry_msgs::Point point = tf2::toMsg(kVector);
+  const geometry_msgs::Vector3 vector = to_vector(kVector);
+  EXPECT_EQ(point.x, 0.3);
+  EXPECT_EQ(vector.z, 1e-7);
+  EXPECT_EQ(to_eigen(point), kVector);
+  EXPECT_EQ(to_eigen(vector), kVector);
 }
 
-TEST(Conversions, VectorsThereAndBack) {
-  const geometry_msgs::Vector3 message = to_vector(kVector);
-  EXPECT_EQ(message.x, 0.3);
-  EXPECT_EQ(message.y, -2.5);
-  EXPECT_EQ(message.z, 1e-7);
-  EXPECT_EQ(to_eigen(message), kVector);
-}
-
-TEST(Conversions, TransformTurnsThenMoves) {
+TEST(Conversions, TransformsAndPosesTurnThenMove) {
   geometry_msgs::Transform transform;
-  transform.translation.x = 1.0;
-  transform.translation.y = 2.0;
-  transform.translation.z = 3.0;
+  transform.translation = to_vector({1.0, 2.0, 3.0});
   // A quarter turn about z; the quaternion is not exactly unit, as senders round it.
   transform.rotation.z = 0.70711;
   transform.rotation.w = 0.70711;
-  const Vector3d moved = to_eigen(transform) * Vector3d(0.1, 0.2, 0.3);
-  EXPECT_TRUE(moved.isApprox(Vector3d(0.8, 2.1, 3.3), 1e-12)) << moved.transpose();
-}
-
-TEST(Conversions, PoseTurnsThenMoves) {
   geometry_msgs::Pose pose;
-  pose.position.x = 1.0;
-  pose.position.y = 2.0;
-  pose.position.z = 3.0;
-  pose.orientation.z = pose.orientation.w = 0.70711;
-  const Vector3d moved = to_eigen(pose) * Vector3d(0.1, 0.2, 0.3);
-  EXPECT_TRUE(moved.isApprox(Vector3d(0.8, 2.1, 3.3), 1e-12)) << moved.transpose();
+  pose.position = tf2::toMsg(Vector3d(1.0, 2.0, 3.0));
+  pose.orientation = transform.rotation;
+  for (const Eigen::Isometry3d& found : {to_eigen(transform), to_eigen(pose)}) {
+    const Vector3d moved = found * Vector3d(0.1, 0.2, 0.3);
+    EXPECT_TRUE(moved.isApprox(Vector3d(0.8, 2.1, 3.3), 1e-12)) << moved.transpose();
+  }
 }
 
 TEST(Conversions, LengthOfAQuaternion) {
@@ -73,8 +59,6 @@ TEST(Conversions, FrameWithoutLeadingSlash) {
   EXPECT_EQ(tf_frame("/"), "");
   EXPECT_EQ(tf_frame(""), "");
 }
-
-using namespace organ_collision;
 
 namespace {
 

@@ -1,16 +1,19 @@
 #include "ros/node/queues.hpp"
 
 #include <gtest/gtest.h>
-#include <ros/callback_queue.h>
+#include <sys/resource.h>
 
-#include <atomic>
+#include <algorithm>
+#include <future>
 #include <stdexcept>
-#include <thread>
 #include <vector>
 
-using namespace organ_collision;
+namespace organ_collision {
+namespace {
 
-TEST(FunctionCallback, IsCalledOnceInItsTurnByTheThreadOfTheQueue) {
+int niceness() { return getpriority(PRIO_PROCESS, 0); }
+
+TEST(CallLater, FunctionsAreCalledOnceInTheirTurn) {
   ros::CallbackQueue queue;
   std::vector<int> called;
   for (const int number : {1, 2, 3}) {
@@ -24,52 +27,25 @@ TEST(FunctionCallback, IsCalledOnceInItsTurnByTheThreadOfTheQueue) {
   EXPECT_EQ(called, (std::vector<int>{1, 2, 3}));
 }
 
-using namespace organ_collision;
-
-namespace {
-
-/// A thread that calls the callbacks of a queue, as a node's thread does.
-class QueueThread {
- public:
-  ~QueueThread() {
-    stop_ = true;
-    thread_.join();
-  }
-  ros::CallbackQueue& queue() { return queue_; }
-  std::thread::id id() const { return thread_.get_id(); }
-
- private:
-  ros::CallbackQueue queue_;
-  std::atomic<bool> stop_{false};
-  std::thread thread_{[this] {
-    while (!stop_) queue_.callAvailable(ros::WallDuration(0.01));
-  }};
-};
-
-}  // namespace
-
-TEST(Handover, ActionsRunInTheOtherThreadAndAreWaitedFor) {
+TEST(RunInThreadOf, ActionsRunInTheOtherThreadAndAreWaitedFor) {
   QueueThread other;
+  std::thread::id first;
+  run_in_thread_of(other.queue(), [&] { first = std::this_thread::get_id(); });
+  EXPECT_NE(first, std::this_thread::get_id());
   for (int i = 0; i < 100; ++i) {
     std::thread::id ran_in;
     run_in_thread_of(other.queue(), [&] { ran_in = std::this_thread::get_id(); });
-    EXPECT_EQ(ran_in, other.id());
+    EXPECT_EQ(ran_in, first);
   }
 }
 
-TEST(Handover, ExceptionsComeBack) {
+TEST(RunInThreadOf, ExceptionsComeBack) {
   QueueThread other;
   EXPECT_THROW(run_in_thread_of(other.queue(), [] { throw std::domain_error("no"); }),
                std::domain_error);
 }
 
-TEST(Handover, ADisabledQueueEndsTheWait) {
-  ros::CallbackQueue queue;
-  queue.disable();
-  EXPECT_THROW(run_in_thread_of(queue, [] {}), std::runtime_error);
-}
-
-TEST(Handover, AClearedQueueEndsTheWait) {
+TEST(RunInThreadOf, AQueueThatIsDisabledOrClearedEndsTheWait) {
   ros::CallbackQueue queue;
   bool has_run = false;
   std::thread waiting(
@@ -79,4 +55,38 @@ TEST(Handover, AClearedQueueEndsTheWait) {
   queue.clear();
   waiting.join();
   EXPECT_FALSE(has_run);
+  EXPECT_THROW(run_in_thread_of(queue, [] {}), std::runtime_error);
 }
+
+TEST(QueueThread, YieldsToTheThreadThatStartsIt) {
+  const int before = niceness();
+  const int nicer = std::min(before + 8, 18);
+  std::thread([&] {  // Its niceness ends with it.
+    setpriority(PRIO_PROCESS, 0, nicer);
+    QueueThread thread;
+    int background = 0;
+    run_in_thread_of(thread.queue(), [&] { background = niceness(); });
+    EXPECT_EQ(background, std::min(nicer + 10, 19));
+  })
+      .join();
+  EXPECT_EQ(niceness(), before);
+}
+
+TEST(QueueThread, EndsWithItsPresentCallback) {
+  std::vector<int> called;
+  std::promise<void> started, finish;
+  {
+    QueueThread thread;
+    call_later(thread.queue(), [&] {
+      started.set_value();
+      finish.get_future().wait();
+      called.push_back(1);
+    });
+    started.get_future().wait();
+    finish.set_value();
+  }
+  EXPECT_EQ(called, std::vector<int>{1});
+}
+
+}  // namespace
+}  // namespace organ_collision

@@ -1,286 +1,202 @@
 #include "ros/parameters/node_parameters.hpp"
 
-#include <gtest/gtest.h>
+#include "parameter_tables.hpp"
 
-#include <cmath>
-#include <limits>
+namespace organ_collision {
 
-using namespace organ_collision;
 using XmlRpc::XmlRpcValue;
 
-namespace {
-
-XmlRpcValue tool(const std::string& name) {
-  XmlRpcValue tool;
-  tool["name"] = name;
-  tool["trocar_frame"] = name + "_trocar";
-  tool["tip_frame"] = name + "_tip";
-  tool["radius"] = 0.005;
-  return tool;
-}
-
-XmlRpcValue one_tool() {
+template <>
+XmlRpcValue legal_parameters<NodeParameters>() {
   XmlRpcValue all;
-  all["tools"][0] = tool("hook");
+  all["tools"][0]["name"] = "hook";
+  all["tools"][0]["trocar_frame"] = "hook_trocar";
+  all["tools"][0]["tip_frame"] = "hook_tip";
+  all["tools"][0]["radius"] = 0.005;
   return all;
 }
 
-/// The error for a node with one legal tool and `name` set to `value`.
-std::string refusal(const char* name, const XmlRpcValue& value) {
-  XmlRpcValue all = one_tool();
-  all[name] = value;
-  try {
-    parse_parameters(all);
-  } catch (const ParameterError& error) {
-    return error.what();
-  }
-  return "accepted";
+INSTANTIATE_TYPED_TEST_SUITE_P(CollisionNode, ParameterTableTest, NodeParameters);
+
+namespace {
+
+XmlRpcValue list_of(const std::vector<XmlRpcValue>& values) {
+  XmlRpcValue list;
+  list.setSize(static_cast<int>(values.size()));
+  for (std::size_t i = 0; i < values.size(); ++i) list[static_cast<int>(i)] = values[i];
+  return list;
 }
 
-std::string refusal_of_tool(const char* name, const XmlRpcValue& value) {
-  XmlRpcValue tools;
-  tools[0] = tool("hook");
-  tools[0][name] = value;
-  return refusal("tools", tools);
+XmlRpcValue shaft() { return legal_parameters<NodeParameters>()["tools"][0]; }
+
+XmlRpcValue links() {
+  XmlRpcValue tool;
+  tool["name"] = "PSM1";
+  tool["links"] = list_of({"jaw", "other_jaw"});
+  return tool;
 }
 
-/// The error for a tool that is one link.
-std::string refusal_of_links(const char* name, const XmlRpcValue& value) {
-  XmlRpcValue tools;
-  tools[0]["name"] = "PSM1";
-  tools[0]["links"][0] = "jaw";
-  tools[0][name] = value;
-  return refusal("tools", tools);
+ToolParameters parsed(const XmlRpcValue& tool) {
+  XmlRpcValue all;
+  all["tools"][0] = tool;
+  return parse_parameters<NodeParameters>(all).tools.at(0);
 }
 
-void expect_words(const std::string& message, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
-  }
+std::string refusal(const XmlRpcValue& tool) {
+  return refusal_of<NodeParameters>("tools", list_of({tool}));
 }
 
-}  // namespace
-
-TEST(Parameters, DefaultsAreTheDocumentedOnes) {
-  const LoadedParameters loaded = parse_parameters(one_tool());
-  const NodeParameters& p = loaded.parameters;
-  EXPECT_EQ(p.picker.kind, PickerKind::kFeedback);
-  EXPECT_EQ(p.picker.gl, GlPlatform::kAuto);
-  EXPECT_EQ(p.rate_hz, 0.0);
-  EXPECT_TRUE(p.organ_motion);
-  EXPECT_EQ(p.motion_sample_sec, 0.001);
-  EXPECT_EQ(p.motion_samples_max, 100);
-  EXPECT_EQ(p.tf_timeout_sec, 0.02);
-  EXPECT_EQ(p.mesh_timeout_sec, 0.0);
-  EXPECT_EQ(p.max_faces, 2'000'000);
-  EXPECT_EQ(p.max_batch, 100'000);
-  EXPECT_EQ(p.max_batch_bytes, 268'435'456);
-  EXPECT_FALSE(p.publish_regions);
-  EXPECT_TRUE(p.publish_placement);
-  EXPECT_EQ(p.tools.at(0).margin, 0.0);
-  EXPECT_EQ(p.tools.at(0).max_near, 0);
-  EXPECT_EQ(p.diagnostic_period_sec, 1.0);
-  EXPECT_EQ(p.realtime.priority, 0);
-  EXPECT_FALSE(p.realtime.lock_memory);
-  EXPECT_FALSE(p.realtime.awake_cores);
-  EXPECT_EQ(p.markers.markers_rate_hz, 30.0);
-  EXPECT_EQ(p.markers.surface_rate_hz, 30.0);
-  EXPECT_EQ(p.markers.markers_depth, 0.01);
-  EXPECT_TRUE(loaded.misspelt.empty());
-}
-
-TEST(Parameters, EveryValueIsTaken) {
-  XmlRpcValue all = one_tool();
-  all["tools"][1] = tool("grasper");
-  all["tools"][1]["radius"] = 1;
+TEST(NodeParameters, PickersAreChosenByName) {
+  XmlRpcValue all = legal_parameters<NodeParameters>();
   all["picker"] = "select";
   all["gl"] = "egl";
-  all["rate"] = 500;
-  all["organ_motion"] = false;
-  all["motion_sample_sec"] = 0.5;
-  all["motion_samples_max"] = 7;
-  all["tf_timeout_sec"] = 0;
-  all["mesh_timeout_sec"] = 1.5;
-  all["max_faces"] = 1224;
-  all["max_batch"] = 20'000;
-  all["max_batch_bytes"] = 4096;
-  all["publish_regions"] = true;
-  all["publish_placement"] = false;
-  all["tools"][1]["margin"] = 0.02;
-  all["tools"][1]["max_near"] = 50;
-  all["diagnostic_period"] = 0.25;
-  all["realtime_priority"] = 99;
-  all["lock_memory"] = true;
-  all["awake_cores"] = true;
-  const LoadedParameters loaded = parse_parameters(all);
-  EXPECT_TRUE(loaded.misspelt.empty());
-  const NodeParameters& p = loaded.parameters;
-  ASSERT_EQ(p.tools.size(), 2u);
-  EXPECT_EQ(p.tools[0].name, "hook");
-  EXPECT_EQ(p.tools[1].trocar_frame, "grasper_trocar");
-  EXPECT_EQ(p.tools[1].tip_frame, "grasper_tip");
-  EXPECT_EQ(p.tools[1].radius, 1.0);
-  EXPECT_EQ(p.picker.kind, PickerKind::kSelect);
-  EXPECT_EQ(p.picker.gl, GlPlatform::kEgl);
-  EXPECT_EQ(p.rate_hz, 500.0);
-  EXPECT_FALSE(p.organ_motion);
-  EXPECT_EQ(p.motion_sample_sec, 0.5);
-  EXPECT_EQ(p.motion_samples_max, 7);
-  EXPECT_EQ(p.tf_timeout_sec, 0.0);
-  EXPECT_EQ(p.mesh_timeout_sec, 1.5);
-  EXPECT_EQ(p.max_faces, 1224);
-  EXPECT_EQ(p.max_batch, 20'000);
-  EXPECT_EQ(p.max_batch_bytes, 4096);
-  EXPECT_TRUE(p.publish_regions);
-  EXPECT_FALSE(p.publish_placement);
-  EXPECT_EQ(p.tools[0].margin, 0.0);
-  EXPECT_EQ(p.tools[1].margin, 0.02);
-  EXPECT_EQ(p.tools[1].max_near, 50);
-  EXPECT_EQ(p.diagnostic_period_sec, 0.25);
-  EXPECT_EQ(p.realtime.priority, 99);
-  EXPECT_TRUE(p.realtime.lock_memory);
-  EXPECT_TRUE(p.realtime.awake_cores);
+  const PickerSettings picker = parse_parameters<NodeParameters>(all).picker;
+  EXPECT_EQ(picker.kind, PickerKind::kSelect);
+  EXPECT_EQ(picker.gl, GlPlatform::kEgl);
+  EXPECT_EQ(refusal_of<NodeParameters>("picker", "raytrace"),
+            "~picker is 'raytrace'; must be one of feedback, select, cpu");
 }
 
-TEST(Parameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
-  const double nan = std::nan("");
-  expect_words(refusal("picker", "raytrace"), {"~picker", "raytrace", "feedback", "select"});
-  expect_words(refusal("rate", -1.5), {"~rate", "-1.5", "at least 0"});
-  expect_words(refusal("rate", nan), {"~rate", "nan", "at least 0"});
-  expect_words(refusal("rate", "fast"), {"~rate", "fast", "number"});
-  expect_words(refusal("organ_motion", 1), {"~organ_motion", "'1'", "true or false"});
-  expect_words(refusal("motion_sample_sec", 0.0), {"~motion_sample_sec", "more than 0"});
-  expect_words(refusal("motion_samples_max", 0), {"~motion_samples_max", "at least 1"});
-  expect_words(refusal("tf_timeout_sec", -0.1), {"~tf_timeout_sec", "-0.1", "at least 0"});
-  expect_words(refusal("mesh_timeout_sec", -2), {"~mesh_timeout_sec", "-2", "at least 0"});
-  expect_words(refusal("max_faces", 0), {"~max_faces", "at least 1", "83333333"});
-  expect_words(refusal("max_batch", 0), {"~max_batch", "at least 1", "1000000"});
-  expect_words(refusal("max_batch_bytes", 0), {"~max_batch_bytes", "at least 1", "1000000000"});
-  expect_words(refusal("publish_regions", "often"), {"~publish_regions", "often"});
-  expect_words(refusal("publish_placement", 1), {"~publish_placement", "'1'", "true or false"});
-  expect_words(refusal("diagnostic_period", 0.0), {"~diagnostic_period", "'0'", "at least 0.01"});
-  expect_words(refusal("threads", -1), {"~threads", "'-1'", "at least 0, at most 1024"});
-  expect_words(refusal("realtime_priority", 100),
-               {"~realtime_priority", "'100'", "at least 0, at most 99"});
-  expect_words(refusal("realtime_priority", 40.0), {"~realtime_priority", "whole number"});
-  expect_words(refusal("lock_memory", 1), {"~lock_memory", "'1'", "true or false"});
-  expect_words(refusal("awake_cores", 1), {"~awake_cores", "'1'", "true or false"});
-  expect_words(refusal("tools", "hook"), {"~tools", "hook", "list"});
-}
-
-TEST(Parameters, IllegalToolsAreNamed) {
-  const double infinity = std::numeric_limits<double>::infinity();
-  expect_words(refusal_of_tool("radius", 0.0), {"~tools[0]/radius", "'0'", "more than 0"});
-  expect_words(refusal_of_tool("radius", infinity), {"~tools[0]/radius", "inf", "more than 0"});
-  expect_words(refusal_of_tool("name", ""), {"~tools[0]/name", "not empty"});
-  const std::string too_long(257, 'x');
-  for (const char* name : {"name", "trocar_frame", "tip_frame"}) {
-    expect_words(refusal_of_tool(name, too_long), {name, "at most 256 bytes"});
+TEST(NodeParameters, VerySlowRatesAreRefused) {
+  for (const char* name : {"rate", "markers_rate", "surface_rate"}) {
+    EXPECT_EQ(refusal_of<NodeParameters>(name, 1e-10),
+              "~" + std::string(name) + " is '1e-10'; must be 0 or at least 0.001");
+    EXPECT_EQ(refusal_of<NodeParameters>(name, 0), "accepted");
   }
-  expect_words(refusal_of_tool("name", "ho\nok"), {"~tools[0]/name", "control characters"});
-  XmlRpcValue links;
-  links[0] = too_long;
-  expect_words(refusal_of_links("links", links), {"~tools[0]/links", "at most 256 bytes"});
-  expect_words(refusal_of_tool("tip_frame", ""), {"~tools[0]/tip_frame", "not empty"});
-  expect_words(refusal_of_tool("tip_frame", "/"), {"~tools[0]/tip_frame", "'/'"});
-  expect_words(refusal_of_tool("tip_frame", "hook_trocar"),
-               {"~tools[0]/tip_frame", "hook_trocar", "other"});
-  expect_words(refusal_of_tool("tip_frame", "/hook_trocar"),
-               {"~tools[0]/tip_frame", "hook_trocar", "other"});
 }
 
-TEST(Parameters, ToolsMayBeLinks) {
-  XmlRpcValue all;
-  all["tools"][0]["name"] = "PSM1";
-  all["tools"][0]["links"][0] = "jaw";
-  all["tools"][0]["links"][1] = "other_jaw";
-  const ToolParameters plain = parse_parameters(all).parameters.tools[0];
-  EXPECT_EQ(plain.links, (std::vector<std::string>{"jaw", "other_jaw"}));
-  EXPECT_EQ(plain.robot_description, "robot_description");
-  EXPECT_EQ(plain.urdf, "");
-  EXPECT_EQ(plain.link_frame("jaw"), "jaw");
-  EXPECT_FALSE(plain.has_shaft());
+TEST(NodeParameters, ToolsMustBeGivenAndHaveNamesOfTheirOwn) {
+  expect_contains(refusal_of<NodeParameters>("tools", "hook"), {"~tools", "hook", "list"});
+  expect_contains(refusal_of<NodeParameters>("tools", list_of({shaft(), shaft()})),
+                  {"~tools[1]/name", "hook", "unique"});
+  XmlRpcValue none;
+  none["rate"] = 1;
+  EXPECT_THROW(parse_parameters<NodeParameters>(none), ParameterError);
+  none["tools"].setSize(0);
+  EXPECT_TRUE(parse_parameters<NodeParameters>(none).tools.empty());
+}
 
-  all["tools"][0]["robot_description"] = "/PSM1/robot_description";
-  all["tools"][0]["tf_prefix"] = "/left";
-  const ToolParameters named = parse_parameters(all).parameters.tools[0];
-  EXPECT_EQ(named.robot_description, "/PSM1/robot_description");
-  EXPECT_EQ(named.link_frame("jaw"), "left/jaw");
+TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
+  XmlRpcValue all = legal_parameters<NodeParameters>();
+  all["rates"] = 1;
+  all["tools"][0]["raduis"] = 1;
+  const std::vector<std::string> misspelt = parse_parameters<NodeParameters>(all).misspelt;
+  ASSERT_EQ(misspelt.size(), 2u);
+  expect_contains(misspelt[0], {"~rates", "'rate'"});
+  expect_contains(misspelt[1], {"~tools[0]/raduis", "'radius'"});
+}
 
-  all["tools"][0] = tool("hook");
-  all["tools"][0]["links"][0] = "jaw";
-  all["tools"][0]["urdf"] = "package://hooks/hook.urdf";
-  const ToolParameters both = parse_parameters(all).parameters.tools[0];
+/// A key of a legal tool with an illegal value, and what the refusal says besides the key.
+struct ToolRefusal {
+  XmlRpcValue (*tool)();
+  const char* key;
+  XmlRpcValue value;
+  std::vector<std::string> words;
+};
+
+TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
+  const XmlRpcValue too_long = std::string(257, 'x');
+  const std::vector<ToolRefusal> refusals = {
+      {shaft, "radius", 0.0, {"'0'", "more than 0"}},
+      {shaft, "radius", kUnlimited, {"inf", "more than 0"}},
+      {shaft, "name", "", {"not empty"}},
+      {shaft, "name", too_long, {"at most 256 bytes"}},
+      {shaft, "name", "ho\nok", {"control characters"}},
+      {shaft, "trocar_frame", too_long, {"at most 256 bytes"}},
+      {shaft, "tip_frame", too_long, {"at most 256 bytes"}},
+      {shaft, "tip_frame", "", {"not empty"}},
+      {shaft, "tip_frame", "/", {"'/'", "TF frame"}},
+      {shaft, "tip_frame", "hook_trocar", {"hook_trocar", "other"}},
+      {shaft, "tip_frame", "/hook_trocar", {"hook_trocar", "other"}},
+      {shaft, "margin", -0.25, {"-0.25", "at least 0"}},
+      {shaft, "margin", std::nan(""), {"nan", "at least 0"}},
+      {shaft, "margin", kUnlimited, {"inf", "at least 0"}},
+      {shaft, "margin", "wide", {"wide", "number"}},
+      {shaft, "max_near", -1, {"-1", "at least 0"}},
+      {shaft, "max_near", 0.5, {"0.5", "whole"}},
+      {shaft, "max_near", 7, {"'7'", "margin"}},
+      {shaft, "freedom", "fixed", {"'fixed'", "trocar, free"}},
+      {shaft, "tip_pose_topic", "a b", {"'a b'"}},
+      {shaft, "tip_pose_topic", "~a", {"'~a'", "without ~"}},
+      {shaft, "tip_pose_topic", "", {"not empty"}},
+      {shaft, "base_pose_topic", "/base", {"'/base'", "tip_pose_topic"}},
+      {shaft, "robot_description", "a", {"goes with links"}},
+      {shaft, "urdf", "a", {"goes with links"}},
+      {shaft, "tf_prefix", "a", {"goes with links"}},
+      {shaft, "links", "jaw", {"'jaw'", "list"}},
+      {shaft, "links", list_of({}), {"not empty"}},
+      {shaft, "links", list_of({"jaw", "jaw"}), {"jaw", "each once"}},
+      {shaft, "links", list_of({""}), {"not empty"}},
+      {links, "links", list_of({too_long}), {"at most 256 bytes"}},
+      {links, "robot_description", "a b", {"'a b'"}},
+      {links, "urdf", "", {"not empty"}},
+      {links, "tf_prefix", "left/", {"'left/'", "slash"}},
+      {links, "tf_prefix", "/", {"'/'", "slash"}},
+      {links, "freedom", "trocar", {"'trocar'", "must be free"}},
+      {links, "base_pose_topic", "/base", {"'/base'", "tip_pose_topic"}},
+  };
+  for (const ToolRefusal& row : refusals) {
+    XmlRpcValue tool = row.tool();
+    tool[row.key] = row.value;
+    const std::string message = refusal(tool);
+    expect_contains(message, {std::string("~tools[0]/") + row.key + " is '"});
+    expect_contains(message, row.words);
+  }
+}
+
+TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
+  XmlRpcValue nothing;
+  nothing["name"] = "PSM1";
+  expect_contains(refusal(nothing), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
+  XmlRpcValue half = links();
+  half["radius"] = 0.01;
+  expect_contains(refusal(half), {"~tools[0]/trocar_frame", "missing"});
+  half = links();
+  half["trocar_frame"] = "a";
+  expect_contains(refusal(half), {"~tools[0]/radius", "missing"});
+  XmlRpcValue two = links();
+  two["urdf"] = "/hook.urdf";
+  two["robot_description"] = "robot_description";
+  expect_contains(refusal(two), {"~tools[0]/robot_description", "beside urdf"});
+}
+
+TEST(ToolParameters, AreAShaftOrLinksOrBoth) {
+  XmlRpcValue tool = shaft();
+  tool["tip_frame"] = "/hook_tip";
+  tool["margin"] = 0.02;
+  tool["max_near"] = 50;
+  const ToolParameters of_shaft = parsed(tool);
+  EXPECT_EQ(of_shaft.name, "hook");
+  EXPECT_EQ(of_shaft.trocar_frame, "hook_trocar");
+  EXPECT_EQ(of_shaft.tip_frame, "hook_tip");
+  EXPECT_EQ(of_shaft.radius, 0.005);
+  EXPECT_EQ(of_shaft.margin, 0.02);
+  EXPECT_EQ(of_shaft.max_near, 50);
+  EXPECT_EQ(of_shaft.freedom, ProxyFreedom::kTrocar);
+  EXPECT_FALSE(of_shaft.has_tip_of_links());
+
+  const ToolParameters of_links = parsed(links());
+  EXPECT_EQ(of_links.links, (std::vector<std::string>{"jaw", "other_jaw"}));
+  EXPECT_EQ(of_links.robot_description, "robot_description");
+  EXPECT_EQ(of_links.link_frame("jaw"), "jaw");
+  EXPECT_EQ(of_links.freedom, ProxyFreedom::kFree);
+  EXPECT_FALSE(of_links.has_shaft());
+  EXPECT_FALSE(of_links.has_tip_of_links());
+
+  tool["links"] = links()["links"];
+  tool["urdf"] = "package://hooks/hook.urdf";
+  const ToolParameters both = parsed(tool);
+  EXPECT_TRUE(both.has_shaft());
+  EXPECT_EQ(both.links.size(), 2u);
   EXPECT_EQ(both.urdf, "package://hooks/hook.urdf");
   EXPECT_EQ(both.robot_description, "");
-  EXPECT_EQ(both.links, std::vector<std::string>{"jaw"});
-  EXPECT_TRUE(both.has_shaft());
-  EXPECT_EQ(both.trocar_frame, "hook_trocar");
 }
 
-TEST(Parameters, LinksMayHaveATip) {
-  XmlRpcValue all;
-  all["tools"][0]["name"] = "PSM1";
-  all["tools"][0]["links"][0] = "jaw";
-  EXPECT_FALSE(parse_parameters(all).parameters.tools[0].has_tip_of_links());
-  all["tools"][0]["tip_frame"] = "/jaw_tip";
-  const ToolParameters tool = parse_parameters(all).parameters.tools[0];
-  EXPECT_EQ(tool.tip_frame, "jaw_tip");
-  EXPECT_TRUE(tool.has_tip_of_links());
-  EXPECT_FALSE(tool.has_shaft());
-  EXPECT_FALSE(parse_parameters(one_tool()).parameters.tools[0].has_tip_of_links());
-}
-
-TEST(Parameters, IllegalMarginsAreNamed) {
-  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  expect_words(refusal_of_tool("margin", -0.25), {"~tools[0]/margin", "-0.25", "at least 0"});
-  expect_words(refusal_of_tool("margin", nan), {"~tools[0]/margin", "nan", "at least 0"});
-  expect_words(refusal_of_tool("margin", infinity), {"~tools[0]/margin", "inf", "at least 0"});
-  expect_words(refusal_of_tool("margin", "wide"), {"~tools[0]/margin", "wide", "number"});
-  expect_words(refusal_of_tool("max_near", -1), {"~tools[0]/max_near", "-1", "at least 0"});
-  expect_words(refusal_of_tool("max_near", 0.5), {"~tools[0]/max_near", "0.5", "whole"});
-  expect_words(refusal_of_tool("max_near", 7), {"~tools[0]/max_near", "'7'", "margin"});
-}
-
-TEST(Parameters, IllegalLinksAreNamed) {
-  XmlRpcValue empty, twice, unnamed;
-  empty.setSize(0);
-  twice[0] = twice[1] = "jaw";
-  unnamed[0] = "";
-  expect_words(refusal_of_tool("links", "jaw"), {"~tools[0]/links", "'jaw'", "list"});
-  expect_words(refusal_of_tool("links", empty), {"~tools[0]/links", "not empty"});
-  expect_words(refusal_of_tool("links", twice), {"~tools[0]/links", "jaw", "each once"});
-  expect_words(refusal_of_tool("links", unnamed), {"~tools[0]/links", "not empty"});
-
-  expect_words(refusal_of_links("robot_description", "a b"),
-               {"~tools[0]/robot_description", "'a b'"});
-  expect_words(refusal_of_links("urdf", ""), {"~tools[0]/urdf", "not empty"});
-  expect_words(refusal_of_links("tf_prefix", "left/"), {"~tools[0]/tf_prefix", "'left/'", "slash"});
-  expect_words(refusal_of_links("tf_prefix", "/"), {"~tools[0]/tf_prefix", "'/'", "slash"});
-}
-
-TEST(Parameters, WhatDoesNotGoTogetherIsNamed) {
-  XmlRpcValue tools;
-  tools[0]["name"] = "PSM1";
-  expect_words(refusal("tools", tools), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
-  expect_words(refusal_of_links("radius", 0.01), {"~tools[0]/trocar_frame", "missing"});
-  expect_words(refusal_of_links("trocar_frame", "a"), {"~tools[0]/radius", "missing"});
-  expect_words(refusal_of_links("base_pose_topic", "/base"),
-               {"~tools[0]/base_pose_topic", "'/base'", "tip_pose_topic"});
-  for (const char* name : {"robot_description", "urdf", "tf_prefix"}) {
-    expect_words(refusal_of_tool(name, "a"), {std::string("~tools[0]/") + name, "links"});
-  }
-  tools[0]["links"][0] = "jaw";
-  tools[0]["urdf"] = "/hook.urdf";
-  tools[0]["robot_description"] = "robot_description";
-  expect_words(refusal("tools", tools), {"~tools[0]/robot_description", "beside urdf"});
-}
-
-TEST(Parameters, TipsMayComeAsPoses) {
-  XmlRpcValue all = one_tool();
-  all["tools"][0]["tip_pose_topic"] = "/PSM1/measured_cp";
-  all["tools"][0]["base_pose_topic"] = "/PSM1/base";
-  const ToolParameters named = parse_parameters(all).parameters.tools[0];
+TEST(ToolParameters, TipsComeFromFramesOrPoses) {
+  XmlRpcValue tool = shaft();
+  tool["tip_pose_topic"] = "/PSM1/measured_cp";
+  tool["base_pose_topic"] = "/PSM1/base";
+  const ToolParameters named = parsed(tool);
   EXPECT_EQ(named.tip_pose_topic, "/PSM1/measured_cp");
   EXPECT_EQ(named.base_pose_topic, "/PSM1/base");
   EXPECT_EQ(named.tip_frame, "hook_tip");
@@ -290,112 +206,16 @@ TEST(Parameters, TipsMayComeAsPoses) {
   unnamed["trocar_frame"] = "PSM1_base";
   unnamed["radius"] = 0.004;
   unnamed["tip_pose_topic"] = "PSM1/measured_cp";
-  all["tools"][0] = unnamed;
-  EXPECT_EQ(parse_parameters(all).parameters.tools[0].tip_frame, "PSM1_tip");
+  EXPECT_EQ(parsed(unnamed).tip_frame, "PSM1_tip");
 
-  expect_words(refusal_of_tool("tip_pose_topic", "a b"), {"~tools[0]/tip_pose_topic", "'a b'"});
-  expect_words(refusal_of_tool("tip_pose_topic", ""), {"~tools[0]/tip_pose_topic", "not empty"});
-  expect_words(refusal_of_tool("base_pose_topic", "/base"),
-               {"~tools[0]/base_pose_topic", "'/base'", "tip_pose_topic"});
+  tool = links();
+  tool["tf_prefix"] = "/left";
+  tool["tip_pose_topic"] = "/stylus/measured_cp";
+  EXPECT_EQ(parsed(tool).tip_frame, "left/jaw") << "the first link";
+  tool["tip_frame"] = "/pen_base";
+  EXPECT_EQ(parsed(tool).tip_frame, "pen_base");
+  EXPECT_TRUE(parsed(tool).has_tip_of_links());
 }
 
-TEST(Parameters, LinksMayComeAsPoses) {
-  XmlRpcValue all;
-  all["tools"][0]["name"] = "stylus";
-  all["tools"][0]["links"][0] = "pen";
-  all["tools"][0]["tf_prefix"] = "left";
-  all["tools"][0]["tip_pose_topic"] = "/stylus/measured_cp";
-  const ToolParameters first_link = parse_parameters(all).parameters.tools[0];
-  EXPECT_EQ(first_link.tip_frame, "left/pen");
-  EXPECT_FALSE(first_link.has_shaft());
-
-  all["tools"][0]["tip_frame"] = "/pen_base";
-  const ToolParameters named = parse_parameters(all).parameters.tools[0];
-  EXPECT_EQ(named.tip_frame, "pen_base");
-  EXPECT_FALSE(named.has_shaft());
-}
-
-TEST(Parameters, ToolNamesAreUnique) {
-  XmlRpcValue tools;
-  tools[0] = tool("hook");
-  tools[1] = tool("hook");
-  expect_words(refusal("tools", tools), {"~tools[1]/name", "hook", "unique"});
-}
-
-TEST(Parameters, ToolsMustBeGiven) {
-  XmlRpcValue none;
-  none["rate"] = 1;
-  EXPECT_THROW(parse_parameters(none), ParameterError);
-  none["tools"].setSize(0);
-  EXPECT_TRUE(parse_parameters(none).parameters.tools.empty());
-}
-
-TEST(Parameters, MisspeltNamesAreReported) {
-  XmlRpcValue all = one_tool();
-  all["mesh_timout_sec"] = 1.0;
-  all["tools"][0]["colour"] = "red";
-  const std::vector<std::string> misspelt = parse_parameters(all).misspelt;
-  ASSERT_EQ(misspelt.size(), 2u);
-  expect_words(misspelt[0], {"~mesh_timout_sec", "'mesh_timeout_sec'"});
-  expect_words(misspelt[1], {"~tools[0]/colour", "radius"});
-}
-
-TEST(LiveNodeParameters, ChangesKeepTheRest) {
-  LiveNodeParameters before;
-  before.rate_hz = 50.0;
-  XmlRpcValue changes;
-  changes["tf_timeout_sec"] = 1;
-  changes["publish_regions"] = true;
-  changes["publish_placement"] = false;
-  const LiveNodeParameters after = changed(before, changes);
-  EXPECT_EQ(after.rate_hz, 50.0);
-  EXPECT_EQ(after.tf_timeout_sec, 1.0);
-  EXPECT_EQ(after.mesh_timeout_sec, before.mesh_timeout_sec);
-  EXPECT_TRUE(after.publish_regions);
-  EXPECT_FALSE(after.publish_placement);
-}
-
-TEST(LiveNodeParameters, IllegalChangesAreRefused) {
-  const std::vector<std::pair<const char*, XmlRpcValue>> illegal = {
-      {"rate", -1.0},           {"rate", 10'001.0},       {"rate", std::nan("")},
-      {"tf_timeout_sec", 61},   {"mesh_timeout_sec", -1}, {"mesh_timeout_sec", 1.0 / 0.0},
-      {"publish_regions", 1.0}, {"picker", "select"},     {"rates", 1.0}};
-  for (const auto& [name, value] : illegal) {
-    XmlRpcValue changes;
-    changes[name] = value;
-    EXPECT_THROW(changed({}, changes), ParameterError) << name;
-  }
-}
-
-TEST(LiveNodeParameters, EachIsDescribed) {
-  LiveNodeParameters now;
-  now.rate_hz = 50.0;
-  const std::vector<LiveParameter> all = live_parameters(now);
-  EXPECT_EQ(all.size(), 8u);
-  for (LiveParameter parameter : all) {
-    EXPECT_FALSE(parameter.text.empty()) << parameter.name;
-    XmlRpcValue changes;
-    changes[parameter.name] = parameter.value;
-    EXPECT_NO_THROW(changed(now, changes)) << parameter.name;
-  }
-}
-
-TEST(Parameters, VerySlowRatesAreRefused) {
-  for (const char* name : {"rate", "markers_rate", "surface_rate"}) {
-    expect_words(refusal(name, 1e-10), {name, "1e-10", "0.001"});
-  }
-}
-
-TEST(Parameters, OfMarkers) {
-  XmlRpcValue all = one_tool();
-  all["markers_rate"] = 60;
-  all["surface_rate"] = 0;
-  all["markers_depth"] = 0.02;
-  const MarkerSettings markers = parse_parameters(all).parameters.markers;
-  EXPECT_EQ(markers.markers_rate_hz, 60.0);
-  EXPECT_EQ(markers.surface_rate_hz, 0.0);
-  EXPECT_EQ(markers.markers_depth, 0.02);
-  expect_words(refusal("markers_rate", -1.0), {"markers_rate", "-1", "0", "1000"});
-  expect_words(refusal("surface_rate", 2000), {"surface_rate", "2000", "1000"});
-  expect_words(refusal("markers_depth", 0.0), {"markers_depth", "0"});
-}
+}  // namespace
+}  // namespace organ_collision

@@ -18,14 +18,14 @@ class Disturbances:
     """Disturbs in an order that depends only on the random numbers."""
 
     def __init__(self, master, subject, random_numbers):
-        self.master, self.subject, self.random = master, subject, random_numbers
+        self.subject, self.random = subject, random_numbers
         self.counts = collections.Counter()
         self._silent = {}
         self._address = master.ask('lookupNode', '/organ_collision')
 
     def run(self, seconds):
         """Each of them once, in any order, and again, until the time has passed."""
-        kinds = [self.restart_master, self.stop_node, self.stop_simulator, self.starve, self.fall_silent]
+        kinds = [self.stop_node, self.stop_simulator, self.starve, self.fall_silent]
         end = time.monotonic() + seconds
         with contextlib.ExitStack() as stack:
             stack.callback(self._hang_up)
@@ -38,12 +38,6 @@ class Disturbances:
                         return
                     self.counts[kind.__name__] += 1
                     kind()
-
-    def restart_master(self):
-        self.master.kill()
-        time.sleep(self.random.uniform(0.2, 2.0))
-        self.master.start()
-        self.subject.wait_until_registered()
 
     def stop_node(self):
         self._stop(self.subject.node, self.random.uniform(0.05, 0.8))

@@ -1,49 +1,8 @@
-#include "ros/parameters/live_parameters.hpp"
+#include "ros/parameters/program_help.hpp"
 
 #include <gtest/gtest.h>
 
-#include "ros/parameters/program_help.hpp"
-
-using namespace organ_collision;
-
-namespace {
-
-const std::vector<LiveParameter> kParameters = {{"rate", "[Hz]", 1.0, 0.0, {0.0, 10.0}},
-                                                {"loud", "", true, false}};
-
-XmlRpc::XmlRpcValue change(const char* name, const XmlRpc::XmlRpcValue& value) {
-  XmlRpc::XmlRpcValue changes;
-  changes[name] = value;
-  return changes;
-}
-
-}  // namespace
-
-// test/rostest/live_changes_test.py tests the topics and the service.
-
-TEST(LiveParameters, ChangesAreAGroupOfParameters) {
-  const ParameterGroup group = live_group(change("rate", 5), kParameters);
-  EXPECT_EQ(group.number("rate", 1.0, kParameters[0].range), 5.0);
-  EXPECT_TRUE(group.flag("loud", true));
-}
-
-TEST(LiveParameters, AnIllegalValueIsRefusedByItsRange) {
-  const ParameterGroup group = live_group(change("rate", 10.5), kParameters);
-  EXPECT_THROW(group.number("rate", 1.0, kParameters[0].range), ParameterError);
-}
-
-TEST(LiveParameters, AnUnknownNameIsRefused) {
-  try {
-    live_group(change("rates", 5), kParameters);
-    ADD_FAILURE() << "accepted";
-  } catch (const ParameterError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "~rates is no parameter; nearest is 'rate', legal are rate, loud");
-  }
-}
-
-using namespace organ_collision;
-
+namespace organ_collision {
 namespace {
 
 ProgramHelp help() {
@@ -68,8 +27,6 @@ Answer answer(std::vector<std::string> arguments) {
   return {exit_code, testing::internal::GetCapturedStdout(),
           testing::internal::GetCapturedStderr()};
 }
-
-}  // namespace
 
 TEST(ProgramHelp, ShowsWhatThereIsAndNoEmptySection) {
   EXPECT_EQ(help_text(help()),
@@ -127,7 +84,5 @@ TEST(ProgramHelp, DefaultsAreShownAsTheyAreWrittenInYaml) {
   EXPECT_EQ(shown(0.02), "0.02");
 }
 
-TEST(ProgramHelp, TextsAreFoundByName) {
-  EXPECT_EQ(text_of(help().parameters, "~depth"), "[m] of a cut");
-  EXPECT_THROW(text_of(help().parameters, "~width"), std::out_of_range);
-}
+}  // namespace
+}  // namespace organ_collision
