@@ -56,7 +56,7 @@ YamlParameters read(const std::string& text, const std::string& node = "/organ_c
 }  // namespace
 
 TEST(YamlParameters, HaveTheTypesOfTheParameterServer) {
-  const auto [parameters, misspelt] =
+  const NodeParameters parameters =
       read(
           "tools:\n"
           "  - {name: '7', trocar_frame: \"true\", tip_frame: y, radius: 5e-3}\n"
@@ -65,7 +65,7 @@ TEST(YamlParameters, HaveTheTypesOfTheParameterServer) {
           "publish_regions: yes\n"
           "mesh_timeout_sec: .5\n")
           .node_parameters();
-  EXPECT_TRUE(misspelt.empty());
+  EXPECT_TRUE(parameters.misspelt.empty());
   ASSERT_EQ(parameters.tools.size(), 1u);
   EXPECT_EQ(parameters.tools[0].name, "7");
   EXPECT_EQ(parameters.tools[0].trocar_frame, "true");

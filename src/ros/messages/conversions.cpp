@@ -1,7 +1,6 @@
 #include "conversions.hpp"
 
 #include <ros/console.h>
-#include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,41 +9,38 @@
 #include "geometry/concatenate.hpp"
 
 namespace organ_collision {
+namespace {
 
-Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) {
-  Eigen::Vector3d result;
-  tf2::fromMsg(point, result);
-  return result;
+/// What to do about a length, if it is implausible.
+std::string advice(double length, double smallest, double largest) {
+  const std::string range =
+      concatenate("; plausible are ", smallest, " to ", largest, " m. Lengths are in metres: ");
+  return range + (length > largest ? "are these millimetres?"
+                                   : "were they converted from millimetres twice?");
 }
 
-Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector) {
-  Eigen::Vector3d result;
-  tf2::fromMsg(vector, result);
-  return result;
-}
+}  // namespace
 
 Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform) {
-  Eigen::Quaterniond rotation;
-  tf2::fromMsg(transform.rotation, rotation);
-  return Eigen::Translation3d(to_eigen(transform.translation)) * rotation.normalized();
+  return Eigen::Translation3d(to_eigen(transform.translation)) *
+         to_eigen(transform.rotation).normalized();
 }
 
 Eigen::Isometry3d to_eigen(const geometry_msgs::Pose& pose) {
-  Eigen::Quaterniond rotation;
-  tf2::fromMsg(pose.orientation, rotation);
-  return Eigen::Translation3d(to_eigen(pose.position)) * rotation.normalized();
+  return Eigen::Translation3d(to_eigen(pose.position)) * to_eigen(pose.orientation).normalized();
 }
 
 bool is_unit(const geometry_msgs::Quaternion& quaternion) {
   constexpr double kTolerance = 1e-3;
-  Eigen::Quaterniond rotation;
-  tf2::fromMsg(quaternion, rotation);
-  return std::abs(rotation.norm() - 1.0) <= kTolerance;
+  return std::abs(to_eigen(quaternion).norm() - 1.0) <= kTolerance;
 }
 
 geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector) {
   geometry_msgs::Vector3 message;
-  return tf2::toMsg(vector, message);
+  message.x = vector.x();
+  message.y = vector.y();
+  message.z = vector.z();
+  return message;
 }
 
 std::string tf_frame(const std::string& frame_id) {
@@ -68,18 +64,6 @@ bool ClockWatch::has_jumped_back(ros::Time now) {
   latest_ = has_jumped ? now : std::max(latest_, now);
   return has_jumped;
 }
-
-namespace {
-
-/// What to do about a length, if it is implausible.
-std::string advice(double length, double smallest, double largest) {
-  const std::string range =
-      concatenate("; plausible are ", smallest, " to ", largest, " m. Lengths are in metres: ");
-  return range + (length > largest ? "are these millimetres?"
-                                   : "were they converted from millimetres twice?");
-}
-
-}  // namespace
 
 std::string sides_of(const Eigen::AlignedBox3d& box) {
   const Eigen::Vector3d sides = box.sizes();

@@ -13,12 +13,17 @@
 
 namespace organ_collision {
 
-// Conversions between messages and Eigen, in the same units. tf2::toMsg() converts points to
-// messages.
+// Conversions between messages and Eigen, in the same units. Those of tf2 write into an argument.
 
-/// tf2::fromMsg() writes into an argument. These return the value, so that formulas can use it.
-Eigen::Vector3d to_eigen(const geometry_msgs::Point& point);
-Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector);
+inline Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) {
+  return {point.x, point.y, point.z};
+}
+inline Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector) {
+  return {vector.x, vector.y, vector.z};
+}
+inline Eigen::Quaterniond to_eigen(const geometry_msgs::Quaternion& rotation) {
+  return {rotation.w, rotation.x, rotation.y, rotation.z};
+}
 /// Normalises the rotation, because senders round it. tf2::transformToEigen() does not normalise.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform);
 /// The same for a pose.

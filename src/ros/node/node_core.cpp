@@ -93,29 +93,23 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
   }
 }
 
-void ToolReload::advertise() {
-  server_ = private_node_.advertiseService(names::kReloadTools, &ToolReload::on_reload, this);
-}
-
-bool ToolReload::on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+std_srvs::Trigger::Response reload_tools(const std::vector<Tool>& tools,
+                                         const std::function<LoadedTools()>& load,
+                                         const Exchange& exchange) {
+  std_srvs::Trigger::Response response;
   try {
-    response.message = plain_text(reload(), kLongestMessage);
+    LoadedTools loaded = load();
+    const ToolChanges changes = compare_tools(tools, loaded.tools);
+    check(loaded.tools, changes.kept);
+    exchange(loaded, changes.kept);
     response.success = true;
+    response.message = plain_text(changes.summary, kLongestMessage);
     ROS_INFO("tools are reloaded: %s", response.message.c_str());
   } catch (const std::exception& error) {
     response.message = plain_text(error.what(), kLongestMessage);
     ROS_WARN("tools stay as they were: %s", response.message.c_str());
   }
-  return true;
-}
-
-/// Returns which tools are new, changed, unchanged and removed.
-std::string ToolReload::reload() {
-  LoadedTools loaded = callbacks_.load();
-  const ToolChanges changes = compare_tools(tools_, loaded.tools);
-  check(loaded.tools, changes.kept);
-  callbacks_.exchange(loaded, changes.kept);
-  return changes.summary;
+  return response;
 }
 
 }  // namespace organ_collision

@@ -74,34 +74,12 @@ std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
 /// implausible sizes.
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt);
 
-/// Serves `reload_tools`. Robots' files may take seconds to load. Therefore the node handle must
-/// have a callback queue with a thread of its own: the node's thread only exchanges the lists.
-class ToolReload {
- public:
-  struct Callbacks {
-    /// Reads the tools that the parameter server has now. Throws ParameterError.
-    std::function<LoadedTools()> load;
-    /// Exchanges the node's lists for `loaded`, which then has the old ones.
-    std::function<void(LoadedTools& loaded, const KeptTools& kept)> exchange;
-  };
-
-  /// `tools`: the node's list, which only `exchange` may change.
-  ToolReload(const ros::NodeHandle& private_node, const std::vector<Tool>& tools,
-             Callbacks callbacks)
-      : private_node_(private_node), tools_(tools), callbacks_(std::move(callbacks)) {}
-
-  /// From now on, the exchange may be called at any time.
-  void advertise();
-
- private:
-  bool on_reload(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  std::string reload();
-
-  ros::NodeHandle private_node_;
-  const std::vector<Tool>& tools_;
-  Callbacks callbacks_;
-  ros::ServiceServer server_;
-};
+/// What `reload_tools` does. `exchange` exchanges the node's tools for `loaded`, which then has the
+/// old ones. Call it in a background thread: robots' files may take seconds to load.
+using Exchange = std::function<void(LoadedTools& loaded, const KeptTools& kept)>;
+std_srvs::Trigger::Response reload_tools(const std::vector<Tool>& tools,
+                                         const std::function<LoadedTools()>& load,
+                                         const Exchange& exchange);
 
 /// What all nodes with organs have: the loop of their thread, a background thread, parameters and
 /// tools that can be changed while the node runs, the service `reset`, real-time scheduling, and
@@ -119,7 +97,7 @@ class NodeCore {
     std::function<void()> reset;
     std::function<void(const Parameters& before)> parameters_changed;
     /// In the background thread, which waits for its end: exchanges the tools, by exchange_tools().
-    decltype(ToolReload::Callbacks::exchange) exchange_tools;
+    Exchange exchange_tools;
     /// Before the node ends because of an exception: tells the subscribers.
     std::function<void(const std::string& why)> break_down;
   };
@@ -134,8 +112,6 @@ class NodeCore {
         realtime_(parameters_.realtime),
         tools_(load_tools(parameters_.tools, private_node_)),
         diagnostics_(node_, private_node_, parameters_.diagnostic_period_sec),
-        tool_reload_(on_queue(private_node, background_.queue()), tools_,
-                     {[this] { return loaded_tools(); }, callbacks_.exchange_tools}),
         live_parameters_(on_queue(private_node, background_.queue()), live_parameters(parameters_),
                          [this](const auto& changes) { return change_parameters(changes); }) {}
   ~NodeCore() { end(); }
@@ -155,13 +131,10 @@ class NodeCore {
   /// From now on, the callbacks may be called.
   void start() {
     warn_of_settings(tools_, parameters_.misspelt);
-    tool_reload_.advertise();
     live_parameters_.advertise();
-    reset_ = private_node_.advertiseService<std_srvs::Empty::Request, std_srvs::Empty::Response>(
-        names::kReset, [this](std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
-          callbacks_.reset();
-          return true;
-        });
+    reload_ = on_queue(private_node_, background_.queue())
+                  .advertiseService(names::kReloadTools, &NodeCore::on_reload, this);
+    reset_ = private_node_.advertiseService(names::kReset, &NodeCore::on_reset, this);
     realtime_.add_to(updater());
   }
 
@@ -215,13 +188,22 @@ class NodeCore {
 
  private:
   /// Runs in the background thread.
-  LoadedTools loaded_tools() {
-    Parameters parameters;
-    const ParameterTable table = table_of(parameters);
-    const ParameterGroup all = table.group(all_parameters(private_node_));
-    parameters.misspelt = all.misspelt();
-    table.read(all, names::kTools);
-    return {load_tools(parameters.tools, private_node_), std::move(parameters.misspelt)};
+  bool on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+    const auto load = [this]() -> LoadedTools {
+      Parameters parameters;
+      const ParameterTable table = table_of(parameters);
+      const ParameterGroup all = table.group(all_parameters(private_node_));
+      parameters.misspelt = all.misspelt();
+      table.read(all, names::kTools);
+      return {load_tools(parameters.tools, private_node_), parameters.misspelt};
+    };
+    response = reload_tools(tools_, load, callbacks_.exchange_tools);
+    return true;
+  }
+
+  bool on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {
+    callbacks_.reset();
+    return true;
   }
 
   /// Runs in the background thread. Only this thread ever makes the node's thread change
@@ -255,11 +237,8 @@ class NodeCore {
   std::vector<Tool> tools_;
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
   Diagnostics diagnostics_;
-  ros::ServiceServer reset_;
-
-  // What works in the background thread.
-  ToolReload tool_reload_;
-  LiveParameters live_parameters_;
+  LiveParameters live_parameters_;  ///< work in the background thread
+  ros::ServiceServer reload_, reset_;
 };
 
 }  // namespace organ_collision

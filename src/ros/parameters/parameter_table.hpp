@@ -116,8 +116,8 @@ std::vector<LiveParameter> live_parameters(Parameters parameters) {
     if (!row.is_live) continue;
     const bool is_flag = row.value().getType() == XmlRpc::XmlRpcValue::TypeBoolean;
     live.push_back({row.help.name, row.help.text, row.value(), by_default.rows()[i].value(),
-                    is_flag ? XmlRpc::XmlRpcValue(false) : row.range.lowest,
-                    is_flag ? XmlRpc::XmlRpcValue(true) : row.range.highest});
+                    is_flag ? XmlRpc::XmlRpcValue(false) : XmlRpc::XmlRpcValue(row.range.lowest),
+                    is_flag ? XmlRpc::XmlRpcValue(true) : XmlRpc::XmlRpcValue(row.range.highest)});
   }
   return live;
 }

@@ -5,14 +5,12 @@
 
 #include <cmath>
 
-using namespace organ_collision;
-using Eigen::Vector3d;
-
+namespace organ_collision {
 namespace {
 
-const Vector3d kVector(0.3, -2.5, 1e-7);
+using Eigen::Vector3d;
 
-}  // namespace
+const Vector3d kVector(0.3, -2.5, 1e-7);
 
 TEST(Conversions, PointsAndVectorsThereAndBack) {
   const geometry_msgs::Point point = tf2::toMsg(kVector);
@@ -60,8 +58,6 @@ TEST(Conversions, FrameWithoutLeadingSlash) {
   EXPECT_EQ(tf_frame(""), "");
 }
 
-namespace {
-
 Eigen::AlignedBox3d box(double x, double y, double z) {
   const Eigen::Vector3d low(0.3, -7.0, 0.1);
   return {low, low + Eigen::Vector3d(x, y, z)};
@@ -72,8 +68,6 @@ void expect_words(const std::string& text, const std::vector<std::string>& words
     EXPECT_NE(text.find(word), std::string::npos) << "'" << word << "' in: " << text;
   }
 }
-
-}  // namespace
 
 TEST(PlausibleSize, SidesHaveThreeDigits) {
   EXPECT_EQ(sides_of(box(0.12, 0.09, 0.061234)), "0.12 x 0.09 x 0.0612");
@@ -96,3 +90,6 @@ TEST(PlausibleSize, Radii) {
                {"tool 'hook' has a radius of 5 m", "2e-05 to 0.1 m", "are these millimetres?"});
   expect_words(doubt_about_radius("hook", 5e-6), {"5e-06 m", "twice?"});
 }
+
+}  // namespace
+}  // namespace organ_collision

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <organ_collision/ContactArray.h>
 
-#include <cstdint>
 #include <set>
 #include <string>
 #include <thread>
@@ -11,14 +10,10 @@
 
 #include "ros/messages/text.hpp"
 
-using namespace organ_collision;
+namespace organ_collision {
+namespace {
 
-TEST(Rejection, KeepsWhatItWasMadeOf) {
-  const Rejection rejection(4, "wrong size", "7 numbers; must be a multiple of 3");
-  EXPECT_EQ(rejection.status(), 4);
-  EXPECT_EQ(rejection.reason(), "wrong size");
-  EXPECT_STREQ(rejection.what(), "7 numbers; must be a multiple of 3");
-}
+using namespace std::chrono_literals;
 
 TEST(Rejection, EachStatusHasItsOwnReason) {
   std::set<std::string> reasons;
@@ -42,72 +37,48 @@ TEST(Rejection, IllegalNames) {
   }
 }
 
-using namespace organ_collision;
+class FailureLogTest : public testing::Test {
+ protected:
+  const FailureLog::Entry& entry() {
+    entries_ = log_.by_reason();
+    return entries_.at("wrong size");
+  }
 
-TEST(FailureLog, CountsByReason) {
-  FailureLog log;
-  const FailureLog::Time now{std::chrono::hours(3)};
-  log.add("wrong size", "7 numbers", now);
-  log.add("wrong size", "8 numbers", now);
-  log.add("not finite", "vertex 3", now);
-  ASSERT_EQ(log.by_reason().size(), 2u);
-  EXPECT_EQ(log.by_reason().at("wrong size").count, 2u);
-  EXPECT_EQ(log.by_reason().at("wrong size").latest, "8 numbers");
-  EXPECT_EQ(log.by_reason().at("not finite").not_yet_reported, 1u);
+  const FailureLog::Time start_{3h};
+  FailureLog log_;
+  FailureLog::Entries entries_;
+};
+
+TEST_F(FailureLogTest, CountsByReasonAndLogsEachOnceASecond) {
+  log_.add("wrong size", "7 numbers", start_);
+  log_.add("wrong size", "8 numbers", start_ + 999ms, 7);
+  log_.add("not finite", "vertex 3", start_);
+  EXPECT_EQ(entry().count, 8u);
+  EXPECT_EQ(entry().latest, "8 numbers");
+  EXPECT_EQ(entry().not_yet_reported, 8u);
+  EXPECT_EQ(entry().logged, start_);
+  EXPECT_EQ(log_.by_reason().size(), 2u);
+  log_.add("wrong size", "9 numbers", start_ + 1000ms);
+  EXPECT_EQ(entry().logged, start_ + 1000ms);
 }
 
-TEST(FailureLog, CountsSeveralFailuresAtOnce) {
-  FailureLog log;
-  const FailureLog::Time now{std::chrono::hours(3)};
-  log.add("invalid request", "radius", now, 7);
-  EXPECT_EQ(log.by_reason().at("invalid request").logged, now);
-  log.add("invalid request", "radius", now + std::chrono::milliseconds(1), 3);
-  EXPECT_EQ(log.by_reason().at("invalid request").count, 10u);
-  EXPECT_EQ(log.by_reason().at("invalid request").not_yet_reported, 10u);
-  EXPECT_EQ(log.by_reason().at("invalid request").logged, now);
+TEST_F(FailureLogTest, MessagesArePlainAndShort) {
+  log_.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
+  EXPECT_LE(entry().latest.size(), kLongestMessage);
+  EXPECT_EQ(entry().latest.rfind("a xxx", 0), 0u) << entry().latest;
 }
 
-TEST(FailureLog, MessagesArePlainAndShort) {
-  FailureLog log;
-  log.add("wrong size", "a\n" + std::string(10'000'000, 'x'), {});
-  const std::string latest = log.by_reason().at("wrong size").latest;
-  EXPECT_LE(latest.size(), kLongestMessage);
-  EXPECT_EQ(latest.rfind("a xxx", 0), 0u) << latest;
-}
-
-TEST(FailureLog, ReportedOnce) {
-  FailureLog log;
-  log.add("wrong size", "7 numbers", {});
-  EXPECT_EQ(log.take_report().at("wrong size").not_yet_reported, 1u);
-  EXPECT_EQ(log.by_reason().at("wrong size").count, 1u);
-  EXPECT_EQ(log.by_reason().at("wrong size").not_yet_reported, 0u);
-  log.add("wrong size", "8 numbers", {});
-  EXPECT_EQ(log.by_reason().at("wrong size").not_yet_reported, 1u);
-}
-
-TEST(FailureLog, LogsEachReasonOnceASecond) {
-  FailureLog log;
-  const FailureLog::Time start{std::chrono::hours(3)};
-  log.add("wrong size", "a", start);
-  log.add("wrong size", "b", start + std::chrono::milliseconds(999));
-  EXPECT_EQ(log.by_reason().at("wrong size").logged, start);
-  const FailureLog::Time later = start + std::chrono::milliseconds(1000);
-  log.add("wrong size", "c", later);
-  EXPECT_EQ(log.by_reason().at("wrong size").logged, later);
-}
-
-TEST(FailureLog, CountsAndReportsEachFailureOnceFromAllThreads) {
-  FailureLog log;
+TEST_F(FailureLogTest, CountsAndReportsEachFailureOnceFromAllThreads) {
   constexpr std::uint64_t kEach = 2000;
   std::vector<std::thread> threads;
   for (int thread = 0; thread < 3; ++thread) {
     threads.emplace_back([&] {
-      for (std::uint64_t i = 0; i < kEach; ++i) log.add("wrong size", "7 numbers", {});
+      for (std::uint64_t i = 0; i < kEach; ++i) log_.add("wrong size", "7 numbers", {});
     });
   }
   std::uint64_t reported = 0;
   const auto report = [&] {
-    for (const auto& [reason, entry] : log.take_report()) reported += entry.not_yet_reported;
+    for (const auto& [reason, entry] : log_.take_report()) reported += entry.not_yet_reported;
   };
   for (int i = 0; i < 1000; ++i) report();
   for (std::thread& thread : threads) thread.join();
@@ -115,27 +86,24 @@ TEST(FailureLog, CountsAndReportsEachFailureOnceFromAllThreads) {
   EXPECT_EQ(reported, 3 * kEach);
 }
 
-TEST(FailureLog, IsShownWithItsCountsAndWarnsOfNewFailuresOnce) {
+TEST_F(FailureLogTest, IsShownWithItsCountsAndWarnsOfNewFailuresOnce) {
   using diagnostic_msgs::DiagnosticStatus;
-  FailureLog log;
-  log.add("wrong size", "7 numbers", {});
-  log.add("wrong size", "8 numbers", {});
-  diagnostic_updater::DiagnosticStatusWrapper status, later;
-  show_failures("rejected", log, status);
+  log_.add("wrong size", "7 numbers", {});
+  log_.add("wrong size", "8 numbers", {});
+  diagnostic_updater::DiagnosticStatusWrapper status, later, broken;
+  show_failures("rejected", log_, status);
   ASSERT_EQ(status.values.size(), 1u);
   EXPECT_EQ(status.values[0].key, "rejected, wrong size");
   EXPECT_EQ(status.values[0].value, "2");
   EXPECT_EQ(status.level, DiagnosticStatus::WARN);
   EXPECT_EQ(status.message, "8 numbers");
-  show_failures("rejected", log, later);
+  show_failures("rejected", log_, later);
   EXPECT_EQ(later.values[0].value, "2");
   EXPECT_EQ(later.level, DiagnosticStatus::OK);
+  log_.add("picker failed", "out of memory", {});
+  show_failures("unanswered", log_, broken);
+  EXPECT_EQ(broken.level, DiagnosticStatus::ERROR);
 }
 
-TEST(FailureLog, AFailedPickerIsAnError) {
-  FailureLog log;
-  log.add("picker failed", "out of memory", {});
-  diagnostic_updater::DiagnosticStatusWrapper status;
-  show_failures("unanswered", log, status);
-  EXPECT_EQ(status.level, diagnostic_msgs::DiagnosticStatus::ERROR);
-}
+}  // namespace
+}  // namespace organ_collision

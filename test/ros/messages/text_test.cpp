@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <random>
 
-using namespace organ_collision;
-
+namespace organ_collision {
 namespace {
 
 constexpr std::size_t kMost = 100;
@@ -16,8 +15,6 @@ std::string repeated(const std::string& text, std::size_t times) {
   for (std::size_t i = 0; i < times; ++i) all += text;
   return all;
 }
-
-}  // namespace
 
 TEST(PlainText, PlainTextStaysAsItIs) {
   for (const std::string text : {"", "liver", "a b/c", "ø", "肝臓", "🫀", "\u00A0", "\uFFFD"}) {
@@ -66,21 +63,20 @@ TEST(PlainText, WhateverComesIsPlainAfterwards) {
   }
 }
 
-TEST(PlainText, Counted) {
+TEST(Text, CountedAndListed) {
   EXPECT_EQ(counted(0, "face"), "0 faces");
   EXPECT_EQ(counted(1, "face"), "1 face");
-  EXPECT_EQ(counted(2208, "face"), "2208 faces");
-}
-
-TEST(PlainText, Listed) {
   EXPECT_EQ(listed({}), "");
-  EXPECT_EQ(listed({"a"}), "a");
   EXPECT_EQ(listed({"a", "b", "c"}), "a, b, c");
 }
 
-using namespace organ_collision;
-
-namespace {
+TEST(Text, DurationsHaveThreeDigitsOrAllBeforeThePoint) {
+  EXPECT_EQ(duration_text(0.0), "0 ms");
+  EXPECT_EQ(duration_text(0.0073), "7.3 ms");
+  EXPECT_EQ(duration_text(0.020004), "20 ms");
+  EXPECT_EQ(duration_text(2.4123), "2.41 s");
+  EXPECT_EQ(duration_text(123456.7), "123457 s");
+}
 
 /// The recursive definition of the Levenshtein distance.
 std::size_t distance_oracle(const std::string& a, const std::string& b) {
@@ -96,9 +92,7 @@ std::string random_word(std::mt19937& random) {
   return word;
 }
 
-}  // namespace
-
-TEST(LegalName, NearestHasTheFewestEdits) {
+TEST(LegalName, TheFirstOfThoseWithTheFewestEditsIsTheNearest) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 300; ++trial) {
     const std::string name = random_word(random);
@@ -108,23 +102,11 @@ TEST(LegalName, NearestHasTheFewestEdits) {
     for (const std::string& word : legal) least = std::min(least, distance_oracle(name, word));
     EXPECT_EQ(distance_oracle(name, nearest_name(name, legal)), least) << name;
   }
-}
-
-TEST(LegalName, ParametersAsPeopleMistypeThem) {
-  const std::vector<std::string> legal{"rate", "tools", "picker", "tf_timeout_sec",
-                                       "mesh_timeout_sec"};
-  EXPECT_EQ(nearest_name("rates", legal), "rate");
-  EXPECT_EQ(nearest_name("mesh_timeout", legal), "mesh_timeout_sec");
-  EXPECT_EQ(nearest_name("pciker", legal), "picker");
-}
-
-TEST(LegalName, FirstOfSeveral) { EXPECT_EQ(nearest_name("b", {"a", "c"}), "a"); }
-
-TEST(LegalName, PlainTextIsLegal) {
-  for (const std::string name : {"", "liver", "a b/c", "肝臓"}) EXPECT_EQ(name_fault(name), "");
+  EXPECT_EQ(nearest_name("b", {"a", "c"}), "a");
 }
 
 TEST(LegalName, AFaultSaysWhatIsWrongAndWhatIsLegal) {
+  for (const std::string name : {"", "liver", "a b/c", "肝臓"}) EXPECT_EQ(name_fault(name), "");
   EXPECT_EQ(name_fault(std::string(kLongestName, 'x')), "");
   const std::string too_long = name_fault(std::string(kLongestName + 1, 'x'));
   EXPECT_NE(too_long.find("has 257 bytes; a name must be"), std::string::npos) << too_long;
@@ -135,16 +117,5 @@ TEST(LegalName, AFaultSaysWhatIsWrongAndWhatIsLegal) {
   EXPECT_NE(name_fault("\xFF"), "");
 }
 
-using namespace organ_collision;
-
-TEST(DurationText, HasThreeDigits) {
-  EXPECT_EQ(duration_text(0.0), "0 ms");
-  EXPECT_EQ(duration_text(0.0073), "7.3 ms");
-  EXPECT_EQ(duration_text(0.020004), "20 ms");
-  EXPECT_EQ(duration_text(0.25), "250 ms");
-  EXPECT_EQ(duration_text(2.4123), "2.41 s");
-}
-
-TEST(DurationText, OfHoursHasAllDigitsBeforeThePoint) {
-  EXPECT_EQ(duration_text(123456.7), "123457 s");
-}
+}  // namespace
+}  // namespace organ_collision

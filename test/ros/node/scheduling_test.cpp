@@ -88,6 +88,9 @@ TEST(Scheduling, TheCallingThreadAloneLowersItsPriority) {
   EXPECT_EQ(niceness(), before);
 }
 
+// A sanitizer reserves terabytes.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+
 TEST(MemoryLock, HoldsAlsoWhatIsTakenLaterUnlessTheSystemRefuses) {
   expect_in_process([] {
     constexpr std::size_t kMore = 10'000'000;  // [bytes]
@@ -110,6 +113,8 @@ TEST(MemoryLock, WhatIsReservedAndNotUsedTakesNoMemory) {
     return resident_memory() - before < static_cast<long>(kMuch / 10);
   });
 }
+
+#endif
 
 TEST(MemoryLock, ALimitIsARefusal) {
   for (const rlim_t kilobytes : {0, 8192}) {

@@ -12,22 +12,6 @@ ProgramHelp help() {
   return help;
 }
 
-struct Answer {
-  std::optional<int> exit_code;
-  std::string out, err;
-};
-
-Answer answer(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "/path/of/cutter");
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  testing::internal::CaptureStdout();
-  testing::internal::CaptureStderr();
-  const auto exit_code = answer_arguments(static_cast<int>(argv.size()), argv.data(), help());
-  return {exit_code, testing::internal::GetCapturedStdout(),
-          testing::internal::GetCapturedStderr()};
-}
-
 TEST(ProgramHelp, ShowsWhatThereIsAndNoEmptySection) {
   EXPECT_EQ(help_text(help()),
             "Usage: rosrun organ_collision cutter [NAME:=VALUE ...]\n\n"
@@ -49,39 +33,37 @@ TEST(ProgramHelp, LongTextsAreWrappedBetweenWords) {
   EXPECT_EQ(words, 100);
 }
 
-TEST(ProgramHelp, IsPrintedWhenAskedFor) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{"--help"}, {"-h"}, {"__name:=other", "--help"}, {"-x", "-h"}}) {
-    const Answer found = answer(arguments);
-    EXPECT_EQ(found.exit_code, 0);
-    EXPECT_EQ(found.out, help_text(help()));
-    EXPECT_EQ(found.err, "");
+TEST(ProgramHelp, ArgumentsAreAnsweredUnlessTheyAreForRos) {
+  struct Case {
+    std::vector<std::string> arguments;
+    std::optional<int> exit_code;
+    std::string out, err;
+  };
+  const std::string unknown = "cutter: unknown argument '";
+  const std::string legal = "'; legal are --help, and ROS's NAME:=VALUE\n";
+  const std::vector<Case> cases = {
+      {{"--help"}, 0, help_text(help()), ""},
+      {{"-h"}, 0, help_text(help()), ""},
+      {{"__name:=other", "--help"}, 0, help_text(help()), ""},
+      {{"-x", "-h"}, 0, help_text(help()), ""},
+      {{}, std::nullopt, "", ""},
+      {{"__name:=other", "_depth:=1", "pieces:=parts"}, std::nullopt, "", ""},
+      {{"__name:=other", "--depth"}, 2, "", unknown + "--depth" + legal},
+      {{"-x"}, 2, "", unknown + "-x" + legal},
+      {{"deep"}, 2, "", unknown + "deep" + legal},
+  };
+  for (const Case& row : cases) {
+    std::vector<std::string> arguments = row.arguments;
+    arguments.insert(arguments.begin(), "/path/of/cutter");
+    std::vector<char*> argv;
+    for (std::string& argument : arguments) argv.push_back(argument.data());
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    const auto exit_code = answer_arguments(static_cast<int>(argv.size()), argv.data(), help());
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), row.out);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), row.err);
+    EXPECT_EQ(exit_code, row.exit_code);
   }
-}
-
-TEST(ProgramHelp, RosArgumentsAreNotAnswered) {
-  for (const std::vector<std::string>& arguments :
-       {std::vector<std::string>{}, {"__name:=other", "_depth:=1", "pieces:=parts"}}) {
-    const Answer found = answer(arguments);
-    EXPECT_EQ(found.exit_code, std::nullopt);
-    EXPECT_EQ(found.out + found.err, "");
-  }
-}
-
-TEST(ProgramHelp, OtherArgumentsAreRefusedInOneLine) {
-  for (const char* argument : {"--depth", "-x", "deep"}) {
-    const Answer found = answer({"__name:=other", argument});
-    EXPECT_EQ(found.exit_code, 2);
-    EXPECT_EQ(found.out, "");
-    EXPECT_EQ(found.err, "cutter: unknown argument '" + std::string(argument) +
-                             "'; legal are --help, and ROS's NAME:=VALUE\n");
-  }
-}
-
-TEST(ProgramHelp, DefaultsAreShownAsTheyAreWrittenInYaml) {
-  EXPECT_EQ(shown(false), "false");
-  EXPECT_EQ(shown(2'000'000), "2000000");
-  EXPECT_EQ(shown(0.02), "0.02");
 }
 
 }  // namespace
