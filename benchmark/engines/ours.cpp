@@ -89,8 +89,8 @@ class OursNoClusters : public Engine {
     faces.clear();
     if (drawn_.empty()) return;
     const std::size_t size = draw_feedback(context_, query.volume, drawn_, buffer_);
-    for_each_vertex(buffer_, size, [&](const FeedbackVertex& vertex) {
-      if (faces.empty() || faces.back() != vertex.face()) faces.push_back(vertex.face());
+    for_each_vertex(buffer_, size, [&](std::uint32_t face, double /*depth*/) {
+      if (faces.empty() || faces.back() != face) faces.push_back(face);
     });
   }
 

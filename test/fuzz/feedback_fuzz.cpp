@@ -17,12 +17,12 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::size_t vertices = 0;
   double sum = 0.0;
   try {
-    for_each_vertex(buffer, written, [&](const FeedbackVertex& vertex) {
-      sum += vertex.window_depth() + vertex.face();
+    for_each_vertex(buffer, written, [&](std::uint32_t face, double depth) {
+      sum += depth + face;
       ++vertices;
     });
   } catch (const GlError&) {
   }
-  demand(vertices * FeedbackVertex::kFloats <= written, "each vertex is within the buffer");
+  demand(vertices * kVertexFloats <= written, "each vertex is within the buffer");
   return 0;
 }

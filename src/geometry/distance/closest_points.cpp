@@ -5,17 +5,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include "cylinder_distance.hpp"
-#include "gjk.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
-
-ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, double distance_bound) {
-  if (core.is_axis()) return axis_closest_points(core.axis(), face);
-  if (core.is_cylinder()) return cylinder_closest_points(core, face);
-  return gjk_closest_points(core, face, distance_bound);
-}
 
 namespace {
 
@@ -162,6 +154,12 @@ ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face) {
   const auto& [shaft, barycentric, separation, distance2] = pairs.nearest_tip(least);
   return {std::sqrt(least.distance2),  shaft,     barycentric, axis.at(shaft),
           point_at(face, barycentric), separation};
+}
+
+ClosestPoints closest_points(const ConvexCore& core, const Triangle& face, double distance_bound) {
+  if (core.is_axis()) return axis_closest_points(core.axis(), face);
+  if (core.is_cylinder()) return cylinder_closest_points(core, face);
+  return gjk_closest_points(core, face, distance_bound);
 }
 
 }  // namespace organ_collision

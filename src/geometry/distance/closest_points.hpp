@@ -24,13 +24,36 @@ struct ClosestPoints {
 };
 
 /// The nearest points of a core and a face (possibly degenerate to a segment or a point). Each kind
-/// of core has its own method: see axis_distance.hpp, cylinder_distance.hpp and gjk.hpp.
+/// of core has its own method, see below.
 ///
 /// `distance_bound` [m] lets the search for a hull stop early. If the true distance is larger than
 /// `distance_bound`, the returned distance may be any value between the two; the points are then
 /// unspecified. Axes and cylinders ignore it.
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
                              double distance_bound = std::numeric_limits<double>::infinity());
+
+/// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a
+/// segment or a point), in closed form. If several pairs are tied within tolerance::kTie, the
+/// points are those nearest the tip. The distance is always the least one. See doc/geometry.md,
+/// Ties and piercing.
+ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face);
+
+/// The nearest points of a flat-ended cylinder and a face (possibly degenerate). The face's nearest
+/// point is the projection of the cylinder's support point, or it lies on an edge. On an edge the
+/// distance is a convex function of the place, and Newton's method finds its minimum. See
+/// doc/geometry.md, Distance algorithms.
+ClosestPoints cylinder_closest_points(const ConvexCore& cylinder, const Triangle& face);
+
+/// The nearest points of a hull of three or more points and a face (possibly degenerate), by the
+/// iteration of Gilbert, Johnson and Keerthi (1988). `distance_bound` [m] is as for
+/// closest_points().
+///
+/// The iteration ends when no point can be nearer by more than 1e-12 m (or 1e-12 of the distance),
+/// or when rounding prevents progress. For boxes as thin as 1e-6 m the distance may then be up to
+/// 1e-7 m too large. Except for rounding, it is never too small. See doc/geometry.md, Distance
+/// algorithms.
+ClosestPoints gjk_closest_points(const ConvexCore& hull, const Triangle& face,
+                                 double distance_bound);
 
 /// Barycentric coordinates of the origin's projection onto the plane of the triangle a, b, c [m],
 /// whose twice_area() is `area`. None if the projection lies outside the triangle or the triangle
@@ -44,11 +67,5 @@ inline std::optional<Eigen::Vector3d> project_origin(const Eigen::Vector3d& a,
   if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return std::nullopt;
   return areas / areas.sum();
 }
-
-/// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a
-/// segment or a point), in closed form. If several pairs are tied within tolerance::kTie, the
-/// points are those nearest the tip. The distance is always the least one. See doc/geometry.md,
-/// Ties and piercing.
-ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face);
 
 }  // namespace organ_collision

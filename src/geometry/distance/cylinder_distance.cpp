@@ -1,5 +1,3 @@
-#include "cylinder_distance.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>

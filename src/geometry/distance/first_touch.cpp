@@ -2,16 +2,83 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
-#include "triangle_crossing.hpp"
 
 namespace organ_collision {
 namespace {
+
+using Eigen::Vector3d;
+
+/// Where the border of a triangle passes through a plane.
+struct BorderPoint {
+  Vector3d point;   ///< [m]
+  int from, to;     ///< the corners of the edge
+  double fraction;  ///< the place on the edge, in [0, 1] from corner `from` to corner `to`
+  double along;     ///< the place on the line in which the planes of both triangles meet
+};
+
+/// The segment in which a triangle cuts a plane: its ends, the one with the smaller `along` first.
+using Section = std::array<BorderPoint, 2>;
+
+/// For each corner, how far it lies in front of a plane through `point`, times the length of
+/// `normal`.
+Vector3d heights(const Triangle& corners, const Vector3d& normal, const Vector3d& point) {
+  return {normal.dot(corners[0] - point), normal.dot(corners[1] - point),
+          normal.dot(corners[2] - point)};
+}
+
+/// Whether no plane passes between corners with these heights.
+bool is_on_one_side(const Vector3d& heights) {
+  return (heights.array() > 0.0).all() || (heights.array() <= 0.0).all();
+}
+
+/// Cuts a triangle by a plane. Not all corners are on one side. `direction`: of the line in which
+/// the triangle's plane meets the other one.
+Section cut(const Triangle& corners, const Vector3d& heights, const Vector3d& direction,
+            const Vector3d& origin) {
+  // The lone corner is the one on its own side of the plane.
+  const bool side[] = {heights[0] > 0.0, heights[1] > 0.0, heights[2] > 0.0};
+  const int lone = side[1] == side[2] ? 0 : side[0] == side[2] ? 1 : 2;
+  Section section;
+  for (int end = 0; end < 2; ++end) {
+    const int to = (lone + 1 + end) % 3;
+    const double fraction = heights[lone] / (heights[lone] - heights[to]);
+    const Vector3d point = corners[lone] + fraction * (corners[to] - corners[lone]);
+    section[end] = {point, lone, to, fraction, direction.dot(point - origin)};
+  }
+  if (section[1].along < section[0].along) std::swap(section[0], section[1]);
+  return section;
+}
+
+/// The place on a section at `along`, in [0, 1] from its first end to its second one.
+double place_at(const Section& section, double along) {
+  const double length = section[1].along - section[0].along;
+  if (!(length > 0.0)) return 0.0;
+  return std::clamp((along - section[0].along) / length, 0.0, 1.0);
+}
+
+Vector3d point_at(const Section& section, double place) {
+  return section[0].point + place * (section[1].point - section[0].point);
+}
+
+/// The weights of the triangle's corners at a place of its section.
+Vector3d barycentric_at(const Section& section, double place) {
+  Vector3d weights = Vector3d::Zero();
+  for (int end = 0; end < 2; ++end) {
+    const BorderPoint& border = section[end];
+    const double share = end == 0 ? 1.0 - place : place;
+    weights[border.from] += share * (1.0 - border.fraction);
+    weights[border.to] += share * border.fraction;
+  }
+  return weights;
+}
 
 /// An unresolved touch at the start. Its pair of points belongs to core and face but need not be
 /// the nearest one, so that it needs no iteration.
@@ -23,8 +90,8 @@ FirstTouch unresolved_at_start(const CoreMotion& core, const FaceMotion& face) {
 ClosestPoints closest_at_start(const ConvexCore& core, const Triangle& face,
                                double distance_bound) {
   if (core.is_triangle()) {
-    const auto decided = triangle_crossing(core.triangle(), face, distance_bound);
-    if (decided) return *decided;
+    const auto crossing = triangle_crossing(core.triangle(), face);
+    if (crossing) return *crossing;
   }
   return closest_points(core, face, distance_bound);
 }
@@ -49,13 +116,13 @@ double next_length(double share, double distance_before, double distance, double
 /// [m per leg] How fast the distance of a link's core and a face falls. The closest points follow
 /// from each other at first order, so this is the velocity of these points along the normal.
 double closing_speed(const Instant& now, const RigidMotion& link, const FaceMotion& face) {
-  const Eigen::Vector3d displacement = link.end().translation() - link.start().translation();
-  const Eigen::Vector3d origin = link.start().translation() + now.time * displacement;
-  const Eigen::Vector3d arm = now.closest.on_core - origin;
-  const Eigen::Vector3d of_core = displacement + link.angle() * link.axis().cross(arm);
+  const Vector3d displacement = link.end().translation() - link.start().translation();
+  const Vector3d origin = link.start().translation() + now.time * displacement;
+  const Vector3d arm = now.closest.on_core - origin;
+  const Vector3d of_core = displacement + link.angle() * link.axis().cross(arm);
   const Triangle velocities = {face.end[0] - face.start[0], face.end[1] - face.start[1],
                                face.end[2] - face.start[2]};
-  return now.normal.dot(of_core - point_at(velocities, now.closest.barycentric));
+  return now.normal.dot(of_core - organ_collision::point_at(velocities, now.closest.barycentric));
 }
 
 /// Aims at the time at which a link touches, by Newton's method. An interval that ends just before
@@ -95,6 +162,30 @@ class TouchAim {
 };
 
 }  // namespace
+
+std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Triangle& face) {
+  const Vector3d core_normal = twice_area(core), face_normal = twice_area(face);
+  const Vector3d of_core = heights(core, face_normal, face[0]);
+  if (is_on_one_side(of_core)) return std::nullopt;
+  const Vector3d of_face = heights(face, core_normal, core[0]);
+  if (is_on_one_side(of_face)) return std::nullopt;
+
+  const Vector3d direction = core_normal.cross(face_normal);
+  const Section a = cut(core, of_core, direction, face[0]);
+  const Section b = cut(face, of_face, direction, face[0]);
+  const double begin = std::max(a[0].along, b[0].along), end = std::min(a[1].along, b[1].along);
+  if (begin > end) return std::nullopt;
+  const double middle = 0.5 * (begin + end);
+  const double place = place_at(b, middle);
+  ClosestPoints common{0.0, 0.0, barycentric_at(b, place), point_at(a, place_at(a, middle)),
+                       {},  {}};
+  common.on_face = organ_collision::point_at(face, common.barycentric);
+  common.separation = common.on_face - common.on_core;
+  common.distance = common.separation.norm();
+  common.steps = 1;
+  if (!(common.distance <= tolerance::kTie)) return std::nullopt;
+  return common;
+}
 
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until) {

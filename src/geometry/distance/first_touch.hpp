@@ -9,6 +9,16 @@
 
 namespace organ_collision {
 
+/// A common point of two triangles that cross each other, in the middle of their line of
+/// intersection, with a distance of at most tolerance::kTie. None if they do not cross, or if that
+/// is not certain. It takes no iteration, and of the many common points it is one that depends on
+/// nothing but the triangles.
+///
+/// Method: each triangle cuts the other one's plane in a segment of the line in which the two
+/// planes meet. If the segments overlap, the triangles cross. Source: Möller, "A fast
+/// triangle-triangle intersection test", 1997. See doc/geometry.md, Distance algorithms.
+std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Triangle& face);
+
 /// When a part's core first comes within the radius of a face, and where.
 struct FirstTouch {
   double time;  ///< time of impact, in [0, 1] of the leg

@@ -1,5 +1,3 @@
-#include "gjk.hpp"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>

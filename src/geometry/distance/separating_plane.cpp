@@ -3,17 +3,32 @@
 #include <cstddef>
 
 namespace organ_collision {
-
-bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
-                  double distance) {
-  const double reach = distance + core.chord_deviation(1.0, normal);
-  return project_onto(normal, face.start).low - core.start().support_value(normal) > reach &&
-         project_onto(normal, face.end).low - core.end().support_value(normal) > reach;
-}
-
 namespace {
 
 using Eigen::Vector3d;
+
+/// A quadratic polynomial over [0, 1] by its Bernstein coefficients: the values at both ends, and
+/// the control value between them.
+struct BernsteinQuadratic {
+  double start, middle, end;
+};
+
+/// The first root in (0, 1] of a quadratic whose value at the start is positive; 2 if it has no
+/// such root.
+double first_root(const BernsteinQuadratic& quadratic) {
+  const auto& [start, middle, end] = quadratic;
+  if (middle >= 0.0 && end > 0.0) return 2.0;  // The control polygon stays positive.
+  const double half_linear = middle - start;
+  const double square = start - 2.0 * middle + end;
+  const double discriminant = half_linear * half_linear - square * start;
+  if (discriminant < 0.0) return 2.0;
+  const double root = std::sqrt(discriminant);
+  // The solution has two equivalent forms. The sign of half_linear decides which one does not
+  // cancel digits.
+  const double place =
+      half_linear < 0.0 ? start / (root - half_linear) : -(root + half_linear) / square;
+  return place >= 0.0 && place <= 1.0 ? place : 2.0;
+}
 
 /// [m] How far a corner must be from a point of the core, along the turning normal, to be certainly
 /// farther than `radius` from the core: the radius, the support value of the core's rim, and the
@@ -36,6 +51,13 @@ BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const Co
 }
 
 }  // namespace
+
+bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
+                  double distance) {
+  const double reach = distance + core.chord_deviation(1.0, normal);
+  return project_onto(normal, face.start).low - core.start().support_value(normal) > reach &&
+         project_onto(normal, face.end).low - core.end().support_value(normal) > reach;
+}
 
 Instant::Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,
                  double distance_bound)

@@ -13,29 +13,6 @@
 
 namespace organ_collision {
 
-/// A quadratic polynomial over [0, 1] by its Bernstein coefficients: the values at both ends, and
-/// the control value between them.
-struct BernsteinQuadratic {
-  double start, middle, end;
-};
-
-/// The first root in (0, 1] of a quadratic whose value at the start is positive; 2 if it has no
-/// such root.
-inline double first_root(const BernsteinQuadratic& quadratic) {
-  const auto& [start, middle, end] = quadratic;
-  if (middle >= 0.0 && end > 0.0) return 2.0;  // The control polygon stays positive.
-  const double half_linear = middle - start;
-  const double square = start - 2.0 * middle + end;
-  const double discriminant = half_linear * half_linear - square * start;
-  if (discriminant < 0.0) return 2.0;
-  const double root = std::sqrt(discriminant);
-  // The solution has two equivalent forms. The sign of half_linear decides which one does not
-  // cancel digits.
-  const double place =
-      half_linear < 0.0 ? start / (root - half_linear) : -(root + half_linear) / square;
-  return place >= 0.0 && place <= 1.0 ? place : 2.0;
-}
-
 /// The direction of a vector, of length 1; zero if the vector is zero. Faster than Eigen's
 /// stableNormalized(), and as exact.
 inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& vector) {
@@ -74,6 +51,25 @@ inline double clear_until(const ProjectionInterval& face, const ProjectionInterv
       first_zero(face.low - part.high - reach, face_at_end.low - part_at_end.high - reach),
       first_zero(part.low - face.high - reach, part_at_end.low - face_at_end.high - reach));
 }
+
+/// A face during one leg, with what many tests of it share [m]. It refers to the face's motion,
+/// which must outlive it.
+struct LegFace {
+  explicit LegFace(const FaceMotion& motion)
+      : motion(&motion), rests(motion.start == motion.end), normal(plane_normal(motion.start)) {}
+
+  /// The same as above for the face and a part's projections onto the normal of a plane.
+  double clear_until(const Eigen::Vector3d& plane, const ProjectionInterval& part,
+                     const ProjectionInterval& part_at_end, double reach) const {
+    const ProjectionInterval face = project_onto(plane, motion->start);
+    return organ_collision::clear_until(face, rests ? face : project_onto(plane, motion->end), part,
+                                        part_at_end, reach);
+  }
+
+  const FaceMotion* motion;
+  bool rests;              ///< whether the face is at the same place at the start and at the end
+  Eigen::Vector3d normal;  ///< unit normal at the start; zero if the face is degenerate
+};
 
 /// Whether the plane with this fixed normal keeps the core farther than `distance` [m] from the
 /// face during the whole leg. `normal` is unit and points from the core to the face. False decides

@@ -1,7 +1,7 @@
 #include "surface_touch.hpp"
 
 #include <algorithm>
-#include <limits>
+#include <numeric>
 #include <optional>
 #include <tuple>
 
@@ -13,12 +13,6 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
-
-/// [1] The ball of a face stands for the face if both the face and the tool rest, and the longest
-/// edge of the grown box is more than this many times the ball's radius.
-constexpr double kSmall = 2.0;
-/// The balls of fewer faces than this are not sifted by single triangles.
-constexpr std::size_t kFew = 8;
 
 /// A triangle of a link during one leg, in the organ's frame [m].
 class MovingTriangle {
@@ -35,42 +29,20 @@ class MovingTriangle {
     deviation_ = arm * link.angle() * link.angle() / 8.0;
   }
 
-  /// A box that holds the triangle, grown by a radius [m], during the whole leg.
-  Slabs bounds(double radius) const {
-    const Eigen::Matrix3d axes = this->axes();
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& corner : start_) box.extend(Vector3d(axes.transpose() * corner));
-    if (!rests_) {
-      for (const Vector3d& corner : end_) box.extend(Vector3d(axes.transpose() * corner));
-    }
-    const double reach = radius + deviation_;
-    return {axes, box.min().array() - reach, box.max().array() + reach};
-  }
-
   /// As SweptBox::clear_until(). Tests the planes of face and triangle at the start of the leg.
-  double clear_until(const BoundedFace& face, double reach) const {
+  double clear_until(const LegFace& face, double reach) const {
     double until = 0.0;
     for (const Vector3d* normal : {&normal_, &face.normal}) {
-      const ProjectionInterval of_face = project_onto(*normal, face.motion->start);
       const ProjectionInterval of_this = project_onto(*normal, start_);
       until = std::max(
-          until, organ_collision::clear_until(
-                     of_face, face.rests ? of_face : project_onto(*normal, face.motion->end),
-                     of_this, rests_ ? of_this : project_onto(*normal, end_), reach + deviation_));
+          until, face.clear_until(*normal, of_this, rests_ ? of_this : project_onto(*normal, end_),
+                                  reach + deviation_));
       if (until > 1.0) break;
     }
     return until;
   }
 
  private:
-  /// The normal, a direction along the first edge, and one across; any axes if it is degenerate.
-  Eigen::Matrix3d axes() const {
-    if (normal_.isZero(0.0)) return Eigen::Matrix3d::Identity();
-    const Vector3d along = unit_vector(start_[1] - start_[0]);
-    Eigen::Matrix3d axes;
-    axes << normal_, along, normal_.cross(along);
-    return axes;
-  }
   static Triangle placed(const Eigen::Isometry3d& pose, const Triangle& in_link) {
     return {pose * in_link[0], pose * in_link[1], pose * in_link[2]};
   }
@@ -106,100 +78,75 @@ bool precedes(const FirstTouch& touch, const FirstTouch& other) {
 
 }  // namespace
 
-/// Takes faces down the tree of boxes.
+/// Takes faces down the tree of boxes. Faces are given as a range of the list of their numbers.
 class SurfaceTouches::Descent {
  public:
   Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget,
-          std::vector<DescendingFace>& faces, BallSieve& sieve)
+          SurfaceTouches& touches)
       : surface_(surface),
         motion_(motion),
         radius_(radius),
         budget_(budget),
-        faces_(faces),
-        sieve_(sieve) {
-    for (const DescendingFace& face : faces)
-      largest_ = std::max(largest_, ball_at_rest(face.bounded));
-  }
+        faces_(touches.faces_),
+        listed_(touches.listed_) {}
 
   /// Finds the touches of the faces of a range with the triangles below a node.
-  void visit(std::uint32_t index, const BallSieve::Range& range) {
+  void visit(std::uint32_t index, std::size_t begin, std::size_t end) {
     const SweptBox box(surface_.nodes()[index].box, motion_, radius_);
-    budget_.spend(range.size());
-    BallSieve::Range near = sieve_.sift(range, {box.axes(), box.low(), box.high()});
-    keep_near(box, near);
-    if (!near.empty()) descend(surface_.nodes()[index], index + 1, near);
-    sieve_.forget(near);
+    budget_.spend(end - begin);
+    for (std::size_t place = begin; place < end; ++place) {
+      const auto& [leg, touch] = faces_[listed_[place]];
+      if (is_settled(*touch)) continue;
+      if (box.clear_until(leg, closer(*touch, radius_)) > latest(*touch)) continue;
+      listed_.push_back(listed_[place]);
+    }
+    if (listed_.size() > end) descend(surface_.nodes()[index], index + 1, end, listed_.size());
+    listed_.resize(end);
   }
 
  private:
-  /// [m] The radius of a face's ball; infinite if the face or the tool moves.
-  double ball_at_rest(const BoundedFace& face) const {
-    return motion_.rests() && face.rests ? face.radius : std::numeric_limits<double>::infinity();
-  }
-
-  /// Takes the faces out of the range that surely stay too far from the box to matter, unless their
-  /// balls stand for them.
-  void keep_near(const SweptBox& box, BallSieve::Range& range) {
-    const double small = (box.high() - box.low()).maxCoeff() / kSmall;
-    if (largest_ < small) return;
-    sieve_.keep_if(range, [&](std::uint32_t number) {
-      const auto& [face, touch] = faces_[number];
-      return ball_at_rest(face) < small ||
-             box.clear_until(face, closer(*touch, radius_)) <= latest(*touch);
-    });
-  }
-
-  void descend(const ToolSurface::Node& node, std::uint32_t first, const BallSieve::Range& near) {
-    if (budget_.is_used_up()) return leave_unresolved(node.begin, near);
+  void descend(const ToolSurface::Node& node, std::uint32_t first, std::size_t begin,
+               std::size_t end) {
+    if (budget_.is_used_up()) return leave_unresolved(node.begin, begin, end);
     const bool is_leaf = node.second == 0;
     if (is_leaf) {
       for (std::uint32_t triangle = node.begin; triangle < node.end; ++triangle) {
-        touch(triangle, near);
+        touch(triangle, begin, end);
       }
     } else {
-      visit(first, near);
-      visit(node.second, near);
+      visit(first, begin, end);
+      visit(node.second, begin, end);
     }
   }
 
   /// Marks the touches of the faces of a range as unresolved. A face without a touch gets one with
   /// the triangle.
-  void leave_unresolved(std::uint32_t triangle, const BallSieve::Range& range) {
+  void leave_unresolved(std::uint32_t triangle, std::size_t begin, std::size_t end) {
     const CoreMotion core(ConvexCore(surface_.triangle(triangle)), motion_);
-    for (std::size_t place = range.begin; place < range.end; ++place) {
-      FaceTouch& face = *faces_[sieve_.number(place)].touch;
+    for (std::size_t place = begin; place < end; ++place) {
+      FaceTouch& face = *faces_[listed_[place]].touch;
       if (!face.first) face.first = first_touch(core, face.motion, radius_, budget_);
       face.first->is_resolved = false;
     }
   }
 
   /// Finds the touches of the faces of a range with one triangle of the surface.
-  void touch(std::uint32_t index, const BallSieve::Range& range) {
+  void touch(std::uint32_t index, std::size_t begin, std::size_t end) {
     const MovingTriangle triangle(surface_.triangle(index), motion_);
-    if (range.size() < kFew) return touch(index, triangle, range);
-    const BallSieve::Range near = sieve_.sift(range, triangle.bounds(radius_));
-    touch(index, triangle, near);
-    sieve_.forget(near);
-  }
-
-  void touch(std::uint32_t index, const MovingTriangle& triangle, const BallSieve::Range& range) {
     std::optional<CoreMotion> core;
-    for (std::size_t place = range.begin; place < range.end; ++place) {
-      const DescendingFace& descending = faces_[sieve_.number(place)];
-      FaceTouch& face = *descending.touch;
-      if (is_settled(face)) continue;
-      if (face.first && budget_.is_used_up()) {
-        face.first->is_resolved = false;  // This triangle may touch earlier.
+    for (std::size_t place = begin; place < end; ++place) {
+      const auto& [leg, face] = faces_[listed_[place]];
+      if (is_settled(*face)) continue;
+      if (face->first && budget_.is_used_up()) {
+        face->first->is_resolved = false;  // This triangle may touch earlier.
         continue;
       }
-      const double until = latest(face);
+      const double until = latest(*face);
       budget_.spend(1);
-      const double reach = radius_ - closer(face, radius_);
-      if (triangle.clear_until(descending.bounded, reach) > until) continue;
+      if (triangle.clear_until(leg, radius_ - closer(*face, radius_)) > until) continue;
       if (!core) core.emplace(ConvexCore(surface_.triangle(index)), motion_);
-      const auto found = first_touch(*core, face.motion, radius_, budget_, until);
-      if (found && (!face.first || precedes(*found, *face.first))) face.first = found;
-      if (is_settled(face)) sieve_.remove(sieve_.number(place));
+      const auto found = first_touch(*core, face->motion, radius_, budget_, until);
+      if (found && (!face->first || precedes(*found, *face->first))) face->first = found;
     }
   }
 
@@ -207,22 +154,20 @@ class SurfaceTouches::Descent {
   const RigidMotion& motion_;
   double radius_;
   WorkBudget& budget_;
-  std::vector<DescendingFace>& faces_;
-  BallSieve& sieve_;
-  double largest_ = 0.0;  ///< [m] the largest ball_at_rest()
+  const std::vector<DescendingFace>& faces_;
+  std::vector<std::uint32_t>& listed_;
 };
 
 void SurfaceTouches::find(const ToolSurface& surface, const RigidMotion& motion, double radius,
                           WorkBudget& budget, std::vector<FaceTouch>& faces) {
   faces_.clear();
-  sieve_.clear(motion.start() * surface.nodes().front().box.center);
   for (FaceTouch& face : faces) {
     face.first.reset();
-    const BoundedFace bounded(face.motion);
-    faces_.push_back({bounded, &face});
-    sieve_.add(bounded.center, bounded.radius);
+    faces_.push_back({LegFace(face.motion), &face});
   }
-  Descent(surface, motion, radius, budget, faces_, sieve_).visit(0, sieve_.all());
+  listed_.resize(faces_.size());
+  std::iota(listed_.begin(), listed_.end(), 0U);
+  Descent(surface, motion, radius, budget, *this).visit(0, 0, listed_.size());
 }
 
 }  // namespace organ_collision

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "ball_sieve.hpp"
 #include "first_touch.hpp"
 #include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
@@ -33,13 +32,14 @@ class SurfaceTouches {
 
  private:
   struct DescendingFace {
-    BoundedFace bounded;
+    LegFace leg;
     FaceTouch* touch;
   };
   class Descent;
 
   std::vector<DescendingFace> faces_;
-  BallSieve sieve_;  ///< with the balls of these faces, under the same numbers
+  /// Numbers of these faces: all of them, then those near each box on the way down to a leaf.
+  std::vector<std::uint32_t> listed_;
 };
 
 }  // namespace organ_collision

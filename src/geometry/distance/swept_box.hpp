@@ -2,24 +2,11 @@
 
 #include <Eigen/Core>
 
-#include "geometry/organ/organ_motion.hpp"
-#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tool/oriented_box.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
+#include "separating_plane.hpp"
 
 namespace organ_collision {
-
-/// A face during one leg, with what many tests of it share [m]. It refers to the face's motion,
-/// which must outlive it.
-struct BoundedFace {
-  explicit BoundedFace(const FaceMotion& motion);
-
-  const FaceMotion* motion;
-  bool rests;              ///< whether the face is at the same place at the start and at the end
-  Eigen::Vector3d normal;  ///< unit normal at the start; zero if the face is degenerate
-  Eigen::Vector3d center;  ///< of a ball that holds the face during the whole leg
-  double radius;           ///< of that ball
-};
 
 /// The space that a box of a link, grown by a radius, covers during one leg, in the organ's frame
 /// [m]. See doc/geometry.md, Swept boxes.
@@ -39,7 +26,7 @@ class SweptBox {
   /// A time of the leg before which the face surely stays farther from the box than the radius less
   /// `closer` [m]; above 1 if it does so during the whole leg. Tests fixed planes: those at right
   /// angles to axes(), and the face's own plane at the start.
-  double clear_until(const BoundedFace& face, double closer = 0.0) const;
+  double clear_until(const LegFace& face, double closer = 0.0) const;
   /// [m] A lower bound of the distance between the covered space and the face during the leg.
   double distance_bound(const FaceMotion& face) const;
   /// A box around the covered space.

@@ -1,4 +1,4 @@
-#include "face_clusters.hpp"
+#include "organ_collision/geometry/organ/face_clusters.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "organ_collision/geometry/organ/block_boxes.hpp"
-#include "organ_collision/geometry/organ/face_clusters.hpp"
 
 namespace organ_collision {
 namespace {
@@ -41,8 +40,16 @@ void order(Piece* begin, Piece* end, std::ptrdiff_t together) {
   order(middle, end, together);
 }
 
-}  // namespace
-
+/// Orders pieces of a surface so that those that follow each other lie near each other: each
+/// aligned group of 2^k pieces is compact. A piece is `piece` consecutive vertices; its place is
+/// that of the first one. Returns these first vertices. Within each aligned group of `together`
+/// pieces, a power of 2, they are in any order. `vertices`: x y z x y z ... [m], finite.
+///
+/// As in a k-d tree, the places are parted across the longest side of the box around them, and the
+/// parts again. The first part has the largest power of 2 of places, and not half of them, so that
+/// each part but the last consists of whole groups. Source: Bentley 1975. A curve through a grid,
+/// such as Morton's, would be found in a third to half of the time, but its parts are not compact:
+/// queries would take up to seven times as long.
 std::vector<std::uint32_t> compact_order(const std::vector<float>& vertices, std::size_t piece,
                                          std::size_t together) {
   std::vector<Piece> pieces;
@@ -57,8 +64,6 @@ std::vector<std::uint32_t> compact_order(const std::vector<float>& vertices, std
   for (const Piece& ordered : pieces) first_vertices.push_back(ordered.first_vertex);
   return first_vertices;
 }
-
-namespace {
 
 constexpr std::uint32_t kNone = ~0U;
 

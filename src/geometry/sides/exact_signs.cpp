@@ -42,6 +42,13 @@ struct BinaryNumber {
   int exponent = 0;
 };
 
+// [1] At most eight roundings lead to each of the six products and to their sum, so the error is
+// below 10 * 2^-53 of the sum of their absolute values.
+constexpr double kRoundingShare = 16.0 / (1LL << 53);
+// [m^3] Products below the smallest normal number lose up to 2^-1074, which later factors below
+// 2^22 enlarge.
+constexpr double kUnderflow = 1e-300;
+
 }  // namespace
 
 ExactGrid::ExactGrid(std::initializer_list<Eigen::Vector3d> points) {
@@ -57,17 +64,6 @@ ExactInteger ExactGrid::integer(double coordinate) const {
   if (number.digits == 0) return 0;
   return ExactInteger(number.digits) << (number.exponent - exponent_);
 }
-
-namespace {
-
-// [1] At most eight roundings lead to each of the six products and to their sum, so the error is
-// below 10 * 2^-53 of the sum of their absolute values.
-constexpr double kRoundingShare = 16.0 / (1LL << 53);
-// [m^3] Products below the smallest normal number lose up to 2^-1074, which later factors below
-// 2^22 enlarge.
-constexpr double kUnderflow = 1e-300;
-
-}  // namespace
 
 int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactVector& w) {
   const Eigen::Vector3d a = u.to - u.from, b = v.to - v.from, c = w.to - w.from;

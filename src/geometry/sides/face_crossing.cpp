@@ -15,6 +15,21 @@ bool is_on_segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
          cross_product_sign({from, to}, {from, point}) == 0;
 }
 
+/// On which side of the face's plane the moved point is: 1 on the outer side. 0 if the face is
+/// degenerate.
+int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
+  const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
+  const int side = triple_product_sign(first, second, {face[0], point});
+  return side != 0 ? side : cross_product_sign(first, second);
+}
+
+/// On which side of an edge the line along the moved axis passes. 0 if they are parallel.
+int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
+  const ExactVector along{axis.trocar, axis.tip};
+  const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
+  return side != 0 ? side : cross_product_sign(along, {from, to});
+}
+
 }  // namespace
 
 bool is_on_face(const Triangle& face, const Eigen::Vector3d& point) {
@@ -35,25 +50,6 @@ bool is_on_face(const Triangle& face, const Eigen::Vector3d& point) {
   }
   return normal != 0;
 }
-
-namespace {
-
-/// On which side of the face's plane the moved point is: 1 on the outer side. 0 if the face is
-/// degenerate.
-int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
-  const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
-  const int side = triple_product_sign(first, second, {face[0], point});
-  return side != 0 ? side : cross_product_sign(first, second);
-}
-
-/// On which side of an edge the line along the moved axis passes. 0 if they are parallel.
-int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
-  const ExactVector along{axis.trocar, axis.tip};
-  const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
-  return side != 0 ? side : cross_product_sign(along, {from, to});
-}
-
-}  // namespace
 
 int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
   const int tip = side_of_plane(face, axis.tip);

@@ -11,6 +11,14 @@ Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
   return pose;
 }
 
+/// [m] Upper bound; see CoreMotion::arm_.
+double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
+  double arm = 0.0;
+  if (motion.angle() == 0.0) return arm;
+  for (std::size_t i = 0; i < core.count; ++i) arm = std::max(arm, motion.arm(core.points[i]));
+  return arm + core.rim.col(0).norm();
+}
+
 }  // namespace
 
 RigidMotion::RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end)
@@ -31,18 +39,6 @@ Eigen::Isometry3d RigidMotion::at(double time) const {
   pose.makeAffine();
   return pose;
 }
-
-namespace {
-
-/// [m] Upper bound; see CoreMotion::arm_.
-double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
-  double arm = 0.0;
-  if (motion.angle() == 0.0) return arm;
-  for (std::size_t i = 0; i < core.count; ++i) arm = std::max(arm, motion.arm(core.points[i]));
-  return arm + core.rim.col(0).norm();
-}
-
-}  // namespace
 
 CoreMotion::CoreMotion(const ConvexCore& core, const RigidMotion& motion)
     : start_(motion.start() * core),

@@ -1,11 +1,53 @@
 #include "outcodes.hpp"
 
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <utility>
 
 namespace organ_collision {
 namespace {
+
+// The compiler's vector types. Four floats fit the registers of every 64-bit processor.
+constexpr std::size_t kLanes = 4;
+using Lanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
+/// Results of comparisons, in which all bits of a lane are equal, or outcodes.
+using LaneCodes = std::int32_t __attribute__((vector_size(sizeof(float) * kLanes)));
+
+/// The points, or boxes, that one loop processes together: the vertices of a block, or a part of a
+/// group's members.
+constexpr std::size_t kRun = FaceClusters::kBlock;
+static_assert(FaceClusters::kGroup % kRun == 0);
+
+/// One value, or one outcode, for each point of a run.
+using ValueRun = std::array<Lanes, kRun / kLanes>;
+using CodeRun = std::array<LaneCodes, kRun / kLanes>;
+
+/// Coordinates of a run of points [m].
+struct PointRun {
+  ValueRun x, y, z;
+};
+
+/// A run of boxes; points are boxes without extent.
+struct BoxRun {
+  PointRun low, high;
+};
+
+/// Loads a run of points. `xyz(i)` points to the three coordinates of point i.
+template <typename Coordinates>
+PointRun load_points(Coordinates xyz) {
+  PointRun run;
+  for (std::size_t i = 0; i < run.x.size(); ++i) {
+    const float* const a = xyz(kLanes * i);
+    const float* const b = xyz(kLanes * i + 1);
+    const float* const c = xyz(kLanes * i + 2);
+    const float* const d = xyz(kLanes * i + 3);
+    run.x[i] = Lanes{a[0], b[0], c[0], d[0]};
+    run.y[i] = Lanes{a[1], b[1], c[1], d[1]};
+    run.z[i] = Lanes{a[2], b[2], c[2], d[2]};
+  }
+  return run;
+}
 
 ValueRun between(const ValueRun& before, const ValueRun& after, float fraction) {
   ValueRun run;
@@ -17,13 +59,14 @@ ValueRun between(const ValueRun& before, const ValueRun& after, float fraction) 
 
 Lanes magnitude(const Lanes& low, const Lanes& high) { return high > -low ? high : -low; }
 
-}  // namespace
-
+/// The points at a fraction of their linear motion.
 PointRun between(const PointRun& before, const PointRun& after, float fraction) {
   return {between(before.x, after.x, fraction), between(before.y, after.y, fraction),
           between(before.z, after.z, fraction)};
 }
 
+/// [m] For each box, the sum over x, y and z of the largest magnitude of that coordinate in the
+/// box.
 ValueRun magnitude(const BoxRun& boxes) {
   const auto& [low, high] = boxes;
   ValueRun sum;
@@ -34,6 +77,7 @@ ValueRun magnitude(const BoxRun& boxes) {
   return sum;
 }
 
+/// Element by element, the greater value.
 ValueRun greater(const ValueRun& a, const ValueRun& b) {
   ValueRun run;
   for (std::size_t i = 0; i < run.size(); ++i) run[i] = a[i] > b[i] ? a[i] : b[i];
@@ -45,8 +89,6 @@ ValueRun scaled(const ValueRun& values, float factor) {
   for (std::size_t i = 0; i < run.size(); ++i) run[i] = factor * values[i];
   return run;
 }
-
-namespace {
 
 constexpr std::size_t kGroup = FaceClusters::kGroup;
 
@@ -103,16 +145,14 @@ void Outcodes::set_planes(const ViewingVolume& volume) {
   }
 }
 
-void Outcodes::add_members(std::size_t level, std::size_t group) {
-  find_group_codes(level - 1, group * kGroup);
-}
-
 /// Finds the outcodes of kGroup groups from `begin` on.
 void Outcodes::find_group_codes(std::size_t level, std::size_t begin) {
   find_member_codes(&boxes().groups(level)[begin], &organ_->boxes_before().groups(level)[begin],
                     &group_codes_[level][begin]);
 }
 
+/// Whether all faces of a block's cluster are outside the same half-space. Finds the outcodes of
+/// the blocks that contain vertices of these faces, a section at a time.
 bool Outcodes::cluster_is_outside(std::size_t block) {
   unsigned code = ~0U;
   for (const std::uint32_t part : clusters().blocks(block)) {
@@ -135,19 +175,19 @@ void Outcodes::find_block_codes(std::size_t section) {
 void Outcodes::find_member_codes(const BlockBoxes::Box* after, const BlockBoxes::Box* before,
                                  Code* codes) const {
   for (std::size_t i = 0; i < kGroup; i += kRun) {
-    find_codes(
-        load_boxes(after + i), [&] { return load_boxes(before + i); }, codes + i);
+    find_codes([&] { return load_boxes(after + i); }, [&] { return load_boxes(before + i); },
+               codes + i);
   }
 }
 
+/// Finds the outcodes of all vertices of the faces of the block's cluster.
 void Outcodes::add_vertices(std::size_t block) {
   for (const std::uint32_t part : clusters().blocks(block)) {
     if (std::exchange(block_found_for_[part], query_) == query_) continue;
     const std::uint32_t* const vertices = clusters().vertices(part);
     std::array<Code, kRun> codes;
-    find_codes(
-        load_vertices(organ_->after(), vertices),
-        [&] { return load_vertices(organ_->before(), vertices); }, codes.data());
+    find_codes([&] { return load_vertices(organ_->after(), vertices); },
+               [&] { return load_vertices(organ_->before(), vertices); }, codes.data());
     for (std::size_t i = 0; i < kRun; ++i) vertex_codes_[vertices[i]] = codes[i];
   }
 }
@@ -155,16 +195,34 @@ void Outcodes::add_vertices(std::size_t block) {
 /// Finds the outcodes of boxes that rest, or whose corners move linearly. A moving box is outside a
 /// half-space all the time if it is outside at both ends of the organ's motion. `load_before()`
 /// returns the boxes of the organ's earlier shape.
-template <typename LoadBefore>
-void Outcodes::find_codes(const BoxRun& after, LoadBefore load_before, Code* codes) const {
+template <typename LoadAfter, typename LoadBefore>
+void Outcodes::find_codes(LoadAfter load_after, LoadBefore load_before, Code* codes) const {
+  // `slack` [m]: a bound on the rounding error of each box along a normal.
+  const auto codes_of = [&](const BoxRun& boxes, const ValueRun& slack) {
+    const auto& [low, high] = boxes;
+    CodeRun run{};
+    std::int32_t bit = 1;
+    for (const Plane& plane : planes_) {
+      const ValueRun& x = plane.x > 0.0F ? low.x : high.x;
+      const ValueRun& y = plane.y > 0.0F ? low.y : high.y;
+      const ValueRun& z = plane.z > 0.0F ? low.z : high.z;
+      for (std::size_t i = 0; i < run.size(); ++i) {
+        run[i] |=
+            (plane.x * x[i] + plane.y * y[i] + plane.z * z[i] - slack[i] > plane.offset) & bit;
+      }
+      bit *= 2;
+    }
+    return run;
+  };
+  const BoxRun after = load_after();
   CodeRun outside;
   if (organ_->rests()) {
-    outside = find_codes(after, scaled(magnitude(after), kSlack));
+    outside = codes_of(after, scaled(magnitude(after), kSlack));
   } else {
     const BoxRun before = load_before();
     const ValueRun slack = scaled(greater(magnitude(before), magnitude(after)), kSlackBetween);
-    outside = find_codes(between(before, after, organ_->begin()), slack);
-    const CodeRun at_finish = find_codes(between(before, after, organ_->finish()), slack);
+    outside = codes_of(between(before, after, organ_->begin()), slack);
+    const CodeRun at_finish = codes_of(between(before, after, organ_->finish()), slack);
     for (std::size_t i = 0; i < outside.size(); ++i) outside[i] &= at_finish[i];
   }
   for (std::size_t i = 0; i < outside.size(); ++i) {
@@ -172,24 +230,6 @@ void Outcodes::find_codes(const BoxRun& after, LoadBefore load_before, Code* cod
     const auto lane = __builtin_convertvector(outside[i], LaneOfCodes);
     std::memcpy(codes + i * kLanes, &lane, sizeof lane);
   }
-}
-
-/// `slack` [m]: a bound on the rounding error of each box along a normal.
-CodeRun Outcodes::find_codes(const BoxRun& boxes, const ValueRun& slack) const {
-  const auto& [low, high] = boxes;
-  CodeRun codes{};
-  std::int32_t bit = 1;
-  for (const Plane& plane : planes_) {
-    const ValueRun& x = plane.x > 0.0F ? low.x : high.x;
-    const ValueRun& y = plane.y > 0.0F ? low.y : high.y;
-    const ValueRun& z = plane.z > 0.0F ? low.z : high.z;
-    for (std::size_t i = 0; i < codes.size(); ++i) {
-      codes[i] |=
-          (plane.x * x[i] + plane.y * y[i] + plane.z * z[i] - slack[i] > plane.offset) & bit;
-    }
-    bit *= 2;
-  }
-  return codes;
 }
 
 }  // namespace organ_collision

@@ -7,6 +7,8 @@
 
 namespace organ_collision {
 
+namespace {
+
 // The whole matrix is loaded as the modelview matrix, and the projection stays the identity. GL's
 // eye coordinates are then clip coordinates, in which the user planes are given. With a projection,
 // GL would transform the planes by its inverse in 32 bits and lose the precision that the shift to
@@ -37,8 +39,6 @@ void draw_from(const DrawnFaces& faces, const GlFunctions& gl) {
   gl.TexCoordPointer(2, GL_FLOAT, sizeof(Number), faces.first_number().data());
 }
 
-namespace {
-
 // [1] GL counts the floats of a buffer with an integer.
 constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
 
@@ -47,15 +47,34 @@ constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
 /// own.
 std::size_t most_floats(std::size_t faces) {
   constexpr std::size_t kPlanes = 6 + ViewingVolume::kMaxUserPlanes;
-  constexpr std::size_t kTriangle = 2 + 3 * FeedbackVertex::kFloats;
+  constexpr std::size_t kTriangle = 2 + 3 * kVertexFloats;
   return faces * (1 + kPlanes) * kTriangle;
+}
+
+bool is_blind(GlContext& context) {
+  if (!context.is_current()) return true;
+  const ViewingVolume box =
+      ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                   Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
+  DrawnFaces face;
+  face.add(middle_face(box), kWitness);
+  std::vector<float> buffer(100);
+  return draw_feedback(context, box, face, buffer) == 0;
 }
 
 }  // namespace
 
-std::uint32_t FeedbackVertex::face() const {
+const GlFunctions& prepare_to_draw(GlContext& context, const ViewingVolume& volume,
+                                   const DrawnFaces& faces) {
+  context.make_current();
+  clip_to(volume, context.functions());
+  draw_from(faces, context.functions());
+  return context.functions();
+}
+
+std::uint32_t face_of(const float* vertex) {
   const auto is_half = [](float half) { return half >= 0.0f && half <= 65535.0f; };
-  const float lower = floats_[7], upper = floats_[8];
+  const float lower = vertex[7], upper = vertex[8];
   if (is_half(lower) && is_half(upper)) return face_number(lower, upper);
   throw GlError("OpenGL's feedback buffer holds an illegal face number: " + std::to_string(lower) +
                 ", " + std::to_string(upper));
@@ -63,10 +82,7 @@ std::uint32_t FeedbackVertex::face() const {
 
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
                           std::vector<float>& buffer) {
-  context.make_current();
-  const GlFunctions& gl = context.functions();
-  clip_to(volume, gl);
-  draw_from(faces, gl);
+  const GlFunctions& gl = prepare_to_draw(context, volume, faces);
   while (true) {
     gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
     gl.RenderMode(GL_FEEDBACK);
@@ -99,27 +115,12 @@ std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::
   } else {
     throw GlError("OpenGL's feedback buffer holds an unknown token: " + std::to_string(token));
   }
-  const std::size_t room = (size - place) / FeedbackVertex::kFloats;
+  const std::size_t room = (size - place) / kVertexFloats;
   if (vertices >= 0.0f && vertices <= static_cast<float>(room))
     return static_cast<std::size_t>(vertices);
   throw GlError("OpenGL's feedback buffer ends within a primitive of " + std::to_string(vertices) +
                 " vertices");
 }
-
-namespace {
-
-bool is_blind(GlContext& context) {
-  if (!context.is_current()) return true;
-  const ViewingVolume box =
-      ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                   Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
-  DrawnFaces face;
-  face.add(middle_face(box), kWitness);
-  std::vector<float> buffer(100);
-  return draw_feedback(context, box, face, buffer) == 0;
-}
-
-}  // namespace
 
 void fail_if_blind(GlContext& context) {
   if (!is_blind(context)) return;

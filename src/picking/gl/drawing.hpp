@@ -10,31 +10,13 @@
 
 namespace organ_collision {
 
-/// Makes GL clip to a viewing volume, for vertices in the volume's shifted coordinates, until the
-/// next call. Of the earlier GL state, it relies only on the matrix mode and the projection of a
-/// new GlContext, and on its user planes, which are all enabled.
-void clip_to(const ViewingVolume& volume, const GlFunctions& gl);
-
-/// Makes GL's DrawArrays draw the corners of `faces`, with their numbers as texture coordinates,
-/// until the next call. There must be some, and they must stay where they are.
-void draw_from(const DrawnFaces& faces, const GlFunctions& gl);
-
-/// A vertex in a feedback buffer, as GL writes it for GL_3D_COLOR_TEXTURE: window x y z, color r g
-/// b a, texture coordinate s t r q.
-class FeedbackVertex {
- public:
-  static constexpr std::size_t kFloats = 11;
-
-  explicit FeedbackVertex(const float* floats) : floats_(floats) {}
-
-  /// GL's depth in [0, 1].
-  double window_depth() const { return floats_[2]; }
-  /// The number of the face, as in DrawnFaces. Throws GlError if it cannot be one.
-  std::uint32_t face() const;
-
- private:
-  const float* floats_;
-};
+/// Makes the context current, GL clip to `volume`, and GL's DrawArrays draw the corners of `faces`
+/// with their numbers as texture coordinates, until the next call. There must be some faces, and
+/// they must stay where they are. Of the earlier GL state, it relies only on the matrix mode and
+/// the projection of a new GlContext, and on its user planes, which are all enabled. Throws
+/// GlError.
+const GlFunctions& prepare_to_draw(GlContext& context, const ViewingVolume& volume,
+                                   const DrawnFaces& faces);
 
 /// Draws `faces` in GL_FEEDBACK mode, clipped to `volume`. There must be some. Makes the context
 /// current. Enlarges `buffer` until everything fits. Returns the number of floats written to it.
@@ -42,23 +24,29 @@ class FeedbackVertex {
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
                           std::vector<float>& buffer);
 
-/// Calls visit(vertex) for each vertex in the first `size` floats of a feedback buffer, in the
-/// order drawn. Throws GlError for a token that clipped triangles cannot produce, and if the buffer
-/// ends within a primitive. `size` is at most that of the buffer.
-template <typename Visit>
-void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit);
+/// The floats of a vertex in a feedback buffer, as GL writes it for GL_3D_COLOR_TEXTURE: window
+/// x y z, color r g b a, texture coordinate s t r q.
+inline constexpr std::size_t kVertexFloats = 11;
+
+/// The number of the face to which a vertex belongs, as in DrawnFaces. Throws GlError if it cannot
+/// be one.
+std::uint32_t face_of(const float* vertex);
 
 /// The number of vertices that follow the token at `place` < `size`. Advances `place` to the first
 /// of them. All of them are within the first `size` floats, otherwise throws GlError.
 std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::size_t& place);
 
+/// Calls visit(face, depth) for each vertex in the first `size` floats of a feedback buffer, in the
+/// order drawn. The depth is GL's, in [0, 1]. Throws GlError for a token that clipped triangles
+/// cannot produce, for an illegal face, and if the buffer ends within a primitive. `size` is at
+/// most that of the buffer.
 template <typename Visit>
 void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit) {
   std::size_t place = 0;
   while (place < size) {
     for (std::size_t left = read_token(buffer, size, place); left > 0; --left) {
-      visit(FeedbackVertex(&buffer[place]));
-      place += FeedbackVertex::kFloats;
+      visit(face_of(&buffer[place]), double{buffer[place + 2]});
+      place += kVertexFloats;
     }
   }
 }

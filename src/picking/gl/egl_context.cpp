@@ -2,10 +2,11 @@
 #include <EGL/eglext.h>
 #include <GL/gl.h>
 
+#include <algorithm>
 #include <array>
-#include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -22,52 +23,34 @@
 
 namespace organ_collision {
 
+namespace {
+
 /// Pointers to the functions of libEGL. Only their types come from the prototypes in egl.h; libEGL
 /// is loaded and never linked.
 struct EglFunctions {
+  EglFunctions() {
+    const SharedLibrary library("libEGL.so.1");
+#define ORGAN_COLLISION_LOAD(name) library.load("egl" #name, name);
+    ORGAN_COLLISION_EGL_FUNCTIONS(ORGAN_COLLISION_LOAD)
+#undef ORGAN_COLLISION_LOAD
+  }
+
 #define ORGAN_COLLISION_DECLARE(name) decltype(&egl##name) name = nullptr;
   ORGAN_COLLISION_EGL_FUNCTIONS(ORGAN_COLLISION_DECLARE)
 #undef ORGAN_COLLISION_DECLARE
 };
 
 /// The functions of the libEGL of this process. Throws GlError if there is none.
-const EglFunctions& egl();
+const EglFunctions& egl() {
+  static const EglFunctions functions;
+  return functions;
+}
 
 /// An error with EGL's code of the last call.
-GlError egl_error(const std::string& what);
-
-namespace {
-
-EglFunctions load_egl_functions() {
-  const SharedLibrary library("libEGL.so.1");
-  EglFunctions functions;
-#define ORGAN_COLLISION_LOAD(name) library.load("egl" #name, functions.name);
-  ORGAN_COLLISION_EGL_FUNCTIONS(ORGAN_COLLISION_LOAD)
-#undef ORGAN_COLLISION_LOAD
-  return functions;
-}
-
-}  // namespace
-
-const EglFunctions& egl() {
-  static const EglFunctions functions = load_egl_functions();
-  return functions;
-}
-
 GlError egl_error(const std::string& what) {
   std::array<char, 16> code{};
   std::snprintf(code.data(), code.size(), "0x%04x", egl().GetError());
   return GlError(what + " (EGL error " + code.data() + ")");
-}
-
-/// The displays on which EGL may draw without a window and without a graphics card, the surest one
-/// first. None is initialized. Throws GlError if there is no libEGL.
-std::vector<EGLDisplay> software_displays();
-
-namespace {
-
-bool contains(const char* extensions, const char* name) {
-  return extensions != nullptr && std::strstr(extensions, name) != nullptr;
 }
 
 template <typename Function>
@@ -75,59 +58,54 @@ Function extension_function(const char* name) {
   return reinterpret_cast<Function>(egl().GetProcAddress(name));
 }
 
-/// The displays of devices that draw on the CPU. There, no driver of a graphics card can come
-/// first.
-void add_software_devices(std::vector<EGLDisplay>& displays) {
+/// The devices that draw on the CPU.
+std::vector<EGLDeviceEXT> software_devices() {
   const auto query_devices = extension_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
   const auto query_string =
       extension_function<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
-  const auto platform_display =
-      extension_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  if (query_devices == nullptr || query_string == nullptr || platform_display == nullptr) return;
   std::array<EGLDeviceEXT, 64> devices{};
   EGLint count = 0;
-  if (query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE)
-    return;
-  for (EGLint i = 0; i < count; ++i) {
-    EGLDeviceEXT const device = devices[static_cast<std::size_t>(i)];
-    if (!contains(query_string(device, EGL_EXTENSIONS), "EGL_MESA_device_software")) continue;
-    displays.push_back(platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+  if (query_devices == nullptr || query_string == nullptr ||
+      query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE) {
+    return {};
   }
+  std::vector<EGLDeviceEXT> found;
+  std::copy_if(devices.begin(), devices.begin() + count, std::back_inserter(found),
+               [&](EGLDeviceEXT device) {
+                 const char* const extensions = query_string(device, EGL_EXTENSIONS);
+                 return extensions != nullptr &&
+                        std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+               });
+  return found;
 }
 
-/// The display of Mesa's platform without surfaces. Mesa may draw on a graphics card there.
-void add_surfaceless(std::vector<EGLDisplay>& displays) {
+/// The displays on which EGL may draw without a window and without a graphics card, the surest one
+/// first: those of devices that draw on the CPU, where no driver of a graphics card can come first,
+/// and that of Mesa's platform without surfaces, where Mesa may draw on a graphics card. None is
+/// initialized. Throws GlError if there is no libEGL.
+std::vector<EGLDisplay> software_displays() {
   const auto platform_display =
       extension_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
-  if (platform_display == nullptr) return;
-  displays.push_back(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
-}
-
-}  // namespace
-
-std::vector<EGLDisplay> software_displays() {
+  if (platform_display == nullptr) return {};
   std::vector<EGLDisplay> displays;
-  add_software_devices(displays);
-  add_surfaceless(displays);
+  for (EGLDeviceEXT device : software_devices()) {
+    displays.push_back(platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+  }
+  displays.push_back(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
   return displays;
 }
-
-namespace {
 
 class EglContext final : public PlatformContext {
  public:
   /// `display` must be initialized. Throws GlError.
-  EglContext(EGLDisplay display, const GlFramebuffer& framebuffer) : display_(display) {
-    try {
-      create(framebuffer);
-    } catch (...) {
-      destroy();
-      throw;
-    }
+  EglContext(EGLDisplay display, const GlFramebuffer& framebuffer) : EglContext(display) {
+    create(framebuffer);
   }
   ~EglContext() override {
+    if (context_ == EGL_NO_CONTEXT) return;
     if (is_current()) release();
-    destroy();
+    if (surface_ != EGL_NO_SURFACE) egl().DestroySurface(display_, surface_);
+    egl().DestroyContext(display_, context_);
   }
   EglContext(const EglContext&) = delete;
   EglContext& operator=(const EglContext&) = delete;
@@ -144,22 +122,25 @@ class EglContext final : public PlatformContext {
   AnyFunction find_function(const char* name) const override { return egl().GetProcAddress(name); }
 
  private:
+  /// If create() throws, the destructor destroys what it has made.
+  explicit EglContext(EGLDisplay display) : display_(display) {}
+
   void create(const GlFramebuffer& framebuffer) {
     if (egl().BindAPI(EGL_OPENGL_API) != EGL_TRUE) throw egl_error("EGL has no OpenGL");
     const EGLint wanted[] = {EGL_SURFACE_TYPE,
-                             EGL_PBUFFER_BIT,
+                             EGL_PBUFFER_BIT,  //
                              EGL_RENDERABLE_TYPE,
-                             EGL_OPENGL_BIT,
+                             EGL_OPENGL_BIT,  //
                              EGL_RED_SIZE,
-                             8,
+                             8,  //
                              EGL_GREEN_SIZE,
-                             8,
+                             8,  //
                              EGL_BLUE_SIZE,
-                             8,
+                             8,  //
                              EGL_ALPHA_SIZE,
-                             8,
+                             8,  //
                              EGL_DEPTH_SIZE,
-                             framebuffer.depth_bits,
+                             framebuffer.depth_bits,  //
                              EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
@@ -183,13 +164,7 @@ class EglContext final : public PlatformContext {
     const std::string renderer = name != nullptr ? reinterpret_cast<const char*>(name) : "nothing";
     if (renderer.find("llvmpipe") != std::string::npos) return;
     if (renderer.find("softpipe") != std::string::npos) return;
-    release();
     throw GlError("EGL draws with \"" + renderer + "\", not with Mesa's llvmpipe on the CPU");
-  }
-
-  void destroy() {
-    if (surface_ != EGL_NO_SURFACE) egl().DestroySurface(display_, surface_);
-    if (context_ != EGL_NO_CONTEXT) egl().DestroyContext(display_, context_);
   }
 
   EGLDisplay display_;

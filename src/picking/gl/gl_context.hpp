@@ -27,14 +27,6 @@ struct GlFunctions {
 #undef ORGAN_COLLISION_DECLARE
 };
 
-/// Loads all these functions. Throws GlError, naming the first one that is missing.
-GlFunctions load_gl_functions(const PlatformContext& context);
-
-using AnyGlFunction = PlatformContext::AnyFunction;
-
-/// The function of this name, for example "glBegin". Throws GlError if the context has none.
-AnyGlFunction find_gl_function(const PlatformContext& context, const char* name);
-
 /// A compatibility context without a window, its framebuffer, and the GL functions loaded from it.
 /// The functions are loaded and never linked: in a process that loaded libGL first, linked
 /// functions silently do nothing.
@@ -47,9 +39,6 @@ class GlContext {
   /// Throws GlError with all reasons if no platform that is asked for gives a context that works.
   explicit GlContext(GlPlatform platform = GlPlatform::kAuto,
                      const GlFramebuffer& framebuffer = {});
-  ~GlContext();
-  GlContext(GlContext&&) noexcept;
-  GlContext& operator=(GlContext&&) noexcept;
 
   /// Makes this context current in the calling thread; cheap when it already is. Makes it anew if
   /// it has failed before. Throws GlError.
@@ -63,9 +52,9 @@ class GlContext {
   /// long as this object is not moved.
   const std::string& version() const { return version_; }
   /// The functions of this context. Valid until it is made anew.
-  const GlFunctions& functions() const;
+  const GlFunctions& functions() const { return functions_; }
   /// The function of this name, for example "glBegin". Throws GlError if GL has none.
-  AnyGlFunction find_function(const char* name) const;
+  PlatformContext::AnyFunction find_function(const char* name) const;
 
   /// If GL reports an error, fails with `where` and the error's code.
   void check(const char* where);
@@ -73,13 +62,14 @@ class GlContext {
   [[noreturn]] void fail(const std::string& what);
 
  private:
-  struct State;
-
   void make();
+  struct Source;
+  void make(const Source& source);
 
   GlPlatform platform_;
   GlFramebuffer framebuffer_;
-  std::unique_ptr<State> state_;
+  std::unique_ptr<PlatformContext> context_;
+  GlFunctions functions_;
   std::string version_;
   bool has_failed_ = false;
 };

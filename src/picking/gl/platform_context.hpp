@@ -1,8 +1,11 @@
 #pragma once
 
+#include <dlfcn.h>
+
 #include <memory>
 #include <string>
 
+#include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/picking/gl_platform.hpp"
 
 namespace organ_collision {
@@ -39,17 +42,19 @@ std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffe
 class SharedLibrary {
  public:
   /// Loads the library of this name, for example "libEGL.so.1". Throws GlError with the reason.
-  explicit SharedLibrary(const char* name);
+  explicit SharedLibrary(const char* name)
+      : name_(name), handle_(dlopen(name, RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE)) {
+    if (handle_ == nullptr) throw GlError(dlerror());
+  }
 
   /// Sets `function` to the library's function of this name. Throws GlError if it has none.
   template <typename Function>
   void load(const char* name, Function*& function) const {
-    function = reinterpret_cast<Function*>(find(name));
+    function = reinterpret_cast<Function*>(dlsym(handle_, name));
+    if (function == nullptr) throw GlError(std::string(name_) + " has no function " + name);
   }
 
  private:
-  void* find(const char* name) const;
-
   const char* name_;
   void* handle_;
 };

@@ -3,26 +3,14 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "gl_picker.hpp"
 #include "picking/culling/outcodes.hpp"
 
 namespace organ_collision {
 
-/// Picks without OpenGL. The candidates of a part are the faces that outcodes do not reject: some
-/// more than GL leaves of them, and exact distances decide in any case. Faces in a volume are
-/// clipped in double precision.
-class CpuPicker : public Picker {
- public:
-  void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
-            std::vector<Candidate>& candidates) override;
-  void pick(const PartSweep& part, const OrganMotion& organ,
-            std::vector<Candidate>& candidates) override;
-  void release() override {}
-  const std::string& gl_version() const override;
-
- private:
-  Outcodes outcodes_;
-};
+void sort_by_face(std::vector<Candidate>& candidates) {
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+}
 
 namespace {
 
@@ -38,43 +26,46 @@ Candidate candidate(std::uint32_t face, const ConvexPolygon& polygon, const View
   return {face, volume.view_depth(nearest), volume.view_depth(farthest)};
 }
 
-}  // namespace
+/// Picks without OpenGL. The candidates of a part are the faces that outcodes do not reject: some
+/// more than GL leaves of them, and exact distances decide in any case. Faces in a volume are
+/// clipped in double precision.
+class CpuPicker final : public Picker {
+ public:
+  void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+            std::vector<Candidate>& candidates) override {
+    candidates.clear();
+    outcodes_.assign(volume, OrganMotion(mesh));
+    outcodes_.for_each_face([&](const FaceClusters::Face& face) {
+      const ConvexPolygon part =
+          clipped(shifted(mesh.triangle(face.corners), volume.origin()), volume);
+      if (!part.empty()) candidates.push_back(candidate(face.number, part, volume));
+    });
+    sort_by_face(candidates);
+  }
 
-void CpuPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
-                     std::vector<Candidate>& candidates) {
-  candidates.clear();
-  outcodes_.assign(volume, OrganMotion(mesh));
-  outcodes_.for_each_face([&](const FaceClusters::Face& face) {
-    const ConvexPolygon part =
-        clipped(shifted(mesh.triangle(face.corners), volume.origin()), volume);
-    if (!part.empty()) candidates.push_back(candidate(face.number, part, volume));
-  });
-  sort_by_face(candidates);
-}
+  void pick(const PartSweep& part, const OrganMotion& organ,
+            std::vector<Candidate>& candidates) override {
+    candidates.clear();
+    outcodes_.assign(part.volume({}), organ);
+    outcodes_.for_each_face([&](const FaceClusters::Face& face) {
+      candidates.push_back({face.number, 0.0, 0.0});
+    });
+    sort_by_face(candidates);
+  }
 
-void CpuPicker::pick(const PartSweep& part, const OrganMotion& organ,
-                     std::vector<Candidate>& candidates) {
-  candidates.clear();
-  outcodes_.assign(part.volume({}), organ);
-  outcodes_.for_each_face([&](const FaceClusters::Face& face) {
-    candidates.push_back({face.number, 0.0, 0.0});
-  });
-  sort_by_face(candidates);
-}
+  void release() override {}
+  const std::string& gl_version() const override { return gl_version_; }
 
-const std::string& CpuPicker::gl_version() const {
-  static const std::string none = "none (picker: cpu)";
-  return none;
-}
-
-namespace {
+ private:
+  Outcodes outcodes_;
+  const std::string gl_version_ = "none (picker: cpu)";
+};
 
 std::unique_ptr<Picker> new_picker(const PickerSettings& settings) {
   switch (settings.kind) {
     case PickerKind::kFeedback:
-      return std::make_unique<FeedbackPicker>(GlContext(settings.gl));
     case PickerKind::kSelect:
-      return std::make_unique<SelectPicker>(GlContext(settings.gl));
+      return new_gl_picker(settings);
     case PickerKind::kCpu:
       return std::make_unique<CpuPicker>();
   }

@@ -23,6 +23,8 @@ struct Candidate {
   double view_max;
 };
 
+void sort_by_face(std::vector<Candidate>& candidates);
+
 /// Finds the faces that meet a viewing volume. Belongs to one thread at a time.
 class Picker {
  public:
@@ -51,5 +53,11 @@ class Picker {
 /// Makes a picker, and tests it with three faces, only one of them in view. Throws GlError if
 /// OpenGL gives no context or picks wrongly. No context is current afterwards.
 std::unique_ptr<Picker> make_picker(const PickerSettings& settings);
+
+/// The same for the kinds with OpenGL, without the test. It picks the faces that outcodes do not
+/// decide. PickerKind::kFeedback draws all of them with one call in GL_FEEDBACK mode.
+/// PickerKind::kSelect draws in GL_SELECT mode, as the 1999 paper does: each face under its own
+/// name, and for a given volume every face of the mesh.
+std::unique_ptr<Picker> new_gl_picker(const PickerSettings& settings);
 
 }  // namespace organ_collision

@@ -1,6 +1,8 @@
 #include "conservative_volume.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -9,6 +11,13 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Up to four corners in the plane, counterclockwise. No corner lies inside an edge.
+struct ConvexHull {
+  std::array<Vector2d, 4> corners;
+  std::size_t count = 0;
+};
 
 bool turns_left(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   const Vector2d ab = b - a;
@@ -28,9 +37,8 @@ void add_chain(Iterator first, Iterator last, ConvexHull& hull) {
   for (std::size_t i = 0; i + 1 < count; ++i) hull.corners[hull.count++] = chain[i];
 }
 
-}  // namespace
-
-// Follows Andrew, "Another efficient algorithm for convex hulls in two dimensions" (1979).
+/// One corner if all points coincide, two if they lie on a line. Allocates nothing. Follows Andrew,
+/// "Another efficient algorithm for convex hulls in two dimensions" (1979).
 ConvexHull convex_hull(std::array<Vector2d, 4> points) {
   std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
     return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
@@ -52,12 +60,8 @@ struct Rounding {
 
 // For frustum planes, the derived bound of both is 14.4 / (1 << 24). In tests, faces aimed at the
 // boundary were missed with a tenth of the first value, and with a sixteenth of the second.
-inline constexpr Rounding kClippingRounding{1e-6, 16.0 / (1 << 24)};
-inline constexpr Rounding kNoRounding{0.0, 0.0};
-
-namespace {
-
-using Eigen::Vector3d;
+constexpr Rounding kClippingRounding{1e-6, 16.0 / (1 << 24)};
+constexpr Rounding kNoRounding{0.0, 0.0};
 
 // The wedge serves a triangle of trocar and tips that is neither too thin nor too oblique for it.
 // The box serves all other motions.
@@ -177,19 +181,6 @@ ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double exte
   return cut_box(ends, radius, reach, rounding);
 }
 
-}  // namespace
-
-ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
-                                  const VolumeMargin& margin) {
-  return swept_volume(motion, radius + margin.motion, margin.extent, kClippingRounding);
-}
-
-ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
-  return swept_volume(motion, radius, 0.0, kNoRounding);
-}
-
-namespace {
-
 /// The box, grown by margin.motion and for rounding.
 ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
                          const Rounding& rounding) {
@@ -204,6 +195,15 @@ ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
 }
 
 }  // namespace
+
+ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
+                                  const VolumeMargin& margin) {
+  return swept_volume(motion, radius + margin.motion, margin.extent, kClippingRounding);
+}
+
+ViewingVolume tool_volume(const ShaftMotion& motion, double radius) {
+  return swept_volume(motion, radius, 0.0, kNoRounding);
+}
 
 ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin) {
   return box_volume(box, margin, kClippingRounding);

@@ -2,27 +2,12 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 #include "geometry/distance/swept_box.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "viewing_volume.hpp"
 
 namespace organ_collision {
-
-/// Up to four corners in the plane, counterclockwise. No corner lies inside an edge.
-struct ConvexHull {
-  std::array<Eigen::Vector2d, 4> corners;
-  std::size_t count = 0;
-
-  const Eigen::Vector2d* begin() const { return corners.data(); }
-  const Eigen::Vector2d* end() const { return corners.data() + count; }
-};
-
-/// The convex hull of four points: one corner if all coincide, two if they lie on a line. Allocates
-/// nothing.
-ConvexHull convex_hull(std::array<Eigen::Vector2d, 4> points);
 
 /// How far a conservative volume grows beyond the space that the tool sweeps.
 struct VolumeMargin {

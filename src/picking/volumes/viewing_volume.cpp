@@ -15,6 +15,45 @@ Eigen::RowVector4d coordinate(const ViewingVolume::Camera& camera, int axis) {
 
 const Eigen::RowVector4d kOne{0, 0, 0, 1};
 
+// [1] A vector counts as parallel to the view below this sine of the angle between them: its part
+// at right angles to the view is then only rounding.
+constexpr double kParallel = 1e-12;
+
+// The unit vector, or zero for a zero vector.
+Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
+
+// [1] Rounding leaves corners of a polygon that were one this far from each other, as a share of
+// their largest coordinate.
+constexpr double kSameCorner = 1e-15;
+
+void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
+  const auto is_same = [&](const Eigen::Vector3d& other) {
+    return (corner - other).cwiseAbs().maxCoeff() <= kSameCorner * corner.cwiseAbs().maxCoeff();
+  };
+  if (polygon.empty() || !(is_same(polygon.back()) || is_same(polygon.front()))) {
+    polygon.push_back(corner);
+  }
+}
+
+/// Clips a convex polygon to a half-space: Sutherland and Hodgman, "Reentrant polygon clipping"
+/// (1974).
+ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfSpace& half_space) {
+  const auto height = [&](const Eigen::Vector3d& corner) {
+    return half_space.normal.dot(corner) - half_space.offset;
+  };
+  ConvexPolygon inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d& from = polygon[i];
+    const Eigen::Vector3d& to = polygon[(i + 1) % polygon.size()];
+    const double begin = height(from), end = height(to);
+    if (begin <= 0.0) add_corner(from, inside);
+    if ((begin < 0.0 && end > 0.0) || (begin > 0.0 && end < 0.0)) {
+      add_corner(from + begin / (begin - end) * (to - from), inside);
+    }
+  }
+  return inside;
+}
+
 }  // namespace
 
 // The rows of glOrtho, for a camera that looks along +z.
@@ -76,17 +115,6 @@ double ViewingVolume::view_depth(double window_depth) const {
   return near_ * depth * range / (near_ + (1.0 - depth) * range);
 }
 
-namespace {
-
-// [1] A vector counts as parallel to the view below this sine of the angle between them: its part
-// at right angles to the view is then only rounding.
-constexpr double kParallel = 1e-12;
-
-// The unit vector, or zero for a zero vector.
-Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
-
-}  // namespace
-
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view) {
   const Eigen::Vector3d z = direction(view);
   Eigen::Index least_aligned;
@@ -122,42 +150,6 @@ Triangle middle_face(const ViewingVolume& volume) {
   };
   return {point(0), point(1), point(2)};
 }
-
-namespace {
-
-// [1] Rounding leaves corners of a polygon that were one this far from each other, as a share of
-// their largest coordinate.
-constexpr double kSameCorner = 1e-15;
-
-void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
-  const auto is_same = [&](const Eigen::Vector3d& other) {
-    return (corner - other).cwiseAbs().maxCoeff() <= kSameCorner * corner.cwiseAbs().maxCoeff();
-  };
-  if (polygon.empty() || !(is_same(polygon.back()) || is_same(polygon.front()))) {
-    polygon.push_back(corner);
-  }
-}
-
-/// Clips a convex polygon to a half-space: Sutherland and Hodgman, "Reentrant polygon clipping"
-/// (1974).
-ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfSpace& half_space) {
-  const auto height = [&](const Eigen::Vector3d& corner) {
-    return half_space.normal.dot(corner) - half_space.offset;
-  };
-  ConvexPolygon inside;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector3d& from = polygon[i];
-    const Eigen::Vector3d& to = polygon[(i + 1) % polygon.size()];
-    const double begin = height(from), end = height(to);
-    if (begin <= 0.0) add_corner(from, inside);
-    if ((begin < 0.0 && end > 0.0) || (begin > 0.0 && end < 0.0)) {
-      add_corner(from + begin / (begin - end) * (to - from), inside);
-    }
-  }
-  return inside;
-}
-
-}  // namespace
 
 ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume) {
   ConvexPolygon polygon(face.begin(), face.end());

@@ -98,19 +98,6 @@ TEST(ClosestApproach, OfShaftsIsTheLeastDistance) {
   }
 }
 
-TEST(ClosestApproach, AtRestIsTheClosestPoints) {
-  Random random(3);
-  for (int i = 0; i < 2000; ++i) {
-    const auto core_kind = static_cast<std::size_t>(i) % oracle::kCoreKinds;
-    const LinkTrial trial = oracle::make_link_trial(0, core_kind, random);
-    const RigidMotion rest(trial.end, trial.end);
-    const CoreMotion core(trial.core, rest);
-    const auto found = approach(core, {trial.face, trial.face});
-    ASSERT_TRUE(found);
-    EXPECT_EQ(found->closest.distance, closest_points(core.end(), trial.face).distance);
-  }
-}
-
 TEST(ClosestApproach, IsFoundOnlyWithinTheBound) {
   Random random(4);
   int found_count = 0;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "geometry/distance/gjk.hpp"
+#include "geometry/distance/closest_points.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "test/grid_surface.hpp"
 #include "test/proof/link_trials.hpp"
@@ -55,9 +55,8 @@ struct Case {
         }
       }
     }
-    constexpr double kAny = std::numeric_limits<double>::infinity();
-    return std::min(gjk_closest_points(core, before->triangle(face), kAny).distance,
-                    gjk_closest_points(core, after->triangle(face), kAny).distance);
+    return std::min(closest_points(core, before->triangle(face)).distance,
+                    closest_points(core, after->triangle(face)).distance);
   }
 
   std::shared_ptr<TriangleMesh> before, after;

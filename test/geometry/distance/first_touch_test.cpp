@@ -18,66 +18,97 @@
 namespace organ_collision {
 namespace {
 
-TEST(WorkBudget, IsUsedUpByItsLastStep) {
-  WorkBudget budget;
-  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kLeastPairs - 1);
-  EXPECT_FALSE(budget.is_used_up());
-  budget.spend(1);
-  EXPECT_TRUE(budget.is_used_up());
-}
-
-TEST(WorkBudget, GrowsWithThePairsBeyondTheLeast) {
-  WorkBudget budget;
-  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kLeastPairs);
-  budget.add_pairs(WorkBudget::kLeastPairs);
-  EXPECT_TRUE(budget.is_used_up());
-  budget.add_pairs(1);
-  EXPECT_FALSE(budget.is_used_up());
-  budget.spend(WorkBudget::kStepsForEachPair);
-  EXPECT_TRUE(budget.is_used_up());
-}
-
-TEST(WorkBudget, GrowsNoFurtherThanTheMostPairs) {
-  WorkBudget budget;
-  budget.add_pairs(1000 * WorkBudget::kMostPairs);
-  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kMostPairs - 1);
-  EXPECT_FALSE(budget.is_used_up());
-  budget.spend(1);
-  EXPECT_TRUE(budget.is_used_up());
-}
-
-TEST(WorkBudget, UnlimitedIsNeverUsedUp) {
-  WorkBudget budget = WorkBudget::unlimited();
-  budget.spend(std::uint64_t{1} << 60U);
-  EXPECT_FALSE(budget.is_used_up());
-}
-
-TEST(WorkBudget, ApproachesGetMoreForEachPairButNotMoreInAll) {
-  WorkBudget budget = WorkBudget::for_approaches();
-  budget.spend(WorkBudget::kApproachStepsForEachPair * WorkBudget::kLeastPairs - 1);
-  EXPECT_FALSE(budget.is_used_up());
-  budget.spend(1);
-  EXPECT_TRUE(budget.is_used_up());
-
-  WorkBudget large = WorkBudget::for_approaches();
-  large.add_pairs(1000 * WorkBudget::kMostPairs);
-  large.spend(WorkBudget::kStepsForEachPair * WorkBudget::kMostPairs);
-  EXPECT_TRUE(large.is_used_up());
-}
-
-TEST(WorkBudget, CutsAreNotForgottenIfMorePairsCome) {
-  WorkBudget budget;
-  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kLeastPairs);
-  EXPECT_EQ(budget.cuts(), 0U);
-  budget.add_cut();
-  budget.add_pairs(2 * WorkBudget::kLeastPairs);
-  EXPECT_FALSE(budget.is_used_up());
-  EXPECT_EQ(budget.cuts(), 1U);
-}
-
 using Eigen::Vector3d;
+using oracle::LinkTrial;
 using oracle::Random;
 using oracle::Trial;
+
+/// Expects that a budget is used up by its last step.
+void expect_steps(WorkBudget budget, std::uint64_t pairs, std::uint64_t steps) {
+  budget.add_pairs(pairs);
+  budget.spend(steps - 1);
+  EXPECT_FALSE(budget.is_used_up()) << pairs;
+  budget.spend(1);
+  EXPECT_TRUE(budget.is_used_up()) << pairs;
+}
+
+TEST(WorkBudget, GrowsWithThePairsBetweenTheLeastAndTheMost) {
+  constexpr std::uint64_t kSteps = WorkBudget::kStepsForEachPair;
+  constexpr std::uint64_t kLeast = WorkBudget::kLeastPairs, kMost = WorkBudget::kMostPairs;
+  expect_steps(WorkBudget(), 0, kSteps * kLeast);
+  expect_steps(WorkBudget(), kLeast, kSteps * kLeast);
+  expect_steps(WorkBudget(), kLeast + 1, kSteps * (kLeast + 1));
+  expect_steps(WorkBudget(), 1000 * kMost, kSteps * kMost);
+  constexpr std::uint64_t kForApproaches = WorkBudget::kApproachStepsForEachPair;
+  expect_steps(WorkBudget::for_approaches(), 0, kForApproaches * kLeast);
+  expect_steps(WorkBudget::for_approaches(), 1000 * kMost, kSteps * kMost);
+  WorkBudget unlimited = WorkBudget::unlimited();
+  unlimited.spend(std::uint64_t{1} << 60U);
+  EXPECT_FALSE(unlimited.is_used_up());
+}
+
+/// A triangle of about this size that has the origin near it [m].
+Triangle random_triangle(double size, Random& random) {
+  const Vector3d middle = random.point(0.5 * size);
+  return {middle + random.point(size), middle + random.point(size), middle + random.point(size)};
+}
+
+/// Compares the crossing of two triangles, if one was found, with the exact distance. Counts it.
+void expect_true_crossing(const Triangle& core, const Triangle& face, int& crossings) {
+  const auto crossing = triangle_crossing(core, face);
+  if (!crossing) return;
+  ++crossings;
+  const double size = std::max(largest_coordinate(core), largest_coordinate(face));
+  EXPECT_LE(crossing->distance, tolerance::kTie);
+  EXPECT_LE(oracle::distance(ConvexCore(core), face), tolerance::kTie + 1e-15 * size);
+  EXPECT_GE(crossing->barycentric.minCoeff(), 0.0);
+  EXPECT_NEAR(crossing->barycentric.sum(), 1.0, 1e-15);
+  EXPECT_EQ(crossing->on_face, point_at(face, crossing->barycentric));
+  EXPECT_EQ(crossing->separation, crossing->on_face - crossing->on_core);
+  EXPECT_EQ(crossing->separation.norm(), crossing->distance);
+  EXPECT_LE(oracle::distance(ConvexCore(core), crossing->on_core), 1e-14 * (1.0 + size));
+}
+
+TEST(TriangleCrossing, IsOpenForTrianglesInOnePlaneOrOnOneSide) {
+  const Triangle core = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+  const Triangle above = {Vector3d(0, 0, 1e-3), Vector3d(1, 0, 1e-3), Vector3d(0, 1, 2.0)};
+  const Triangle point = {Vector3d(0.2, 0.2, 0), Vector3d(0.2, 0.2, 0), Vector3d(0.2, 0.2, 0)};
+  for (const Triangle& face : {core, above, point}) {
+    EXPECT_FALSE(triangle_crossing(core, face));
+    EXPECT_FALSE(triangle_crossing(face, core));
+  }
+}
+
+// The core is pierced by an edge of the face, from (0.2, 0.2, 0) on. The common segment ends where
+// the core does.
+TEST(TriangleCrossing, IsInTheMiddleOfTheCommonSegment) {
+  const Triangle core = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+  const Triangle face = {Vector3d(0.2, 0.2, -1), Vector3d(0.2, 0.2, 1), Vector3d(2.2, 0.2, 0)};
+  const auto crossing = triangle_crossing(core, face);
+  ASSERT_TRUE(crossing);
+  EXPECT_TRUE(crossing->on_face.isApprox(Vector3d(0.5, 0.2, 0.0), 1e-15));
+  EXPECT_TRUE(crossing->barycentric.isApprox(Vector3d(0.425, 0.425, 0.15), 1e-15));
+}
+
+// Corners and edges on the other triangle, common corners and edges, slivers.
+TEST(TriangleCrossing, IsTrueForTrianglesThatBarelyTouch) {
+  Random random(2);
+  int crossings = 0;
+  for (int i = 0; i < 4000 && !HasFailure(); ++i) {
+    const Triangle core = random_triangle(0.05, random);
+    Triangle face = random_triangle(random.scale(1e-3, 0.1), random);
+    const double place = random.integer(0, 2) * 0.5;
+    face[0] = core[0] + place * (core[1] - core[0]);
+    if (random.chance(0.3)) face[1] = core[1] + random.uniform(0.0, 1.0) * (core[2] - core[1]);
+    if (random.chance(0.3)) face[2] = face[0] + random.uniform(-1.0, 2.0) * (face[1] - face[0]);
+    for (Vector3d& corner : face) {
+      if (random.chance(0.5)) corner += random.scale(1e-17, 1e-6) * random.direction();
+    }
+    expect_true_crossing(core, face, crossings);
+    expect_true_crossing(face, core, crossings);
+  }
+  EXPECT_GT(crossings, 200);
+}
 
 /// [m] A face whose distance is within this of the radius may touch or not. The distance of every
 /// touch is within this of the radius.
@@ -98,6 +129,19 @@ void expect_at_radius(const FirstTouch& touch, const ShaftMotion& shaft, const F
   }
   EXPECT_NEAR(touch.closest.distance,
               oracle::distance(oracle::core(shaft.at(touch.time)), face.at(touch.time)), 1e-12);
+}
+
+/// Checks that a touch is not missed, and is neither too early nor too late.
+void expect_timely(const std::optional<FirstTouch>& touch, const oracle::FirstTime& earliest) {
+  if (earliest.certainly) {
+    EXPECT_TRUE(touch);
+  }
+  if (!earliest.possibly) {
+    EXPECT_FALSE(touch);
+  }
+  if (!touch) return;
+  EXPECT_GE(touch->time, earliest.possibly.value_or(2.0) - 1e-12);
+  EXPECT_LE(touch->time, earliest.certainly.value_or(1.0) + 1e-12);
 }
 
 /// Checks a trial with a resting face and trocar: there is a touch if and only if exact arithmetic
@@ -140,21 +184,9 @@ TEST_P(FirstTouchTrials, AgreesWithSearchWhereEverythingMoves) {
     face.start = oracle::rounded(face.start);
     const auto touch = first_touch(trial.motion, face, trial.radius);
     const double slack = std::max(1e-6, 1e-4 * trial.radius);
-    const auto earliest = oracle::first_time_within(trial.motion, face, trial.radius, slack);
     touches += touch.has_value();
-    if (earliest.certainly) {
-      EXPECT_TRUE(touch);
-    }
-    if (!earliest.possibly) {
-      EXPECT_FALSE(touch);
-    }
-    if (touch) {
-      expect_at_radius(*touch, trial.motion, face, trial.radius);
-      EXPECT_GE(touch->time, earliest.possibly.value_or(2.0) - 1e-12);
-      if (earliest.certainly) {
-        EXPECT_LE(touch->time, *earliest.certainly + 1e-12);
-      }
-    }
+    expect_timely(touch, oracle::first_time_within(trial.motion, face, trial.radius, slack));
+    if (touch) expect_at_radius(*touch, trial.motion, face, trial.radius);
     if (HasFailure()) ADD_FAILURE() << oracle::to_line(trial);
   }
   EXPECT_GT(touches, 0);
@@ -242,44 +274,7 @@ TEST(FirstTouch, GrazingIsDecidedByTheRadius) {
   }
 }
 
-TEST(FirstTouch, TissueThatSwingsThroughARestingToolIsFound) {
-  const ShaftAxis axis{{0.3, 0.1, 0.5}, {0.1, 0.1, 0.02}};
-  const Triangle before = {Vector3d(-0.4, 0.05, 0.1), Vector3d(-0.42, 0.3, 0.11),
-                           Vector3d(-0.41, 0.1, 0.35)};
-  const Vector3d swing(0.9, 0.0, 0.0);
-  const FaceMotion motion{before, {before[0] + swing, before[1] + swing, before[2] + swing}};
-  EXPECT_FALSE(first_touch(ShaftMotion{axis, axis}, resting(motion.start), 2e-3));
-  EXPECT_FALSE(first_touch(ShaftMotion{axis, axis}, resting(motion.end), 2e-3));
-  const auto touch = first_touch(ShaftMotion{axis, axis}, motion, 2e-3);
-  ASSERT_TRUE(touch);
-  expect_at_radius(*touch, {axis, axis}, motion, 2e-3);
-  EXPECT_LT(touch->closest.on_face.x(), touch->closest.on_core.x());
-}
-
-// The ball touches when its distance from the plane is the radius.
-TEST(FirstTouch, TimeOfABallThatFallsOnAFace) {
-  const Triangle face = {Vector3d(-1.0, -1.0, 0.2), Vector3d(2.0, -1.0, 0.2),
-                         Vector3d(-1.0, 2.0, 0.2)};
-  const Vector3d high(0.03, 0.01, 0.7), low(0.05, -0.02, 0.1);
-  const auto touch = first_touch(ShaftMotion{{high, high}, {low, low}}, resting(face), 0.025);
-  ASSERT_TRUE(touch);
-  EXPECT_NEAR(touch->time, 0.475 / 0.6, 1e-9);
-}
-
-}  // namespace
-
-}  // namespace organ_collision
-
-// first_touch.hpp for the cores of links, which rotate.
-
-namespace organ_collision {
-namespace {
-
-using Eigen::Vector3d;
-using oracle::LinkTrial;
-using oracle::Random;
-
-FaceMotion resting(const Triangle& face) { return {face, face}; }
+// For the cores of links, which rotate.
 
 /// [m] A face whose distance is within this of the radius may touch or not. It includes the
 /// rounding errors of planes along large faces and of distances far from the origin.
@@ -296,19 +291,11 @@ FaceMotion some_motion(const Triangle& face, Random& random) {
   return motion;
 }
 
-/// Checks that the touch is not missed, is neither too early nor too late, and is at the radius.
+/// Checks that the touch is timely and at the radius.
 void expect_first(const std::optional<FirstTouch>& touch, const LinkTrial& trial,
                   const FaceMotion& face) {
-  const oracle::FirstTime earliest = oracle::first_time_within(trial, face, band(trial));
-  if (earliest.certainly) {
-    EXPECT_TRUE(touch);
-  }
-  if (!earliest.possibly) {
-    EXPECT_FALSE(touch);
-  }
+  expect_timely(touch, oracle::first_time_within(trial, face, band(trial)));
   if (!touch) return;
-  EXPECT_GE(touch->time, earliest.possibly.value_or(2.0) - 1e-12);
-  EXPECT_LE(touch->time, earliest.certainly.value_or(1.0) + 1e-12);
   const double distance =
       closest_points(oracle::pose_at(trial, touch->time) * trial.core, face.at(touch->time))
           .distance;
@@ -400,19 +387,14 @@ TEST_P(FirstTouchOfLinks, UntilCutsTheLegShort) {
   });
 }
 
-WorkBudget used_up() {
-  WorkBudget budget;
-  budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kLeastPairs);
-  return budget;
-}
-
 // Every touching face is reported. An unresolved touch has a pair of points on core and face.
 TEST_P(FirstTouchOfLinks, WithoutBudgetNoTouchIsMissed) {
   int unresolved = 0;
   for_each_trial(60, [&](const LinkTrial& trial, const FaceMotion& face, Random& random) {
     const RigidMotion motion = trial.motion();
     const CoreMotion core(trial.core, motion);
-    WorkBudget budget = used_up();
+    WorkBudget budget;
+    budget.spend(WorkBudget::kStepsForEachPair * WorkBudget::kLeastPairs);
     const double until = random.chance(0.5) ? 1.0 : random.uniform(0.0, 1.0);
     const auto all = first_touch(core, face, trial.radius, until);
     const auto touch = first_touch(core, face, trial.radius, budget, until);
@@ -438,22 +420,6 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Combine(testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()),
                      testing::Range<std::size_t>(0, oracle::kCoreKinds)));
 
-// A plate turns about its middle until its end touches a face 0.1 m below.
-TEST(FirstTouch, TimeOfAPlateThatTurnsOntoAFace) {
-  const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
-  Eigen::Isometry3d end = start;
-  end.linear() = Eigen::AngleAxisd(0.8, Vector3d::UnitY()).toRotationMatrix();
-  const ConvexCore plate = LinkPart::box(start, {0.4, 0.1, 1e-6}).core;
-  const Triangle face = {Vector3d(-1.0, -1.0, -0.1), Vector3d(2.0, -1.0, -0.1),
-                         Vector3d(-1.0, 2.0, -0.1)};
-  const RigidMotion motion(start, end);
-  const auto touch = first_touch(CoreMotion(plate, motion), resting(face), 0.01);
-  ASSERT_TRUE(touch);
-  const double angle = touch->time * 0.8;
-  EXPECT_NEAR(0.2 * std::sin(angle) + 0.5e-6 * std::cos(angle), 0.1 - 0.01, 2e-10);
-  EXPECT_NEAR(touch->closest.on_core.x(), 0.2 * std::cos(angle), 1e-6);
-}
-
 // The blade is clear of the face at both ends of the leg and sweeps through it in between.
 TEST(FirstTouch, ABladeThatSwingsPastIsFound) {
   const Eigen::Isometry3d start = Eigen::Isometry3d::Identity();
@@ -476,5 +442,4 @@ TEST(FirstTouch, ABladeThatSwingsPastIsFound) {
 }
 
 }  // namespace
-
 }  // namespace organ_collision

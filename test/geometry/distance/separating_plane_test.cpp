@@ -11,45 +11,6 @@
 namespace organ_collision {
 namespace {
 
-double value(const BernsteinQuadratic& q, double t) {
-  return (1.0 - t) * (1.0 - t) * q.start + 2.0 * t * (1.0 - t) * q.middle + t * t * q.end;
-}
-
-TEST(BernsteinQuadratic, IsPositiveBeforeItsFirstRootAndZeroThere) {
-  oracle::Random random(1);
-  int roots = 0;
-  for (int i = 0; i < 10'000; ++i) {
-    const BernsteinQuadratic q{random.scale(1e-9, 1.0), random.sign() * random.scale(1e-9, 1.0),
-                               random.sign() * random.scale(1e-9, 1.0)};
-    const double root = first_root(q);
-    if (root <= 1.0) {
-      ++roots;
-      EXPECT_GT(root, 0.0);
-      EXPECT_NEAR(value(q, root), 0.0, 1e-15);
-    } else {
-      EXPECT_EQ(root, 2.0);
-    }
-    for (int step = 0; step < 50; ++step) {
-      const double t = step / 50.0 * std::min(root, 1.0);
-      EXPECT_GT(value(q, t), -1e-15) << q.start << " " << q.middle << " " << q.end << " at " << t;
-    }
-  }
-  EXPECT_GT(roots, 1000);
-}
-
-TEST(BernsteinQuadratic, OfALinearFunction) {
-  EXPECT_DOUBLE_EQ(first_root({1.0, 0.25, -0.5}), 2.0 / 3.0);
-  EXPECT_DOUBLE_EQ(first_root({1.0, 0.5, 0.0}), 1.0);
-  EXPECT_EQ(first_root({1.0, 1.5, 2.0}), 2.0);
-}
-
-// It falls below zero between positive ends, touches zero, and stays just above it.
-TEST(BernsteinQuadratic, OfAParabola) {
-  EXPECT_NEAR(first_root({1.0, -1.5, 1.0}), 0.5 - std::sqrt(0.05), 1e-15);
-  EXPECT_DOUBLE_EQ(first_root({1.0, -1.0, 1.0}), 0.5);
-  EXPECT_EQ(first_root({1.0, -0.999, 1.0}), 2.0);
-}
-
 using Eigen::Vector3d;
 using oracle::LinkTrial;
 using oracle::Random;
@@ -62,31 +23,6 @@ TEST(SeparatingPlane, NormalIsUnitHoweverSmallTheTriangle) {
   }
   const Vector3d point(0.1, 0.2, 0.3);
   EXPECT_EQ(plane_normal({point, point, point}), Vector3d::Zero());
-}
-
-TEST(SeparatingPlane, ProjectionRunsFromTheLowestToTheHighestCorner) {
-  const Triangle triangle = {Vector3d(0.0, 0.0, 0.3), Vector3d(1.0, 0.0, -0.2),
-                             Vector3d(0.0, 1.0, 0.1)};
-  const ProjectionInterval interval = project_onto(2.0 * Vector3d::UnitZ(), triangle);
-  EXPECT_EQ(interval.low, -0.4);
-  EXPECT_EQ(interval.high, 0.6);
-}
-
-TEST(SeparatingPlane, FirstZeroOfALinearGap) {
-  EXPECT_EQ(first_zero(0.3, 0.1), 2.0);
-  EXPECT_DOUBLE_EQ(first_zero(0.3, -0.1), 0.75);
-  EXPECT_EQ(first_zero(0.3, 0.0), 1.0);
-  EXPECT_EQ(first_zero(0.0, 1.0), 0.0);
-  EXPECT_EQ(first_zero(-0.1, 1.0), 0.0);
-}
-
-// The face lies above the part or below it, and comes nearer.
-TEST(SeparatingPlane, ClearUntilTheIntervalsAreWithinReach) {
-  const ProjectionInterval part{-0.1, 0.1};
-  EXPECT_NEAR(clear_until({0.3, 0.5}, {0.1, 0.4}, part, part, 0.1), 0.5, 1e-15);
-  EXPECT_NEAR(clear_until({-0.5, -0.3}, {-0.4, -0.1}, part, part, 0.1), 0.5, 1e-15);
-  EXPECT_EQ(clear_until({0.3, 0.5}, {0.3, 0.5}, part, part, 0.1), 2.0);
-  EXPECT_EQ(clear_until({0.15, 0.5}, {0.3, 0.5}, part, part, 0.1), 0.0);
 }
 
 TEST(SeparatingPlane, WhatStaysBeyondIsFartherDuringTheWholeLeg) {
@@ -167,5 +103,4 @@ TEST(TurningPlane, DoesNotTurnIfTheNormalsAreOpposite) {
 }
 
 }  // namespace
-
 }  // namespace organ_collision

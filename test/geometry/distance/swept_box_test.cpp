@@ -17,39 +17,8 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
+using oracle::LinkTrial;
 using oracle::Random;
-
-TEST(BoundedFace, IsInItsBallDuringTheWholeLeg) {
-  Random random(5);
-  for (int i = 0; i < 1000; ++i) {
-    FaceMotion motion;
-    const double size = random.scale(1e-6, 1.0);
-    for (Vector3d& corner : motion.start) corner = random.point(10.0) + size * random.direction();
-    motion.end = motion.start;
-    const bool moves = random.chance(0.5);
-    for (Vector3d& corner : motion.end) {
-      if (moves) corner += random.scale(1e-6, 1.0) * random.direction();
-    }
-    const BoundedFace face(motion);
-    EXPECT_EQ(face.rests, !moves);
-    EXPECT_EQ(face.normal, plane_normal(motion.start));
-    double farthest = 0.0;
-    for (const double time : {0.0, random.uniform(0.0, 1.0), 1.0}) {
-      for (const Vector3d& corner : motion.at(time)) {
-        farthest = std::max(farthest, (corner - face.center).norm());
-      }
-    }
-    EXPECT_NEAR(face.radius, farthest, 1e-12);
-  }
-}
-
-TEST(BoundedFace, OfOnePointIsThatPoint) {
-  const Triangle corners = {Vector3d(1, 2, 3), Vector3d(1, 2, 3), Vector3d(1, 2, 3)};
-  const FaceMotion motion{corners, corners};
-  const BoundedFace face(motion);
-  EXPECT_EQ(face.normal, Vector3d(0, 0, 0));
-  EXPECT_NEAR(face.radius, 0.0, 1e-15);
-}
 
 void expect_contains(const OrientedBox& box, const Vector3d& point) {
   const Vector3d in_box = box.axes.transpose() * (point - box.center);
@@ -73,24 +42,12 @@ TEST(ShaftBox, ContainsEveryPositionOfTheAxis) {
   }
 }
 
-TEST(ShaftBox, OfAnAxisAtRestHasNoWidth) {
-  oracle::Random random(2);
-  for (int i = 0; i < 100; ++i) {
-    const ShaftAxis axis{random.point(0.1), random.point(0.1)};
-    const OrientedBox box = box_around({axis, axis});
-    EXPECT_NEAR(box.half_size.x(), 0.5 * (axis.tip - axis.trocar).norm(), 1e-15);
-    EXPECT_LE(box.half_size.tail<2>().maxCoeff(), 1e-16);
-  }
-}
-
 TEST(ShaftBox, OfABallAndOfAMotionAlongTheAxisHasNoWidth) {
   const Vector3d trocar(0.03, -0.07, 0.11), tip(-0.02, 0.05, 0.01);
   EXPECT_EQ(box_around({{tip, tip}, {tip, tip}}).half_size.norm(), 0.0);
   const ShaftMotion along{{trocar, tip}, {trocar, ShaftAxis{trocar, tip}.at(1.7)}};
   EXPECT_LE(box_around(along).half_size.tail<2>().maxCoeff(), 1e-15);
 }
-
-using oracle::LinkTrial;
 
 constexpr std::size_t kBox = 2;  // the number of this kind of core
 
@@ -168,7 +125,7 @@ TEST_P(SweptBoxTrials, WhatStaysClearStaysFartherThanTheRadius) {
     }
     const RigidMotion motion = trial.motion();
     const double until =
-        SweptBox(box_of(trial.core), motion, trial.radius).clear_until(BoundedFace(face));
+        SweptBox(box_of(trial.core), motion, trial.radius).clear_until(LegFace(face));
     if (until == 0.0) return;
     ++clear;
     for (int i = 0; i < 100; ++i) {
@@ -198,40 +155,15 @@ TEST(SweptBox, StaysClearOfNearlyAllThatIsFar) {
     if (first_touch(CoreMotion(trial.core, motion), {trial.face, trial.face}, 0.01)) continue;
     ++far;
     const FaceMotion face{trial.face, trial.face};
-    clear += SweptBox(box_of(trial.core), motion, 1e-3).clear_until(BoundedFace(face)) > 1.0;
+    clear += SweptBox(box_of(trial.core), motion, 1e-3).clear_until(LegFace(face)) > 1.0;
   }
   EXPECT_GT(clear, far * 8 / 10) << "of " << far;
-}
-
-// Faces that are small beside a box at rest are tested by their balls alone.
-TEST(SweptBox, StaysClearOfNearlyAllSmallFacesThatAreFar) {
-  Random random(8);
-  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
-  const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
-  const SweptBox swept(box, RigidMotion(pose, pose), 1e-3);
-  int far = 0, clear = 0;
-  for (int i = 0; i < 3000; ++i) {
-    const Vector3d center = random.point(0.2);
-    FaceMotion face;
-    for (Vector3d& corner : face.start) corner = pose * (center + 1e-3 * random.direction());
-    face.end = face.start;
-    const double until = swept.clear_until(BoundedFace(face));
-    const double away = (center.cwiseAbs() - box.half_size).maxCoeff();
-    if (away < -3e-3) {
-      EXPECT_EQ(until, 0.0);
-    } else if (away > 3e-3) {
-      ++far;
-      clear += until > 1.0;
-    }
-  }
-  EXPECT_GT(far, 500);
-  EXPECT_EQ(clear, far);
 }
 
 // The projections onto the box's axes overlap. Only the face's own plane separates the two.
 TEST(SweptBox, StaysClearOfAFaceOverACorner) {
   const auto clear_until = [](const SweptBox& box, const FaceMotion& face, double closer = 0.0) {
-    return box.clear_until(BoundedFace(face), closer);
+    return box.clear_until(LegFace(face), closer);
   };
   const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
   const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
@@ -249,19 +181,5 @@ TEST(SweptBox, StaysClearOfAFaceOverACorner) {
   EXPECT_EQ(clear_until(SweptBox(box, motion, 0.01), face(nearer - 1e-9), kCloser), 0.0);
 }
 
-// For a degenerate face only the planes across the box's axes can separate the two.
-TEST(SweptBox, NeedsNoPlane) {
-  const auto clear_until = [](const SweptBox& box, const FaceMotion& face) {
-    return box.clear_until(BoundedFace(face));
-  };
-  const OrientedBox box{Vector3d::Zero(), Eigen::Matrix3d::Identity(), {0.1, 0.1, 0.1}};
-  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  const RigidMotion motion(pose, pose);
-  const Vector3d far(0.0, 0.2, 0.0), near(0.0, 0.105, 0.0);
-  EXPECT_GT(clear_until(SweptBox(box, motion, 0.01), {{far, far, far}, {far, far, far}}), 1.0);
-  EXPECT_EQ(clear_until(SweptBox(box, motion, 0.01), {{near, far, far}, {far, far, far}}), 0.0);
-}
-
 }  // namespace
-
 }  // namespace organ_collision

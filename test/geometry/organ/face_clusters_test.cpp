@@ -1,4 +1,4 @@
-#include "geometry/organ/face_clusters.hpp"
+#include "organ_collision/geometry/organ/face_clusters.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,90 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <set>
 #include <vector>
 
 #include "organ_collision/geometry/organ/block_boxes.hpp"
-#include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "test/grid_surface.hpp"
 
 namespace organ_collision {
 namespace {
-
-using Numbers = std::vector<std::uint32_t>;
-
-Eigen::Vector3f place(const std::vector<float>& vertices, std::uint32_t vertex) {
-  return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * vertex]);
-}
-
-/// The mean diagonal of the boxes around the aligned groups of so many pieces [m].
-double mean_diagonal(const std::vector<float>& vertices, const Numbers& order, std::size_t size) {
-  double sum = 0.0;
-  std::size_t groups = 0;
-  for (std::size_t begin = 0; begin < order.size(); begin += size, ++groups) {
-    Eigen::AlignedBox3f box;
-    for (std::size_t i = begin; i < std::min(begin + size, order.size()); ++i) {
-      box.extend(place(vertices, order[i]));
-    }
-    sum += box.diagonal().norm();
-  }
-  return sum / static_cast<double>(groups);
-}
-
-void expect_each_piece_once(Numbers order, std::size_t vertex_count, std::size_t piece) {
-  std::sort(order.begin(), order.end());
-  Numbers expected;
-  for (std::uint32_t i = 0; i < vertex_count; i += static_cast<std::uint32_t>(piece)) {
-    expected.push_back(i);
-  }
-  EXPECT_EQ(order, expected);
-}
-
-TEST(CompactOrder, HasEachPieceOnce) {
-  for (const int side : {1, 2, 7, 40}) {
-    const GridSurface grid = grid_surface(side);
-    const std::size_t count = grid.vertices.size() / 3;
-    for (const std::size_t piece : {1, 3, 8, 5000}) {
-      for (const std::size_t together : {1, 2, 16}) {
-        expect_each_piece_once(compact_order(grid.vertices, piece, together), count, piece);
-      }
-    }
-  }
-}
-
-// A square patch of n points of a grid is as compact as a group can be.
-TEST(CompactOrder, MakesEachAlignedGroupCompact) {
-  constexpr int kSide = 127;
-  const GridSurface grid = shuffled(grid_surface(kSide), 7);
-  const Numbers order = compact_order(grid.vertices, 1, 1);
-  for (const int width : {4, 16, 64}) {
-    const double square = std::sqrt(2.0) * 0.2 * (width - 1) / kSide;
-    const auto size = static_cast<std::size_t>(width) * static_cast<std::size_t>(width);
-    // The sheet is wavy, so that the sides of its patches are longer than those of their boxes.
-    EXPECT_LT(mean_diagonal(grid.vertices, order, size), 1.25 * square) << size;
-  }
-}
-
-TEST(CompactOrder, DoesNotDependOnTheOrderOfPlacesThatDiffer) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<float> coordinate(-1.0F, 1.0F);
-  std::vector<float> vertices(3 * 1000);
-  for (float& value : vertices) value = coordinate(random);
-  std::vector<float> reversed;
-  for (std::size_t i = 1000; i-- > 0;) {
-    reversed.insert(reversed.end(), &vertices[3 * i], &vertices[3 * i] + 3);
-  }
-  const Numbers order = compact_order(vertices, 1, 1);
-  Numbers of_reversed = compact_order(reversed, 1, 1);
-  for (std::uint32_t& vertex : of_reversed) vertex = 999 - vertex;
-  EXPECT_EQ(of_reversed, order);
-}
-
-TEST(CompactOrder, TakesPlacesThatAreAllTheSame) {
-  const std::vector<float> vertices(3 * 500, 0.25F);
-  expect_each_piece_once(compact_order(vertices, 1, 1), 500, 1);
-}
 
 constexpr std::size_t kGroup = FaceClusters::kGroup;
 
@@ -190,6 +114,25 @@ TEST(FaceClusters, ReorderAShuffledSurfaceIntoCompactBlocks) {
   EXPECT_LT(blocks_of_all_clusters(clusters), 5 * clusters.block_count());
 }
 
+// A square patch of n points of a grid is as compact as a group can be.
+TEST(FaceClusters, HaveCompactGroups) {
+  constexpr int kSide = 127;
+  const GridSurface grid = shuffled(grid_surface(kSide), 7);
+  const FaceClusters clusters(grid.faces, grid.vertices);
+  double diagonals = 0.0;
+  for (std::size_t block = 0; block < clusters.block_count(); block += 2) {
+    Eigen::AlignedBox3f box;
+    for (std::size_t i = 0; i < 2 * FaceClusters::kBlock; ++i) {
+      const std::uint32_t vertex = clusters.vertices(block)[i];
+      box.extend(Eigen::Map<const Eigen::Vector3f>(&grid.vertices[3 * vertex]));
+    }
+    diagonals += box.diagonal().norm();
+  }
+  // The sheet is wavy, so that the sides of its patches are longer than those of their boxes.
+  const double square = std::sqrt(2.0) * 0.2 * (4 - 1) / kSide;
+  EXPECT_LT(diagonals / (0.5 * static_cast<double>(clusters.block_count())), 1.25 * square);
+}
+
 TEST(FaceClusters, TakeSoupsFansAndVerticesWithoutFaces) {
   std::vector<float> vertices(3 * 300, 0.25F);
   std::vector<FaceIndices> fan;
@@ -215,21 +158,6 @@ Eigen::AlignedBox3f box_around(std::size_t count, const Point& point) {
 
 Eigen::AlignedBox3f plain(const BlockBoxes::Box& box) {
   return {box.min.head<3>().matrix(), box.max.head<3>().matrix()};
-}
-
-TEST(BlockBoxes, KeepNothingOfOtherClusters) {
-  const GridSurface large = grid_surface(64), small = grid_surface(7);
-  const FaceClusters of_large(large.faces, large.vertices), of_small(small.faces, small.vertices);
-  BlockBoxes reused, fresh;
-  ASSERT_TRUE(reused.refit(of_large, large.vertices));
-  ASSERT_TRUE(reused.refit(of_small, small.vertices));
-  ASSERT_TRUE(fresh.refit(of_small, small.vertices));
-  EXPECT_TRUE(reused.all().isApprox(fresh.all(), 0.0F));
-  ASSERT_EQ(reused.groups(0).size(), fresh.groups(0).size());
-  for (std::size_t i = 0; i < fresh.groups(0).size(); ++i) {
-    EXPECT_TRUE((reused.groups(0)[i].min == fresh.groups(0)[i].min).all());
-    EXPECT_TRUE((reused.groups(0)[i].max == fresh.groups(0)[i].max).all());
-  }
 }
 
 TEST(BlockBoxes, AreTheSmallestInEveryShape) {
@@ -291,5 +219,4 @@ TEST(BlockBoxes, NoticeEveryCoordinateThatIsNotFinite) {
 }
 
 }  // namespace
-
 }  // namespace organ_collision

@@ -16,8 +16,7 @@
 #include "organ_collision/geometry/tolerances.hpp"
 #include "test/closed_surfaces.hpp"
 
-using namespace organ_collision;
-
+namespace organ_collision {
 namespace {
 
 using Place = std::array<float, 3>;
@@ -97,16 +96,6 @@ void expect_as_defined(const GridSurface& surface, const char* what) {
   EXPECT_NEAR(volume_of(surface), volume, 1e-12 * (1.0 + std::abs(volume))) << what;
 }
 
-}  // namespace
-
-TEST(SurfaceTopology, VerticesAtOnePlaceAreTheFirstOfThem) {
-  const GridSurface surface{{1, 2, 3, 0, 0, 7, 1, 2, 3, -0.0F, 0, 7, 1, 2, 4},
-                            {{2, 3, 4}, {0, 1, 4}}};
-  const SurfaceTopology topology = topology_of(surface);
-  EXPECT_EQ(topology.welded(), (std::vector<std::uint32_t>{0, 1, 0, 1, 4}));
-  EXPECT_EQ(topology.welded(surface.faces[0]), (FaceIndices{0, 1, 4}));
-}
-
 TEST(SurfaceTopology, WeldingFollowsTheDefinition) {
   Random random(11);
   std::uniform_int_distribution<int> coordinate(-2, 2);
@@ -139,11 +128,6 @@ TEST(SurfaceTopology, WhatIsClosedByItsIndicesIsNotWelded) {
   EXPECT_TRUE(topology.is_closed());
   EXPECT_TRUE(topology.seams()->empty());
   EXPECT_EQ(topology.welded()[4], 4U) << "its place is that of vertex 0";
-}
-
-TEST(SurfaceTopology, VerticesWithoutAFaceAreNotWelded) {
-  const GridSurface surface{{1, 2, 3, 1, 2, 3, 0, 0, 7, 1, 2, 4, 1, 2, 3}, {{1, 2, 3}, {4, 3, 2}}};
-  EXPECT_EQ(topology_of(surface).welded(), (std::vector<std::uint32_t>{0, 1, 2, 3, 1}));
 }
 
 TEST(SurfaceTopology, SeamsAreTheVerticesThatAreWeldedToOthers) {
@@ -180,35 +164,6 @@ TEST(SurfaceTopology, ClosedSurfacesInAnyOrderAndAnyVertices) {
   }
 }
 
-TEST(SurfaceTopology, AMissingOrATurnedFaceOpensASurface) {
-  Random random(17);
-  for (int trial = 0; trial < 40; ++trial) {
-    GridSurface surface = torus(6, 9, 0.11, trial);
-    if (trial % 2 == 1) surface = unwelded(surface);
-    const std::size_t face = random() % surface.faces.size();
-    GridSurface hole = surface, turned = surface;
-    hole.faces.erase(hole.faces.begin() + static_cast<std::ptrdiff_t>(face));
-    std::swap(turned.faces[face][0], turned.faces[face][1]);
-    for (const GridSurface& open : {hole, turned}) {
-      expect_as_defined(open, "open");
-      EXPECT_EQ(topology_of(open).open_edge_count(), 3u);
-      EXPECT_EQ(volume_of(open), 0.0);
-    }
-  }
-}
-
-TEST(SurfaceTopology, ASheetIsOpenAlongItsBoundary) {
-  for (const int side : {1, 4, 13}) {
-    const GridSurface sheet = shuffled(grid_surface(side), 3);
-    expect_as_defined(sheet, "sheet");
-    EXPECT_EQ(topology_of(sheet).open_edge_count(), 4U * static_cast<unsigned>(side));
-    const GridSurface both_sides = joined(sheet, turned_over(sheet));
-    expect_as_defined(both_sides, "both sides of a sheet");
-    EXPECT_TRUE(topology_of(both_sides).is_closed());
-    EXPECT_NEAR(volume_of(both_sides), 0.0, 1e-18);
-  }
-}
-
 TEST(SurfaceTopology, DegenerateFacesAndFacesThatOccurTwice) {
   GridSurface surface = torus(5, 8, 0.2, 0.3);
   const double volume = volume_of(surface);
@@ -224,13 +179,6 @@ TEST(SurfaceTopology, DegenerateFacesAndFacesThatOccurTwice) {
   surface.faces.insert(surface.faces.end(), once.begin(), once.end());
   expect_as_defined(surface, "all faces occur twice");
   EXPECT_NEAR(volume_of(surface), 2.0 * volume, 1e-15);
-}
-
-TEST(SurfaceTopology, ACavityIsSubtracted) {
-  const GridSurface outside = torus(9, 14, 0.2, 0.0), inside = torus(7, 10, 0.2 * 0.9, 0.0);
-  const GridSurface shell = joined(outside, turned_over(inside));
-  expect_as_defined(shell, "shell");
-  EXPECT_NEAR(volume_of(shell), volume_of(outside) - volume_of(inside), 1e-15);
 }
 
 TEST(SurfaceTopology, RandomSoupsOnFewPlaces) {
@@ -290,9 +238,6 @@ TEST(SignedVolume, ADeformedMeshIsWeldedAsItsFirstShape) {
   EXPECT_NEAR(signed_volume(topology, soup.faces, later), volume, 1e-12);
 }
 
-namespace organ_collision {
-namespace {
-
 TriangleMesh mesh_of(const GridSurface& surface) { return {surface.vertices, surface.triangles()}; }
 
 /// A vertex that is not the first one at its place moves.
@@ -340,13 +285,5 @@ TEST(SeamCheck, AddressesThatAreUsedAgainAreNotMistaken) {
   }
 }
 
-TEST(SeamCheck, ASurfaceWithoutSeamsHasNone) {
-  GridSurface surface = sphere(4, 5, 0.01);
-  const SurfaceTopology topology(surface.faces, surface.vertices);
-  SeamCheck check;
-  EXPECT_TRUE(check.seams_hold(topology, mesh_of(shaken(surface, 0.01F, 3))));
-}
-
 }  // namespace
-
 }  // namespace organ_collision

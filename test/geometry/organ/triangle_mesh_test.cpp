@@ -4,10 +4,6 @@
 
 #include <limits>
 
-#include "geometry/concatenate.hpp"
-#include "geometry/coordinate_range.hpp"
-#include "organ_collision/geometry/triangle.hpp"
-
 namespace organ_collision {
 namespace {
 
@@ -43,28 +39,32 @@ TEST(TriangleMesh, GivesBackWhatItWasMadeOf) {
 }
 
 TEST(TriangleMesh, RefusesWhatIsNoMeshAndNamesTheValue) {
-  std::vector<float> vertices = kCorners;
-  vertices.pop_back();
-  expect_refused(Reason::kSize, {"11", "multiple of three"},
-                 [&] { TriangleMesh(vertices, kTetrahedron); });
-  std::vector<std::uint32_t> triangles = kTetrahedron;
-  triangles.pop_back();
-  expect_refused(Reason::kSize, {"11", "multiple of three"},
-                 [&] { TriangleMesh(kCorners, triangles); });
-  triangles = kTetrahedron;
-  triangles[7] = 4;
-  expect_refused(Reason::kIndex, {"face 2", "vertex 4"},
-                 [&] { TriangleMesh(kCorners, triangles); });
-  triangles[7] = std::numeric_limits<std::uint32_t>::max();
-  expect_refused(Reason::kIndex, {"4294967295"}, [&] { TriangleMesh(kCorners, triangles); });
-  expect_refused(Reason::kNoTriangles, {"4 vertices"}, [] { TriangleMesh(kCorners, {}); });
-  expect_refused(Reason::kIndex, {"face 0"},
-                 [] { TriangleMesh(std::vector<float>(), kTetrahedron); });
-  expect_refused(Reason::kTooManyFaces, {"4 faces", "at most 3"},
-                 [] { TriangleMesh(kCorners, kTetrahedron, 0, {3}); });
-  expect_refused(Reason::kTooManyVertices, {"4 vertices", "at most 3"}, [] {
-    TriangleMesh(kCorners, {0, 1, 2}, 0, {1});
-  });
+  const auto changed = [](std::uint32_t index) {
+    std::vector<std::uint32_t> triangles = kTetrahedron;
+    triangles[7] = index;
+    return triangles;
+  };
+  const std::vector<float> eleven(kCorners.begin(), kCorners.end() - 1);
+  const std::vector<std::uint32_t> indices(kTetrahedron.begin(), kTetrahedron.end() - 1);
+  const struct {
+    Reason reason;
+    std::vector<std::string> words;
+    std::vector<float> vertices;
+    std::vector<std::uint32_t> triangles;
+    MeshLimits limits = {};
+  } cases[] = {
+      {Reason::kSize, {"11", "multiple of three"}, eleven, kTetrahedron},
+      {Reason::kSize, {"11", "multiple of three"}, kCorners, indices},
+      {Reason::kIndex, {"face 2", "vertex 4"}, kCorners, changed(4)},
+      {Reason::kIndex, {"4294967295"}, kCorners, changed(~0U)},
+      {Reason::kIndex, {"face 0"}, {}, kTetrahedron},
+      {Reason::kNoTriangles, {"4 vertices"}, kCorners, {}},
+      {Reason::kTooManyFaces, {"4 faces", "at most 3"}, kCorners, kTetrahedron, {3}},
+      {Reason::kTooManyVertices, {"4 vertices", "at most 3"}, kCorners, {0, 1, 2}, {1}},
+  };
+  for (const auto& c : cases) {
+    expect_refused(c.reason, c.words, [&] { TriangleMesh(c.vertices, c.triangles, 0, c.limits); });
+  }
 }
 
 TEST(TriangleMesh, RefusesEveryCoordinateThatIsNotFinite) {
@@ -98,17 +98,6 @@ TEST(TriangleMesh, RefusesVerticesThatAreTooFar) {
   }
 }
 
-TEST(TriangleMesh, TakesSharedVerticesAsTheyAre) {
-  TriangleMesh mesh(kCorners, kTetrahedron, 3);
-  std::vector<float> moved = kCorners;
-  moved[4] = -2.5F;
-  const auto shared = std::make_shared<const std::vector<float>>(moved);
-  mesh.move_vertices(shared);
-  EXPECT_EQ(&mesh.vertices(), shared.get());
-  EXPECT_EQ(mesh.box().min().y(), -2.5F);
-  EXPECT_EQ(mesh.topology(), 3U);
-}
-
 TEST(TriangleMesh, KeepsItsShapeWhenNewVerticesAreRefused) {
   TriangleMesh mesh(kCorners, kTetrahedron);
   std::vector<float> bad = kCorners;
@@ -139,19 +128,6 @@ TEST(TriangleMesh, CopiesMoveOnTheirOwn) {
   EXPECT_FALSE(TriangleMesh(one_more, kTetrahedron).same_faces(mesh));
 }
 
-TEST(TriangleMesh, SharedFacesOutliveTheMesh) {
-  SharedFaces faces;
-  {
-    const TriangleMesh mesh(kCorners, kTetrahedron);
-    faces = mesh.shared_faces();
-    EXPECT_EQ(faces.get(), &mesh.faces());
-    EXPECT_EQ(faces, TriangleMesh(mesh).shared_faces());
-    EXPECT_NE(faces, TriangleMesh(kCorners, kTetrahedron).shared_faces());
-  }
-  ASSERT_EQ(faces->size(), kTetrahedron.size() / 3);
-  EXPECT_EQ((*faces)[1], (FaceIndices{kTetrahedron[3], kTetrahedron[4], kTetrahedron[5]}));
-}
-
 TEST(TriangleMesh, KnowsWhetherTrianglesAreItsOwn) {
   const TriangleMesh mesh(kCorners, kTetrahedron);
   EXPECT_TRUE(mesh.has_triangles(kTetrahedron));
@@ -171,50 +147,8 @@ using Eigen::Vector3d;
 const Triangle kTriangle = {Vector3d(0.1, 0.2, 0.5), Vector3d(0.5, 0.2, 0.5),
                             Vector3d(0.1, 0.4, 0.5)};
 
-TEST(Triangle, PointAtBarycentricCoordinates) {
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(point_at(kTriangle, Vector3d::Unit(i)), kTriangle[i]);
-  EXPECT_TRUE(point_at(kTriangle, {0.0, 0.5, 0.5}).isApprox(Vector3d(0.3, 0.3, 0.5), 1e-15));
-}
-
-TEST(Triangle, TwiceAreaPointsOutwardByTheRightHandRule) {
-  EXPECT_TRUE(twice_area(kTriangle).isApprox(Vector3d(0.0, 0.0, 0.08), 1e-14));
-  EXPECT_EQ(twice_area({kTriangle[0], kTriangle[1], kTriangle[1]}), Vector3d::Zero());
-}
-
-TEST(Triangle, LargestCoordinateIsAbsolute) {
-  EXPECT_EQ(largest_coordinate(kTriangle), 0.5);
-  EXPECT_EQ(largest_coordinate({kTriangle[0], kTriangle[1], Vector3d(0.0, -2.0, 0.0)}), 2.0);
-}
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-TEST(CoordinateRange, EndsAtTheFarthest) {
-  for (const double sign : {-1.0, 1.0}) {
-    EXPECT_TRUE(is_in_range(sign * tolerance::kFarthest));
-    EXPECT_FALSE(is_in_range(sign * 1.000001 * tolerance::kFarthest));
-    EXPECT_FALSE(is_in_range(sign * kInfinity));
-  }
-  EXPECT_FALSE(is_in_range(kNan));
-}
-
-TEST(CoordinateRange, OfAPointCountsEveryCoordinate) {
-  EXPECT_TRUE(is_in_range(Vector3d(0.0, -tolerance::kFarthest, tolerance::kFarthest)));
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double bad : {kNan, kInfinity, -2.0 * tolerance::kFarthest}) {
-      Vector3d point(0.1, 0.2, 0.3);
-      point[axis] = bad;
-      EXPECT_FALSE(is_in_range(point));
-    }
-  }
-}
-
-TEST(Concatenate, WritesEachPartAsAStreamDoes) {
-  EXPECT_EQ(concatenate("radius is ", -0.5, " m; at most ", 1e6, std::string(" m")),
-            "radius is -0.5 m; at most 1e+06 m");
-  EXPECT_EQ(concatenate("none"), "none");
-}
-
 }  // namespace
-
 }  // namespace organ_collision

@@ -8,9 +8,6 @@
 
 #include "geometry/distance/closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "organ_collision/geometry/tool/convex_core.hpp"
-#include "organ_collision/geometry/tool/oriented_box.hpp"
-#include "organ_collision/geometry/tool/shaft.hpp"
 #include "test/proof/exact_distance.hpp"
 #include "test/proof/link_trials.hpp"
 #include "tool_meshes.hpp"
@@ -18,30 +15,12 @@
 namespace organ_collision {
 namespace {
 
-const ShaftAxis kBefore{{0.3, -0.1, 0.7}, {0.9, 0.4, -0.2}};
-const ShaftAxis kAfter{{0.31, -0.12, 0.73}, {0.2, 0.8, 0.1}};
-
-TEST(ShaftAxis, RunsFromTrocarToTip) {
-  EXPECT_EQ(kBefore.at(0.0), kBefore.trocar);
-  EXPECT_TRUE(kBefore.at(1.0).isApprox(kBefore.tip, 1e-15));
-  EXPECT_TRUE(kBefore.at(0.25).isApprox(0.75 * kBefore.trocar + 0.25 * kBefore.tip, 1e-15));
-}
-
-TEST(ShaftMotion, MovesBothEndsLinearly) {
-  const ShaftMotion motion{kBefore, kAfter};
-  EXPECT_EQ(motion.at(0.0).tip, kBefore.tip);
-  EXPECT_TRUE(motion.at(1.0).tip.isApprox(kAfter.tip, 1e-15));
-  for (const double time : {0.1, 0.5, 0.9}) {
-    const ShaftAxis axis = motion.at(time);
-    EXPECT_TRUE(axis.trocar.isApprox((1 - time) * kBefore.trocar + time * kAfter.trocar, 1e-15));
-    EXPECT_TRUE(axis.tip.isApprox((1 - time) * kBefore.tip + time * kAfter.tip, 1e-15));
-  }
-}
-
+using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using oracle::Random;
 
 TEST(OrientedBox, SupportValueIsThatOfItsFarthestCorner) {
-  oracle::Random random(1);
+  Random random(1);
   for (int i = 0; i < 300; ++i) {
     const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
     const OrientedBox box{pose.translation(), pose.linear(),
@@ -56,8 +35,6 @@ TEST(OrientedBox, SupportValueIsThatOfItsFarthestCorner) {
     EXPECT_NEAR(box.support_value(direction), farthest, 1e-15 * direction.norm());
   }
 }
-
-using oracle::Random;
 
 /// Points of a core's boundary: its corners, or `count` points on each of a cylinder's rims.
 std::vector<Vector3d> border(const ConvexCore& core, int count) {
@@ -119,28 +96,7 @@ TEST_P(ConvexCoreOf, MovesRigidly) {
   }
 }
 
-TEST_P(ConvexCoreOf, NoDirectionStillGivesOneOfItsPoints) {
-  Random random(30 + GetParam());
-  const ConvexCore core = oracle::make_core(GetParam(), random);
-  EXPECT_LE(oracle::distance(core, core.support(Vector3d::Zero())), 4e-15);
-}
-
 INSTANTIATE_TEST_SUITE_P(Kinds, ConvexCoreOf, testing::Range<std::size_t>(0, oracle::kCoreKinds));
-
-TEST(ConvexCore, OfAShaftIsItsAxis) {
-  const ShaftAxis axis{{0.1, 0.2, 0.3}, {0.4, -0.5, 0.6}};
-  const ConvexCore core = axis;
-  EXPECT_TRUE(core.is_axis());
-  EXPECT_FALSE(core.is_cylinder());
-  EXPECT_EQ(core.axis().trocar, axis.trocar);
-  EXPECT_EQ(core.axis().tip, axis.tip);
-}
-
-TEST(ConvexCore, OfABallIsAnAxisWithoutLength) {
-  const ConvexCore core = LinkPart::sphere({0.1, 0.2, 0.3}, 0.01).core;
-  EXPECT_TRUE(core.is_axis());
-  EXPECT_EQ(core.axis().trocar, core.axis().tip);
-}
 
 // is_cylinder() must not depend on which components of the rim are zero.
 TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
@@ -156,8 +112,6 @@ TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
     EXPECT_FALSE(core.is_axis());
   }
 }
-
-using Eigen::Isometry3d;
 
 /// [m] The distance of a centred shape, with its axes along x, y and z, from a point in its frame.
 double box_distance(const Vector3d& size, const Vector3d& point) {
@@ -188,16 +142,6 @@ void expect_tight_bounds(const LinkPart& part) {
     EXPECT_NEAR(part.project_onto(axis).high, middle + box.half_size[i], 1e-15);
     EXPECT_NEAR(part.project_onto(-axis).high, box.half_size[i] - middle, 1e-15);
   }
-}
-
-TEST(LinkPart, SphereIsAllWithinItsRadius) {
-  const Vector3d center(0.1, -0.2, 0.3);
-  const LinkPart part = LinkPart::sphere(center, 0.04);
-  EXPECT_EQ(part.radius, 0.04);
-  EXPECT_EQ(part.surface, nullptr);
-  EXPECT_EQ(part.core.count, 1U);
-  EXPECT_EQ(part.core.points[0], center);
-  expect_tight_bounds(part);
 }
 
 TEST(LinkPart, CylinderIsAlongZAndFlatEnded) {
@@ -235,17 +179,6 @@ TEST(LinkPart, BoxIsCentredWithItsSizesAlongItsAxes) {
   }
 }
 
-TEST(LinkPart, MeshHasItsSurfaceAndTheBoxAroundIt) {
-  Random random(3);
-  const ToolMesh mesh = scattered_mesh(40, random);
-  const LinkPart part = LinkPart::mesh(mesh.surface());
-  EXPECT_EQ(part.radius, tolerance::kConvexMargin);
-  ASSERT_NE(part.surface, nullptr);
-  EXPECT_EQ(part.surface->faces().size(), mesh.faces.size());
-  EXPECT_EQ(part.bounds.center, part.surface->nodes().front().box.center);
-  EXPECT_EQ(part.bounds.half_size, part.surface->nodes().front().box.half_size);
-}
-
 TEST(LinkPart, IsProjectedAsItsSurfaceOrCore) {
   Random random(4);
   for (int i = 0; i < 100; ++i) {
@@ -268,5 +201,4 @@ TEST(LinkPart, IsProjectedAsItsSurfaceOrCore) {
 }
 
 }  // namespace
-
 }  // namespace organ_collision

@@ -26,7 +26,7 @@ std::vector<float> triangle(float vertices) {
 std::vector<std::uint32_t> faces(const std::vector<float>& buffer, std::size_t size) {
   std::vector<std::uint32_t> faces;
   for_each_vertex(buffer, size,
-                  [&](const FeedbackVertex& vertex) { faces.push_back(vertex.face()); });
+                  [&](std::uint32_t face, double /*depth*/) { faces.push_back(face); });
   return faces;
 }
 

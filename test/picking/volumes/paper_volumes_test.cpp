@@ -35,20 +35,6 @@ TEST(PaperStaticVolume, IsTheBoxAroundTheAxis) {
   }
 }
 
-TEST(PaperStaticVolume, UpIsTheFrameAxisLeastAligned) {
-  Random random(13);
-  for (int i = 0; i < 1000; ++i) {
-    const Vector3d view = random.direction();
-    const ViewingVolume volume =
-        paper_static_volume({Vector3d(1, 1, 1), Vector3d(1, 1, 1) + 0.2 * view}, 0.01);
-    Eigen::Index least;
-    view.cwiseAbs().minCoeff(&least);
-    const Vector3d side = volume.half_space(0).normal;
-    EXPECT_NEAR(side[least], 0, 1e-14);
-    EXPECT_NEAR(side.dot(view), 0, 1e-14);
-  }
-}
-
 TEST(PaperSweptVolume, IsThePapersHexahedron) {
   Random random(14);
   int inside = 0;

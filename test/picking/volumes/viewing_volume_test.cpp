@@ -6,10 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <vector>
 
-#include "clip_oracle.hpp"
 #include "picking/volumes/conservative_volume.hpp"
 #include "picking/volumes/paper_volumes.hpp"
 #include "random_motions.hpp"
@@ -51,17 +49,6 @@ TEST(ViewingVolume, HalfSpacesAgreeWithMatrixAndUserPlanes) {
   }
   EXPECT_GT(inside, 10000);
   EXPECT_GT(outside, 10000);
-}
-
-TEST(ViewingVolume, HasRoomForEightUserPlanes) {
-  ViewingVolume volume = paper_static_volume({Vector3d(1, 2, 3), Vector3d(1.2, 2, 3.1)}, 0.01);
-  for (std::size_t i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) {
-    volume.add_user_plane({Vector3d(0.6, 0, 0.8), 0.1 * static_cast<double>(i)});
-  }
-  EXPECT_EQ(volume.half_space_count(), 14u);
-  EXPECT_NEAR(volume.half_space(13).offset, 0.7, 1e-15);
-  EXPECT_NEAR((volume.half_space(13).normal - Vector3d(0.6, 0, 0.8)).norm(), 0, 1e-15);
-  EXPECT_THROW(volume.add_user_plane({Vector3d::UnitX(), 1}), std::out_of_range);
 }
 
 TEST(ViewingVolume, ViewDepthIsTheDistanceBehindTheNearPlane) {
@@ -126,25 +113,6 @@ TEST(MiddleFace, MeetsEachVolumeOfBoxes) {
   }
 }
 
-Vector3d area(const Polygon& polygon) {
-  Vector3d twice = Vector3d::Zero();
-  for (std::size_t i = 2; i < polygon.size(); ++i) {
-    twice += (polygon[i - 1] - polygon[0]).cross(polygon[i] - polygon[0]);
-  }
-  return twice / 2;
-}
-
-// [m] The largest distance from a corner of `from` to the nearest corner of `to`.
-double farthest_corner(const Polygon& from, const Polygon& to) {
-  double farthest = 0;
-  for (const Vector3d& corner : from) {
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Vector3d& other : to) nearest = std::min(nearest, (corner - other).norm());
-    farthest = std::max(farthest, nearest);
-  }
-  return farthest;
-}
-
 /// A face whose middle is up to 1 cm from the tool's axis.
 Triangle random_face(const ShaftMotion& motion, Random& random) {
   Triangle face;
@@ -153,41 +121,6 @@ Triangle random_face(const ShaftMotion& motion, Random& random) {
              random.uniform(0.001, 0.05) * random.direction();
   }
   return face;
-}
-
-ConvexPolygon part_of(const Triangle& face, const ViewingVolume& volume) {
-  return clipped(shifted(face, volume.origin()), volume);
-}
-
-TEST(ClippedFace, AgreesWithClippingInTheTest) {
-  Random random(41);
-  int compared = 0, empty = 0;
-  for (int i = 0; i < 600; ++i) {
-    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
-    const ShaftMotion motion = random_motion(kind, i % 2 == 0 ? 0.3 : 200, random);
-    const ViewingVolume volume = conservative_volume(motion, 0.005, {});
-    for (int k = 0; k < 30; ++k) {
-      const Triangle face = random_face(motion, random);
-      const Triangle in_volume = shifted(face, volume.origin());
-      const ConvexPolygon part = part_of(face, volume);
-      const Polygon expected = clip_oracle(volume, face);
-      ASSERT_EQ(part.empty(), expected.empty()) << motion;
-      if (part.empty()) {
-        ++empty;
-        continue;
-      }
-      ++compared;
-      const Vector3d normal = twice_area(in_volume);
-      EXPECT_NEAR((area(part) - area(expected)).norm(), 0, 1e-12) << motion;
-      EXPECT_GE(area(part).dot(normal), 0) << "the face's turning direction" << motion;
-      EXPECT_LT(farthest_corner(expected, part), 1e-12) << motion;
-      for (const Vector3d& corner : part) {
-        EXPECT_NEAR(normal.normalized().dot(corner - in_volume[0]), 0, 1e-12);
-      }
-    }
-  }
-  EXPECT_GT(compared, 3000);
-  EXPECT_GT(empty, 500);
 }
 
 /// Whether a point of the polygon's plane is inside, by the side of each edge on which it lies.
@@ -228,16 +161,6 @@ TEST(ClippedFace, HasThePointsOfTheFaceThatAreInTheVolume) {
   }
   EXPECT_GT(inside, 3000);
   EXPECT_GT(outside, 3000);
-}
-
-TEST(ClippedFace, AFaceInsideStaysAsItIs) {
-  const ShaftAxis axis{Vector3d(1, 2, 3), Vector3d(1, 2, 3.2)};
-  const ViewingVolume volume = conservative_volume({axis, axis}, 0.005, {});
-  const Triangle face = shifted(
-      {Vector3d(1, 2, 3.125), Vector3d(1.001, 2, 3.125), Vector3d(1, 2.001, 3.126)}, axis.trocar);
-  const ConvexPolygon part = clipped(face, volume);
-  ASSERT_EQ(part.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(part[i], face[i]);
 }
 
 TEST(ClippedFace, DegenerateFacesKeepWhatTouches) {
