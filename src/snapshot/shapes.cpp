@@ -9,6 +9,8 @@
 #include <map>
 #include <sstream>
 
+#include "offline/user_input.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -171,11 +173,11 @@ struct Font::Face {
   double capital_height = 1.0;  ///< [pixel]
 
   explicit Face(const std::string& file) {
-    if (FT_Init_FreeType(&library) != 0) throw FontError("FreeType cannot be initialised");
+    if (FT_Init_FreeType(&library) != 0) throw InputError("FreeType cannot be initialised");
     if (FT_New_Face(library, file.c_str(), 0, &face) != 0 ||
         FT_Set_Pixel_Sizes(face, 0, kSize) != 0 || !load(U'A') || face->glyph->bitmap_top <= 0) {
       close();
-      throw FontError("the font '" + file + "' cannot be read");
+      throw InputError("the font '" + file + "' cannot be read");
     }
     capital_height = face->glyph->bitmap_top;
   }

@@ -136,10 +136,6 @@ void GlContext::release() {
 
 const GlFunctions& GlContext::functions() const { return state_->functions; }
 
-AnyGlFunction GlContext::find_function(const char* name) const {
-  return find_gl_function(*state_->context, name);
-}
-
 void GlContext::check(const char* where) {
   const GLenum error = state_->functions.GetError();
   if (error == GL_NO_ERROR) return;
