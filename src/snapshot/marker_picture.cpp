@@ -23,11 +23,10 @@ constexpr double kArrowHead = 0.23;
 constexpr double kArrowHeadWidth = 2.0;
 
 Colour colour_of(const std_msgs::ColorRGBA& colour) {
-  return Colour(colour.r, colour.g, colour.b, colour.a).cwiseMax(0.0F).cwiseMin(1.0F);
-}
-
-bool is_finite(const std_msgs::ColorRGBA& colour) {
-  return Colour(colour.r, colour.g, colour.b, colour.a).allFinite();
+  const auto channel = [](float value) {
+    return std::isnan(value) ? value : std::clamp(value, 0.0F, 1.0F);
+  };
+  return {channel(colour.r), channel(colour.g), channel(colour.b), channel(colour.a)};
 }
 
 /// The header's frame is the target.
@@ -39,21 +38,13 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
          (is_empty ? Eigen::Quaterniond::Identity() : rotation.normalized());
 }
 
-void check_finite(const Marker& marker) {
-  const geometry_msgs::Quaternion& q = marker.pose.orientation;
-  if (!to_eigen(marker.pose.position).allFinite() ||
-      !Eigen::Vector4d(q.x, q.y, q.z, q.w).allFinite() || !to_eigen(marker.scale).allFinite()) {
-    throw InputError("its pose or scale is not finite");
-  }
-  for (std::size_t i = 0; i < marker.points.size(); ++i) {
-    if (!to_eigen(marker.points[i]).allFinite()) {
-      throw InputError("point " + std::to_string(i) + " is not finite");
-    }
-  }
-  if (!is_finite(marker.color) ||
-      !std::all_of(marker.colors.begin(), marker.colors.end(), is_finite)) {
-    throw InputError("a colour is not finite");
-  }
+/// Throws InputError if a number of the marker was not finite.
+void check_finite(const PictureTriangles& triangles) {
+  const auto is_finite = [](const PictureVertex& vertex) {
+    return vertex.position.allFinite() && vertex.normal.allFinite() && vertex.colour.allFinite();
+  };
+  if (std::all_of(triangles.begin(), triangles.end(), is_finite)) return;
+  throw InputError("its pose, scale, points or colours are not finite");
 }
 
 void check_groups(const Marker& marker, std::size_t size) {
@@ -207,7 +198,6 @@ class Drawing {
 
 void MarkerPicture::add(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
                         PictureTriangles& picture) {
-  check_finite(marker);
   PictureTriangles added;
   Drawing drawing(marker, Affine3d(T_picture_header * pose_of(marker)), axes_, added);
   switch (marker.type) {
@@ -251,6 +241,7 @@ void MarkerPicture::add(const Marker& marker, const Eigen::Isometry3d& T_picture
     default:
       throw InputError("its type " + std::to_string(marker.type) + " is unknown");
   }
+  check_finite(added);
   picture.insert(picture.end(), added.begin(), added.end());
 }
 

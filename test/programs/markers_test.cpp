@@ -297,15 +297,15 @@ TEST(MarkerPicture, AMeshFileIsShownWithItsScale) {
 
 TEST(MarkerPicture, IllegalMarkersAreRefusedAndAddNothing) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-  Marker bad = list(Marker::POINTS, 3);
-  bad.points[2].y = kNan;
-  EXPECT_EQ(refusal(bad), "point 2 is not finite");
-  bad = marker(Marker::CUBE);
-  bad.pose.orientation.x = kNan;
-  EXPECT_EQ(refusal(bad), "its pose or scale is not finite");
-  bad = marker(Marker::CUBE);
-  bad.color.g = static_cast<float>(kNan);
-  EXPECT_EQ(refusal(bad), "a colour is not finite");
+  std::vector<Marker> bad{list(Marker::POINTS, 3), marker(Marker::CUBE), marker(Marker::CUBE),
+                          marker(Marker::CUBE)};
+  bad[0].points[2].y = kNan;
+  bad[1].pose.orientation.x = kNan;
+  bad[2].scale.z = std::numeric_limits<double>::infinity();
+  bad[3].color.g = static_cast<float>(kNan);
+  for (const Marker& marker : bad) {
+    EXPECT_EQ(refusal(marker), "its pose, scale, points or colours are not finite");
+  }
   EXPECT_EQ(refusal(list(Marker::TRIANGLE_LIST, 4)), "it has 4 points; must be a multiple of 3");
   EXPECT_EQ(refusal(list(Marker::LINE_LIST, 3)), "it has 3 points; must be a multiple of 2");
   EXPECT_EQ(refusal(marker(77)), "its type 77 is unknown");

@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 from program import CONTACTS_HEADER, PROGRAM, ProgramCase, motion_line, motions_text, obj_text
-from support import oracle, paper_oracle, scenes
+from support import oracle, scenes
 from support.vectors import length, lerp, sub
 
 FILES = ('--mesh', 'organ.obj', '--motions', 'motions.csv')
@@ -82,31 +82,6 @@ class AnswersTest(ProgramCase):
             self.assert_rows(rows, expected)
             for more in (('--picker', 'select'), ('--picker', 'cpu'), ('--gl', 'egl'), ('--gl', 'osmesa')):
                 self.assertEqual(rows, self.contacts(*FILES, *options, *more))
-
-    def test_the_papers_modes(self):
-        """Faces within 1e-5 m of the volume's boundary are left to 32-bit clipping."""
-        liver, lines, allowed = scenes.liver(), [], []
-        for _ in range(8):
-            trocar, previous, tip = self.point(0.05, 0.2), self.point(0.06, 0), self.point(0.06, 0)
-            static = paper_oracle.static_volume((trocar, tip), 0.005)
-            swept = paper_oracle.swept_volume(trocar, previous, tip, 0.005)
-            for mode, volume in ('paper_static', static), ('paper_swept', swept), ('paper_naive', swept):
-                lines.append(motion_line(len(lines), mode, trocar, previous, tip, 0.005))
-                certain, possible = (
-                    set(paper_oracle.picked(liver, [(n, d + margin) for n, d in volume]))
-                    for margin in (-1e-5, 1e-5)
-                )
-                allowed.append((certain, possible))
-        self.write_scene(liver, lines)
-        for picker in 'feedback', 'select', 'cpu':
-            rows = self.contacts(*FILES, '--picker', picker)
-            self.assertTrue(all(row[2:] == [''] * 8 for row in rows))
-            keys = [(int(query), int(face)) for query, face, *_ in rows]
-            self.assertEqual(keys, sorted(set(keys)))
-            for query, (certain, possible) in enumerate(allowed):
-                found = {face for q, face in keys if q == query}
-                self.assertLessEqual(certain, found)
-                self.assertLessEqual(found, possible)
 
     def test_columns_are_added(self):
         """The cells of the contacts stay, the other cells are the same in all rows of a query, and

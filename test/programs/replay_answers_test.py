@@ -46,22 +46,6 @@ class ReplayAnswersTest(ReplayCase):
             touched += len(expected)
         self.assertGreater(touched, 0)
 
-    def test_no_shape_is_superseded_while_transforms_are_late(self):
-        """The transforms of ten shapes come only when all shapes are there."""
-        with self.record() as bag:
-            bag.resting(1.0)
-            bag.mesh(2.0, SHEET)
-            for i in range(1, 10):
-                bag.vertices(2.0 + 0.001 * i, SHEET)
-            for i in range(10):
-                bag.tool(2.0 + 0.001 * i, at_height(0.05 - 0.01 * i), at=2.011 + 0.001 * i)
-        answers = self.answers_of()
-        self.assertEqual(len(answers), 10)
-        for i, (time, answer) in enumerate(answers):
-            self.assertEqual(answer.status, OK, answer.message)
-            self.assertAlmostEqual(seconds(answer), 2.0 + 0.001 * i)
-            self.assertAlmostEqual(time, 2.011 + 0.001 * i)
-
     def test_a_transform_counts_until_its_time_is_over(self):
         """tf_timeout_sec is 20 ms of the bag's time."""
         with self.record() as bag:
@@ -93,17 +77,6 @@ class ReplayAnswersTest(ReplayCase):
         answers = [answer for _, answer in self.answers_of()]
         self.assertEqual([a.status for a in answers], [ContactArray.UNKNOWN_ORGAN, OK, OK])
         self.assertEqual([len(a.contacts) > 0 for a in answers], [False, True, True])
-
-    def test_a_refused_mesh_is_answered_like_the_node_does(self):
-        with self.record() as bag:
-            bag.resting(1.0)
-            bag.tool(2.0, at_height(0.05))
-            bag.mesh(2.0, SHEET)
-            bag.vertices(2.1, box())
-            bag.vertices(2.2, SHEET, topology=7)
-        answers = [answer for _, answer in self.answers_of()]
-        self.assertEqual([a.status for a in answers], [OK] + 2 * [ContactArray.INVALID_REQUEST])
-        self.assertIn('topology is 7', answers[2].message)
 
     def test_a_mesh_of_another_connection_is_another_organ(self):
         """Two simulators, each with a latched mesh of the same topology number."""

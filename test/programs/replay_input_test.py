@@ -184,11 +184,6 @@ class RobotTest(ReplayCase):
     def test_a_file(self):
         self.check(LINKS % (', urdf: ' + GRIPPER))
 
-    def test_a_parameter_beside_the_tools(self):
-        with open(GRIPPER) as urdf:
-            text = urdf.read().replace('\n', ' ').replace("'", "''")
-        self.check(LINKS % '' + "robot_description: '%s'\n" % text)
-
     def test_the_whole_tree_as_rosparam_dump_writes_it(self):
         with open(GRIPPER) as urdf:
             text = urdf.read().replace('\n', ' ').replace("'", "''")
