@@ -13,7 +13,7 @@ _MODULES = {
     'contacts_of_all': 'answers',
     'crossing_table': 'answers',
     'near_table': 'answers',
-    'MeshFileError': 'mesh_file_error',
+    'MeshFileError': 'mesh_files',
     'read_mesh': 'mesh_files',
     'link_motions': 'messages',
     'organ_mesh': 'messages',

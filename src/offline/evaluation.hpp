@@ -1,50 +1,34 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "contacts_csv.hpp"
 #include "motions.hpp"
-#include "options.hpp"
+#include "organ_collision/picking/picker_settings.hpp"
 #include "shapes.hpp"
 
 namespace organ_collision {
 
-/// Answers motions in rounds. A round has the motions that are there without waiting, up to a
-/// number that bounds the memory. The threads share it, and their answers are printed in the order
-/// of the motions while the round is still being answered.
-class Evaluation {
- public:
-  /// Takes CSV lines and the number of motions that they answer.
-  using Print = std::function<void(const std::string& csv, std::size_t motions)>;
-
-  /// `options` say what is asked about each motion. All arguments must outlive the evaluation.
-  Evaluation(const Options& options, MotionSource& motions, ShapeSource& shapes,
-             QueryWorkers& threads);
-
-  /// Answers all motions. The header line is printed first, for no motion. If a motion or its shape
-  /// is not legal, throws InputError when the answers to the motions before it are printed.
-  void run(const Print& print);
-
- private:
-  bool next_round();
-  void get_shapes();
-  void answer_round(const Print& print);
-  void append_answer(std::size_t motion, CollisionQuery& query, std::string& csv) const;
-
-  const Options& options_;
-  const AddedColumns added_;
-  MotionSource& source_;
-  ShapeSource& shapes_;
-  QueryWorkers& threads_;
-  std::optional<SurfaceTopology> topology_;  ///< only if the placement is asked for
-  std::vector<Motion> motions_;              ///< of the present round
-  bool is_last_ = false;                     ///< whether no round follows
-  std::exception_ptr error_;                 ///< why not, if motions are left
+/// What is asked about each motion, and how it is answered.
+struct Questions {
+  double margin = 0.0;       ///< [m] up to which the clearance is asked for; 0: not asked for
+  bool clearance = false;    ///< whether the clearance is asked for without a limit
+  bool placement = false;    ///< whether sides and crossings are asked for
+  bool blank_lines = false;  ///< whether a blank line follows the answer to each motion
+  PickerSettings picker;
+  std::size_t jobs = 1;  ///< the number of threads
 };
+
+/// Takes CSV lines and the number of motions that they answer.
+using Print = std::function<void(const std::string& csv, std::size_t motions)>;
+
+/// Answers all motions in rounds. A round has the motions that are there without waiting, up to a
+/// number that bounds the memory. The threads share it, and their answers are printed in the order
+/// of the motions while the round is still being answered. The header line is printed first, for no
+/// motion. If a motion or its shape is not legal, throws InputError when the answers to the motions
+/// before it are printed. Throws GlError if OpenGL picking does not work.
+void evaluate(const Questions& questions, MotionSource& motions, ShapeSource& shapes,
+              const Print& print);
 
 }  // namespace organ_collision

@@ -46,7 +46,7 @@ constexpr std::pair<std::string_view, QueryMode> kModes[] = {
 }  // namespace
 
 std::optional<Motion> MotionReader::next() {
-  while (next_line()) {
+  while (text_.next()) {
     split_cells(text_.line(), cells_);
     if (std::exchange(at_first_, false) && is_header()) continue;
     has_motion_ = true;
@@ -54,28 +54,6 @@ std::optional<Motion> MotionReader::next() {
   }
   if (has_motion_) return std::nullopt;
   throw text_.error("the file ends without a motion; must have at least one");
-}
-
-bool MotionReader::is_ready() {
-  while (ahead_ == Ahead::kNothingYet && text_.is_ready()) read_line();
-  return ahead_ != Ahead::kNothingYet;
-}
-
-/// Goes to the next line, and waits for it. Blank lines are left out.
-void MotionReader::read_line() {
-  if (!text_.next()) {
-    ahead_ = Ahead::kEnd;
-  } else if (!text_.line().empty()) {
-    ahead_ = Ahead::kLine;
-  }
-}
-
-/// Goes to the next line that is not blank, and waits for it. Returns false after the last one.
-bool MotionReader::next_line() {
-  while (ahead_ == Ahead::kNothingYet) read_line();
-  if (ahead_ == Ahead::kEnd) return false;
-  ahead_ = Ahead::kNothingYet;
-  return true;
 }
 
 /// The motion in the current line.
@@ -137,41 +115,33 @@ bool MotionReader::is_header() const {
 
 MotionList::MotionList(std::string file, Order order) : file_(std::move(file)) {
   MotionReader reader(file_);
-  while (std::optional<Motion> motion = reader.next()) motions_.push_back(std::move(*motion));
-
-  const bool all_integers = std::all_of(motions_.begin(), motions_.end(), [](const Motion& motion) {
-    return parse_integer(motion.query).has_value();
-  });
-  const auto text = [](const Motion& motion) { return std::string_view(motion.query); };
-  const auto value = [](const Motion& motion) { return *parse_integer(motion.query); };
-  order_ = all_integers ? sorted_by(value) : sorted_by(text);
-  if (order == Order::kAsInFile) std::iota(order_.begin(), order_.end(), std::size_t{0});
+  std::vector<long long> values;  // of the queries that are integers
+  while (std::optional<Motion> motion = reader.next()) {
+    if (const auto value = parse_integer(motion->query)) values.push_back(*value);
+    motions_.push_back(std::move(*motion));
+  }
+  order_.resize(motions_.size());
+  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  const bool all_integers = values.size() == motions_.size();
+  const auto is_before = [&](std::size_t a, std::size_t b) {
+    return all_integers ? values[a] < values[b] : motions_[a].query < motions_[b].query;
+  };
+  std::vector<std::size_t> sorted = order_;
+  std::stable_sort(sorted.begin(), sorted.end(), is_before);
+  const auto same = std::adjacent_find(
+      sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return !is_before(a, b); });
+  if (same != sorted.end()) {
+    const Motion &first = motions_[*same], &second = motions_[*std::next(same)];
+    throw InputError(file_, second.line,
+                     "query " + in_quotes(second.query) + " is already on line " +
+                         std::to_string(first.line) + "; each motion needs its own");
+  }
+  if (order == Order::kByQuery) order_ = std::move(sorted);
 }
 
 std::optional<Motion> MotionList::next() {
   if (next_ == order_.size()) return std::nullopt;
   return motions_[order_[next_++]];
-}
-
-/// The indices of all motions by rising `key`. Throws InputError if two keys are equal.
-template <typename Key>
-std::vector<std::size_t> MotionList::sorted_by(const Key& key) const {
-  std::vector<std::pair<decltype(key(motions_[0])), std::size_t>> keys;
-  keys.reserve(motions_.size());
-  for (const Motion& motion : motions_) keys.emplace_back(key(motion), keys.size());
-  std::sort(keys.begin(), keys.end());
-  const auto same = std::adjacent_find(
-      keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first == b.first; });
-  if (same != keys.end()) {
-    const Motion &first = motions_[same->second], &second = motions_[std::next(same)->second];
-    throw InputError(file_, second.line,
-                     "query " + in_quotes(second.query) + " is already on line " +
-                         std::to_string(first.line) + "; each motion needs its own");
-  }
-  std::vector<std::size_t> order;
-  order.reserve(keys.size());
-  for (const auto& [unused, index] : keys) order.push_back(index);
-  return order;
 }
 
 }  // namespace organ_collision

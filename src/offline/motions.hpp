@@ -59,8 +59,7 @@ class MotionReader : public MotionSource {
   /// The motion in the next line. Throws InputError if the line is not legal, or if there is no
   /// motion at all.
   std::optional<Motion> next() override;
-  /// Whether a line that is not blank has arrived, or the end.
-  bool is_ready() override;
+  bool is_ready() override { return text_.is_ready(); }
   const std::string& name() const override { return text_.name(); }
   /// After the end: whether the last line has no line feed, as if the rest of it were missing.
   bool ends_within_line() const { return text_.ends_within_line(); }
@@ -68,11 +67,6 @@ class MotionReader : public MotionSource {
   std::size_t line_number() const { return text_.number(); }
 
  private:
-  /// What next() will take.
-  enum class Ahead { kNothingYet, kLine, kEnd };
-
-  void read_line();
-  bool next_line();
   Motion motion() const;
   QueryMode mode() const;
   double number(std::size_t column) const;
@@ -80,9 +74,8 @@ class MotionReader : public MotionSource {
   bool is_header() const;
 
   TextReader text_;
-  Ahead ahead_ = Ahead::kNothingYet;
   std::vector<std::string_view> cells_;  ///< of the current line
-  bool at_first_ = true;                 ///< whether no line but blank ones was read
+  bool at_first_ = true;                 ///< whether no line was read
   bool has_motion_ = false;              ///< whether a motion was read
 };
 
@@ -104,9 +97,6 @@ class MotionList : public MotionSource {
   const std::string& name() const override { return file_; }
 
  private:
-  template <typename Key>
-  std::vector<std::size_t> sorted_by(const Key& key) const;
-
   std::string file_;
   std::deque<Motion> motions_;      ///< as in the file
   std::vector<std::size_t> order_;  ///< their indices in the order asked for

@@ -1,4 +1,5 @@
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -10,15 +11,144 @@
 #include <string>
 #include <vector>
 
-#include "command_line.hpp"
 #include "evaluation.hpp"
-#include "motions.hpp"
-#include "options.hpp"
-#include "shapes.hpp"
-#include "text_reader.hpp"
+#include "user_input.hpp"
 
 namespace organ_collision {
 namespace {
+
+constexpr char kUsage[] =
+    R"(Usage: query_offline --mesh FILE [--mesh-before FILE] --motions FILE [OPTIONS]
+       query_offline --shapes FOLDER --motions FILE [OPTIONS]
+Options: [--jobs NUMBER] [--picker NAME] [--gl NAME] [--margin METRES] [--clearance]
+         [--placement] [--blank-lines]
+
+Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
+
+  --mesh FILE         the organ, an OBJ file in metres; vertices are rounded to 32-bit floats
+  --motions FILE      CSV file, or - for standard input; one motion in each line:
+                      query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,
+                      tip_x,tip_y,tip_z,radius
+                      query: a number or a name, each once
+                      mode: static (previous ignored), swept, paper_static, paper_swept, paper_naive
+                      lengths in metres, in the mesh's frame; the trocar rests; a header line may
+                      come first
+  --mesh-before FILE  the same faces at the start of the step: swept motions then meet the organ
+                      moving linearly from there to --mesh; without it the organ rests
+  --shapes FOLDER     a recorded simulation: an OBJ file with the same faces for each motion, in the
+                      order of the files' names (step_2.obj before step_10.obj). During a swept
+                      motion, the organ moves linearly from the shape before to that of the motion;
+                      in the first motion it rests
+  --jobs NUMBER       threads, 1 to 1024; by default one for each core. The output does not depend on
+                      it
+  --picker NAME       feedback (default), select or cpu: the same contacts; select is much slower on
+                      large meshes, and cpu needs no OpenGL
+  --gl NAME           where the OpenGL for picking comes from: osmesa, egl, or auto (default): OSMesa
+                      where there is one, else EGL
+  --margin METRES     adds the distance between tool and organ, if it is at most this; above 0
+  --clearance         adds the distance without a limit; a margin then changes nothing
+  --placement         adds on which side of the organ the tool is, and where its axis crosses it
+  --blank-lines       a blank line follows the answer to each motion, so that a program that waits
+                      for the answer sees its end
+  --help              this text
+
+Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
+sorted by query (integers by value, names as text), then face; with --motions - and with --shapes, in
+the order of the motions, then face. A face's number is its place among
+the mesh's f lines, from 0; a polygon is cut into a fan and counts as so many faces. Without the
+options below, a motion without contact has no line. In the paper's modes the columns after face
+are empty.
+
+With --margin, --clearance or --placement each motion has at least one line. Further columns follow,
+which are the same in all lines of a motion. A motion without contact has one line, in which the
+columns from face to normal_z are empty. In the paper's modes the further columns are empty.
+
+With --margin or --clearance:
+  clearance           known; beyond_margin: no face was found within the margin at the end of the
+                      step, and the columns below are empty; upper_bound: the query reached its work
+                      limit, and the true distances may be smaller than those below. If it reached
+                      this limit and found no face, it says beyond_margin, too: a face may then still
+                      be within the margin
+  distance            at the end of the step; negative while a shaft touches
+  least               the smallest distance during the step; 0 if anything was touched during a swept
+                      motion, even if distance is negative
+  least_fraction      when that was, from 0 to 1; the first touch if there was one
+  nearest_face        the face with the nearest point at the end of the step
+  on_organ_x,_y,_z    this point
+  on_tool_x,_y,_z     the nearest point of the tool
+  clearance_normal_x,_y,_z   unit vector from the tool to the organ
+  normal_defined      0 if the axis and the face meet, so that this is the face's normal; else 1
+
+With --placement, at the end of the step:
+  tip_side            inside, outside, on_surface (exactly), or unknown: the organ is not closed
+  trocar_side         the same for the trocar
+  crossings           how often the axis crosses the organ's surface
+  crossed_faces       the crossed faces from trocar to tip, separated by blanks
+  crossing_directions 1 where the axis enters, against the face's outward normal; -1 where it leaves
+  crossing_places     their places on the axis, from 0 at the trocar to 1 at the tip
+  length_inside       length of the axis within the organ; empty if a side is unknown
+
+With --motions - a motion is answered as soon as its line has arrived. A query may then come twice.
+
+Exit status: 0 done; 2 bad input, with one line on stderr and nothing on stdout; 1 other failures.
+With --motions - and with --shapes, the motions before a bad line, or before a bad shape, are answered
+first.
+)";
+
+/// The name of standard input on the command line.
+constexpr char kStandardInput[] = "-";
+
+struct Options {
+  std::string mesh;         ///< empty: the shapes of a folder
+  std::string mesh_before;  ///< empty: the organ rests
+  std::string shapes;       ///< a folder with a mesh for each motion; empty: one mesh for all
+  std::string motions;      ///< a file, or kStandardInput
+  Questions questions;
+};
+
+/// Returns none if --help is asked for.
+std::optional<Options> parse_options(const std::vector<std::string>& arguments) {
+  constexpr long long kMostJobs = 1024;
+  Options options;
+  Questions& questions = options.questions;
+  questions.jobs = thread_count(0);
+  CommandLine line("query_offline");
+  line.text("mesh", options.mesh);
+  line.text("motions", options.motions);
+  line.text("mesh-before", options.mesh_before);
+  line.text("shapes", options.shapes);
+  line.option("jobs", "a whole number from 1 to " + std::to_string(kMostJobs),
+              [&](const std::string& text) {
+                const std::optional<long long> jobs = parse_integer(text);
+                if (!jobs || *jobs < 1 || *jobs > kMostJobs) return false;
+                questions.jobs = static_cast<std::size_t>(*jobs);
+                return true;
+              });
+  line.option("picker", "the name of a picker", [&](const std::string& name) {
+    questions.picker.kind = picker_kind(name);
+    return true;
+  });
+  line.option("gl", "the name of a platform", [&](const std::string& name) {
+    questions.picker.gl = gl_platform(name);
+    return true;
+  });
+  line.option("margin", "a finite number above 0, in metres", [&](const std::string& text) {
+    questions.margin = parse_number(text).value_or(0.0);
+    return std::isfinite(questions.margin) && questions.margin > 0.0;
+  });
+  line.flag("clearance", questions.clearance);
+  line.flag("placement", questions.placement);
+  line.flag("blank-lines", questions.blank_lines);
+  if (!line.read(arguments)) return std::nullopt;
+
+  if (options.shapes.empty()) line.require("mesh", options.mesh);
+  if (!options.shapes.empty() && !(options.mesh + options.mesh_before).empty()) {
+    line.refuse(
+        "options --shapes and --mesh or --mesh-before are given; the folder has all shapes");
+  }
+  line.require("motions", options.motions);
+  return options;
+}
 
 /// Writes at once, so that a reader who waits for an answer gets it.
 void print(const std::string& text) {
@@ -27,19 +157,12 @@ void print(const std::string& text) {
   throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
 }
 
-std::unique_ptr<ShapeSource> open_shapes(const Options& options) {
-  if (!options.shapes.empty()) return std::make_unique<ShapeSequence>(shape_files(options.shapes));
-  return std::make_unique<FixedShapes>(options.mesh, options.mesh_before);
-}
-
 /// Reads a file to its end, so that an illegal one is refused before anything is printed.
-std::unique_ptr<MotionList> read_motions(const Options& options, const ShapeSource& shapes) {
-  if (options.shapes.empty()) {
-    return std::make_unique<MotionList>(options.motions, MotionList::Order::kByQuery);
-  }
-  auto motions = std::make_unique<MotionList>(options.motions, MotionList::Order::kAsInFile);
-  if (motions->size() == shapes.remaining()) return motions;
-  throw InputError(options.motions + ": the file has " + std::to_string(motions->size()) +
+MotionList read_motions(const Options& options, const ShapeSource& shapes) {
+  using Order = MotionList::Order;
+  MotionList motions(options.motions, options.shapes.empty() ? Order::kByQuery : Order::kAsInFile);
+  if (options.shapes.empty() || motions.size() == shapes.remaining()) return motions;
+  throw InputError(options.motions + ": the file has " + std::to_string(motions.size()) +
                    " motions; " + options.shapes + " has " + std::to_string(shapes.remaining()) +
                    " OBJ files, and each needs one motion");
 }
@@ -47,21 +170,21 @@ std::unique_ptr<MotionList> read_motions(const Options& options, const ShapeSour
 /// `count`: of the motions, if it is known.
 void answer_all(const Options& options, MotionSource& motions, std::optional<std::size_t> count,
                 ShapeSource& shapes) {
-  QueryWorkers threads(options.jobs, options.picker);
-  Progress progress(count);
+  Progress progress("query_offline", "motions", count);
   std::size_t done = 0;
-  Evaluation(options, motions, shapes, threads)
-      .run([&](const std::string& csv, std::size_t answered) {
-        print(csv);
-        progress.report(done += answered);
-      });
+  evaluate(options.questions, motions, shapes, [&](const std::string& csv, std::size_t answered) {
+    print(csv);
+    progress.report(done += answered);
+  });
 }
 
-void evaluate(const Options& options) {
-  const std::unique_ptr<ShapeSource> shapes = open_shapes(options);
+void answer(const Options& options) {
+  const std::unique_ptr<ShapeSource> shapes = options.shapes.empty()
+                                                  ? fixed_shapes(options.mesh, options.mesh_before)
+                                                  : recorded_shapes(options.shapes);
   if (options.motions != kStandardInput) {
-    const std::unique_ptr<MotionList> motions = read_motions(options, *shapes);
-    return answer_all(options, *motions, motions->size(), *shapes);
+    MotionList motions = read_motions(options, *shapes);
+    return answer_all(options, motions, motions.size(), *shapes);
   }
   MotionReader motions(StandardInput{});
   answer_all(options, motions, std::nullopt, *shapes);
@@ -72,11 +195,11 @@ void evaluate(const Options& options) {
 
 int run(const std::vector<std::string>& arguments) {
   try {
-    const Options options = parse_options(arguments);
-    if (options.help) {
-      print(usage());
+    const std::optional<Options> options = parse_options(arguments);
+    if (options) {
+      answer(*options);
     } else {
-      evaluate(options);
+      print(kUsage);
     }
     return 0;
   } catch (const InputError& error) {

@@ -1,23 +1,26 @@
+#include <ros/names.h>
 #include <rosbag/bag.h>
+#include <rosbag/view.h>
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <exception>
 #include <filesystem>
 #include <iostream>
+#include <map>
+#include <memory>
 #include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
-#include "bags.hpp"
-#include "offline/text_reader.hpp"
+#include "offline/user_input.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "replay.hpp"
-#include "replay_options.hpp"
+#include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
 #include "yaml_parameters.hpp"
 
@@ -26,50 +29,180 @@ namespace {
 
 std::atomic<bool> interrupted{false};
 
-/// Shows on stderr, once a second, how much of the bag is done.
-class ReplayProgress {
- public:
-  explicit ReplayProgress(std::size_t messages) : messages_(messages) {}
+constexpr char kUsage[] =
+    R"(Usage: replay --parameters FILE [--node NAME] [--with-input] IN.bag OUT.bag
 
-  void count() {
-    ++done_;
-    if (Clock::now() - shown_ < std::chrono::seconds(1)) return;
-    shown_ = Clock::now();
-    std::cerr << "replay: " << done_ << " of " << messages_ << " messages" << std::endl;
+Answers the organs and tools of a recorded bag, as organ_collision_node would on a computer that is
+never busy. Each shape is evaluated, and waits for its transforms in the time of the bag. Two replays
+of a bag write the same answers. Needs no ROS master.
+
+  IN.bag             has the topics that the node hears: NAME/organ_mesh, NAME/organ_vertices, /tf,
+                     /tf_static, the pose topics of the tools; and /clock if time was simulated
+  OUT.bag            gets the answers, on the topic NAME/contacts
+  --parameters FILE  the node's parameters (tools, tf_timeout_sec, ...) in a yaml file, as for
+                     rosparam load. A file by `rosparam dump` will do, too. The parameter
+                     robot_description, if a tool needs it, stands in the same file
+  --node NAME        the node's name, /organ_collision by default
+  --with-input       OUT.bag also gets all messages of IN.bag, except those on NAME/contacts
+  --help             this text
+
+Exit status: 0 done; 2 bad input, with one line on stderr and no OUT.bag; 1 other failures. Progress
+is shown on stderr.
+)";
+
+/// The command line.
+struct ReplayOptions {
+  std::string in, out;
+  std::string parameters;                              ///< the yaml file
+  std::string node = std::string("/") + names::kNode;  ///< under which its topics were recorded
+  bool with_input = false;
+};
+
+/// Returns none if --help is asked for.
+std::optional<ReplayOptions> parse_options(const std::vector<std::string>& arguments) {
+  ReplayOptions options;
+  CommandLine line("replay");
+  line.text("parameters", options.parameters);
+  line.option("node", "the name of a node", [&](const std::string& node) {
+    std::string error;
+    if (!ros::names::validate(node, error) || node.find('~') != std::string::npos) return false;
+    options.node = ros::names::resolve("/", node, false);
+    return true;
+  });
+  line.flag("with-input", options.with_input);
+  std::vector<std::string> files;
+  if (!line.read(arguments, &files)) return std::nullopt;
+  if (files.size() != 2) {
+    line.refuse("needs two files, IN.bag and OUT.bag; " + std::to_string(files.size()) +
+                " are given");
+  }
+  line.require("parameters", options.parameters);
+  options.in = files[0];
+  options.out = files[1];
+  return options;
+}
+
+std::string incomplete(const std::string& file) { return file + ".incomplete"; }
+
+/// The messages of a bag in the order in which they were recorded. rosbag::View alone orders them
+/// by time: messages of the same simulated time would lose their order, and a clock that jumped
+/// back would mix the times before and after the jump.
+class RecordedMessages : private rosbag::View {
+ public:
+  /// Those of the connections for which `is_wanted` returns true. `bag` must outlive this.
+  template <typename IsWanted>
+  RecordedMessages(const rosbag::Bag& bag, const IsWanted& is_wanted)
+      : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
+    for (const rosbag::MessageRange* range : ranges_) {
+      for (auto entry = range->begin; entry != range->end; ++entry) {
+        places_.push_back({*entry, range->connection_info});
+      }
+    }
+    // A bag is written from its beginning to its end.
+    std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
+      return std::tie(a.entry.chunk_pos, a.entry.offset) <
+             std::tie(b.entry.chunk_pos, b.entry.offset);
+    });
+  }
+
+  std::size_t size() const { return places_.size(); }
+  /// Calls `take` for each message. Throws what rosbag throws if the bag cannot be read.
+  template <typename Take>
+  void for_each(const Take& take) {
+    for (const Place& place : places_) {
+      const std::unique_ptr<rosbag::MessageInstance> message(
+          newMessageInstance(place.connection, place.entry, bag_));
+      take(*message);
+    }
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  struct Place {
+    rosbag::IndexEntry entry;
+    const rosbag::ConnectionInfo* connection;
+  };
 
-  std::size_t messages_;
-  std::size_t done_ = 0;
-  Clock::time_point shown_ = Clock::now();
+  const rosbag::Bag& bag_;
+  std::vector<Place> places_;
 };
 
-/// What is in the file system instead of a regular file.
-std::string kind_of(std::filesystem::file_type type) {
-  switch (type) {
-    case std::filesystem::file_type::symlink:
-      return "a symbolic link";
-    case std::filesystem::file_type::directory:
-      return "a folder";
-    case std::filesystem::file_type::fifo:
-      return "a FIFO";
-    case std::filesystem::file_type::socket:
-      return "a socket";
-    default:
-      return "a device";
+/// The bag that gets the answers. It has its name only when it is complete: before that it is
+/// NAME.incomplete, and a bag that is never completed is removed. The functions throw
+/// std::runtime_error if the file cannot be written.
+class AnswerBag {
+ public:
+  /// Throws InputError if the file cannot be written.
+  AnswerBag(const std::string& file, std::string topic)
+      : file_(file), topic_(std::move(topic)), incomplete_(incomplete(file)) {
+    try {
+      bag_.open(incomplete_, rosbag::bagmode::Write);
+    } catch (const rosbag::BagException& error) {
+      throw InputError(file + ": cannot be written: " + error.what());
+    }
   }
-}
+  ~AnswerBag() {
+    if (incomplete_.empty()) return;
+    try {
+      bag_.close();
+    } catch (const std::exception&) {  // For example, the disk is full. The file is removed anyway.
+    }
+    std::error_code ignored;
+    std::filesystem::remove(incomplete_, ignored);
+  }
+  AnswerBag(const AnswerBag&) = delete;
+  AnswerBag& operator=(const AnswerBag&) = delete;
+
+  void add(const ContactArray& answer, ros::Time time) {
+    ++counts_[answer.status];
+    write(topic_, std::max(time, ros::TIME_MIN), answer);  // No time is zero.
+  }
+
+  void copy(const rosbag::MessageInstance& message) {
+    write(message.getTopic(), message.getTime(), message, message.getConnectionHeader());
+  }
+
+  void complete() {
+    bag_.close();
+    std::filesystem::rename(incomplete_, file_);
+    incomplete_.clear();
+  }
+
+  /// "1840 answers on /organ_collision/contacts: 1836 ok, 4 no transform"
+  std::string summary() const {
+    std::size_t all = 0;
+    std::string by_status;
+    for (const auto& [status, count] : counts_) {
+      all += count;
+      by_status +=
+          (by_status.empty() ? ": " : ", ") + std::to_string(count) + " " + reason_of(status);
+    }
+    return std::to_string(all) + " answers on " + topic_ + by_status;
+  }
+
+ private:
+  template <typename... Message>
+  void write(const Message&... message) {
+    try {
+      bag_.write(message...);
+    } catch (const rosbag::BagException& error) {
+      throw std::runtime_error(file_ + ": cannot be written: " + error.what());
+    }
+  }
+
+  std::string file_;
+  std::string topic_;
+  std::string incomplete_;
+  rosbag::Bag bag_;
+  std::map<std::uint8_t, std::size_t> counts_;  ///< of answers, by status
+};
 
 /// Throws InputError if something is there that the output must not replace.
 void check_replaceable(const std::string& file) {
-  using std::filesystem::file_type;
   std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
-  const file_type type = std::filesystem::symlink_status(file, ignored).type();
-  if (type == file_type::none || type == file_type::not_found || type == file_type::regular) return;
-  throw InputError("replay: " + file + " is " + kind_of(type) +
-                   ", and only a regular file is replaced; name another OUT.bag");
+  const auto status = std::filesystem::symlink_status(file, ignored);
+  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
+  throw InputError("replay: " + file +
+                   " is no regular file, and only those are replaced; name another OUT.bag");
 }
 
 void check_files(const ReplayOptions& options) {
@@ -188,12 +321,13 @@ void replay(const ReplayOptions& options) {
     const bool is_copied = options.with_input && connection.topic != contacts;
     return is_copied || replay.topics().count(connection.topic) > 0;
   });
-  ReplayProgress progress(messages.size());
+  Progress progress("replay", "messages", messages.size());
+  std::size_t done = 0;
   read(messages, options.in, [&](const rosbag::MessageInstance& message) {
     if (interrupted) throw std::runtime_error("interrupted");
     if (options.with_input) answers.copy(message);
     if (replay.topics().count(message.getTopic()) > 0) replay.take(message);
-    progress.count();
+    progress.report(++done);
   });
   replay.finish();
   check_frames(tools, options.in, replay);
@@ -203,11 +337,11 @@ void replay(const ReplayOptions& options) {
 
 int run(const std::vector<std::string>& arguments) {
   try {
-    const ReplayOptions options = parse_replay_options(arguments);
-    if (options.help) {
-      std::cout << replay_usage();
+    const std::optional<ReplayOptions> options = parse_options(arguments);
+    if (options) {
+      replay(*options);
     } else {
-      replay(options);
+      std::cout << kUsage;
     }
     return 0;
   } catch (const InputError& error) {

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <set>
 
-#include "offline/text_reader.hpp"
+#include "offline/user_input.hpp"
 #include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {

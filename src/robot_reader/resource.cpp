@@ -1,19 +1,19 @@
 #include "resource.hpp"
 
-#include <fcntl.h>
 #include <ros/package.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <system_error>
 
+#include "geometry/concatenate.hpp"
 #include "ros/tools/robot_reply.hpp"
 
 // GCC defines macros for sanitizers. clang has __has_feature instead.
@@ -52,23 +52,6 @@ bool set_timer(std::chrono::milliseconds time) {
   return setitimer(ITIMER_PROF, &timer, nullptr) == 0;
 }
 
-}  // namespace
-
-ScopedTimeLimit::ScopedTimeLimit(std::chrono::milliseconds time) {
-  if (!set_timer(time)) throw std::system_error(errno, std::generic_category(), "setitimer");
-}
-
-ScopedTimeLimit::~ScopedTimeLimit() { set_timer(std::chrono::milliseconds::zero()); }
-
-void limit_process() {
-  limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
-  if (!kSanitized) limit(RLIMIT_AS, reader_limits::kMemoryBytes);
-  // Not RLIMIT_CORE: it has no effect where the kernel pipes core dumps to a program.
-  prctl(PR_SET_DUMPABLE, 0);
-}
-
-namespace {
-
 const std::string kPackage = "package://";
 const std::string kFile = "file://";
 
@@ -76,53 +59,27 @@ const std::string kFile = "file://";
   throw ToolError("cannot read '" + name + "': " + why);
 }
 
-class ScopedFile {
- public:
-  explicit ScopedFile(int descriptor) : descriptor_(descriptor) {}
-  ~ScopedFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-  }
-  ScopedFile(const ScopedFile&) = delete;
-  ScopedFile& operator=(const ScopedFile&) = delete;
-  int descriptor() const { return descriptor_; }
-
- private:
-  int descriptor_;
-};
-
-/// The size of the file. Refuses a file that must not be read.
-std::size_t checked_size(const std::string& path, const struct stat& status) {
-  if (S_ISDIR(status.st_mode)) refuse(path, "it is a folder");
-  if (S_ISFIFO(status.st_mode)) refuse(path, "it is a FIFO; must be a regular file");
-  if (!S_ISREG(status.st_mode)) refuse(path, "it is a device or socket; must be a regular file");
-  if (status.st_size == 0) refuse(path, "it is empty");
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > reader_limits::kFileBytes) {
-    refuse(path, "it has " + std::to_string(size) + " bytes; at most " +
-                     std::to_string(reader_limits::kFileBytes) + " are read");
-  }
-  return size;
-}
-
-/// Follows symbolic links. Checks the file before opening it, because opening may block or trigger
-/// a device. Checks it again afterwards, because it may have been replaced in between.
+/// Follows symbolic links.
 std::string read_file(const std::string& path) {
-  struct stat status {};
-  if (stat(path.c_str(), &status) != 0) {
-    refuse(path, errno == ENOENT ? "there is no such file" : std::strerror(errno));
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error == std::errc::no_such_file_or_directory) refuse(path, "there is no such file");
+  if (error) refuse(path, error.message());
+  if (fs::is_directory(status)) refuse(path, "it is a folder");
+  if (!fs::is_regular_file(status)) {
+    refuse(path, "it is a FIFO, device or socket; must be a regular file");
   }
-  checked_size(path, status);
-  const ScopedFile file(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  if (file.descriptor() < 0 || fstat(file.descriptor(), &status) != 0) {
+  const auto size = static_cast<std::size_t>(fs::file_size(path));
+  if (size == 0) refuse(path, "it is empty");
+  if (size > reader_limits::kFileBytes) {
+    refuse(path, concatenate("it has ", size, " bytes; at most ", reader_limits::kFileBytes,
+                             " are read"));
+  }
+  std::string content(size, '\0');
+  std::ifstream file(path, std::ios::binary);
+  if (!file.read(content.data(), static_cast<std::streamsize>(size))) {
     refuse(path, std::strerror(errno));
-  }
-  std::string content(checked_size(path, status), '\0');
-  std::size_t done = 0;
-  while (done < content.size()) {
-    const ssize_t count = read(file.descriptor(), &content[done], content.size() - done);
-    if (count < 0) refuse(path, std::strerror(errno));
-    if (count == 0) refuse(path, "it became shorter while it was read");
-    done += static_cast<std::size_t>(count);
   }
   return content;
 }
@@ -164,6 +121,19 @@ std::string path_of_url(const std::string& url) {
 }
 
 }  // namespace
+
+ScopedTimeLimit::ScopedTimeLimit(std::chrono::milliseconds time) {
+  if (!set_timer(time)) throw std::system_error(errno, std::generic_category(), "setitimer");
+}
+
+ScopedTimeLimit::~ScopedTimeLimit() { set_timer(std::chrono::milliseconds::zero()); }
+
+void limit_process() {
+  limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
+  if (!kSanitized) limit(RLIMIT_AS, reader_limits::kMemoryBytes);
+  // Not RLIMIT_CORE: it has no effect where the kernel pipes core dumps to a program.
+  prctl(PR_SET_DUMPABLE, 0);
+}
 
 std::string read_resource(const std::string& name) {
   if (begins_with(name, "/")) return read_file(name);

@@ -4,7 +4,6 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <exception>
-#include <new>
 #include <utility>
 
 #include "mesh_file.hpp"
@@ -23,29 +22,22 @@ ShapePose to_eigen(const urdf::Pose& pose) {
 }
 
 /// While an object of this class lives, collects the errors that urdfdom logs through
-/// console_bridge.
+/// console_bridge. What else it logs is left out.
 class ScopedErrorCollector : public console_bridge::OutputHandler {
  public:
-  explicit ScopedErrorCollector(std::vector<std::string>& errors)
-      : errors_(errors), former_(console_bridge::getOutputHandler()) {
+  explicit ScopedErrorCollector(std::vector<std::string>& errors) : errors_(errors) {
     console_bridge::useOutputHandler(this);
   }
-  ~ScopedErrorCollector() override { console_bridge::useOutputHandler(former_); }
+  ~ScopedErrorCollector() override { console_bridge::restorePreviousOutputHandler(); }
   ScopedErrorCollector(const ScopedErrorCollector&) = delete;
   ScopedErrorCollector& operator=(const ScopedErrorCollector&) = delete;
 
-  void log(const std::string& text, console_bridge::LogLevel level, const char* file,
-           int line) override {
-    if (level == console_bridge::CONSOLE_BRIDGE_LOG_ERROR) {
-      errors_.push_back(text);
-    } else if (former_) {
-      former_->log(text, level, file, line);
-    }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level == console_bridge::CONSOLE_BRIDGE_LOG_ERROR) errors_.push_back(text);
   }
 
  private:
   std::vector<std::string>& errors_;
-  console_bridge::OutputHandler* former_;
 };
 
 /// Refuses a link that urdfdom read only in part. When urdfdom cannot read a shape, it skips this
@@ -158,8 +150,6 @@ void answer_with_links(const std::function<std::string()>& urdf,
                        const std::function<void(const std::string&)>& write) {
   try {
     write(read_links(urdf(), links, write));
-  } catch (const std::bad_alloc&) {
-    write(refusal_record("there is not enough memory to read it"));
   } catch (const std::exception& error) {
     write(refusal_record(error.what()));
   }

@@ -8,7 +8,6 @@
 #include "ros/tools/robot_reply.hpp"
 
 namespace urdf {
-
 class ModelInterface;
 }
 
@@ -30,12 +29,6 @@ class RobotModel {
   std::shared_ptr<const urdf::ModelInterface> model_;
   std::vector<std::string> errors_;  ///< urdfdom's errors, also about links that it read in part
 };
-
-}  // namespace organ_collision
-
-}  // namespace urdf
-
-namespace organ_collision {
 
 /// Answers the node: reads the shapes of these links, and writes the records of robot_reply.hpp.
 /// `urdf`: the text of the URDF. A file that cannot be read gives a refusal. A broken one may end

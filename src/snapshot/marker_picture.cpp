@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "geometry/concatenate.hpp"
+#include "offline/user_input.hpp"
 #include "robot_reader/mesh_file.hpp"
 #include "ros/messages/conversions.hpp"
 #include "shapes.hpp"
@@ -22,11 +23,10 @@ constexpr double kArrowHead = 0.23;
 constexpr double kArrowHeadWidth = 2.0;
 
 Colour colour_of(const std_msgs::ColorRGBA& colour) {
-  return Colour(colour.r, colour.g, colour.b, colour.a).cwiseMax(0.0F).cwiseMin(1.0F);
-}
-
-bool is_finite(const std_msgs::ColorRGBA& colour) {
-  return Colour(colour.r, colour.g, colour.b, colour.a).allFinite();
+  const auto channel = [](float value) {
+    return std::isnan(value) ? value : std::clamp(value, 0.0F, 1.0F);
+  };
+  return {channel(colour.r), channel(colour.g), channel(colour.b), channel(colour.a)};
 }
 
 /// The header's frame is the target.
@@ -38,26 +38,18 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
          (is_empty ? Eigen::Quaterniond::Identity() : rotation.normalized());
 }
 
-void check_finite(const Marker& marker) {
-  const geometry_msgs::Quaternion& q = marker.pose.orientation;
-  if (!to_eigen(marker.pose.position).allFinite() ||
-      !Eigen::Vector4d(q.x, q.y, q.z, q.w).allFinite() || !to_eigen(marker.scale).allFinite()) {
-    throw MarkerError("its pose or scale is not finite");
-  }
-  for (std::size_t i = 0; i < marker.points.size(); ++i) {
-    if (!to_eigen(marker.points[i]).allFinite()) {
-      throw MarkerError("point " + std::to_string(i) + " is not finite");
-    }
-  }
-  if (!is_finite(marker.color) ||
-      !std::all_of(marker.colors.begin(), marker.colors.end(), is_finite)) {
-    throw MarkerError("a colour is not finite");
-  }
+/// Throws InputError if a number of the marker was not finite.
+void check_finite(const PictureTriangles& triangles) {
+  const auto is_finite = [](const PictureVertex& vertex) {
+    return vertex.position.allFinite() && vertex.normal.allFinite() && vertex.colour.allFinite();
+  };
+  if (std::all_of(triangles.begin(), triangles.end(), is_finite)) return;
+  throw InputError("its pose, scale, points or colours are not finite");
 }
 
 void check_groups(const Marker& marker, std::size_t size) {
   if (marker.points.size() % size == 0) return;
-  throw MarkerError(
+  throw InputError(
       concatenate("it has ", marker.points.size(), " points; must be a multiple of ", size));
 }
 
@@ -65,7 +57,7 @@ void check_colours(const Marker& marker) {
   const std::size_t points = marker.points.size(), colours = marker.colors.size();
   const bool one_a_face = marker.type == Marker::TRIANGLE_LIST && 3 * colours == points;
   if (colours == 0 || colours == points || one_a_face) return;
-  throw MarkerError(concatenate("it has ", colours, " colours for ", points, " points"));
+  throw InputError(concatenate("it has ", colours, " colours for ", points, " points"));
 }
 
 /// The colour of a point of a list.
@@ -154,7 +146,7 @@ class Drawing {
       return add_scaled(arrow(unit));
     }
     if (marker_.points.size() != 2) {
-      throw MarkerError(concatenate("it has ", marker_.points.size(), " points; must be 0 or 2"));
+      throw InputError(concatenate("it has ", marker_.points.size(), " points; must be 0 or 2"));
     }
     const Vector3d start = to_eigen(marker_.points[0]);
     const Vector3d along = to_eigen(marker_.points[1]) - start;
@@ -206,7 +198,6 @@ class Drawing {
 
 void MarkerPicture::add(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
                         PictureTriangles& picture) {
-  check_finite(marker);
   PictureTriangles added;
   Drawing drawing(marker, Affine3d(T_picture_header * pose_of(marker)), axes_, added);
   switch (marker.type) {
@@ -248,8 +239,9 @@ void MarkerPicture::add(const Marker& marker, const Eigen::Isometry3d& T_picture
       drawing.add_triangle_list();
       break;
     default:
-      throw MarkerError("its type " + std::to_string(marker.type) + " is unknown");
+      throw InputError("its type " + std::to_string(marker.type) + " is unknown");
   }
+  check_finite(added);
   picture.insert(picture.end(), added.begin(), added.end());
 }
 
@@ -264,16 +256,12 @@ const TrianglePoints& MarkerPicture::mesh(const std::string& resource) {
     }
     return meshes_.emplace(resource, std::move(points)).first->second;
   } catch (const ToolError& error) {
-    throw MarkerError(error.what());
+    throw InputError(error.what());
   }
 }
 
 const Font& MarkerPicture::font() {
-  try {
-    if (!loaded_font_) loaded_font_.emplace(font_);
-  } catch (const FontError& error) {
-    throw MarkerError(error.what());
-  }
+  if (!loaded_font_) loaded_font_.emplace(font_);
   return *loaded_font_;
 }
 

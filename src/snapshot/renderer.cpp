@@ -14,63 +14,27 @@
 #include <memory>
 #include <stdexcept>
 
+#include "picking/volumes/viewing_volume.hpp"
+
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
 
+/// [1] The part of the picture that automatic framing uses.
+constexpr double kFilled = 0.94;
+/// [m] The eye never comes closer to the target.
+constexpr double kClosest = 1e-3;
+
+double half_height() { return std::tan(0.5 * kFieldOfView); }
+
+// The light comes from above the viewer's left shoulder.
 const Vector3d kToLight = Vector3d(-0.35, 0.55, 0.75).normalized();
 const Vector3d kHalfway = (kToLight + Vector3d::UnitZ()).normalized();  // between light and viewer
 constexpr double kAmbient = 0.30;
 constexpr double kDiffuse = 0.75;
 constexpr double kSpecular = 0.18;
 constexpr double kShininess = 30.0;
-
-}  // namespace
-
-Colour lit(const Colour& colour, const Vector3d& normal) {
-  // Half of Lambert's light also reaches what faces away, so that no part becomes flat and black.
-  const double facing = 0.5 + 0.5 * normal.dot(kToLight);
-  const double gloss = std::pow(std::max(0.0, normal.dot(kHalfway)), kShininess);
-  const auto light = static_cast<float>(kAmbient + kDiffuse * facing * facing);
-  Colour result = colour;
-  result.head<3>() = (light * colour.head<3>()).array() + static_cast<float>(kSpecular * gloss);
-  return result.cwiseMin(1.0F);
-}
-
-namespace {
-
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw std::runtime_error("cannot write '" + file + "': " + why);
-}
-
-}  // namespace
-
-void write_png(const std::string& file, const Image& image) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "wb"),
-                                                               &std::fclose);
-  if (!stream) refuse(file, std::strerror(errno));
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  png.width = static_cast<png_uint_32>(image.width);
-  png.height = static_cast<png_uint_32>(image.height);
-  png.format = PNG_FORMAT_RGB;
-  if (png_image_write_to_stdio(&png, stream.get(), 0, image.pixels.data(), 0, nullptr) == 0) {
-    refuse(file, png.message);
-  }
-  if (std::fflush(stream.get()) != 0) refuse(file, std::strerror(errno));
-}
-
-RenderFunctions load_render_functions(const GlContext& context) {
-  RenderFunctions functions;
-#define ORGAN_COLLISION_LOAD(name) \
-  functions.name = reinterpret_cast<decltype(functions.name)>(context.find_function("gl" #name));
-  ORGAN_COLLISION_RENDER_FUNCTIONS(ORGAN_COLLISION_LOAD)
-#undef ORGAN_COLLISION_LOAD
-  return functions;
-}
-
-namespace {
 
 /// [1] Each pixel has this number of samples along each side.
 constexpr int kSamples = 3;
@@ -140,7 +104,7 @@ CameraTriangles seen(const PictureTriangles& triangles, const Camera& camera) {
   return result;
 }
 
-void draw(const RenderFunctions& gl, const std::vector<GlTriangle>& triangles) {
+void draw(const GlFunctions& gl, const std::vector<GlTriangle>& triangles) {
   if (triangles.empty()) return;
   const GlVertex& first = triangles.front().front();
   gl.VertexPointer(3, GL_FLOAT, sizeof(GlVertex), first.position.data());
@@ -148,34 +112,96 @@ void draw(const RenderFunctions& gl, const std::vector<GlTriangle>& triangles) {
   gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * triangles.size()));
 }
 
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+  throw std::runtime_error("cannot write '" + file + "': " + why);
+}
+
 }  // namespace
+
+Eigen::Matrix3d view_axes(const Eigen::Vector3d& to_eye, const Eigen::Vector3d& up) {
+  return camera_axes(to_eye, up.normalized().cross(to_eye.normalized()));
+}
+
+Eigen::Vector3d centre(const PictureTriangles& triangles) {
+  Eigen::AlignedBox3d box;
+  for (const PictureVertex& vertex : triangles) box.extend(vertex.position);
+  return box.center();
+}
+
+double framing_distance(const PictureTriangles& triangles, const Eigen::Vector3d& target,
+                        const Eigen::Matrix3d& axes, double aspect) {
+  const double height = kFilled * half_height();
+  double distance = kClosest;
+  for (const PictureVertex& vertex : triangles) {
+    const Eigen::Vector3d p = axes.transpose() * (vertex.position - target);
+    const double needed = std::max(std::abs(p.x()) / aspect, std::abs(p.y())) / height;
+    distance = std::max(distance, p.z() + needed);
+  }
+  return distance;
+}
+
+Eigen::Matrix4d projection(double aspect, double near, double far) {
+  Eigen::Matrix4d result = Eigen::Matrix4d::Zero();
+  result(0, 0) = 1.0 / (aspect * half_height());
+  result(1, 1) = 1.0 / half_height();
+  result(2, 2) = -(far + near) / (far - near);
+  result(2, 3) = -2.0 * far * near / (far - near);
+  result(3, 2) = -1.0;
+  return result;
+}
+
+Colour lit(const Colour& colour, const Vector3d& normal) {
+  // Half of Lambert's light also reaches what faces away, so that no part becomes flat and black.
+  const double facing = 0.5 + 0.5 * normal.dot(kToLight);
+  const double gloss = std::pow(std::max(0.0, normal.dot(kHalfway)), kShininess);
+  const auto light = static_cast<float>(kAmbient + kDiffuse * facing * facing);
+  Colour result = colour;
+  result.head<3>() = (light * colour.head<3>()).array() + static_cast<float>(kSpecular * gloss);
+  return result.cwiseMin(1.0F);
+}
+
+void write_png(const std::string& file, const Image& image) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "wb"),
+                                                               &std::fclose);
+  if (!stream) refuse(file, std::strerror(errno));
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_RGB;
+  if (png_image_write_to_stdio(&png, stream.get(), 0, image.pixels.data(), 0, nullptr) == 0) {
+    refuse(file, png.message);
+  }
+  if (std::fflush(stream.get()) != 0) refuse(file, std::strerror(errno));
+}
 
 Renderer::Renderer(int width, int height)
     : width_(width),
       height_(height),
-      context_(GlPlatform::kAuto, GlFramebuffer{kSamples * width, kSamples * height, 24}),
-      gl_(load_render_functions(context_)) {
-  gl_.DisableClientState(GL_TEXTURE_COORD_ARRAY);  // which only the pickers use
-  gl_.EnableClientState(GL_COLOR_ARRAY);
-  gl_.Enable(GL_DEPTH_TEST);
-  gl_.Enable(GL_BLEND);
-  gl_.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+      context_(GlPlatform::kAuto, GlFramebuffer{kSamples * width, kSamples * height, 24}) {
+  const GlFunctions& gl = context_.functions();
+  gl.DisableClientState(GL_TEXTURE_COORD_ARRAY);  // which only the pickers use
+  gl.EnableClientState(GL_COLOR_ARRAY);
+  gl.Enable(GL_DEPTH_TEST);
+  gl.Enable(GL_BLEND);
+  gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 Image Renderer::render(const PictureTriangles& triangles, const Camera& camera,
                        const Colour& background) {
   const CameraTriangles visible = seen(triangles, camera);
   context_.make_current();
-  gl_.LoadMatrixd(projection(aspect(), visible.near, visible.far).eval().data());
-  gl_.DepthMask(GL_TRUE);
-  gl_.ClearColor(background.x(), background.y(), background.z(), 1.0F);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-  draw(gl_, visible.opaque);
-  gl_.DepthMask(GL_FALSE);  // A transparent triangle hides no other one.
-  draw(gl_, visible.transparent);
+  const GlFunctions& gl = context_.functions();
+  gl.LoadMatrixd(projection(aspect(), visible.near, visible.far).eval().data());
+  gl.DepthMask(GL_TRUE);
+  gl.ClearColor(background.x(), background.y(), background.z(), 1.0F);
+  gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw(gl, visible.opaque);
+  gl.DepthMask(GL_FALSE);  // A transparent triangle hides no other one.
+  draw(gl, visible.transparent);
   std::vector<std::uint8_t> samples(std::size_t{4} * kSamples * kSamples * width_ * height_);
-  gl_.ReadPixels(0, 0, kSamples * width_, kSamples * height_, GL_RGBA, GL_UNSIGNED_BYTE,
-                 samples.data());
+  gl.ReadPixels(0, 0, kSamples * width_, kSamples * height_, GL_RGBA, GL_UNSIGNED_BYTE,
+                samples.data());
   context_.check("a picture");
   return downsampled(samples);
 }

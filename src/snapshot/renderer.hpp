@@ -1,16 +1,55 @@
 #pragma once
 
-#include <GL/gl.h>
-
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "camera.hpp"
 #include "picking/gl/gl_context.hpp"
 
 namespace organ_collision {
+
+/// Red, green, blue and opacity, each from 0 to 1.
+using Colour = Eigen::Vector4f;
+
+struct PictureVertex {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;  ///< outward, for the light; zero: the colour is shown as it is
+  Colour colour;
+};
+
+/// All that a picture shows, in one frame [m]: each three consecutive vertices are a triangle.
+using PictureTriangles = std::vector<PictureVertex>;
+
+/// A perspective camera. Camera coordinates: x to the right, y upwards, z towards the viewer.
+struct Camera {
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: camera's x, y, z in the frame
+
+  Eigen::Vector3d to_camera(const Eigen::Vector3d& point) const {
+    return axes.transpose() * (point - eye);
+  }
+};
+
+/// [rad] The vertical field of view, as in RViz.
+inline constexpr double kFieldOfView = 0.785;
+
+/// The axes of a camera that looks against `to_eye` (not zero). y is close to `up`; where both are
+/// parallel, it is close to a frame axis instead.
+Eigen::Matrix3d view_axes(const Eigen::Vector3d& to_eye, const Eigen::Vector3d& up);
+
+/// The centre of the box around the triangles, which is aligned with the frame. There must be a
+/// triangle.
+Eigen::Vector3d centre(const PictureTriangles& triangles);
+
+/// The smallest distance of the eye from `target` at which all triangles are in the picture, with a
+/// margin around them. `aspect`: width of the picture by its height.
+double framing_distance(const PictureTriangles& triangles, const Eigen::Vector3d& target,
+                        const Eigen::Matrix3d& axes, double aspect);
+
+/// The projection of a camera whose picture contains depths from `near` to `far`: from camera
+/// coordinates to GL's clip coordinates.
+Eigen::Matrix4d projection(double aspect, double near, double far);
 
 /// The colour of a lit surface, by the reflection models of Lambert and Blinn. The light comes from
 /// above the viewer's left shoulder. `normal`: unit, in camera coordinates, on the side that the
@@ -27,27 +66,6 @@ struct Image {
 /// Writes a PNG file. Throws std::runtime_error, with one line that names the file, if it cannot be
 /// written.
 void write_png(const std::string& file, const Image& image);
-
-}  // namespace organ_collision
-
-// Every GL function that the renderer calls, without its gl prefix.
-// clang-format off
-#define ORGAN_COLLISION_RENDER_FUNCTIONS(F)                                                  \
-  F(BlendFunc) F(Clear) F(ClearColor) F(ColorPointer) F(DepthMask) F(DisableClientState)     \
-  F(DrawArrays) F(Enable) F(EnableClientState) F(LoadMatrixd) F(ReadPixels) F(VertexPointer)
-// clang-format on
-
-namespace organ_collision {
-
-/// Pointers to these functions, loaded from a context as the pickers load theirs.
-struct RenderFunctions {
-#define ORGAN_COLLISION_DECLARE(name) decltype(&gl##name) name = nullptr;
-  ORGAN_COLLISION_RENDER_FUNCTIONS(ORGAN_COLLISION_DECLARE)
-#undef ORGAN_COLLISION_DECLARE
-};
-
-/// Loads all these functions. Throws GlError, naming the first one that is missing.
-RenderFunctions load_render_functions(const GlContext& context);
 
 /// [pixel] The largest width and height of a picture.
 inline constexpr int kLongestSide = 4096;
@@ -73,7 +91,6 @@ class Renderer {
 
   int width_, height_;
   GlContext context_;
-  RenderFunctions gl_;
 };
 
 }  // namespace organ_collision

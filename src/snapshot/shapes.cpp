@@ -9,6 +9,8 @@
 #include <map>
 #include <sstream>
 
+#include "offline/user_input.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -41,39 +43,35 @@ TrianglePoints solid_of_revolution(const std::vector<ProfilePoint>& profile) {
   return points;
 }
 
-TrianglePoints make_cube() {
-  const auto corner = [](int i) {
-    return Vector3d((i & 1) - 0.5, (i >> 1 & 1) - 0.5, (i >> 2) - 0.5);
-  };
-  constexpr int kSides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
-                                {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-  TrianglePoints points;
-  for (const auto& side : kSides) {
-    for (const int i : {0, 1, 2, 0, 2, 3}) points.push_back(corner(side[i]));
-  }
-  return points;
-}
-
-TrianglePoints make_sphere() {
-  std::vector<ProfilePoint> profile;
-  for (int ring = 0; ring <= kRings; ++ring) {
-    const double angle = M_PI * ring / kRings;
-    const bool is_pole = ring == 0 || ring == kRings;
-    profile.push_back({is_pole ? 0.0 : 0.5 * std::sin(angle), -0.5 * std::cos(angle)});
-  }
-  return solid_of_revolution(profile);
-}
-
 }  // namespace
 
 const TrianglePoints& unit_cube() {
-  static const TrianglePoints points = make_cube();
-  return points;
+  static const TrianglePoints shape = [] {
+    const auto corner = [](int i) {
+      return Vector3d((i & 1) - 0.5, (i >> 1 & 1) - 0.5, (i >> 2) - 0.5);
+    };
+    constexpr int kSides[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4},
+                                  {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    TrianglePoints points;
+    for (const auto& side : kSides) {
+      for (const int i : {0, 1, 2, 0, 2, 3}) points.push_back(corner(side[i]));
+    }
+    return points;
+  }();
+  return shape;
 }
 
 const TrianglePoints& unit_sphere() {
-  static const TrianglePoints points = make_sphere();
-  return points;
+  static const TrianglePoints shape = [] {
+    std::vector<ProfilePoint> profile;
+    for (int ring = 0; ring <= kRings; ++ring) {
+      const double angle = M_PI * ring / kRings;
+      const bool is_pole = ring == 0 || ring == kRings;
+      profile.push_back({is_pole ? 0.0 : 0.5 * std::sin(angle), -0.5 * std::cos(angle)});
+    }
+    return solid_of_revolution(profile);
+  }();
+  return shape;
 }
 
 const TrianglePoints& unit_cylinder() {
@@ -171,11 +169,11 @@ struct Font::Face {
   double capital_height = 1.0;  ///< [pixel]
 
   explicit Face(const std::string& file) {
-    if (FT_Init_FreeType(&library) != 0) throw FontError("FreeType cannot be initialised");
+    if (FT_Init_FreeType(&library) != 0) throw InputError("FreeType cannot be initialised");
     if (FT_New_Face(library, file.c_str(), 0, &face) != 0 ||
         FT_Set_Pixel_Sizes(face, 0, kSize) != 0 || !load(U'A') || face->glyph->bitmap_top <= 0) {
       close();
-      throw FontError("the font '" + file + "' cannot be read");
+      throw InputError("the font '" + file + "' cannot be read");
     }
     capital_height = face->glyph->bitmap_top;
   }

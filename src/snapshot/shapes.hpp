@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -33,11 +32,6 @@ TrianglePoints arrow(const ArrowSize& size);
 /// A degenerate triangle has zero normals.
 std::vector<Eigen::Vector3d> smooth_normals(const TrianglePoints& triangles);
 
-/// A font file cannot be used. what() names it.
-class FontError : public std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// A part of a written letter. The text is centred on the origin, x is to the right, y upwards, and
 /// a capital A is 1 high.
 struct TextRectangle {
@@ -48,7 +42,7 @@ struct TextRectangle {
 /// A TrueType or OpenType font.
 class Font {
  public:
-  /// Throws FontError.
+  /// Throws InputError if the file cannot be used.
   explicit Font(const std::string& file);
 
   /// The rectangles of a text in UTF-8, which may have several lines. Characters that the font

@@ -1,7 +1,7 @@
 // The yaml files with parameters of replay.
 #include "fuzz_input.hpp"
 #include "memory_file.hpp"
-#include "offline/text_reader.hpp"
+#include "offline/user_input.hpp"
 #include "replay/yaml_parameters.hpp"
 #include "ros/tools/robot_reply.hpp"
 

@@ -14,8 +14,7 @@ import tempfile
 import unittest
 
 import numpy as np
-from organ_collision.mesh_file_error import MeshFileError
-from organ_collision.obj_file import read_obj
+from organ_collision.mesh_files import MeshFileError, read_obj
 
 CORPUS = pathlib.Path(__file__).resolve().parent / 'corpus' / 'obj_file'
 MUTATIONS = 1000

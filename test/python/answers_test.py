@@ -56,12 +56,6 @@ class AnswersTest(unittest.TestCase):
         self.assert_is_row(record, CLEARANCE)
         self.assertEqual((record.distance, record.on_tool.tolist()), (0.011, [4, 5, 6]))
 
-    def test_columns_have_a_row_for_each_contact(self):
-        table = contact_table(ContactArray(contacts=[contact(3), contact(4), contact(5)]))
-        self.assertEqual([column.shape for column in (table, table.depth, table.point, table.vertices)],
-                         [(3,), (3,), (3, 3), (3, 3)])
-        self.assertEqual(table[table.behind].face.tolist(), [4])
-
     def test_without_contacts_the_columns_are_empty(self):
         table = contact_table(ContactArray())
         self.assertEqual((len(table), table.point.shape), (0, (0, 3)))

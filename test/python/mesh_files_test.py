@@ -1,7 +1,10 @@
 #!/usr/bin/python3
-"""One closed surface, written by meshio in several formats, is read back; broken files are refused."""
+"""Mesh files in several formats are read; OBJ files keep the order of their vertices and faces, which have the numbers
+of query_offline; errors name the file and the line."""
 
+import csv
 import os
+import subprocess
 import tempfile
 import unittest
 
@@ -9,11 +12,38 @@ import meshio
 import numpy as np
 
 from organ_collision import MeshFileError, read_mesh
+from organ_collision.mesh_files import read_obj
 
 # A tetrahedron with outward faces; the numbers are exact as 32-bit floats.
 VERTICES = np.array([[0.0, 0.0, 0.0], [10.0, 0.0, 0.0], [0.0, 20.0, 0.0], [0.5, 0.25, 30.0]])
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]])
 KEEP_VERTICES = ('tetrahedron.ply', 'tetrahedron.off', 'tetrahedron.vtk', 'tetrahedron.vtu', 'TETRAHEDRON.OBJ')
+
+# Two squares and a triangle, apart from each other in x, with all forms of corners, groups and materials.
+FORMS = """# a comment
+mtllib some.mtl
+v 0 0 0
+v 1 0 0 1.0
+v 1 1 0 0.5 0.5 0.5
+v 0 1 0
+vt 0 0
+vn 0 0 1
+o second
+usemtl red
+f 5/1/1 6/1/1 7/1/1 8/1/1   # later vertices
+v 3 0 0
+v 4 0 0
+v 4 1 0
+v 3 1 0
+usemtl blue
+f 1//1 2//1 3//1 4//1
+usemtl red
+v 6 0 0
+v 7 0 0
+v 7 1 0
+f -3 -2 -1
+"""
+FORMS_FACES = [[4, 5, 6], [4, 6, 7], [0, 1, 2], [0, 2, 3], [8, 9, 10]]
 
 
 def volume(corners):
@@ -74,10 +104,44 @@ class MeshFilesTest(unittest.TestCase):
             with self.subTest(name):
                 with self.assertRaisesRegex(MeshFileError, name.replace('.', r'\.')):
                     read_mesh(self.path(name, content))
-
-    def test_a_missing_file_is_named(self):
         with self.assertRaisesRegex(MeshFileError, r'nowhere\.stl: there is no such file'):
             read_mesh(self.path('nowhere.stl'))
+
+    def write(self, name, text):
+        return self.path(name, text.encode())
+
+    def test_obj_files_keep_vertices_and_faces_in_their_order(self):
+        for text in FORMS, '\ufeff' + FORMS[FORMS.index('v 0 0 0'):]:
+            vertices, faces = read_obj(self.write('forms.obj', text))
+            np.testing.assert_array_equal(vertices[:, 0], [0, 1, 1, 0, 3, 4, 4, 3, 6, 7, 7])
+            np.testing.assert_array_equal(vertices[2], [1, 1, 0])
+            np.testing.assert_array_equal(faces, FORMS_FACES)
+
+    def test_faces_of_obj_files_have_the_numbers_of_query_offline(self):
+        """A ball at the centre of each face touches, of all faces, that one only."""
+        path = self.write('forms.obj', FORMS)
+        vertices, faces = read_obj(path)
+        rows = []
+        for face, corners in enumerate(faces):
+            centre = '%r,%r,%r' % tuple(vertices[corners].mean(axis=0).tolist())
+            rows.append('%d,static,%s,%s,%s,0.01' % (face, centre, centre, centre))
+        motions = self.write('motions.csv', '\n'.join(rows) + '\n')
+        answer = subprocess.check_output([os.environ['QUERY_OFFLINE'], '--mesh', path, '--motions', motions], text=True)
+        self.assertEqual([(int(row['query']), int(row['face'])) for row in csv.DictReader(answer.splitlines())],
+                         [(face, face) for face in range(len(faces))])
+
+    def test_errors_in_obj_files_name_the_line(self):
+        for place, text, reason in (
+                (':1', 'v 1 2\n', 'a vertex with 2 coordinates'),
+                (':2', '\nv 1 2 three\n', 'could not convert'),
+                (':2', 'v 1 2 3\nf 1 1\n', 'a face with 2 corners'),
+                (':2', 'v 1 2 3\nf 1 1 -2\n', 'refers to vertex -2; legal are numbers from 1, or from -1 to -1'),
+                (':2', 'v 1 2 3\nf 0 1 1\n', 'refers to vertex 0'),
+                (':1', 'f a b c\n', 'invalid literal'),
+                ('', 'v 1 2 3\nv 4 5 6\nf 1 2 3\n', 'refers to vertex 3; the file has 2, counted from 1')):
+            path = self.write('wrong.obj', text)
+            with self.assertRaisesRegex(MeshFileError, r'wrong\.obj%s: .*%s' % (place, reason)):
+                read_obj(path)
 
 
 if __name__ == '__main__':

@@ -121,10 +121,6 @@ void GlContext::release() {
   if (context_->is_current()) context_->release();
 }
 
-PlatformContext::AnyFunction GlContext::find_function(const char* name) const {
-  return find_in(*context_, name);
-}
-
 void GlContext::check(const char* where) {
   const GLenum error = functions_.GetError();
   if (error == GL_NO_ERROR) return;

@@ -9,12 +9,13 @@
 #include "organ_collision/picking/gl_platform.hpp"
 #include "platform_context.hpp"
 
-// Every GL function that picking calls, without its gl prefix.
+// Every GL function that picking and snapshot call, without its gl prefix.
 // clang-format off
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                       \
-  F(ClipPlane) F(DepthRange) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)   \
+  F(BlendFunc) F(Clear) F(ClearColor) F(ClipPlane) F(ColorPointer) F(DepthMask) F(DepthRange) \
+  F(DisableClientState) F(DrawArrays) F(Enable) F(EnableClientState) F(FeedbackBuffer)        \
   F(GetError) F(GetString) F(InitNames) F(LoadIdentity) F(LoadMatrixd) F(LoadName)            \
-  F(PushName) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
+  F(PushName) F(ReadPixels) F(RenderMode) F(SelectBuffer) F(TexCoordPointer) F(VertexPointer)
 // clang-format on
 
 namespace organ_collision {
@@ -53,8 +54,6 @@ class GlContext {
   const std::string& version() const { return version_; }
   /// The functions of this context. Valid until it is made anew.
   const GlFunctions& functions() const { return functions_; }
-  /// The function of this name, for example "glBegin". Throws GlError if GL has none.
-  PlatformContext::AnyFunction find_function(const char* name) const;
 
   /// If GL reports an error, fails with `where` and the error's code.
   void check(const char* where);

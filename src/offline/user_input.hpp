@@ -1,0 +1,108 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace boost::program_options {
+class options_description;
+}
+
+namespace organ_collision {
+
+/// The user's input cannot be used. what() is one line that says where, what is wrong and what is
+/// legal.
+class InputError : public std::runtime_error {
+ public:
+  /// An error of the command line, or of a file as a whole.
+  using std::runtime_error::runtime_error;
+  /// An error in a line of a file, counted from 1. what() is "file:line: message".
+  InputError(const std::string& file, std::size_t line, const std::string& message)
+      : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
+};
+
+/// `text` in quotes, for a message of one line: control characters are replaced, and long texts are
+/// cut.
+std::string in_quotes(std::string_view text);
+
+/// `text` without the blanks (space, tab, carriage return) around it.
+std::string_view trimmed(std::string_view text);
+
+/// Replaces `words` by those of `line`, which are separated by blanks.
+void split_words(std::string_view line, std::vector<std::string_view>& words);
+
+/// Replaces `cells` by those of a CSV line, each trimmed. An empty line has one cell. Quotes have
+/// no special meaning.
+void split_cells(std::string_view line, std::vector<std::string_view>& cells, char separator = ',');
+
+/// The number that the whole `text` stands for, possibly infinite or NaN. None if it is not a
+/// number.
+std::optional<double> parse_number(std::string_view text);
+
+/// The integer that the whole `text` stands for. None if it is not an integer of 64 bits.
+std::optional<long long> parse_integer(std::string_view text);
+
+/// The options of a program. An option is given as `--name value` or `--name=value`, and a flag as
+/// `--name`. Each program has --help. Names are given without dashes.
+class CommandLine {
+ public:
+  /// Takes the text of an option. Returns false if it is illegal, or throws std::invalid_argument,
+  /// whose message says what is legal.
+  using Take = std::function<bool(const std::string& text)>;
+
+  /// `program`: named in each refusal.
+  explicit CommandLine(std::string program);
+
+  // The options that the program has. What is not given stays as it is.
+  void flag(const std::string& name, bool& is_given);
+  /// A text that is not empty.
+  void text(const std::string& name, std::string& value);
+  /// An option that may be given several times.
+  void texts(const std::string& name, std::vector<std::string>& values);
+  /// `legal`: which texts are legal, for example "a number above 0".
+  void option(const std::string& name, const std::string& legal, const Take& take);
+  /// A finite number from `least` to `most`.
+  void number(const std::string& name, double& value, double least, double most);
+
+  /// Reads the words behind the program's name. The words that belong to no option go to `files`,
+  /// or are refused if it is null. Returns false if --help or -h is among the words: the others are
+  /// then not read. Throws InputError for options that are unknown, repeated, without value or
+  /// illegal.
+  bool read(const std::vector<std::string>& words, std::vector<std::string>* files = nullptr) const;
+
+  /// Throws InputError with this message.
+  [[noreturn]] void refuse(const std::string& message) const;
+  /// Throws InputError if the text of an option that must be given is empty.
+  void require(const std::string& name, const std::string& value) const;
+
+ private:
+  std::string program_;
+  std::vector<std::string> names_;
+  std::shared_ptr<boost::program_options::options_description> legal_;
+};
+
+/// Prints on stderr, at most once a second, how much is done. A run of less than a second prints
+/// nothing.
+class Progress {
+ public:
+  /// `what` is counted, for example "motions". `total`: how many there are, if that is known.
+  Progress(std::string program, std::string what, std::optional<std::size_t> total)
+      : program_(std::move(program)), what_(std::move(what)), total_(total) {}
+
+  void report(std::size_t done);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  std::string program_, what_;
+  std::optional<std::size_t> total_;
+  Clock::time_point last_ = Clock::now();
+};
+
+}  // namespace organ_collision

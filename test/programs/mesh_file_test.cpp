@@ -1,0 +1,274 @@
+#include "robot_reader/mesh_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include "organ_collision/geometry/tool/tool_surface.hpp"
+#include "robot_reader/resource.hpp"
+#include "ros/tools/robot_reply.hpp"
+#include "test/ros/tools/tool_files.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+std::string resource_error(const std::string& name) {
+  return tool_error([&] { read_resource(name); });
+}
+
+}  // namespace
+
+TEST(Resource, ReadsPathsAndUrls) {
+  const std::string path = ORGAN_COLLISION_TEST_DATA "/tools/notes.txt";
+  EXPECT_EQ(read_resource(path), "This is no mesh.\n");
+  EXPECT_EQ(read_resource("file://" + path), "This is no mesh.\n");
+  EXPECT_EQ(read_resource(tool_file("notes.txt")), "This is no mesh.\n");
+}
+
+TEST(Resource, RefusalsNameTheFileAndWhy) {
+  expect_words(resource_error("/no/such.stl"), {"'/no/such.stl'", "no such file"});
+  expect_words(resource_error("file:///no/such.stl"), {"'/no/such.stl'", "no such file"});
+  expect_words(resource_error("/etc/passwd/such.stl"), {"Not a directory"});
+  expect_words(resource_error(tool_file("such.stl")),
+               {"/test/data/tools/such.stl", "no such file"});
+  expect_words(resource_error("package://no_such_package/jaw.stl"),
+               {"no_such_package", "not exist"});
+  expect_words(resource_error("package://organ_collision"), {"no file in the package"});
+  expect_words(resource_error("file://server/jaw.stl"),
+               {"'file://server/jaw.stl'", "absolute path"});
+  expect_words(resource_error("http://192.0.2.1/jaw.stl"),
+               {"absolute path", "package:// or file://"});
+  expect_words(resource_error("meshes/jaw.stl"),
+               {"'meshes/jaw.stl'", "absolute path", "package://"});
+  expect_words(resource_error(""), {"''", "absolute path", "package://"});
+}
+
+TEST(Resource, EscapesInUrlsAreBytes) {
+  const std::string path = testing::TempDir() + "a 100% b%00.stl";
+  std::ofstream(path) << "mesh";
+  EXPECT_EQ(read_resource(path), "mesh");
+  EXPECT_EQ(read_resource("file://" + testing::TempDir() + "a%20100% %62%00.stl"), "mesh");
+  std::remove(path.c_str());
+}
+
+TEST(Resource, WhatIsNoRegularFileIsRefused) {
+  expect_words(resource_error("/tmp"), {"'/tmp'", "folder"});
+  expect_words(resource_error("file:///tmp"), {"'/tmp'", "folder"});
+  expect_words(resource_error("/dev/zero"), {"'/dev/zero'", "device", "regular file"});
+
+  const std::string path = testing::TempDir() + "file.stl", link = testing::TempDir() + "link.stl";
+  ASSERT_EQ(symlink(path.c_str(), link.c_str()), 0);
+  const auto expect_refused = [&](const std::vector<std::string>& words) {
+    expect_words(resource_error(path), words);
+    expect_words(resource_error(link), words);
+    std::remove(path.c_str());
+  };
+  ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);  // Opening it would block forever.
+  expect_refused({"FIFO", "regular file"});
+
+  std::ofstream(path).flush();
+  expect_refused({"empty"});
+
+  std::ofstream(path).flush();
+  ASSERT_EQ(truncate(path.c_str(), reader_limits::kFileBytes + 1), 0);
+  expect_refused({"100000001 bytes", "at most 100000000"});
+
+  ASSERT_EQ(symlink(link.c_str(), path.c_str()), 0);
+  expect_refused({"symbolic links"});
+  std::remove(link.c_str());
+}
+
+using Eigen::Vector3d;
+
+namespace {
+
+const Vector3d kUnit = Vector3d::Ones();
+const Vector3d kMillimetres = Vector3d::Constant(0.001);
+const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
+
+ToolSurface read(const std::string& name, const Vector3d& scale = kUnit,
+                 const Eigen::Isometry3d& T_link_mesh = kAtOrigin) {
+  MeshDescription mesh = read_mesh_file(tool_file(name), scale, T_link_mesh);
+  EXPECT_EQ(mesh.file, tool_file(name));
+  return {std::move(mesh.vertices), std::move(mesh.triangles)};
+}
+
+/// The corners of the tetrahedron in the mesh files, in the units of the files.
+const Vector3d kA(1, 2, 3), kB(9, 2, 4), kC(3, 8, 3.5), kD(2, 3, 10);
+const std::vector<Triangle> kJaw = {{kA, kC, kB}, {kA, kB, kD}, {kB, kC, kD}, {kC, kA, kD}};
+
+/// Whether the corners are the same in the same cyclic order.
+bool is_same(const Triangle& a, const Triangle& b) {
+  for (std::size_t first = 0; first < 3; ++first) {
+    const auto is_near = [&](std::size_t i) { return (a[i] - b[(i + first) % 3]).norm() < 1e-8; };
+    if (is_near(0) && is_near(1) && is_near(2)) return true;
+  }
+  return false;
+}
+
+/// Expects exactly these triangles, with their corners mapped by `place`.
+void expect_triangles(const ToolSurface& surface, const std::vector<Triangle>& triangles,
+                      const std::function<Vector3d(const Vector3d&)>& place) {
+  EXPECT_EQ(surface.faces().size(), triangles.size());
+  for (const Triangle& triangle : triangles) {
+    const Triangle placed = {place(triangle[0]), place(triangle[1]), place(triangle[2])};
+    int found = 0;
+    for (std::size_t i = 0; i < surface.faces().size(); ++i) {
+      if (is_same(surface.triangle(i), placed)) ++found;
+    }
+    EXPECT_EQ(found, 1) << placed[0].transpose() << ", " << placed[1].transpose() << ", "
+                        << placed[2].transpose();
+  }
+}
+
+std::string refusal(const std::string& name, const Vector3d& scale = kUnit) {
+  return tool_error([&] { read(name, scale); });
+}
+
+}  // namespace
+
+TEST(MeshFile, StlInBothForms) {
+  for (const std::string name : {"jaw_ascii.stl", "jaw_binary.stl"}) {
+    const ToolSurface surface = read(name, kMillimetres);
+    expect_triangles(surface, kJaw, [](const Vector3d& v) { return Vector3d(0.001 * v); });
+    EXPECT_EQ(surface.vertices().size(), 4u) << name;
+  }
+}
+
+TEST(MeshFile, PlyInBothForms) {
+  for (const std::string name : {"jaw_ascii.ply", "jaw_binary.ply"}) {
+    expect_triangles(read(name, kMillimetres), kJaw,
+                     [](const Vector3d& v) { return Vector3d(0.001 * v); });
+  }
+}
+
+TEST(MeshFile, ObjWithPolygonsButNoLinesAndLoneVertices) {
+  std::vector<Triangle> triangles = kJaw;
+  triangles.push_back({Vector3d(5, 1, 1), Vector3d(6, 1, 1), Vector3d(6, 2, 1)});
+  triangles.push_back({Vector3d(5, 1, 1), Vector3d(6, 2, 1), Vector3d(5, 2, 1)});
+  const ToolSurface surface = read("jaw.obj");
+  expect_triangles(surface, triangles, [](const Vector3d& v) { return v; });
+  EXPECT_EQ(surface.vertices().size(), 8u);
+}
+
+TEST(MeshFile, DaeWithItsNodesAndUnitButNotItsUpAxis) {
+  // Turned by 90 degrees about z, then moved by (10, 20, 30), all in millimetres.
+  const auto place = [](const Vector3d& v) {
+    return Vector3d(0.010 - 0.001 * v.y(), 0.020 + 0.001 * v.x(), 0.030 + 0.001 * v.z());
+  };
+  // The first triangle, and the two halves of the quadrilateral.
+  const std::vector<Triangle> triangles = {{kA, kC, kB}, {kA, kB, kC}, {kA, kC, kD}};
+  for (const std::string name : {"jaw.dae", "jaw_z_up.dae"}) {
+    expect_triangles(read(name), triangles, place);
+  }
+}
+
+TEST(MeshFile, ScaledThenPlacedInTheLink) {
+  Eigen::Isometry3d T_link_mesh(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
+  T_link_mesh.translation() << 0.1, 0.2, 0.3;
+  expect_triangles(read("jaw_ascii.stl", {0.001, 0.002, 0.003}, T_link_mesh), kJaw,
+                   [](const Vector3d& v) {
+                     return Vector3d(0.1 + 0.001 * v.x(), 0.2 - 0.003 * v.z(), 0.3 + 0.002 * v.y());
+                   });
+}
+
+TEST(MeshFile, NegativeScaleMirrors) {
+  expect_triangles(read("jaw_binary.stl", {1.0, -1.0, 1.0}), kJaw,
+                   [](const Vector3d& v) { return Vector3d(v.x(), -v.y(), v.z()); });
+}
+
+TEST(MeshFile, IllegalScalesAreNamed) {
+  expect_words(refusal("jaw.obj", {1.0, 0.0, 1.0}), {"jaw.obj", "scale", "1 0 1", "not 0"});
+  expect_words(refusal("jaw.obj", {1.0, 1.0, std::nan("")}), {"jaw.obj", "1   1 nan", "finite"});
+  const double infinity = std::numeric_limits<double>::infinity();
+  expect_words(refusal("jaw.obj", {-infinity, 1.0, 1.0}), {"jaw.obj", "-inf", "finite"});
+}
+
+TEST(MeshFile, UnreadableFilesAreNamed) {
+  expect_words(refusal("missing.stl"), {"missing.stl", "no such file"});
+  expect_words(refusal("broken.stl"), {tool_file("broken.stl")});
+  expect_words(refusal("broken_ascii.stl"), {tool_file("broken_ascii.stl")});
+  expect_words(refusal("broken.dae"), {tool_file("broken.dae")});
+  expect_words(refusal("notes.txt"), {tool_file("notes.txt"), "No suitable reader"});
+}
+
+// assimp accepts this file, and its post-processing would read beyond the vertices.
+TEST(MeshFile, WrongIndicesAreNamed) {
+  expect_words(refusal("wrong_index.ply"), {tool_file("wrong_index.ply"), "100000000", "of 3"});
+}
+
+TEST(MeshFile, BlanksMayFollowTheHeaderOfPly) {
+  std::string text = tool_text("jaw_ascii.ply");
+  text.insert(text.find("end_header") + 10, " \t");
+  const std::string path = testing::TempDir() + "blanks.ply";
+  std::ofstream(path) << text;
+  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 4U);
+  std::remove(path.c_str());
+}
+
+TEST(MeshFile, AByteOrderMarkChangesNothing) {
+  for (const std::string name :
+       {"jaw.obj", "jaw_ascii.stl", "jaw_ascii.ply", "jaw_binary.ply", "jaw.dae"}) {
+    std::string text = tool_text(name);
+    if (name == "jaw.obj") text.erase(0, text.find("\nv ") + 1);  // A vertex follows the mark.
+    const std::string path = testing::TempDir() + "marked_" + name;
+    std::ofstream(path, std::ios::binary) << "\xEF\xBB\xBF" << text;
+    const MeshDescription marked = read_mesh_file(path, kUnit, kAtOrigin);
+    const MeshDescription plain = read_mesh_file(tool_file(name), kUnit, kAtOrigin);
+    EXPECT_EQ(marked.vertices, plain.vertices) << name;
+    EXPECT_EQ(marked.triangles, plain.triangles) << name;
+    std::remove(path.c_str());
+  }
+}
+
+TEST(MeshFile, CutOffPlyIsRefused) {
+  // assimp would never stop reading it.
+  expect_words(refusal("cut_off.ply"), {tool_file("cut_off.ply"), "end_header", "cut off"});
+  expect_words(refusal("endless.ply"), {tool_file("endless.ply"), "end_header"});
+  const std::string whole = tool_text("jaw_ascii.ply"), path = testing::TempDir() + "cut_off.ply";
+  const std::size_t end = whole.find("end_header");
+  std::string joined = whole;
+  joined.erase(end + 10, 1);
+  std::string in_capitals = whole.substr(0, end);
+  in_capitals[1] = 'L';
+  for (const std::string& text :
+       {whole.substr(0, end + 10), whole.substr(0, end) + "9" + whole.substr(end), joined,
+        in_capitals, whole.substr(0, end) + "comment " + whole.substr(end),
+        whole.substr(0, end + 10) + "\v" + whole.substr(end + 10)}) {
+    std::ofstream(path) << text;
+    expect_words(tool_error([&] { read_mesh_file(path, kUnit, kAtOrigin); }), {path, "end_header"});
+  }
+  std::remove(path.c_str());
+}
+
+// assimp believes them. To make triangles of them would take ever longer.
+TEST(MeshFile, FacesThatClaimTooManyCornersAreRefused) {
+  expect_words(refusal("long_face.ply"),
+               {tool_file("long_face.ply"), "299999 triangles", "only 179 bytes"});
+}
+
+TEST(MeshFile, NoSurfaceIsRefused) {
+  for (const std::string name : {"points.obj", "nodes_only.dae"}) {
+    EXPECT_TRUE(read_mesh_file(tool_file(name), kUnit, kAtOrigin).triangles.empty()) << name;
+  }
+  expect_words(refusal("not_finite.stl"), {tool_file("not_finite.stl"), "not finite"});
+}
+
+TEST(MeshFile, OtherFilesThatItNamesAreNotRead) {
+  // The file names a FIFO as its materials. Opening it would block forever.
+  const std::string fifo = testing::TempDir() + "materials.mtl",
+                    path = testing::TempDir() + "a.obj";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
+  std::ofstream(path) << "mtllib " << fifo << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 1u);
+  std::remove(path.c_str());
+  std::remove(fifo.c_str());
+}

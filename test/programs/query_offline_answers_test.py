@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+"""What the program prints about motions, compared with naive oracles and with itself."""
+
+import csv
+import random
+import subprocess
+import unittest
+
+from program import CONTACTS_HEADER, PROGRAM, ProgramCase, motion_line, motions_text, obj_text
+from support import oracle, scenes
+from support.vectors import length, lerp, sub
+
+FILES = ('--mesh', 'organ.obj', '--motions', 'motions.csv')
+CONTACT_COLUMNS = CONTACTS_HEADER.split(',')
+TOLERANCE = 1e-7  # [m], and as a share of the step
+STEPS = 23
+
+
+class AnswersTest(ProgramCase):
+    def setUp(self):
+        super().setUp()
+        self.rng = random.Random(41)
+
+    def point(self, reach, z):
+        x, y = (self.rng.uniform(-reach, reach) for _ in range(2))
+        return (x, y, z + self.rng.uniform(-0.03, 0.03))
+
+    def write_scene(self, mesh, lines):
+        self.write('organ.obj', obj_text(mesh))
+        self.write('motions.csv', motions_text(lines))
+
+    def printed(self, *options, files=FILES):
+        done = self.run_program(*files, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def assert_rows(self, rows, expected):
+        """`expected`: pairs (query, contacts of the oracle), in the order of the output."""
+        flat = [(str(query), right) for query, contacts in expected for right in contacts]
+        self.assertEqual([row[:2] for row in rows], [[query, str(c.face)] for query, c in flat])
+        for row, (query, right) in zip(rows, flat):
+            what = 'query %s: %r instead of %r' % (query, row, right)
+            self.assertEqual(row[2:], ['%.17g' % float(cell) for cell in row[2:]])
+            fraction, depth, *vectors = map(float, row[2:])
+            self.assertAlmostEqual(fraction, right.fraction, delta=TOLERANCE, msg=what)
+            self.assertAlmostEqual(depth, right.depth, delta=TOLERANCE, msg=what)
+            self.assertLessEqual(length(sub(vectors[:3], right.point)), TOLERANCE, what)
+            self.assertLessEqual(length(sub(vectors[3:], right.normal)), 100 * TOLERANCE, what)
+
+    def test_one_face_by_hand(self):
+        """A tip of 5 mm radius, 4 mm above a plate, is 1 mm deep. If it falls from 10 mm to 4 mm,
+        it first touches after 5/6 of the step."""
+        self.write('organ.obj', 'v -1 -1 0.25\nv 1 -1 0.25\nv 1 1 0.25\nv -1 1 0.25\nf 1 2 3 4\n')
+        line = '%s,0.25,-0.5,0.5,0.25,-0.5,0.26,0.25,-0.5,0.254,0.005'
+        self.write('motions.csv', motions_text([line % '2,static', line % '1,swept']))
+        (_, *swept), (_, *static) = self.contacts(*FILES)
+        for row, fraction in (swept, 5 / 6), (static, 0.0):
+            self.assertEqual(row[0], '0')
+            for cell, right in zip(row[1:], (fraction, 0.001, 0.25, -0.5, 0.25, 0, 0, -1)):
+                self.assertAlmostEqual(float(cell), right, delta=1e-8)
+
+    def test_contacts_of_tools_and_of_a_moving_organ(self):
+        """An organ that moves through tools, some of them at rest. A static query looks at its
+        present shape only. Queries are sorted."""
+        now = scenes.liver()
+        before = now.moved(lambda v: (v[0] + 0.01, v[1], v[2] + 0.01 + 0.1 * v[0]))
+        resting, moving, lines = [], [], []
+        for query in range(60):
+            trocar, radius = self.point(0.05, 0.2), self.rng.choice([0.0005, 0.003, 0.01])
+            previous, tip = self.point(0.1, 0.02), self.point(0.1, 0.02)
+            mode, start = self.rng.choice([('static', tip), ('swept', tip), ('swept', lerp(tip, previous, 0.4))])
+            lines.append(motion_line(query, mode, trocar, start, tip, radius))
+            motion = ((trocar, start), (trocar, tip))
+            resting.append((query, oracle.contacts(now, now, motion, radius)))
+            moving.append((query, oracle.contacts(now, before if mode == 'swept' else now, motion, radius)))
+        self.rng.shuffle(lines)
+        self.write_scene(now, lines)
+        self.write('old.obj', obj_text(before))
+        for options, expected in ((), resting), (('--mesh-before', 'old.obj'), moving):
+            rows = self.contacts(*FILES, *options)
+            self.assertGreater(len(rows), 300)
+            self.assert_rows(rows, expected)
+            for more in (('--picker', 'select'), ('--picker', 'cpu'), ('--gl', 'egl'), ('--gl', 'osmesa')):
+                self.assertEqual(rows, self.contacts(*FILES, *options, *more))
+
+    def test_columns_are_added(self):
+        """The cells of the contacts stay, the other cells are the same in all rows of a query, and
+        --help explains each column. Rows of paper modes have no added cells."""
+        explained, modes = self.run_program('--help').stdout, ('static', 'swept', 'paper_swept')
+        lines = [motion_line(i, modes[i % 3], self.point(0.2, 0.1), self.point(0.08, 0.1), self.point(0.08, 0), 0.004)
+                 for i in range(45)]
+        self.write_scene(scenes.liver(), lines)
+        plain = list(csv.DictReader(self.printed().splitlines()))
+        self.assertEqual(list(plain[0]), CONTACT_COLUMNS)
+        for options in ('--clearance', '--placement'), ('--margin', '0.01'):
+            rows = list(csv.DictReader(self.printed(*options).splitlines()))
+            for name in rows[0]:
+                if name[-2:] not in ('_y', '_z'):  # --help writes on_organ_x,_y,_z
+                    self.assertIn(name, explained)
+            self.assertEqual([{name: row[name] for name in CONTACT_COLUMNS} for row in rows if row['face']], plain)
+            self.assertEqual({row['query'] for row in rows}, {str(i) for i in range(45)})
+            added = {}
+            for row in rows:
+                cells = [cell for name, cell in row.items() if name not in CONTACT_COLUMNS]
+                self.assertEqual(added.setdefault(row['query'], cells), cells)
+                self.assertEqual(set(cells) == {''}, int(row['query']) % 3 == 2)
+
+    def test_clearance_and_sides_of_a_box_by_hand(self):
+        """The box is 6 x 5 x 4 cm around the origin."""
+        self.write_scene(scenes.box(), [
+            motion_line('outside', 'swept', (0.001, 0.002, 0.1), (0.001, 0.002, 0.06), (0.001, 0.002, 0.05), 0.005),
+            motion_line('through', 'static', (0.001, 0.002, 0.1), (0, 0, 0), (0.001, 0.002, -0.01), 0.005)])
+        outside, through = {row['query']: row for row in csv.DictReader(
+            self.printed('--clearance', '--placement').splitlines())}.values()
+        for name, right in ('distance', 0.025), ('least', 0.025), ('on_organ_z', 0.02), ('on_tool_z', 0.045):
+            self.assertAlmostEqual(float(outside[name]), right, delta=1e-8)
+        self.assertEqual((outside['tip_side'], outside['crossings']), ('outside', '0'))
+        self.assertEqual((through['tip_side'], through['trocar_side'], through['crossings']), ('inside', 'outside', '1'))
+        self.assertEqual(through['crossing_directions'], '1')
+        self.assertAlmostEqual(float(through['length_inside']), 0.03, delta=1e-8)
+
+    def write_recording(self):
+        """A liver that is pushed about, and a tool in it. The queries are not in the order of the steps."""
+        liver, tip, lines = scenes.liver(), (0.0, 0.0, 0.04), []
+        (self.folder / 'shapes').mkdir()
+        for step, query in enumerate(self.rng.sample(range(1000), STEPS)):
+            shift, bend = self.point(0.01, 0.0), self.rng.uniform(-1.0, 1.0)
+            shape = liver.moved(lambda v: (v[0] + shift[0], v[1] + shift[1] + bend * v[0] * v[0], v[2] + shift[2]))
+            self.write('shapes/step_%d.obj' % step, obj_text(shape))
+            previous, tip = tip, self.point(0.05, 0.0)
+            mode = 'static' if step % 7 == 3 else 'swept'
+            lines.append(motion_line(query, mode, (0.02, 0.01, 0.2), previous, tip, 0.004))
+        self.write('motions.csv', motions_text(lines))
+        return lines
+
+    def step_by_step(self, lines, *options):
+        """The output as of one run for each step, from the shape before it to its own."""
+        rows = []
+        for step, line in enumerate(lines):
+            self.write('one.csv', line)
+            before = ('--mesh-before', 'shapes/step_%d.obj' % (step - 1)) if step > 0 else ()
+            files = ('--mesh', 'shapes/step_%d.obj' % step, '--motions', 'one.csv', *before)
+            header, *answer = self.printed(*options, files=files).splitlines(True)
+            rows += answer
+        return ''.join([header] + rows)
+
+    def test_the_steps_of_a_recording(self):
+        lines = self.write_recording()
+        for options in (), ('--clearance', '--placement'):
+            right = self.step_by_step(lines, *options)
+            self.assertGreater(right.count('\n'), 5 * STEPS)
+            for jobs in '1', '3':
+                for motions in 'motions.csv', '-':
+                    with open(self.folder / 'motions.csv') as file:
+                        done = subprocess.run(
+                            [PROGRAM, '--shapes', 'shapes', '--motions', motions, *options, '--jobs', jobs],
+                            cwd=self.folder, stdin=file, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                            timeout=100)
+                    self.assertEqual((done.stdout, done.stderr, done.returncode), (right, '', 0))
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        modes = ('static', 'swept', 'paper_static', 'paper_swept', 'paper_naive')
+        self.write_scene(scenes.liver(), [
+            motion_line(query, modes[query % 5], self.point(0.05, 0.2), self.point(0.1, 0.0), self.point(0.1, 0.0), 0.003)
+            for query in self.rng.sample(range(1500), 1500)])
+        right = self.printed('--margin', '0.01', '--placement', '--jobs', '1')
+        for jobs in '2', '7':
+            self.assertEqual(self.printed('--margin', '0.01', '--placement', '--jobs', jobs), right)
+        self.assertEqual(self.printed('--margin', '0.01', '--placement'), right)
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,195 @@
+#!/usr/bin/python3
+"""Bad input to replay: one clear line, exit code 2, and no OUT.bag."""
+
+import os
+import shutil
+import signal
+import subprocess
+import unittest
+
+from std_msgs.msg import String
+from support.tool_over_sheet import SHEET, at_height
+
+from recording import TOOLS, run, serialized
+from replay_case import ReplayCase
+
+GRIPPER = os.path.join(os.environ['TEST_DATA'], 'tools', 'gripper.urdf')
+LINKS = 'tools:\n  - {name: grip, links: [wrist, jaw]%s}\n'
+
+
+class ReplayInputTest(ReplayCase):
+    def record_scene(self, **named):
+        with self.record(**named) as bag:
+            bag.resting(1.0)
+            for i in range(20):
+                bag.tool(2.0 + 0.1 * i, at_height(0.01))
+                (bag.vertices if i else bag.mesh)(2.0 + 0.1 * i, SHEET)
+
+    def refuse(self, *words, parameters=TOOLS, options=(), out='out.bag'):
+        file = self.write('parameters.yaml', parameters)
+        done = run('--parameters', file, *options, self.recorded, self.path(out))
+        self.assert_refused(done, *words)
+
+    def test_files_that_are_no_bag(self):
+        self.refuse('in.bag', 'no bag')
+        self.write('in.bag', 'tools: [none]\n')
+        self.refuse('in.bag', 'no bag')
+        self.write('in.bag', '')
+        self.refuse('in.bag', 'no bag')
+        os.remove(self.recorded)
+        os.mkdir(self.recorded)
+        self.refuse('in.bag', 'no bag')
+
+    def test_a_truncated_bag(self):
+        self.record_scene()
+        with open(self.recorded, 'rb') as file:
+            data = file.read()
+        for share in (0.2, 0.5, 0.9, 0.999):
+            with open(self.recorded, 'wb') as file:
+                file.write(data[: int(share * len(data))])
+            self.refuse('in.bag')
+
+    def test_a_bag_of_an_interrupted_recording(self):
+        bag = self.record()
+        bag.resting(1.0)
+        bag.mesh(2.0, SHEET)
+        bag.bag._stop_writing_chunk()
+        bag.bag._file.flush()
+        shutil.copy(self.recorded, self.path('active.bag'))
+        bag.bag.close()
+        file = self.write('parameters.yaml', TOOLS)
+        done = run('--parameters', file, self.path('active.bag'), self.answers)
+        self.assert_refused(done, 'active.bag', 'no index', 'rosbag reindex')
+
+    def test_a_bag_without_an_organ(self):
+        with self.record() as bag:
+            bag.tool(2.0, at_height(0.01))
+        self.refuse('in.bag', '/organ_collision/organ_mesh', 'no organ')
+
+    def test_the_topics_of_another_node(self):
+        self.record_scene(node='/left/contacts_of_liver')
+        self.refuse('/organ_collision/organ_mesh', '/left/contacts_of_liver/organ_mesh', '--node')
+        self.replay(options=['--node', '/left/contacts_of_liver'])
+        topics = {topic for topic, *_ in serialized(self.answers)}
+        self.assertEqual(topics, {'/left/contacts_of_liver/contacts'})
+
+    def test_a_topic_of_another_type(self):
+        self.record_scene()
+        with self.record() as bag:
+            bag.mesh(2.0, SHEET)
+            bag.write('/tf', String('no transform'), 2.0)
+        self.refuse('/tf', 'std_msgs/String', 'tf2_msgs/TFMessage')
+
+    def test_bad_parameters(self):
+        self.record_scene()
+        robot = LINKS % ''
+        for parameters, *words in [
+                (TOOLS.replace('hook_tip', 'hok_tip'), "'hok_tip'", "'hook'"),
+                ('rate: 10\n', '~tools', 'missing'),
+                (TOOLS.replace('0.005', '-1'), 'radius', '-1'),
+                ('tools:\n  - {name: [}\n', 'parameters.yaml:2:'),
+                ('tools: &a [*a]\n', 'parameters.yaml', 'line 1'),
+                ('tools:\n', 'parameters.yaml', 'is empty'),
+                (LINKS % ', urdf: /nowhere.urdf', 'grip', 'nowhere.urdf'),
+                (robot, 'grip', 'robot_description', 'parameters.yaml'),
+                (robot + 'robot_description: 7\n', 'grip', 'robot')]:
+            with self.subTest(parameters=parameters):
+                self.refuse(*words, parameters=parameters)
+
+    def test_bad_command_lines(self):
+        self.record_scene()
+        file = self.write('parameters.yaml', TOOLS)
+        for arguments, word in (
+            ([], 'IN.bag'),
+            ([self.recorded], 'IN.bag'),
+            ([self.recorded, self.answers], '--parameters'),
+            (['--parameters', file, self.recorded, self.answers, 'x'], '3 are given'),
+            (['--parameter', file, self.recorded, self.answers], '"--parameter"'),
+            (['--parameters=', self.recorded, self.answers], '--parameters'),
+            (['--with-input=1', '--parameters', file, self.recorded, self.answers], '--with-input'),
+            (['--parameters', file, '--node', '~x', self.recorded, self.answers], '"~x"'),
+            (['--parameters', file, '--node', 'a b', self.recorded, self.answers], '"a b"'),
+            (['--parameters', file, self.recorded, self.recorded], 'also the input'),
+            (['--parameters', file, self.recorded, '/nowhere/out.bag'], '/nowhere/out.bag'),
+        ):
+            self.assert_refused(run(*arguments), word)
+        self.assertGreater(len(serialized(self.recorded)), 0)
+
+    def test_an_input_with_the_name_of_an_incomplete_output_is_kept(self):
+        self.record_scene()
+        file = self.write('parameters.yaml', TOOLS)
+        recorded = self.path('x.bag.incomplete')
+        os.rename(self.recorded, recorded)
+        self.assert_refused(run('--parameters', file, recorded, self.path('x.bag')), 'also the input')
+        self.assertGreater(len(serialized(recorded)), 0)
+
+    def test_an_output_that_is_no_regular_file_is_kept(self):
+        self.record_scene()
+        file = self.write('parameters.yaml', TOOLS)
+        os.mkdir(self.path('folder'))
+        os.mkfifo(self.path('fifo'))
+        os.symlink(self.write('target', 'precious'), self.path('link'))
+        os.symlink(self.path('nothing'), self.path('dangling'))
+        os.mkfifo(self.path('x.bag.incomplete'))
+        before = sorted(os.listdir(self.folder))
+        for written, name in (('folder', 'folder'), ('fifo', 'fifo'), ('link', 'link'),
+                              ('dangling', 'dangling'), ('x.bag.incomplete', 'x.bag')):
+            mode = os.lstat(self.path(written)).st_mode
+            done = run('--parameters', file, self.recorded, self.path(name))
+            self.assert_refused(done, self.path(written) + ' is no regular file')
+            self.assertEqual(os.lstat(self.path(written)).st_mode, mode)
+        self.assertEqual(sorted(os.listdir(self.folder)), before)
+
+    def test_an_interrupted_replay_leaves_no_file(self):
+        with self.record() as bag:
+            bag.resting(1.0)
+            bag.mesh(2.0, SHEET)
+            for i in range(20000):
+                bag.vertices(2.0, SHEET)
+        file = self.write('parameters.yaml', TOOLS)
+        with subprocess.Popen(
+            [os.environ['REPLAY'], '--parameters', file, self.recorded, self.answers],
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as replay:
+            while not os.path.exists(self.answers + '.incomplete'):
+                self.assertIsNone(replay.poll())
+            replay.send_signal(signal.SIGINT)
+            self.assertIn('interrupted', replay.communicate(timeout=60)[1])
+            self.assertEqual(replay.returncode, 1)
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('out')])
+
+    def test_help(self):
+        done = run('--help')
+        self.assertEqual((done.returncode, done.stderr), (0, ''))
+        for word in ('IN.bag', 'OUT.bag', '--parameters', '--node', '--with-input', 'Exit status'):
+            self.assertIn(word, done.stdout)
+
+
+
+class RobotTest(ReplayCase):
+    """Tools made of links, with the URDF where the node finds it."""
+
+    def check(self, parameters):
+        with self.record() as bag:
+            bag.resting(1.0)
+            for frame in ('wrist', 'jaw'):
+                bag.frame(2.0, frame, (-0.5, -0.25, 0.125))
+            bag.mesh(2.0, SHEET)
+        ((_, answer),) = self.answers_of(parameters)
+        self.assert_ok(answer)
+        self.assertEqual(answer.links, ['wrist', 'jaw'])
+        self.assertGreater(len(answer.contacts), 0)
+
+    def test_a_file(self):
+        self.check(LINKS % (', urdf: ' + GRIPPER))
+
+    def test_the_whole_tree_as_rosparam_dump_writes_it(self):
+        with open(GRIPPER) as urdf:
+            text = urdf.read().replace('\n', ' ').replace("'", "''")
+        indented = (LINKS % '').replace('\n', '\n  ')
+        self.check("robot_description: '%s'\norgan_collision:\n  %s" % (text, indented))
+
+
+if __name__ == '__main__':
+    unittest.main(verbosity=2)

@@ -1,0 +1,193 @@
+#include "robot_reader/robot_model.hpp"
+
+#include <console_bridge/console.h>
+#include <gtest/gtest.h>
+
+#include "robot_reader/resource.hpp"
+#include "ros/tools/robot_reply.hpp"
+#include "test/ros/tools/tool_files.hpp"
+
+using namespace organ_collision;
+using Eigen::Vector3d;
+
+namespace {
+
+RobotModel gripper() { return RobotModel(read_resource(tool_file("gripper.urdf"))); }
+
+LinkDescription link(const RobotModel& model, const std::string& name) {
+  return model.link(name, [](const std::string&) {});
+}
+
+void expect_pose(const ShapePose& pose, const Vector3d& position, const Vector3d& image_of_x) {
+  EXPECT_LT((pose.position - position).norm(), 1e-15);
+  EXPECT_LT((pose.orientation * Vector3d::UnitX() - image_of_x).norm(), 1e-15);
+}
+
+std::string robot(const std::string& elements) {
+  return "<robot name='probe'>" + elements + "</robot>";
+}
+
+/// The URDF of a robot with one link, 'tip', and its collision shape.
+std::string robot_of(const std::string& shape) {
+  return robot("<link name='tip'><collision><geometry>" + shape + "</geometry></collision></link>");
+}
+
+std::string refusal(const std::string& urdf) {
+  return tool_error([&] { RobotModel{urdf}; });
+}
+
+std::string refusal_of_tip(const std::string& urdf) {
+  const RobotModel model(urdf);
+  return tool_error([&] { link(model, "tip"); });
+}
+
+class SilentHandler : public console_bridge::OutputHandler {
+ public:
+  void log(const std::string& text, console_bridge::LogLevel, const char*, int) override {
+    texts.push_back(text);
+  }
+  std::vector<std::string> texts;
+};
+
+}  // namespace
+
+TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
+  const LinkDescription shaft = link(gripper(), "shaft");
+  ASSERT_EQ(shaft.shapes.size(), 2u);  // Without the visual box.
+  const auto& cylinder = std::get<CylinderDescription>(shaft.shapes[0]);
+  EXPECT_EQ(cylinder.radius, 0.004);
+  EXPECT_EQ(cylinder.length, 0.3);
+  expect_pose(cylinder.pose, {0.01, -0.02, 0.1}, -Vector3d::UnitZ());
+  const auto& sphere = std::get<SphereDescription>(shaft.shapes[1]);
+  EXPECT_EQ(sphere.radius, 0.005);
+  expect_pose(sphere.pose, {0.16, -0.02, 0.1}, Vector3d::UnitX());
+}
+
+TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
+  const LinkDescription wrist = link(gripper(), "wrist");
+  ASSERT_EQ(wrist.shapes.size(), 1u);
+  const auto& box = std::get<BoxDescription>(wrist.shapes[0]);
+  EXPECT_EQ(box.size, Vector3d(0.02, 0.04, 0.06));
+  expect_pose(box.pose, {0.5, 0.25, -0.125}, Vector3d::UnitY());
+}
+
+TEST(RobotModel, MeshesAreToldOfAndThenRead) {
+  std::vector<std::string> told;
+  const LinkDescription jaw =
+      gripper().link("jaw", [&](const std::string& what) { told.push_back(what); });
+  EXPECT_EQ(told,
+            std::vector<std::string>{"link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'"});
+  ASSERT_EQ(jaw.shapes.size(), 1u);
+  const auto& mesh = std::get<MeshDescription>(jaw.shapes[0]);
+  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
+  EXPECT_EQ(mesh.triangles.size(), 4u);
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+}
+
+TEST(RobotModel, MovingJoints) {
+  const RobotModel model = gripper();
+  EXPECT_EQ(link(model, "mount").joint, "");
+  EXPECT_EQ(link(model, "shaft").joint, "insertion");
+  EXPECT_EQ(link(model, "wrist").joint, "");
+  EXPECT_EQ(link(model, "jaw").joint, "jaw_joint");
+  EXPECT_EQ(link(model, "other_jaw").joint, "other_jaw_joint");
+}
+
+TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
+  // Where the file is no XML, the reason is in the words of urdfdom's parser, which versions
+  // change.
+  for (const std::string no_xml : {"", "<robot name='probe'><link name='tip'></robot>"}) {
+    expect_words(refusal(no_xml), {"no legal URDF: "});
+    EXPECT_GT(refusal(no_xml).size(), std::string("no legal URDF: ").size());
+  }
+  expect_words(refusal("<sdf/>"), {"'robot'"});
+  expect_words(refusal(robot("<link name='a'/><link name='b'/>")), {"root", "[a]", "[b]"});
+  expect_words(refusal(robot("<link name='a'/><link name='a'/>")), {"'a'", "not unique"});
+}
+
+TEST(RobotModel, UnknownLinksAreNamedWithTheNearest) {
+  const RobotModel model = gripper();
+  expect_words(tool_error([&] { link(model, "jaws"); }),
+               {"'jaws' is unknown", "nearest is 'jaw'", "jaw, mount, other_jaw, shaft, wrist"});
+}
+
+TEST(RobotModel, LinksReadInPartAreRefused) {
+  // urdfdom would skip the second shape and all that follow.
+  const std::string first = "<link name='tip'><collision><geometry><sphere radius='1'/>";
+  const std::string second = "</geometry></collision><collision><geometry>";
+  const std::string end = "</geometry></collision></link>";
+  for (const std::string shape :
+       {"<sphere radius='nan'/>", "<cone/>", "<sphere/>", "<mesh filename='a' scale='1 1'/>"}) {
+    expect_words(refusal_of_tip(robot(first + second + shape + end)), {"'tip'", "Link [tip]"});
+  }
+  expect_words(refusal_of_tip(robot_of("<sphere radius='nan'/>")), {"radius [nan]"});
+  expect_words(refusal_of_tip(robot_of("<box size='1 1'/>")), {"[1 1]"});
+}
+
+TEST(RobotModel, FaultsOfOtherLinksDoNotMatter) {
+  const RobotModel model(robot(
+      "<link name='tip'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
+      "<link name='tip_2'><collision><geometry><cone/></geometry></collision></link>"
+      "<joint name='j' type='fixed'><parent link='tip'/><child link='tip_2'/></joint>"));
+  EXPECT_EQ(link(model, "tip").shapes.size(), 1u);
+  expect_words(tool_error([&] { link(model, "tip_2"); }), {"'tip_2'", "cone"});
+}
+
+TEST(RobotModel, MeshFaultsNameTheLinkAndTheFile) {
+  expect_words(refusal_of_tip(robot_of("<mesh filename='package://organ_collision/no.stl'/>")),
+               {"'tip'", "no.stl"});
+  expect_words(
+      refusal_of_tip(robot_of("<mesh filename='" + tool_file("jaw.obj") + "' scale='1 0 1'/>")),
+      {"'tip'", "jaw.obj", "1 0 1"});
+  expect_words(refusal_of_tip(robot_of("<mesh filename=''/>")), {"'tip'", "''"});
+}
+
+TEST(RobotModel, LogsNothingAndLeavesConsoleBridgeAsItWas) {
+  SilentHandler handler;
+  console_bridge::useOutputHandler(&handler);
+  RobotModel{robot_of("<cone/>")};
+  EXPECT_EQ(console_bridge::getOutputHandler(), &handler);
+  refusal("");
+  EXPECT_EQ(console_bridge::getOutputHandler(), &handler);
+  EXPECT_TRUE(handler.texts.empty());
+  console_bridge::noOutputHandler();
+}
+
+namespace {
+
+/// The answer, as the node reads it.
+RobotReply ask(const std::function<std::string()>& urdf, const std::vector<std::string>& links) {
+  std::string bytes;
+  answer_with_links(urdf, links, [&](const std::string& record) { bytes += record; });
+  return parse_reply(bytes);
+}
+
+}  // namespace
+
+TEST(RobotAnswer, HasTheLinksInTheOrderOfTheirNames) {
+  const RobotReply reply = ask([] { return tool_text("gripper.urdf"); }, {"shaft", "jaw", "shaft"});
+  EXPECT_FALSE(reply.refusal);
+  ASSERT_TRUE(reply.links);
+  ASSERT_EQ(reply.links->size(), 3U);
+  EXPECT_EQ((*reply.links)[0].shapes.size(), 2U);
+  EXPECT_EQ((*reply.links)[2].shapes.size(), 2U);
+}
+
+TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
+  std::vector<std::string> records;
+  answer_with_links([] { return robot_of("<mesh filename='" + tool_file("jaw.obj") + "'/>"); },
+                    {"tip"}, [&](const std::string& record) { records.push_back(record); });
+  ASSERT_EQ(records.size(), 2U);
+  const RobotReply cut_off = parse_reply(records[0]);
+  expect_words(cut_off.reading, {"tip", "jaw.obj"});
+  EXPECT_FALSE(cut_off.refusal || cut_off.links);
+}
+
+TEST(RobotAnswer, IsARefusalIfSomethingCannotBeRead) {
+  const RobotReply reply = ask([] { return tool_text("gripper.urdf"); }, {"shaft", "nobody"});
+  ASSERT_TRUE(reply.refusal);
+  expect_words(*reply.refusal, {"nobody"});
+  EXPECT_FALSE(reply.links);
+  const auto missing = []() -> std::string { throw ToolError("cannot read 'x.urdf'"); };
+  EXPECT_EQ(ask(missing, {"tip"}).refusal, "cannot read 'x.urdf'");
+}

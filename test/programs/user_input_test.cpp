@@ -1,0 +1,135 @@
+#include "offline/user_input.hpp"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "temporary_files.hpp"
+
+namespace organ_collision {
+namespace {
+
+using Texts = std::vector<std::string_view>;
+using Words = std::vector<std::string>;
+
+TEST(UserInput, is_named_in_refusals_of_one_line) {
+  EXPECT_STREQ(InputError("liver.obj", 12, "x is abc").what(), "liver.obj:12: x is abc");
+  EXPECT_EQ(in_quotes("a b"), "\"a b\"");
+  EXPECT_EQ(in_quotes(std::string_view("a\nb\tc\0d\x7f", 8)), "\"a?b?c?d?\"");
+  EXPECT_EQ(in_quotes(std::string(60, 'x')), '"' + std::string(60, 'x') + '"');
+  EXPECT_EQ(in_quotes(std::string(61, 'x')), '"' + std::string(60, 'x') + "...\"");
+}
+
+TEST(UserInput, is_split_into_words_and_cells) {
+  const auto words = [](std::string_view line) {
+    Texts words{"an earlier one"};
+    split_words(line, words);
+    return words;
+  };
+  const auto cells = [](std::string_view line) {
+    Texts cells{"an earlier one"};
+    split_cells(line, cells);
+    return cells;
+  };
+  EXPECT_EQ(words("f 1 \t22  3"), (Texts{"f", "1", "22", "3"}));
+  EXPECT_EQ(words(" f "), (Texts{"f"}));
+  EXPECT_EQ(words(" \t"), Texts{});
+  EXPECT_EQ(cells("a, b ,,c"), (Texts{"a", "b", "", "c"}));
+  EXPECT_EQ(cells("a,"), (Texts{"a", ""}));
+  EXPECT_EQ(cells(""), (Texts{""}));
+}
+
+TEST(UserInput, is_a_number_only_from_end_to_end) {
+  const std::pair<const char*, double> numbers[] = {
+      {"-1.5e-3", -1.5e-3}, {"0.1", 0.1},           {"+2", 2.0},
+      {"0x10", 16.0},       {"4.9e-324", 4.9e-324}, {"1e-999", 0.0}};
+  for (const auto& [text, number] : numbers) EXPECT_EQ(parse_number(text), number) << text;
+  EXPECT_EQ(parse_number(std::string_view("12,5").substr(0, 2)), 12.0);
+  EXPECT_TRUE(std::isnan(parse_number("nan").value()));
+  EXPECT_TRUE(std::isinf(parse_number("1e999").value()));
+  for (const char* text : {"", "x", "1x", "1 2", "0.1.2", "1,5", "--1"}) {
+    EXPECT_FALSE(parse_number(text)) << text;
+  }
+  EXPECT_EQ(parse_integer("-12"), -12);
+  for (const char* text : {"", "x", "1.0", "1e3", "99999999999999999999", "+1"}) {
+    EXPECT_FALSE(parse_integer(text)) << text;
+  }
+}
+
+/// What a program with an option of each kind takes from its words.
+struct Taken {
+  bool quick = false;
+  std::string in;
+  Words topics;
+  double size = 0.25;
+  Words files;
+};
+
+std::optional<Taken> take(const Words& words, bool has_files = true) {
+  Taken taken;
+  CommandLine line("prog");
+  line.text("in", taken.in);
+  line.texts("topic", taken.topics);
+  line.number("size", taken.size, -1.0, 8.0);
+  line.flag("quick", taken.quick);
+  if (!line.read(words, has_files ? &taken.files : nullptr)) return std::nullopt;
+  return taken;
+}
+
+TEST(CommandLine, has_options_flags_and_files) {
+  const Taken taken = take({"a.bag", "--in", "x=1", "--topic", "/a", "b.bag", "--topic=/b",
+                            "--size", "-0.5", "--quick"})
+                          .value();
+  EXPECT_EQ(taken.in, "x=1");
+  EXPECT_EQ(taken.topics, (Words{"/a", "/b"}));
+  EXPECT_EQ(taken.size, -0.5);
+  EXPECT_TRUE(taken.quick);
+  EXPECT_EQ(taken.files, (Words{"a.bag", "b.bag"}));
+  const Taken nothing = take({}).value();
+  EXPECT_EQ(nothing.size, 0.25);
+  EXPECT_FALSE(nothing.quick);
+}
+
+TEST(CommandLine, sees_a_call_for_help_anywhere) {
+  EXPECT_FALSE(take({"--in", "--help"}));
+  EXPECT_FALSE(take({"--nonsense", "-h"}));
+  EXPECT_TRUE(take({"help"}));
+}
+
+TEST(CommandLine, refuses_what_the_program_does_not_understand) {
+  const std::pair<Words, const char*> refusals[] = {
+      {{"--fast"},
+       "unknown option \"--fast\"; legal are --in, --topic, --size, --quick and --help"},
+      {{"--siz", "1"},
+       "unknown option \"--siz\"; legal are --in, --topic, --size, --quick and --help"},
+      {{"a.bag"}, "unknown argument \"a.bag\""},
+      {{"--in", "--quick"}, "option --in has no value"},
+      {{"--in"}, "the required argument for option '--in' is missing"},
+      {{"--in", ""}, "--in is \"\"; must be a text"},
+      {{"--quick=1"}, "option '--quick' does not take any arguments"},
+      {{"--in=a", "--in", "b"}, "option '--in' cannot be specified more than once"},
+      {{"--size", "wide"}, "--size is \"wide\"; must be a number from -1 to 8"},
+      {{"--size", "8.5"}, "--size is \"8.5\"; must be a number from -1 to 8"},
+      {{"--size", "nan"}, "--size is \"nan\"; must be a number from -1 to 8"}};
+  for (const auto& [words, why] : refusals) {
+    EXPECT_EQ(input_error([&words = words] { take(words, false); }),
+              "prog: " + std::string(why) + " (--help explains)");
+  }
+  EXPECT_EQ(input_error([] { CommandLine("prog").require("mesh", ""); }),
+            "prog: option --mesh is missing (--help explains)");
+}
+
+TEST(Progress, is_told_with_the_total_if_that_is_known) {
+  Progress known("prog", "motions", 7), unknown("prog", "lines", std::nullopt);
+  testing::internal::CaptureStderr();
+  known.report(1);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  known.report(3);
+  unknown.report(4);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "prog: 3 of 7 motions\nprog: 4 lines\n");
+}
+
+}  // namespace
+}  // namespace organ_collision
