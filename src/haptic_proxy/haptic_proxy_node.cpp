@@ -76,8 +76,6 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       started_(SteadyClock::now()),
       publisher_(private_node_, inbox_.organs(), counters_.failed, loaded_.parameters.publish_tf),
       markers_(private_node_, loaded_.parameters.markers),
-      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
-                          inbox_.organ_topics(), counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_.queue()),
       organ_services_({inbox_.organs(), inbox_.organ_topics(), loop_.queue(), background_.queue()}),
@@ -122,7 +120,9 @@ void HapticProxyNode::start() {
   reset_ = private_node_.advertiseService(names::kReset, &HapticProxyNode::on_reset, this);
   updater_.setHardwareID("none");
   updater_.add("proxies", this, &HapticProxyNode::diagnose);
-  inbox_diagnostics_.add_to(updater_);
+  add_diagnostics(updater_,
+                  ReceivedParts{loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
+                                inbox_.organ_topics(), counters_.meshes, counters_.rejected});
   realtime_.add_to(updater_);
   master_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.

@@ -110,7 +110,6 @@ class HapticProxyNode {
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
-  InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 
   SurfaceInspector surfaces_;

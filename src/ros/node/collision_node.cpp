@@ -41,15 +41,10 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                  },
                  counters_.rejected, loop_.queue()}),
       services_(
-          {{loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
-            pipeline_.poses(), pipeline_.steps().history()},
-           [this](const std::function<void()>& action) { run_in_thread_of(loop_.queue(), action); },
-           counters_.refused,
-           loaded_.parameters.threads}),
-      query_diagnostics_({loaded_.misspelt, pipeline_.gl_version(), pipeline_.steps(),
-                          pipeline_.transforms(), services_.statistics(), counters_}),
-      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
-                          pipeline_.organ_topics(), counters_.meshes, counters_.rejected}),
+          {loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
+           pipeline_.poses(), pipeline_.steps().history()},
+          [this](const std::function<void()>& action) { run_in_thread_of(loop_.queue(), action); },
+          counters_),
       updater_(node_, private_node_, private_node_.getNamespace()),
       surfaces_(background_.queue()),
       organ_services_(
@@ -85,8 +80,11 @@ void CollisionNode::start() {
   reset_ = private_node_.advertiseService(names::kReset, &CollisionNode::on_reset, this);
   start_ticks();
   updater_.setHardwareID("none");
-  query_diagnostics_.add_to(updater_);
-  inbox_diagnostics_.add_to(updater_);
+  add_diagnostics(updater_, AnsweredParts{loaded_.misspelt, pipeline_.gl_version(),
+                                          pipeline_.steps(), pipeline_.transforms(), counters_});
+  add_diagnostics(updater_,
+                  ReceivedParts{loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
+                                pipeline_.organ_topics(), counters_.meshes, counters_.rejected});
   realtime_.add_to(updater_);
   master_.add_to(updater_);
   // The updater's own timer follows simulated time, and would stop when simulated time stops.

@@ -63,8 +63,6 @@ class CollisionNode {
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
-  QueryDiagnostics query_diagnostics_;
-  InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 
   SurfaceInspector surfaces_;
