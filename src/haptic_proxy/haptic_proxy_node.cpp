@@ -60,8 +60,6 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       publisher_(core_.private_node(), inbox_.organs(), counters_.failed,
                  core_.parameters().publish_tf),
       markers_(core_.private_node(), core_.parameters().markers),
-      inbox_diagnostics_({core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs(),
-                          inbox_.organ_topics(), counters_.meshes, counters_.rejected}),
       surfaces_(core_.background().queue()),
       organ_services_({inbox_.organs(), inbox_.organ_topics(), core_.loop().queue(),
                        core_.background().queue()}) {
@@ -100,7 +98,10 @@ void HapticProxyNode::start() {
   inbox_.subscribe(core_.node(), core_.private_node());
   organ_services_.advertise(core_.private_node());
   core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
-  inbox_diagnostics_.add_to(core_.updater());
+  add_diagnostics(core_.updater(),
+                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
+                                inbox_.organs(), inbox_.organ_topics(), counters_.meshes,
+                                counters_.rejected});
   core_.start();
   ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
            core_.parameters().stiffness);

@@ -27,12 +27,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       services_({{core_.parameters(), core_.tools(), pipeline_.organs(), pipeline_.transforms(),
                   pipeline_.poses(), pipeline_.steps().history()},
                  [this](const std::function<void()>& action) { core_.in_node_thread(action); },
-                 counters_.refused,
-                 core_.parameters().threads}),
-      query_diagnostics_({core_.parameters().misspelt, pipeline_.gl_version(), pipeline_.steps(),
-                          pipeline_.transforms(), services_.statistics(), counters_}),
-      inbox_diagnostics_({core_.parameters().mesh_timeout_sec, core_.tools(), pipeline_.organs(),
-                          pipeline_.organ_topics(), counters_.meshes, counters_.rejected}),
+                 counters_),
       surfaces_(core_.background().queue()),
       organ_services_({pipeline_.organs(), pipeline_.organ_topics(), core_.loop().queue(),
                        core_.background().queue()}) {
@@ -69,8 +64,13 @@ void CollisionNode::start() {
                       on_queue(core_.private_node(), batch_thread_.queue()));
   organ_services_.advertise(core_.private_node());
   start_ticks();
-  query_diagnostics_.add_to(core_.updater());
-  inbox_diagnostics_.add_to(core_.updater());
+  add_diagnostics(core_.updater(),
+                  AnsweredParts{core_.parameters().misspelt, pipeline_.gl_version(),
+                                pipeline_.steps(), pipeline_.transforms(), counters_});
+  add_diagnostics(core_.updater(),
+                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
+                                pipeline_.organs(), pipeline_.organ_topics(), counters_.meshes,
+                                counters_.rejected});
   core_.start();
   ROS_INFO("ready: %s, GL %s", counted(core_.tools().size(), "tool").c_str(),
            pipeline_.gl_version().c_str());

@@ -49,8 +49,6 @@ class CollisionNode {
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
-  QueryDiagnostics query_diagnostics_;
-  InboxDiagnostics inbox_diagnostics_;
   SurfaceInspector surfaces_;
   OrganServices organ_services_;
   ros::Timer tick_;

@@ -58,7 +58,7 @@ class StepScheduler {
   using Publish = std::function<void(const EvaluatedStep&)>;
 
   /// The references must outlive this. `publish` gets the steps of a round in their
-  /// order. One that is ready waits for at most one task and 0.2 ms (worker_threads.hpp).
+  /// order. One that is ready waits for at most one task (worker_threads.hpp).
   StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools, ToolPoses& poses,
                 StepWorkers& workers, Publish publish)
       : parameters_(parameters),
