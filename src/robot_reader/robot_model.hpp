@@ -31,12 +31,6 @@ class RobotModel {
   std::vector<std::string> errors_;  ///< urdfdom's errors, also about links that it read in part
 };
 
-}  // namespace organ_collision
-
-}  // namespace urdf
-
-namespace organ_collision {
-
 /// Answers the node: reads the shapes of these links, and writes the records of robot_reply.hpp.
 /// `urdf`: the text of the URDF. A file that cannot be read gives a refusal. A broken one may end
 /// the program; the last record then names it.

@@ -18,7 +18,7 @@ namespace organ_collision {
 namespace {
 
 /// How soon the thread notices that it is to end.
-const ros::WallDuration kLongestWait(0.05);
+const ros::WallDuration kStopPeriod(0.05);
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void QueueThread::work() {
   lower_priority_of_this_thread();
   while (!stop_) {
     try {
-      queue_.callOne(kLongestWait);
+      queue_.callOne(kStopPeriod);
     } catch (const std::bad_alloc&) {  // The callback is lost. The next one may have more memory.
     }
   }
