@@ -64,23 +64,23 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       loaded_(load_haptic_proxy_parameters(private_node_)),
       realtime_(loaded_.parameters.realtime),
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
-      inbox_({loaded_.parameters.max_faces, loaded_.parameters.max_ahead_sec},
-             loaded_.parameters.tools,
-             {[this](std::size_t tool) {
-                if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
-              },
-              counters_.rejected, loop_.queue()}),
-      poses_(inbox_.transforms(), kNoPaths),
+      inbox_(
+          {loaded_.parameters.max_faces, loaded_.parameters.max_ahead_sec},
+          loaded_.parameters.tools, counters_.rejected,
+          [this](std::size_t tool) {
+            if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
+          },
+          OrganIntake::Threads{loop_.queue(), builder_.queue(), background_.queue()}),
+      poses_(inbox_.transforms, kNoPaths),
       frame_(loaded_.parameters.frame),
       hands_(make_hands(tools_, KeptTools(tools_.size()))),
       started_(SteadyClock::now()),
-      publisher_(private_node_, inbox_.organs(), counters_.failed, loaded_.parameters.publish_tf),
+      publisher_(private_node_, inbox_.organs, counters_.failed, loaded_.parameters.publish_tf),
       markers_(private_node_, loaded_.parameters.markers),
-      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs(),
-                          inbox_.organ_topics(), counters_.meshes, counters_.rejected}),
+      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, inbox_.organs, inbox_.intake,
+                          counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
-      surfaces_(background_.queue()),
-      organ_services_({inbox_.organs(), inbox_.organ_topics(), loop_.queue(), background_.queue()}),
+      organ_services_(inbox_.organs, inbox_.intake, loop_.queue(), background_.queue()),
       tool_reload_(
           on_queue(private_node, background_.queue()), tools_,
           [this]() -> LoadedTools {
@@ -138,6 +138,7 @@ void HapticProxyNode::start() {
 void HapticProxyNode::end_background() {
   loop_.end();
   background_.stop();
+  builder_.stop();
 }
 
 void HapticProxyNode::run(const std::function<bool()>& stop) {
@@ -146,8 +147,7 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
       loop_.receive(next_deadline());
       if (broken_) std::rethrow_exception(broken_);
       follow_hands();
-      loop_.guard([this] { markers_.update(inbox_.organs(), [this] { return views(); }); });
-      loop_.guard([this] { surfaces_.update(inbox_.organs(), SteadyClock::now()); });
+      loop_.guard([this] { markers_.update(inbox_.organs, [this] { return views(); }); });
     }
     let_go("the node ends");
   } catch (const std::exception& error) {
@@ -189,11 +189,9 @@ void HapticProxyNode::watch_clock() {
 }
 
 void HapticProxyNode::apply_organ_messages() {
-  while (const auto update = inbox_.organ_topics().next()) {
+  while (const auto update = inbox_.intake.next()) {
     has_new_shape_ = true;
     if (update->status == ContactArray::OK) counters_.meshes.count();
-    // At once, because the next callback may ask what is known of the surface.
-    surfaces_.update(inbox_.organs(), SteadyClock::now());
   }
 }
 
@@ -214,7 +212,7 @@ void HapticProxyNode::follow_waiting_hands() {
 /// After a batch of messages: a tick for each hand with a new pose.
 void HapticProxyNode::follow_hands() {
   batch_began_.reset();
-  if (frame_.update(inbox_.organs())) reset_proxies("the proxy's frame changed");
+  if (frame_.update(inbox_.organs)) reset_proxies("the proxy's frame changed");
   const Time now = SteadyClock::now();
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) follow_hand(tool, now);
   has_new_shape_ = false;
@@ -227,7 +225,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     if (hand.is_leaving) throw Rejection(*hand.why_not);
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
-    const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
+    const ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
                                          age_limits(loaded_.parameters), ros::Time::now());
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
@@ -275,7 +273,7 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
     return true;
   }
   const HapticProxyParameters& parameters = loaded_.parameters;
-  check_age(inbox_.transforms(), frame_.name(), swept_frames(tools_[tool]), stamp,
+  check_age(inbox_.transforms, frame_.name(), swept_frames(tools_[tool]), stamp,
             age_limits(parameters), ros::Time::now());
   const double timeout = parameters.pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
@@ -431,7 +429,7 @@ bool HapticProxyNode::do_leaving_hands_fade() const {
 void HapticProxyNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
   std::vector<ToolParameters> parameters = parameters_of(loaded.tools);
   for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-  inbox_.pose_topics().change_tools(parameters, node_);
+  inbox_.motion.change_tools(parameters, node_);
   try {
     publisher_.set_tools(parameters);
     hands_ = make_hands(loaded.tools, kept);

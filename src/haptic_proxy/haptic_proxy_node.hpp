@@ -93,7 +93,7 @@ class HapticProxyNode {
 
   ProxyCounters counters_;
   MessageLoop loop_;
-  QueueThread background_;
+  QueueThread background_, builder_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedHapticProxyParameters loaded_;
@@ -113,7 +113,6 @@ class HapticProxyNode {
   InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 
-  SurfaceInspector surfaces_;
   OrganServices organ_services_;
   ros::ServiceServer reset_;
   ros::WallTimer diagnostic_timer_;

@@ -1,6 +1,5 @@
 #include "collision_node.hpp"
 
-#include <chrono>
 #include <exception>
 #include <utility>
 
@@ -10,8 +9,6 @@
 
 namespace organ_collision {
 namespace {
-
-using SteadyClock = std::chrono::steady_clock;
 
 /// After a breakdown, the node waits this long for its last messages to leave.
 const ros::WallDuration kLastWords(1.0);
@@ -28,32 +25,26 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       tools_(load_tools(loaded_.parameters.tools, private_node_)),
       publisher_(private_node_, tools_, counters_),
       markers_(private_node_, loaded_.parameters.markers, tools_),
-      pipeline_(loaded_.parameters, tools_,
+      pipeline_(loaded_.parameters, tools_, counters_.rejected,
                 {[this](const EvaluatedStep& step) {
                    publisher_.publish(step);
                    markers_.add(step);
                  },
-                 [this](const OrganUpdate& update) {
-                   publisher_.report(update);
-                   // At once, because the next callback may be of a query, which then waits for the
-                   // surface.
-                   surfaces_.update(pipeline_.organs(), SteadyClock::now());
-                 },
-                 counters_.rejected, loop_.queue()}),
+                 [this](const OrganUpdate& update) { publisher_.report(update); }},
+                OrganIntake::Threads{loop_.queue(), builder_.queue(), background_.queue()}),
       services_(
-          {{loaded_.parameters, tools_, pipeline_.organs(), pipeline_.transforms(),
-            pipeline_.poses(), pipeline_.steps().history()},
+          {{loaded_.parameters, tools_, pipeline_.inbox.organs, pipeline_.inbox.transforms,
+            pipeline_.poses, pipeline_.steps.history()},
            [this](const std::function<void()>& action) { run_in_thread_of(loop_.queue(), action); },
            counters_.refused,
            loaded_.parameters.threads}),
-      query_diagnostics_({loaded_.misspelt, pipeline_.gl_version(), pipeline_.steps(),
-                          pipeline_.transforms(), services_.statistics(), counters_}),
-      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.organs(),
-                          pipeline_.organ_topics(), counters_.meshes, counters_.rejected}),
+      query_diagnostics_({loaded_.misspelt, pipeline_.workers.gl_version(), pipeline_.steps,
+                          pipeline_.inbox.transforms, services_.statistics(), counters_}),
+      inbox_diagnostics_({loaded_.parameters.mesh_timeout_sec, tools_, pipeline_.inbox.organs,
+                          pipeline_.inbox.intake, counters_.meshes, counters_.rejected}),
       updater_(node_, private_node_, private_node_.getNamespace()),
-      surfaces_(background_.queue()),
-      organ_services_(
-          {pipeline_.organs(), pipeline_.organ_topics(), loop_.queue(), background_.queue()}),
+      organ_services_(pipeline_.inbox.organs, pipeline_.inbox.intake, loop_.queue(),
+                      background_.queue()),
       tool_reload_(
           on_queue(private_node, background_.queue()), tools_,
           [this] { return load_tool_parameters(private_node_); },
@@ -76,7 +67,7 @@ CollisionNode::~CollisionNode() { end_background(); }
 
 void CollisionNode::start() {
   warn_of_settings(tools_, loaded_.misspelt);
-  pipeline_.subscribe(node_, private_node_);
+  pipeline_.inbox.subscribe(node_, private_node_);
   services_.advertise(on_queue(private_node_, query_thread_.queue()),
                       on_queue(private_node_, batch_thread_.queue()));
   organ_services_.advertise(private_node_);
@@ -94,7 +85,7 @@ void CollisionNode::start() {
       ros::WallDuration(loaded_.parameters.diagnostic_period_sec),
       [this](const ros::WallTimerEvent&) { updater_.force_update(); });
   ROS_INFO("ready: %s, GL %s", counted(tools_.size(), "tool").c_str(),
-           pipeline_.gl_version().c_str());
+           pipeline_.workers.gl_version().c_str());
 }
 
 /// Ends the waits of the other threads for this thread, and then those threads, which use members.
@@ -102,6 +93,7 @@ void CollisionNode::end_background() {
   loop_.end();
   services_.end();
   background_.stop();
+  builder_.stop();
   query_thread_.stop();
   batch_thread_.stop();
 }
@@ -109,14 +101,13 @@ void CollisionNode::end_background() {
 void CollisionNode::run(const std::function<bool()>& stop) {
   try {
     while (private_node_.ok() && !stop()) {
-      loop_.receive(pipeline_.next_deadline());
+      loop_.receive(pipeline_.steps.next_deadline());
       if (broken_) std::rethrow_exception(broken_);
-      pipeline_.evaluate(loop_.heard_until());
-      loop_.guard([this] { surfaces_.update(pipeline_.organs(), SteadyClock::now()); });
-      loop_.guard([this] { markers_.update(pipeline_.organs(), pipeline_.steps().history()); });
+      pipeline_.steps.evaluate(loop_.heard_until());
+      loop_.guard([this] { markers_.update(pipeline_.inbox.organs, pipeline_.steps.history()); });
     }
   } catch (const std::exception& error) {
-    publisher_.report_breakdown(pipeline_.organs(), error.what());
+    publisher_.report_breakdown(pipeline_.inbox.organs, error.what());
     report_last_diagnostics();
     kLastWords.sleep();
     throw;
@@ -136,19 +127,19 @@ void CollisionNode::start_ticks() {
   tick_ = ros::Timer();
   if (!(loaded_.parameters.rate_hz > 0.0)) return;
   tick_ = private_node_.createTimer(ros::Duration(1.0 / loaded_.parameters.rate_hz),
-                                    [this](const ros::TimerEvent&) { pipeline_.add_tick(); });
+                                    [this](const ros::TimerEvent&) { pipeline_.steps.add_tick(); });
 }
 
 /// Runs in the node's thread.
 void CollisionNode::exchange_tools(LoadedToolList& loaded, const KeptTools& kept) {
   std::vector<ToolParameters> parameters;
   for (const Tool& tool : loaded.tools) parameters.push_back(tool.parameters);
-  pipeline_.change_pose_topics(parameters, node_);
+  pipeline_.inbox.motion.change_tools(parameters, node_);
   try {
     std::swap(tools_, loaded.tools);
     std::swap(loaded_.misspelt, loaded.misspelt);
     std::swap(loaded_.parameters.tools, parameters);
-    pipeline_.change_tools(kept);
+    pipeline_.steps.change_tools(kept);
     markers_.set_tools(tools_);
     warn_of_settings(tools_, loaded_.misspelt);
   } catch (...) {  // Usually std::bad_alloc. The node cannot go on with half of the exchange.

@@ -11,7 +11,6 @@
 #include "program.hpp"
 #include "realtime.hpp"
 #include "ros/markers/marker_publisher.hpp"
-#include "ros/organs/organ_report.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/parameters/live_parameters.hpp"
 #include "ros/parameters/node_parameters.hpp"
@@ -51,7 +50,7 @@ class CollisionNode {
 
   NodeCounters counters_;
   MessageLoop loop_;
-  QueueThread background_, query_thread_, batch_thread_;
+  QueueThread background_, builder_, query_thread_, batch_thread_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   LoadedParameters loaded_;
@@ -67,7 +66,6 @@ class CollisionNode {
   InboxDiagnostics inbox_diagnostics_;
   diagnostic_updater::Updater updater_;
 
-  SurfaceInspector surfaces_;
   OrganServices organ_services_;
   ros::ServiceServer reset_;
   ros::Timer tick_;

@@ -13,7 +13,7 @@
 
 #include "ros/messages/failure_log.hpp"
 #include "ros/parameters/tool_parameters.hpp"
-#include "ros/steps/wait_clock.hpp"
+#include "ros/steps/step_history.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {

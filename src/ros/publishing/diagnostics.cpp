@@ -32,7 +32,10 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
   status.add(organ.name() + ", surface", closedness(*organ.surface()));
   status.add(organ.name() + ", orientation", orientation(*organ.surface()));
   if (!last_refusal.empty()) status.add(organ.name() + ", newer mesh refused", last_refusal);
-  for (const std::string& doubt : doubts(organ)) status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  for (const std::string& doubt :
+       doubts(organ.name(), mesh.box().cast<double>(), *organ.surface())) {
+    status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  }
 }
 
 }  // namespace

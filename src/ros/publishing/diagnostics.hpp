@@ -23,7 +23,7 @@ class InboxDiagnostics {
     const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
     const std::vector<Tool>& tools;
     const OrganRegistry& organs;
-    const OrganTopics& topics;
+    const OrganIntake& topics;
     EventRate& meshes;     ///< accepted shapes of organs
     FailureLog& rejected;  ///< messages that were refused
   };
