@@ -94,7 +94,6 @@ class HapticProxyNode {
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
-  SurfaceInspector surfaces_;
   OrganServices organ_services_;
 };
 

@@ -32,7 +32,10 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
   status.add(organ.name() + ", surface", closedness(*organ.surface()));
   status.add(organ.name() + ", orientation", orientation(*organ.surface()));
   if (!last_refusal.empty()) status.add(organ.name() + ", newer mesh refused", last_refusal);
-  for (const std::string& doubt : doubts(organ)) status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  for (const std::string& doubt :
+       doubts(organ.name(), mesh.box().cast<double>(), *organ.surface())) {
+    status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  }
 }
 
 /// "queries", "query time, median [us]" and so on.
@@ -80,7 +83,7 @@ void show_organs(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
 void show_messages(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "none rejected");
   status.add("mesh rate [1/s]", parts.meshes.take(std::chrono::steady_clock::now()));
-  const OrganMessageCounts counts = parts.topics.counts();
+  const OrganMessageCounts counts = parts.intake.counts();
   status.add("organ messages received", counts.received);
   status.add("organ messages applied", counts.applied);
   status.add("organ messages refused", counts.refused);

@@ -21,7 +21,7 @@ struct ReceivedParts {
   const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
   const std::vector<Tool>& tools;
   const OrganRegistry& organs;
-  const OrganTopics& topics;
+  const OrganIntake& intake;
   EventRate& meshes;     ///< accepted shapes of organs
   FailureLog& rejected;  ///< messages that were refused
 };
