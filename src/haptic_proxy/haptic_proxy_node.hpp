@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "haptic_proxy_parameters.hpp"
-#include "proxy_counters.hpp"
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "ros/markers/marker_publisher.hpp"
