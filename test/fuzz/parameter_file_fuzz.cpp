@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   file.write(FuzzInput(data, size).rest());
   try {
     const YamlParameters parameters(file.path(), "/organ_collision");
-    for (const ToolParameters& tool : parameters.node_parameters().parameters.tools) {
+    for (const ToolParameters& tool : parameters.node_parameters().tools) {
       parameters.find_text(tool.robot_description);
     }
   } catch (const InputError&) {
