@@ -166,7 +166,7 @@ class SnapshotTest(unittest.TestCase):
         self.check_refusal('no node publishes /nothing', '--topic=/nothing')
         self.check_refusal('no marker came within the timeout on /empty', '--topic=/empty')
         self.check_refusal("frame 'table' have no transform", '--topic=/cubes', '--frame=moon')
-        self.check_refusal("--size is 'big'", '--size=big', code=2)
+        self.check_refusal('--size is "big"', '--size=big', code=2)
         no_file = '/no/folder/x.png'
         self.check_refusal("cannot write '%s'" % no_file, '--topic=/cubes', file=no_file)
 
