@@ -33,19 +33,6 @@ TEST(Answers, AboutAnOrganAndATool) {
   EXPECT_EQ(answer.links, std::vector<std::string>{""});
 }
 
-TEST(Answers, LinksOfATool) {
-  ContactArray answer = answer_about("liver", "hook", ContactArray::SWEPT, ros::Time(11));
-  ToolParameters tool{"hook", "hook_trocar", "hook_tip", 0.005};
-  set_links(answer, tool);
-  EXPECT_EQ(answer.links, std::vector<std::string>{""});
-  tool.links = {"wrist", "jaw"};
-  set_links(answer, tool);
-  EXPECT_EQ(answer.links, (std::vector<std::string>{"", "wrist", "jaw"}));
-  tool.radius = 0.0;
-  set_links(answer, tool);
-  EXPECT_EQ(answer.links, (std::vector<std::string>{"wrist", "jaw"}));
-}
-
 TEST(Answers, AFailureIsEmpty) {
   ContactArray answer = answer_about("liver", "hook", ContactArray::STATIC, ros::Time(11));
   answer.contacts.resize(3);
@@ -238,33 +225,6 @@ TEST_P(ContactQueryTest, RequestWithoutAnswerBecomesAStatus) {
   EXPECT_EQ(answer_.status, ContactArray::INVALID_REQUEST);
   EXPECT_NE(answer_.message.find("-0.25"), std::string::npos) << answer_.message;
   EXPECT_TRUE(answer_.contacts.empty());
-}
-
-// A long tool rotates among faces that move through each other, as after a mistake of units.
-TEST_P(ContactQueryTest, CountsWhatIsNotResolved) {
-  std::vector<float> before, now;
-  std::vector<std::uint32_t> triangles;
-  std::mt19937 random(1);
-  std::uniform_real_distribution<float> anywhere(-4e5F, 4e5F);
-  for (std::uint32_t i = 0; i < 180'000; ++i) {
-    for (int k = 0; k < 3; ++k) before.push_back(anywhere(random));
-    for (int k = 0; k < 3; ++k) now.push_back(anywhere(random));
-    triangles.push_back(i);
-  }
-  const TriangleMesh organ_before(before, triangles), organ(now, triangles);
-  CollisionRequest wild = request();
-  wild.organ = &organ;
-  wild.organ_before = &organ_before;
-  wild.mode = QueryMode::kSwept;
-  wild.path = {{0.0, {{0.0, 0.0, 4e5}, {4e5, 0.0, -4e5}}},
-               {1.0, {{0.0, 1e5, 3e5}, {-4e5, 0.0, -3e5}}}};
-  contact_query_.evaluate(wild, answer_);
-  EXPECT_EQ(answer_.status, ContactArray::OK);
-  EXPECT_GT(answer_.unresolved, 0u);
-  EXPECT_LE(answer_.unresolved, answer_.contacts.size());
-  answer_ = {};
-  contact_query_.evaluate(request(), answer_);
-  EXPECT_EQ(answer_.unresolved, 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothPickers, ContactQueryTest,
