@@ -132,7 +132,7 @@ class LayersTest(unittest.TestCase):
         libraries = linked(ROBOT_READER)
         self.assertRegex(libraries, PARSERS)
         self.assertNotRegex(libraries, GL_LIBRARIES)
-        self.assertNotRegex(libraries, r'lib(roscpp|rosconsole|tf2|nodelet|xmlrpc)')
+        self.assertNotRegex(libraries, r'lib(roscpp\.so|rosconsole|tf2|nodelet|xmlrpc)')
 
     def test_snapshot_links_no_gl_and_no_node(self):
         libraries = linked(SNAPSHOT)
