@@ -66,9 +66,8 @@ class ToolPoses {
 
  private:
   /// The tip of links is not swept: a sample of their motion does not need it.
-  enum class TipOfLinks { kNeeded, kUnused };
   Lookup<ToolPose> look_up_pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
-                                TipOfLinks tip) const;
+                                bool with_tip_of_links) const;
   /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,

@@ -130,7 +130,6 @@ TEST_F(TransformBufferTest, CountsWhatComesAfterItsStep) {
   EXPECT_EQ(buffer_.late(), 2u);
 }
 
-using namespace organ_collision;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
