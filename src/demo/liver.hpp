@@ -7,6 +7,9 @@
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 
+class btSoftBody;
+struct btSoftBodyWorldInfo;
+
 namespace organ_collision {
 
 /// A closed surface whose faces are oriented outwards. Positions in metres.
@@ -29,20 +32,6 @@ double liver_level(const Eigen::Vector3d& point);
 /// onto liver_level = 0 and spread evenly there.
 ClosedSurface make_liver_surface();
 
-}  // namespace organ_collision
-
-class btSoftBody;
-struct btSoftBodyWorldInfo;
-
-namespace organ_collision {
-
-/// A place where a tool presses on a face, and how far the tissue yields there.
-struct TissuePush {
-  std::uint32_t face;
-  Eigen::Vector3d barycentric;   ///< of the place in the face
-  Eigen::Vector3d displacement;  ///< [m]
-};
-
 /// How far a vertex yields.
 struct VertexPush {
   std::uint32_t vertex;
@@ -59,15 +48,13 @@ class LiverSoftBody {
 
   /// Applies the pushes, then simulates `seconds` (> 0). A vertex that several pushes move is
   /// displaced by their mean.
-  void step(double seconds, const std::vector<TissuePush>& pushes,
-            const std::vector<VertexPush>& vertex_pushes = {});
+  void step(double seconds, const std::vector<VertexPush>& pushes);
 
   /// x y z x y z ... [m], in the order of the surface.
   std::vector<float> vertices() const;
 
  private:
-  void give_way(const std::vector<TissuePush>& pushes,
-                const std::vector<VertexPush>& vertex_pushes);
+  void give_way(const std::vector<VertexPush>& pushes);
   void breathe();
 
   struct Ligament {

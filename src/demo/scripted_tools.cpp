@@ -48,12 +48,7 @@ Vector3d stabber_tip(double seconds) {
 
 }  // namespace
 
-const std::vector<ScriptedTool>& scripted_tools() {
-  static const std::vector<ScriptedTool> tools{
-      {"palpator", {-0.075, -0.100, 0.150}, palpator_tip, true},
-      {"stabber", {0.095, -0.130, 0.040}, stabber_tip, false},
-  };
-  return tools;
-}
+const ScriptedTool kPalpator{"palpator", {-0.075, -0.100, 0.150}, palpator_tip};
+const ScriptedTool kStabber{"stabber", {0.095, -0.130, 0.040}, stabber_tip};
 
 }  // namespace organ_collision

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
 #include "organ_collision/geometry/tool/shaft.hpp"
 
@@ -9,12 +8,9 @@ namespace organ_collision {
 
 /// A laparoscopic instrument with a scripted motion through a fixed trocar, in the liver's frame.
 struct ScriptedTool {
-  std::string name;                        ///< its TF frames are NAME_trocar and NAME_tip
+  std::string name;
   Eigen::Vector3d trocar;                  ///< [m]
   Eigen::Vector3d (*tip)(double seconds);  ///< [m] at a time since the start
-  /// Whether a hand with a haptic device holds it: then it has a proxy, and pose messages instead
-  /// of the frame NAME_tip.
-  bool has_proxy;
 
   ShaftAxis at(double seconds) const { return {trocar, tip(seconds)}; }
 };
@@ -25,9 +21,10 @@ inline constexpr double kToolRadius = 0.005;
 /// [s] The stabber passes through the left lobe at each full second, within this time.
 inline constexpr double kStabDuration = 0.005;
 
-/// "palpator" is held by a hand that moves slowly over the front of the right lobe, and presses
-/// into it and lifts in turn. "stabber" stabs through the left lobe, and rests in front of it and
-/// behind it in turn.
-const std::vector<ScriptedTool>& scripted_tools();
+/// Held by a hand that moves slowly over the front of the right lobe, and presses into it and lifts
+/// in turn.
+extern const ScriptedTool kPalpator;
+/// Stabs through the left lobe, and rests in front of it and behind it in turn.
+extern const ScriptedTool kStabber;
 
 }  // namespace organ_collision
