@@ -19,7 +19,6 @@
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/parameters/program_help.hpp"
-#include "scripted_tools.hpp"
 
 namespace organ_collision {
 namespace {
