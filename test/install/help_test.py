@@ -74,7 +74,7 @@ class HelpTest(unittest.TestCase):
                     self.assertRegex(done.stdout.lower(), r'\A\s*usage')
 
     def test_an_unknown_option_is_refused(self):
-        for name in [*PAGES, 'liver_simulator', 'demo_report', 'robot_reader', 'check_contacts']:
+        for name in [*PAGES, 'liver_simulator', 'demo_report', 'robot_reader']:
             done = run(program(name), '--no-such-option')
             with self.subTest(program=name):
                 self.assertEqual((done.returncode, done.stdout), (2, ''))

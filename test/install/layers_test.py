@@ -92,7 +92,7 @@ class LayersTest(unittest.TestCase):
         self.assertIn('picking/gl/gl_context.hpp', found)
 
     def test_the_adapters_include_nothing_of_picking_query_and_the_node(self):
-        for room in ('ros/messages', 'ros/threads', 'forces', 'contact_adapter', 'mesh_adapter', 'check_contacts'):
+        for room in ('ros/messages', 'ros/threads', 'forces', 'contact_adapter', 'mesh_adapter'):
             found = 0
             for path, included in includes(room):
                 found += 1
