@@ -41,7 +41,6 @@ LinkBall ball_around(const Link& link);
 /// With a larger deviation, the volume around the chord would be much larger than the volumes
 /// around the legs.
 double allowed_deviation(const Link& link);
-/// The same for a shaft with its radius [m].
 double allowed_deviation(double shaft_radius);
 
 /// A long span that begins with the leg from waypoint `begin` and whose deviation is at most

@@ -276,6 +276,7 @@ TEST_F(Refusals, NameWhatIsWrongWithAShaft) {
       {"trocar of waypoint 0", [](Request& r) { r.path[0].axis.trocar.x() = INFINITY; }},
       {"fraction 0", [](Request& r) { r.path[1].fraction = 0.0; }},
       {"to 0.5", [](Request& r) { r.path[1].fraction = 0.5; }},
+      {"from fraction 0.1", [](Request& r) { r.path[0].fraction = 0.1; }},
       {"mode is 7", [](Request& r) { r.mode = static_cast<QueryMode>(7); }},
       {"earlier shape", [this](Request& r) { r.organ_before = &other_; }},
       {"margin is -0.1", [](Request& r) { r.margin = -0.1; }},

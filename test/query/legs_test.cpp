@@ -95,6 +95,7 @@ TEST(LegSpan, BoundsHowFarALinkIsFromItsChord) {
   };
   expect_bounds(random, next_span, [&](const ToolPath& path, const LegSpan& span) {
     const RigidMotion chord(path[span.begin].links[0], path[span.end].links[0]);
+    EXPECT_LE(chord.angle(), 1.01 * kMaxRotation);
     double most = 0.0;
     for_each_time(path, span, [&](std::size_t on, double time, double chord_time) {
       const Isometry3d pose = RigidMotion(path[on].links[0], path[on + 1].links[0]).at(time);

@@ -106,15 +106,6 @@ TEST_F(QueryThreads, MadeUsedAndDestroyedInAnyThread) {
   }
 }
 
-TEST_F(QueryThreads, OutlivesTheThreadsThatMadeAndUsedIt) {
-  std::unique_ptr<CollisionQuery> query;
-  std::thread([&] { query = std::make_unique<CollisionQuery>(); }).join();
-  std::thread([&] { EXPECT_EQ(contacts(*query), expected_); }).join();
-  EXPECT_EQ(contacts(*query), expected_);
-  std::thread([&] { query.reset(); }).join();
-  EXPECT_EQ(contacts(query_), expected_);
-}
-
 TEST_F(QueryThreads, TwoChangePlacesAndWorkSideBySide) {
   std::array<Worker, 2> workers;
   std::array<std::unique_ptr<CollisionQuery>, 2> queries;

@@ -99,20 +99,6 @@ void expect_counted(const CollisionResult& result) {
   EXPECT_GT(unresolved, 0);
 }
 
-TEST_F(WorkLimit, OfAShaftReportsWhatIsNotResolved) {
-  request_.radius = 1e-3 * kFar;
-  for (ToolWaypoint& waypoint : request_.path) {
-    waypoint.links.clear();
-    for (Vector3d* point : {&waypoint.axis.trocar, &waypoint.axis.tip}) {
-      *point = point->cwiseMax(-1e6).cwiseMin(1e6);
-    }
-  }
-  contacts();
-  expect_counted(result_);
-  const ShaftMotion motion{request_.path[0].axis, request_.path[1].axis};
-  expect_none_missed({motion, request_.radius, {motion.end}}, request_, result_);
-}
-
 TEST_F(WorkLimit, OfLinksReportsWhatIsNotResolved) {
   for (const LinkPart& part :
        {LinkPart::box(Isometry3d::Identity(), {kFar, 1e-6 * kFar, 0.01 * kFar}),

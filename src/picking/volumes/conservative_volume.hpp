@@ -55,8 +55,7 @@ class PartSweep {
     return 0.5 * edges[1];
   }
   ViewingVolume volume(const VolumeMargin& margin) const {
-    return box_ ? conservative_volume(*box_, margin)
-                : conservative_volume(shaft_, radius_, margin);
+    return box_ ? conservative_volume(*box_, margin) : conservative_volume(shaft_, radius_, margin);
   }
 
  private:

@@ -196,10 +196,10 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   }
   tick.answer.is_placed_anew = !tick.place;
   if (!tick.place) {
-    ProxyEntry entry = enter(tool, *mobility, hand, settings.clearance, tick.motions, tissue);
-    tick.place = std::move(entry.place);
+    std::string why_not;
+    tick.place = enter(tool, *mobility, hand, settings.clearance, tick.motions, tissue, why_not);
     if (!tick.place) {
-      tick.answer.message += ", and " + entry.why_not;
+      tick.answer.message += ", and " + why_not;
       return;
     }
   }

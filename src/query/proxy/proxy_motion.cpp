@@ -276,22 +276,23 @@ ToolPose beyond(const std::vector<OrganTick>& organs, const Mobility& mobility,
 
 }  // namespace
 
-ProxyEntry enter(const ProxyTool& tool, const Mobility& mobility, const ToolPose& hand,
-                 double clearance, const std::vector<OrganTick>& organs, Tissue& tissue) {
+std::optional<ProxyPlace> enter(const ProxyTool& tool, const Mobility& mobility,
+                                const ToolPose& hand, double clearance,
+                                const std::vector<OrganTick>& organs, Tissue& tissue,
+                                std::string& why_not) {
   ToolPose pose = hand;
   if (tool.freedom == ProxyFreedom::kTrocar) {
     pose.axis.tip = hand.axis.trocar;
     pose = mobility.combine(pose, hand);
-    if (!is_clear(pose, clearance, tissue)) {
-      return {{}, "the trocar is in tissue: the proxy cannot be placed from outside"};
-    }
+    why_not = "the trocar is in tissue: the proxy cannot be placed from outside";
   } else if (!is_clear(pose, clearance, tissue) || tissue.is_inside(pose, mobility.center(pose))) {
     pose = beyond(organs, mobility, hand);
-    if (!is_clear(pose, clearance, tissue)) {
-      return {{}, "there is no room beyond the organs: the proxy cannot be placed from outside"};
-    }
+    why_not = "there is no room beyond the organs: the proxy cannot be placed from outside";
+  } else {
+    return ProxyPlace{pose, clearance};
   }
-  return {ProxyPlace{pose, clearance}, {}};
+  if (!is_clear(pose, clearance, tissue)) return std::nullopt;
+  return ProxyPlace{pose, clearance};
 }
 
 }  // namespace organ_collision

@@ -80,15 +80,12 @@ class ProxyMotion {
 };
 
 /// Where a proxy comes from when it is placed anew. From there it moves to the hand like any proxy.
-struct ProxyEntry {
-  std::optional<ProxyPlace> place;
-  std::string why_not;  ///< a sentence if there is no place
-};
-
 /// A tool through a trocar enters along its axis: it begins with its tip at the trocar. A free tool
 /// begins where the hand is or, if it touches tissue there or is inside an organ, beyond all
-/// organs, on the hand's side.
-ProxyEntry enter(const ProxyTool& tool, const Mobility& mobility, const ToolPose& hand,
-                 double clearance, const std::vector<OrganTick>& organs, Tissue& tissue);
+/// organs, on the hand's side. Nothing if there is tissue, too; `why_not` then becomes a sentence.
+std::optional<ProxyPlace> enter(const ProxyTool& tool, const Mobility& mobility,
+                                const ToolPose& hand, double clearance,
+                                const std::vector<OrganTick>& organs, Tissue& tissue,
+                                std::string& why_not);
 
 }  // namespace organ_collision

@@ -40,43 +40,51 @@ Tissue::Tissue(const ProxyTool& tool, const PickerSettings& picker)
 
 double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius - kAxisRadius); }
 
-void Tissue::touch(const ToolPose& pose, double growth, std::vector<TissueContact>& contacts) {
+/// Asks the same of all organs with the tool grown. `set_path(tick, question)` sets how the tool
+/// moves in an organ's frame. The contacts are in the proxy's frame.
+template <typename SetPath>
+void Tissue::ask(QueryMode mode, double growth, std::vector<TissueContact>& contacts,
+                 const SetPath& set_path) {
   contacts.clear();
   grow(growth);
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question = request(tick, QueryMode::kStatic);
-    question.path = {waypoint(0.0, tick.T_now, pose)};
-    ask(organ, question, contacts);
+    CollisionRequest question = request(tick, mode);
+    set_path(tick, question);
+    query_.evaluate(question, result_);
+    const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
+    for (const FaceContact& found : result_.contacts) {
+      TissueContact contact{organ, found, growth_of(found.link) - found.depth};
+      contact.contact.point = T_proxy_organ * found.point;
+      contact.contact.end_point = T_proxy_organ * found.end_point;
+      contact.contact.normal = T_proxy_organ.linear() * found.normal;
+      contacts.push_back(contact);
+    }
   }
+}
+
+void Tissue::touch(const ToolPose& pose, double growth, std::vector<TissueContact>& contacts) {
+  ask(QueryMode::kStatic, growth, contacts, [&](const OrganTick& tick, CollisionRequest& question) {
+    question.path = {waypoint(0.0, tick.T_now, pose)};
+  });
 }
 
 void Tissue::sweep(const std::vector<ToolPose>& way, double growth,
                    std::vector<TissueContact>& contacts) {
-  contacts.clear();
-  grow(growth);
-  const double legs = static_cast<double>(way.size() - 1);
-  for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
-    const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question = request(tick, QueryMode::kSwept);
+  ask(QueryMode::kSwept, growth, contacts, [&](const OrganTick& tick, CollisionRequest& question) {
+    const double legs = static_cast<double>(way.size() - 1);
     for (std::size_t i = 0; i < way.size(); ++i) {
       question.path.push_back(waypoint(static_cast<double>(i) / legs, tick.T_now, way[i]));
     }
-    ask(organ, question, contacts);
-  }
+  });
 }
 
 void Tissue::sweep_with_organs(const ToolPose& from, const ToolPose& to, double growth,
                                std::vector<TissueContact>& contacts) {
-  contacts.clear();
-  grow(growth);
-  for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
-    const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question = request(tick, QueryMode::kSwept);
+  ask(QueryMode::kSwept, growth, contacts, [&](const OrganTick& tick, CollisionRequest& question) {
     if (tick.before != tick.now) question.organ_before = tick.before;
     question.path = {waypoint(0.0, tick.T_before, from), waypoint(1.0, tick.T_now, to)};
-    ask(organ, question, contacts);
-  }
+  });
 }
 
 bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
@@ -140,20 +148,6 @@ CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
   request.links = links.empty() ? nullptr : &links;
   request.mode = mode;
   return request;
-}
-
-/// Adds the contacts that answer a question about an organ, in the proxy's frame.
-void Tissue::ask(std::size_t organ, const CollisionRequest& question,
-                 std::vector<TissueContact>& contacts) {
-  query_.evaluate(question, result_);
-  const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
-  for (const FaceContact& found : result_.contacts) {
-    TissueContact contact{organ, found, growth_of(found.link) - found.depth};
-    contact.contact.point = T_proxy_organ * found.point;
-    contact.contact.end_point = T_proxy_organ * found.end_point;
-    contact.contact.normal = T_proxy_organ.linear() * found.normal;
-    contacts.push_back(contact);
-  }
 }
 
 }  // namespace organ_collision

@@ -69,8 +69,9 @@ class Tissue {
   void grow(double growth);
   double growth_of(std::uint32_t link) const;
   CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
-  void ask(std::size_t organ, const CollisionRequest& question,
-           std::vector<TissueContact>& contacts);
+  template <typename SetPath>
+  void ask(QueryMode mode, double growth, std::vector<TissueContact>& contacts,
+           const SetPath& set_path);
 
   const ProxyTool& tool_;
   double growth_ = 0.0;  ///< [m]

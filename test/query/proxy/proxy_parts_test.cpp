@@ -33,18 +33,6 @@ std::vector<Wall> random_walls(Random& random, std::size_t count, int dimensions
   return walls;
 }
 
-TEST(LeastConstraint, GoesToTheGoalWhereNoWallHoldsIt) {
-  Random random(1);
-  LeastConstraint solver;
-  const Displacement goal = random_displacement(random, 0.01, 6);
-  solver.solve(goal, {});
-  EXPECT_EQ(solver.displacement(), goal);
-  EXPECT_FALSE(solver.is_held());
-  solver.solve(goal, {{goal, 2.0 * goal.squaredNorm()}});
-  EXPECT_EQ(solver.displacement(), goal);
-  EXPECT_EQ(solver.load(0), 0.0);
-}
-
 /// The conditions of Karush, Kuhn and Tucker, which hold nowhere else for a convex problem.
 TEST(LeastConstraint, IsOptimalInSixDimensions) {
   Random random(3);
@@ -244,19 +232,6 @@ TEST(Mobility, NoPointMovesFartherThanTheLongestWay) {
       EXPECT_LE(most, 1.1 * mobility->longest_way(hand, by));
     }
   }
-}
-
-TEST(Mobility, ABallHasNoDirection) {
-  const ProxyTool ball = shaft(ProxyFreedom::kFree);
-  const auto mobility = make_mobility(ball);
-  const ToolPose hand{{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.3}}, {}, {}};
-  mobility->measure(hand);
-  Displacement by = Displacement::Zero();
-  by << 0.01, -0.02, 0.03, 0.0, 0.0, 0.0;
-  const ToolPose moved = mobility->moved(hand, by, hand);
-  EXPECT_LT((moved.axis.tip - Vector3d(0.11, 0.18, 0.33)).norm(), 1e-15);
-  EXPECT_LT((mobility->between(moved, hand) + by).norm(), 1e-15);
-  EXPECT_GT(mobility->size(), 0.0);
 }
 
 TEST(Tissue, HasTheCrossingsOfAllOrgansInTheirOrderAlongTheAxis) {
