@@ -16,7 +16,7 @@ namespace organ_collision {
 std::uint32_t face_number(float lower, float upper);
 
 /// Faces as GL reads them. Each corner has the number of its face, which GL returns as a texture
-/// coordinate. Positions and numbers are two arrays with different strides: see draw_from().
+/// coordinate. Positions and numbers are two arrays with different strides: see prepare_to_draw().
 class DrawnFaces {
  public:
   using Position = std::array<float, 3>;  ///< in the volume's shifted coordinates [m]
