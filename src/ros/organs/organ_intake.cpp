@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <exception>
 #include <memory>
 #include <set>
 #include <utility>
@@ -186,8 +187,13 @@ void OrganIntake::inspect(const DeformableOrgan& organ) {
   call_later(threads_->inspector, [this, needed, name = organ.name()] {
     const std::shared_ptr<OrganSurface> surface = needed.lock();
     if (!surface) return;
-    surface->find();
-    log_.tell(name, *surface, SteadyClock::now());
+    try {
+      surface->find();
+      log_.tell(name, *surface, SteadyClock::now());
+    } catch (...) {  // Usually std::bad_alloc. It ends the node as if it were of the node's thread.
+      call_later(threads_->node,
+                 [error = std::current_exception()] { std::rethrow_exception(error); });
+    }
   });
 }
 
