@@ -2,10 +2,19 @@
 
 #include <Eigen/Geometry>
 #include <string>
+#include <vector>
 
+#include "organ_collision/geometry/organ/face_clusters.hpp"
 #include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
+
+/// Already scaled, and in the link's frame [m].
+struct MeshDescription {
+  std::string file;  ///< as the URDF names it
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<FaceIndices> triangles;
+};
 
 /// The surface in a mesh file, in the frame of its link [m]. Reads STL, DAE, OBJ and the other
 /// formats of assimp. As in RViz, the axes are those of the file. Lengths are multiplied by

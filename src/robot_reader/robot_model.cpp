@@ -16,11 +16,6 @@ using Eigen::Vector3d;
 
 Vector3d to_eigen(const urdf::Vector3& vector) { return {vector.x, vector.y, vector.z}; }
 
-ShapePose to_eigen(const urdf::Pose& pose) {
-  const urdf::Rotation& q = pose.rotation;
-  return {to_eigen(pose.position), {q.w, q.x, q.y, q.z}};
-}
-
 /// While an object of this class lives, collects the errors that urdfdom logs through
 /// console_bridge. What else it logs is left out.
 class ScopedErrorCollector : public console_bridge::OutputHandler {
@@ -53,47 +48,60 @@ void check_complete(const std::string& link, const std::vector<std::string>& err
 
 using AboutToRead = std::function<void(const std::string&)>;
 
-MeshDescription mesh(const urdf::Mesh& mesh, const ShapePose& pose,
-                     const AboutToRead& about_to_read) {
+void read_mesh(const urdf::Mesh& mesh, const urdf::Pose& origin, const AboutToRead& about_to_read,
+               RobotShape& shape) {
   about_to_read("mesh '" + mesh.filename + "'");
-  const Eigen::Isometry3d T_link_mesh = Eigen::Translation3d(pose.position) * pose.orientation;
-  return read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
+  const urdf::Rotation& q = origin.rotation;
+  const Eigen::Isometry3d T_link_mesh =
+      Eigen::Translation3d(to_eigen(origin.position)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+  const MeshDescription read = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
+  shape.file = read.file;
+  for (const Vector3d& vertex : read.vertices) {
+    shape.vertices.insert(shape.vertices.end(), vertex.data(), vertex.data() + 3);
+  }
+  for (const FaceIndices& corners : read.triangles) {
+    shape.triangles.insert(shape.triangles.end(), corners.begin(), corners.end());
+  }
 }
 
-ShapeDescription shape(const urdf::Geometry& geometry, const ShapePose& pose,
-                       const AboutToRead& about_to_read) {
+RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
+                    const AboutToRead& about_to_read) {
+  const urdf::Vector3& p = origin.position;
+  const urdf::Rotation& q = origin.rotation;
+  RobotShape shape;
+  shape.pose = {{p.x, p.y, p.z, q.x, q.y, q.z, q.w}};
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
-      return {
-          ShapeKind::kSphere, pose, {static_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0}};
+      shape.kind = RobotShape::SPHERE;
+      shape.size[0] = static_cast<const urdf::Sphere&>(geometry).radius;
+      break;
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-      return {ShapeKind::kCylinder, pose, {cylinder.radius, cylinder.length, 0.0}};
-    }
-    case urdf::Geometry::BOX:
-      return {ShapeKind::kBox, pose, to_eigen(static_cast<const urdf::Box&>(geometry).dim)};
-    case urdf::Geometry::MESH:
+      shape.kind = RobotShape::CYLINDER;
+      shape.size = {{cylinder.radius, cylinder.length, 0.0}};
       break;
+    }
+    case urdf::Geometry::BOX: {
+      const urdf::Vector3& sides = static_cast<const urdf::Box&>(geometry).dim;
+      shape.kind = RobotShape::BOX;
+      shape.size = {{sides.x, sides.y, sides.z}};
+      break;
+    }
+    case urdf::Geometry::MESH:
+      shape.kind = RobotShape::MESH;
+      read_mesh(static_cast<const urdf::Mesh&>(geometry), origin, about_to_read, shape);
   }
-  return {ShapeKind::kMesh,
-          {},
-          Vector3d::Zero(),
-          mesh(static_cast<const urdf::Mesh&>(geometry), pose, about_to_read)};
+  return shape;
 }
 
 /// The shapes of collision or visual elements.
 template <typename Elements>
-std::vector<ShapeDescription> shapes(const Elements& elements, const AboutToRead& about_to_read) {
-  std::vector<ShapeDescription> shapes;
+std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& about_to_read) {
+  std::vector<RobotShape> shapes;
   for (const auto& element : elements) {
-    shapes.push_back(shape(*element->geometry, to_eigen(element->origin), about_to_read));
+    shapes.push_back(shape_of(*element->geometry, element->origin, about_to_read));
   }
   return shapes;
-}
-
-std::vector<ShapeDescription> shapes(const urdf::Link& link, const AboutToRead& about_to_read) {
-  if (!link.collision_array.empty()) return shapes(link.collision_array, about_to_read);
-  return shapes(link.visual_array, about_to_read);
 }
 
 std::string moving_joint(const urdf::Link& link) {
@@ -117,7 +125,7 @@ RobotModel::RobotModel(const std::string& urdf) {
   if (!model_) throw ToolError("no legal URDF: " + listed(errors_));
 }
 
-LinkDescription RobotModel::link(const std::string& name, const AboutToRead& about_to_read) const {
+RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_read) const {
   const urdf::LinkConstSharedPtr link = model_->getLink(name);
   if (!link) {
     const std::vector<std::string> legal = link_names(*model_);
@@ -127,8 +135,13 @@ LinkDescription RobotModel::link(const std::string& name, const AboutToRead& abo
   const std::string prefix = "link '" + name + "': ";
   try {
     check_complete(name, errors_);
-    return {moving_joint(*link),
-            shapes(*link, [&](const std::string& mesh) { about_to_read(prefix + mesh); })};
+    const auto about_to_read_mesh = [&](const std::string& mesh) { about_to_read(prefix + mesh); };
+    RobotLink description;
+    description.joint = moving_joint(*link);
+    description.shapes = link->collision_array.empty()
+                             ? shapes_of(link->visual_array, about_to_read_mesh)
+                             : shapes_of(link->collision_array, about_to_read_mesh);
+    return description;
   } catch (const ToolError& error) {
     throw ToolError(prefix + error.what());
   }
@@ -139,7 +152,7 @@ namespace {
 std::string read_links(const std::string& urdf, const std::vector<std::string>& names,
                        const std::function<void(const std::string&)>& write) {
   const RobotModel robot(urdf);
-  std::vector<LinkDescription> links;
+  std::vector<RobotLink> links;
   for (const std::string& name : names) {
     links.push_back(
         robot.link(name, [&](const std::string& what) { write(reading_record(what)); }));

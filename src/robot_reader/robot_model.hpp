@@ -22,8 +22,8 @@ class RobotModel {
   /// The joint that moves a link, and all its collision shapes or, if it has none, all its visual
   /// shapes. Calls `about_to_read` before reading each mesh, with "link 'jaw': mesh 'jaw.stl'".
   /// Throws ToolError if there is no such link, or a shape or mesh cannot be read.
-  LinkDescription link(const std::string& name,
-                       const std::function<void(const std::string&)>& about_to_read) const;
+  RobotLink link(const std::string& name,
+                 const std::function<void(const std::string&)>& about_to_read) const;
 
  private:
   std::shared_ptr<const urdf::ModelInterface> model_;

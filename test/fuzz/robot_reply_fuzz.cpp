@@ -6,12 +6,12 @@
 using namespace organ_collision;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  RobotReply reply = parse_reply(FuzzInput(data, size).rest());
+  const RobotReply reply = parse_reply(FuzzInput(data, size).rest());
   demand(!(reply.refusal && reply.links), "a reply is a refusal or has links");
   if (!reply.links) return 0;
-  for (LinkDescription& description : *reply.links) {
+  for (const RobotLink& description : *reply.links) {
     try {
-      for (const LinkPart& part : build_link("jaw", std::move(description)).parts) {
+      for (const LinkPart& part : build_link("jaw", description).parts) {
         demand(std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high), "parts are finite");
       }
     } catch (const ToolError&) {

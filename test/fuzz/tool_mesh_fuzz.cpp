@@ -27,9 +27,9 @@ struct Folder {
       std::filesystem::temp_directory_path() / ("tool_mesh_fuzz." + std::to_string(getpid()));
 };
 
-void check(LinkDescription description) {
+void check(const RobotLink& description) {
   try {
-    const Link link = build_link("tip", std::move(description));
+    const Link link = build_link("tip", description);
     demand(!link.parts.empty(), "a link has parts");
     for (const LinkPart& part : link.parts) {
       demand(std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high), "parts are finite");
@@ -48,7 +48,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string file = folder.path / ("mesh" + ending);
   std::ofstream(file, std::ios::binary) << input.rest();
 
-  RobotReply reply =
+  const RobotReply reply =
       parse_reply(reader.read("<robot name='r'><link name='tip'><collision><geometry><mesh "
                               "filename='" +
                               file + "'/></geometry></collision></link></robot>"));
@@ -56,6 +56,6 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   demand(!(reply.refusal && reply.links), "a reply is a refusal or has links");
   if (!reply.links) return 0;
   demand(reply.links->size() == 1, "there is one link");
-  check(std::move(reply.links->front()));
+  check(reply.links->front());
   return 0;
 }

@@ -3,6 +3,8 @@
 #include <console_bridge/console.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "robot_reader/resource.hpp"
 #include "ros/tools/robot_reply.hpp"
 #include "test/ros/tools/tool_files.hpp"
@@ -14,13 +16,14 @@ namespace {
 
 RobotModel gripper() { return RobotModel(read_resource(tool_file("gripper.urdf"))); }
 
-LinkDescription link(const RobotModel& model, const std::string& name) {
+RobotLink link(const RobotModel& model, const std::string& name) {
   return model.link(name, [](const std::string&) {});
 }
 
-void expect_pose(const ShapePose& pose, const Vector3d& position, const Vector3d& image_of_x) {
-  EXPECT_LT((pose.position - position).norm(), 1e-15);
-  EXPECT_LT((pose.orientation * Vector3d::UnitX() - image_of_x).norm(), 1e-15);
+void expect_pose(const RobotShape& shape, const Vector3d& position, const Vector3d& image_of_x) {
+  const Eigen::Quaterniond orientation(&shape.pose[3]);
+  EXPECT_LT((Vector3d(&shape.pose[0]) - position).norm(), 1e-15);
+  EXPECT_LT((orientation * Vector3d::UnitX() - image_of_x).norm(), 1e-15);
 }
 
 std::string robot(const std::string& elements) {
@@ -52,39 +55,39 @@ class SilentHandler : public console_bridge::OutputHandler {
 }  // namespace
 
 TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
-  const LinkDescription shaft = link(gripper(), "shaft");
+  const RobotLink shaft = link(gripper(), "shaft");
   ASSERT_EQ(shaft.shapes.size(), 2u);  // Without the visual box.
-  const ShapeDescription& cylinder = shaft.shapes[0];
-  EXPECT_EQ(cylinder.kind, ShapeKind::kCylinder);
-  EXPECT_EQ(cylinder.size, Vector3d(0.004, 0.3, 0.0));
-  expect_pose(cylinder.pose, {0.01, -0.02, 0.1}, -Vector3d::UnitZ());
-  const ShapeDescription& sphere = shaft.shapes[1];
-  EXPECT_EQ(sphere.kind, ShapeKind::kSphere);
-  EXPECT_EQ(sphere.size, Vector3d(0.005, 0.0, 0.0));
-  expect_pose(sphere.pose, {0.16, -0.02, 0.1}, Vector3d::UnitX());
+  const RobotShape& cylinder = shaft.shapes[0];
+  EXPECT_EQ(cylinder.kind, RobotShape::CYLINDER);
+  EXPECT_EQ(Vector3d(&cylinder.size[0]), Vector3d(0.004, 0.3, 0.0));
+  expect_pose(cylinder, {0.01, -0.02, 0.1}, -Vector3d::UnitZ());
+  const RobotShape& sphere = shaft.shapes[1];
+  EXPECT_EQ(sphere.kind, RobotShape::SPHERE);
+  EXPECT_EQ(sphere.size[0], 0.005);
+  expect_pose(sphere, {0.16, -0.02, 0.1}, Vector3d::UnitX());
 }
 
 TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
-  const LinkDescription wrist = link(gripper(), "wrist");
+  const RobotLink wrist = link(gripper(), "wrist");
   ASSERT_EQ(wrist.shapes.size(), 1u);
-  const ShapeDescription& box = wrist.shapes[0];
-  EXPECT_EQ(box.kind, ShapeKind::kBox);
-  EXPECT_EQ(box.size, Vector3d(0.02, 0.04, 0.06));
-  expect_pose(box.pose, {0.5, 0.25, -0.125}, Vector3d::UnitY());
+  const RobotShape& box = wrist.shapes[0];
+  EXPECT_EQ(box.kind, RobotShape::BOX);
+  EXPECT_EQ(Vector3d(&box.size[0]), Vector3d(0.02, 0.04, 0.06));
+  expect_pose(box, {0.5, 0.25, -0.125}, Vector3d::UnitY());
 }
 
 TEST(RobotModel, MeshesAreToldOfAndThenRead) {
   std::vector<std::string> told;
-  const LinkDescription jaw =
+  const RobotLink jaw =
       gripper().link("jaw", [&](const std::string& what) { told.push_back(what); });
   EXPECT_EQ(told,
             std::vector<std::string>{"link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'"});
   ASSERT_EQ(jaw.shapes.size(), 1u);
-  EXPECT_EQ(jaw.shapes[0].kind, ShapeKind::kMesh);
-  const MeshDescription& mesh = jaw.shapes[0].mesh;
+  const RobotShape& mesh = jaw.shapes[0];
+  EXPECT_EQ(mesh.kind, RobotShape::MESH);
   EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
-  EXPECT_EQ(mesh.triangles.size(), 4u);
-  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.vertices.size(), 12u);
 }
 
 TEST(RobotModel, MovingJoints) {

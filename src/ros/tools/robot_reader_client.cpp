@@ -190,8 +190,8 @@ ProcessResult run_reader(std::vector<std::string> arguments, const std::string& 
   }
 }
 
-std::vector<LinkDescription> read(const std::string& urdf, const std::string& input,
-                                  const std::vector<std::string>& links) {
+std::vector<RobotLink> read(const std::string& urdf, const std::string& input,
+                            const std::vector<std::string>& links) {
   std::vector<std::string> arguments = {urdf};
   arguments.insert(arguments.end(), links.begin(), links.end());
   const ProcessResult result = run_reader(std::move(arguments), input);
@@ -225,13 +225,13 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::st
   return result;
 }
 
-std::vector<LinkDescription> read_robot_file(const std::string& urdf,
-                                             const std::vector<std::string>& links) {
+std::vector<RobotLink> read_robot_file(const std::string& urdf,
+                                       const std::vector<std::string>& links) {
   return read(urdf, "", links);
 }
 
-std::vector<LinkDescription> read_robot_text(const std::string& urdf,
-                                             const std::vector<std::string>& links) {
+std::vector<RobotLink> read_robot_text(const std::string& urdf,
+                                       const std::vector<std::string>& links) {
   return read("-", urdf, links);
 }
 

@@ -36,10 +36,10 @@ ProcessResult run_process(const std::vector<std::string>& command, const std::st
 // reader_limits.
 
 /// `urdf`: an absolute path, or a URL (package://, file://).
-std::vector<LinkDescription> read_robot_file(const std::string& urdf,
-                                             const std::vector<std::string>& links);
+std::vector<RobotLink> read_robot_file(const std::string& urdf,
+                                       const std::vector<std::string>& links);
 /// `urdf`: the text itself.
-std::vector<LinkDescription> read_robot_text(const std::string& urdf,
-                                             const std::vector<std::string>& links);
+std::vector<RobotLink> read_robot_text(const std::string& urdf,
+                                       const std::vector<std::string>& links);
 
 }  // namespace organ_collision

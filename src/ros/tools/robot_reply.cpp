@@ -10,61 +10,13 @@
 namespace organ_collision {
 namespace {
 
-using Eigen::Vector3d;
-
 struct Malformed : std::runtime_error {
   Malformed() : std::runtime_error("malformed reply") {}
 };
 
-static_assert(RobotShape::SPHERE == static_cast<int>(ShapeKind::kSphere) &&
-              RobotShape::CYLINDER == static_cast<int>(ShapeKind::kCylinder) &&
-              RobotShape::BOX == static_cast<int>(ShapeKind::kBox) &&
-              RobotShape::MESH == static_cast<int>(ShapeKind::kMesh));
-
-void write(const ShapeDescription& shape, RobotShape& message) {
-  message.kind = static_cast<std::uint8_t>(shape.kind);
-  Eigen::Map<Vector3d>(&message.pose[0]) = shape.pose.position;
-  Eigen::Map<Eigen::Vector4d>(&message.pose[3]) = shape.pose.orientation.coeffs();
-  Eigen::Map<Vector3d>(&message.size[0]) = shape.size;
-  message.file = shape.mesh.file;
-  message.vertices.reserve(3 * shape.mesh.vertices.size());
-  for (const Vector3d& vertex : shape.mesh.vertices) {
-    message.vertices.insert(message.vertices.end(), vertex.data(), vertex.data() + 3);
-  }
-  message.triangles.reserve(3 * shape.mesh.triangles.size());
-  for (const FaceIndices& corners : shape.mesh.triangles) {
-    message.triangles.insert(message.triangles.end(), corners.begin(), corners.end());
-  }
-}
-
-ShapeDescription shape_of(const RobotShape& message) {
-  const std::vector<double>& vertices = message.vertices;
-  const std::vector<std::uint32_t>& triangles = message.triangles;
-  if (message.kind > RobotShape::MESH) throw Malformed();
-  if (vertices.size() % 3 != 0 || triangles.size() % 3 != 0) throw Malformed();
-  ShapeDescription shape{static_cast<ShapeKind>(message.kind),
-                         {Vector3d(&message.pose[0]), Eigen::Quaterniond(&message.pose[3])},
-                         Vector3d(&message.size[0]),
-                         {message.file, {}, {}}};
-  shape.mesh.vertices.reserve(vertices.size() / 3);
-  for (std::size_t i = 0; i < vertices.size(); i += 3) {
-    shape.mesh.vertices.emplace_back(&vertices[i]);
-  }
-  shape.mesh.triangles.reserve(triangles.size() / 3);
-  for (std::size_t i = 0; i < triangles.size(); i += 3) {
-    shape.mesh.triangles.push_back({triangles[i], triangles[i + 1], triangles[i + 2]});
-  }
-  return shape;
-}
-
-std::vector<LinkDescription> links_of(const RobotRecord& record) {
-  std::vector<LinkDescription> links;
-  for (const RobotLink& message : record.links) {
-    LinkDescription& link = links.emplace_back();
-    link.joint = message.joint;
-    for (const RobotShape& shape : message.shapes) link.shapes.push_back(shape_of(shape));
-  }
-  return links;
+void check(const RobotShape& shape) {
+  if (shape.kind > RobotShape::MESH) throw Malformed();
+  if (shape.vertices.size() % 3 != 0 || shape.triangles.size() % 3 != 0) throw Malformed();
 }
 
 std::string bytes_of(const RobotRecord& record) {
@@ -89,10 +41,13 @@ void read(CheckedStream stream, RobotReply& reply) {
     reply.reading = record.text;
   }
   if (stream.getLength() != 0 || record.kind > RobotRecord::LINKS) throw Malformed();
+  for (const RobotLink& link : record.links) {
+    for (const RobotShape& shape : link.shapes) check(shape);
+  }
   if (record.kind == RobotRecord::REFUSAL) {
-    reply.refusal = record.text;
+    reply.refusal = std::move(record.text);
   } else {
-    reply.links = links_of(record);
+    reply.links = std::move(record.links);
   }
 }
 
@@ -106,16 +61,10 @@ std::string refusal_record(const std::string& why) {
   return text_record(RobotRecord::REFUSAL, why);
 }
 
-std::string links_record(const std::vector<LinkDescription>& links) {
+std::string links_record(std::vector<RobotLink> links) {
   RobotRecord record;
   record.kind = RobotRecord::LINKS;
-  for (const LinkDescription& link : links) {
-    RobotLink& message = record.links.emplace_back();
-    message.joint = link.joint;
-    for (const ShapeDescription& shape : link.shapes) {
-      write(shape, message.shapes.emplace_back());
-    }
-  }
+  record.links = std::move(links);
   return bytes_of(record);
 }
 

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <Eigen/Geometry>
+#include <organ_collision/RobotLink.h>
+
 #include <chrono>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
-
-#include "organ_collision/geometry/organ/face_clusters.hpp"
 
 namespace organ_collision {
 
@@ -18,51 +17,19 @@ class ToolError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A link as the robot's files describe it, in the link's frame. Lengths are in metres. The values
-// are not checked yet: build_link does that.
-
-/// The pose of a shape in the link's frame.
-struct ShapePose {
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
-};
-
-/// Already scaled, and in the link's frame.
-struct MeshDescription {
-  std::string file;  ///< as the URDF names it
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<FaceIndices> triangles;
-};
-
-/// The axis of a cylinder is z. The origin is the centre.
-enum class ShapeKind { kSphere, kCylinder, kBox, kMesh };
-
-struct ShapeDescription {
-  ShapeKind kind = ShapeKind::kSphere;
-  ShapePose pose = {};  ///< not of a mesh
-  /// [m] Of a sphere: its radius. Of a cylinder: its radius and length. Of a box: along x, y and z.
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();
-  MeshDescription mesh = {};
-};
-
-struct LinkDescription {
-  std::string joint;  ///< moves the link relative to its parent; empty: fixed, or the root
-  std::vector<ShapeDescription> shapes;
-};
-
 // What the program robot_reader writes to the node: messages of the type RobotRecord, one after the
 // other. Before it reads a file, it writes the name of the file, so that the node can say which
 // file ended the program. At the end it writes the links, or why it has none.
 
 std::string reading_record(const std::string& what);
 std::string refusal_record(const std::string& why);
-std::string links_record(const std::vector<LinkDescription>& links);
+std::string links_record(std::vector<RobotLink> links);
 
 /// Either `refusal` or `links` is set; neither, if the reply is cut off or malformed.
 struct RobotReply {
   std::string reading;  ///< the file that was being read last; empty: the URDF itself
   std::optional<std::string> refusal;
-  std::optional<std::vector<LinkDescription>> links;
+  std::optional<std::vector<RobotLink>> links;  ///< their values are not checked yet
 };
 
 /// Safe for any bytes: whatever is not exactly one complete reply is malformed.

@@ -24,43 +24,51 @@ double checked_size(const std::string& what, double size) {
   refuse(what, " is ", size, "; must be more than 0 and at most ", tolerance::kFarthest, " m");
 }
 
-Eigen::Isometry3d checked_pose(const ShapePose& pose) {
-  if (!is_in_range(pose.position)) {
-    refuse("a shape's origin is ", pose.position.transpose(), "; must be finite and within ",
+Eigen::Isometry3d checked_pose(const RobotShape& shape) {
+  const Eigen::Vector3d position(&shape.pose[0]);
+  const Eigen::Quaterniond orientation(&shape.pose[3]);
+  if (!is_in_range(position)) {
+    refuse("a shape's origin is ", position.transpose(), "; must be finite and within ",
            tolerance::kFarthest, " m");
   }
-  if (!(std::abs(pose.orientation.norm() - 1.0) <= 1e-6)) {
-    refuse("a shape's orientation is ", pose.orientation.coeffs().transpose(),
+  if (!(std::abs(orientation.norm() - 1.0) <= 1e-6)) {
+    refuse("a shape's orientation is ", orientation.coeffs().transpose(),
            "; must be a unit quaternion, of finite angles");
   }
-  return Eigen::Translation3d(pose.position) * pose.orientation.normalized();
+  return Eigen::Translation3d(position) * orientation.normalized();
 }
 
-LinkPart mesh_part(MeshDescription mesh) {
+LinkPart mesh_part(const RobotShape& shape) {
+  std::vector<Eigen::Vector3d> vertices;
+  for (std::size_t i = 0; i < shape.vertices.size(); i += 3) {
+    vertices.emplace_back(&shape.vertices[i]);
+  }
+  std::vector<FaceIndices> faces;
+  for (std::size_t i = 0; i < shape.triangles.size(); i += 3) {
+    faces.push_back({shape.triangles[i], shape.triangles[i + 1], shape.triangles[i + 2]});
+  }
   try {
-    return LinkPart::mesh({std::move(mesh.vertices), std::move(mesh.triangles)});
+    return LinkPart::mesh({std::move(vertices), std::move(faces)});
   } catch (const MeshError& error) {
-    refuse("mesh '", mesh.file, "': ", error.what());
+    refuse("mesh '", shape.file, "': ", error.what());
   }
 }
 
-LinkPart part_of(ShapeDescription shape) {
-  const Eigen::Vector3d& size = shape.size;
+LinkPart part_of(const RobotShape& shape) {
+  const Eigen::Vector3d size(&shape.size[0]);
   switch (shape.kind) {
-    case ShapeKind::kSphere:
-      return LinkPart::sphere(checked_pose(shape.pose).translation(),
+    case RobotShape::SPHERE:
+      return LinkPart::sphere(checked_pose(shape).translation(),
                               checked_size("a sphere's radius", size[0]));
-    case ShapeKind::kCylinder:
-      return LinkPart::cylinder(checked_pose(shape.pose),
-                                checked_size("a cylinder's radius", size[0]),
+    case RobotShape::CYLINDER:
+      return LinkPart::cylinder(checked_pose(shape), checked_size("a cylinder's radius", size[0]),
                                 checked_size("a cylinder's length", size[1]));
-    case ShapeKind::kBox:
+    case RobotShape::BOX:
       for (int axis = 0; axis < 3; ++axis) checked_size("a box's side", size[axis]);
-      return LinkPart::box(checked_pose(shape.pose), size);
-    case ShapeKind::kMesh:
-      break;
+      return LinkPart::box(checked_pose(shape), size);
+    default:
+      return mesh_part(shape);
   }
-  return mesh_part(std::move(shape.mesh));
 }
 
 std::string find_text(const std::string& parameter, const ros::NodeHandle& private_node) {
@@ -119,12 +127,10 @@ std::optional<std::size_t> find(const std::vector<Tool>& tools, const std::strin
 
 }  // namespace
 
-Link build_link(const std::string& name, LinkDescription description) {
+Link build_link(const std::string& name, const RobotLink& description) {
   Link link{name, {}};
   try {
-    for (ShapeDescription& shape : description.shapes) {
-      link.parts.push_back(part_of(std::move(shape)));
-    }
+    for (const RobotShape& shape : description.shapes) link.parts.push_back(part_of(shape));
     if (link.parts.empty()) refuse("has no collision or visual geometry; name links that have");
   } catch (const ToolError& error) {
     refuse("link '", name, "': ", error.what());
@@ -144,12 +150,12 @@ Tool load_tool(const ToolParameters& parameters,
   if (parameters.links.empty()) return tool;
   const bool is_file = !parameters.urdf.empty();
   try {
-    std::vector<LinkDescription> links =
+    const std::vector<RobotLink> links =
         is_file ? read_robot_file(parameters.urdf, parameters.links)
                 : read_robot_text(find_text(parameters.robot_description), parameters.links);
     for (std::size_t i = 0; i < links.size(); ++i) {
       tool.joints.push_back(links[i].joint);
-      tool.links.push_back(build_link(parameters.links[i], std::move(links[i])));
+      tool.links.push_back(build_link(parameters.links[i], links[i]));
     }
   } catch (const std::exception& error) {
     tool.links.clear();

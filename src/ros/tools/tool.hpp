@@ -16,7 +16,7 @@ namespace organ_collision {
 
 /// The link with its collision geometry. Throws ToolError, which names the link and the illegal
 /// size, pose or mesh.
-Link build_link(const std::string& name, LinkDescription description);
+Link build_link(const std::string& name, const RobotLink& description);
 
 /// A tool as the node uses it.
 struct Tool {

@@ -142,7 +142,7 @@ TEST(RobotReader, ReadsFilesAndTexts) {
                             read_robot_text(tool_text("gripper.urdf"), names)}) {
     ASSERT_EQ(links.size(), 2u);
     EXPECT_EQ(links[0].joint, "jaw_joint");
-    EXPECT_EQ(links[0].shapes.at(0).mesh.triangles.size(), 4u);
+    EXPECT_EQ(links[0].shapes.at(0).triangles.size(), 12u);
     EXPECT_EQ(links[1].joint, "insertion");
     EXPECT_EQ(links[1].shapes.size(), 2u);
   }

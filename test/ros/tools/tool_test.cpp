@@ -11,33 +11,35 @@
 #include "tool_files.hpp"
 
 using namespace organ_collision;
-using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-const ShapePose kPose{{0.1, 0.2, 0.3}, {std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}};
-const std::vector<Vector3d> kCorners = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+const std::vector<double> kCorners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-ShapeDescription sphere(const ShapePose& pose, double radius) {
-  return {ShapeKind::kSphere, pose, {radius, 0.0, 0.0}};
+/// A shape at (0.1, 0.2, 0.3), turned by a right angle about z.
+RobotShape shape(std::uint8_t kind, double x, double y = 0.0, double z = 0.0) {
+  RobotShape shape;
+  shape.kind = kind;
+  shape.pose = {{0.1, 0.2, 0.3, 0.0, 0.0, std::sqrt(0.5), std::sqrt(0.5)}};
+  shape.size = {{x, y, z}};
+  return shape;
 }
 
-ShapeDescription cylinder(const ShapePose& pose, double radius, double length) {
-  return {ShapeKind::kCylinder, pose, {radius, length, 0.0}};
+RobotShape mesh(const std::vector<double>& vertices, const std::vector<std::uint32_t>& triangles) {
+  RobotShape mesh = shape(RobotShape::MESH, 0.0);
+  mesh.file = "tip.stl";
+  mesh.vertices = vertices;
+  mesh.triangles = triangles;
+  return mesh;
 }
 
-ShapeDescription box(const ShapePose& pose, const Vector3d& size) {
-  return {ShapeKind::kBox, pose, size};
-}
-
-ShapeDescription mesh(std::vector<Vector3d> vertices, std::vector<FaceIndices> triangles) {
-  return {ShapeKind::kMesh, {}, {0, 0, 0}, {"tip.stl", std::move(vertices), std::move(triangles)}};
-}
-
-std::string refusal(const ShapeDescription& shape) {
-  return tool_error([&] { build_link("tip", {"wrist", {shape}}); });
+Link link_of(const std::vector<RobotShape>& shapes) {
+  RobotLink description;
+  description.joint = "wrist";
+  description.shapes = shapes;
+  return build_link("tip", description);
 }
 
 ToolParameters gripper(const std::vector<std::string>& links) {
@@ -90,44 +92,44 @@ Tool loaded(const std::string& file, const std::vector<std::string>& links) {
 }  // namespace
 
 TEST(LinkBuilder, ShapesInTheirOrderAndWhereTheyAre) {
-  const Link link = build_link("tip", {"wrist",
-                                       {sphere(kPose, 0.5), cylinder(kPose, 0.1, 2.0),
-                                        box(kPose, {1.0, 2.0, 3.0}), mesh(kCorners, {{0, 1, 2}})}});
+  const Link link = link_of({shape(RobotShape::SPHERE, 0.5), shape(RobotShape::CYLINDER, 0.1, 2.0),
+                             shape(RobotShape::BOX, 1.0, 2.0, 3.0), mesh(kCorners, {0, 1, 2})});
   EXPECT_EQ(link.name, "tip");
   ASSERT_EQ(link.parts.size(), 4u);
   EXPECT_EQ(link.parts[0].radius, 0.5);
   EXPECT_NEAR(link.parts[0].project_onto(Vector3d::UnitX()).high, 0.1, 1e-15);
   EXPECT_NEAR(link.parts[1].project_onto(Vector3d::UnitZ()).high, 1.3, 1e-15);
-  EXPECT_NEAR(link.parts[2].project_onto(Vector3d::UnitX()).high, 1.1,
-              1e-15);  // Half of the side along y.
+  // Half of the side along y.
+  EXPECT_NEAR(link.parts[2].project_onto(Vector3d::UnitX()).high, 1.1, 1e-15);
   EXPECT_EQ(link.parts[3].project_onto(Vector3d::UnitX()).high, 1.0);
 }
 
 TEST(LinkBuilder, IllegalValuesAreNamed) {
   const double nan = std::nan("");
-  std::vector<std::pair<ShapeDescription, std::vector<std::string>>> rows = {
-      {sphere(kPose, 0.0), {"link 'tip'", "sphere's radius is 0", "more than 0"}},
-      {sphere(kPose, 2e6), {"2e+06", "at most 1e+06 m"}},
-      {sphere(kPose, nan), {"sphere's radius is nan"}},
-      {cylinder(kPose, -0.01, 1.0), {"cylinder's radius is -0.01", "more than 0"}},
-      {cylinder(kPose, 0.01, 0.0), {"cylinder's length is 0"}},
-      {box(kPose, {1.0, -2.0, 3.0}), {"box's side is -2", "more than 0"}},
+  std::vector<std::pair<RobotShape, std::vector<std::string>>> rows = {
+      {shape(RobotShape::SPHERE, 0.0), {"link 'tip'", "sphere's radius is 0", "more than 0"}},
+      {shape(RobotShape::SPHERE, 2e6), {"2e+06", "at most 1e+06 m"}},
+      {shape(RobotShape::SPHERE, nan), {"sphere's radius is nan"}},
+      {shape(RobotShape::CYLINDER, -0.01, 1.0), {"cylinder's radius is -0.01", "more than 0"}},
+      {shape(RobotShape::CYLINDER, 0.01, 0.0), {"cylinder's length is 0"}},
+      {shape(RobotShape::BOX, 1.0, -2.0, 3.0), {"box's side is -2", "more than 0"}},
       {mesh(kCorners, {}), {"mesh 'tip.stl'", "no triangle"}},
-      {mesh(kCorners, {{0, 1, 3}}), {"vertex 3 of 3"}},
-      {mesh({Vector3d(2e6, 0, 0)}, {{0, 0, 0}}), {"mesh 'tip.stl'", "vertex 0", "within 1e+06 m"}}};
-  for (const double bad : {-1e7, kInfinity, nan}) {
-    rows.push_back({sphere({{0.0, bad, 0.0}, kPose.orientation}, 1.0),
-                    {"link 'tip'", "origin", "finite and within 1e+06 m"}});
+      {mesh(kCorners, {0, 1, 3}), {"vertex 3 of 3"}},
+      {mesh({2e6, 0, 0}, {0, 0, 0}), {"mesh 'tip.stl'", "vertex 0", "within 1e+06 m"}}};
+  for (const std::uint8_t kind : {RobotShape::SPHERE, RobotShape::CYLINDER, RobotShape::BOX}) {
+    for (const double bad : {-1e7, kInfinity, nan}) {
+      rows.push_back({shape(kind, 1, 1, 1), {"link 'tip'", "origin", "finite and within 1e+06 m"}});
+      rows.back().first.pose[1] = bad;
+    }
+    for (const double bad : {2.0, 0.0, kInfinity, nan}) {
+      rows.push_back({shape(kind, 1, 1, 1), {"orientation", "unit quaternion"}});
+      rows.back().first.pose[6] = bad;
+    }
   }
-  for (const double bad : {2.0, 0.0, kInfinity, nan}) {
-    const ShapePose pose{kPose.position, Quaterniond(bad, 0.0, 0.0, 0.0)};
-    rows.push_back({box(pose, Vector3d::Ones()), {"orientation", "unit quaternion"}});
-    rows.push_back({sphere(pose, 1.0), {"orientation"}});
-    rows.push_back({cylinder(pose, 1.0, 1.0), {"orientation"}});
+  for (const auto& [shape, words] : rows) {
+    expect_words(tool_error([&, &shape = shape] { link_of({shape}); }), words);
   }
-  for (const auto& [shape, words] : rows) expect_words(refusal(shape), words);
-  expect_words(tool_error([] { build_link("mount", {}); }),
-               {"link 'mount'", "no collision or visual geometry"});
+  expect_words(tool_error([] { link_of({}); }), {"link 'tip'", "no collision or visual geometry"});
 }
 
 TEST(ToolLoader, LinksInTheOrderOfTheParameters) {
