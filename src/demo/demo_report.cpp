@@ -19,8 +19,8 @@
 
 #include "demo_tallies.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "ros/node/program.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/parameters/program_help.hpp"
 
 namespace organ_collision {
 namespace {

@@ -20,7 +20,7 @@
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/parameters/program_help.hpp"
+#include "ros/node/program.hpp"
 #include "scripted_tools.hpp"
 
 namespace organ_collision {
