@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "forces/forces.hpp"
+#include "ros/node/program.hpp"
 #include "ros/parameters/parameter_table.hpp"
 
 /// The names of contact_adapter in the ROS graph, besides those of the collision node and of all

@@ -24,8 +24,8 @@
 #include "ros/markers/tool_markers.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/motion/tool_poses.hpp"
+#include "ros/node/program.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/parameters/program_help.hpp"
 
 namespace organ_collision {
 namespace {

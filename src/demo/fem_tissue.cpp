@@ -17,7 +17,7 @@
 #include "fem_block.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/parameters/program_help.hpp"
+#include "ros/node/program.hpp"
 
 namespace organ_collision {
 namespace {

@@ -18,7 +18,7 @@
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/parameters/program_help.hpp"
+#include "ros/node/program.hpp"
 
 namespace organ_collision {
 namespace {

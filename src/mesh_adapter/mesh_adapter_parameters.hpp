@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "ros/node/program.hpp"
 #include "ros/parameters/parameter_table.hpp"
 
 /// The names of organ_mesh_adapter in the ROS graph, besides those of the collision node.

@@ -7,8 +7,11 @@
 #include <ros/xmlrpc_manager.h>
 #include <xmlrpcpp/XmlRpcException.h>
 
+#include <algorithm>
 #include <exception>
+#include <iostream>
 #include <mutex>
+#include <sstream>
 
 namespace ros::param {
 
@@ -20,6 +23,31 @@ void paramUpdateCallback(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& resul
 
 namespace organ_collision {
 namespace {
+
+constexpr std::size_t kLineLength = 90;
+
+/// The words of a text in lines that begin with `indent`.
+std::string wrapped(const std::string& text, const std::string& indent) {
+  std::istringstream words(text);
+  std::string lines, line;
+  for (std::string word; words >> word;) {
+    if (!line.empty() && line.size() + word.size() >= kLineLength) {
+      lines += line + "\n";
+      line.clear();
+    }
+    line += (line.empty() ? indent : " ") + word;
+  }
+  return lines + line + "\n";
+}
+
+std::string section(const std::string& title, const std::vector<HelpEntry>& entries) {
+  if (entries.empty()) return {};
+  std::string text = "\n" + title + ":\n";
+  for (const HelpEntry& entry : entries) {
+    text += "  " + entry.name + " (" + entry.kind + ")\n" + wrapped(entry.text, "      ");
+  }
+  return text;
+}
 
 const ros::WallDuration kMasterPeriod(1.0);
 
@@ -36,6 +64,28 @@ void update_parameter(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) 
 }
 
 }  // namespace
+
+std::string help_text(const ProgramHelp& help) {
+  return "Usage: rosrun organ_collision " + help.program + " [NAME:=VALUE ...]\n\n" +
+         wrapped(help.purpose, "") + section("Subscribed topics", help.subscribed) +
+         section("Published topics", help.published) + section("Services", help.services) +
+         section("Parameters, private (~), with their defaults", help.parameters) +
+         (help.further.empty() ? "" : "\n" + wrapped(help.further, ""));
+}
+
+std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help) {
+  ros::V_string arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  if (arguments.size() <= 1) return std::nullopt;
+  for (const char* asks : {"--help", "-h"}) {
+    if (std::find(arguments.begin() + 1, arguments.end(), asks) == arguments.end()) continue;
+    std::cout << help_text(help);
+    return 0;
+  }
+  std::cerr << help.program << ": unknown argument '" << arguments[1]
+            << "'; legal are --help, and ROS's NAME:=VALUE\n";
+  return 2;
+}
 
 int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
                 const std::function<void(const ros::NodeHandle& node,

@@ -1,17 +1,53 @@
 #pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/message_traits.h>
 #include <ros/node_handle.h>
+#include <ros/service_traits.h>
 
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "queues.hpp"
-#include "ros/parameters/program_help.hpp"
+#include "ros/parameters/parameter_table.hpp"
 
 namespace organ_collision {
+
+/// What --help prints about a ROS program.
+struct ProgramHelp {
+  std::string program;
+  std::string purpose;
+  std::vector<HelpEntry> subscribed = {};
+  std::vector<HelpEntry> published = {};
+  std::vector<HelpEntry> services = {};
+  std::vector<HelpEntry> parameters = {};
+  std::string further = {};  ///< how to start the program, or where to read on
+};
+
+/// The text of --help.
+std::string help_text(const ProgramHelp& help);
+
+/// Answers the arguments that are not for ROS, such as NAME:=VALUE. Prints the help for --help and
+/// -h, and one line on standard error for any other argument. Returns the exit code with which the
+/// program ends then: 0 or 2. Returns std::nullopt if there is no such argument. Call this before
+/// ros::init(), so that the program does not wait for a master.
+std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help);
+
+/// The type of a topic, as --help shows it.
+template <typename Message>
+std::string message_type() {
+  return ros::message_traits::datatype<Message>();
+}
+
+/// The type of a service, as --help shows it.
+template <typename Service>
+std::string service_type() {
+  return ros::service_traits::datatype<Service>();
+}
 
 /// The main function of a node. Answers --help; else starts ROS and calls `run`. Logs an exception
 /// that `run` throws. Returns the exit code. `name`: the node's default name. `options`: of

@@ -3,14 +3,29 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 
 #include <functional>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "parameter_group.hpp"
-#include "program_help.hpp"
 
 namespace organ_collision {
+
+/// A topic, service or parameter, as --help shows it.
+struct HelpEntry {
+  std::string name;
+  std::string kind;  ///< of a topic or service: its type; of a parameter: its default or "required"
+  std::string text;
+};
+
+/// A default value, as --help shows it.
+template <typename Value>
+std::string shown(const Value& value) {
+  std::ostringstream text;
+  text << std::boolalpha << value;
+  return text.str();
+}
 
 /// The parameters of a node, one row each. All that is known of a parameter stands in its row: its
 /// name, its member of the node's parameters, its default, its range, whether it can be changed

@@ -1,4 +1,4 @@
-#include "ros/parameters/program_help.hpp"
+#include "ros/node/program.hpp"
 
 #include <gtest/gtest.h>
 
