@@ -46,5 +46,16 @@ function(organ_collision_layer name)
   target_include_directories(organ_collision_${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<INSTALL_INTERFACE:include>)
+  set_target_properties(organ_collision_${name} PROPERTIES DEFINE_SYMBOL "")
   organ_collision_target(organ_collision_${name})
+endfunction()
+
+# organ_collision_precompile(LAYER OWNER): the library of LAYER uses the precompiled headers of the library of OWNER.
+# If both are one, it compiles the headers that most sources include.
+function(organ_collision_precompile layer owner)
+  if(NOT layer STREQUAL owner)
+    target_precompile_headers(organ_collision_${layer} REUSE_FROM organ_collision_${owner})
+    return()
+  endif()
+  target_precompile_headers(organ_collision_${layer} PRIVATE ${ARGN})
 endfunction()

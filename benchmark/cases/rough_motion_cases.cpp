@@ -1,8 +1,78 @@
-#include "benchmark/measurements/rough_motion_measurement.hpp"
+#include "rough_motion_cases.hpp"
+
+#include <random>
+
+#include "benchmark/scenes/grasper.hpp"
+#include "benchmark/scenes/tool_motions.hpp"
 #include "cases.hpp"
-#include "registration.hpp"
+#include "timing.hpp"
 
 namespace organ_collision::bench {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kJump = 0.1;            // [m]
+constexpr double kTremor = 5e-5;         // [m] standard deviation along each axis
+constexpr double kJawOpening = 0.3;      // [rad]
+constexpr std::size_t kGlitching = 700;  // a vertex far from the tools, in large organs
+/// Points at the end of the organ, where its faces are smallest: a grasper touches some 100 of the
+/// 1224 faces there.
+const ShaftAxis kTowardsEnd{{-0.0361, 0.1536, -0.0694}, {-0.0832, 0.0, 0.0}};
+
+std::vector<float> shape_before(const OrganSurface& organ, RoughMotionMeasurement::Organ how) {
+  std::vector<float> vertices = organ.vertices;
+  if (how == RoughMotionMeasurement::Organ::kGlitches)
+    vertices.at(3 * kGlitching) -= static_cast<float>(kJump);
+  if (how == RoughMotionMeasurement::Organ::kJumps) {
+    for (std::size_t i = 2; i < vertices.size(); i += 3) vertices[i] -= static_cast<float>(kJump);
+  }
+  return vertices;
+}
+
+ToolPath trembling_path(const ShaftAxis& axis, std::size_t samples) {
+  std::mt19937 random(42);
+  std::normal_distribution<double> tremor(0.0, kTremor);
+  ToolPath path;
+  for (std::size_t i = 0; i < samples; ++i) {
+    ShaftAxis trembling = axis;
+    for (int k = 0; k < 3; ++k) trembling.tip[k] += tremor(random);
+    const double last = static_cast<double>(samples - 1);
+    path.push_back(
+        Grasper::place(last > 0.0 ? static_cast<double>(i) / last : 0.0, trembling, kJawOpening));
+  }
+  return path;
+}
+
+}  // namespace
+
+RoughMotionMeasurement::RoughMotionMeasurement(std::size_t faces, Organ organ, Tool tool,
+                                               std::size_t samples)
+    : organ_([&] {
+        const OrganSurface surface = make_organ(faces);
+        return TriangleMesh(surface.vertices, surface.triangles);
+      }()),
+      before_(organ_),
+      links_(Grasper::make_links()) {
+  const OrganSurface surface = make_organ(faces);
+  before_.move_vertices(shape_before(surface, organ));
+  request_.organ = &organ_;
+  if (organ != Organ::kRests) request_.organ_before = &before_;
+  request_.mode = QueryMode::kSwept;
+  request_.radius = Grasper::kRadius;
+  if (tool == Tool::kGrasper) request_.links = &links_;
+  const ShaftAxis axis = tool == Tool::kGrasper
+                             ? kTowardsEnd
+                             : ToolMotions(surface, SceneScale(1224)).next(surface.vertices).end;
+  request_.path = trembling_path(axis, samples);
+}
+
+RoughMotionMeasurement::Timed RoughMotionMeasurement::run() {
+  Stopwatch watch;
+  query_.evaluate(request_, result_);
+  return {watch.lap(), result_.contacts.size()};
+}
+
 namespace {
 
 using Organ = RoughMotionMeasurement::Organ;

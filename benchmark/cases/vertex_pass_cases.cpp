@@ -2,9 +2,8 @@
 #include <vector>
 
 #include "benchmark/engines/vertex_pass.hpp"
-#include "benchmark/measurements/stopwatch.hpp"
 #include "cases.hpp"
-#include "registration.hpp"
+#include "timing.hpp"
 
 namespace organ_collision::bench {
 namespace {

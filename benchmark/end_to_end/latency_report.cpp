@@ -1,8 +1,16 @@
 #include "latency_report.hpp"
 
+#include <ros/init.h>
+
 #include <iostream>
 
 namespace organ_collision::bench {
+
+void answer_until(ros::Time time, ros::CallbackQueue& queue) {
+  for (ros::Time now = ros::Time::now(); now < time && ros::ok(); now = ros::Time::now()) {
+    queue.callOne(ros::WallDuration((time - now).toSec()));
+  }
+}
 
 void print(const char* what, const LatencyReport& report) {
   constexpr double kMicro = 1e6;

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <ros/callback_queue.h>
+#include <ros/time.h>
+
 #include <cstddef>
 
-#include "benchmark/measurements/durations.hpp"
+#include "benchmark/cases/timing.hpp"
 
 namespace organ_collision::bench {
+
+/// Handles messages as they arrive, until `time` or until ROS shuts down.
+void answer_until(ros::Time time, ros::CallbackQueue& queue);
 
 /// The latencies of a run, and how many answers were missing or wrong.
 struct LatencyReport {

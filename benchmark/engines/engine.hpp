@@ -2,10 +2,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "benchmark/scenes/organ_surface.hpp"
 #include "benchmark/scenes/volume_query.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 
 namespace organ_collision::bench {
 
@@ -47,5 +49,44 @@ std::unique_ptr<Engine> make_embree();
 std::unique_ptr<Engine> make_cgal();
 /// No tree: outcodes of all vertices, then an exact clip of the faces that they do not reject.
 std::unique_ptr<Engine> make_scan();
+
+/// Distances beyond this need not be told [m].
+inline constexpr double kWhereLimit = 0.02;
+
+/// What a locator told of a tool. A member is set only if the locator tells such things.
+struct Location {
+  std::optional<double>
+      shaft_distance;                  ///< [m] from the shaft's surface; infinite: beyond the limit
+  std::optional<double> tip_distance;  ///< [m] from the tip as a point; infinite: beyond the limit
+  std::optional<bool> tip_inside;      ///< on which side of the surface the tip is
+};
+
+/// An engine that tells where a tool is, or a part of that, while the organ deforms.
+class Locator {
+ public:
+  virtual ~Locator() = default;
+
+  /// Prepares for the organ's triangles, before the first shape arrives. `organ` must outlive the
+  /// locator.
+  virtual void set_topology(const OrganSurface& organ) = 0;
+  /// Takes a new shape, in the form in which a message delivers it. `vertices` must stay valid
+  /// until the next update.
+  virtual void update(const SharedVertices& vertices) = 0;
+  /// Locates a shaft of this radius [m].
+  virtual Location locate(const ShaftAxis& axis, double radius) = 0;
+};
+
+/// The package: static contacts, the clearance up to kWhereLimit, and the placement.
+std::unique_ptr<Locator> make_our_locator();
+/// The same with the clearance without a limit.
+std::unique_ptr<Locator> make_our_unlimited_locator();
+/// The package: static contacts and the nearest 100 faces within kWhereLimit.
+std::unique_ptr<Locator> make_our_near_locator();
+/// FCL's AABB tree, refitted: the distance of a capsule.
+std::unique_ptr<Locator> make_fcl_locator();
+/// Embree's tree of triangles, refitted: a point query around the tip, up to kWhereLimit.
+std::unique_ptr<Locator> make_embree_locator();
+/// CGAL's Side_of_triangle_mesh, rebuilt: the side of the tip.
+std::unique_ptr<Locator> make_cgal_locator();
 
 }  // namespace organ_collision::bench

@@ -5,7 +5,7 @@
 
 #include "benchmark/scenes/organ_surface.hpp"
 #include "benchmark/scenes/volume_query.hpp"
-#include "geometry/half_space.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision::bench {
 

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "contact_adapter/force_law.hpp"
-#include "ros/interface/conversions.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision::bench {
 namespace {

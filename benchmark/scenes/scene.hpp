@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "oracle.hpp"
 #include "organ_surface.hpp"
 #include "volume_query.hpp"
 

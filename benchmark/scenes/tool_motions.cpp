@@ -2,7 +2,12 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "grasper.hpp"
 
 namespace organ_collision::bench {
 namespace {
@@ -36,6 +41,127 @@ Vector3d ToolMotions::any_vector() {
   std::uniform_real_distribution<double> symmetric(-1.0, 1.0);
   const double x = symmetric(random_), y = symmetric(random_), z = symmetric(random_);
   return {x, y, z};
+}
+
+namespace {
+
+constexpr double kTipStep = 0.001;   // [m] of the grasper, sideways at the point aimed at
+constexpr double kJawStep = 0.02;    // [rad] of each jaw in a motion
+constexpr double kJawOpening = 0.3;  // [rad] at the start of a motion
+constexpr double kReach =
+    0.024;  // [m] from the end of the shaft to the point that the motions aim at
+
+ShaftAxis drawn_back(ShaftAxis axis) {
+  axis.tip -= kReach * (axis.tip - axis.trocar).normalized();
+  return axis;
+}
+
+}  // namespace
+
+MotionSet shaft_motions(const OrganSurface& organ, std::size_t count) {
+  const SceneScale scale(organ.face_count());
+  ToolMotions motions(organ, scale);
+  MotionSet set{scale.radius, {}, {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const ShaftMotion motion = motions.next(organ.vertices);
+    set.paths.push_back({{0.0, motion.start, {}}, {1.0, motion.end, {}}});
+  }
+  return set;
+}
+
+MotionSet grasper_motions(const OrganSurface& organ, std::size_t count) {
+  SceneScale scale(organ.face_count());
+  scale.tip_step = kTipStep;
+  ToolMotions motions(organ, scale);
+  MotionSet set{Grasper::kRadius, Grasper::make_links(), {}};
+  for (std::size_t i = 0; i < count; ++i) {
+    const ShaftMotion motion = motions.next(organ.vertices);
+    set.paths.push_back({Grasper::place(0.0, drawn_back(motion.start), kJawOpening),
+                         Grasper::place(1.0, drawn_back(motion.end), kJawOpening - kJawStep)});
+  }
+  return set;
+}
+
+MotionSet motions_of(const std::string& tool, const OrganSurface& organ, std::size_t count) {
+  if (tool == "shaft") return shaft_motions(organ, count);
+  if (tool == "grasper") return grasper_motions(organ, count);
+  throw std::invalid_argument("the tool is '" + tool + "'; legal are shaft and grasper");
+}
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kRadiusOfLap = 0.04;    // [m]
+constexpr double kShaftRadius = 0.0015;  // [m]
+constexpr double kShaftLength = 0.12;    // [m] of the free shaft
+constexpr double kBallRadius = 0.005;    // [m]
+constexpr double kReach = 0.024;         // [m] from the grasper's shaft to a point between its jaws
+const Vector3d kTrocar(0.1, 0.06, 0.15);
+
+/// The height [m] at which a vertical line meets a face; -infinity if it does not.
+double height_in(const Triangle& face, double x, double y) {
+  const Vector3d& a = face[0];
+  Eigen::Matrix2d edges;
+  edges << face[1].x() - a.x(), face[2].x() - a.x(), face[1].y() - a.y(), face[2].y() - a.y();
+  const Eigen::Vector2d weights = edges.inverse() * Eigen::Vector2d(x - a.x(), y - a.y());
+  const bool is_inside = weights.minCoeff() >= 0.0 && weights.sum() <= 1.0;
+  if (!is_inside) return -std::numeric_limits<double>::infinity();
+  return a.z() + weights[0] * (face[1].z() - a.z()) + weights[1] * (face[2].z() - a.z());
+}
+
+double height_of(const OrganSurface& organ, double x, double y) {
+  double height = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < organ.face_count(); ++i)
+    height = std::max(height, height_in(corners(organ, organ.vertices, i), x, y));
+  return height;
+}
+
+ToolPose place(HandTool tool, const Vector3d& tip) {
+  const Vector3d direction = (tip - kTrocar).normalized();
+  switch (tool) {
+    case HandTool::kShaft:
+      return {{tip - kShaftLength * direction, tip}};
+    case HandTool::kBall:
+      return {{tip, tip}, {Eigen::Isometry3d(Eigen::Translation3d(tip))}};
+    case HandTool::kGrasper: {
+      constexpr double kOpening = 0.3;  // [rad]
+      const ToolWaypoint grasper =
+          Grasper::place(0.0, {kTrocar, tip - kReach * direction}, kOpening);
+      return {grasper.axis, grasper.links};
+    }
+    case HandTool::kTrocar:
+      break;
+  }
+  return {{kTrocar, tip}};
+}
+
+}  // namespace
+
+ProxyTool make_proxy_tool(HandTool tool) {
+  switch (tool) {
+    case HandTool::kShaft:
+      return {kShaftRadius, {}, ProxyFreedom::kFree};
+    case HandTool::kBall:
+      return {
+          0.0, {{"ball", {LinkPart::sphere(Vector3d::Zero(), kBallRadius)}}}, ProxyFreedom::kFree};
+    case HandTool::kGrasper:
+      return {Grasper::kRadius, Grasper::make_links(), ProxyFreedom::kFree};
+    case HandTool::kTrocar:
+      break;
+  }
+  return {kShaftRadius, {}, ProxyFreedom::kTrocar};
+}
+
+// The path is the same for all meshes: it follows the coarsest one.
+std::vector<ToolPose> sliding_lap(HandTool tool, double depth) {
+  const OrganSurface organ = WavingOrgan(1224).middle();
+  std::vector<ToolPose> lap;
+  for (std::size_t i = 0; i < kLap; ++i) {
+    const double around = 2.0 * kPi * static_cast<double>(i) / kLap;
+    const double x = kRadiusOfLap * std::cos(around), y = kRadiusOfLap * std::sin(around);
+    lap.push_back(place(tool, {x, y, height_of(organ, x, y) - depth}));
+  }
+  return lap;
 }
 
 }  // namespace organ_collision::bench

@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "ros/interface/conversions.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {

@@ -6,16 +6,13 @@
 #include <ros/param.h>
 #include <std_msgs/UInt32MultiArray.h>
 
-#include "contact_adapter_names.hpp"
-#include "contact_check.hpp"
-#include "face_list.hpp"
-#include "forces/force_limit.hpp"
-#include "forces/vertex_forces.hpp"
+#include "contact_adapter_parameters.hpp"
+#include "contact_answer.hpp"
+#include "forces/forces.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/checked_messages.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "ros/interface/rejection.hpp"
-#include "shaft_radius.hpp"
+#include "ros/messages/checked_messages.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {

@@ -13,9 +13,9 @@
 
 #include "contact_adapter_parameters.hpp"
 #include "force_law.hpp"
-#include "forces/pair_names.hpp"
-#include "ros/interface/failure_log.hpp"
-#include "ros/master/master_watch.hpp"
+#include "forces/forces.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/node/program.hpp"
 
 namespace organ_collision {
 

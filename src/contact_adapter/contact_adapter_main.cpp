@@ -1,9 +1,8 @@
 #include <ros/ros.h>
 
 #include "contact_adapter.hpp"
-#include "contact_adapter_help.hpp"
-#include "contact_adapter_names.hpp"
-#include "ros/master/parameter_updates.hpp"
+#include "contact_adapter_parameters.hpp"
+#include "ros/node/program.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;

@@ -1,11 +1,16 @@
 #include "contact_adapter_parameters.hpp"
 
-#include <limits>
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/VertexForces.h>
+#include <ros/names.h>
+#include <ros/service_traits.h>
+#include <std_msgs/UInt32MultiArray.h>
 
-#include "contact_adapter_help.hpp"
-#include "contact_adapter_names.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/parameter_group.hpp"
+#include "ros/parameters/parameter_group.hpp"
 
 namespace organ_collision {
 namespace {
@@ -52,6 +57,42 @@ LiveContactAdapterParameters changed(const LiveContactAdapterParameters& paramet
   LiveContactAdapterParameters result = parameters;
   parse_live(live_group(changes, live_parameters(parameters)), result);
   return result;
+}
+
+ProgramHelp contact_adapter_help() {
+  const ContactAdapterParameters defaults;
+  const std::string pair = "~ORGAN/TOOL";
+  ProgramHelp help{names::kContactAdapter,
+                   "Turns the contacts of the collision node into a wrench, forces on vertices and "
+                   "a list of faces for each organ and tool. The force has no upper limit unless "
+                   "max_force is set."};
+  help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
+                      message_type<ContactArray>(),
+                      "remap it if the collision node has another name"}};
+  help.published = {
+      {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
+       "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
+      {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
+       "forces of the tool on the tissue's vertices [N]; together, minus the wrench"},
+      {ros::names::append(pair, names::kFaces), message_type<std_msgs::UInt32MultiArray>(),
+       "the numbers of the touched faces"},
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
+       "number of messages, of those without output by reason, of clipped forces"}};
+  help.services = {{"set_parameters",
+                    ros::service_traits::datatype<dynamic_reconfigure::Reconfigure>(),
+                    "changes stiffness and max_force while the node runs, as dynparam and "
+                    "rqt_reconfigure do"}};
+  help.parameters = {
+      {names::kStiffness, shown(defaults.stiffness), "[N/m] force for each metre of depth"},
+      {names::kMaxForce, "no limit", "[N] larger forces are clipped to it"},
+      {names::kWayOut, shown(defaults.way_out),
+       "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin"},
+      {names::kDiagnosticPeriod, shown(defaults.diagnostic_period_sec),
+       "[s] between messages on /diagnostics"}};
+  help.further =
+      "roslaunch organ_collision contact_adapter.launch starts it. doc/forces.md explains the law "
+      "of the force.";
+  return help;
 }
 
 }  // namespace organ_collision

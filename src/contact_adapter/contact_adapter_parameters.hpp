@@ -7,7 +7,23 @@
 #include <string>
 #include <vector>
 
-#include "ros/interface/live_parameters.hpp"
+#include "forces/forces.hpp"
+#include "ros/parameters/live_parameters.hpp"
+#include "ros/parameters/program_help.hpp"
+
+/// All names of contact_adapter in the ROS graph, besides those of the collision node and of all
+/// nodes with forces.
+
+namespace organ_collision::names {
+
+inline constexpr char kContactAdapter[] = "contact_adapter";
+
+/// A topic of a pair, below ~ORGAN/TOOL.
+inline constexpr char kFaces[] = "faces";
+
+inline constexpr char kWayOut[] = "way_out";
+
+}  // namespace organ_collision::names
 
 namespace organ_collision {
 
@@ -38,5 +54,9 @@ std::vector<LiveParameter> live_parameters(const LiveContactAdapterParameters& p
 /// parameter cannot be changed while the node runs.
 LiveContactAdapterParameters changed(const LiveContactAdapterParameters& parameters,
                                      const XmlRpc::XmlRpcValue& changes);
+
+/// What --help of contact_adapter says. doc/forces.md explains the same names at length; a test
+/// compares both.
+ProgramHelp contact_adapter_help();
 
 }  // namespace organ_collision

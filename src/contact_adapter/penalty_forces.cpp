@@ -7,7 +7,7 @@
 #include <cmath>
 #include <string>
 
-#include "ros/interface/rejection.hpp"
+#include "ros/messages/failure_log.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "push.hpp"
+#include "pushes.hpp"
 
 namespace organ_collision {
 

@@ -17,11 +17,10 @@
 #include <set>
 #include <sstream>
 
+#include "demo_tallies.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "proxy_tally.hpp"
-#include "ros/interface/program_help.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "static_comparison.hpp"
+#include "ros/parameters/program_help.hpp"
 
 namespace organ_collision {
 namespace {

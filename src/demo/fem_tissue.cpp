@@ -16,8 +16,8 @@
 
 #include "fem_block.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/program_help.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/parameters/program_help.hpp"
 
 namespace organ_collision {
 namespace {

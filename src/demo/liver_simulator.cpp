@@ -1,22 +1,109 @@
-/// The demo's simulator. Publishes a breathing liver and two instruments. The contacts of the
-/// collision node push the tissue, and so do the forces of the proxy of the instrument that a hand
-/// holds.
-
+#include <geometry_msgs/PoseStamped.h>
+#include <geometry_msgs/TransformStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/VertexForces.h>
+#include <ros/node_handle.h>
 #include <ros/ros.h>
+#include <tf2_eigen/tf2_eigen.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
-#include "liver_soft_body.hpp"
+#include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/program_help.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/parameters/program_help.hpp"
 #include "scripted_tools.hpp"
-#include "tool_sender.hpp"
+
+namespace organ_collision {
+
+/// Tells other nodes where the scripted tools are, in the liver's frame. The z axis of a tip points
+/// along the shaft.
+class ToolSender {
+ public:
+  /// Sends the trocars on /tf_static. `frame`: the liver's.
+  ToolSender(ros::NodeHandle node, std::string frame);
+
+  /// Sends the tips of the tools without a hand on /tf, at `seconds` since the start.
+  void send_tips(double seconds, const ros::Time& stamp);
+  /// Sends the tip of each tool with a hand on NAME/hand, as the driver of a haptic device does.
+  void send_hands(double seconds, const ros::Time& stamp);
+
+ private:
+  std::string frame_;
+  std::map<std::string, ros::Publisher> hands_;  ///< by tool
+  tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
+  tf2_ros::TransformBroadcaster tip_broadcaster_;
+};
+
+namespace {
+
+/// A pose whose z axis points along the shaft.
+Eigen::Isometry3d pose_at(const Eigen::Vector3d& place, const Eigen::Vector3d& shaft) {
+  Eigen::Isometry3d pose(Eigen::Translation3d{place});
+  pose.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), shaft));
+  return pose;
+}
+
+geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
+                                          const std::string& child,
+                                          const Eigen::Isometry3d& T_parent_child) {
+  geometry_msgs::TransformStamped result = tf2::eigenToTransform(T_parent_child);
+  result.header.stamp = stamp;
+  result.header.frame_id = parent;
+  result.child_frame_id = child;
+  return result;
+}
+
+}  // namespace
+
+ToolSender::ToolSender(ros::NodeHandle node, std::string frame) : frame_(std::move(frame)) {
+  std::vector<geometry_msgs::TransformStamped> trocars;
+  for (const ScriptedTool& tool : scripted_tools()) {
+    trocars.push_back(transform(ros::Time::now(), frame_, tool.name + "_trocar",
+                                Eigen::Isometry3d(Eigen::Translation3d(tool.trocar))));
+    if (!tool.has_proxy) continue;
+    hands_[tool.name] = node.advertise<geometry_msgs::PoseStamped>(tool.name + "/hand", 1);
+  }
+  trocar_broadcaster_.sendTransform(trocars);
+}
+
+void ToolSender::send_tips(double seconds, const ros::Time& stamp) {
+  std::vector<geometry_msgs::TransformStamped> tips;
+  for (const ScriptedTool& tool : scripted_tools()) {
+    if (tool.has_proxy) continue;
+    const Eigen::Vector3d shaft = tool.tip(seconds) - tool.trocar;
+    tips.push_back(
+        transform(stamp, tool.name + "_trocar", tool.name + "_tip", pose_at(shaft, shaft)));
+  }
+  tip_broadcaster_.sendTransform(tips);
+}
+
+void ToolSender::send_hands(double seconds, const ros::Time& stamp) {
+  for (const ScriptedTool& tool : scripted_tools()) {
+    if (!tool.has_proxy) continue;
+    const Eigen::Vector3d tip = tool.tip(seconds);
+    geometry_msgs::PoseStamped hand;
+    hand.header.stamp = stamp;
+    hand.header.frame_id = frame_;
+    hand.pose = tf2::toMsg(pose_at(tip, tip - tool.trocar));
+    hands_.at(tool.name).publish(hand);
+  }
+}
+
+}  // namespace organ_collision
+
+/// The demo's simulator. Publishes a breathing liver and two instruments. The contacts of the
+/// collision node push the tissue, and so do the forces of the proxy of the instrument that a hand
+/// holds.
 
 namespace organ_collision {
 namespace {
@@ -176,6 +263,7 @@ class LiverSimulator {
 };
 
 }  // namespace
+
 }  // namespace organ_collision
 
 int main(int argc, char** argv) {

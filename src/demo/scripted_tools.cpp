@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "liver_surface.hpp"
+#include "liver.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,10 +3,9 @@
 #include <atomic>
 #include <csignal>
 
-#include "haptic_proxy_help.hpp"
-#include "haptic_proxy_names.hpp"
 #include "haptic_proxy_node.hpp"
-#include "ros/master/parameter_updates.hpp"
+#include "haptic_proxy_parameters.hpp"
+#include "ros/node/program.hpp"
 #include "ros/node/realtime.hpp"
 
 namespace {

@@ -8,12 +8,12 @@
 #include <utility>
 
 #include "geometry/concatenate.hpp"
-#include "haptic_proxy_names.hpp"
+#include "haptic_proxy_parameters.hpp"
 #include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "proxy_scene.hpp"
-#include "ros/interface/handover.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/messages/text.hpp"
+#include "ros/node/queues.hpp"
 
 namespace organ_collision {
 namespace {

@@ -7,12 +7,45 @@
 #include <string>
 #include <vector>
 
+#include "forces/forces.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/interface/clock_rules.hpp"
-#include "ros/interface/live_parameters.hpp"
-#include "ros/parameters/marker_settings.hpp"
-#include "ros/parameters/shared_parameters.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/parameters/live_parameters.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "ros/parameters/program_help.hpp"
 #include "ros/parameters/tool_parameters.hpp"
+
+/// All names of haptic_proxy in the ROS graph, besides those of the collision node and of all nodes
+/// with forces.
+
+namespace organ_collision::names {
+
+inline constexpr char kHapticProxy[] = "haptic_proxy";
+
+///@{
+/// A topic of a tool, below ~TOOL.
+inline constexpr char kProxy[] = "proxy";
+inline constexpr char kState[] = "state";
+///@}
+
+/// The proxy's TF frame is TOOL and this.
+inline constexpr char kProxyFrame[] = "_proxy";
+
+///@{
+/// A parameter.
+inline constexpr char kFrame[] = "frame";
+inline constexpr char kDamping[] = "damping";
+inline constexpr char kMaxTorque[] = "max_torque";
+inline constexpr char kClearance[] = "clearance";
+inline constexpr char kJump[] = "jump";
+inline constexpr char kPunctureForce[] = "puncture_force";
+inline constexpr char kFriction[] = "friction";
+inline constexpr char kPoseTimeoutSec[] = "pose_timeout_sec";
+inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
+inline constexpr char kPublishTf[] = "publish_tf";
+///@}
+
+}  // namespace organ_collision::names
 
 namespace organ_collision {
 
@@ -69,5 +102,9 @@ LiveHapticProxyParameters changed(const LiveHapticProxyParameters& parameters,
 /// How the proxy of a tool behaves: forces become lengths.
 ProxySettings proxy_settings(const LiveHapticProxyParameters& parameters,
                              const ToolParameters& tool);
+
+/// What --help of haptic_proxy says. doc/haptic_interface.md explains the same names at length; a
+/// test compares both.
+ProgramHelp haptic_proxy_help();
 
 }  // namespace organ_collision

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cstdint>
 
-#include "ros/interface/failure_log.hpp"
-#include "ros/publishing/event_rate.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/publishing/counters.hpp"
 #include "ros/steps/duration_statistics.hpp"
 
 namespace organ_collision {

@@ -125,4 +125,12 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
   return forces;
 }
 
+double ForceRamp::turn(Time now, double direction) {
+  const double seconds = std::chrono::duration<double>(now - last_).count();
+  share_ = std::clamp(share_ + direction_ * seconds / kDuration, 0.0, 1.0);
+  direction_ = direction;
+  last_ = now;
+  return share_;
+}
+
 }  // namespace organ_collision

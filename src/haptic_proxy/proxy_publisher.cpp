@@ -12,14 +12,13 @@
 #include <chrono>
 #include <iterator>
 
-#include "forces/vertex_forces.hpp"
-#include "haptic_proxy_names.hpp"
+#include "forces/forces.hpp"
+#include "haptic_proxy_parameters.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "ros/interface/rejection.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/messages/text.hpp"
 #include "ros/steps/contact_array.hpp"
-#include "ros/steps/query_conversions.hpp"
 
 namespace organ_collision {
 namespace {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "forces/pair_names.hpp"
-#include "proxy_report.hpp"
-#include "ros/interface/failure_log.hpp"
+#include "forces/forces.hpp"
+#include "ros/messages/failure_log.hpp"
 #include "ros/organs/organ_registry.hpp"
+#include "tool_proxy.hpp"
 
 namespace organ_collision {
 

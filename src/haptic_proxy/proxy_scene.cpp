@@ -5,13 +5,23 @@
 #include <algorithm>
 
 #include "geometry/concatenate.hpp"
-#include "haptic_proxy_names.hpp"
+#include "haptic_proxy_parameters.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/duration_text.hpp"
-#include "ros/motion/transform_lookup.hpp"
+#include "ros/messages/text.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
+
+bool ProxyFrame::update(const OrganRegistry& organs) {
+  const auto& all = organs.organs();
+  if (fixed_ || all.empty()) return false;
+  const bool is_used = std::any_of(
+      all.begin(), all.end(), [this](const auto& organ) { return organ.second.frame() == name_; });
+  if (is_used) return false;
+  name_ = all.begin()->second.frame();
+  return true;
+}
+
 namespace {
 
 /// How old the newest transform of a frame may be.

@@ -6,11 +6,29 @@
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/interface/rejection.hpp"
+#include "ros/messages/failure_log.hpp"
 #include "ros/motion/transform_buffer.hpp"
 #include "ros/organs/organ_registry.hpp"
 
 namespace organ_collision {
+
+/// The TF frame in which proxies move.
+class ProxyFrame {
+ public:
+  /// `fixed`: the frame; empty: that of the first organ.
+  explicit ProxyFrame(std::string fixed) : fixed_(!fixed.empty()), name_(std::move(fixed)) {}
+
+  /// Empty: there was no organ yet.
+  const std::string& name() const { return name_; }
+
+  /// A frame that was chosen stays as long as an organ has it, or if no organ is left. Returns
+  /// whether another frame was chosen.
+  bool update(const OrganRegistry& organs);
+
+ private:
+  bool fixed_;
+  std::string name_;
+};
 
 /// All organs as one tick of a proxy takes them.
 struct ProxyScene {

@@ -1,15 +1,26 @@
 #include "tool_proxy.hpp"
 
 #include <organ_collision/ContactArray.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
 #include <utility>
 
-#include "forces/force_limit.hpp"
-#include "haptic_proxy_names.hpp"
-#include "ros/interface/rejection.hpp"
+#include "forces/forces.hpp"
+#include "ros/messages/failure_log.hpp"
 
 namespace organ_collision {
+
+geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
+  if (!tool.has_shaft()) return tf2::toMsg(pose.links.front());
+  Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
+  tip.translation() = pose.axis.tip;
+  tip.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), pose.axis.tip - pose.axis.trocar)
+          .toRotationMatrix();
+  return tf2::toMsg(tip);
+}
+
 namespace {
 
 using Eigen::Vector3d;

@@ -6,7 +6,25 @@
 #include <string>
 #include <vector>
 
-#include "ros/interface/parameter_group.hpp"
+#include "ros/parameters/parameter_group.hpp"
+#include "ros/parameters/program_help.hpp"
+
+/// All names of organ_mesh_adapter in the ROS graph, besides those of the collision node.
+
+namespace organ_collision::names {
+
+inline constexpr char kMeshAdapter[] = "organ_mesh_adapter";
+
+inline constexpr char kCollisionNode[] = "collision_node";
+inline constexpr char kOrgans[] = "organs";
+
+/// Members of each entry of `organs`.
+inline constexpr char kOrganName[] = "name";
+inline constexpr char kTopic[] = "topic";
+inline constexpr char kFrame[] = "frame";
+inline constexpr char kVerticesTopic[] = "vertices_topic";
+
+}  // namespace organ_collision::names
 
 namespace organ_collision {
 
@@ -31,5 +49,9 @@ MeshAdapterParameters parse_mesh_adapter_parameters(const XmlRpc::XmlRpcValue& p
 
 /// Reads the parameters from the parameter server. Throws ParameterError.
 MeshAdapterParameters load_mesh_adapter_parameters(const ros::NodeHandle& private_node);
+
+/// What --help of organ_mesh_adapter says. doc/meshes.md explains the same names at length; a test
+/// compares both.
+ProgramHelp mesh_adapter_help();
 
 }  // namespace organ_collision

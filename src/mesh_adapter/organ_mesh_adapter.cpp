@@ -4,9 +4,9 @@
 #include <chrono>
 #include <random>
 
-#include "message_error.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/messages/text.hpp"
+#include "surface_messages.hpp"
 
 namespace organ_collision {
 namespace {

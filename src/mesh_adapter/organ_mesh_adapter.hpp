@@ -14,8 +14,8 @@
 
 #include "mesh_adapter_parameters.hpp"
 #include "organ_source.hpp"
-#include "ros/interface/failure_log.hpp"
-#include "ros/master/master_watch.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/node/program.hpp"
 
 namespace organ_collision {
 

@@ -1,9 +1,8 @@
 #include <ros/ros.h>
 
-#include "mesh_adapter_help.hpp"
-#include "mesh_adapter_names.hpp"
+#include "mesh_adapter_parameters.hpp"
 #include "organ_mesh_adapter.hpp"
-#include "ros/master/parameter_updates.hpp"
+#include "ros/node/program.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;

@@ -1,9 +1,10 @@
 #include "command_line.hpp"
 
 #include <algorithm>
+#include <iostream>
 #include <utility>
 
-#include "input_error.hpp"
+#include "text_reader.hpp"
 
 namespace organ_collision {
 namespace {
@@ -70,6 +71,14 @@ bool CommandLine::is_flag(const std::string& name) const { return contains(gramm
 
 bool asks_for_help(const std::vector<std::string>& words) {
   return contains(words, "--help") || contains(words, "-h");
+}
+
+void Progress::report(std::size_t done) {
+  if (Clock::now() - last_ < std::chrono::seconds(1)) return;
+  last_ = Clock::now();
+  std::cerr << "query_offline: " << done;
+  if (total_) std::cerr << " of " << *total_;
+  std::cerr << " motions" << std::endl;
 }
 
 }  // namespace organ_collision

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "input_error.hpp"
+#include "text_reader.hpp"
 
 namespace organ_collision {
 namespace {

@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "contacts_csv.hpp"
-#include "motion_source.hpp"
+#include "motions.hpp"
 #include "options.hpp"
-#include "query_workers.hpp"
-#include "shape_source.hpp"
+#include "shapes.hpp"
 
 namespace organ_collision {
 

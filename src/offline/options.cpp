@@ -5,8 +5,7 @@
 #include <stdexcept>
 
 #include "command_line.hpp"
-#include "input_error.hpp"
-#include "query/workers/worker_threads.hpp"
+#include "query/worker_threads.hpp"
 #include "text_reader.hpp"
 
 namespace organ_collision {

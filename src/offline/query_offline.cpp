@@ -10,16 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "command_line.hpp"
 #include "evaluation.hpp"
-#include "fixed_shapes.hpp"
-#include "input_error.hpp"
-#include "motion_list.hpp"
-#include "motion_reader.hpp"
+#include "motions.hpp"
 #include "options.hpp"
-#include "progress.hpp"
-#include "query_workers.hpp"
-#include "shape_folder.hpp"
-#include "shape_sequence.hpp"
+#include "shapes.hpp"
+#include "text_reader.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,14 +3,61 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "input_error.hpp"
-#include "line_source.hpp"
-
 namespace organ_collision {
+
+/// The user's input cannot be used. what() is one line that says where, what is wrong and what is
+/// legal.
+class InputError : public std::runtime_error {
+ public:
+  /// An error of the command line, or of a file as a whole.
+  using std::runtime_error::runtime_error;
+  /// An error in a line of a file, counted from 1. what() is "file:line: message".
+  InputError(const std::string& file, std::size_t line, const std::string& message)
+      : std::runtime_error(file + ":" + std::to_string(line) + ": " + message) {}
+};
+
+/// `text` in quotes, for a message of one line: control characters are replaced, and long texts are
+/// cut.
+std::string in_quotes(std::string_view text);
+
+/// The lines of an open file or pipe, read in large pieces. Lines end with a line feed; the last
+/// one may do without. A pipe may be one that does not block.
+class LineSource {
+ public:
+  static constexpr std::size_t kLongestLine = 1 << 20;  ///< [bytes] without its line feed
+
+  /// `descriptor`: of an open file, pipe or terminal. It is not closed.
+  explicit LineSource(int descriptor) : descriptor_(descriptor) {}
+
+  /// Goes to the next line, and waits for it. Returns false after the last one. Throws
+  /// std::system_error when reading fails, and std::length_error if the line is too long.
+  bool next();
+  /// Whether next() returns without waiting: a whole line has arrived, or the end. Throws as
+  /// next().
+  bool is_ready();
+
+  /// The current line without its line feed, until the next call of next() or is_ready().
+  std::string_view line() const { return line_; }
+  /// Whether the current line is the last one and has no line feed.
+  bool ends_within_line() const { return ends_within_line_; }
+
+ private:
+  bool find_line_end();
+  void read_piece();
+
+  int descriptor_;
+  std::string buffer_;
+  std::size_t begin_ = 0;     ///< of the first line that is not yet taken
+  std::size_t searched_ = 0;  ///< Between begin_ and here, there is no line feed.
+  bool at_end_ = false;
+  bool ends_within_line_ = false;
+  std::string_view line_;
+};
 
 /// Chooses standard input instead of a file.
 struct StandardInput {};

@@ -9,7 +9,6 @@
 #include "organ_collision/query/contact.hpp"
 #include "picking/pickers/picker.hpp"
 #include "step.hpp"
-#include "tool_part.hpp"
 
 namespace organ_collision {
 

@@ -9,6 +9,15 @@
 
 namespace organ_collision {
 
+/// [rad] The largest rotation of a link within one leg. An arc of 0.2 rad deviates from its chord
+/// by half a percent of its radius.
+inline constexpr double kMaxRotation = 0.2;
+
+/// The same motion with waypoints added, so that no link rotates by more than kMaxRotation within a
+/// leg. Larger rotations would make the boxes around the moving link loose. Returns `path` itself
+/// if no waypoint is needed. Otherwise fills and returns `finer`.
+const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer);
+
 /// Consecutive legs of a step, [begin, end), on which a part of the tool stays near its chord. The
 /// chord is the motion that leads directly from the first waypoint of the span to the last. One
 /// viewing volume around the chord serves all legs of the span. See doc/geometry.md, Spans of legs.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <tuple>
 
-#include "geometry/sides/point_on_face.hpp"
+#include "geometry/sides/face_crossing.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <vector>
+
 #include "organ_collision/query/collision_query.hpp"
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
 
@@ -10,5 +14,16 @@ inline constexpr double kRotationTolerance = 1e-9;
 /// Throws std::invalid_argument, naming the value and what is legal, for a request that has no
 /// answer (see CollisionQuery::evaluate).
 void check(const CollisionRequest& request);
+
+/// The viewing volume of a request in one of the paper's modes. `request` is otherwise legal (see
+/// request_check.hpp). Throws VolumeError if its shaft is too short or too thin for the volume.
+ViewingVolume paper_volume(const CollisionRequest& request);
+
+// All throw std::invalid_argument, naming the value and what is legal.
+
+void check_tool(const ProxyTool& tool);
+void check_settings(const ProxyTool& tool, const ProxySettings& settings);
+void check_hand(const ProxyTool& tool, const ToolPose& hand);
+void check_organs(const std::vector<ProxyOrgan>& organs);
 
 }  // namespace organ_collision

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/held_message.hpp"
+#include "ros/messages/checked_messages.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "ros/interface/failure_log.hpp"
-#include "ros/pipeline/collision_pipeline.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 
 namespace organ_collision {
 

@@ -13,13 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "answer_bag.hpp"
-#include "offline/input_error.hpp"
+#include "bags.hpp"
+#include "offline/text_reader.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "recorded_messages.hpp"
 #include "replay.hpp"
 #include "replay_options.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/messages/text.hpp"
 #include "yaml_parameters.hpp"
 
 namespace organ_collision {

@@ -3,7 +3,7 @@
 #include <ros/names.h>
 
 #include "offline/command_line.hpp"
-#include "offline/input_error.hpp"
+#include "offline/text_reader.hpp"
 #include "organ_collision/ros/names.hpp"
 
 namespace organ_collision {

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <set>
 
-#include "offline/input_error.hpp"
-#include "ros/tools/link_description.hpp"
+#include "offline/text_reader.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
 namespace {

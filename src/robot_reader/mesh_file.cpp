@@ -19,10 +19,8 @@
 #include <vector>
 
 #include "geometry/concatenate.hpp"
-#include "process_limits.hpp"
 #include "resource.hpp"
-#include "ros/tools/link_description.hpp"
-#include "ros/tools/reader_limits.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 #include <string>
 
-#include "ros/tools/link_description.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
 

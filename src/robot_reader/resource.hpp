@@ -1,8 +1,22 @@
 #pragma once
 
+#include <chrono>
 #include <string>
 
 namespace organ_collision {
+
+/// Applies reader_limits to this process, and stops it from dumping core. Throws std::system_error.
+void limit_process();
+
+/// Ends this process, by the signal SIGPROF, if it takes so much processor time from now on until
+/// this is destroyed. There may be only one at a time. The constructor throws std::system_error.
+class ScopedTimeLimit {
+ public:
+  explicit ScopedTimeLimit(std::chrono::milliseconds time);
+  ~ScopedTimeLimit();
+  ScopedTimeLimit(const ScopedTimeLimit&) = delete;
+  ScopedTimeLimit& operator=(const ScopedTimeLimit&) = delete;
+};
 
 /// The content of a regular file on this machine. `name`: an absolute path, or a URL that begins
 /// with package:// or file://, as in URDF. Throws ToolError if there is no such file, and for

@@ -3,10 +3,12 @@
 #include <console_bridge/console.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <exception>
+#include <new>
+#include <utility>
+
 #include "mesh_file.hpp"
-#include "ros/interface/legal_name.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "ros/tools/link_description.hpp"
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -133,6 +135,33 @@ LinkDescription RobotModel::link(const std::string& name, const AboutToRead& abo
             shapes(*link, [&](const std::string& mesh) { about_to_read(prefix + mesh); })};
   } catch (const ToolError& error) {
     throw ToolError(prefix + error.what());
+  }
+}
+
+namespace {
+
+std::string read_links(const std::string& urdf, const std::vector<std::string>& names,
+                       const std::function<void(const std::string&)>& write) {
+  const RobotModel robot(urdf);
+  std::vector<LinkDescription> links;
+  for (const std::string& name : names) {
+    links.push_back(
+        robot.link(name, [&](const std::string& what) { write(reading_record(what)); }));
+  }
+  return links_record(std::move(links));
+}
+
+}  // namespace
+
+void answer_with_links(const std::function<std::string()>& urdf,
+                       const std::vector<std::string>& links,
+                       const std::function<void(const std::string&)>& write) {
+  try {
+    write(read_links(urdf(), links, write));
+  } catch (const std::bad_alloc&) {
+    write(refusal_record("there is not enough memory to read it"));
+  } catch (const std::exception& error) {
+    write(refusal_record(error.what()));
   }
 }
 

@@ -5,9 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "ros/tools/link_description.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace urdf {
+
 class ModelInterface;
 }
 
@@ -29,5 +30,18 @@ class RobotModel {
   std::shared_ptr<const urdf::ModelInterface> model_;
   std::vector<std::string> errors_;  ///< urdfdom's errors, also about links that it read in part
 };
+
+}  // namespace organ_collision
+
+}  // namespace urdf
+
+namespace organ_collision {
+
+/// Answers the node: reads the shapes of these links, and writes the records of robot_reply.hpp.
+/// `urdf`: the text of the URDF. A file that cannot be read gives a refusal. A broken one may end
+/// the program; the last record then names it.
+void answer_with_links(const std::function<std::string()>& urdf,
+                       const std::vector<std::string>& links,
+                       const std::function<void(const std::string&)>& write);
 
 }  // namespace organ_collision

@@ -8,9 +8,8 @@
 #include <iostream>
 #include <iterator>
 
-#include "process_limits.hpp"
 #include "resource.hpp"
-#include "robot_answer.hpp"
+#include "robot_model.hpp"
 
 using namespace organ_collision;
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "picking/volumes/camera_axes.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,10 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
-
-#include "picture.hpp"
+#include <vector>
 
 namespace organ_collision {
+
+/// Red, green, blue and opacity, each from 0 to 1.
+using Colour = Eigen::Vector4f;
+
+struct PictureVertex {
+  Eigen::Vector3d position;
+  Eigen::Vector3d normal;  ///< outward, for the light; zero: the colour is shown as it is
+  Colour colour;
+};
+
+/// All that a picture shows, in one frame [m]: each three consecutive vertices are a triangle.
+using PictureTriangles = std::vector<PictureVertex>;
 
 /// A perspective camera. Camera coordinates: x to the right, y upwards, z towards the viewer.
 struct Camera {

@@ -7,8 +7,8 @@
 
 #include "geometry/concatenate.hpp"
 #include "robot_reader/mesh_file.hpp"
-#include "ros/interface/conversions.hpp"
-#include "smooth_normals.hpp"
+#include "ros/messages/conversions.hpp"
+#include "shapes.hpp"
 
 namespace organ_collision {
 namespace {

@@ -8,9 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "picture.hpp"
+#include "camera.hpp"
 #include "shapes.hpp"
-#include "text.hpp"
 
 namespace organ_collision {
 

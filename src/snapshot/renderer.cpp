@@ -1,19 +1,76 @@
 #include "renderer.hpp"
 
+#include <png.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <cstdio>
+#include <cstring>
 #include <limits>
-#include <vector>
-
-#include "light.hpp"
+#include <memory>
+#include <stdexcept>
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
+
+const Vector3d kToLight = Vector3d(-0.35, 0.55, 0.75).normalized();
+const Vector3d kHalfway = (kToLight + Vector3d::UnitZ()).normalized();  // between light and viewer
+constexpr double kAmbient = 0.30;
+constexpr double kDiffuse = 0.75;
+constexpr double kSpecular = 0.18;
+constexpr double kShininess = 30.0;
+
+}  // namespace
+
+Colour lit(const Colour& colour, const Vector3d& normal) {
+  // Half of Lambert's light also reaches what faces away, so that no part becomes flat and black.
+  const double facing = 0.5 + 0.5 * normal.dot(kToLight);
+  const double gloss = std::pow(std::max(0.0, normal.dot(kHalfway)), kShininess);
+  const auto light = static_cast<float>(kAmbient + kDiffuse * facing * facing);
+  Colour result = colour;
+  result.head<3>() = (light * colour.head<3>()).array() + static_cast<float>(kSpecular * gloss);
+  return result.cwiseMin(1.0F);
+}
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+  throw std::runtime_error("cannot write '" + file + "': " + why);
+}
+
+}  // namespace
+
+void write_png(const std::string& file, const Image& image) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::fopen(file.c_str(), "wb"),
+                                                               &std::fclose);
+  if (!stream) refuse(file, std::strerror(errno));
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.width = static_cast<png_uint_32>(image.width);
+  png.height = static_cast<png_uint_32>(image.height);
+  png.format = PNG_FORMAT_RGB;
+  if (png_image_write_to_stdio(&png, stream.get(), 0, image.pixels.data(), 0, nullptr) == 0) {
+    refuse(file, png.message);
+  }
+  if (std::fflush(stream.get()) != 0) refuse(file, std::strerror(errno));
+}
+
+RenderFunctions load_render_functions(const GlContext& context) {
+  RenderFunctions functions;
+#define ORGAN_COLLISION_LOAD(name) \
+  functions.name = reinterpret_cast<decltype(functions.name)>(context.find_function("gl" #name));
+  ORGAN_COLLISION_RENDER_FUNCTIONS(ORGAN_COLLISION_LOAD)
+#undef ORGAN_COLLISION_LOAD
+  return functions;
+}
+
+namespace {
 
 /// [1] Each pixel has this number of samples along each side.
 constexpr int kSamples = 3;

@@ -1,16 +1,53 @@
 #pragma once
 
+#include <GL/gl.h>
+
 #include <Eigen/Core>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "camera.hpp"
-#include "image.hpp"
 #include "picking/gl/gl_context.hpp"
-#include "picture.hpp"
-#include "render_functions.hpp"
 
 namespace organ_collision {
+
+/// The colour of a lit surface, by the reflection models of Lambert and Blinn. The light comes from
+/// above the viewer's left shoulder. `normal`: unit, in camera coordinates, on the side that the
+/// viewer sees. The opacity is that of `colour`.
+Colour lit(const Colour& colour, const Eigen::Vector3d& normal);
+
+/// A picture of 8 bits a colour. Rows from top to bottom, with three bytes (red, green, blue) a
+/// pixel.
+struct Image {
+  int width = 0, height = 0;  ///< [pixel]
+  std::vector<std::uint8_t> pixels;
+};
+
+/// Writes a PNG file. Throws std::runtime_error, with one line that names the file, if it cannot be
+/// written.
+void write_png(const std::string& file, const Image& image);
+
+}  // namespace organ_collision
+
+// Every GL function that the renderer calls, without its gl prefix.
+// clang-format off
+#define ORGAN_COLLISION_RENDER_FUNCTIONS(F)                                                  \
+  F(BlendFunc) F(Clear) F(ClearColor) F(ColorPointer) F(DepthMask) F(DisableClientState)     \
+  F(DrawArrays) F(Enable) F(EnableClientState) F(LoadMatrixd) F(ReadPixels) F(VertexPointer)
+// clang-format on
+
+namespace organ_collision {
+
+/// Pointers to these functions, loaded from a context as the pickers load theirs.
+struct RenderFunctions {
+#define ORGAN_COLLISION_DECLARE(name) decltype(&gl##name) name = nullptr;
+  ORGAN_COLLISION_RENDER_FUNCTIONS(ORGAN_COLLISION_DECLARE)
+#undef ORGAN_COLLISION_DECLARE
+};
+
+/// Loads all these functions. Throws GlError, naming the first one that is missing.
+RenderFunctions load_render_functions(const GlContext& context);
 
 /// [pixel] The largest width and height of a picture.
 inline constexpr int kLongestSide = 4096;

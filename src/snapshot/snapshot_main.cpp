@@ -11,8 +11,8 @@
 
 #include "camera.hpp"
 #include "geometry/concatenate.hpp"
-#include "marker_listener.hpp"
 #include "marker_picture.hpp"
+#include "markers.hpp"
 #include "renderer.hpp"
 #include "snapshot_options.hpp"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "picture.hpp"
+#include "camera.hpp"
 
 namespace organ_collision {
 

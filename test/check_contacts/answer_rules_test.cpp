@@ -1,4 +1,4 @@
-#include "check_contacts/answer_rules.hpp"
+#include "answer_rules.hpp"
 
 #include <gtest/gtest.h>
 

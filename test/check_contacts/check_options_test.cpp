@@ -1,4 +1,4 @@
-#include "check_contacts/check_options.hpp"
+#include "check_options.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "check_contacts/contact_contract.hpp"
+#include "contact_contract.hpp"
 
 #include <gtest/gtest.h>
 

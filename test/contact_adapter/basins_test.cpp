@@ -5,7 +5,6 @@
 #include <numeric>
 #include <set>
 
-#include "contact_arrays.hpp"
 #include "force_trajectory.hpp"
 
 using namespace organ_collision;

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "ros/interface/parameter_group.hpp"
+#include "ros/parameters/parameter_group.hpp"
 
 using namespace organ_collision;
 using XmlRpc::XmlRpcValue;

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "ros/interface/rejection.hpp"
+#include "ros/messages/failure_log.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;

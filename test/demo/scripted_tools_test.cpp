@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "demo/liver_surface.hpp"
+#include "demo/liver.hpp"
 #include "geometry/distance/closest_points.hpp"
 
 namespace organ_collision {

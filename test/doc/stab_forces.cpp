@@ -7,9 +7,9 @@
 #include <memory>
 
 #include "contact_adapter/force_law.hpp"
-#include "demo/liver_surface.hpp"
+#include "demo/liver.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/interface/conversions.hpp"
+#include "ros/messages/conversions.hpp"
 #include "test/contact_adapter/force_trajectory.hpp"
 
 namespace organ_collision {

@@ -37,7 +37,7 @@ def reasons():
             found.update(re.findall(pattern + '"([^"]+)"', code))
     organs = read('src/ros/organs/organ_registry.cpp')
     found.update(re.findall(r'\brefuse\("([^"]+)"', organs))
-    for code in (organs, read('src/ros/interface/rejection.cpp')):
+    for code in (organs, read('src/ros/messages/failure_log.cpp')):
         found.update(re.findall(r'^\s*return "([^"]+)";', code, re.M))
     return found - {'ok'}
 

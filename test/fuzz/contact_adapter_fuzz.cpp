@@ -2,15 +2,11 @@
 // message has a byte before it: whether the radius of the shaft is known.
 #include <cmath>
 
-#include "contact_adapter/contact_check.hpp"
-#include "contact_adapter/face_list.hpp"
+#include "contact_adapter/contact_answer.hpp"
 #include "contact_adapter/force_law.hpp"
-#include "demand.hpp"
-#include "forces/force_limit.hpp"
-#include "forces/pair_names.hpp"
-#include "forces/vertex_forces.hpp"
-#include "ros/interface/rejection.hpp"
-#include "wire_message.hpp"
+#include "forces/forces.hpp"
+#include "fuzz_input.hpp"
+#include "ros/messages/failure_log.hpp"
 
 using namespace organ_collision;
 

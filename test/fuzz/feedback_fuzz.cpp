@@ -1,9 +1,8 @@
 // OpenGL's feedback buffer: any floats, of which GL says that it wrote any number.
 #include <vector>
 
-#include "demand.hpp"
 #include "fuzz_input.hpp"
-#include "picking/gl/feedback.hpp"
+#include "picking/gl/drawing.hpp"
 
 using namespace organ_collision;
 

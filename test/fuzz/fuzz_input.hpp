@@ -3,8 +3,24 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <optional>
 #include <string>
+
+#include "ros/messages/checked_messages.hpp"
+
+namespace organ_collision {
+
+/// Ends the program, as a crash does, if something does not hold that must hold for each input.
+inline void demand(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "This must hold, but does not: %s\n", what);
+  std::abort();
+}
+
+}  // namespace organ_collision
 
 /// Called by libFuzzer, and by replay_main.cpp, with bytes of which nothing is known. Each target
 /// defines it. It returns 0. What it must not do is crash, hang, take much memory or throw.
@@ -54,5 +70,21 @@ class FuzzInput {
   const std::uint8_t* data_;
   std::size_t left_;
 };
+
+/// The next message of an input as it comes over the wire: its size in two bytes, and its bytes. It
+/// is read as the nodes read messages. std::nullopt if the bytes are no such message.
+template <typename Message>
+std::optional<Message> next_message(FuzzInput& input) {
+  const std::string bytes = input.sized_text();
+  Message message;
+  try {
+    CheckedStream(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                  static_cast<std::uint32_t>(bytes.size()))
+        .next(message);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    return std::nullopt;
+  }
+  return message;
+}
 
 }  // namespace organ_collision

@@ -4,15 +4,13 @@
 
 #include <boost/make_shared.hpp>
 
-#include "demand.hpp"
-#include "haptic_proxy/proxy_frame.hpp"
+#include "fuzz_input.hpp"
+#include "haptic_proxy/proxy_scene.hpp"
 #include "haptic_proxy/tool_proxy.hpp"
-#include "ros/motion/pose_topics.hpp"
+#include "ros/motion/motion_topics.hpp"
 #include "ros/motion/tool_poses.hpp"
-#include "ros/motion/transform_topics.hpp"
 #include "ros/organs/organ_registry.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
-#include "wire_message.hpp"
 
 using namespace organ_collision;
 

@@ -5,10 +5,9 @@
 #include <shape_msgs/Mesh.h>
 #include <visualization_msgs/Marker.h>
 
-#include "demand.hpp"
 #include "fuzz_input.hpp"
-#include "mesh_adapter/message_error.hpp"
 #include "mesh_adapter/organ_source.hpp"
+#include "mesh_adapter/surface_messages.hpp"
 
 using namespace organ_collision;
 

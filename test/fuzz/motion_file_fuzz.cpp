@@ -1,9 +1,8 @@
 // The CSV files with motions of query_offline. The motions are answered, too.
-#include "demand.hpp"
 #include "fuzz_input.hpp"
 #include "memory_file.hpp"
-#include "offline/input_error.hpp"
-#include "offline/motion_list.hpp"
+#include "offline/motions.hpp"
+#include "offline/text_reader.hpp"
 
 using namespace organ_collision;
 

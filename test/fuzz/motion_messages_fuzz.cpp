@@ -2,12 +2,10 @@
 // /tf_static, a pose of a tip, a pose of a base.
 #include <optional>
 
-#include "demand.hpp"
-#include "ros/motion/pose_topics.hpp"
+#include "fuzz_input.hpp"
+#include "ros/motion/motion_topics.hpp"
 #include "ros/motion/tool_poses.hpp"
-#include "ros/motion/transform_topics.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
-#include "wire_message.hpp"
 
 using namespace organ_collision;
 

@@ -5,14 +5,13 @@
 #include <boost/make_shared.hpp>
 #include <iostream>
 
-#include "check_contacts/contact_contract.hpp"
-#include "demand.hpp"
-#include "ros/inbox/inbox.hpp"
+#include "fuzz_input.hpp"
 #include "ros/motion/tool_poses.hpp"
+#include "ros/steps/inbox.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "ros/steps/step_workers.hpp"
+#include "test/check_contacts/contact_contract.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
-#include "wire_message.hpp"
 
 using namespace organ_collision;
 

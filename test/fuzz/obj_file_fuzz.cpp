@@ -1,9 +1,8 @@
 // The OBJ files of query_offline.
-#include "demand.hpp"
 #include "fuzz_input.hpp"
 #include "memory_file.hpp"
-#include "offline/input_error.hpp"
 #include "offline/obj_reader.hpp"
+#include "offline/text_reader.hpp"
 
 using namespace organ_collision;
 

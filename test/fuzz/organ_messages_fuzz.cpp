@@ -2,11 +2,10 @@
 // vertices.
 #include <boost/make_shared.hpp>
 
-#include "demand.hpp"
-#include "ros/organs/organ_list.hpp"
+#include "fuzz_input.hpp"
 #include "ros/organs/organ_registry.hpp"
 #include "ros/organs/organ_report.hpp"
-#include "wire_message.hpp"
+#include "ros/organs/organ_services.hpp"
 
 using namespace organ_collision;
 

@@ -1,9 +1,9 @@
 // The yaml files with parameters of replay.
 #include "fuzz_input.hpp"
 #include "memory_file.hpp"
-#include "offline/input_error.hpp"
+#include "offline/text_reader.hpp"
 #include "replay/yaml_parameters.hpp"
-#include "ros/tools/link_description.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 using namespace organ_collision;
 

@@ -2,12 +2,11 @@
 #include <array>
 
 #include "contact_adapter/contact_adapter_parameters.hpp"
-#include "contact_adapter/shaft_radius.hpp"
-#include "demand.hpp"
+#include "contact_adapter/contact_answer.hpp"
 #include "fuzz_input.hpp"
 #include "haptic_proxy/haptic_proxy_parameters.hpp"
 #include "mesh_adapter/mesh_adapter_parameters.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "ros/messages/text.hpp"
 #include "ros/parameters/node_parameters.hpp"
 
 using namespace organ_collision;

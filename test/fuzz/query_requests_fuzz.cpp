@@ -1,10 +1,9 @@
 // The services query and query_batch: bytes from the wire, to answers about an organ of two faces.
 // Kinds of request: one motion, a batch.
-#include "demand.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "test/ros/queries/served_node.hpp"
-#include "wire_message.hpp"
+#include "fuzz_input.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
+#include "test/ros/queries/query_fixtures.hpp"
 
 using namespace organ_collision;
 

@@ -10,9 +10,9 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "demand.hpp"
-#include "robot_reader/process_limits.hpp"
-#include "robot_reader/robot_answer.hpp"
+#include "fuzz_input.hpp"
+#include "robot_reader/resource.hpp"
+#include "robot_reader/robot_model.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,8 +1,7 @@
 // What the program robot_reader answers to the node, even if it was ended by a broken file.
-#include "demand.hpp"
 #include "fuzz_input.hpp"
-#include "ros/tools/link_builder.hpp"
 #include "ros/tools/robot_reply.hpp"
+#include "ros/tools/tool.hpp"
 
 using namespace organ_collision;
 

@@ -8,11 +8,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "demand.hpp"
 #include "fuzz_input.hpp"
 #include "reader_process.hpp"
-#include "ros/tools/link_builder.hpp"
 #include "ros/tools/robot_reply.hpp"
+#include "ros/tools/tool.hpp"
 
 using namespace organ_collision;
 

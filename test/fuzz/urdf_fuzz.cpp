@@ -1,8 +1,7 @@
 // URDF, as the program robot_reader reads it, and the links that the node makes of it.
-#include "demand.hpp"
 #include "fuzz_input.hpp"
 #include "robot_reader/robot_model.hpp"
-#include "ros/tools/link_builder.hpp"
+#include "ros/tools/tool.hpp"
 
 using namespace organ_collision;
 

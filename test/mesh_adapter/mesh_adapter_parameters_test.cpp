@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "refusal.hpp"
+#include "surface_messages.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,12 +3,119 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include "offline/clearance_csv.hpp"
-#include "offline/placement_csv.hpp"
+#include <cmath>
+#include <cstdlib>
+#include <random>
 
 namespace organ_collision {
 namespace {
+
+TEST(CsvCells, keep_every_double) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> exponent(-12.0, 6.0);
+  for (int i = 0; i < 10'000; ++i) {
+    const double number = std::pow(10.0, exponent(random)) * (i % 2 == 0 ? 1.0 : -1.0);
+    EXPECT_EQ(std::strtod(number_text(number).c_str(), nullptr), number);
+  }
+}
+
+TEST(CsvCells, are_appended_behind_a_comma) {
+  std::string csv = "1";
+  append_cell("known", csv);
+  append_cell(0.1, csv);
+  append_cells({1.5, -2.0, 1.0 / 3.0}, csv);
+  append_empty_cells(2, csv);
+  EXPECT_EQ(csv, "1,known,0.10000000000000001,1.5,-2,0.33333333333333331,,");
+}
+
+ToolClearance some_clearance() {
+  ToolClearance clearance;
+  clearance.state = ClearanceState::kKnown;
+  clearance.distance = 0.125;
+  clearance.least = 0.1;
+  clearance.least_fraction = 0.75;
+  clearance.face = 4000000000U;
+  clearance.on_organ = {1.0, 2.0, 3.0};
+  clearance.on_tool = {1.0, 2.0, 2.875};
+  clearance.normal = {0.0, 0.0, 1.0};
+  clearance.normal_defined = true;
+  return clearance;
+}
+
+std::string cells(const ToolClearance& clearance) {
+  std::string csv;
+  append_clearance(clearance, csv);
+  return csv;
+}
+
+TEST(ClearanceCsv, has_a_cell_for_each_column) {
+  const std::string columns = clearance_columns();
+  for (const ClearanceState state :
+       {ClearanceState::kNotAsked, ClearanceState::kBeyondMargin, ClearanceState::kKnown}) {
+    ToolClearance clearance = some_clearance();
+    clearance.state = state;
+    const std::string csv = cells(clearance);
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), ','),
+              std::count(columns.begin(), columns.end(), ','));
+  }
+}
+
+TEST(ClearanceCsv, prints_all_fields) {
+  const std::string rest = ",0.125,0.10000000000000001,0.75,4000000000,1,2,3,1,2,2.875,0,0,1,1";
+  ToolClearance clearance = some_clearance();
+  EXPECT_EQ(cells(clearance), ",known" + rest);
+  clearance.is_resolved = false;
+  EXPECT_EQ(cells(clearance), ",upper_bound" + rest);
+  clearance.normal_defined = false;
+  EXPECT_EQ(cells(clearance).back(), '0');
+}
+
+TEST(ClearanceCsv, prints_no_number_that_is_not_known) {
+  ToolClearance clearance = some_clearance();
+  clearance.state = ClearanceState::kBeyondMargin;
+  EXPECT_EQ(cells(clearance), ",beyond_margin" + std::string(14, ','));
+  EXPECT_EQ(cells({}), std::string(15, ','));
+}
+
+AxisCrossing crossing(std::uint32_t face, double shaft, int direction) {
+  AxisCrossing crossing;
+  crossing.face = face;
+  crossing.shaft = shaft;
+  crossing.direction = static_cast<std::int8_t>(direction);
+  return crossing;
+}
+
+std::string cells(const AxisPlacement& placement) {
+  std::string csv;
+  append_placement(&placement, csv);
+  return csv;
+}
+
+TEST(PlacementCsv, prints_crossings_in_their_order) {
+  AxisPlacement placement;
+  placement.tip = Side::kOutside;
+  placement.trocar = Side::kOnSurface;
+  placement.crossings = {crossing(12, 0.1, 1), crossing(0, 0.5, -1), crossing(7, 1.0, 1)};
+  placement.length_known = true;
+  placement.length_inside = 0.1;
+  EXPECT_EQ(cells(placement),
+            ",outside,on_surface,3,12 0 7,1 -1 1,0.10000000000000001 0.5 1,0.10000000000000001");
+}
+
+TEST(PlacementCsv, leaves_empty_what_is_not_known) {
+  AxisPlacement placement;
+  EXPECT_EQ(cells(placement), ",unknown,unknown,0,,,,");
+  placement.tip = placement.trocar = Side::kInside;
+  placement.length_known = true;
+  EXPECT_EQ(cells(placement), ",inside,inside,0,,,,0");
+}
+
+TEST(PlacementCsv, has_a_cell_for_each_column) {
+  const std::string columns = placement_columns();
+  std::string none;
+  append_placement(nullptr, none);
+  EXPECT_EQ(none, std::string(std::count(columns.begin(), columns.end(), ','), ','));
+}
 
 FaceContact contact(std::uint32_t face) {
   FaceContact contact;
@@ -103,4 +210,5 @@ TEST(ContactsCsv, leaves_added_columns_empty_in_paper_modes) {
 }
 
 }  // namespace
+
 }  // namespace organ_collision

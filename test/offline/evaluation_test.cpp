@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
-#include "temporary_file.hpp"
+#include "temporary_files.hpp"
 
 namespace organ_collision {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "temporary_file.hpp"
+#include "temporary_files.hpp"
 
 namespace organ_collision {
 namespace {

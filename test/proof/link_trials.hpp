@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry/tool/rigid_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/convex_core.hpp"
 #include "trials.hpp"

@@ -10,7 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include "link_scenes.hpp"
+#include "scenes.hpp"
 #include "test/grid_surface.hpp"
 
 namespace {

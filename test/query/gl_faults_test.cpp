@@ -6,7 +6,7 @@
 #include <tuple>
 
 #include "faulty_osmesa.hpp"
-#include "link_scenes.hpp"
+#include "scenes.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,21 +1,155 @@
 #include "snapshot/renderer.hpp"
 
 #include <gtest/gtest.h>
+#include <png.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <random>
+#include <stdexcept>
 
-#include "snapshot/light.hpp"
+#include "snapshot/camera.hpp"
 #include "snapshot/shapes.hpp"
-#include "snapshot/smooth_normals.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
+
+std::mt19937 generator(7);
+
+double random_in(double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(generator);
+}
+
+Vector3d random_vector(double size) {
+  return size * Vector3d(random_in(-1, 1), random_in(-1, 1), random_in(-1, 1));
+}
+
+/// Where a point is in the picture: x and y from -1 to 1.
+Eigen::Vector2d in_picture(const Vector3d& point, const Camera& camera, double aspect) {
+  const Eigen::Vector4d clip =
+      projection(aspect, 1e-3, 1e3) * camera.to_camera(point).homogeneous();
+  return clip.head<2>() / clip.w();
+}
+
+TEST(Camera, AxesAreRightHandedAndFaceTheViewer) {
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d to_eye = random_vector(2.0), up = random_vector(3.0);
+    const Eigen::Matrix3d axes = view_axes(to_eye, up);
+    EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-12));
+    EXPECT_NEAR(axes.determinant(), 1.0, 1e-12);
+    EXPECT_NEAR(axes.col(2).dot(to_eye.normalized()), 1.0, 1e-12);
+    EXPECT_GT(axes.col(1).dot(up), 0.0);
+    EXPECT_NEAR(axes.col(0).dot(up), 0.0, 1e-12);
+  }
+}
+
+TEST(Camera, LooksAlongItsUpDirection) {
+  const Eigen::Matrix3d axes = view_axes({0, 0, 2}, {0, 0, 1});
+  EXPECT_TRUE((axes.transpose() * axes).isIdentity(1e-12));
+  EXPECT_TRUE(axes.col(2).isApprox(Vector3d::UnitZ()));
+}
+
+TEST(Camera, ShowsRightAndUpAndHidesNothingBetweenNearAndFar) {
+  const Camera camera{{0.2, -3.0, 0.5}, view_axes({0, -1, 0}, {0, 0, 1})};
+  const Vector3d target{0.2, 0.0, 0.5};
+  EXPECT_TRUE(in_picture(target, camera, 1.5).isZero(1e-12));
+  EXPECT_GT(in_picture(target + 0.1 * Vector3d::UnitX(), camera, 1.5).x(), 0.01);
+  EXPECT_GT(in_picture(target + 0.1 * Vector3d::UnitZ(), camera, 1.5).y(), 0.01);
+  const auto depth = [](double z) {
+    const Eigen::Vector4d clip = projection(1.5, 0.1, 5.0) * Eigen::Vector4d(0, 0, z, 1);
+    return clip.z() / clip.w();
+  };
+  EXPECT_NEAR(depth(-0.1), -1.0, 1e-12);
+  EXPECT_NEAR(depth(-5.0), 1.0, 1e-12);
+}
+
+TEST(Camera, FramesAnySceneAndWastesNoSpace) {
+  for (int trial = 0; trial < 100; ++trial) {
+    const Vector3d middle = random_vector(10.0);
+    const double size = std::pow(10.0, random_in(-2.0, 2.0));
+    PictureTriangles triangles;
+    for (int i = 0; i < 30; ++i) {
+      triangles.push_back({middle + random_vector(size), Vector3d::Zero(), Colour::Ones()});
+    }
+    const double aspect = random_in(0.3, 3.0);
+    const Eigen::Matrix3d axes = view_axes(random_vector(1.0), random_vector(1.0));
+    const Vector3d target = centre(triangles);
+    const double distance = framing_distance(triangles, target, axes, aspect);
+    const Camera camera{target + distance * axes.col(2), axes};
+    double widest = 0.0;
+    for (const PictureVertex& vertex : triangles) {
+      EXPECT_LT(camera.to_camera(vertex.position).z(), 0.0) << "in front of the eye";
+      const Eigen::Vector2d place = in_picture(vertex.position, camera, aspect);
+      widest = std::max(widest, place.cwiseAbs().maxCoeff());
+    }
+    EXPECT_NEAR(widest, 0.94, 1e-9);
+  }
+}
+
+const Colour kTissue{0.6F, 0.2F, 0.1F, 0.7F};
+
+TEST(Light, ComesFromAboveTheLeftShoulder) {
+  const auto red = [](const Vector3d& normal) { return lit(kTissue, normal.normalized()).x(); };
+  EXPECT_GT(red({-1, 0, 1}), red({1, 0, 1}));
+  EXPECT_GT(red({0, 1, 1}), red({0, -1, 1}));
+  EXPECT_GT(red({0, 0, 1}), red({1, -1, 0}));
+}
+
+TEST(Light, LeavesOpacityAndStaysInRange) {
+  for (const Vector3d& normal :
+       {Vector3d(0, 0, 1), Vector3d(-1, 0, 0), Vector3d(-0.35, 0.55, 0.75)}) {
+    const Colour colour = lit(kTissue, normal.normalized());
+    EXPECT_EQ(colour.w(), kTissue.w());
+    EXPECT_GT(colour.minCoeff(), 0.0F);
+    EXPECT_LE(lit(Colour::Ones(), normal.normalized()).maxCoeff(), 1.0F);
+  }
+}
+
+/// Reads a PNG file with libpng.
+Image read_png(const std::string& file) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  EXPECT_NE(png_image_begin_read_from_file(&png, file.c_str()), 0) << png.message;
+  png.format = PNG_FORMAT_RGB;
+  Image image{static_cast<int>(png.width), static_cast<int>(png.height), {}};
+  image.pixels.resize(PNG_IMAGE_SIZE(png));
+  EXPECT_NE(png_image_finish_read(&png, nullptr, image.pixels.data(), 0, nullptr), 0);
+  return image;
+}
+
+TEST(Image, IsTheSameAfterWritingAndReading) {
+  Image image{5, 3, {}};
+  for (int i = 0; i < 3 * 5 * 3; ++i) image.pixels.push_back(static_cast<std::uint8_t>(37 * i));
+  const std::string file = testing::TempDir() + "organ_collision_image_test.png";
+  write_png(file, image);
+  const Image read = read_png(file);
+  EXPECT_EQ(read.width, 5);
+  EXPECT_EQ(read.height, 3);
+  EXPECT_EQ(read.pixels, image.pixels);
+  std::remove(file.c_str());
+}
+
+std::string refusal(const std::string& file) {
+  try {
+    write_png(file, {1, 1, {0, 0, 0}});
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Image, RefusesFilesThatCannotBeWritten) {
+  EXPECT_EQ(refusal("/no/such/folder/a.png"),
+            "cannot write '/no/such/folder/a.png': No such file or directory");
+  EXPECT_EQ(refusal("/tmp"), "cannot write '/tmp': Is a directory");
+  EXPECT_EQ(refusal("/dev/full").substr(0, 25), "cannot write '/dev/full':");
+}
+
 using Pixel = std::array<int, 3>;
 
 constexpr int kWidth = 80, kHeight = 60;
@@ -164,4 +298,5 @@ TEST(Renderer, ARendererTakesManyPictures) {
 }
 
 }  // namespace
+
 }  // namespace organ_collision

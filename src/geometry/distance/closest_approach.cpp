@@ -5,7 +5,6 @@
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
 #include "swept_box.hpp"
-#include "turning_plane.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <limits>
+#include <optional>
 
 #include "organ_collision/geometry/tool/convex_core.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 #include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
@@ -28,5 +31,24 @@ struct ClosestPoints {
 /// unspecified. Axes and cylinders ignore it.
 ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
                              double distance_bound = std::numeric_limits<double>::infinity());
+
+/// Barycentric coordinates of the origin's projection onto the plane of the triangle a, b, c [m],
+/// whose twice_area() is `area`. None if the projection lies outside the triangle or the triangle
+/// is degenerate. For another point, pass the corners relative to it. Source: Ericson, Real-Time
+/// Collision Detection, 3.4.
+inline std::optional<Eigen::Vector3d> project_origin(const Eigen::Vector3d& a,
+                                                     const Eigen::Vector3d& b,
+                                                     const Eigen::Vector3d& c,
+                                                     const Eigen::Vector3d& area) {
+  const Eigen::Vector3d areas(area.dot(b.cross(c)), area.dot(c.cross(a)), area.dot(a.cross(b)));
+  if (!(areas.minCoeff() >= 0.0) || !(areas.sum() > 0.0)) return std::nullopt;
+  return areas / areas.sum();
+}
+
+/// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a
+/// segment or a point), in closed form. If several pairs are tied within tolerance::kTie, the
+/// points are those nearest the tip. The distance is always the least one. See doc/geometry.md,
+/// Ties and piercing.
+ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face);
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "triangle_projection.hpp"
+#include "closest_points.hpp"
 
 namespace organ_collision {
 namespace {

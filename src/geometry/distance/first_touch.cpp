@@ -5,11 +5,10 @@
 #include <cmath>
 #include <limits>
 
-#include "axis_distance.hpp"
+#include "closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "separating_plane.hpp"
 #include "triangle_crossing.hpp"
-#include "turning_plane.hpp"
 
 namespace organ_collision {
 namespace {

@@ -3,8 +3,8 @@
 #include <optional>
 
 #include "closest_points.hpp"
-#include "geometry/organ/face_motion.hpp"
-#include "geometry/tool/core_motion.hpp"
+#include "geometry/organ/organ_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "work_budget.hpp"
 
 namespace organ_collision {

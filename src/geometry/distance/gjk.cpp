@@ -6,9 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "axis_distance.hpp"
+#include "closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "triangle_projection.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "ball_sieve.hpp"
-#include "bounded_face.hpp"
 #include "first_touch.hpp"
-#include "geometry/tool/rigid_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tool/tool_surface.hpp"
+#include "swept_box.hpp"
 
 namespace organ_collision {
 

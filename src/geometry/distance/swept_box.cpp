@@ -2,14 +2,47 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "separating_plane.hpp"
 
 namespace organ_collision {
 namespace {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
+
+Vector3d sum_of(const Triangle& corners) { return corners[0] + corners[1] + corners[2]; }
+
+/// [m^2] The square of the distance to the farthest corner.
+double squared_reach(const Vector3d& center, const Triangle& corners) {
+  return std::max({(corners[0] - center).squaredNorm(), (corners[1] - center).squaredNorm(),
+                   (corners[2] - center).squaredNorm()});
+}
+
+Vector3d center_of(const FaceMotion& motion, bool rests) {
+  if (rests) return sum_of(motion.start) / 3.0;
+  return (sum_of(motion.start) + sum_of(motion.end)) / 6.0;
+}
+
+/// [m] The ball around `center` with this radius holds all corners at both ends, and with them all
+/// points of the face in between.
+double radius_around(const Vector3d& center, const FaceMotion& motion, bool rests) {
+  const double at_start = squared_reach(center, motion.start);
+  return std::sqrt(rests ? at_start : std::max(at_start, squared_reach(center, motion.end)));
+}
+
+}  // namespace
+
+BoundedFace::BoundedFace(const FaceMotion& motion)
+    : motion(&motion),
+      rests(motion.start == motion.end),
+      normal(plane_normal(motion.start)),
+      center(center_of(motion, rests)),
+      radius(radius_around(center, motion, rests)) {}
+
+namespace {
+
+using Eigen::Matrix3d;
 
 /// [m] The same bound as CoreMotion::chord_deviation(), for any point of the box.
 double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
@@ -81,6 +114,39 @@ double SweptBox::distance_bound(const FaceMotion& face) const {
 
 OrientedBox SweptBox::bounds() const {
   return {axes_ * (0.5 * (low() + high())), axes_, 0.5 * (high() - low())};
+}
+
+namespace {
+
+Vector3d unit_or(const Vector3d& vector, const Vector3d& otherwise) {
+  const Vector3d unit = vector.stableNormalized();
+  return unit.isZero(0.0) ? otherwise : unit;
+}
+
+/// Columns: orthonormal, right-handed.
+Eigen::Matrix3d axes_of(const ShaftMotion& motion) {
+  const ShaftAxis middle = motion.at(0.5);
+  const Vector3d along = unit_or(middle.tip - middle.trocar, Vector3d::UnitX());
+  const Vector3d step = motion.end.tip - motion.start.tip;
+  // Removes the part along the axis twice: the first time leaves a rounding error of it.
+  Vector3d across = unit_or(step - along.dot(step) * along, along.unitOrthogonal());
+  across = unit_or(across - along.dot(across) * along, along.unitOrthogonal());
+  Eigen::Matrix3d axes;
+  axes << along, across, along.cross(across);
+  return axes;
+}
+
+}  // namespace
+
+OrientedBox box_around(const ShaftMotion& motion) {
+  const Eigen::Matrix3d axes = axes_of(motion);
+  const Vector3d& origin = motion.end.trocar;
+  Eigen::AlignedBox3d box;
+  for (const ShaftAxis& axis : {motion.start, motion.end}) {
+    box.extend(axes.transpose() * (axis.trocar - origin));
+    box.extend(axes.transpose() * (axis.tip - origin));
+  }
+  return {origin + axes * box.center(), axes, 0.5 * box.sizes()};
 }
 
 }  // namespace organ_collision

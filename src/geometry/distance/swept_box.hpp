@@ -2,11 +2,24 @@
 
 #include <Eigen/Core>
 
-#include "bounded_face.hpp"
-#include "geometry/tool/rigid_motion.hpp"
+#include "geometry/organ/organ_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
 
 namespace organ_collision {
+
+/// A face during one leg, with what many tests of it share [m]. It refers to the face's motion,
+/// which must outlive it.
+struct BoundedFace {
+  explicit BoundedFace(const FaceMotion& motion);
+
+  const FaceMotion* motion;
+  bool rests;              ///< whether the face is at the same place at the start and at the end
+  Eigen::Vector3d normal;  ///< unit normal at the start; zero if the face is degenerate
+  Eigen::Vector3d center;  ///< of a ball that holds the face during the whole leg
+  double radius;           ///< of that ball
+};
 
 /// The space that a box of a link, grown by a radius, covers during one leg, in the organ's frame
 /// [m]. See doc/geometry.md, Swept boxes.
@@ -47,5 +60,9 @@ class SweptBox {
   Eigen::Vector3d low_, high_;  ///< of both places together
   double reach_;                ///< [m] radius plus chord deviation
 };
+
+/// A box around all positions of an axis during a leg. Its first edge is along the axis, the second
+/// one along the motion of the tip. An axis at rest has a box without width.
+OrientedBox box_around(const ShaftMotion& motion);
 
 }  // namespace organ_collision

@@ -2,11 +2,24 @@
 
 #include <Eigen/Core>
 
-#include "face_motion.hpp"
 #include "organ_collision/geometry/organ/block_boxes.hpp"
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
+
+/// A face whose corners move linearly during one leg of the tool's path [m].
+struct FaceMotion {
+  Triangle start;
+  Triangle end;
+
+  /// The face at `time` in [0, 1] of the leg.
+  Triangle at(double time) const;
+  /// [m] How far the corner that moves farthest moves.
+  double farthest_move() const;
+  /// [m] The largest absolute coordinate of the corners at both ends of the leg.
+  double largest_coordinate() const;
+};
 
 /// The surface of an organ during a share of a step, in its frame [m]. The organ rests, or each
 /// vertex moves linearly. This is a view of meshes that must outlive it.

@@ -7,6 +7,10 @@
 
 namespace organ_collision {
 
+/// Whether a point is exactly on a face, including its edges and corners. A degenerate face is a
+/// segment or a point.
+bool is_on_face(const Triangle& face, const Eigen::Vector3d& point);
+
 /// How the axis crosses a face: +1 if it enters, against the face's outward normal, -1 if it
 /// leaves, 0 if it does not cross.
 ///

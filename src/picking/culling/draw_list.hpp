@@ -7,7 +7,7 @@
 
 #include "geometry/organ/organ_motion.hpp"
 #include "outcodes.hpp"
-#include "picking/volumes/part_sweep.hpp"
+#include "picking/volumes/conservative_volume.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {

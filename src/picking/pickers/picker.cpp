@@ -1,12 +1,72 @@
 #include "picker.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
-#include "cpu_picker.hpp"
-#include "feedback_picker.hpp"
-#include "select_picker.hpp"
+#include "gl_picker.hpp"
+#include "picking/culling/outcodes.hpp"
 
 namespace organ_collision {
+
+/// Picks without OpenGL. The candidates of a part are the faces that outcodes do not reject: some
+/// more than GL leaves of them, and exact distances decide in any case. Faces in a volume are
+/// clipped in double precision.
+class CpuPicker : public Picker {
+ public:
+  void pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+            std::vector<Candidate>& candidates) override;
+  void pick(const PartSweep& part, const OrganMotion& organ,
+            std::vector<Candidate>& candidates) override;
+  void release() override {}
+  const std::string& gl_version() const override;
+
+ private:
+  Outcodes outcodes_;
+};
+
+namespace {
+
+/// The range of depths of a polygon in the volume's shifted coordinates.
+Candidate candidate(std::uint32_t face, const ConvexPolygon& polygon, const ViewingVolume& volume) {
+  double nearest = 1.0, farthest = 0.0;  // in window coordinates
+  for (const Eigen::Vector3d& corner : polygon) {
+    const Eigen::Vector4d clip = volume.clip() * corner.homogeneous();
+    const double depth = 0.5 * (clip.z() / clip.w() + 1.0);
+    nearest = std::min(nearest, depth);
+    farthest = std::max(farthest, depth);
+  }
+  return {face, volume.view_depth(nearest), volume.view_depth(farthest)};
+}
+
+}  // namespace
+
+void CpuPicker::pick(const ViewingVolume& volume, const TriangleMesh& mesh,
+                     std::vector<Candidate>& candidates) {
+  candidates.clear();
+  outcodes_.assign(volume, OrganMotion(mesh));
+  outcodes_.for_each_face([&](const FaceClusters::Face& face) {
+    const ConvexPolygon part =
+        clipped(shifted(mesh.triangle(face.corners), volume.origin()), volume);
+    if (!part.empty()) candidates.push_back(candidate(face.number, part, volume));
+  });
+  sort_by_face(candidates);
+}
+
+void CpuPicker::pick(const PartSweep& part, const OrganMotion& organ,
+                     std::vector<Candidate>& candidates) {
+  candidates.clear();
+  outcodes_.assign(part.volume({}), organ);
+  outcodes_.for_each_face([&](const FaceClusters::Face& face) {
+    candidates.push_back({face.number, 0.0, 0.0});
+  });
+  sort_by_face(candidates);
+}
+
+const std::string& CpuPicker::gl_version() const {
+  static const std::string none = "none (picker: cpu)";
+  return none;
+}
+
 namespace {
 
 std::unique_ptr<Picker> new_picker(const PickerSettings& settings) {
@@ -58,6 +118,21 @@ std::unique_ptr<Picker> checked(std::unique_ptr<Picker> picker) {
 
 std::unique_ptr<Picker> make_picker(const PickerSettings& settings) {
   return checked(new_picker(settings));
+}
+
+PickerKind picker_kind(const std::string& name) {
+  if (name == "feedback") return PickerKind::kFeedback;
+  if (name == "select") return PickerKind::kSelect;
+  if (name == "cpu") return PickerKind::kCpu;
+  throw std::invalid_argument("picker is \"" + name +
+                              "\": must be \"feedback\", \"select\" or \"cpu\"");
+}
+
+GlPlatform gl_platform(const std::string& name) {
+  if (name == "auto") return GlPlatform::kAuto;
+  if (name == "osmesa") return GlPlatform::kOsmesa;
+  if (name == "egl") return GlPlatform::kEgl;
+  throw std::invalid_argument("gl is \"" + name + "\": must be \"auto\", \"osmesa\" or \"egl\"");
 }
 
 }  // namespace organ_collision

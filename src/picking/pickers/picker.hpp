@@ -10,7 +10,7 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/picking/picker_settings.hpp"
-#include "picking/volumes/part_sweep.hpp"
+#include "picking/volumes/conservative_volume.hpp"
 #include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {

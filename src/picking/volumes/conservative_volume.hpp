@@ -1,10 +1,34 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "geometry/distance/swept_box.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
 #include "viewing_volume.hpp"
-#include "volume_margin.hpp"
 
 namespace organ_collision {
+
+/// Up to four corners in the plane, counterclockwise. No corner lies inside an edge.
+struct ConvexHull {
+  std::array<Eigen::Vector2d, 4> corners;
+  std::size_t count = 0;
+
+  const Eigen::Vector2d* begin() const { return corners.data(); }
+  const Eigen::Vector2d* end() const { return corners.data() + count; }
+};
+
+/// The convex hull of four points: one corner if all coincide, two if they lie on a line. Allocates
+/// nothing.
+ConvexHull convex_hull(std::array<Eigen::Vector2d, 4> points);
+
+/// How far a conservative volume grows beyond the space that the tool sweeps.
+struct VolumeMargin {
+  double motion = 0.0;  ///< [m] largest distance of a face, at any time, from where it is drawn
+  double extent = 0.0;  ///< [m] largest coordinate of any drawn vertex relative to the origin
+};
 
 /// A volume that contains every point within `radius` + margin.motion [m] of the axis at some time
 /// of the leg. This holds for every motion: with a resting or moving trocar, with the tip at the
@@ -16,5 +40,42 @@ ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
 
 /// The conservative volume without its margins. Regions of contacts are clipped to it.
 ViewingVolume tool_volume(const ShaftMotion& motion, double radius);
+
+/// An orthographic box that contains a link's box, grown by its radius and by margin.motion, at
+/// every time of the leg. It is grown for 32-bit clipping like the conservative volume of a shaft.
+ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin);
+
+/// The same without margins. Regions of contacts are clipped to it.
+ViewingVolume tool_volume(const SweptBox& box);
+
+/// The space that a part of a tool sweeps on one leg, or on the chord of a span of legs. It builds
+/// the conservative volumes around that space once the margins are known. It refers to the motion
+/// or the box, which must outlive it.
+class PartSweep {
+ public:
+  /// A shaft with its radius [m].
+  PartSweep(const ShaftMotion& shaft, double radius) : shaft_(&shaft), radius_(radius) {}
+  explicit PartSweep(const SweptBox& box) : box_(&box) {}
+
+  /// [m] The origin of the volumes' shifted coordinates, in the organ's frame.
+  const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_->start.trocar; }
+  /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths: the
+  /// shortest edge of a flat box says nothing about its size.
+  double thickness() const {
+    if (!box_) return radius_;
+    Eigen::Vector3d edges = box_->high() - box_->low();
+    std::sort(edges.data(), edges.data() + edges.size());
+    return 0.5 * edges[1];
+  }
+  ViewingVolume volume(const VolumeMargin& margin) const {
+    return box_ ? conservative_volume(*box_, margin)
+                : conservative_volume(*shaft_, radius_, margin);
+  }
+
+ private:
+  const SweptBox* box_ = nullptr;
+  const ShaftMotion* shaft_ = nullptr;
+  double radius_ = 0.0;
+};
 
 }  // namespace organ_collision

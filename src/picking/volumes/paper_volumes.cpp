@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <optional>
 
-#include "camera_axes.hpp"
 #include "geometry/concatenate.hpp"
+#include "viewing_volume.hpp"
 
 namespace organ_collision {
 namespace {

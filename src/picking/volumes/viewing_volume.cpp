@@ -1,5 +1,7 @@
 #include "viewing_volume.hpp"
 
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 
 namespace organ_collision {
@@ -72,6 +74,97 @@ double ViewingVolume::view_depth(double window_depth) const {
   if (!perspective_) return depth * range;
   // Equals far near / (far - depth range) - near, without cancellation.
   return near_ * depth * range / (near_ + (1.0 - depth) * range);
+}
+
+namespace {
+
+// [1] A vector counts as parallel to the view below this sine of the angle between them: its part
+// at right angles to the view is then only rounding.
+constexpr double kParallel = 1e-12;
+
+// The unit vector, or zero for a zero vector.
+Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
+
+}  // namespace
+
+Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view) {
+  const Eigen::Vector3d z = direction(view);
+  Eigen::Index least_aligned;
+  z.cwiseAbs().minCoeff(&least_aligned);
+  const Eigen::Vector3d x = Eigen::Vector3d::Unit(least_aligned).cross(z).normalized();
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  return axes;
+}
+
+Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right) {
+  const Eigen::Vector3d z = direction(view);
+  Eigen::Vector3d x = direction(right);
+  x -= z * z.dot(x);
+  if (x.norm() < kParallel) return camera_axes(view);
+  // This is repeated because the first subtraction cancels most digits of a nearly parallel vector.
+  x = direction(x);
+  x = direction(x - z * z.dot(x));
+  Eigen::Matrix3d axes;
+  axes << x, z.cross(x), z;
+  return axes;
+}
+
+Triangle middle_face(const ViewingVolume& volume) {
+  Eigen::Matrix<double, 4, 3> corners;  // in clip coordinates, around the middle
+  corners << -0.5, 0.5, 0.0,            //
+      -0.5, -0.5, 1.0,                  //
+      0.0, 0.0, 0.0,                    //
+      1.0, 1.0, 1.0;
+  corners = (volume.clip().inverse() * corners).eval();
+  const auto point = [&](Eigen::Index i) -> Eigen::Vector3d {
+    return corners.col(i).hnormalized();
+  };
+  return {point(0), point(1), point(2)};
+}
+
+namespace {
+
+// [1] Rounding leaves corners of a polygon that were one this far from each other, as a share of
+// their largest coordinate.
+constexpr double kSameCorner = 1e-15;
+
+void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
+  const auto is_same = [&](const Eigen::Vector3d& other) {
+    return (corner - other).cwiseAbs().maxCoeff() <= kSameCorner * corner.cwiseAbs().maxCoeff();
+  };
+  if (polygon.empty() || !(is_same(polygon.back()) || is_same(polygon.front()))) {
+    polygon.push_back(corner);
+  }
+}
+
+/// Clips a convex polygon to a half-space: Sutherland and Hodgman, "Reentrant polygon clipping"
+/// (1974).
+ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfSpace& half_space) {
+  const auto height = [&](const Eigen::Vector3d& corner) {
+    return half_space.normal.dot(corner) - half_space.offset;
+  };
+  ConvexPolygon inside;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector3d& from = polygon[i];
+    const Eigen::Vector3d& to = polygon[(i + 1) % polygon.size()];
+    const double begin = height(from), end = height(to);
+    if (begin <= 0.0) add_corner(from, inside);
+    if ((begin < 0.0 && end > 0.0) || (begin > 0.0 && end < 0.0)) {
+      add_corner(from + begin / (begin - end) * (to - from), inside);
+    }
+  }
+  return inside;
+}
+
+}  // namespace
+
+ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume) {
+  ConvexPolygon polygon(face.begin(), face.end());
+  for (std::size_t i = 0; i < volume.half_space_count() && !polygon.empty(); ++i) {
+    polygon = clipped(polygon, volume.half_space(i));
+  }
+  return polygon;
 }
 
 }  // namespace organ_collision

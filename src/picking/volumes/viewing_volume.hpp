@@ -3,10 +3,17 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <vector>
 
-#include "geometry/half_space.hpp"
+#include "organ_collision/geometry/triangle.hpp"
 
 namespace organ_collision {
+
+/// All points x with normal · x <= offset [m]. `normal` is unit and points outward.
+struct HalfSpace {
+  Eigen::Vector3d normal;
+  double offset;
+};
 
 /// What GL clips to: the frustum of a camera and up to eight user planes. A volume holds matrices
 /// and half-spaces together, so that culling, GL and tests cannot disagree.
@@ -59,5 +66,27 @@ class ViewingVolume {
   double near_, far_;
   bool perspective_;
 };
+
+/// A camera's axes: orthonormal columns x, y, z. z is along `view` (not zero), and y points towards
+/// the frame axis least aligned with it.
+Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view);
+
+/// The same with x along the part of `right` that is perpendicular to `view`. If `right` is
+/// parallel to `view`, as above.
+Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right);
+
+/// A face across the middle of the volume's frustum, in its shifted coordinates [m]. It meets the
+/// volume, because no user plane of a tool's volume cuts off that middle. Exceptions are the
+/// paper's naive volume, and slivers that are so thin for their length that 32-bit clipping loses
+/// the face. See doc/geometry.md, GL's clipping.
+Triangle middle_face(const ViewingVolume& volume);
+
+/// The corners of a convex polygon, in their order along its border. One or two corners are a point
+/// or a segment. None: it is empty.
+using ConvexPolygon = std::vector<Eigen::Vector3d>;
+
+/// The part of a face in a viewing volume, in double precision. The face and its part are in the
+/// volume's shifted coordinates [m]. A face that only touches the volume has a part, too.
+ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume);
 
 }  // namespace organ_collision

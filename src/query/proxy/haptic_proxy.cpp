@@ -8,9 +8,8 @@
 
 #include "mobility.hpp"
 #include "needle.hpp"
-#include "proxy_check.hpp"
-#include "proxy_entry.hpp"
 #include "proxy_motion.hpp"
+#include "query/request_check.hpp"
 #include "tissue.hpp"
 
 namespace organ_collision {

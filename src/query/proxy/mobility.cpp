@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/tool/rigid_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
 namespace {

@@ -8,8 +8,7 @@
 #include "geometry/concatenate.hpp"
 #include "geometry/coordinate_range.hpp"
 #include "path_builder.hpp"
-#include "path_simplification.hpp"
-#include "ros/interface/clock_rules.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {

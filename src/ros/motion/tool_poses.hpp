@@ -8,7 +8,6 @@
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
 #include "transform_buffer.hpp"
-#include "transform_lookup.hpp"
 
 namespace organ_collision {
 

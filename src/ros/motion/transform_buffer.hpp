@@ -4,16 +4,45 @@
 #include <ros/time.h>
 #include <tf2/buffer_core.h>
 
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "stamp_record.hpp"
-
 namespace organ_collision {
+
+/// The stamps of the recent transforms of one frame. It forgets a stamp when TF forgets the
+/// transform, or when there are more than kMost stamps.
+class StampRecord {
+ public:
+  /// As many transforms as TF keeps at 1 kHz.
+  static constexpr std::size_t kMost = 10'000;
+
+  /// `kept`: how long TF keeps a transform, counted back from the latest one.
+  explicit StampRecord(ros::Duration kept) : kept_(kept) {}
+
+  void add(ros::Time stamp);
+  bool contains(ros::Time stamp) const;
+  bool empty() const { return rising_.empty(); }
+  void clear() { *this = StampRecord(kept_); }
+  /// The largest stamp; zero if there is none.
+  ros::Time latest() const { return empty() ? ros::Time() : rising_.back(); }
+  /// The stamp that came last; zero if there is none.
+  ros::Time heard() const { return heard_; }
+  /// The latest stamp that was forgotten; zero if there is none.
+  ros::Time forgotten() const { return forgotten_; }
+  /// Appends the stamps after `from` and before `to`, in rising order.
+  void append_between(ros::Time from, ros::Time to, std::vector<ros::Time>& stamps) const;
+
+ private:
+  ros::Duration kept_;
+  std::deque<ros::Time> rising_;
+  ros::Time heard_, forgotten_;
+};
 
 /// TF's buffer, with a record of the stamps of each frame's transforms, because tf2 does not give
 /// them. Transforms that are set with setTransform instead of add are not in the record.
@@ -77,5 +106,44 @@ class TransformBuffer : public tf2::BufferCore {
   bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };
+
+/// A value and its time. Time zero: it is valid at any time, because all its transforms are static.
+template <typename T>
+struct Timed {
+  T value;
+  ros::Time stamp;
+};
+
+/// A value, or why TF does not have it. There is never a stand-in value.
+template <typename T>
+struct Lookup {
+  std::optional<Timed<T>> found;
+  std::string why_not;
+  bool is_late = false;  ///< the transforms are known, but the newest is older than the time
+};
+
+/// T_target_source at a time; time zero means the latest common time. Transforms that are not
+/// believed any more (TransformBuffer::believed_until) count as not yet known. The frame names must
+/// have no leading slash.
+Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
+                                  const std::string& source, ros::Time time);
+
+/// Whether TF has that transform. Costs less than a look_up() that finds none, because no error is
+/// put into words.
+bool has_transform(const TransformBuffer& buffer, const std::string& target,
+                   const std::string& source, ros::Time time);
+
+/// A frame, and the stamp of the newest transform to its parent.
+struct NewestTransform {
+  std::string frame;
+  ros::Time stamp;
+};
+
+/// Of the frames that carry `frame`, the one whose newest transform is the oldest; a static one has
+/// no age. These are `frame` and those above it, without those that also carry each of `others`:
+/// what they do, moves none against the other. Empty if nothing but static transforms is left.
+std::optional<NewestTransform> oldest_transform(const tf2::BufferCore& buffer,
+                                                const std::string& frame,
+                                                const std::vector<std::string>& others);
 
 }  // namespace organ_collision

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/handover.hpp"
-#include "ros/interface/plain_text.hpp"
+#include "queues.hpp"
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {

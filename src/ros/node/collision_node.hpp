@@ -7,23 +7,20 @@
 #include <functional>
 #include <vector>
 
-#include "message_loop.hpp"
-#include "queue_thread.hpp"
+#include "node_core.hpp"
+#include "program.hpp"
 #include "realtime.hpp"
-#include "ros/interface/live_parameters.hpp"
-#include "ros/master/master_watch.hpp"
+#include "ros/markers/marker_publisher.hpp"
+#include "ros/organs/organ_report.hpp"
 #include "ros/organs/organ_services.hpp"
-#include "ros/organs/surface_inspector.hpp"
+#include "ros/parameters/live_parameters.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/pipeline/collision_pipeline.hpp"
 #include "ros/publishing/contact_publisher.hpp"
-#include "ros/publishing/inbox_diagnostics.hpp"
-#include "ros/publishing/markers/marker_publisher.hpp"
-#include "ros/publishing/node_counters.hpp"
-#include "ros/publishing/query_diagnostics.hpp"
+#include "ros/publishing/counters.hpp"
+#include "ros/publishing/diagnostics.hpp"
 #include "ros/queries/query_services.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 #include "ros/tools/tool.hpp"
-#include "tool_reload.hpp"
 
 namespace organ_collision {
 

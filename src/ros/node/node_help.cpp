@@ -16,7 +16,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/parameters/parameter_help.hpp"
+#include "ros/parameters/node_parameters.hpp"
 
 namespace organ_collision {
 namespace {

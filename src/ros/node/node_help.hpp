@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ros/interface/program_help.hpp"
+#include "ros/parameters/program_help.hpp"
 
 namespace organ_collision {
 

@@ -3,8 +3,8 @@
 #include "collision_node.hpp"
 #include "node_help.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "program.hpp"
 #include "realtime.hpp"
-#include "ros/master/parameter_updates.hpp"
 
 int main(int argc, char** argv) {
   using namespace organ_collision;

@@ -3,9 +3,8 @@
 #include <ros/console.h>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/memory_lock.hpp"
-#include "ros/interface/parameter_group.hpp"
-#include "ros/interface/thread_scheduling.hpp"
+#include "ros/parameters/parameter_group.hpp"
+#include "scheduling.hpp"
 
 namespace organ_collision {
 namespace {

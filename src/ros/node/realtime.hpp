@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "ros/interface/awake_cores.hpp"
-#include "ros/parameters/shared_parameters.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "scheduling.hpp"
 
 namespace organ_collision {
 

@@ -6,7 +6,7 @@
 #include <exception>
 #include <utility>
 
-#include "ros/master/parameter_updates.hpp"
+#include "program.hpp"
 
 namespace organ_collision {
 namespace {

@@ -1,8 +1,91 @@
 #include "deformable_organ.hpp"
 
+#include <Eigen/Core>
+#include <cmath>
+#include <new>
 #include <utility>
 
 namespace organ_collision {
+namespace {
+
+/// [1] A smaller share of the cube of the organ's size is no volume but rounding, as between the
+/// two sides of a sheet.
+constexpr double kNoVolume = 1e-9;
+
+/// [m] The longest side of the box around all vertices.
+double size_of(const std::vector<float>& vertices) {
+  const Eigen::Map<const Eigen::Matrix3Xf> points(vertices.data(), 3,
+                                                  static_cast<Eigen::Index>(vertices.size() / 3));
+  const Eigen::Vector3d low = points.rowwise().minCoeff().cast<double>();
+  return (points.rowwise().maxCoeff().cast<double>() - low).maxCoeff();
+}
+
+}  // namespace
+
+void OrganSurface::find() {
+  if (found_) return;
+  try {
+    find_all();
+  } catch (...) {
+    set_ended();
+    throw;
+  }
+  set_ended();
+}
+
+void OrganSurface::find_all() {
+  topology_.emplace(*faces_, *vertices_);
+  inward_ = volume(*vertices_) < -kNoVolume * std::pow(size_of(*vertices_), 3);
+  vertices_.reset();
+  found_ = true;
+}
+
+void OrganSurface::set_ended() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ended_ = true;
+  }
+  has_ended_.notify_all();
+}
+
+bool OrganSurface::wait_until_found(std::chrono::milliseconds longest) const {
+  if (found_) return true;
+  std::unique_lock<std::mutex> lock(mutex_);
+  has_ended_.wait_for(lock, longest, [this] { return ended_; });
+  return found_;
+}
+
+std::shared_ptr<TriangleMesh> ShapePool::take(const TriangleMesh& model) {
+  if (auto shape = unused_->take()) return lend(std::move(shape));
+  return lend(std::make_unique<TriangleMesh>(model));
+}
+
+std::shared_ptr<TriangleMesh> ShapePool::add(TriangleMesh mesh) {
+  return lend(std::make_unique<TriangleMesh>(std::move(mesh)));
+}
+
+std::shared_ptr<TriangleMesh> ShapePool::lend(std::unique_ptr<TriangleMesh> shape) const {
+  const auto give_back = [unused = unused_](TriangleMesh* released) {
+    unused->give_back(std::unique_ptr<TriangleMesh>(released));
+  };
+  return {shape.release(), give_back};
+}
+
+std::unique_ptr<TriangleMesh> ShapePool::Unused::take() {
+  const std::lock_guard<std::mutex> lock(mutex);
+  if (shapes.empty()) return nullptr;
+  std::unique_ptr<TriangleMesh> shape = std::move(shapes.back());
+  shapes.pop_back();
+  return shape;
+}
+
+void ShapePool::Unused::give_back(std::unique_ptr<TriangleMesh> shape) {
+  try {
+    const std::lock_guard<std::mutex> lock(mutex);
+    shapes.push_back(std::move(shape));
+  } catch (const std::bad_alloc&) {  // The shape's memory is released instead.
+  }
+}
 
 DeformableOrgan::DeformableOrgan(std::string name, std::string frame, TriangleMesh mesh,
                                  ros::Time stamp, ros::Time received)

@@ -2,10 +2,19 @@
 
 #include <organ_collision/ContactArray.h>
 
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
+#include <iterator>
+
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
+
+void ConnectionSet::add(const Connection& connection) {
+  for (auto known = connections_.begin(); known != connections_.end();) {
+    known = known->expired() ? connections_.erase(known) : std::next(known);
+  }
+  connections_.insert(connection);
+}
+
 namespace {
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }

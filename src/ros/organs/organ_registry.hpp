@@ -2,20 +2,38 @@
 
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
+#include <ros/datatypes.h>
 #include <ros/time.h>
 
+#include <boost/weak_ptr.hpp>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <set>
 #include <string>
 
-#include "connection.hpp"
 #include "deformable_organ.hpp"
-#include "ros/interface/clock_rules.hpp"
-#include "ros/interface/rejection.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/failure_log.hpp"
 
 namespace organ_collision {
+
+/// The connection over which a message came from a publisher to this node, identified by its
+/// header: roscpp makes one header for each connection, also within a process, and keeps it while
+/// the connection is open. A restarted publisher has a new connection, even under the same name.
+using Connection = boost::weak_ptr<const ros::M_string>;
+
+/// A set of connections, ordered by the owner of the header. Therefore a new connection is never
+/// mistaken for a closed one whose header had the same address.
+class ConnectionSet {
+ public:
+  bool contains(const Connection& connection) const { return connections_.count(connection) > 0; }
+  /// Also drops the connections that are closed.
+  void add(const Connection& connection);
+
+ private:
+  std::set<Connection> connections_;
+};
 
 /// What a message changed. After kFrame and kOrgan, the new shape cannot be compared with earlier
 /// ones.

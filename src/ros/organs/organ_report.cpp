@@ -1,8 +1,14 @@
 #include "organ_report.hpp"
 
+#include <ros/console.h>
+
+#include <exception>
+#include <iterator>
+
 #include "geometry/concatenate.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "ros/interface/plausible_size.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
+#include "ros/node/queues.hpp"
 
 namespace organ_collision {
 namespace {
@@ -43,6 +49,59 @@ std::vector<std::string> doubts(const DeformableOrgan& organ) {
                         "reversed: swap two vertices of each triangle");
   }
   return sentences;
+}
+
+namespace {
+
+/// Called in the background thread. A surface that nobody needs any more is left out.
+void find_surface(const std::weak_ptr<OrganSurface>& needed, const std::string& organ) {
+  const std::shared_ptr<OrganSurface> surface = needed.lock();
+  if (!surface) return;
+  try {
+    surface->find();
+  } catch (const std::exception& error) {  // Usually std::bad_alloc.
+    ROS_WARN("whether organ '%s' is closed could not be found out: %s", organ.c_str(),
+             error.what());
+  }
+}
+
+}  // namespace
+
+void SurfaceInspector::update(const OrganRegistry& organs, Time now) {
+  for (const auto& [name, organ] : organs.organs()) {
+    Inspection& inspection = inspections_[name];
+    if (inspection.surface != organ.surface()) start(organ, inspection);
+    if (!inspection.told && inspection.surface->is_found()) tell(organ, inspection, now);
+  }
+  if (inspections_.size() > organs.organs().size()) forget_removed(organs);
+}
+
+void SurfaceInspector::start(const DeformableOrgan& organ, Inspection& inspection) {
+  const std::weak_ptr<OrganSurface> surface = organ.surface();
+  call_later(background_, [surface, name = organ.name()] { find_surface(surface, name); });
+  inspection.surface = organ.surface();  // Last, because the call may run out of memory.
+  inspection.told = false;
+}
+
+void SurfaceInspector::tell(const DeformableOrgan& organ, Inspection& inspection, Time now) {
+  inspection.told = true;
+  if (now >= inspection.next_summary) {
+    inspection.next_summary = now + kLogPeriod;
+    ROS_INFO("%s", summary(organ).c_str());
+  } else {
+    ROS_DEBUG("%s", summary(organ).c_str());
+  }
+  const std::vector<std::string> sentences = doubts(organ);
+  if (sentences.empty() || now < inspection.next_doubts) return;
+  inspection.next_doubts = now + kLogPeriod;
+  for (const std::string& sentence : sentences) ROS_WARN("%s", sentence.c_str());
+}
+
+void SurfaceInspector::forget_removed(const OrganRegistry& organs) {
+  for (auto known = inspections_.begin(); known != inspections_.end();) {
+    const bool removed = organs.organs().count(known->first) == 0;
+    known = removed ? inspections_.erase(known) : std::next(known);
+  }
 }
 
 }  // namespace organ_collision

@@ -1,15 +1,33 @@
 #pragma once
 
 #include <organ_collision/ListOrgans.h>
+#include <organ_collision/OrganInfo.h>
 #include <organ_collision/RemoveOrgan.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 
-#include "organ_list.hpp"
+#include <memory>
+#include <vector>
+
+#include "deformable_organ.hpp"
+#include "organ_intake.hpp"
 #include "organ_registry.hpp"
-#include "organ_topics.hpp"
 
 namespace organ_collision {
+
+/// An organ as it was when it was listed.
+struct ListedOrgan {
+  OrganInfo info;  ///< still without `closed` and `volume`, which take time for a large mesh
+  std::shared_ptr<OrganSurface> surface;
+  SharedVertices vertices;
+};
+
+/// All organs, sorted by name. For the thread that owns the organs: does not read their vertices.
+std::vector<ListedOrgan> list_organs(const OrganRegistry& organs);
+
+/// The organ with `closed` and `volume`. For the background thread: finds out what is not yet
+/// known.
+OrganInfo completed(const ListedOrgan& organ);
 
 /// Serves `list_organs` and `remove_organ`.
 ///

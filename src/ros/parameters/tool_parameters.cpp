@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/interface/conversions.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {

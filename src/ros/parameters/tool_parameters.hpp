@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/interface/parameter_group.hpp"
+#include "parameter_group.hpp"
 
 namespace organ_collision {
 

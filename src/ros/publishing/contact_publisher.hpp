@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "node_counters.hpp"
+#include "counters.hpp"
+#include "ros/organs/organ_intake.hpp"
 #include "ros/organs/organ_registry.hpp"
-#include "ros/organs/organ_topics.hpp"
 #include "ros/steps/step_scheduler.hpp"
 #include "ros/tools/tool.hpp"
 

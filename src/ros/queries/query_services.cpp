@@ -5,14 +5,12 @@
 #include <exception>
 #include <map>
 
-#include "given_motion.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "query_checks.hpp"
-#include "query_extras.hpp"
-#include "ros/interface/checked_messages.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "ros/interface/rejection.hpp"
+#include "query_request.hpp"
+#include "ros/messages/checked_messages.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/messages/text.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {

@@ -10,9 +10,9 @@
 
 #include "batch_workers.hpp"
 #include "query_snapshot.hpp"
-#include "ros/interface/failure_log.hpp"
-#include "ros/steps/contact_query.hpp"
-#include "service_statistics.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/publishing/counters.hpp"
+#include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
 

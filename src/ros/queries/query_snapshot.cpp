@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "query_checks.hpp"
-#include "ros/interface/conversions.hpp"
-#include "ros/interface/plain_text.hpp"
-#include "ros/motion/transform_lookup.hpp"
+#include "query_request.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
+#include "ros/motion/transform_buffer.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {

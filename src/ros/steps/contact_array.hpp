@@ -1,13 +1,23 @@
 #pragma once
 
+#include <geometry_msgs/Polygon.h>
+#include <organ_collision/Clearance.h>
+#include <organ_collision/Contact.h>
 #include <organ_collision/ContactArray.h>
+#include <organ_collision/Crossing.h>
+#include <organ_collision/ToolPlacement.h>
 #include <ros/time.h>
 #include <std_msgs/Header.h>
 
 #include <cstdint>
 #include <string>
 
-#include "ros/interface/failure_log.hpp"
+#include "organ_collision/picking/region.hpp"
+#include "organ_collision/query/clearance.hpp"
+#include "organ_collision/query/collision_query.hpp"
+#include "organ_collision/query/contact.hpp"
+#include "organ_collision/query/placement.hpp"
+#include "ros/messages/failure_log.hpp"
 #include "ros/organs/deformable_organ.hpp"
 #include "ros/parameters/node_parameters.hpp"
 
@@ -47,5 +57,35 @@ bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
 /// The message of STALE_MESH, with the age and the limit.
 std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
                           double timeout_sec);
+
+// Conversions between messages and the requests and results of CollisionQuery. All lengths are in
+// metres.
+
+// These copy all fields; the frame is the same.
+Contact to_message(const FaceContact& contact);
+Clearance to_message(const ToolClearance& clearance);
+Crossing to_message(const AxisCrossing& crossing);
+ToolPlacement to_message(const AxisPlacement& placement);
+/// The corners in the same order and frame, rounded to 32-bit floats.
+geometry_msgs::Polygon to_message(const Region& region);
+
+/// Runs collision queries whose answers are ContactArray messages. Illegal requests and failures of
+/// GL become statuses.
+class ContactQuery {
+ public:
+  /// Runs each kind of query once, so that GL compiles its programs now and not within the first
+  /// steps. Throws GlError if GL picking does not work on this machine.
+  explicit ContactQuery(const PickerSettings& picker);
+
+  /// Sets the status and the message of `answer`, and all that the query finds: from contacts to
+  /// placement. Returns how long the query took [s], or 0 if there is no answer.
+  double evaluate(const CollisionRequest& request, ContactArray& answer);
+
+  const std::string& gl_version() const { return query_.gl_version(); }
+
+ private:
+  CollisionQuery query_;
+  CollisionResult result_;
+};
 
 }  // namespace organ_collision

@@ -3,8 +3,6 @@
 #include <boost/make_shared.hpp>
 #include <utility>
 
-#include "contact_array.hpp"
-
 namespace organ_collision {
 namespace {
 

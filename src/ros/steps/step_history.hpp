@@ -14,7 +14,7 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "ros/organs/deformable_organ.hpp"
-#include "ros/tools/tool_changes.hpp"
+#include "ros/tools/tool.hpp"
 
 namespace organ_collision {
 

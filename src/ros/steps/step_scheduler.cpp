@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "contact_array.hpp"
-#include "ros/interface/duration_text.hpp"
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {

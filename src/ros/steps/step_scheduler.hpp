@@ -10,11 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "due_step.hpp"
 #include "duration_statistics.hpp"
 #include "ros/motion/tool_poses.hpp"
+#include "ros/organs/organ_intake.hpp"
 #include "ros/organs/organ_registry.hpp"
-#include "ros/organs/organ_topics.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
 #include "step_evaluator.hpp"

@@ -6,7 +6,7 @@
 #include <exception>
 #include <functional>
 
-#include "ros/interface/thread_scheduling.hpp"
+#include "ros/node/scheduling.hpp"
 
 namespace organ_collision {
 

@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "contact_query.hpp"
-#include "due_step.hpp"
-#include "query/workers/worker_threads.hpp"
+#include "contact_array.hpp"
+#include "query/worker_threads.hpp"
 #include "step_evaluator.hpp"
 
 namespace organ_collision {

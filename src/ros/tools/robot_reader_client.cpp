@@ -1,18 +1,191 @@
 #include "robot_reader_client.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
-#include "child_process.hpp"
-#include "link_description.hpp"
-#include "reader_limits.hpp"
-#include "robot_reply.hpp"
-
 namespace organ_collision {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+[[noreturn]] void fail(int error, const char* what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
+class Descriptor {
+ public:
+  Descriptor() = default;
+  ~Descriptor() { close(); }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  int get() const { return number_; }
+  /// Takes over a descriptor and gives it a number above those of the standard streams, which the
+  /// child's redirection replaces.
+  void take(int number, const char* what) {
+    if (number < 0) fail(errno, what);
+    number_ = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+    const int error = errno;
+    ::close(number);
+    if (number_ < 0) fail(error, what);
+  }
+  void close() {
+    if (number_ >= 0) ::close(number_);
+    number_ = -1;
+  }
+
+ private:
+  int number_ = -1;
+};
+
+/// A file in memory instead of a pipe, so that the parent need not wait for the reader.
+void open_input(const std::string& input, Descriptor& descriptor) {
+  descriptor.take(memfd_create("input", MFD_CLOEXEC), "memfd_create");
+  for (std::size_t done = 0; done < input.size();) {
+    const ssize_t count = write(descriptor.get(), &input[done], input.size() - done);
+    if (count < 0 && errno != EINTR) fail(errno, "write");
+    if (count > 0) done += static_cast<std::size_t>(count);
+  }
+  if (lseek(descriptor.get(), 0, SEEK_SET) != 0) fail(errno, "lseek");
+}
+
+/// The new process gets its standard streams, and no signal is blocked or ignored in it.
+class SpawnSettings {
+ public:
+  SpawnSettings(int input, int output) {
+    posix_spawn_file_actions_init(&actions_);
+    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
+    posix_spawnattr_init(&attributes_);
+    sigset_t signals;
+    sigemptyset(&signals);
+    posix_spawnattr_setsigmask(&attributes_, &signals);
+    sigfillset(&signals);
+    posix_spawnattr_setsigdefault(&attributes_, &signals);
+    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  }
+  ~SpawnSettings() {
+    posix_spawnattr_destroy(&attributes_);
+    posix_spawn_file_actions_destroy(&actions_);
+  }
+  SpawnSettings(const SpawnSettings&) = delete;
+  SpawnSettings& operator=(const SpawnSettings&) = delete;
+
+  pid_t start(const std::vector<std::string>& command) const {
+    std::vector<char*> arguments;
+    for (const std::string& argument : command) {
+      arguments.push_back(const_cast<char*>(argument.c_str()));
+    }
+    arguments.push_back(nullptr);
+    pid_t process = 0;
+    const int error =
+        posix_spawn(&process, arguments[0], &actions_, &attributes_, arguments.data(), environ);
+    if (error != 0) fail(error, arguments[0]);
+    return process;
+  }
+
+ private:
+  posix_spawn_file_actions_t actions_;
+  posix_spawnattr_t attributes_;
+};
+
+/// A running process. The destructor kills it and waits for its end, unless end() was called.
+class Child {
+ public:
+  explicit Child(pid_t process) : process_(process) {}
+  ~Child() {
+    if (process_ > 0) end();
+  }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// Kills the process, unless it is already ending by itself. Returns waitpid's status, or 0 if
+  /// the host process took that status: it ignores SIGCHLD, or waits for all children.
+  int end() {
+    kill(process_, SIGKILL);
+    int status = 0;
+    pid_t ended = 0;
+    do {
+      ended = waitpid(process_, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    process_ = 0;
+    return ended < 0 ? 0 : status;
+  }
+
+ private:
+  pid_t process_;
+};
+
+std::string describe(int status) {
+  std::ostringstream failure;
+  if (WIFSIGNALED(status)) {
+    failure << "was ended by signal " << WTERMSIG(status) << " (" << strsignal(WTERMSIG(status))
+            << ")";
+  } else if (WEXITSTATUS(status) != 0) {
+    failure << "ended with exit code " << WEXITSTATUS(status);
+  }
+  return failure.str();
+}
+
+/// Reads until the other end is closed. Returns why it stopped earlier, or an empty text.
+std::string read_all(int descriptor, const ProcessLimits& limits, std::string& output) {
+  const Clock::time_point end = Clock::now() + limits.time;
+  std::array<char, 65536> block;
+  while (true) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
+    pollfd waited{descriptor, POLLIN, 0};
+    const int ready = poll(&waited, 1, static_cast<int>(std::max<long>(0, left.count())));
+    if (ready == 0) {
+      std::ostringstream failure;
+      failure << "took more than " << std::chrono::duration<double>(limits.time).count() << " s";
+      return failure.str();
+    }
+    const ssize_t count = ready < 0 ? -1 : read(descriptor, block.data(), block.size());
+    if (count < 0 && errno != EINTR) fail(errno, "read");
+    if (count == 0) return {};
+    if (count < 0) continue;
+    if (output.size() + static_cast<std::size_t>(count) > limits.output_bytes) {
+      return "wrote more than " + std::to_string(limits.output_bytes) + " bytes";
+    }
+    output.append(block.data(), static_cast<std::size_t>(count));
+  }
+}
+
+}  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
+                          const ProcessLimits& limits) {
+  Descriptor given, read_end, write_end;
+  open_input(input, given);
+  std::array<int, 2> pipe_ends;
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) fail(errno, "pipe");
+  read_end.take(pipe_ends[0], "pipe");
+  write_end.take(pipe_ends[1], "pipe");
+
+  Child child(SpawnSettings(given.get(), write_end.get()).start(command));
+  write_end.close();  // Only the child holds this end now.
+  ProcessResult result;
+  result.failure = read_all(read_end.get(), limits, result.output);
+  const int status = child.end();
+  if (result.failure.empty()) result.failure = describe(status);
+  return result;
+}
+
 namespace {
 
 constexpr char kProgram[] = "robot_reader";

@@ -2,14 +2,21 @@
 
 #include <ros/node_handle.h>
 
+#include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "organ_collision/geometry/tool/link.hpp"
+#include "robot_reply.hpp"
 #include "ros/parameters/node_parameters.hpp"
 
 namespace organ_collision {
+
+/// The link with its collision geometry. Throws ToolError, which names the link and the illegal
+/// size, pose or mesh.
+Link build_link(const std::string& name, LinkDescription description);
 
 /// A tool as the node uses it.
 struct Tool {
@@ -33,5 +40,19 @@ Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_
 /// ToolError.
 Tool load_tool(const ToolParameters& parameters,
                const std::function<std::string(const std::string& parameter)>& find_text);
+
+/// For each tool of a new list: its index in the old list if it is unchanged; std::nullopt if it is
+/// new or changed.
+using KeptTools = std::vector<std::optional<std::size_t>>;
+
+/// How one list of tools differs from another.
+struct ToolChanges {
+  KeptTools kept;
+  std::string summary;  ///< names the unchanged, changed, new and removed tools
+};
+
+/// Tools are the same if their parameters, the shapes and joints of their links, and their faults
+/// are.
+ToolChanges compare_tools(const std::vector<Tool>& old_tools, const std::vector<Tool>& new_tools);
 
 }  // namespace organ_collision

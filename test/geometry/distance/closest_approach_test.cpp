@@ -7,9 +7,9 @@
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "test/geometry/tool/tool_meshes.hpp"
-#include "test/proof/core_distance_oracle.hpp"
-#include "test/proof/first_touch_oracle.hpp"
+#include "test/proof/exact_distance.hpp"
 #include "test/proof/link_trials.hpp"
+#include "test/proof/step_oracle.hpp"
 
 namespace organ_collision {
 namespace {

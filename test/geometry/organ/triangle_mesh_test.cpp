@@ -4,6 +4,10 @@
 
 #include <limits>
 
+#include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
+#include "organ_collision/geometry/triangle.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -162,5 +166,55 @@ TEST(TriangleMesh, KnowsWhetherTrianglesAreItsOwn) {
   }
 }
 
+using Eigen::Vector3d;
+
+const Triangle kTriangle = {Vector3d(0.1, 0.2, 0.5), Vector3d(0.5, 0.2, 0.5),
+                            Vector3d(0.1, 0.4, 0.5)};
+
+TEST(Triangle, PointAtBarycentricCoordinates) {
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(point_at(kTriangle, Vector3d::Unit(i)), kTriangle[i]);
+  EXPECT_TRUE(point_at(kTriangle, {0.0, 0.5, 0.5}).isApprox(Vector3d(0.3, 0.3, 0.5), 1e-15));
+}
+
+TEST(Triangle, TwiceAreaPointsOutwardByTheRightHandRule) {
+  EXPECT_TRUE(twice_area(kTriangle).isApprox(Vector3d(0.0, 0.0, 0.08), 1e-14));
+  EXPECT_EQ(twice_area({kTriangle[0], kTriangle[1], kTriangle[1]}), Vector3d::Zero());
+}
+
+TEST(Triangle, LargestCoordinateIsAbsolute) {
+  EXPECT_EQ(largest_coordinate(kTriangle), 0.5);
+  EXPECT_EQ(largest_coordinate({kTriangle[0], kTriangle[1], Vector3d(0.0, -2.0, 0.0)}), 2.0);
+}
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+TEST(CoordinateRange, EndsAtTheFarthest) {
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_TRUE(is_in_range(sign * tolerance::kFarthest));
+    EXPECT_FALSE(is_in_range(sign * 1.000001 * tolerance::kFarthest));
+    EXPECT_FALSE(is_in_range(sign * kInfinity));
+  }
+  EXPECT_FALSE(is_in_range(kNan));
+}
+
+TEST(CoordinateRange, OfAPointCountsEveryCoordinate) {
+  EXPECT_TRUE(is_in_range(Vector3d(0.0, -tolerance::kFarthest, tolerance::kFarthest)));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double bad : {kNan, kInfinity, -2.0 * tolerance::kFarthest}) {
+      Vector3d point(0.1, 0.2, 0.3);
+      point[axis] = bad;
+      EXPECT_FALSE(is_in_range(point));
+    }
+  }
+}
+
+TEST(Concatenate, WritesEachPartAsAStreamDoes) {
+  EXPECT_EQ(concatenate("radius is ", -0.5, " m; at most ", 1e6, std::string(" m")),
+            "radius is -0.5 m; at most 1e+06 m");
+  EXPECT_EQ(concatenate("none"), "none");
+}
+
 }  // namespace
+
 }  // namespace organ_collision

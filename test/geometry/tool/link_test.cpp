@@ -4,18 +4,160 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "geometry/distance/closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "test/proof/core_distance_oracle.hpp"
+#include "organ_collision/geometry/tool/convex_core.hpp"
+#include "organ_collision/geometry/tool/oriented_box.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
+#include "test/proof/exact_distance.hpp"
+#include "test/proof/link_trials.hpp"
 #include "tool_meshes.hpp"
 
 namespace organ_collision {
 namespace {
 
-using Eigen::Isometry3d;
+const ShaftAxis kBefore{{0.3, -0.1, 0.7}, {0.9, 0.4, -0.2}};
+const ShaftAxis kAfter{{0.31, -0.12, 0.73}, {0.2, 0.8, 0.1}};
+
+TEST(ShaftAxis, RunsFromTrocarToTip) {
+  EXPECT_EQ(kBefore.at(0.0), kBefore.trocar);
+  EXPECT_TRUE(kBefore.at(1.0).isApprox(kBefore.tip, 1e-15));
+  EXPECT_TRUE(kBefore.at(0.25).isApprox(0.75 * kBefore.trocar + 0.25 * kBefore.tip, 1e-15));
+}
+
+TEST(ShaftMotion, MovesBothEndsLinearly) {
+  const ShaftMotion motion{kBefore, kAfter};
+  EXPECT_EQ(motion.at(0.0).tip, kBefore.tip);
+  EXPECT_TRUE(motion.at(1.0).tip.isApprox(kAfter.tip, 1e-15));
+  for (const double time : {0.1, 0.5, 0.9}) {
+    const ShaftAxis axis = motion.at(time);
+    EXPECT_TRUE(axis.trocar.isApprox((1 - time) * kBefore.trocar + time * kAfter.trocar, 1e-15));
+    EXPECT_TRUE(axis.tip.isApprox((1 - time) * kBefore.tip + time * kAfter.tip, 1e-15));
+  }
+}
+
 using Eigen::Vector3d;
+
+TEST(OrientedBox, SupportValueIsThatOfItsFarthestCorner) {
+  oracle::Random random(1);
+  for (int i = 0; i < 300; ++i) {
+    const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
+    const OrientedBox box{pose.translation(), pose.linear(),
+                          Vector3d(random.uniform(0.0, 0.2), random.scale(1e-6, 0.2), 0.1)};
+    const Vector3d direction = random.scale(1e-3, 1e3) * random.direction();
+    double farthest = -INFINITY;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vector3d signs(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0,
+                           corner & 4 ? 1.0 : -1.0);
+      farthest = std::max(farthest, direction.dot(pose * box.half_size.cwiseProduct(signs)));
+    }
+    EXPECT_NEAR(box.support_value(direction), farthest, 1e-15 * direction.norm());
+  }
+}
+
 using oracle::Random;
+
+/// Points of a core's boundary: its corners, or `count` points on each of a cylinder's rims.
+std::vector<Vector3d> border(const ConvexCore& core, int count) {
+  std::vector<Vector3d> points(core.points.begin(), core.points.begin() + core.count);
+  if (!core.is_cylinder()) return points;
+  std::vector<Vector3d> rims;
+  for (const Vector3d& center : points) {
+    for (int i = 0; i < count; ++i) {
+      const double angle = 2.0 * M_PI * i / count;
+      rims.push_back(center + core.rim * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    }
+  }
+  return rims;
+}
+
+Vector3d any_direction(const ConvexCore& core, Random& random) {
+  // For some cores this is the axis.
+  if (random.chance(0.2)) return core.points[core.count - 1] - core.points[0];
+  if (random.chance(0.2)) return core.rim.col(0);
+  return random.scale(1e-12, 1e6) * random.direction();
+}
+
+class ConvexCoreOf : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(ConvexCoreOf, SupportIsItsFarthestPoint) {
+  Random random(10 + GetParam());
+  for (int i = 0; i < 300; ++i) {
+    const ConvexCore core = oracle::make_core(GetParam(), random);
+    const Vector3d direction = any_direction(core, random);
+    const Vector3d support = core.support(direction);
+    EXPECT_LE(oracle::distance(core, support), 4e-15);
+    EXPECT_EQ(core.support_value(direction), direction.dot(support));
+    double highest = -INFINITY;
+    for (const Vector3d& point : border(core, 5000)) {
+      highest = std::max(highest, direction.dot(point));
+    }
+    const double rounding = 1e-15 * direction.norm();
+    EXPECT_GE(core.support_value(direction), highest - rounding);
+    // The nearest of 5000 points on a rim is at most this much lower.
+    const double lower = 2e-7 * core.rim.norm() * direction.norm();
+    EXPECT_LE(core.support_value(direction), highest + lower + rounding);
+  }
+}
+
+TEST_P(ConvexCoreOf, MovesRigidly) {
+  Random random(20 + GetParam());
+  for (int i = 0; i < 300; ++i) {
+    const ConvexCore core = oracle::make_core(GetParam(), random);
+    const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
+    const ConvexCore moved = pose * core;
+    EXPECT_EQ(moved.count, core.count);
+    EXPECT_EQ(moved.is_axis(), core.is_axis());
+    EXPECT_EQ(moved.is_cylinder(), core.is_cylinder());
+    const Vector3d direction = any_direction(core, random);
+    EXPECT_NEAR(moved.support_value(pose.linear() * direction),
+                core.support_value(direction) +
+                    direction.dot(pose.linear().transpose() * pose.translation()),
+                1e-15 * direction.norm());
+  }
+}
+
+TEST_P(ConvexCoreOf, NoDirectionStillGivesOneOfItsPoints) {
+  Random random(30 + GetParam());
+  const ConvexCore core = oracle::make_core(GetParam(), random);
+  EXPECT_LE(oracle::distance(core, core.support(Vector3d::Zero())), 4e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ConvexCoreOf, testing::Range<std::size_t>(0, oracle::kCoreKinds));
+
+TEST(ConvexCore, OfAShaftIsItsAxis) {
+  const ShaftAxis axis{{0.1, 0.2, 0.3}, {0.4, -0.5, 0.6}};
+  const ConvexCore core = axis;
+  EXPECT_TRUE(core.is_axis());
+  EXPECT_FALSE(core.is_cylinder());
+  EXPECT_EQ(core.axis().trocar, axis.trocar);
+  EXPECT_EQ(core.axis().tip, axis.tip);
+}
+
+TEST(ConvexCore, OfABallIsAnAxisWithoutLength) {
+  const ConvexCore core = LinkPart::sphere({0.1, 0.2, 0.3}, 0.01).core;
+  EXPECT_TRUE(core.is_axis());
+  EXPECT_EQ(core.axis().trocar, core.axis().tip);
+}
+
+// is_cylinder() must not depend on which components of the rim are zero.
+TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
+  Random random(3);
+  for (int i = 0; i < 24; ++i) {
+    Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+    for (int turns = 0; turns < i; ++turns) {
+      pose.rotate(Eigen::AngleAxisd(M_PI / 2, Vector3d(Vector3d::Unit(random.integer(0, 2)))));
+    }
+    for (double& element : pose.linear().reshaped()) element = std::round(element);
+    const ConvexCore core = LinkPart::cylinder(pose, 0.01, 0.05).core;
+    EXPECT_TRUE(core.is_cylinder());
+    EXPECT_FALSE(core.is_axis());
+  }
+}
+
+using Eigen::Isometry3d;
 
 /// [m] The distance of a centred shape, with its axes along x, y and z, from a point in its frame.
 double box_distance(const Vector3d& size, const Vector3d& point) {
@@ -126,4 +268,5 @@ TEST(LinkPart, IsProjectedAsItsSurfaceOrCore) {
 }
 
 }  // namespace
+
 }  // namespace organ_collision

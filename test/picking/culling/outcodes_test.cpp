@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-#include "picking/volumes/camera_axes.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 #include "test/grid_surface.hpp"
 
 namespace organ_collision {

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <vector>
 
-#include "excess.hpp"
-#include "paper_hexahedron.hpp"
 #include "random_motions.hpp"
 
 namespace organ_collision {

@@ -1,13 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <ostream>
 #include <random>
+#include <vector>
 
+#include "geometry/tool/leg_motion.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
+#include "organ_collision/geometry/tool/oriented_box.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
 
@@ -125,6 +133,104 @@ inline std::ostream& operator<<(std::ostream& out, const ShaftMotion& motion) {
   print("end.trocar", motion.end.trocar);
   print("end.tip", motion.end.tip);
   return out;
+}
+
+/// A moving box of a link, with a radius.
+struct MovingBox {
+  OrientedBox box;  ///< in the link's frame
+  Eigen::Isometry3d start, end;
+  double radius;
+
+  RigidMotion motion() const { return {start, end}; }
+};
+
+inline Eigen::Matrix3d random_rotation(double angle, Random& random) {
+  return Eigen::AngleAxisd(angle, random.direction()).toRotationMatrix();
+}
+
+/// A box that rests, moves straight, rotates by up to 3.1 rad, or both. Some boxes are flat, some
+/// are points. The box starts at the distance `offset` [m] from the frame's origin.
+inline MovingBox random_box(double offset, Random& random) {
+  MovingBox moving;
+  OrientedBox& box = moving.box;
+  box.center = random.uniform(0, 0.1) * random.direction();
+  box.axes = random_rotation(random.uniform(0, M_PI), random);
+  for (int k = 0; k < 3; ++k) {
+    box.half_size[k] = random.below(8) == 0 ? 0 : random.magnitude(1e-4, 0.1);
+  }
+  if (random.below(8) == 0) box.half_size.setZero();
+  moving.radius = random.below(2) == 0 ? tolerance::kConvexMargin : random.magnitude(0.0005, 0.01);
+  moving.start = Eigen::Isometry3d::Identity();
+  moving.start.linear() = random_rotation(random.uniform(0, M_PI), random);
+  moving.start.translation() = offset * random.direction();
+  moving.end = moving.start;
+  const int kind = random.below(4);
+  if (kind % 2 == 1) moving.end.translation() += random.magnitude(1e-9, 0.2) * random.direction();
+  if (kind >= 2) moving.end.linear() *= random_rotation(random.magnitude(1e-6, 3.1), random);
+  return moving;
+}
+
+inline std::ostream& operator<<(std::ostream& out, const MovingBox& moving) {
+  return out << std::setprecision(17) << "center " << moving.box.center.transpose() << "\naxes\n"
+             << moving.box.axes << "\nhalf size " << moving.box.half_size.transpose() << "\nstart\n"
+             << moving.start.matrix() << "\nend\n"
+             << moving.end.matrix() << "\nradius " << moving.radius << '\n';
+}
+
+/// [m] The largest signed distance of a point (in the organ's frame) from the half-spaces of a
+/// volume. Negative: the point is inside the volume.
+inline double excess(const ViewingVolume& volume, const Eigen::Vector3d& point) {
+  double largest = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < volume.half_space_count(); ++i) {
+    const HalfSpace half_space = volume.half_space(i);
+    largest = std::max(largest, half_space.normal.dot(point - volume.origin()) - half_space.offset);
+  }
+  return largest;
+}
+
+/// The wedge of the paper's figure 7, built from the lines of the figure.
+struct PaperHexahedron {
+  PaperHexahedron(const ShaftMotion& motion, double radius)
+      : s(radius), trocar(motion.start.trocar) {
+    x = (motion.end.tip - motion.start.tip).normalized();
+    const Eigen::Vector3d to_tip = motion.start.tip - trocar;
+    z = (to_tip - x * x.dot(to_tip)).normalized();
+    y = z.cross(x);
+    height = z.dot(to_tip);
+    start = x.dot(to_tip);
+    end = x.dot(motion.end.tip - trocar);
+  }
+
+  Eigen::Vector3d at(double along, double up, double depth) const {
+    return trocar + x * along + y * up + z * depth;
+  }
+  std::vector<Eigen::Vector3d> corners() const {
+    return {at(-s, -s, 0),
+            at(-s, s, 0),
+            at(s, -s, 0),
+            at(s, s, 0),
+            at(start - s, -s, height),
+            at(start - s, s, height),
+            at(end + s, -s, height),
+            at(end + s, s, height)};
+  }
+  bool contains(const Eigen::Vector3d& point) const {
+    const Eigen::Vector3d p(x.dot(point - trocar), y.dot(point - trocar), z.dot(point - trocar));
+    const double share = p.z() / height;
+    return p.z() >= 0 && share <= 1 && std::abs(p.y()) <= s && p.x() >= share * start - s &&
+           p.x() <= share * end + s;
+  }
+
+  double s;
+  Eigen::Vector3d trocar, x, y, z;
+  double height, start, end;
+};
+
+/// A motion for which the paper's swept volume exists: the trocar rests, the tip moves.
+inline ShaftMotion paper_motion(Random& random) {
+  const Eigen::Vector3d trocar = 0.3 * random.direction();
+  const Eigen::Vector3d tip = trocar + random.uniform(0.05, 0.3) * random.direction();
+  return {{trocar, tip}, {trocar, tip + random.uniform(0.002, 0.2) * random.direction()}};
 }
 
 }  // namespace organ_collision

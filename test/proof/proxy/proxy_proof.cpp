@@ -13,7 +13,7 @@
 
 #include "episode.hpp"
 #include "scenes.hpp"
-#include "test/proof/progress.hpp"
+#include "test/proof/exactness_proof.hpp"
 
 namespace {
 

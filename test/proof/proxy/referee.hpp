@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "episode.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_oracle.hpp"
-#include "proxy_tally.hpp"
 #include "test/proof/trials.hpp"
 
 namespace organ_collision::oracle {

@@ -2,14 +2,66 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
-#include "geometry/tool/rigid_motion.hpp"
+#include "geometry/tool/leg_motion.hpp"
 
 using namespace organ_collision;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+
+namespace {
+
+ToolWaypoint at(double fraction, const Vector3d& trocar, const Vector3d& tip,
+                const std::vector<Isometry3d>& links = {}) {
+  return {fraction, {trocar, tip}, links};
+}
+
+Isometry3d pose(const Vector3d& origin, double angle = 0.0) {
+  return Eigen::Translation3d(origin) *
+         Eigen::AngleAxisd(angle, Vector3d(0.3, -1.0, 0.2).normalized());
+}
+
+}  // namespace
+
+TEST(PathDeviation, EitherEndOfTheAxisCounts) {
+  const PathDeviation deviation({});
+  const Vector3d trocar(0.1, 0.2, 0.3), tip(0.4, 0.1, -0.2), moved(0.04, -0.08, 0.02);
+  const StraightMotion way(at(0.2, trocar, tip), at(0.6, trocar + moved, tip - moved));
+  const ToolWaypoint straight = at(0.3, trocar + 0.25 * moved, tip - 0.25 * moved);
+  EXPECT_NEAR(deviation(straight, way).most(), 0.0, 1e-15);
+  ToolWaypoint bent = straight;
+  bent.axis.tip += Vector3d(0.0, 0.003, -0.004);
+  EXPECT_NEAR(deviation(bent, way).axis, 0.005, 1e-15);
+  bent.axis.trocar += Vector3d(0.012, 0.0, -0.005);
+  EXPECT_NEAR(deviation(bent, way).axis, 0.013, 1e-15);
+  EXPECT_EQ(deviation(bent, way).links, 0.0);
+}
+
+TEST(PathDeviation, LinksCountWithAllThatTheyReach) {
+  const Vector3d rest = Vector3d::Zero(), center(0.0, 0.05, 0.0);
+  const PathDeviation deviation(
+      {{"wrist", {LinkPart::sphere(rest, 0.01)}}, {"jaw", {LinkPart::sphere(center, 0.01)}}});
+  const auto poses = [&](double fraction, const Isometry3d& wrist, const Isometry3d& jaw) {
+    return at(fraction, rest, rest, {wrist, jaw});
+  };
+  const Isometry3d still = pose({0.1, 0.2, 0.3}, 0.4);
+  const StraightMotion way(poses(0.0, still, still), poses(1.0, still, still));
+  EXPECT_NEAR(deviation(poses(0.5, still, still), way).most(), 0.0, 1e-15);
+  const Isometry3d aside = Eigen::Translation3d(0.0, 0.02, 0.0) * still;
+  EXPECT_NEAR(deviation(poses(0.5, aside, still), way).links, 0.02, 1e-12);
+  // The jaw's farthest point is 60 mm from its origin, the wrist's 10 mm.
+  const Isometry3d turned = pose({0.1, 0.2, 0.3}, 0.5);
+  const double wrist = deviation(poses(0.5, turned, still), way).links;
+  const double jaw = deviation(poses(0.5, still, turned), way).links;
+  EXPECT_GE(jaw, 0.06 * 2.0 * std::sin(0.05) - 1e-12);
+  EXPECT_GT(jaw, wrist);
+  EXPECT_EQ(deviation(poses(0.5, turned, turned), way).most(), jaw);
+}
+
+using namespace organ_collision;
 
 namespace {
 
@@ -155,4 +207,88 @@ TEST(PathBuilder, ATrocarThatMovesByRoundingRests) {
   ASSERT_EQ(taken.size(), 2u);
   EXPECT_EQ(taken[0].axis.trocar, to.trocar);
   EXPECT_EQ(taken[0].axis.tip, from.tip);
+}
+
+using namespace organ_collision;
+
+namespace {
+
+const PathDeviation kOfAShaft({});
+const Vector3d kTrocar(0.1, 0.2, 0.5);
+
+/// A path whose waypoints are evenly spaced in time, with these heights of the tip.
+ToolPath heights(const std::vector<double>& heights) {
+  ToolPath path;
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const double fraction = double(i) / double(heights.size() - 1);
+    path.push_back({fraction, {kTrocar, {0.3, 0.1, heights[i]}}});
+  }
+  return path;
+}
+
+/// [m] The distance of the waypoint from the path at the same time.
+double distance(const ToolPath& path, const ToolWaypoint& waypoint) {
+  std::size_t leg = 1;
+  while (path[leg].fraction < waypoint.fraction) ++leg;
+  return kOfAShaft(waypoint, StraightMotion(path[leg - 1], path[leg])).most();
+}
+
+std::vector<double> fractions(const ToolPath& path) {
+  std::vector<double> fractions;
+  for (const ToolWaypoint& waypoint : path) fractions.push_back(waypoint.fraction);
+  return fractions;
+}
+
+}  // namespace
+
+TEST(SimplifiedPath, WhatFitsStays) {
+  const ToolPath path = heights({0.0, 0.3, 0.1, 0.2, 0.5});
+  for (const std::size_t legs : {4u, 5u, 100u}) {
+    const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
+    EXPECT_EQ(fractions(simplified.path), fractions(path));
+    EXPECT_EQ(simplified.dropped, 0u);
+    EXPECT_EQ(simplified.deviation, 0.0);
+  }
+  EXPECT_EQ(simplify_path(resting_path({{kTrocar, kTrocar}}), kOfAShaft, 1).path.size(), 1u);
+}
+
+TEST(SimplifiedPath, WhatMattersMostStays) {
+  const ToolPath path = heights({0.0, 0.001, -0.002, 0.4, 0.0, 0.02, 0.0, 0.001, 0.0});
+  SimplifiedPath simplified = simplify_path(path, kOfAShaft, 2);
+  EXPECT_EQ(fractions(simplified.path), (std::vector<double>{0.0, 0.375, 1.0}));
+  EXPECT_EQ(simplified.dropped, 6u);
+  simplified = simplify_path(path, kOfAShaft, 4);
+  EXPECT_EQ(simplified.path.size(), 5u);
+  EXPECT_EQ(simplified.path[2].axis.tip.z(), 0.4);
+  EXPECT_LT(simplified.deviation, 0.021);
+  simplified = simplify_path(path, kOfAShaft, 1);
+  EXPECT_EQ(fractions(simplified.path), (std::vector<double>{0.0, 1.0}));
+  EXPECT_NEAR(simplified.deviation, 0.4, 1e-12);
+}
+
+TEST(SimplifiedPath, OnAStraightMotionNothingMatters) {
+  const SimplifiedPath simplified =
+      simplify_path(heights({0.0, 0.25, 0.5, 0.75, 1.0}), kOfAShaft, 3);
+  EXPECT_EQ(simplified.deviation, 0.0);
+  EXPECT_EQ(simplified.path.size() + simplified.dropped, 5u);
+}
+
+TEST(SimplifiedPath, NothingIsFartherFromTheWayThanItSays) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> number(0.0, 0.05);
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> tips = {0.0};
+    while (tips.size() < 60) tips.push_back(tips.back() + number(random));
+    const ToolPath path = heights(tips);
+    for (const std::size_t legs : {1u, 3u, 10u, 40u}) {
+      const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
+      ASSERT_EQ(simplified.path.size(), legs + 1);
+      EXPECT_EQ(simplified.dropped, path.size() - simplified.path.size());
+      double farthest = 0.0;
+      for (const ToolWaypoint& waypoint : path) {
+        farthest = std::max(farthest, distance(simplified.path, waypoint));
+      }
+      EXPECT_NEAR(simplified.deviation, farthest, 1e-12);
+    }
+  }
 }

@@ -2,7 +2,130 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <set>
+#include <thread>
+#include <vector>
+
+#include "organ_fixture.hpp"
+
+namespace organ_collision {
+namespace {
+
+TriangleMesh triangle() { return {std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2}}; }
+
+TEST(ShapePool, AShapeInUseIsNotGivenOut) {
+  ShapePool pool;
+  const auto first = pool.add(triangle());
+  const auto second = pool.take(*first), third = pool.take(*first);
+  EXPECT_EQ(std::set({first.get(), second.get(), third.get()}).size(), 3u);
+  EXPECT_TRUE(second->same_faces(*first));
+}
+
+TEST(ShapePool, AReleasedShapeIsUsedAgain) {
+  ShapePool pool;
+  auto first = pool.add(triangle());
+  const TriangleMesh* const address = first.get();
+  auto second = pool.take(*first);
+  first.reset();
+  EXPECT_EQ(pool.take(*second).get(), address);
+}
+
+TEST(ShapePool, ShapesOutliveThePool) {
+  std::shared_ptr<TriangleMesh> shape;
+  {
+    ShapePool pool;
+    shape = pool.add(triangle());
+  }
+  EXPECT_EQ(shape->face_count(), 1u);
+}
+
+/// The reader releases shapes while the writer changes others. No shape may change while it is
+/// read. With -fsanitize=thread, the test also shows that there is no data race.
+TEST(ShapePool, AnotherThreadMayReleaseShapes) {
+  ShapePool pool;
+  auto latest = pool.add(triangle());
+  std::atomic<bool> stop{false};
+  std::mutex mutex;
+  std::thread reader([&] {
+    while (!stop) {
+      std::shared_ptr<const TriangleMesh> held;
+      {
+        const std::lock_guard<std::mutex> lock(mutex);
+        held = latest;
+      }
+      const std::vector<float> before = held->vertices();
+      std::this_thread::yield();
+      EXPECT_EQ(held->vertices(), before);
+    }
+  });
+  for (int i = 0; i < 5000; ++i) {
+    auto next = pool.take(*latest);
+    const auto height = static_cast<float>(i);
+    next->move_vertices(std::vector<float>{0, 0, height, 1, 0, height, 0, 1, height});
+    const std::lock_guard<std::mutex> lock(mutex);
+    latest = next;
+  }
+  stop = true;
+  reader.join();
+}
+
+}  // namespace
+
+}  // namespace organ_collision
+
+using namespace organ_collision;
+
+TEST(OrganSurface, IsKnownOnceItIsFound) {
+  OrganSurface surface(tetrahedron());
+  EXPECT_FALSE(surface.is_found());
+  surface.find();
+  ASSERT_TRUE(surface.is_found());
+  EXPECT_TRUE(surface.topology().is_closed());
+  EXPECT_FALSE(surface.is_inward());
+  surface.find();
+  EXPECT_TRUE(surface.is_found());
+}
+
+TEST(OrganSurface, VolumeIsOfTheGivenShape) {
+  const TriangleMesh mesh = tetrahedron();
+  OrganSurface surface(mesh);
+  surface.find();
+  const double volume = surface.volume(mesh.vertices());
+  EXPECT_NEAR(volume, 0.03 * 0.04 * 0.05 / 6.0, 1e-10);
+  std::vector<float> twice = mesh.vertices();
+  for (float& coordinate : twice) coordinate *= 2.0F;
+  EXPECT_NEAR(surface.volume(twice), 8.0 * volume, 1e-11);
+}
+
+TEST(OrganSurface, InwardIsAVolumeBelowZero) {
+  OrganSurface inward(tetrahedron(kInward));
+  inward.find();
+  EXPECT_TRUE(inward.topology().is_closed());
+  EXPECT_TRUE(inward.is_inward());
+  // Both sides of a sheet enclose nothing; what rounding leaves is no orientation.
+  OrganSurface sheet(
+      TriangleMesh({0.1F, 0.7F, 0.3F, 1.1F, 0.2F, 0.9F, 0.4F, 1.3F, 0.6F}, {0, 1, 2, 2, 1, 0}));
+  sheet.find();
+  EXPECT_TRUE(sheet.topology().is_closed());
+  EXPECT_FALSE(sheet.is_inward());
+  OrganSurface open(tetrahedron({0, 1, 2}));
+  open.find();
+  EXPECT_FALSE(open.is_inward());
+}
+
+TEST(OrganSurface, AnotherThreadMayWaitForIt) {
+  const std::chrono::milliseconds none(0);
+  const std::chrono::seconds long_enough(60);
+  OrganSurface surface(tetrahedron());
+  EXPECT_FALSE(surface.wait_until_found(none));
+  bool found = false;
+  std::thread waiting([&] { found = surface.wait_until_found(long_enough); });
+  surface.find();
+  waiting.join();
+  EXPECT_TRUE(found);
+  EXPECT_TRUE(surface.wait_until_found(none));
+}
 
 using namespace organ_collision;
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <new>
 
-#include "query_services_fixture.hpp"
+#include "query_fixtures.hpp"
 #include "ros/queries/query_services.hpp"
 
 using namespace organ_collision;

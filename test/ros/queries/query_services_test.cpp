@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "query_services_fixture.hpp"
+#include <cmath>
+#include <limits>
+
+#include "query_fixtures.hpp"
 
 using namespace organ_collision;
 
@@ -148,4 +151,246 @@ TEST_F(QueryServicesTest, ASurfaceThatIsNeverInspectedHasCrossingsButNoSides) {
   EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
   EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
   EXPECT_EQ(answer.placement.crossings.size(), 1u);
+}
+
+using namespace organ_collision;
+
+TEST_F(QueryServicesTest, BatchAnswersEachMotionInOrder) {
+  QueryCollisionBatch::Request batch;
+  batch.header = request.header;
+  batch.organ = "liver";
+  batch.mode = ContactArray::SWEPT;
+  EXPECT_TRUE(services.query_batch(batch).results.empty());
+  ToolMotion aside = through();
+  aside.tip = aside.previous_tip;
+  ToolMotion bad = through();
+  bad.radius = 0.0;
+  batch.motions = {through(), aside, bad, through()};
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  EXPECT_EQ(response.status, ContactArray::OK);
+  const std::vector<ContactArray>& results = response.results;
+  ASSERT_EQ(results.size(), 4u);
+  EXPECT_EQ(results[0].contacts.size(), 1u);
+  EXPECT_TRUE(results[1].contacts.empty());
+  EXPECT_EQ(results[1].status, ContactArray::OK);
+  EXPECT_EQ(results[2].status, ContactArray::INVALID_REQUEST);
+  EXPECT_EQ(results[3].contacts.size(), 1u);
+}
+
+TEST_F(QueryServicesTest, BatchThatFailsAsAWholeSaysWhy) {
+  QueryCollisionBatch::Request good;
+  good.header = request.header;
+  good.organ = "liver";
+  good.motions = {through(), through()};
+  const auto expect_fails = [&](std::uint8_t status, const char* word, auto set) {
+    QueryCollisionBatch::Request batch = good;
+    set(batch);
+    const QueryCollisionBatch::Response response = services.query_batch(batch);
+    EXPECT_EQ(response.status, status) << response.message;
+    EXPECT_NE(response.message.find(word), std::string::npos) << response.message;
+    EXPECT_TRUE(response.results.empty());
+  };
+  using Batch = QueryCollisionBatch::Request;
+  const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
+  expect_fails(invalid, "organ is empty", [](Batch& b) { b.organ = ""; });
+  expect_fails(ContactArray::UNKNOWN_ORGAN, "'spleen'", [](Batch& b) { b.organ = "spleen"; });
+  expect_fails(invalid, "mode is 5", [](Batch& b) { b.mode = 5; });
+  expect_fails(invalid, "frame_id is empty", [](Batch& b) { b.header.frame_id = ""; });
+  expect_fails(ContactArray::NO_TRANSFORM, "nowhere",
+               [](Batch& b) { b.header.frame_id = "nowhere"; });
+  expect_fails(invalid, "frame_id", [](Batch& b) { b.header.frame_id = std::string(257, 'x'); });
+  parameters.mesh_timeout_sec = 2.0;
+  expect_fails(ContactArray::STALE_MESH, "'liver'", [](Batch&) {});
+}
+
+TEST_F(QueryServicesTest, BatchInAnotherFrameIsAsItsQueries) {
+  set_transform(transforms, "liver_frame", "table", 4.0,
+                Eigen::Isometry3d(Eigen::Translation3d(0.5, -0.3, 0.2)));
+  QueryCollisionBatch::Request batch;
+  batch.header.frame_id = request.header.frame_id = "table";
+  batch.organ = "liver";
+  batch.mode = ContactArray::SWEPT;
+  batch.motions = {through()};
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  ASSERT_EQ(response.results.size(), 1u);
+  const ContactArray single = services.query(request), &of_batch = response.results[0];
+  EXPECT_EQ(of_batch.header.frame_id, single.header.frame_id);
+  EXPECT_EQ(of_batch.header.stamp, ros::Time(4.0));
+  EXPECT_EQ(of_batch.step_start, single.step_start);
+  EXPECT_EQ(of_batch.mesh_stamp, single.mesh_stamp);
+  EXPECT_EQ(of_batch.links, single.links);
+  ASSERT_EQ(of_batch.contacts.size(), 1u);
+  EXPECT_EQ(of_batch.contacts[0].point.x, single.contacts[0].point.x);
+}
+
+TEST_F(QueryServicesTest, BatchOfTooManyMotionsIsRefused) {
+  QueryCollisionBatch::Request batch;
+  batch.header = request.header;
+  batch.organ = "liver";
+  parameters.max_batch = 3;
+  batch.motions.assign(3, through());
+  EXPECT_EQ(services.query_batch(batch).results.size(), 3u);
+  batch.motions.assign(4, through());
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
+  EXPECT_EQ(response.message,
+            "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches");
+  EXPECT_TRUE(response.results.empty());
+}
+
+TEST_F(QueryServicesTest, BatchWhoseResultsGrowTooLargeIsRefused) {
+  QueryCollisionBatch::Request batch;
+  batch.header = request.header;
+  batch.organ = "liver";
+  batch.mode = ContactArray::SWEPT;
+  batch.motions.assign(5, through());
+  const std::uint32_t one = ros::serialization::serializationLength(services.query(request));
+  const std::uint32_t all =
+      5 * one + ros::serialization::serializationLength(QueryCollisionBatch::Response());
+  parameters.max_batch_bytes = static_cast<int>(all);
+  EXPECT_EQ(ros::serialization::serializationLength(services.query_batch(batch)), all);
+  parameters.max_batch_bytes -= 1;
+  EXPECT_EQ(services.query_batch(batch).message,
+            "the answers to the first 5 of 5 motions have " + std::to_string(all) +
+                " bytes; a batch's must have at most " + std::to_string(all - 1) +
+                " (max_batch_bytes): ask for fewer motions at once");
+  parameters.max_batch_bytes = static_cast<int>(all - 4 * one);
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
+  EXPECT_NE(response.message.find("first 2 of 5"), std::string::npos) << response.message;
+  EXPECT_TRUE(response.results.empty());
+}
+
+using namespace organ_collision;
+
+TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
+  const QueryCollision::Request good = request;
+  request.organ = "spleen";
+  expect_refused(ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"});
+  request = good;
+  request.organ = "";
+  expect_refused(ContactArray::INVALID_REQUEST, {"organ", "empty"});
+  request = good;
+  request.tool = "saw";
+  request.motion = {};
+  expect_refused(ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"});
+  request = good;
+  request.mode = 5;
+  expect_refused(ContactArray::INVALID_REQUEST, {"mode", "5", "0", "4"});
+  request = good;
+  request.header.frame_id = "";
+  expect_refused(ContactArray::INVALID_REQUEST, {"frame_id", "empty"});
+  request = good;
+  request.header.frame_id = "nowhere";
+  expect_refused(ContactArray::NO_TRANSFORM, {"nowhere", "unknown to TF"});
+  request = good;
+  request.motion.radius = -0.25;
+  expect_refused(ContactArray::INVALID_REQUEST, {"radius", "-0.25", "positive"});
+  request.motion.radius = std::nan("");
+  expect_refused(ContactArray::INVALID_REQUEST, {"radius", "nan", "finite"});
+  request = good;
+  request.motion.previous_tip.y = std::numeric_limits<double>::infinity();
+  expect_refused(ContactArray::INVALID_REQUEST, {"previous_tip", "inf", "finite"});
+  request.mode = ContactArray::STATIC;
+  EXPECT_EQ(services.query(request).status, ContactArray::OK);  // Unused when static.
+  request = good;
+  request.mode = ContactArray::PAPER_STATIC;
+  request.motion.tip = request.motion.trocar;
+  expect_refused(ContactArray::INVALID_REQUEST, {});
+  request = good;
+  request.tool = "hook";
+  expect_refused(ContactArray::INVALID_REQUEST, {"motion is set", "'hook' moves as in TF"});
+  request.motion = {};
+  expect_refused(ContactArray::NO_TRANSFORM, {"hook_tip"});
+}
+
+TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
+  const QueryCollision::Request good = request;
+  const auto refuses = [&](std::string QueryCollision::Request::*field, const char* word) {
+    for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
+      request = good;
+      request.*field = name;
+      expect_refused(ContactArray::INVALID_REQUEST, {word, "256"});
+      EXPECT_LT(ros::serialization::serializationLength(services.query(request)), 4000u);
+    }
+  };
+  refuses(&QueryCollision::Request::organ, "organ");
+  refuses(&QueryCollision::Request::tool, "tool");
+  request = good;
+  request.header.frame_id = std::string(10'000'000, 'x');
+  expect_refused(ContactArray::INVALID_REQUEST, {"header.frame_id", "256"});
+  EXPECT_LT(ros::serialization::serializationLength(services.query(request)), 4000u);
+}
+
+TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
+  request.tool = "hook";
+  request.motion = {};
+  send_tip(1.0, kAbove);
+  send_tip(1.2, kBelow);
+  send_vertices(1.125, 0.0);
+  evaluate();
+  request.header.stamp = ros::Time(1.0625);
+  for (const std::uint8_t mode :
+       {ContactArray::SWEPT, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
+    request.mode = mode;
+    expect_refused(ContactArray::INVALID_REQUEST, {"'hook'", "1.062500000", "1.125000000"});
+  }
+  request.mode = ContactArray::STATIC;
+  EXPECT_EQ(services.query(request).status, ContactArray::OK);
+  request.mode = ContactArray::SWEPT;
+  request.header.stamp = ros::Time(1.125);
+  const ContactArray at_rest = services.query(request);
+  EXPECT_EQ(at_rest.status, ContactArray::OK) << at_rest.message;
+  EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
+}
+
+TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
+  parameters.mesh_timeout_sec = 2.0;
+  expect_refused(ContactArray::STALE_MESH, {"'liver'", "49", "2"});
+  OrganMesh nothing;
+  nothing.organ = "liver";
+  organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
+  expect_refused(ContactArray::NO_MESH, {"'liver'"});
+}
+
+TEST_F(QueryServicesTest, IllegalMarginsAreRefusedWithTheirValue) {
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  for (const auto& [margin, word] :
+       {std::pair(-0.25, "-0.25"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
+    request.margin = margin;
+    expect_refused(ContactArray::INVALID_REQUEST, {"margin", word, "positive and finite"});
+    QueryCollisionBatch::Request batch;
+    batch.header = request.header;
+    batch.organ = request.organ;
+    batch.motions = {request.motion};
+    batch.margin = margin;
+    const QueryCollisionBatch::Response response = services.query_batch(batch);
+    EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
+    EXPECT_NE(response.message.find(word), std::string::npos) << response.message;
+    EXPECT_TRUE(response.results.empty());
+  }
+}
+
+TEST_F(QueryServicesTest, NearFacesNeedAMargin) {
+  request.max_near = 7;
+  expect_refused(ContactArray::INVALID_REQUEST, {"max_near", "7", "margin"});
+  request.clearance = true;
+  expect_refused(ContactArray::INVALID_REQUEST, {"max_near", "7", "margin"});
+}
+
+TEST_F(QueryServicesTest, ThePapersModesHaveOnlyContacts) {
+  const QueryCollision::Request good = request;
+  const auto refuses = [&](auto set) {
+    for (const std::uint8_t mode :
+         {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
+      request = good;
+      request.mode = mode;
+      EXPECT_EQ(services.query(request).status, ContactArray::OK);
+      set(request);
+      expect_refused(ContactArray::INVALID_REQUEST, {"mode is " + std::to_string(mode), "1"});
+    }
+  };
+  refuses([](auto& r) { r.margin = 0.01; });
+  refuses([](auto& r) { r.clearance = true; });
+  refuses([](auto& r) { r.placement = true; });
 }

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "ros/interface/rejection.hpp"
+#include "ros/messages/failure_log.hpp"
 #include "test/ros/steps/node_parts.hpp"
 
 using namespace organ_collision;

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include "ros/interface/plain_text.hpp"
+#include <random>
+
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
 
 using namespace organ_collision;
 
@@ -94,3 +97,189 @@ TEST(Answers, StaleSaysHowOldAndWhatIsAllowed) {
   EXPECT_EQ(stale_message("liver", liver().latest(), ros::Time(15), 2.5),
             "mesh of organ 'liver' is 5 s old; at most 2.5 s are allowed (mesh_timeout_sec)");
 }
+
+using namespace organ_collision;
+
+TEST(QueryConversions, EveryFieldOfAContact) {
+  FaceContact contact;
+  contact.face = 4000000000u;
+  contact.link = 7;
+  contact.fraction = 0.25;
+  contact.point = {1.0, 2.0, 3.0};
+  contact.normal = {0.6, 0.0, -0.8};
+  contact.barycentric = {0.2, 0.3, 0.5};
+  contact.shaft = 0.75;
+  contact.depth = -0.001;
+  contact.behind = true;
+  contact.view_min = 0.01;
+  contact.view_max = 0.02;
+  const Contact message = to_message(contact);
+  EXPECT_EQ(message.face, 4000000000u);
+  EXPECT_EQ(message.link, 7u);
+  EXPECT_EQ(message.fraction, 0.25);
+  EXPECT_EQ(to_eigen(message.point), contact.point);
+  EXPECT_EQ(message.normal.x, 0.6);
+  EXPECT_EQ(message.normal.z, -0.8);
+  EXPECT_EQ(message.barycentric[0], 0.2);
+  EXPECT_EQ(message.barycentric[2], 0.5);
+  EXPECT_EQ(message.shaft, 0.75);
+  EXPECT_EQ(message.depth, -0.001);
+  EXPECT_TRUE(message.behind);
+  EXPECT_EQ(message.view_min, 0.01);
+  EXPECT_EQ(message.view_max, 0.02);
+}
+
+TEST(QueryConversions, EveryFieldOfAClearance) {
+  ToolClearance clearance;
+  clearance.state = ClearanceState::kKnown;
+  clearance.margin = 0.02;
+  clearance.unlimited = true;
+  clearance.distance = 0.011;
+  clearance.least = 0.003;
+  clearance.least_fraction = 0.4;
+  clearance.face = 4000000001u;
+  clearance.vertices = {7, 5, 6};
+  clearance.barycentric = {0.2, 0.3, 0.5};
+  clearance.link = 3;
+  clearance.on_organ = {1.0, 2.0, 3.0};
+  clearance.on_tool = {4.0, 5.0, 6.5};
+  clearance.normal = {0.6, 0.0, -0.8};
+  clearance.normal_defined = true;
+  clearance.is_resolved = false;
+  const Clearance message = to_message(clearance);
+  EXPECT_EQ(message.state, Clearance::KNOWN);
+  EXPECT_EQ(message.margin, 0.02);
+  EXPECT_TRUE(message.unlimited);
+  EXPECT_EQ(message.distance, 0.011);
+  EXPECT_EQ(message.least, 0.003);
+  EXPECT_EQ(message.least_fraction, 0.4);
+  EXPECT_EQ(message.face, 4000000001u);
+  EXPECT_EQ(message.vertices, (Clearance::_vertices_type{7, 5, 6}));
+  EXPECT_EQ(message.barycentric, (Clearance::_barycentric_type{0.2, 0.3, 0.5}));
+  EXPECT_EQ(message.link, 3u);
+  EXPECT_EQ(to_eigen(message.on_organ), clearance.on_organ);
+  EXPECT_EQ(to_eigen(message.on_tool), clearance.on_tool);
+  EXPECT_EQ(to_eigen(message.normal), clearance.normal);
+  EXPECT_TRUE(message.normal_defined);
+  EXPECT_TRUE(message.unresolved);
+  EXPECT_EQ(to_message(ToolClearance()), Clearance());
+}
+
+TEST(QueryConversions, EveryFieldOfAPlacement) {
+  AxisCrossing crossing;
+  crossing.face = 4000000002u;
+  crossing.vertices = {3, 9, 4};
+  crossing.barycentric = {0.1, 0.2, 0.7};
+  crossing.shaft = 0.75;
+  crossing.point = {1.0, -2.0, 3.0};
+  crossing.direction = -1;
+  AxisPlacement placement;
+  placement.tip = Side::kInside;
+  placement.trocar = Side::kOnSurface;
+  placement.crossings = {AxisCrossing(), crossing};
+  placement.length_known = true;
+  placement.length_inside = 0.032;
+  const ToolPlacement message = to_message(placement);
+  EXPECT_EQ(message.tip, ToolPlacement::INSIDE);
+  EXPECT_EQ(message.trocar, ToolPlacement::ON_SURFACE);
+  EXPECT_TRUE(message.length_known);
+  EXPECT_EQ(message.length_inside, 0.032);
+  ASSERT_EQ(message.crossings.size(), 2u);
+  EXPECT_EQ(message.crossings[0], Crossing());
+  EXPECT_EQ(message.crossings[1].face, 4000000002u);
+  EXPECT_EQ(message.crossings[1].vertices, (Crossing::_vertices_type{3, 9, 4}));
+  EXPECT_EQ(message.crossings[1].barycentric, (Crossing::_barycentric_type{0.1, 0.2, 0.7}));
+  EXPECT_EQ(message.crossings[1].shaft, 0.75);
+  EXPECT_EQ(to_eigen(message.crossings[1].point), crossing.point);
+  EXPECT_EQ(message.crossings[1].direction, -1);
+}
+
+TEST(QueryConversions, RegionKeepsItsCorners) {
+  const geometry_msgs::Polygon polygon = to_message(Region{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.5}});
+  ASSERT_EQ(polygon.points.size(), 2u);
+  EXPECT_EQ(polygon.points[1].y, 5.0f);
+  EXPECT_EQ(polygon.points[1].z, 6.5f);
+  EXPECT_TRUE(to_message(Region{}).points.empty());
+}
+
+using namespace organ_collision;
+
+namespace {
+
+const TriangleMesh kMesh({-1, -1, 0, 1, -1, 0, 0, 1, 0, -1, -1, 5, 1, -1, 5, 0, 1, 5},
+                         {3, 4, 5, 0, 1, 2});
+
+CollisionRequest request() {
+  CollisionRequest request;
+  request.organ = &kMesh;
+  request.path = {{0.0, {{0.0, 0.0, 1.0}, {0.1, 0.0, -0.5}}}};
+  request.radius = 0.01;
+  return request;
+}
+
+class ContactQueryTest : public testing::TestWithParam<PickerKind> {
+ protected:
+  ContactQuery contact_query_{GetParam()};
+  ContactArray answer_;
+};
+
+}  // namespace
+
+TEST_P(ContactQueryTest, FillsContactsAndRegions) {
+  CollisionRequest good = request();
+  good.regions = true;
+  contact_query_.evaluate(good, answer_);
+  EXPECT_EQ(answer_.status, ContactArray::OK);
+  ASSERT_EQ(answer_.contacts.size(), 1u);
+  EXPECT_EQ(answer_.contacts[0].face, 1u);
+  EXPECT_EQ(answer_.regions.size(), 1u);
+}
+
+TEST_P(ContactQueryTest, RequestWithoutAnswerBecomesAStatus) {
+  CollisionRequest bad = request();
+  bad.radius = -0.25;
+  answer_.contacts.resize(2);
+  contact_query_.evaluate(bad, answer_);
+  EXPECT_EQ(answer_.status, ContactArray::INVALID_REQUEST);
+  EXPECT_NE(answer_.message.find("-0.25"), std::string::npos) << answer_.message;
+  EXPECT_TRUE(answer_.contacts.empty());
+}
+
+// A long tool rotates among faces that move through each other, as after a mistake of units.
+TEST_P(ContactQueryTest, CountsWhatIsNotResolved) {
+  std::vector<float> before, now;
+  std::vector<std::uint32_t> triangles;
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> anywhere(-4e5F, 4e5F);
+  for (std::uint32_t i = 0; i < 180'000; ++i) {
+    for (int k = 0; k < 3; ++k) before.push_back(anywhere(random));
+    for (int k = 0; k < 3; ++k) now.push_back(anywhere(random));
+    triangles.push_back(i);
+  }
+  const TriangleMesh organ_before(before, triangles), organ(now, triangles);
+  CollisionRequest wild = request();
+  wild.organ = &organ;
+  wild.organ_before = &organ_before;
+  wild.mode = QueryMode::kSwept;
+  wild.path = {{0.0, {{0.0, 0.0, 4e5}, {4e5, 0.0, -4e5}}},
+               {1.0, {{0.0, 1e5, 3e5}, {-4e5, 0.0, -3e5}}}};
+  contact_query_.evaluate(wild, answer_);
+  EXPECT_EQ(answer_.status, ContactArray::OK);
+  EXPECT_GT(answer_.unresolved, 0u);
+  EXPECT_LE(answer_.unresolved, answer_.contacts.size());
+  answer_ = {};
+  contact_query_.evaluate(request(), answer_);
+  EXPECT_EQ(answer_.unresolved, 0u);
+}
+
+TEST_P(ContactQueryTest, TimesWhatItAnswered) {
+  EXPECT_GT(contact_query_.evaluate(request(), answer_), 0.0);
+  CollisionRequest bad = request();
+  bad.radius = -1.0;
+  EXPECT_EQ(contact_query_.evaluate(bad, answer_), 0.0);
+  EXPECT_FALSE(contact_query_.gl_version().empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(BothPickers, ContactQueryTest,
+                         testing::Values(PickerKind::kFeedback, PickerKind::kSelect,
+                                         PickerKind::kCpu));

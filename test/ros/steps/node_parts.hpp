@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "ros/organs/organ_intake.hpp"
 #include "ros/organs/organ_registry.hpp"
-#include "ros/organs/organ_topics.hpp"
-#include "ros/steps/contact_query.hpp"
+#include "ros/steps/contact_array.hpp"
 #include "ros/steps/step_scheduler.hpp"
-#include "test/ros/motion/hand_filled_transforms.hpp"
+#include "test/ros/motion/tool_poses_fixture.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
 namespace organ_collision {

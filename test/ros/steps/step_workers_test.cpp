@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/interface/thread_scheduling.hpp"
+#include "ros/node/scheduling.hpp"
 #include "test/ros/steps/node_parts.hpp"
 
 namespace organ_collision {

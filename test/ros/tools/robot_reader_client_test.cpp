@@ -2,13 +2,136 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
 #include <fstream>
+#include <future>
+#include <system_error>
 
-#include "ros/tools/link_description.hpp"
+#include "ros/tools/robot_reply.hpp"
 #include "tool_files.hpp"
+
+using namespace organ_collision;
+using std::chrono::milliseconds;
+
+namespace {
+
+constexpr ProcessLimits kLimits{std::chrono::minutes(1), 1'000'000};
+
+ProcessResult run_shell(const std::string& script, const std::string& input = "",
+                        const ProcessLimits& limits = kLimits) {
+  return run_process({"/bin/sh", "-c", script}, input, limits);
+}
+
+/// Replaces a signal handler and restores it at its end.
+class ScopedSignalAction {
+ public:
+  ScopedSignalAction(int signal, void (*action)(int))
+      : signal_(signal), former_(std::signal(signal, action)) {}
+  ~ScopedSignalAction() { std::signal(signal_, former_); }
+  ScopedSignalAction(const ScopedSignalAction&) = delete;
+  ScopedSignalAction& operator=(const ScopedSignalAction&) = delete;
+
+ private:
+  int signal_;
+  void (*former_)(int);
+};
+
+}  // namespace
+
+TEST(ChildProcess, GivesInputAndArgumentsAndReturnsOutput) {
+  std::string input(300'000, '\0');
+  for (std::size_t i = 0; i < input.size(); ++i) input[i] = static_cast<char>(i % 251);
+  const ProcessResult result = run_process(
+      {"/bin/sh", "-c", "printf '%s|' \"$@\"; cat", "sh", "a b", "", "--c"}, input, kLimits);
+  EXPECT_EQ(result.failure, "");
+  EXPECT_EQ(result.output, "a b||--c|" + input);
+}
+
+TEST(ChildProcess, InputNeedNotBeRead) {
+  EXPECT_EQ(run_shell("exit 0", std::string(10'000'000, 'x')).failure, "");
+}
+
+TEST(ChildProcess, SaysHowTheProgramEnded) {
+  EXPECT_EQ(run_shell("echo partly; exit 3").failure, "ended with exit code 3");
+  EXPECT_EQ(run_shell("echo partly; exit 3").output, "partly\n");
+  EXPECT_EQ(run_shell("kill -SEGV $$").failure, "was ended by signal 11 (Segmentation fault)");
+}
+
+TEST(ChildProcess, WhatTakesTooLongIsKilled) {
+  // Without being killed, it would run longer than the test may take.
+  EXPECT_EQ(run_shell("exec sleep 1000", "", {milliseconds(50), 100}).failure,
+            "took more than 0.05 s");
+  EXPECT_EQ(run_shell("trap '' TERM INT; while :; do :; done", "", {milliseconds(50), 100}).failure,
+            "took more than 0.05 s");
+}
+
+TEST(ChildProcess, WhatWritesTooMuchIsKilled) {
+  const ProcessResult result = run_shell("yes", "", {std::chrono::minutes(1), 100'000});
+  EXPECT_EQ(result.failure, "wrote more than 100000 bytes");
+  EXPECT_LE(result.output.size(), 100'000u);
+}
+
+TEST(ChildProcess, WhatClosesItsOutputDoesNotHoldUp) {
+  EXPECT_EQ(run_shell("exec >&-; exec sleep 1000").failure, "was ended by signal 9 (Killed)");
+}
+
+TEST(ChildProcess, WhatCannotBeStartedThrows) {
+  EXPECT_THROW(run_process({"/no/such/program"}, "", kLimits), std::system_error);
+  EXPECT_THROW(run_process({"/tmp"}, "", kLimits), std::system_error);
+  EXPECT_THROW(run_process({"/bin/true", std::string(10'000'000, 'x')}, "", kLimits),
+               std::system_error);
+}
+
+// Nodelet managers and simulators may ignore SIGCHLD or wait for all children.
+TEST(ChildProcess, SignalsOfTheHostProcessDoNotMatter) {
+  const ScopedSignalAction no_pipe(SIGPIPE, SIG_IGN), no_cpu(SIGXCPU, SIG_IGN);
+  sigset_t all, former;
+  sigfillset(&all);
+  pthread_sigmask(SIG_SETMASK, &all, &former);
+  EXPECT_EQ(run_shell("kill -TERM $$; echo alive").failure, "was ended by signal 15 (Terminated)");
+  EXPECT_EQ(run_shell("kill -PIPE $$; echo alive").failure, "was ended by signal 13 (Broken pipe)");
+  pthread_sigmask(SIG_SETMASK, &former, nullptr);
+}
+
+TEST(ChildProcess, AHostThatIgnoresItsChildrenGetsTheOutput) {
+  const ScopedSignalAction no_child(SIGCHLD, SIG_IGN);
+  const ProcessResult result = run_shell("echo answer");
+  EXPECT_EQ(result.output, "answer\n");
+  EXPECT_EQ(result.failure, "");
+}
+
+TEST(ChildProcess, ManyThreadsRunTheirOwn) {
+  std::vector<std::future<std::string>> outputs;
+  for (int i = 0; i < 8; ++i) {
+    outputs.push_back(std::async(std::launch::async, [i] {
+      std::string all;
+      for (int k = 0; k < 20; ++k) all += run_shell("cat", std::to_string(i)).output;
+      return all;
+    }));
+  }
+  for (int i = 0; i < 8; ++i)
+    EXPECT_EQ(outputs[i].get(), std::string(20, static_cast<char>('0' + i)));
+}
+
+TEST(ChildProcess, NothingIsLeftOpenOrWaitedFor) {
+  const auto highest = [] {
+    const int next = dup(0);
+    close(next);
+    return next;
+  };
+  const int before = highest();
+  for (int i = 0; i < 20; ++i) {
+    run_shell("echo a");
+    run_shell("exec sleep 1000", "", {milliseconds(1), 100});
+    EXPECT_THROW(run_process({"/no/such/program"}, "", kLimits), std::system_error);
+  }
+  EXPECT_EQ(highest(), before);
+  EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
+}
 
 using namespace organ_collision;
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/tools/link_description.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
 

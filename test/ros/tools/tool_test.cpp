@@ -2,11 +2,86 @@
 
 #include <gtest/gtest.h>
 
-#include "ros/tools/link_description.hpp"
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "hand_made_tools.hpp"
+#include "ros/tools/robot_reply.hpp"
 #include "tool_files.hpp"
 
 using namespace organ_collision;
+using Eigen::Quaterniond;
 using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const ShapePose kPose{{0.1, 0.2, 0.3}, {std::sqrt(0.5), 0.0, 0.0, std::sqrt(0.5)}};
+const std::vector<Vector3d> kCorners = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
+
+std::string refusal(const ShapeDescription& shape) {
+  return tool_error([&] { build_link("tip", {"wrist", {shape}}); });
+}
+
+}  // namespace
+
+TEST(LinkBuilder, ShapesInTheirOrderAndWhereTheyAre) {
+  const Link link =
+      build_link("tip", {"wrist",
+                         {SphereDescription{kPose, 0.5}, CylinderDescription{kPose, 0.1, 2.0},
+                          BoxDescription{kPose, {1.0, 2.0, 3.0}},
+                          MeshDescription{"tip.stl", kCorners, {{0, 1, 2}}}}});
+  EXPECT_EQ(link.name, "tip");
+  ASSERT_EQ(link.parts.size(), 4u);
+  EXPECT_EQ(link.parts[0].radius, 0.5);
+  EXPECT_NEAR(link.parts[0].project_onto(Vector3d::UnitX()).high, 0.1, 1e-15);
+  EXPECT_NEAR(link.parts[1].project_onto(Vector3d::UnitZ()).high, 1.3, 1e-15);
+  EXPECT_NEAR(link.parts[2].project_onto(Vector3d::UnitX()).high, 1.1,
+              1e-15);  // Half of the side along y.
+  EXPECT_EQ(link.parts[3].project_onto(Vector3d::UnitX()).high, 1.0);
+}
+
+TEST(LinkBuilder, IllegalSizesAreNamed) {
+  expect_words(refusal(SphereDescription{kPose, 0.0}),
+               {"link 'tip'", "sphere's radius is 0", "more than 0"});
+  expect_words(refusal(SphereDescription{kPose, 2e6}), {"2e+06", "at most 1e+06 m"});
+  expect_words(refusal(SphereDescription{kPose, std::nan("")}), {"sphere's radius is nan"});
+  expect_words(refusal(CylinderDescription{kPose, -0.01, 1.0}),
+               {"link 'tip'", "cylinder's radius is -0.01", "more than 0"});
+  expect_words(refusal(CylinderDescription{kPose, 0.01, 0.0}), {"cylinder's length is 0"});
+  expect_words(refusal(BoxDescription{kPose, {1.0, -2.0, 3.0}}),
+               {"link 'tip'", "box's side is -2", "more than 0"});
+}
+
+TEST(LinkBuilder, IllegalPosesAreNamed) {
+  for (const double bad : {-1e7, kInfinity, std::nan("")}) {
+    expect_words(refusal(SphereDescription{{{0.0, bad, 0.0}, kPose.orientation}, 1.0}),
+                 {"link 'tip'", "origin", "finite and within 1e+06 m"});
+  }
+  for (const double bad : {2.0, 0.0, kInfinity, std::nan("")}) {
+    const ShapePose pose{kPose.position, Quaterniond(bad, 0.0, 0.0, 0.0)};
+    expect_words(refusal(BoxDescription{pose, Vector3d::Ones()}),
+                 {"link 'tip'", "orientation", "unit quaternion"});
+    expect_words(refusal(SphereDescription{pose, 1.0}), {"orientation"});
+    expect_words(refusal(CylinderDescription{pose, 1.0, 1.0}), {"orientation"});
+  }
+}
+
+TEST(LinkBuilder, IllegalMeshesAreNamed) {
+  expect_words(refusal(MeshDescription{"tip.stl", kCorners, {}}),
+               {"link 'tip'", "mesh 'tip.stl'", "no triangle"});
+  expect_words(refusal(MeshDescription{"tip.stl", kCorners, {{0, 1, 3}}}), {"vertex 3 of 3"});
+  expect_words(refusal(MeshDescription{"tip.stl", {Vector3d(2e6, 0, 0)}, {{0, 0, 0}}}),
+               {"mesh 'tip.stl'", "vertex 0", "within 1e+06 m"});
+}
+
+TEST(LinkBuilder, LinksWithoutShapeAreRefused) {
+  expect_words(tool_error([] { build_link("mount", {}); }),
+               {"link 'mount'", "no collision or visual geometry"});
+}
+
+using namespace organ_collision;
 
 namespace {
 
@@ -120,4 +195,82 @@ TEST(ToolLoader, FilesThatCrashOrHangTheirParsersAreFaults) {
   parameters.urdf = tool_file("crashing.urdf");
   expect_fault(parameters, {"crashing.urdf'"});
 #endif
+}
+
+using namespace organ_collision;
+
+namespace {
+
+const KeptTools kNone = {std::nullopt};
+const KeptTools kFirst = {0};
+
+Tool loaded(const std::string& file, const std::vector<std::string>& links) {
+  ToolParameters parameters;
+  parameters.name = "arm";
+  parameters.links = links;
+  parameters.urdf = tool_file(file);
+  return load_tool(parameters, [](const std::string&) { return std::string(); });
+}
+
+}  // namespace
+
+TEST(ToolChanges, ToolsAreFoundByNameInAnyOrder) {
+  const std::vector<Tool> before = {shaft_tool("hook", 0.01), grasper(), shaft_tool("saw", 0.02)};
+  const std::vector<Tool> after = {shaft_tool("needle", 0.01), shaft_tool("saw", 0.03), grasper()};
+  const ToolChanges changes = compare_tools(before, after);
+  EXPECT_EQ(changes.kept, (KeptTools{std::nullopt, std::nullopt, 1}));
+  EXPECT_EQ(changes.summary,
+            "unchanged: 'grasper'; changed: 'saw'; new: 'needle'; removed: 'hook'");
+}
+
+TEST(ToolChanges, ListsMayBeEmpty) {
+  EXPECT_EQ(compare_tools({}, {}).summary, "there are no tools");
+  EXPECT_EQ(compare_tools({grasper()}, {}).summary, "removed: 'grasper'");
+  EXPECT_EQ(compare_tools({}, {grasper()}).summary, "new: 'grasper'");
+  EXPECT_EQ(compare_tools({}, {grasper()}).kept, kNone);
+}
+
+TEST(ToolChanges, EachParameterCounts) {
+  const Tool before = with_links(shaft_tool("hook", 0.01));
+  EXPECT_EQ(compare_tools({before}, {before}).kept, kFirst);
+  const std::vector<std::function<void(Tool&)>> edits = {
+      [](Tool& tool) { tool.parameters.trocar_frame += "2"; },
+      [](Tool& tool) { tool.parameters.tip_frame += "2"; },
+      [](Tool& tool) { tool.parameters.radius *= 1.001; },
+      [](Tool& tool) { tool.parameters.tip_pose_topic = "measured_cp"; },
+      [](Tool& tool) { tool.parameters.base_pose_topic = "base"; },
+      [](Tool& tool) { tool.parameters.links.pop_back(); },
+      [](Tool& tool) { tool.parameters.robot_description = "robot"; },
+      [](Tool& tool) { tool.parameters.urdf = "robot.urdf"; },
+      [](Tool& tool) { tool.parameters.tf_prefix = "leg"; },
+      [](Tool& tool) { tool.parameters.margin = 0.01; },
+      [](Tool& tool) { tool.parameters.max_near = 1; },
+      [](Tool& tool) { tool.joints[0] = "wrist_joint"; },
+      [](Tool& tool) { tool.fault = "no file"; },
+      [](Tool& tool) { tool.links.pop_back(); },
+      [](Tool& tool) { tool.links[1].parts[0].radius *= 1.001; },
+      [](Tool& tool) { tool.links[1].parts[0].core.points[0].x() += 1e-6; },
+      [](Tool& tool) { tool.links[1].parts.push_back(tool.links[1].parts[0]); }};
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    Tool after = before;
+    edits[i](after);
+    EXPECT_EQ(compare_tools({before}, {after}).kept, kNone) << i;
+  }
+}
+
+TEST(ToolChanges, AFileThatIsReadAgainIsTheSame) {
+  const Tool before = loaded("gripper.urdf", {"wrist", "jaw"});
+  ASSERT_EQ(before.fault, "");
+  EXPECT_EQ(compare_tools({before}, {loaded("gripper.urdf", {"wrist", "jaw"})}).kept, kFirst);
+}
+
+TEST(ToolChanges, AMovedVertexOfAMeshCounts) {
+  const auto with_mesh = [](double z) {
+    Tool tool = grasper();
+    const std::vector<Eigen::Vector3d> vertices = {{0, 0, z}, {0.1, 0, 0}, {0, 0.1, 0}};
+    tool.links[0].parts = {LinkPart::mesh({vertices, {{0, 1, 2}}})};
+    return tool;
+  };
+  EXPECT_EQ(compare_tools({with_mesh(0.01)}, {with_mesh(0.01)}).kept, kFirst);
+  EXPECT_EQ(compare_tools({with_mesh(0.01)}, {with_mesh(0.011)}).kept, kNone);
 }

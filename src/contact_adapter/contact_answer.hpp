@@ -1,0 +1,40 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <std_msgs/UInt32MultiArray.h>
+#include <xmlrpcpp/XmlRpcValue.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace organ_collision {
+
+/// Whether the contacts have points, normals and depths. In the paper's modes, they do not.
+bool has_geometry(const ContactArray& contacts);
+
+/// Checks an answer whose status is OK. Throws Rejection, with the illegal value, for
+/// - unresolved contacts;
+/// - an unknown mode, an empty frame, or an illegal name;
+/// - a number of regions other than zero or the number of contacts;
+/// - contacts with geometry: a depth, point or end point that is not finite, or a normal whose
+///   length is not 1 (to 1e-6);
+/// - a known clearance whose distance or `on_organ` is not finite, or whose normal is not unit.
+/// The collision node sends only the first of these.
+void check_contacts(const ContactArray& contacts);
+
+/// [m] The radius of a tool's shaft, from the collision node's parameter `tools`. std::nullopt if
+/// the parameter does not contain the tool, or if the tool has no shaft.
+std::optional<double> shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
+
+/// Whether this link of the answer's tool is its shaft.
+bool is_shaft(std::uint32_t link, const ContactArray& answer);
+
+/// [m] `shaft_radius` if the contact is of the shaft; std::nullopt if it is of a link.
+std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
+                                const std::optional<double>& shaft_radius);
+
+/// The numbers of the touched faces in rising order, each once, in one dimension called "faces".
+std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
+
+}  // namespace organ_collision

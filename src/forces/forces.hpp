@@ -1,0 +1,77 @@
+#pragma once
+
+#include <geometry_msgs/Wrench.h>
+#include <organ_collision/Contact.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/VertexForces.h>
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// The names that all nodes with forces have in the ROS graph.
+
+namespace organ_collision::names {
+
+/// Topics of a pair, below ~ORGAN/TOOL.
+inline constexpr char kWrench[] = "wrench";
+inline constexpr char kVertexForces[] = "vertex_forces";
+
+/// Parameters.
+inline constexpr char kStiffness[] = "stiffness";
+inline constexpr char kMaxForce[] = "max_force";
+
+}  // namespace organ_collision::names
+
+namespace organ_collision {
+
+/// A force of the tissue on the tool. It acts at a point of a face. In the organ's frame.
+struct FaceForce {
+  std::uint32_t face;                       ///< Contact.face
+  std::uint32_t link;                       ///< Contact.link
+  Contact::_vertices_type vertices;         ///< the face's corners
+  Contact::_barycentric_type barycentric;   ///< of the point, in the order of `vertices`
+  Eigen::Vector3d place;                    ///< [m] the point, at the end of the step
+  Eigen::Vector3d force = {0.0, 0.0, 0.0};  ///< [N]
+};
+
+/// The sum of the forces [N], and of their torques about the origin of the organ's frame [N m].
+geometry_msgs::Wrench wrench_of(const std::vector<FaceForce>& forces);
+
+/// The factor in (0, 1] that reduces a force [N] or a torque [N m] to the magnitude `most` > 0, if
+/// it is larger.
+double share_within_limit(const Eigen::Vector3d& load, double most);
+
+/// If the sum of the forces exceeds `max_force` [N], scales all of them so that their sum has this
+/// magnitude. Returns whether it scaled them.
+bool limit_force(std::vector<FaceForce>& forces, double max_force);
+
+/// The forces of the tool on the tissue's vertices. Minus each face's force is divided among the
+/// face's vertices by the barycentric coordinates of its point. Therefore the sum of the
+/// vertices' forces is minus that of the faces' forces, and the same holds for their torques, up to
+/// rounding. Vertices without a force are left out. `contacts`: the answer that the forces are
+/// from.
+///
+/// Throws Rejection if the barycentric coordinates of a point with a force are not finite, or if
+/// their sum is not 1 (to 1e-6).
+VertexForces vertex_forces(const ContactArray& contacts, const std::vector<FaceForce>& forces);
+
+/// The name of a tool in the ROS graph: `_` replaces each character other than ASCII letters,
+/// digits and `_`. A name that does not begin with a letter is prefixed with "tool_".
+std::string tool_graph_name(const std::string& tool);
+
+/// Gives each pair of organ and tool its name in the ROS graph.
+class PairNames {
+ public:
+  /// "ORGAN/TOOL", a relative name. Both parts are made as by tool_graph_name(), that of the organ
+  /// with the prefix "organ_". Throws Rejection if another pair already has the name.
+  std::string of(const std::string& organ, const std::string& tool);
+
+ private:
+  std::map<std::string, std::pair<std::string, std::string>> owners_;  ///< by name in the graph
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "organ_collision/geometry/tool/convex_core.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
+
+namespace organ_collision {
+
+/// One leg of a link's path, in the organ's frame [m]. The link's origin moves linearly. The link
+/// turns about a fixed direction at constant speed, by at most half a turn (slerp).
+class RigidMotion {
+ public:
+  /// T_organ_link at both ends of the leg.
+  RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
+
+  const Eigen::Isometry3d& start() const { return start_; }
+  const Eigen::Isometry3d& end() const { return end_; }
+  /// T_organ_link at `time` in [0, 1] of the leg.
+  Eigen::Isometry3d at(double time) const;
+  /// The rotation in the middle of the leg: at(0.5).linear().
+  const Eigen::Matrix3d& mid_orientation() const { return mid_orientation_; }
+
+  /// Whether the link is at the same place at both ends of the leg.
+  bool rests() const {
+    return start_.linear() == end_.linear() && start_.translation() == end_.translation();
+  }
+  /// [rad] The angle by which the link turns, in [0, pi].
+  double angle() const { return angle_; }
+  /// The direction about which the link turns: unit, in the organ's frame.
+  Eigen::Vector3d axis() const { return start_.linear() * axis_; }
+  /// [m] Distance of a point in the link's frame from the axis of the rotation, which passes
+  /// through the link's origin.
+  double arm(const Eigen::Vector3d& p_link) const { return axis_.cross(p_link).norm(); }
+  /// [m] How far the link's origin moves.
+  double origin_displacement() const { return (end_.translation() - start_.translation()).norm(); }
+
+ private:
+  Eigen::Isometry3d start_, end_;
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  ///< unit, in the link's frame
+  double angle_ = 0.0;
+  Eigen::Matrix3d mid_orientation_;
+};
+
+/// One leg of the path of a part's core, in the organ's frame [m]. The core is the axis of a shaft,
+/// whose ends move linearly, or belongs to a link, which moves rigidly.
+class CoreMotion {
+ public:
+  // An axis is a core. NOLINTNEXTLINE(google-explicit-constructor)
+  CoreMotion(const ShaftMotion& shaft) : start_(shaft.start), end_(shaft.end) {}
+  /// `core` is in the link's frame. `motion` must outlive this object.
+  CoreMotion(const ConvexCore& core, const RigidMotion& motion);
+
+  const ConvexCore& start() const { return start_; }
+  const ConvexCore& end() const { return end_; }
+  /// The core at `time` in [0, 1] of the leg.
+  ConvexCore at(double time) const;
+
+  /// The motion of the link; null if the core is the axis of a shaft.
+  const RigidMotion* link() const { return link_; }
+  /// [m] An upper bound of how far any point of the core moves.
+  double farthest_move() const;
+  /// [m] An upper bound of how far any point of the core deviates, along `normal` (unit), from
+  /// linear motion between its places at the start and at the end of an interval. `duration`, in
+  /// [0, 1] of the leg, is the length of the interval. See doc/geometry.md, Rims and chord
+  /// deviation.
+  double chord_deviation(double duration, const Eigen::Vector3d& normal) const;
+  /// The same along any direction.
+  double chord_deviation(double duration) const;
+  /// [m] The largest absolute coordinate of the core's points at both ends of the leg. The rim of a
+  /// cylinder is left out.
+  double largest_coordinate() const;
+
+ private:
+  ConvexCore start_, end_;
+  ConvexCore in_link_;
+  const RigidMotion* link_ = nullptr;
+  double arm_ = 0.0;  ///< [m] upper bound of the distance of the core's points from the axis of
+                      ///< the link's rotation, which passes through the link's origin
+};
+
+}  // namespace organ_collision

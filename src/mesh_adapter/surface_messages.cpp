@@ -1,0 +1,253 @@
+#include "surface_messages.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include "geometry/concatenate.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
+
+namespace organ_collision {
+namespace {
+
+using sensor_msgs::PointCloud2;
+using sensor_msgs::PointField;
+
+constexpr bool kHostIsBigEndian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+
+std::size_t size_of(const PointField& field) {
+  return field.datatype == PointField::FLOAT64 ? sizeof(double) : sizeof(float);
+}
+
+/// The field with this name. Refuses it if its type is illegal or it lies outside of the point.
+const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
+  const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
+                                  [&](const PointField& field) { return field.name == name; });
+  if (field == cloud.fields.end()) {
+    std::vector<std::string> names;
+    for (const PointField& other : cloud.fields) names.push_back(other.name);
+    throw MessageError("missing field", "the fields of the points are '" + listed(names) +
+                                            "'; must hold x, y and z");
+  }
+  if (field->datatype != PointField::FLOAT32 && field->datatype != PointField::FLOAT64) {
+    throw MessageError("wrong field type", "field " + name + " has datatype " +
+                                               std::to_string(field->datatype) +
+                                               "; must be 7 (float32) or 8 (float64)");
+  }
+  if (field->count > 1) {  // Old PCL versions write 0 for 1.
+    throw MessageError("wrong field count", "field " + name + " has count " +
+                                                std::to_string(field->count) + "; must be 1");
+  }
+  const std::size_t end = std::size_t{field->offset} + size_of(*field);
+  if (end > cloud.point_step) {
+    throw MessageError("wrong point_step", "field " + name + " ends at byte " +
+                                               std::to_string(end) + " of a point; point_step is " +
+                                               std::to_string(cloud.point_step) +
+                                               ", must be at least that");
+  }
+  return *field;
+}
+
+/// Refuses a cloud whose points do not all lie within `data`. Bytes after the last point are
+/// ignored. The product of two 32-bit numbers fits 64 bits, but a sum of products may not.
+/// Therefore the last row and the earlier rows are compared one after the other.
+void check_sizes(const PointCloud2& cloud) {
+  const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
+  if (cloud.height > 1 && cloud.row_step < row) {
+    throw MessageError("wrong row_step",
+                       "row_step is " + std::to_string(cloud.row_step) + "; " +
+                           std::to_string(cloud.width) + " points of point_step " +
+                           std::to_string(cloud.point_step) + " need " + std::to_string(row));
+  }
+  const std::uint64_t size = cloud.data.size();
+  const std::uint64_t earlier_rows = std::uint64_t{cloud.height - 1} * cloud.row_step;
+  if (row > size || (cloud.height > 1 && earlier_rows > size - row)) {
+    throw MessageError("truncated cloud",
+                       "data has " + std::to_string(size) + " bytes; too few for " +
+                           std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
+                           " points of point_step " + std::to_string(cloud.point_step));
+  }
+}
+
+template <typename Number>
+Number number_at(const std::uint8_t* address, bool swap) {
+  std::array<std::uint8_t, sizeof(Number)> bytes;
+  std::memcpy(bytes.data(), address, sizeof(Number));
+  if (swap) std::reverse(bytes.begin(), bytes.end());
+  Number number;
+  std::memcpy(&number, bytes.data(), sizeof(Number));
+  return number;
+}
+
+/// Copies one field of all points to to[0], to[3], to[6] ...
+template <typename Number>
+void copy(const PointCloud2& cloud, std::size_t offset, float* to) {
+  const bool swap = (cloud.is_bigendian != 0) != kHostIsBigEndian;
+  for (std::size_t row = 0; row < cloud.height; ++row) {
+    const std::uint8_t* from = cloud.data.data() + row * cloud.row_step + offset;
+    for (std::size_t column = 0; column < cloud.width; ++column, to += 3) {
+      *to = static_cast<float>(number_at<Number>(from + column * cloud.point_step, swap));
+    }
+  }
+}
+
+}  // namespace
+
+void read_points(const PointCloud2& cloud, std::vector<float>& vertices) {
+  if (cloud.width == 0 || cloud.height == 0) {
+    if (!cloud.data.empty()) {
+      throw MessageError("wrong size", "the cloud is " + std::to_string(cloud.width) + " x " +
+                                           std::to_string(cloud.height) +
+                                           " points; must be none only where data is empty");
+    }
+    return vertices.clear();
+  }
+  const std::array<PointField, 3> fields = {field_of(cloud, "x"), field_of(cloud, "y"),
+                                            field_of(cloud, "z")};
+  check_sizes(cloud);
+  vertices.resize(3 * std::size_t{cloud.width} * cloud.height);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (fields[axis].datatype == PointField::FLOAT64) {
+      copy<double>(cloud, fields[axis].offset, &vertices[axis]);
+    } else {
+      copy<float>(cloud, fields[axis].offset, &vertices[axis]);
+    }
+  }
+}
+
+void convert(const shape_msgs::Mesh& mesh, ReceivedSurface& surface) {
+  surface.frame.clear();
+  surface.stamp = {};
+  surface.vertices.resize(3 * mesh.vertices.size());
+  float* coordinate = surface.vertices.data();
+  for (const geometry_msgs::Point& vertex : mesh.vertices) {
+    for (const double value : {vertex.x, vertex.y, vertex.z}) {
+      *coordinate++ = static_cast<float>(value);
+    }
+  }
+  surface.triangles.clear();
+  surface.triangles.reserve(3 * mesh.triangles.size());
+  for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
+    surface.triangles.insert(surface.triangles.end(), triangle.vertex_indices.begin(),
+                             triangle.vertex_indices.end());
+  }
+}
+
+void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface) {
+  const std_msgs::Header &own = mesh.header, &clouds = mesh.cloud.header;
+  surface.frame = own.frame_id.empty() ? clouds.frame_id : own.frame_id;
+  surface.stamp = own.stamp.isZero() ? clouds.stamp : own.stamp;
+  read_points(mesh.cloud, surface.vertices);
+  surface.triangles.clear();
+  for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
+    const auto& corners = mesh.polygons[i].vertices;
+    if (corners.size() < 3) {
+      throw MessageError("polygon without area", "polygon " + std::to_string(i) + " has " +
+                                                     std::to_string(corners.size()) +
+                                                     " corners; must have at least 3");
+    }
+    for (std::size_t last = 2; last < corners.size(); ++last) {
+      surface.triangles.insert(surface.triangles.end(),
+                               {corners[0], corners[last - 1], corners[last]});
+    }
+  }
+}
+
+namespace {
+
+using visualization_msgs::Marker;
+
+/// [1] The norm of a legal orientation differs from 1 by at most this.
+constexpr double kUnitTolerance = 1e-2;
+
+std::string name_of(const Marker& marker) { return marker.ns + "/" + std::to_string(marker.id); }
+
+std::string type_name(int type) {
+  constexpr std::array<const char*, 12> kNames = {
+      "ARROW",     "CUBE",        "SPHERE", "CYLINDER",         "LINE_STRIP",    "LINE_LIST",
+      "CUBE_LIST", "SPHERE_LIST", "POINTS", "TEXT_VIEW_FACING", "MESH_RESOURCE", "TRIANGLE_LIST"};
+  const bool known = type >= 0 && type < static_cast<int>(kNames.size());
+  return std::to_string(type) + " (" + (known ? kNames[type] : "unknown") + ")";
+}
+
+/// Refuses zero and negative scales: they would make the organ flat or turn it inside out.
+Eigen::Vector3d scale_of(const Marker& marker) {
+  Eigen::Vector3d scale = to_eigen(marker.scale);
+  if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
+    throw MessageError("wrong scale", concatenate("scale is ", scale.transpose(),
+                                                  "; must be finite and more than 0"));
+  }
+  return scale;
+}
+
+Eigen::Isometry3d pose_of(const Marker& marker) {
+  const auto& q = marker.pose.orientation;
+  Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const double length = rotation.norm();
+  if (length == 0.0) {
+    rotation.setIdentity();
+  } else if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
+    throw MessageError("wrong orientation", concatenate("pose.orientation has length ", length,
+                                                        "; must be 1, or 0 for none"));
+  }
+  return Eigen::Translation3d(to_eigen(marker.pose.position)) * rotation.normalized();
+}
+
+void place_points(const Marker& marker, std::vector<float>& vertices) {
+  const Eigen::Affine3d placed = pose_of(marker) * Eigen::Scaling(scale_of(marker));
+  vertices.resize(3 * marker.points.size());
+  float* coordinate = vertices.data();
+  for (const geometry_msgs::Point& point : marker.points) {
+    const Eigen::Vector3f vertex = (placed * to_eigen(point)).cast<float>();
+    coordinate = std::copy_n(vertex.data(), 3, coordinate);
+  }
+}
+
+}  // namespace
+
+void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
+  if (const std::string fault = name_fault(marker.ns); !fault.empty()) {
+    throw MessageError("illegal name", "the marker's namespace " + fault);
+  }
+  const std::string name = name_of(marker);
+  const bool add = marker.action == Marker::ADD;
+  if (!add && marker.action != Marker::DELETE && marker.action != Marker::DELETEALL) {
+    throw MessageError("unknown action", "marker '" + name + "' has action " +
+                                             std::to_string(marker.action) +
+                                             "; must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
+  }
+  if (marker.action != Marker::DELETEALL) check_name(name);
+  surface.frame = marker.header.frame_id;
+  surface.stamp = marker.header.stamp;
+  if (!add) {
+    surface.vertices.clear();
+    surface.triangles.clear();
+    return read_name_.clear();
+  }
+  if (marker.type != Marker::TRIANGLE_LIST) {
+    throw MessageError("other marker type", "marker '" + name + "' is of type " +
+                                                type_name(marker.type) +
+                                                "; must be 11 (TRIANGLE_LIST)");
+  }
+  if (marker.points.size() % 3 != 0) {
+    throw MessageError("wrong number of points", "marker '" + name + "' has " +
+                                                     std::to_string(marker.points.size()) +
+                                                     " points; must be a multiple of three");
+  }
+  place_points(marker, surface.vertices);
+  surface.triangles.resize(marker.points.size());
+  std::iota(surface.triangles.begin(), surface.triangles.end(), 0);
+  read_name_ = name;
+}
+
+void MarkerReader::check_name(const std::string& name) const {
+  if (name_.empty() || name == name_) return;
+  throw MessageError("other marker", "marker '" + name + "' is not the organ's, which is '" +
+                                         name_ + "'; must have a topic of its own");
+}
+
+}  // namespace organ_collision

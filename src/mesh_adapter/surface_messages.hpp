@@ -1,0 +1,79 @@
+#pragma once
+
+#include <pcl_msgs/PolygonMesh.h>
+#include <ros/time.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <shape_msgs/Mesh.h>
+#include <visualization_msgs/Marker.h>
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace organ_collision {
+
+/// An organ's surface as a message described it. It may be illegal: the collision node checks it.
+struct ReceivedSurface {
+  std::string frame;                     ///< empty: the message has none
+  ros::Time stamp;                       ///< zero: the message has none
+  std::vector<float> vertices;           ///< x y z x y z ... [m]
+  std::vector<std::uint32_t> triangles;  ///< three vertex indices for each face
+
+  /// Whether the organ was removed.
+  bool empty() const { return vertices.empty() && triangles.empty(); }
+};
+
+/// A message that cannot be read as a surface. what() names the illegal value and what is legal.
+class MessageError : public std::runtime_error {
+ public:
+  /// `reason`: a short text that is the same for all errors of one kind. Errors are counted by
+  /// reason.
+  MessageError(std::string reason, const std::string& message)
+      : std::runtime_error(message), reason_(std::move(reason)) {}
+
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::string reason_;
+};
+
+/// Replaces the content of `vertices` by the fields x, y and z of all points, row by row, as
+/// x y z x y z ... The fields may lie anywhere in a point and in any order. They may be float32 or
+/// float64, in little or big endian. Other fields and padding are skipped. The numbers are rounded
+/// to 32-bit floats and need not be finite. Throws MessageError.
+void read_points(const sensor_msgs::PointCloud2& cloud, std::vector<float>& vertices);
+
+// Conversions from messages with a mesh to surfaces. Vertices keep their order and are rounded to
+// 32-bit floats. The content of `surface` is replaced, and its memory is reused.
+
+/// The surface has no frame and no stamp, because the message has none.
+void convert(const shape_msgs::Mesh& mesh, ReceivedSurface& surface);
+
+/// A polygon of n corners is cut into a fan around its first corner and becomes n - 2 faces. If the
+/// mesh's own header has no frame or no stamp, the one in the cloud's header is used. Throws
+/// MessageError.
+void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface);
+
+/// Reads the organ's marker among the markers of a topic: a TRIANGLE_LIST with three vertices for
+/// each face, placed by its scale and pose. The organ's marker is identified by namespace and id.
+/// The first marker that is kept becomes the organ's marker, until it is deleted.
+class MarkerReader {
+ public:
+  /// Replaces the content of `surface`; DELETE and DELETEALL make it empty. An orientation of four
+  /// zeros means no rotation, as in RViz. Throws MessageError, also if the marker is not the
+  /// organ's.
+  void read(const visualization_msgs::Marker& marker, ReceivedSurface& surface);
+  /// Accepts the marker that was read last as the organ's. If it deleted the organ's marker, the
+  /// next marker that is kept becomes the organ's.
+  void keep() { name_ = read_name_; }
+
+ private:
+  void check_name(const std::string& name) const;
+
+  std::string name_;       ///< "namespace/id" of the organ's marker; empty: none yet
+  std::string read_name_;  ///< name of the marker read last; empty: it deleted the organ's
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,131 @@
+#include "drawing.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace organ_collision {
+
+// The whole matrix is loaded as the modelview matrix, and the projection stays the identity. GL's
+// eye coordinates are then clip coordinates, in which the user planes are given. With a projection,
+// GL would transform the planes by its inverse in 32 bits and lose the precision that the shift to
+// the origin has gained.
+//
+// All user planes stay enabled, because Mesa takes some 20 ms to compile its vertex pipeline for
+// each new number of them. A plane of zeros clips nothing.
+void clip_to(const ViewingVolume& volume, const GlFunctions& gl) {
+  gl.LoadIdentity();
+  const Eigen::Matrix4d clip_inverse = volume.clip().inverse();
+  for (std::size_t i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) {
+    Eigen::RowVector4d plane = Eigen::RowVector4d::Zero();
+    if (i < volume.user_plane_count()) plane = volume.user_planes()[i].transpose() * clip_inverse;
+    gl.ClipPlane(GL_CLIP_PLANE0 + static_cast<GLenum>(i), plane.data());
+  }
+  gl.LoadMatrixd(volume.clip().data());
+}
+
+// Mesa joins arrays that are interleaved, with the same stride, to one vertex buffer. It stops
+// doing so when the pointers have changed a few times, as they do when the arrays grow. It then
+// compiles its vertex pipeline anew, for some 20 ms in the middle of a step. Arrays with different
+// strides are never joined, so that one pipeline is enough.
+void draw_from(const DrawnFaces& faces, const GlFunctions& gl) {
+  using Position = DrawnFaces::Position;
+  using Number = DrawnFaces::Number;
+  static_assert(sizeof(Position) != sizeof(Number));
+  gl.VertexPointer(3, GL_FLOAT, sizeof(Position), faces.first_position().data());
+  gl.TexCoordPointer(2, GL_FLOAT, sizeof(Number), faces.first_number().data());
+}
+
+namespace {
+
+// [1] GL counts the floats of a buffer with an integer.
+constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
+
+/// [1] What GL can return at most for a number of faces. Each plane adds at most one corner to a
+/// face, and GL may return a polygon of n corners as n - 2 triangles, each with two floats of its
+/// own.
+std::size_t most_floats(std::size_t faces) {
+  constexpr std::size_t kPlanes = 6 + ViewingVolume::kMaxUserPlanes;
+  constexpr std::size_t kTriangle = 2 + 3 * FeedbackVertex::kFloats;
+  return faces * (1 + kPlanes) * kTriangle;
+}
+
+}  // namespace
+
+std::uint32_t FeedbackVertex::face() const {
+  const auto is_half = [](float half) { return half >= 0.0f && half <= 65535.0f; };
+  const float lower = floats_[7], upper = floats_[8];
+  if (is_half(lower) && is_half(upper)) return face_number(lower, upper);
+  throw GlError("OpenGL's feedback buffer holds an illegal face number: " + std::to_string(lower) +
+                ", " + std::to_string(upper));
+}
+
+std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
+                          std::vector<float>& buffer) {
+  context.make_current();
+  const GlFunctions& gl = context.functions();
+  clip_to(volume, gl);
+  draw_from(faces, gl);
+  while (true) {
+    gl.FeedbackBuffer(static_cast<GLsizei>(buffer.size()), GL_3D_COLOR_TEXTURE, buffer.data());
+    gl.RenderMode(GL_FEEDBACK);
+    gl.DrawArrays(GL_TRIANGLES, 0, static_cast<GLsizei>(3 * faces.size()));
+    const GLint written = gl.RenderMode(GL_RENDER);
+    context.check("a feedback query");
+    if (written > static_cast<GLint>(buffer.size())) {
+      context.fail("OpenGL claims to have written " + std::to_string(written) +
+                   " floats to a buffer of " + std::to_string(buffer.size()));
+    }
+    if (written >= 0) return static_cast<std::size_t>(written);
+    const std::size_t most = std::min(most_floats(faces.size()), kMostFloats);
+    if (buffer.size() >= most) {
+      context.fail("OpenGL's feedback buffer is too small for " + std::to_string(faces.size()) +
+                   " faces with " + std::to_string(buffer.size()) + " floats");
+    }
+    buffer.resize(std::min(4 * buffer.size(), most));
+  }
+}
+
+std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::size_t& place) {
+  const float token = buffer[place++];
+  float vertices = 0.0f;
+  if (token == GL_POLYGON_TOKEN) {
+    vertices = place < size ? buffer[place++] : -1.0f;
+  } else if (token == GL_LINE_TOKEN || token == GL_LINE_RESET_TOKEN) {
+    vertices = 2.0f;
+  } else if (token == GL_POINT_TOKEN) {
+    vertices = 1.0f;
+  } else {
+    throw GlError("OpenGL's feedback buffer holds an unknown token: " + std::to_string(token));
+  }
+  const std::size_t room = (size - place) / FeedbackVertex::kFloats;
+  if (vertices >= 0.0f && vertices <= static_cast<float>(room))
+    return static_cast<std::size_t>(vertices);
+  throw GlError("OpenGL's feedback buffer ends within a primitive of " + std::to_string(vertices) +
+                " vertices");
+}
+
+namespace {
+
+bool is_blind(GlContext& context) {
+  if (!context.is_current()) return true;
+  const ViewingVolume box =
+      ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
+                                   Eigen::Matrix3d::Identity(), -1, 1, -1, 1, -1, 1});
+  DrawnFaces face;
+  face.add(middle_face(box), kWitness);
+  std::vector<float> buffer(100);
+  return draw_feedback(context, box, face, buffer) == 0;
+}
+
+}  // namespace
+
+void fail_if_blind(GlContext& context) {
+  if (!is_blind(context)) return;
+  context.fail(
+      "OpenGL does not return a face that is in view, so its answer means nothing: its context or "
+      "framebuffer was lost or taken; the next query gets a new one");
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,219 @@
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/gl.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "organ_collision/picking/gl_error.hpp"
+#include "platform_context.hpp"
+
+// Every EGL function that we call, without its egl prefix.
+// clang-format off
+#define ORGAN_COLLISION_EGL_FUNCTIONS(F)                                                    \
+  F(BindAPI) F(ChooseConfig) F(CreateContext) F(CreatePbufferSurface) F(DestroyContext)     \
+  F(DestroySurface) F(GetCurrentContext) F(GetError) F(GetProcAddress) F(Initialize)        \
+  F(MakeCurrent)
+// clang-format on
+
+namespace organ_collision {
+
+/// Pointers to the functions of libEGL. Only their types come from the prototypes in egl.h; libEGL
+/// is loaded and never linked.
+struct EglFunctions {
+#define ORGAN_COLLISION_DECLARE(name) decltype(&egl##name) name = nullptr;
+  ORGAN_COLLISION_EGL_FUNCTIONS(ORGAN_COLLISION_DECLARE)
+#undef ORGAN_COLLISION_DECLARE
+};
+
+/// The functions of the libEGL of this process. Throws GlError if there is none.
+const EglFunctions& egl();
+
+/// An error with EGL's code of the last call.
+GlError egl_error(const std::string& what);
+
+namespace {
+
+EglFunctions load_egl_functions() {
+  const SharedLibrary library("libEGL.so.1");
+  EglFunctions functions;
+#define ORGAN_COLLISION_LOAD(name) library.load("egl" #name, functions.name);
+  ORGAN_COLLISION_EGL_FUNCTIONS(ORGAN_COLLISION_LOAD)
+#undef ORGAN_COLLISION_LOAD
+  return functions;
+}
+
+}  // namespace
+
+const EglFunctions& egl() {
+  static const EglFunctions functions = load_egl_functions();
+  return functions;
+}
+
+GlError egl_error(const std::string& what) {
+  std::array<char, 16> code{};
+  std::snprintf(code.data(), code.size(), "0x%04x", egl().GetError());
+  return GlError(what + " (EGL error " + code.data() + ")");
+}
+
+/// The displays on which EGL may draw without a window and without a graphics card, the surest one
+/// first. None is initialized. Throws GlError if there is no libEGL.
+std::vector<EGLDisplay> software_displays();
+
+namespace {
+
+bool contains(const char* extensions, const char* name) {
+  return extensions != nullptr && std::strstr(extensions, name) != nullptr;
+}
+
+template <typename Function>
+Function extension_function(const char* name) {
+  return reinterpret_cast<Function>(egl().GetProcAddress(name));
+}
+
+/// The displays of devices that draw on the CPU. There, no driver of a graphics card can come
+/// first.
+void add_software_devices(std::vector<EGLDisplay>& displays) {
+  const auto query_devices = extension_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  const auto query_string =
+      extension_function<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  const auto platform_display =
+      extension_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  if (query_devices == nullptr || query_string == nullptr || platform_display == nullptr) return;
+  std::array<EGLDeviceEXT, 64> devices{};
+  EGLint count = 0;
+  if (query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_TRUE)
+    return;
+  for (EGLint i = 0; i < count; ++i) {
+    EGLDeviceEXT const device = devices[static_cast<std::size_t>(i)];
+    if (!contains(query_string(device, EGL_EXTENSIONS), "EGL_MESA_device_software")) continue;
+    displays.push_back(platform_display(EGL_PLATFORM_DEVICE_EXT, device, nullptr));
+  }
+}
+
+/// The display of Mesa's platform without surfaces. Mesa may draw on a graphics card there.
+void add_surfaceless(std::vector<EGLDisplay>& displays) {
+  const auto platform_display =
+      extension_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
+  if (platform_display == nullptr) return;
+  displays.push_back(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
+}
+
+}  // namespace
+
+std::vector<EGLDisplay> software_displays() {
+  std::vector<EGLDisplay> displays;
+  add_software_devices(displays);
+  add_surfaceless(displays);
+  return displays;
+}
+
+namespace {
+
+class EglContext final : public PlatformContext {
+ public:
+  /// `display` must be initialized. Throws GlError.
+  EglContext(EGLDisplay display, const GlFramebuffer& framebuffer) : display_(display) {
+    try {
+      create(framebuffer);
+    } catch (...) {
+      destroy();
+      throw;
+    }
+  }
+  ~EglContext() override {
+    if (is_current()) release();
+    destroy();
+  }
+  EglContext(const EglContext&) = delete;
+  EglContext& operator=(const EglContext&) = delete;
+
+  bool is_current() const override { return egl().GetCurrentContext() == context_; }
+  bool make_current() override {
+    // Which kind of API the thread uses is a state of the thread.
+    return egl().BindAPI(EGL_OPENGL_API) == EGL_TRUE &&
+           egl().MakeCurrent(display_, surface_, surface_, context_) == EGL_TRUE;
+  }
+  void release() override {
+    egl().MakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+  }
+  AnyFunction find_function(const char* name) const override { return egl().GetProcAddress(name); }
+
+ private:
+  void create(const GlFramebuffer& framebuffer) {
+    if (egl().BindAPI(EGL_OPENGL_API) != EGL_TRUE) throw egl_error("EGL has no OpenGL");
+    const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                             EGL_PBUFFER_BIT,
+                             EGL_RENDERABLE_TYPE,
+                             EGL_OPENGL_BIT,
+                             EGL_RED_SIZE,
+                             8,
+                             EGL_GREEN_SIZE,
+                             8,
+                             EGL_BLUE_SIZE,
+                             8,
+                             EGL_ALPHA_SIZE,
+                             8,
+                             EGL_DEPTH_SIZE,
+                             framebuffer.depth_bits,
+                             EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (egl().ChooseConfig(display_, wanted, &config, 1, &count) != EGL_TRUE || count == 0) {
+      throw egl_error("EGL has no OpenGL with a framebuffer in memory");
+    }
+    context_ = egl().CreateContext(display_, config, EGL_NO_CONTEXT, nullptr);
+    if (context_ == EGL_NO_CONTEXT) throw egl_error("EGL gives no compatibility context");
+    const EGLint size[] = {EGL_WIDTH, framebuffer.width, EGL_HEIGHT, framebuffer.height, EGL_NONE};
+    surface_ = egl().CreatePbufferSurface(display_, config, size);
+    if (surface_ == EGL_NO_SURFACE) throw egl_error("EGL gives no framebuffer in memory");
+    if (!make_current()) throw egl_error("EGL cannot make its context current");
+    check_renderer();
+  }
+
+  /// Faces are picked with the precision and the speed that are known of Mesa's renderers on the
+  /// CPU. Other drivers may implement GL_SELECT and GL_FEEDBACK in other ways, or not at all.
+  void check_renderer() {
+    const auto get_string = reinterpret_cast<decltype(&glGetString)>(find_function("glGetString"));
+    const GLubyte* const name = get_string != nullptr ? get_string(GL_RENDERER) : nullptr;
+    const std::string renderer = name != nullptr ? reinterpret_cast<const char*>(name) : "nothing";
+    if (renderer.find("llvmpipe") != std::string::npos) return;
+    if (renderer.find("softpipe") != std::string::npos) return;
+    release();
+    throw GlError("EGL draws with \"" + renderer + "\", not with Mesa's llvmpipe on the CPU");
+  }
+
+  void destroy() {
+    if (surface_ != EGL_NO_SURFACE) egl().DestroySurface(display_, surface_);
+    if (context_ != EGL_NO_CONTEXT) egl().DestroyContext(display_, context_);
+  }
+
+  EGLDisplay display_;
+  EGLContext context_ = EGL_NO_CONTEXT;
+  EGLSurface surface_ = EGL_NO_SURFACE;
+};
+
+}  // namespace
+
+std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffer) {
+  std::string reason = "EGL knows neither devices without hardware nor a platform without surfaces";
+  for (EGLDisplay display : software_displays()) {
+    // A display stays initialized until the process ends: others may use the same one.
+    if (egl().Initialize(display, nullptr, nullptr) != EGL_TRUE) {
+      reason = egl_error("EGL cannot start Mesa's renderer on the CPU").what();
+      continue;
+    }
+    try {
+      return std::make_unique<EglContext>(display, framebuffer);
+    } catch (const GlError& error) {
+      reason = error.what();
+    }
+  }
+  throw GlError(reason);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,80 @@
+#include <GL/gl.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "organ_collision/picking/gl_error.hpp"
+#include "platform_context.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// The functions of libOSMesa that we call, as in GL/osmesa.h. They are declared here because
+/// systems without OSMesa do not have that header.
+struct OsmesaFunctions {
+  using Context = struct OsmesaContextHandle*;  // opaque
+
+  OsmesaFunctions() {
+    const SharedLibrary library("libOSMesa.so.8");
+    library.load("OSMesaCreateContextExt", create_context);
+    library.load("OSMesaDestroyContext", destroy_context);
+    library.load("OSMesaMakeCurrent", make_current);
+    library.load("OSMesaGetCurrentContext", current_context);
+    library.load("OSMesaGetProcAddress", find_function);
+  }
+
+  Context (*create_context)(GLenum format, GLint depth_bits, GLint stencil_bits, GLint accum_bits,
+                            Context shared);
+  void (*destroy_context)(Context context);
+  GLboolean (*make_current)(Context context, void* pixels, GLenum type, GLsizei width,
+                            GLsizei height);
+  Context (*current_context)();
+  PlatformContext::AnyFunction (*find_function)(const char* name);
+};
+
+const OsmesaFunctions& osmesa() {
+  static const OsmesaFunctions functions;
+  return functions;
+}
+
+class OsmesaContext final : public PlatformContext {
+ public:
+  explicit OsmesaContext(const GlFramebuffer& framebuffer)
+      : context_(osmesa().create_context(GL_RGBA /* OSMESA_RGBA */, framebuffer.depth_bits, 0, 0,
+                                         nullptr)),
+        width_(framebuffer.width),
+        height_(framebuffer.height),
+        pixels_(std::size_t{4} * width_ * height_) {
+    if (context_ == nullptr) throw GlError("OSMesa gives no compatibility context");
+  }
+  ~OsmesaContext() override {
+    if (is_current()) release();
+    osmesa().destroy_context(context_);
+  }
+  OsmesaContext(const OsmesaContext&) = delete;
+  OsmesaContext& operator=(const OsmesaContext&) = delete;
+
+  bool is_current() const override { return osmesa().current_context() == context_; }
+  bool make_current() override {
+    return osmesa().make_current(context_, pixels_.data(), GL_UNSIGNED_BYTE, width_, height_) ==
+           GL_TRUE;
+  }
+  void release() override { osmesa().make_current(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
+  AnyFunction find_function(const char* name) const override {
+    return osmesa().find_function(name);
+  }
+
+ private:
+  OsmesaFunctions::Context context_;
+  int width_, height_;
+  std::vector<std::uint8_t> pixels_;
+};
+
+}  // namespace
+
+std::unique_ptr<PlatformContext> new_osmesa_context(const GlFramebuffer& framebuffer) {
+  return std::make_unique<OsmesaContext>(framebuffer);
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "organ_collision/picking/gl_platform.hpp"
+
+namespace organ_collision {
+
+/// What a context draws into. Picking draws nothing, but GL requires a framebuffer.
+struct GlFramebuffer {
+  int width = 4, height = 4;  ///< [pixel]
+  int depth_bits = 0;         ///< 0: without depth buffer
+};
+
+/// A compatibility context of one platform, and its framebuffer: rows from bottom to top, with four
+/// bytes (red, green, blue, alpha) a pixel.
+class PlatformContext {
+ public:
+  using AnyFunction = void (*)();
+
+  virtual ~PlatformContext() = default;
+
+  virtual bool is_current() const = 0;
+  /// Returns whether the context is current in the calling thread now.
+  virtual bool make_current() = 0;
+  /// Leaves the calling thread without a current context. Requires that this one is current.
+  virtual void release() = 0;
+  /// The GL function of this name, for example "glBegin", or null.
+  virtual AnyFunction find_function(const char* name) const = 0;
+};
+
+// Each throws GlError if the platform gives no context.
+std::unique_ptr<PlatformContext> new_osmesa_context(const GlFramebuffer& framebuffer);
+std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffer);
+
+/// A shared library that is loaded when it is first needed, so that the package builds and runs
+/// without it. It stays loaded until the process ends: Mesa does not survive being unloaded.
+class SharedLibrary {
+ public:
+  /// Loads the library of this name, for example "libEGL.so.1". Throws GlError with the reason.
+  explicit SharedLibrary(const char* name);
+
+  /// Sets `function` to the library's function of this name. Throws GlError if it has none.
+  template <typename Function>
+  void load(const char* name, Function*& function) const {
+    function = reinterpret_cast<Function*>(find(name));
+  }
+
+ private:
+  void* find(const char* name) const;
+
+  const char* name_;
+  void* handle_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,165 @@
+#pragma once
+
+#include <ros/node_handle.h>
+#include <ros/serialization.h>
+#include <ros/subscription_callback_helper.h>
+
+#include <boost/make_shared.hpp>
+#include <chrono>
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "failure_log.hpp"
+#include "text.hpp"
+
+namespace organ_collision {
+
+/// Reads a message of roscpp from bytes of a peer that may be wrong. ros::serialization::IStream
+/// makes room for as many elements as a list claims to have, before it looks whether the bytes are
+/// there: a message of 50 bytes can take 16 GB. This stream looks first. What it reads needs at
+/// most about ten times the memory of the bytes.
+class CheckedStream : public ros::serialization::Stream {
+ public:
+  // roscpp asks for this name. NOLINTNEXTLINE(readability-identifier-naming)
+  static constexpr ros::serialization::StreamType stream_type =
+      ros::serialization::stream_types::Input;
+
+  /// Only reads the bytes, which must outlive this.
+  CheckedStream(const std::uint8_t* bytes, std::uint32_t size)
+      : Stream(const_cast<std::uint8_t*>(bytes), size) {}
+
+  /// Throws ros::serialization::StreamOverrunException if the bytes end before the value does.
+  template <typename Value>
+  void next(Value& value) {
+    ros::serialization::deserialize(*this, value);
+  }
+  template <typename Element, typename Allocator>
+  void next(std::vector<Element, Allocator>& list) {
+    check_count(ros::serialization::serializationLength(Element()));
+    ros::serialization::deserialize(*this, list);
+  }
+
+ private:
+  /// `least`: bytes of the shortest element.
+  void check_count(std::uint32_t least) {
+    std::uint32_t count = 0;
+    if (getLength() < sizeof count) return;  // deserialize() refuses it.
+    std::memcpy(&count, getData(), sizeof count);
+    const std::uint64_t there = getLength() - sizeof count;
+    if (std::uint64_t{count} * least <= there) return;
+    throw ros::serialization::StreamOverrunException(
+        "a list claims " + std::to_string(count) + " elements of at least " +
+        std::to_string(least) + " bytes, but only " + std::to_string(there) + " bytes follow");
+  }
+};
+
+// Subscribers and services that read with CheckedStream what peers send. Otherwise they are those
+// of roscpp.
+
+/// A subscription that refuses a message whose bytes are not one, and counts it.
+template <typename Message>
+class CheckedSubscription
+    : public ros::SubscriptionCallbackHelperT<const ros::MessageEvent<const Message>&> {
+ public:
+  using Base = ros::SubscriptionCallbackHelperT<const ros::MessageEvent<const Message>&>;
+
+  CheckedSubscription(const typename Base::Callback& callback, FailureLog& rejected)
+      : Base(callback), rejected_(rejected) {}
+
+  /// Returns null if the bytes are no message. roscpp then drops them.
+  ros::VoidConstPtr deserialize(
+      const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
+    const auto message = boost::make_shared<Message>();
+    try {
+      CheckedStream(params.buffer, params.length).next(*message);
+      return message;
+    } catch (const std::exception& error) {
+      reject(params, error.what());
+      return {};
+    }
+  }
+
+ private:
+  void reject(const ros::SubscriptionCallbackHelperDeserializeParams& params,
+              const std::string& why) {
+    const auto sender = params.connection_header->find("callerid");
+    const std::string from =
+        sender == params.connection_header->end() ? "a nameless node" : sender->second;
+    rejected_.add("unreadable message",
+                  std::to_string(params.length) + " bytes from " + plain_text(from, kLongestName) +
+                      " are no " + ros::message_traits::datatype<Message>() + ": " + why,
+                  std::chrono::steady_clock::now());
+  }
+
+  FailureLog& rejected_;
+};
+
+/// A service that refuses a request whose bytes are not one: the caller gets an error, which roscpp
+/// logs.
+template <typename Service>
+class CheckedService : public ros::ServiceCallbackHelper {
+ public:
+  using Request = typename Service::Request;
+  using Response = typename Service::Response;
+  using Answer = std::function<bool(Request& request, Response& response)>;
+
+  explicit CheckedService(Answer answer) : answer_(std::move(answer)) {}
+
+  bool call(ros::ServiceCallbackHelperCallParams& params) override {
+    const ros::SerializedMessage& bytes = params.request;
+    Request request;
+    Response response;
+    CheckedStream(
+        bytes.message_start,
+        static_cast<std::uint32_t>(bytes.num_bytes - (bytes.message_start - bytes.buf.get())))
+        .next(request);
+    const bool is_answered = answer_(request, response);
+    params.response = ros::serialization::serializeServiceResponse(is_answered, response);
+    return is_answered;
+  }
+
+ private:
+  Answer answer_;
+};
+
+/// As NodeHandle::subscribe() with TCP_NODELAY. `rejected` counts unreadable messages, and must
+/// outlive the subscriber.
+template <typename Message>
+ros::Subscriber subscribe_checked(
+    ros::NodeHandle node, const std::string& topic, std::uint32_t queue,
+    const std::function<void(const ros::MessageEvent<const Message>&)>& callback,
+    FailureLog& rejected) {
+  ros::SubscribeOptions options(topic, queue, ros::message_traits::md5sum<Message>(),
+                                ros::message_traits::datatype<Message>());
+  options.helper = boost::make_shared<CheckedSubscription<Message>>(callback, rejected);
+  options.transport_hints = ros::TransportHints().tcpNoDelay();
+  return node.subscribe(options);
+}
+
+/// As NodeHandle::advertiseService().
+template <typename Service>
+ros::ServiceServer advertise_checked(ros::NodeHandle node, const std::string& service,
+                                     const typename CheckedService<Service>::Answer& answer) {
+  ros::AdvertiseServiceOptions options;
+  options.init<Service>(service, answer);
+  options.helper = boost::make_shared<CheckedService<Service>>(answer);
+  return node.advertiseService(options);
+}
+
+/// The message whose bytes something holds, such as topic_tools::ShapeShifter or
+/// rosbag::MessageInstance. It is read with CheckedStream, which their own instantiate() does not
+/// use. The types must agree. Throws ros::serialization::StreamOverrunException.
+template <typename Message, typename Holder>
+boost::shared_ptr<Message> held_message(const Holder& holder) {
+  std::vector<std::uint8_t> bytes(holder.size() + 1);  // One more, because Stream needs an address.
+  ros::serialization::OStream copy(bytes.data(), holder.size());
+  holder.write(copy);
+  auto message = boost::make_shared<Message>();
+  CheckedStream(bytes.data(), holder.size()).next(*message);
+  return message;
+}
+
+}  // namespace organ_collision

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/Quaternion.h>
+#include <geometry_msgs/Transform.h>
+#include <geometry_msgs/Vector3.h>
+#include <ros/time.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <string>
+
+namespace organ_collision {
+
+// Conversions between messages and Eigen, in the same units. tf2::toMsg() converts points to
+// messages.
+
+/// tf2::fromMsg() writes into an argument. These return the value, so that formulas can use it.
+Eigen::Vector3d to_eigen(const geometry_msgs::Point& point);
+Eigen::Vector3d to_eigen(const geometry_msgs::Vector3& vector);
+/// Normalises the rotation, because senders round it. tf2::transformToEigen() does not normalise.
+Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform);
+/// The same for a pose.
+Eigen::Isometry3d to_eigen(const geometry_msgs::Pose& pose);
+
+/// Whether the length of a quaternion is 1 to within 1e-3, as senders round it. If not, it is no
+/// rotation.
+bool is_unit(const geometry_msgs::Quaternion& quaternion);
+
+/// tf2::toMsg() returns a Point unless it is given a Vector3 to write into.
+geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector);
+
+/// The frame's name for tf2, which accepts no leading slash: "/liver" becomes "liver".
+std::string tf_frame(const std::string& frame_id);
+
+/// [s] Clocks of several hosts differ by less, and messages overtake each other by less. A clock
+/// that goes back by more has jumped, for example because a simulator was reset.
+inline constexpr double kClockTolerance = 0.02;
+
+/// [s] How far a stamp may be ahead of the clock, unless the parameter max_ahead_sec says
+/// otherwise.
+inline constexpr double kMaxAheadDefault = 1.0;
+
+/// Why a stamp is not believed: it is ahead of the clock by more than `max_ahead_sec`. Empty if it
+/// is believed. Before simulated time begins (`now` is zero), every stamp is.
+std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
+
+/// Notices when ROS time jumps back.
+class ClockWatch {
+ public:
+  /// Compares `now` with the latest time of the calls before. Returns true, and logs a warning, if
+  /// it is earlier by more than kClockTolerance.
+  bool has_jumped_back(ros::Time now);
+
+ private:
+  ros::Time latest_;
+};
+
+/// Sizes beyond which a unit is probably wrong. Nothing is refused for its size: the node warns,
+/// and answers all the same.
+namespace plausible {
+
+/// [m] The longest side of the box around an organ: of a whole body, and of a small vessel.
+inline constexpr double kLargestOrgan = 3.0;
+inline constexpr double kSmallestOrgan = 1e-3;
+/// [m] The radius of a shaft: of something much thicker than any instrument, and of a hair.
+inline constexpr double kLargestRadius = 0.1;
+inline constexpr double kSmallestRadius = 2e-5;
+
+}  // namespace plausible
+
+/// The lengths of the sides of a box, in the unit of the box, for example "0.12 x 0.09 x 0.06".
+std::string sides_of(const Eigen::AlignedBox3d& box);
+
+// A sentence that names the size and what is plausible; empty if the size is plausible.
+
+/// `box`: around the organ [m].
+std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3d& box);
+/// `radius`: of the tool's shaft [m].
+std::string doubt_about_radius(const std::string& tool, double radius);
+
+}  // namespace organ_collision

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
+
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+
+namespace organ_collision {
+
+/// A message or request that was refused. what() names the illegal value and what is legal.
+class Rejection : public std::runtime_error {
+ public:
+  /// `status`: one of ContactArray's. `reason`: a short text that is the same for all refusals of
+  /// one kind. Refusals are counted by reason.
+  Rejection(std::uint8_t status, std::string reason, const std::string& message)
+      : std::runtime_error(message), status_(status), reason_(std::move(reason)) {}
+
+  std::uint8_t status() const { return status_; }
+  const std::string& reason() const { return reason_; }
+
+ private:
+  std::uint8_t status_;
+  std::string reason_;
+};
+
+/// The reason under which failures with this status of ContactArray are counted, for example
+/// "no mesh".
+std::string reason_of(std::uint8_t status);
+
+/// Throws Rejection, with the message "WHAT 'NAME' ...", if `name` is not legal (legal_name.hpp).
+/// `what`: the thing that has the name, for example "organ". An empty name is accepted.
+void check_name(const std::string& what, const std::string& name);
+
+/// Counts failures by reason. Logs each reason at most once a second of the steady clock. Any
+/// thread may use it at any time.
+class FailureLog {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  struct Entry {
+    std::uint64_t count = 0;
+    std::uint64_t not_yet_reported = 0;  ///< failures since the last call of take_report()
+    std::string latest;                  ///< message, plain text of at most kLongestMessage bytes
+    Time logged;                         ///< when a failure with this reason was last logged
+  };
+
+  /// `reason`: one of a few fixed texts, under which failures are counted. `message`: what was
+  /// wrong, with the illegal value. The user reads the message without the reason. `times`: how
+  /// many failures this is; at least 1.
+  void add(const std::string& reason, const std::string& message, Time now,
+           std::uint64_t times = 1);
+
+  using Entries = std::map<std::string, Entry>;
+  Entries by_reason() const;
+  /// The same for a report to the user: the entries then count as reported.
+  Entries take_report();
+
+ private:
+  /// Returns what to log; empty: nothing.
+  std::string count(const std::string& reason, const std::string& message, Time now,
+                    std::uint64_t times);
+
+  mutable std::mutex mutex_;
+  Entries entries_;  ///< guarded by mutex_
+};
+
+/// Adds the count of each reason to `status`, with the key "WHAT, REASON". If failures were added
+/// since the last call, their latest message becomes a warning, or an error if the picker failed.
+void show_failures(const std::string& what, FailureLog& log,
+                   diagnostic_updater::DiagnosticStatusWrapper& status);
+
+}  // namespace organ_collision

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace organ_collision {
+
+// Messages and TF bring text of any length and content. Answers and logs contain only plain text:
+// UTF-8 without control characters. Python subscribers can decode it, and it contains no commands
+// to a terminal.
+
+/// [bytes] The longest legal name of an organ, a tool, a link or a frame.
+inline constexpr std::size_t kLongestName = 256;
+/// [bytes] The longest message of an answer, and of a failure in the log and on /diagnostics.
+inline constexpr std::size_t kLongestMessage = 2000;
+
+/// The text as plain text of at most `most` bytes (64 or more). A space replaces each control
+/// character, and a question mark each byte that is not UTF-8. A shortened text ends with the
+/// number of bytes that were left out.
+std::string plain_text(const std::string& text, std::size_t most);
+
+/// "1 face", "2208 faces". `noun`: one whose plural ends with an s.
+std::string counted(std::size_t count, const std::string& noun);
+
+/// "a, b, c"
+std::string listed(const std::vector<std::string>& texts);
+
+/// What is wrong with a name, as "'NAME' has 300 bytes; a name must ..."; empty if it is legal. A
+/// legal name is plain text of at most kLongestName bytes (plain_text.hpp). It may be empty.
+std::string name_fault(const std::string& name);
+
+/// The name of `legal` that needs the fewest insertions, deletions and replacements of a letter to
+/// become `name` (Levenshtein distance); the first one of equally near names. `legal` must not be
+/// empty.
+std::string nearest_name(const std::string& name, const std::vector<std::string>& legal);
+
+/// "7.3 ms" or, from one second, "2.41 s": three digits, or all those before the point.
+std::string duration_text(double seconds);
+
+}  // namespace organ_collision

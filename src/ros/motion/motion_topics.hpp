@@ -1,0 +1,99 @@
+#pragma once
+
+#include <geometry_msgs/PoseStamped.h>
+#include <ros/node_handle.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "transform_buffer.hpp"
+
+namespace organ_collision {
+
+/// Receives /tf and /tf_static into the node's buffer.
+class TransformTopics {
+ public:
+  /// Both must outlive this.
+  TransformTopics(TransformBuffer& buffer, FailureLog& rejected,
+                  double max_ahead_sec = kMaxAheadDefault)
+      : buffer_(buffer), rejected_(rejected), max_ahead_sec_(max_ahead_sec) {}
+
+  void subscribe(ros::NodeHandle node);
+
+  /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
+  /// ahead of the clock, is counted as rejected; the others are added. One with the stamp of an
+  /// earlier one is left out: senders repeat transforms.
+  void take(const tf2_msgs::TFMessage& message, const std::string& authority, bool resting);
+
+ private:
+  void reject(const geometry_msgs::TransformStamped& transform, const std::string& why);
+
+  TransformBuffer& buffer_;
+  FailureLog& rejected_;
+  double max_ahead_sec_;
+  std::vector<ros::Subscriber> subscribers_;
+};
+
+/// Receives the poses of tool tips that are sent as PoseStamped, for example CRTK's measured_cp.
+/// Such a message names the frame in which the pose is given, but not the frame of the tip. Each
+/// pose becomes a transform to the tool's tip frame in the node's buffer, so that the rest of the
+/// node treats these tools like those on TF.
+class PoseTopics {
+ public:
+  /// Where poses go; all must outlive this. `arrived` is called with the tool's index after each
+  /// pose of its tip.
+  struct Sinks {
+    TransformBuffer& transforms;
+    FailureLog& rejected;
+    std::function<void(std::size_t)> arrived;
+    double max_ahead_sec =
+        kMaxAheadDefault;  ///< poses with stamps further ahead of the clock are refused
+  };
+  PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks);
+  PoseTopics(const PoseTopics&) = delete;  ///< The subscriptions refer to this.
+
+  /// Subscribes to the topics that the tools name; `node` resolves their names.
+  void subscribe(const ros::NodeHandle& node);
+  /// Takes a new list of tools. The subscriptions of tools with the same name, tip frame and topics
+  /// stay, so that no pose is lost. Throws std::runtime_error if a topic cannot be subscribed to;
+  /// then nothing has changed.
+  void change_tools(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node);
+
+  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal
+  /// pose is counted as rejected, and the last pose stays.
+  void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
+  void take_base(std::size_t tool, const geometry_msgs::PoseStamped& pose);
+
+  /// For a clock that jumped back: earlier stamps are legal again.
+  void forget_stamps();
+
+ private:
+  struct Stream {
+    std::size_t index;  ///< of the tool
+    ToolParameters tool;
+    std::string frame;  ///< in which the tip's poses are given; empty: no pose came yet
+    ros::Time latest;   ///< stamp of the tip's last pose; zero: no pose came yet
+    std::optional<geometry_msgs::PoseStamped> base;  ///< pose of that frame, if it came
+    ros::Subscriber tips, bases;
+  };
+  void subscribe(Stream& stream, ros::NodeHandle node);
+  std::unique_ptr<Stream>* find_stream(const ToolParameters& tool);
+  static ros::Time arrival(const Stream& stream);
+  bool came_for_another_tool(const Stream& stream, ros::Time stamp) const;
+  void place_base(const Stream& stream);
+  bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
+  void reject(const std::string& frame, const std::string& wrong);
+
+  /// By tool. Subscriptions refer to them, so their addresses must not change.
+  std::vector<std::unique_ptr<Stream>> streams_;
+  Sinks sinks_;
+};
+
+}  // namespace organ_collision

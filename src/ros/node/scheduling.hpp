@@ -1,0 +1,62 @@
+#pragma once
+
+#include <sys/types.h>
+
+#include <string>
+#include <vector>
+
+namespace organ_collision {
+
+/// Puts the calling thread under SCHED_FIFO: it runs as soon as it can, before all ordinary
+/// threads. Threads that it starts later are ordinary ones. `priority`: from 1 (lowest) to 99.
+/// Returns why the system refuses; empty: it did not. If it refuses, the thread stays as it was.
+std::string make_this_thread_realtime(int priority);
+
+/// The same for all threads that the process has now.
+std::string make_all_threads_realtime(int priority);
+
+/// Lowers the priority of the calling thread: its niceness grows by 10, to at most 19. If all
+/// processors are busy, the process's other threads come first, whatever niceness the process was
+/// started with. If the system refuses, the thread keeps its priority.
+void lower_priority_of_this_thread();
+
+/// Gives the calling thread the lowest ordinary priority (niceness 19): if all processors are busy,
+/// it gets about a hundredth of one. Not SCHED_IDLE: such a thread might hold a lock of Mesa or of
+/// malloc and get no processor. With niceness 19, every wait for such a lock is short.
+void yield_to_all_threads();
+
+/// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
+std::string scheduling_of_this_thread();
+
+/// The threads that the process has now.
+std::vector<pid_t> threads_of_this_process();
+
+/// Keeps all memory of the process in RAM until the process ends: what it has now at once, and what
+/// it takes later page by page, when a page is first used.
+/// Returns why the system refuses; empty: it did not. A limit of locked memory counts as a refusal:
+/// beyond it, the process would get no more memory at all.
+std::string lock_memory();
+
+/// [bytes] How much memory of the process is locked.
+long long locked_memory();
+
+/// While one exists, no core of the machine enters an idle state from which it takes time to wake:
+/// idle cores wait in a loop instead. A core that slept wakes late, and deep states empty its
+/// caches. This is a request of Linux's PM QoS interface, /dev/cpu_dma_latency, which holds while
+/// that file is open.
+class AwakeCores {
+ public:
+  AwakeCores();
+  ~AwakeCores();
+  AwakeCores(const AwakeCores&) = delete;
+  AwakeCores& operator=(const AwakeCores&) = delete;
+
+  /// Why the system refuses; empty: it does not.
+  const std::string& refusal() const { return refusal_; }
+
+ private:
+  int request_;  ///< descriptor of the file; negative: it is not open
+  std::string refusal_;
+};
+
+}  // namespace organ_collision

@@ -1,0 +1,177 @@
+#include "parameter_group.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "ros/messages/text.hpp"
+
+namespace organ_collision {
+namespace {
+
+using XmlRpc::XmlRpcValue;
+
+/// Writes 12 digits. With fewer, a number that is slightly too large would be rounded to one that
+/// looks legal.
+std::string written(double number) {
+  std::ostringstream text;
+  text.precision(12);
+  text << number;
+  return text.str();
+}
+
+std::string written(const NumberRange& range) {
+  const std::string lowest =
+      (range.lowest_is_legal ? "at least " : "more than ") + written(range.lowest);
+  const std::string highest =
+      std::isinf(range.highest) ? "" : ", at most " + written(range.highest);
+  return lowest + highest + (range.infinity_is_legal ? ", or .inf" : "");
+}
+
+std::string written(const XmlRpcValue& value) {
+  std::ostringstream text;
+  value.write(text);
+  return plain_text(text.str(), kLongestMessage);
+}
+
+bool contains(const NumberRange& range, double number) {
+  if (std::isinf(number)) return range.infinity_is_legal && number > 0.0;
+  return std::isfinite(number) && number <= range.highest &&
+         (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
+}
+
+}  // namespace
+
+ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
+                               std::vector<std::string> legal_names)
+    : path_(std::move(path)), value_(value), legal_names_(std::move(legal_names)) {
+  if (value_.getType() == XmlRpcValue::TypeStruct) return;
+  throw ParameterError(path_ + " is '" + written(value_) + "'; must be a group of " +
+                       listed(legal_names_));
+}
+
+bool ParameterGroup::flag(const std::string& name, bool fallback) const {
+  const std::string legal = "must be true or false";
+  const XmlRpcValue* value = find(name, false, legal);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeBoolean) refuse(name, legal);
+  return static_cast<const bool&>(*value);
+}
+
+std::string ParameterGroup::text(const std::string& name) const {
+  const std::string legal = "must be a text that is not empty";
+  const XmlRpcValue* value = find(name, true, legal);
+  if (value->getType() != XmlRpcValue::TypeString) refuse(name, legal);
+  const std::string& text = static_cast<const std::string&>(*value);
+  if (text.empty()) refuse(name, legal);
+  return text;
+}
+
+std::string ParameterGroup::choice(const std::string& name, const std::string& fallback,
+                                   const std::vector<std::string>& legal_values) const {
+  const std::string legal = "must be one of " + listed(legal_values);
+  const XmlRpcValue* value = find(name, false, legal);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeString) refuse(name, legal);
+  const std::string& text = static_cast<const std::string&>(*value);
+  if (std::find(legal_values.begin(), legal_values.end(), text) == legal_values.end()) {
+    refuse(name, legal);
+  }
+  return text;
+}
+
+double ParameterGroup::number(const std::string& name, std::optional<double> fallback,
+                              const NumberRange& range) const {
+  const std::string legal = "must be a number, " + written(range);
+  const XmlRpcValue* value = find(name, !fallback, legal);
+  if (!value) return *fallback;
+  double number = 0.0;
+  if (value->getType() == XmlRpcValue::TypeInt) {
+    number = static_cast<const int&>(*value);
+  } else if (value->getType() == XmlRpcValue::TypeDouble) {
+    number = static_cast<const double&>(*value);
+  } else {
+    refuse(name, legal);
+  }
+  if (!contains(range, number)) refuse(name, legal);
+  return number;
+}
+
+int ParameterGroup::whole_number(const std::string& name, int fallback,
+                                 const NumberRange& range) const {
+  const std::string legal = "must be a whole number, " + written(range);
+  const XmlRpcValue* value = find(name, false, legal);
+  if (!value) return fallback;
+  if (value->getType() != XmlRpcValue::TypeInt) refuse(name, legal);
+  const int number = static_cast<const int&>(*value);
+  if (!contains(range, number)) refuse(name, legal);
+  return number;
+}
+
+const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::string& of_what) const {
+  const std::string legal = "must be a list of " + of_what;
+  const XmlRpcValue* value = find(name, true, legal);
+  if (value->getType() != XmlRpcValue::TypeArray) refuse(name, legal);
+  return *value;
+}
+
+std::vector<std::string> ParameterGroup::texts(const std::string& name) const {
+  const std::string legal = "must be a list, not empty, of texts that are not empty, each once";
+  const XmlRpcValue* value = find(name, true, legal);
+  if (value->getType() != XmlRpcValue::TypeArray || value->size() == 0) refuse(name, legal);
+  std::vector<std::string> texts;
+  for (int i = 0; i < value->size(); ++i) {
+    const XmlRpcValue& item = (*value)[i];
+    if (item.getType() != XmlRpcValue::TypeString) refuse(name, legal);
+    const std::string& text = static_cast<const std::string&>(item);
+    if (text.empty() || std::count(texts.begin(), texts.end(), text) > 0) refuse(name, legal);
+    texts.push_back(text);
+  }
+  return texts;
+}
+
+std::vector<std::string> ParameterGroup::misspelt() const {
+  std::vector<std::string> sentences;
+  for (const auto& [name, value] : value_) {
+    if (std::find(legal_names_.begin(), legal_names_.end(), name) != legal_names_.end()) continue;
+    sentences.push_back(path_of(name) + " is no parameter; nearest is '" +
+                        nearest_name(name, legal_names_) + "', legal are " + listed(legal_names_));
+  }
+  return sentences;
+}
+
+void ParameterGroup::check_name(const std::string& name, const std::string& text) const {
+  const std::string fault = name_fault(text);
+  if (!fault.empty()) refuse(name, fault);
+}
+
+void ParameterGroup::refuse(const std::string& name, const std::string& legal) const {
+  throw ParameterError(path_of(name) + " is '" + written(value_[name]) + "'; " + legal);
+}
+
+void ParameterGroup::refuse_missing(const std::string& name, const std::string& legal) const {
+  std::string message = path_of(name) + " is missing; " + legal;
+  for (const std::string& sentence : misspelt()) message += " (" + sentence + ")";
+  throw ParameterError(message);
+}
+
+std::string ParameterGroup::path_of(const std::string& name) const {
+  return path_ == "~" ? path_ + name : path_ + "/" + name;
+}
+
+const XmlRpcValue* ParameterGroup::find(const std::string& name, bool required,
+                                        const std::string& legal) const {
+  if (has(name)) return &value_[name];
+  if (!required) return nullptr;
+  refuse_missing(name, legal);
+}
+
+XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {
+  XmlRpcValue all;
+  if (!private_node.getParam(private_node.getNamespace(), all)) {
+    all.begin();  // Makes it an empty group.
+  }
+  return all;
+}
+
+}  // namespace organ_collision

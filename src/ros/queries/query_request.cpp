@@ -1,0 +1,249 @@
+#include "query_request.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "ros/messages/conversions.hpp"
+
+namespace organ_collision {
+
+static_assert(ContactArray::STATIC == static_cast<int>(QueryMode::kStatic) &&
+              ContactArray::SWEPT == static_cast<int>(QueryMode::kSwept) &&
+              ContactArray::PAPER_STATIC == static_cast<int>(QueryMode::kPaperStatic) &&
+              ContactArray::PAPER_SWEPT == static_cast<int>(QueryMode::kPaperSwept) &&
+              ContactArray::PAPER_NAIVE == static_cast<int>(QueryMode::kPaperNaive));
+
+QueryMode checked_mode(std::uint8_t mode) {
+  if (mode <= ContactArray::PAPER_NAIVE) return static_cast<QueryMode>(mode);
+  refuse("mode is ", static_cast<int>(mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
+}
+
+void check_tool(const Tool& tool, QueryMode mode) {
+  if (!tool.fault.empty()) {
+    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
+  }
+  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
+    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
+           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
+           "(SWEPT)");
+  }
+}
+
+namespace {
+
+/// A query waits at most this long until the background thread has inspected a new surface.
+constexpr std::chrono::milliseconds kLongestInspection(200);
+
+/// CollisionQuery would refuse the same, but for each motion of a batch.
+QueryExtras checked(const QueryExtras& extras) {
+  if (!std::isfinite(extras.margin) || extras.margin < 0.0) {
+    refuse("margin is ", extras.margin,
+           " m; must be positive and finite, or 0 for no clearance within a margin");
+  }
+  if (extras.max_near > 0 && extras.margin == 0.0) {
+    refuse("max_near is ", extras.max_near, ", and margin is 0; near faces need a margin above 0");
+  }
+  if (is_paper_mode(extras.mode) && (extras.margin > 0.0 || extras.clearance || extras.placement)) {
+    refuse("mode is ", static_cast<int>(extras.mode),
+           ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
+           "1 (SWEPT)");
+  }
+  return extras;
+}
+
+}  // namespace
+
+QueryExtras checked_extras(const QueryCollision::Request& request) {
+  return checked({checked_mode(request.mode), request.organ_motion != 0, request.regions != 0,
+                  request.margin, request.clearance != 0, request.max_near,
+                  request.placement != 0});
+}
+
+QueryExtras checked_extras(const QueryCollisionBatch::Request& request) {
+  return checked({checked_mode(request.mode), request.organ_motion != 0, false, request.margin,
+                  request.clearance != 0, 0, request.placement != 0});
+}
+
+CollisionRequest request_about(const QuerySnapshot& snapshot, const QueryExtras& extras) {
+  CollisionRequest collision;
+  collision.organ = snapshot.latest.mesh.get();
+  const bool moves = extras.organ_motion && extras.mode == QueryMode::kSwept;
+  if (moves) collision.organ_before = snapshot.previous.mesh.get();
+  collision.mode = extras.mode;
+  collision.regions = extras.regions;
+  collision.margin = extras.margin;
+  collision.clearance = extras.clearance;
+  collision.max_near = extras.max_near;
+  collision.placement = extras.placement;
+  if (extras.placement) {
+    snapshot.latest.surface->wait_until_found(kLongestInspection);
+    collision.surface_topology = snapshot.latest.topology();
+  }
+  if (snapshot.tool) {
+    collision.radius = snapshot.tool->parameters.radius;
+    collision.links = &snapshot.tool->links;
+  }
+  return collision;
+}
+
+namespace {
+
+using Poses = std::vector<geometry_msgs::Pose>;
+
+void check_point(const char* name, const geometry_msgs::Point& point) {
+  if (to_eigen(point).allFinite()) return;
+  refuse("motion.", name, " is (", point.x, ", ", point.y, ", ", point.z, "); must be finite");
+}
+
+void check_ends(const ToolMotion& motion, QueryMode mode) {
+  check_point("trocar", motion.trocar);
+  check_point("tip", motion.tip);
+  if (is_static_mode(mode)) return;
+  check_point("previous_trocar", motion.previous_trocar);
+  check_point("previous_tip", motion.previous_tip);
+}
+
+void check_shaft_of(const Tool& tool, const ToolMotion* motion, QueryMode mode) {
+  const ToolParameters& parameters = tool.parameters;
+  if (!parameters.has_shaft()) {
+    if (!motion) return;
+    refuse("motion is set, and tool '", parameters.name, "' has no shaft; must be empty");
+  }
+  if (!motion) {
+    refuse("motion is not set, and tool '", parameters.name,
+           "' has a shaft; must be the motion of its shaft");
+  }
+  if (motion->radius != 0.0 && motion->radius != parameters.radius) {
+    refuse("motion.radius is ", motion->radius, " m; must be 0, or ", parameters.radius,
+           " m as of tool '", parameters.name, "'");
+  }
+  check_ends(*motion, mode);
+}
+
+void check_poses(const char* field, const Poses& poses, const Tool& tool) {
+  const std::vector<std::string>& names = tool.parameters.links;
+  if (poses.size() != names.size()) {
+    refuse("link_motion.", field, " has ", poses.size(), " poses; must be ", names.size(),
+           ", one for each link of tool '", tool.parameters.name, "'");
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const geometry_msgs::Point& p = poses[i].position;
+    const geometry_msgs::Quaternion& q = poses[i].orientation;
+    if (!to_eigen(p).allFinite()) {
+      refuse("link_motion.", field, "[", i, "], of link '", names[i], "', is at (", p.x, ", ", p.y,
+             ", ", p.z, "); must be finite");
+    }
+    if (!is_unit(q)) {
+      refuse("link_motion.", field, "[", i, "], of link '", names[i], "', has the orientation (",
+             q.x, ", ", q.y, ", ", q.z, ", ", q.w, "); must be a quaternion of length 1");
+    }
+  }
+}
+
+void check_links_of(const Tool& tool, const LinkMotion* motion, QueryMode mode) {
+  if (tool.links.empty()) {
+    if (!motion) return;
+    refuse("link_motion is set, and tool '", tool.parameters.name, "' has no links; must be empty");
+  }
+  if (!motion) {
+    refuse("link_motion is not set, and tool '", tool.parameters.name,
+           "' has links; must have a pose for each");
+  }
+  check_poses("links", motion->links, tool);
+  if (!is_static_mode(mode)) check_poses("previous", motion->previous, tool);
+}
+
+std::vector<Eigen::Isometry3d> link_poses(const Poses& poses, const Eigen::Isometry3d& T) {
+  std::vector<Eigen::Isometry3d> result;
+  result.reserve(poses.size());
+  for (const geometry_msgs::Pose& pose : poses) result.push_back(T * to_eigen(pose));
+  return result;
+}
+
+/// The path of a legal motion, in the organ's frame.
+ToolPath path_of(const GivenMotion& motion, bool at_end_only,
+                 const Eigen::Isometry3d& T_organ_motion) {
+  ToolWaypoint start{0.0, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}, end = start;
+  end.fraction = at_end_only ? 0.0 : 1.0;
+  if (motion.shaft) {
+    start.axis = {T_organ_motion * to_eigen(motion.shaft->previous_trocar),
+                  T_organ_motion * to_eigen(motion.shaft->previous_tip)};
+    end.axis = {T_organ_motion * to_eigen(motion.shaft->trocar),
+                T_organ_motion * to_eigen(motion.shaft->tip)};
+  }
+  if (motion.links) {
+    start.links = link_poses(motion.links->previous, T_organ_motion);
+    end.links = link_poses(motion.links->links, T_organ_motion);
+  }
+  if (at_end_only) return {std::move(end)};
+  return {std::move(start), std::move(end)};
+}
+
+/// Where the tip of the links is, if it is the origin of a link's frame.
+std::optional<Eigen::Vector3d> tip_of_links(const ToolParameters& tool, const ToolWaypoint& end) {
+  if (!tool.has_tip_of_links()) return std::nullopt;
+  for (std::size_t i = 0; i < tool.links.size(); ++i) {
+    if (tool.link_frame(tool.links[i]) == tool.tip_frame) return end.links[i].translation();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+bool is_given(const ToolMotion& motion) { return motion != ToolMotion(); }
+
+bool is_given(const LinkMotion& motion) {
+  return !motion.previous.empty() || !motion.links.empty();
+}
+
+void check_shaft(const ToolMotion& motion, QueryMode mode) {
+  if (!std::isfinite(motion.radius) || !(motion.radius > 0.0)) {
+    refuse("motion.radius is ", motion.radius, " m; must be positive and finite");
+  }
+  check_ends(motion, mode);
+}
+
+void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool) {
+  const std::size_t shafts = batch.motions.size(), links = batch.link_motions.size();
+  if (!tool) {
+    if (links > 0) {
+      refuse("link_motions has ", links,
+             " motions and tool is empty; must be the name of the tool with these links");
+    }
+    return;
+  }
+  const std::string& name = tool->parameters.name;
+  if (!tool->parameters.has_shaft() && shafts > 0) {
+    refuse("motions has ", shafts, " motions, and tool '", name, "' has no shaft; must be empty");
+  }
+  if (tool->links.empty() && links > 0) {
+    refuse("link_motions has ", links, " motions, and tool '", name,
+           "' has no links; must be empty");
+  }
+  if (tool->parameters.has_shaft() && !tool->links.empty() && shafts != links) {
+    refuse("motions has ", shafts, " motions and link_motions has ", links, "; tool '", name,
+           "' has a shaft and links, so must be equally many");
+  }
+}
+
+void set_motion(const GivenMotion& motion, const QuerySnapshot& snapshot,
+                CollisionRequest& collision) {
+  const bool at_end_only = is_static_mode(collision.mode);
+  if (!snapshot.tool) {
+    check_shaft(*motion.shaft, collision.mode);
+    collision.radius = motion.shaft->radius;
+    collision.path = path_of({motion.shaft, nullptr}, at_end_only, snapshot.T_organ_motion);
+    return;
+  }
+  const Tool& tool = *snapshot.tool;
+  check_shaft_of(tool, motion.shaft, collision.mode);
+  check_links_of(tool, motion.links, collision.mode);
+  const GivenMotion of_tool{tool.parameters.has_shaft() ? motion.shaft : nullptr,
+                            tool.links.empty() ? nullptr : motion.links};
+  collision.path = path_of(of_tool, at_end_only, snapshot.T_organ_motion);
+  collision.tip = tip_of_links(tool.parameters, collision.path.back());
+}
+
+}  // namespace organ_collision

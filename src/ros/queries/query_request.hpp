@@ -1,0 +1,79 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/LinkMotion.h>
+#include <organ_collision/QueryCollision.h>
+#include <organ_collision/QueryCollisionBatch.h>
+#include <organ_collision/ToolMotion.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "geometry/concatenate.hpp"
+#include "organ_collision/query/collision_query.hpp"
+#include "organ_collision/query/query_mode.hpp"
+#include "query_snapshot.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+// Checks of what the services are asked for.
+
+/// Throws Rejection with the status INVALID_REQUEST. The message is the text of all parts: it names
+/// the illegal value and what is legal.
+template <typename... Parts>
+[[noreturn]] void refuse(const Parts&... parts) {
+  throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", concatenate(parts...));
+}
+
+/// The mode of a request. Throws Rejection.
+QueryMode checked_mode(std::uint8_t mode);
+
+/// Throws Rejection if the tool has a fault, or if it cannot be asked about in this mode.
+void check_tool(const Tool& tool, QueryMode mode);
+
+/// What a request asks, besides which motion of which tool.
+struct QueryExtras {
+  QueryMode mode;
+  bool organ_motion;
+  bool regions;
+  double margin;  ///< [m]
+  bool clearance;
+  std::size_t max_near;
+  bool placement;
+};
+
+/// The extras of a request, after a check. Throws Rejection. A batch has neither regions nor near
+/// faces.
+QueryExtras checked_extras(const QueryCollision::Request& request);
+QueryExtras checked_extras(const QueryCollisionBatch::Request& request);
+
+/// The request to a CollisionQuery, without the motion. It refers to the snapshot, which must
+/// outlive it. If it asks for sides, waits for at most 0.2 s until a new surface is inspected.
+CollisionRequest request_about(const QuerySnapshot& snapshot, const QueryExtras& extras);
+
+/// A motion that a request gives, in its own frame.
+struct GivenMotion {
+  const ToolMotion* shaft;  ///< null: not given
+  const LinkMotion* links;  ///< null: not given
+};
+
+/// Whether a single query sets the field. In a batch, each motion of the lists is given.
+bool is_given(const ToolMotion& motion);
+bool is_given(const LinkMotion& motion);
+
+/// Checks the motion of a shaft that is no tool of the node. Throws Rejection.
+void check_shaft(const ToolMotion& motion, QueryMode mode);
+
+/// Checks that a batch has the motions of the tool's parts, as many of each. Throws Rejection.
+void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool);
+
+/// Sets path, radius and tip of `collision`, whose mode must be set. The tip of links is known if
+/// the tool's tip_frame is the frame of one of them. Throws Rejection if the motion is illegal, or
+/// if it is not one of the tool's parts.
+void set_motion(const GivenMotion& motion, const QuerySnapshot& snapshot,
+                CollisionRequest& collision);
+
+}  // namespace organ_collision

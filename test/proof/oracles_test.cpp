@@ -1,0 +1,368 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "clearance_trials.hpp"
+#include "exact_distance.hpp"
+#include "exact_sides.hpp"
+#include "geometry/distance/first_touch.hpp"
+#include "link_trials.hpp"
+#include "placement_trials.hpp"
+#include "step_oracle.hpp"
+#include "test/closed_surfaces.hpp"
+#include "test/proof/proxy/organ_oracle.hpp"
+#include "test/proof/proxy/referee.hpp"
+#include "trials.hpp"
+
+namespace organ_collision::oracle {
+namespace {
+
+using Eigen::Vector3d;
+
+/// The winding number by the sum of the solid angles of all faces (Van Oosterom and Strackee 1983).
+double solid_angles(const Vector3d& point, const std::vector<Triangle>& faces) {
+  double sum = 0.0;
+  for (const Triangle& face : faces) {
+    const Vector3d a = face[0] - point, b = face[1] - point, c = face[2] - point;
+    const double below = a.norm() * b.norm() * c.norm() + a.dot(b) * c.norm() +
+                         b.dot(c) * a.norm() + c.dot(a) * b.norm();
+    sum += 2.0 * std::atan2(a.dot(b.cross(c)), below);
+  }
+  return sum / (4.0 * M_PI);
+}
+
+TEST(ExactSides, winds_as_often_as_the_solid_angles_say) {
+  Random random(3);
+  int inside = 0, twice = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const PlacementTrial trial = make_placement_trial(0, random);
+    const int winding = exact_winding(trial.faces, trial.axis.tip);
+    EXPECT_NEAR(winding, solid_angles(trial.axis.tip, trial.faces), 1e-6) << trial;
+    inside += winding != 0;
+    twice += std::abs(winding) == 2;
+  }
+  EXPECT_GT(inside, 300);
+  EXPECT_GT(twice, 10);
+}
+
+TEST(ExactSides, crosses_as_often_as_the_winding_numbers_say) {
+  for (std::size_t kind = 0; kind < placement_trial_kinds().size(); ++kind) {
+    Random random(kind);
+    std::size_t crossings = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const PlacementTrial trial = make_placement_trial(kind, random);
+      const auto winding = [&](const Vector3d& point) { return exact_winding(trial.faces, point); };
+      int sum = 0;
+      for (const ExactCrossing& crossing : exact_crossings(trial.faces, trial.axis)) {
+        sum += crossing.direction;
+        EXPECT_GE(crossing.shaft, 0.0) << trial;
+        EXPECT_LE(crossing.shaft, 1.0) << trial;
+        ++crossings;
+      }
+      EXPECT_EQ(winding(trial.axis.tip) - winding(trial.axis.trocar), sum) << trial;
+    }
+    EXPECT_GT(crossings, 300U) << placement_trial_kinds()[kind];
+  }
+}
+
+/// An axis through the corner that four faces share, and the same axis moved by hand.
+TEST(ExactSides, decides_a_corner_like_an_axis_beside_it) {
+  const Vector3d top(0, 0, 1);
+  const Vector3d rim[] = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
+  std::vector<Triangle> roof;
+  for (int i = 0; i < 4; ++i) roof.push_back({rim[i], rim[(i + 1) % 4], top});
+  const auto crossed = [&](const Vector3d& beside) {
+    return exact_crossings(roof, {Vector3d(0, 0, 3) + beside, beside});
+  };
+  const auto exact = crossed(Vector3d::Zero());
+  ASSERT_EQ(exact.size(), 1U);
+  const auto moved = crossed({1e-3, 1e-6, 1e-9});
+  ASSERT_EQ(moved.size(), 1U);
+  EXPECT_EQ(exact[0].face, moved[0].face);
+  EXPECT_EQ(exact[0].direction, 1);
+  EXPECT_EQ(moved[0].direction, 1);
+  EXPECT_EQ(exact[0].shaft, 2.0 / 3.0);
+}
+
+TEST(ExactSides, tells_points_on_faces_from_points_beside_them) {
+  for (std::size_t kind = 1; kind <= 3; ++kind) {
+    Random random(kind);
+    int on = 0, beside = 0;
+    for (int i = 0; i < 1000; ++i) {
+      const PlacementTrial trial = make_placement_trial(kind, random);
+      const bool is_on = std::any_of(trial.faces.begin(), trial.faces.end(), [&](const auto& face) {
+        return is_exactly_on(face, trial.axis.tip);
+      });
+      ++(is_on ? on : beside);
+    }
+    EXPECT_GT(on, 50) << placement_trial_kinds()[kind];
+    EXPECT_GT(beside, 300) << placement_trial_kinds()[kind];
+  }
+}
+
+TEST(RoundedDistance, agrees_with_exact_arithmetic) {
+  for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
+    Random random(kind);
+    for (int i = 0; i < 1000; ++i) {
+      const Trial trial = make_trial(kind, random);
+      for (const Triangle& tool : {core(trial.motion), core(trial.motion.end)}) {
+        EXPECT_NEAR(rounded_distance(tool, trial.face), distance(tool, trial.face), 1e-11)
+            << trial_kinds()[kind] << ' ' << to_line(trial);
+        EXPECT_NEAR(rounded_distance(trial.face, tool), distance(tool, trial.face), 1e-11)
+            << trial_kinds()[kind] << ' ' << to_line(trial);
+      }
+    }
+  }
+}
+
+/// Some trials of each kind, at rest and moving.
+std::vector<ToolStep> make_steps() {
+  std::vector<ToolStep> steps;
+  for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
+    Random random(kind);
+    for (int i = 0; i < 10; ++i) {
+      steps.push_back(make_resting_shaft(kind, random).step);
+      steps.push_back(make_moving_shaft(kind, random).step);
+    }
+  }
+  for (std::size_t kind = 0; kind < link_trial_kinds().size(); ++kind) {
+    Random random(kind);
+    for (std::size_t part = 0; part < link_part_kinds().size(); ++part) {
+      steps.push_back(make_resting_link(kind, part, random).step);
+      steps.push_back(make_moving_link(kind, part, random).step);
+    }
+  }
+  return steps;
+}
+
+TEST(StepOracle, rounds_what_it_decides_exactly) {
+  Random random(1);
+  for (const ToolStep& step : make_steps()) {
+    const double fraction = random.chance(0.2) ? 1.0 : random.uniform(0.0, 1.0);
+    const double distance = rounded_distance(step, fraction);
+    EXPECT_TRUE(is_within(step, fraction, distance + 2e-9)) << step;
+    EXPECT_FALSE(is_within(step, fraction, distance - 2e-9) &&
+                 distance + surface_radius(step) > 3e-9)
+        << step;
+  }
+}
+
+/// The search agrees with many distances on the way, and its bound is sharp.
+TEST(StepOracle, finds_the_closest_approach) {
+  for (const ToolStep& step : make_steps()) {
+    double sampled = rounded_distance(step, 1.0);
+    for (int i = 0; i < 200; ++i) sampled = std::min(sampled, rounded_distance(step, i / 200.0));
+    double closest = 0.0;
+    EXPECT_FALSE(stays_above(step, sampled + 1e-6, closest)) << step;
+    double low = -surface_radius(step) - 1e-6, high = sampled + 1e-6;
+    while (high - low > 1e-5) {
+      const double middle = 0.5 * (low + high);
+      (stays_above(step, middle, closest) ? low : high) = middle;
+    }
+    EXPECT_FALSE(stays_above(step, high, closest)) << step;
+    EXPECT_LE(closest, high + 1e-8) << step;
+  }
+}
+
+Triangle random_face(Random& random) {
+  return {random.point(0.05), random.point(0.05), random.point(0.05)};
+}
+
+ShaftAxis random_axis(Random& random) { return {random.point(0.1), random.point(0.1)}; }
+
+/// The library's first touch is a different search. Both have a tolerance, so motions that come
+/// within a micrometre of the distance are left to either.
+TEST(PassageOracle, AgreesWithFirstTouch) {
+  Random random(1);
+  long passed = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    const ShaftMotion segment{random_axis(random), random_axis(random)};
+    const Triangle before = random_face(random), now = random_face(random);
+    const double distance = random.scale(1e-5, 0.05);
+    const bool passes = oracle::passes(segment, before, now, distance);
+    const CoreMotion core(segment);
+    if (passes) {
+      ++passed;
+      EXPECT_TRUE(first_touch(core, {before, now}, distance + 1e-6)) << "trial " << trial;
+    } else {
+      EXPECT_FALSE(first_touch(core, {before, now}, distance - 1e-6)) << "trial " << trial;
+    }
+  }
+  EXPECT_GT(passed, 300);
+  EXPECT_LT(passed, 2700);
+}
+
+}  // namespace
+
+}  // namespace organ_collision::oracle
+
+// The referee notices each kind of broken promise.
+
+namespace organ_collision::oracle {
+namespace {
+
+using Eigen::Vector3d;
+
+const ProxyTool kShaft{3e-3, {}, ProxyFreedom::kTrocar};
+const ProxySettings kSettings;
+const double kStop = kShaft.radius + kSettings.clearance;  // [m]
+
+ToolPose pose(const Vector3d& tip) { return {{Vector3d(0.0, 0.0, 0.3), tip}, {}, {}}; }
+
+ProxyOrgan organ_of(const GridSurface& surface) {
+  ProxyOrgan organ;
+  organ.shape = std::make_shared<TriangleMesh>(surface.vertices, surface.triangles());
+  return organ;
+}
+
+/// The right answer for a proxy at this place.
+ProxyAnswer answer_at(const Vector3d& tip, const Vector3d& hand) {
+  ProxyAnswer answer;
+  answer.proxy = pose(tip);
+  answer.pull = tip - hand;
+  answer.state = answer.pull.isZero() ? ProxyStatus::kFree : ProxyStatus::kTouching;
+  return answer;
+}
+
+class RefereeTest : public testing::Test {
+ protected:
+  /// One tick.
+  void show(const Vector3d& hand, const ProxyAnswer& answer, bool jumped = false) {
+    referee_.check(pose(hand), jumped, organs_, {is_closed_}, answer);
+  }
+  /// The first tick.
+  void begin(const Vector3d& tip) {
+    ProxyAnswer answer = answer_at(tip, tip);
+    answer.is_placed_anew = true;
+    show(tip, answer);
+  }
+  /// Many ticks in which the proxy stays.
+  void rest(const Vector3d& tip, const Vector3d& hand) {
+    for (int tick = 0; tick < 600; ++tick) show(hand, answer_at(tip, hand));
+  }
+
+  /// A sheet at z = 0.05 m, from -0.1 to 0.1 m, instead of the cube.
+  void put_sheet() {
+    GridSurface sheet = grid_surface(9);
+    for (std::size_t i = 2; i < sheet.vertices.size(); i += 3) sheet.vertices[i] = 0.05F;
+    organs_ = {organ_of(sheet)};
+    is_closed_ = false;
+  }
+
+  std::vector<ProxyOrgan> organs_ = {organ_of(turned_over(grid_cube(4, 0.025F)))};
+  bool is_closed_ = true;
+  std::vector<std::string> blamed_;
+  Referee referee_{kShaft, kSettings, [this](const std::string& what) { blamed_.push_back(what); }};
+  // The cube is from 0 to 0.1 m.
+  const Vector3d above_ = {0.05, 0.05, 0.1 + kStop}, deep_ = {0.05, 0.05, 0.08};
+};
+
+TEST_F(RefereeTest, HasNothingToSayAboutAProxyThatStops) {
+  begin(above_);
+  rest(above_, deep_);
+  EXPECT_TRUE(blamed_.empty()) << blamed_.front();
+  EXPECT_EQ(referee_.tally().broken(), 0);
+  EXPECT_EQ(referee_.tally().touching, 600);
+  EXPECT_NEAR(referee_.tally().least, kSettings.clearance, 1e-8);
+}
+
+TEST_F(RefereeTest, NoticesAProxyThatIsTooNear) {
+  begin(above_);
+  const Vector3d near = above_ - 0.51 * kSettings.clearance * Vector3d::UnitZ();
+  show(deep_, answer_at(near, deep_));
+  EXPECT_EQ(referee_.tally().near, 1);
+  ProxyAnswer squeezed = answer_at(near, deep_);
+  squeezed.state = ProxyStatus::kSqueezed;
+  organs_ = {organ_of(turned_over(grid_cube(4, 0.025F)))};
+  show(deep_, squeezed);
+  EXPECT_EQ(referee_.tally().broken(), 1);
+}
+
+TEST_F(RefereeTest, NoticesAProxyThatSaysSqueezedWithoutNeed) {
+  begin(above_);
+  ProxyAnswer answer = answer_at(above_, deep_);
+  answer.state = ProxyStatus::kSqueezed;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().inconsistent, 1);
+}
+
+TEST_F(RefereeTest, NoticesAProxyThatPassedThroughASheet) {
+  put_sheet();
+  begin({0.01, 0.0, 0.06});
+  const Vector3d below(0.01, 0.0, 0.04);
+  ProxyAnswer answer = answer_at(below, below);
+  // The whole tool is below, so that only the way can tell.
+  answer.proxy.axis.trocar = Vector3d(0.01, 0.0, 0.01);
+  show(below, answer);
+  EXPECT_EQ(referee_.tally().through, 1);
+}
+
+TEST_F(RefereeTest, AcceptsAWayAroundASheet) {
+  put_sheet();
+  begin({0.12, 0.0, 0.04});
+  const Vector3d above(0.06, 0.0, 0.06);
+  show(above, answer_at(above, above));
+  EXPECT_EQ(referee_.tally().through, 0);
+}
+
+TEST_F(RefereeTest, NoticesTissueThatMovedThroughTheProxy) {
+  begin({0.05, 0.05, 0.12});
+  organs_ = {organ_of(moved(turned_over(grid_cube(4, 0.025F)), {0.0F, 0.0F, 0.03F}))};
+  const Vector3d tip(0.05, 0.05, 0.12);
+  show(tip, answer_at(tip, tip));
+  EXPECT_EQ(referee_.tally().near, 1);
+  EXPECT_EQ(referee_.tally().through, 1);
+}
+
+TEST_F(RefereeTest, NoticesAProxyInsideAClosedOrgan) {
+  begin(above_);
+  ProxyAnswer answer = answer_at(deep_, deep_);
+  answer.is_placed_anew = true;
+  show(deep_, answer, true);
+  EXPECT_EQ(referee_.tally().inside, 1);
+}
+
+TEST_F(RefereeTest, NoticesAProxyThatIsPlacedAnewWithoutNeed) {
+  begin(above_);
+  ProxyAnswer answer = answer_at(above_, deep_);
+  answer.is_placed_anew = true;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().overrun, 1);
+  show(deep_, answer_at(above_, deep_), true);
+  EXPECT_EQ(referee_.tally().inconsistent, 1) << "not placed anew after a jump";
+}
+
+TEST_F(RefereeTest, NoticesAProxyThatIsHeldInTheOpen) {
+  const Vector3d aside(0.05, 0.05, 0.2), hand(0.06, 0.05, 0.15);
+  begin(aside);
+  rest(aside, hand);
+  EXPECT_GT(referee_.tally().held, 40);
+}
+
+TEST_F(RefereeTest, NoticesAnswersThatContradictThemselves) {
+  begin(above_);
+  ProxyAnswer answer = answer_at(above_, deep_);
+  answer.state = ProxyStatus::kFree;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().inconsistent, 2) << "away from the hand, and with a pull";
+  answer = answer_at(above_, deep_);
+  answer.pull *= 2.0;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().inconsistent, 3);
+  answer = answer_at(above_, deep_);
+  answer.proxy.axis.trocar.x() += 1e-3;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().inconsistent, 4);
+  answer = answer_at(above_, deep_);
+  answer.twist.x() = NAN;
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().inconsistent, 5);
+  answer = {};
+  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().no_answer, 1);
+}
+
+}  // namespace
+
+}  // namespace organ_collision::oracle

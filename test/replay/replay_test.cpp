@@ -1,0 +1,111 @@
+#include <gtest/gtest.h>
+
+#include "offline/text_reader.hpp"
+#include "replay/replay_options.hpp"
+#include "replay/yaml_parameters.hpp"
+#include "ros/tools/robot_reply.hpp"
+#include "test/offline/temporary_files.hpp"
+
+using namespace organ_collision;
+
+TEST(ReplayOptions, Defaults) {
+  const ReplayOptions options = parse_replay_options({"a.bag", "--parameters", "t.yaml", "b.bag"});
+  EXPECT_EQ(options.in, "a.bag");
+  EXPECT_EQ(options.out, "b.bag");
+  EXPECT_EQ(options.parameters, "t.yaml");
+  EXPECT_EQ(options.node, "/organ_collision");
+  EXPECT_FALSE(options.with_input);
+  EXPECT_FALSE(options.help);
+}
+
+TEST(ReplayOptions, AllOptions) {
+  const ReplayOptions options = parse_replay_options(
+      {"--with-input", "--parameters=t.yaml", "--node=left/contacts", "a.bag", "b.bag"});
+  EXPECT_EQ(options.node, "/left/contacts");
+  EXPECT_TRUE(options.with_input);
+}
+
+TEST(ReplayOptions, HelpNeedsNothingElse) {
+  EXPECT_TRUE(parse_replay_options({"--nonsense", "--help"}).help);
+}
+
+TEST(ReplayOptions, RefusesOthers) {
+  using Words = std::vector<std::string>;
+  for (const Words& words :
+       {Words{}, Words{"a.bag", "b.bag"}, Words{"--parameters", "t.yaml", "a.bag"},
+        Words{"a.bag", "b.bag", "--parameters"}, Words{"a.bag", "b.bag", "--parameters="},
+        Words{"--with-input=1", "--parameters=t", "a.bag", "b.bag"},
+        Words{"--parameters=t", "--parameters=t", "a.bag", "b.bag"},
+        Words{"--node=1/2", "--parameters=t", "a.bag", "b.bag"},
+        Words{"--node=~x", "--parameters=t", "a.bag", "b.bag"}}) {
+    EXPECT_THROW(parse_replay_options(words), InputError) << testing::PrintToString(words);
+  }
+}
+
+using namespace organ_collision;
+
+namespace {
+
+const std::string kTools = "tools: [{name: grip, links: [jaw]}]\n";
+
+YamlParameters read(const std::string& text, const std::string& node = "/organ_collision") {
+  const TemporaryFile file(text);
+  return {file.path(), node};
+}
+
+}  // namespace
+
+TEST(YamlParameters, HaveTheTypesOfTheParameterServer) {
+  const auto [parameters, misspelt] =
+      read(
+          "tools:\n"
+          "  - {name: '7', trocar_frame: \"true\", tip_frame: y, radius: 5e-3}\n"
+          "rate: 100\n"
+          "tf_timeout_sec: 1\n"
+          "publish_regions: yes\n"
+          "mesh_timeout_sec: .5\n")
+          .node_parameters();
+  EXPECT_TRUE(misspelt.empty());
+  ASSERT_EQ(parameters.tools.size(), 1u);
+  EXPECT_EQ(parameters.tools[0].name, "7");
+  EXPECT_EQ(parameters.tools[0].trocar_frame, "true");
+  EXPECT_EQ(parameters.tools[0].tip_frame, "y");
+  EXPECT_EQ(parameters.tools[0].radius, 0.005);
+  EXPECT_EQ(parameters.rate_hz, 100.0);
+  EXPECT_EQ(parameters.tf_timeout_sec, 1.0);
+  EXPECT_EQ(parameters.mesh_timeout_sec, 0.5);
+  EXPECT_TRUE(parameters.publish_regions);
+}
+
+TEST(YamlParameters, MisspeltNamesAreTold) {
+  EXPECT_EQ(read(kTools + "rats: 7\n").node_parameters().misspelt.size(), 1u);
+  EXPECT_TRUE(read(kTools + "robot_description: x\n").node_parameters().misspelt.empty());
+}
+
+TEST(YamlParameters, ARobotIsSearchedUpwards) {
+  const std::string node = "organ_collision:\n  " + kTools;
+  EXPECT_EQ(read(kTools + "robot_description: a\n").find_text("robot_description"), "a");
+  EXPECT_EQ(read(node + "robot_description: b\n").find_text("robot_description"), "b");
+  EXPECT_EQ(
+      read(node + "  robot_description: c\nrobot_description: b\n").find_text("robot_description"),
+      "c");
+  EXPECT_EQ(read(node + "robots: {left: d}\n").find_text("robots/left"), "d");
+  EXPECT_EQ(read(node + "  robots: {right: e}\nrobots: {left: d}\n").find_text("/robots/left"),
+            "d");
+  const std::string deep = "arm:\n  robot_description: f\n  contacts:\n    " + kTools;
+  EXPECT_EQ(read(deep, "/arm/contacts").find_text("robot_description"), "f");
+}
+
+TEST(YamlParameters, AMissingRobotIsAnError) {
+  EXPECT_THROW(read(kTools).find_text("robot_description"), ToolError);
+  EXPECT_THROW(read(kTools + "robots: {left: d}\n").find_text("robots/right"), ToolError);
+  EXPECT_THROW(read(kTools + "robot_description: [d]\n").find_text("robot_description"), ToolError);
+}
+
+TEST(YamlParameters, RefusesWhatIsNoParameters) {
+  for (const char* text : {"", "7", "- a\n", "tools: [", "tools: !degrees 7\n", "tools:\n",
+                           "tools: &a {b: *a}\n", "{[a]: b}\n"}) {
+    EXPECT_THROW(read(text), InputError) << text;
+  }
+  EXPECT_THROW(YamlParameters("/nowhere/tools.yaml", "/n"), InputError);
+}

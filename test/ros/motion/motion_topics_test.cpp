@@ -1,0 +1,237 @@
+#include "ros/motion/motion_topics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "ros/motion/tool_poses.hpp"
+#include "tool_poses_fixture.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+geometry_msgs::TransformStamped transform(const std::string& child, double time) {
+  geometry_msgs::TransformStamped transform;
+  transform.header.frame_id = "/world";
+  transform.header.stamp = ros::Time(time);
+  transform.child_frame_id = child;
+  transform.transform.translation.x = time;
+  transform.transform.rotation.w = 1.0;
+  return transform;
+}
+
+class TransformTopicsTest : public testing::Test {
+ protected:
+  TransformTopicsTest() { ros::Time::init(); }
+
+  void take(const std::vector<geometry_msgs::TransformStamped>& transforms, bool resting) {
+    tf2_msgs::TFMessage message;
+    message.transforms = transforms;
+    topics_.take(message, "robot", resting);
+  }
+
+  TransformBuffer buffer_;
+  FailureLog rejected_;
+  TransformTopics topics_{buffer_, rejected_};
+};
+
+}  // namespace
+
+TEST_F(TransformTopicsTest, TransformsGoToTheBufferWithTheirStamps) {
+  take({transform("tip", 1.0), transform("tip", 1.0005), transform("tip", 2.0)}, false);
+  take({transform("trocar", 1.0)}, true);
+  EXPECT_TRUE(buffer_.canTransform("trocar", "tip", ros::Time(1.5)));
+  EXPECT_EQ(buffer_.stamps_between("trocar", {"tip"}, ros::Time(0.5), ros::Time(3.0)),
+            (std::vector<ros::Time>{ros::Time(1.0), ros::Time(1.0005), ros::Time(2.0)}));
+}
+
+TEST_F(TransformTopicsTest, WhatTfRefusesIsCountedButNoRepetition) {
+  geometry_msgs::TransformStamped broken = transform("tip", 1.0);
+  broken.transform.translation.y = std::nan("");
+  take({broken, transform("tip", 1.0), transform("tip", 1.0)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1u);
+  EXPECT_NE(rejected_.by_reason()["transform"].latest.find("(1, nan, 0)"), std::string::npos)
+      << rejected_.by_reason()["transform"].latest;
+  take({transform("tip", 100.0), transform("tip", 1.5)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 2u) << "1.5 is too old";
+  take({broken}, true);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 3u);
+}
+
+TEST_F(TransformTopicsTest, WhatTfThrowsAtIsCountedAndTheOthersStay) {
+  geometry_msgs::TransformStamped absurd = transform("tip", 1.0);
+  absurd.header.stamp = ros::Time(4294967295u, 999999999u);
+  take({transform("tip", 1.0), absurd, transform("trocar", 1.0)}, false);
+  EXPECT_TRUE(buffer_.canTransform("world", "trocar", ros::Time(1.0)));
+  ASSERT_EQ(rejected_.by_reason().count("transform"), 1u);
+  const FailureLog::Entry rejected = rejected_.by_reason().at("transform");
+  EXPECT_EQ(rejected.count, 1u);
+  EXPECT_NE(rejected.latest.find("'tip'"), std::string::npos) << rejected.latest;
+}
+
+using namespace organ_collision;
+using Eigen::Vector3d;
+
+namespace {
+
+ToolParameters streamed_tool(const std::string& name) {
+  return {name, "base", name + "_tip", 0.005, "measured_cp", "base_pose"};
+}
+
+geometry_msgs::PoseStamped pose(const std::string& frame, double time, const Vector3d& point) {
+  geometry_msgs::PoseStamped pose;
+  pose.header.frame_id = frame;
+  pose.header.stamp = ros::Time(time);
+  pose.pose.position.x = point.x();
+  pose.pose.position.y = point.y();
+  pose.pose.position.z = point.z();
+  pose.pose.orientation.w = 1.0;
+  return pose;
+}
+
+class PoseTopicsTest : public testing::Test {
+ protected:
+  PoseTopicsTest() { ros::Time::init(); }
+
+  /// The position of the tip in a frame; NaN if the buffer does not have it.
+  Vector3d tip(const std::string& frame, double time, const std::string& tool = "left") const {
+    const auto found = look_up(buffer_, frame, tool + "_tip", ros::Time(time)).found;
+    return found ? Vector3d(found->value.translation())
+                 : Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  std::size_t rejected() const { return rejected_.by_reason()["pose"].count; }
+  void expect_rejected(const geometry_msgs::PoseStamped& bad, const std::string& word) {
+    const std::size_t before = rejected(), arrivals = arrived_.size();
+    topics_.take_tip(0, bad);
+    EXPECT_EQ(rejected(), before + 1);
+    EXPECT_EQ(arrived_.size(), arrivals);
+    const std::string message = rejected_.by_reason().at("pose").latest;
+    EXPECT_NE(message.find("left_tip"), std::string::npos) << message;
+    EXPECT_NE(message.find(word), std::string::npos) << message;
+  }
+
+  TransformBuffer buffer_;
+  ToolPoses poses_{buffer_, {1.0, 100}};
+  FailureLog rejected_;
+  std::vector<std::size_t> arrived_;
+  PoseTopics topics_{{streamed_tool("left"), streamed_tool("right")},
+                     {buffer_, rejected_, [this](std::size_t i) { arrived_.push_back(i); }}};
+};
+
+}  // namespace
+
+TEST_F(PoseTopicsTest, PosesPlaceTheTip) {
+  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
+  topics_.take_tip(0, pose("/base", 2.0, {0.3, 0.2, 0.1}));
+  topics_.take_tip(1, pose("base", 2.0, {7.0, 8.0, 9.0}));
+  EXPECT_TRUE(tip("base", 1.0).isApprox(Vector3d(0.1, 0.2, 0.3)));
+  EXPECT_TRUE(tip("base", 1.5).isApprox(Vector3d(0.2, 0.2, 0.2)));
+  EXPECT_TRUE(tip("base", 2.0, "right").isApprox(Vector3d(7.0, 8.0, 9.0)));
+  EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 0, 1}));
+  EXPECT_EQ(rejected(), 0u);
+}
+
+TEST_F(PoseTopicsTest, PosesAreSamplesOfTheToolsWay) {
+  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.0, 0.0}));
+  topics_.take_tip(0, pose("base", 1.25, {0.1, 0.3, 0.0}));
+  topics_.take_tip(0, pose("base", 1.5, {0.2, 0.0, 0.0}));
+  const Vector3d trocar(0.0, 0.0, 0.0);
+  Tool tool;
+  tool.parameters = streamed_tool("left");
+  const SampledPath sampled =
+      poses_.path(tool, "base", {{{trocar, {0.1, 0.0, 0.0}}}, ros::Time(1.0)},
+                  {{{trocar, {0.2, 0.0, 0.0}}}, ros::Time(1.5)});
+  ASSERT_EQ(sampled.path.size(), 3u);
+  EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.5);
+  EXPECT_TRUE(sampled.path[1].axis.tip.isApprox(Vector3d(0.1, 0.3, 0.0)));
+}
+
+TEST_F(PoseTopicsTest, AStampOfZeroIsTheTimeOfArrival) {
+  const double before = ros::Time::now().toSec();
+  topics_.take_tip(0, pose("base", 0.0, {0.1, 0.2, 0.3}));
+  const auto latest = look_up(buffer_, "base", "left_tip", ros::Time(0)).found;
+  ASSERT_TRUE(latest);
+  EXPECT_GE(latest->stamp.toSec(), before - 1e-6);
+  EXPECT_LE(latest->stamp.toSec(), ros::Time::now().toSec());
+}
+
+TEST_F(PoseTopicsTest, PosesWithoutAStampDoNotCollide) {
+  for (int i = 0; i < 1000; ++i) topics_.take_tip(0, pose("base", 0.0, {0.001 * i, 0.0, 0.0}));
+  EXPECT_EQ(arrived_.size(), 1000u);
+  EXPECT_EQ(rejected(), 0u);
+  EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.999, 0.0, 0.0)));
+}
+
+TEST_F(PoseTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
+  topics_.take_base(0, pose("world", 1.0, {10.0, 0.0, 0.0}));
+  topics_.take_tip(0, pose("base", 50.0, {0.1, 0.2, 0.3}));
+  EXPECT_TRUE(tip("world", 50.0).isApprox(Vector3d(10.1, 0.2, 0.3)));
+  topics_.take_base(0, pose("world", 2.0, {20.0, 0.0, 0.0}));
+  EXPECT_TRUE(tip("world", 50.0).isApprox(Vector3d(20.1, 0.2, 0.3)));
+  EXPECT_EQ(rejected(), 0u);
+}
+
+TEST_F(PoseTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
+  const double nan = std::nan("");
+  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
+  expect_rejected(pose("base", 2.0, {0.1, nan, 0.3}), "nan");
+  expect_rejected(pose("base", 2.0, {0.1, std::numeric_limits<double>::infinity(), 0.3}), "inf");
+  expect_rejected(pose("base", 2.0, {0.1, -1e7, 0.3}), "-1e+07");
+  expect_rejected(pose("base", ros::Time::now().toSec() + 60.0, {0.1, 0.2, 0.3}), "clock");
+  expect_rejected(pose("base", 1.0, {0.4, 0.5, 0.6}), "stamp of an earlier one");
+  expect_rejected(pose("", 2.0, {0.1, 0.2, 0.3}), "frame_id");
+  expect_rejected(pose(std::string(10'000'000, 'x'), 2.0, {0.1, 0.2, 0.3}), "at most 256 bytes");
+  expect_rejected(pose("left_tip", 2.0, {0.1, 0.2, 0.3}), "own frame");
+  auto turned = pose("base", 2.0, {0.1, 0.2, 0.3});
+  turned.pose.orientation.w = 0.0;
+  expect_rejected(turned, "quaternion");
+  turned.pose.orientation.w = nan;
+  expect_rejected(turned, "quaternion");
+  EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.1, 0.2, 0.3)));
+  EXPECT_EQ(arrived_.size(), 1u);
+}
+
+TEST_F(PoseTopicsTest, ABadBaseLeavesTheLastOne) {
+  topics_.take_base(0, pose("world", 1.0, {10.0, 0.0, 0.0}));
+  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
+  topics_.take_base(0, pose("world", 1.0, {std::nan(""), 0.0, 0.0}));
+  EXPECT_EQ(rejected(), 1u);
+  EXPECT_TRUE(tip("world", 1.0).isApprox(Vector3d(10.1, 0.2, 0.3)));
+}
+
+TEST_F(PoseTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
+  topics_.take_base(0, pose("world", 1.0, {std::nan(""), 0.0, 0.0}));
+  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
+  topics_.take_tip(0, pose("other_base", 1.1, {0.1, 0.2, 0.3}));
+  EXPECT_EQ(rejected(), 1u);
+  topics_.take_base(0, pose("other_base", 1.0, {0.0, 0.0, 0.0}));
+  EXPECT_EQ(rejected(), 2u);
+}
+
+TEST_F(PoseTopicsTest, ToolsMayShareATipAndItsPoses) {
+  ToolParameters wide = streamed_tool("left");
+  wide.name = "wide";
+  PoseTopics topics({streamed_tool("left"), wide},
+                    {buffer_, rejected_, [this](std::size_t i) { arrived_.push_back(i); }});
+  for (const double time : {1.0, 1.1}) {
+    topics.take_tip(0, pose("base", time, {time, 0.0, 0.0}));
+    topics.take_tip(1, pose("base", time, {time, 0.0, 0.0}));
+  }
+  for (const std::size_t tool : {0, 1}) topics.take_tip(tool, pose("base", 1.05, {1.05, 0.0, 0.0}));
+  EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 1, 0, 1, 0, 1})) << "also with an earlier stamp";
+  EXPECT_EQ(rejected(), 0u);
+  topics.take_tip(0, pose("base", 1.05, {2.0, 0.0, 0.0}));
+  topics.take_tip(1, pose("base", 1.05, {2.0, 0.0, 0.0}));
+  EXPECT_EQ(rejected(), 2u) << "another pose with the same stamp";
+}
+
+TEST_F(PoseTopicsTest, OrientationsAreNormalised) {
+  auto nearly = pose("world", 1.0, {10.0, 0.0, 0.0});
+  nearly.pose.orientation.w = 0.9995;
+  topics_.take_base(0, nearly);
+  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
+  EXPECT_EQ(rejected(), 0u);
+  EXPECT_TRUE(tip("world", 1.0).isApprox(Vector3d(10.1, 0.2, 0.3)));
+}
