@@ -77,10 +77,10 @@ class QueryTest(KeepsContract, ToolCase):
 
         for organ, mesh in (('sheet', SHEET), ('liver', LIVER)):
             motions = []
-            for i in range(24):
+            for i in range(12):
                 trocar, tip = point(0.1, 0.2), point(-0.03, 0.06)
                 now = (trocar if i % 2 else point(0.1, 0.2), point(-0.03, 0.06))
-                motions.append(((tip, tip), now[1:] * 2) if i % 8 == 0 else ((trocar, tip), now))
+                motions.append(((tip, tip), now[1:] * 2) if i % 6 == 0 else ((trocar, tip), now))
             for mode, radius in ((SWEPT, 0.004), (STATIC, 0.005)):
                 expected = [oracle.contacts(mesh, mesh, m if mode == SWEPT else (m[1], m[1]), radius) for m in motions]
                 touched += sum(map(len, expected))
@@ -92,7 +92,7 @@ class QueryTest(KeepsContract, ToolCase):
                     for result, right in zip(results, expected):
                         self.assert_contacts(result, right, 1e-6)
                     self.assertEqual(node.query(organ, given[3], mode, frame=frame).contacts, results[3].contacts)
-        self.assertGreater(touched, 500)
+        self.assertGreater(touched, 200)
 
     def test_the_papers_modes_with_both_pickers(self):
         rng, faces = random.Random(34), 0
