@@ -59,6 +59,8 @@ class RobotsTest(LaunchCase):
         def touched(jaw):
             return [a for a in self.log.of('liver', 'grasper') if any(a.links[c.link] == jaw for c in a.contacts)]
 
+        rospy.set_param('/organ_collision/tf_timeout_sec', 20.0)
+        self.addCleanup(rospy.delete_param, '/organ_collision/tf_timeout_sec')
         with self.launched('examples/grasper.launch'):
             for jaw in JAWS:
                 wait_until(lambda: len(touched(jaw)) >= WANTED and sum(map(is_recorded, touched(jaw))) >= WANTED,
