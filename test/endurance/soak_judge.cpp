@@ -1,5 +1,3 @@
-// The judge of run_soak. It prints an empty line when the node publishes. At each line on standard
-// input, it prints a report as JSON. It ends when standard input is closed.
 #include <organ_collision/ContactArray.h>
 #include <ros/ros.h>
 #include <rosgraph_msgs/Clock.h>
@@ -7,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <condition_variable>
 #include <iostream>
 #include <map>
@@ -19,6 +16,7 @@
 #include <thread>
 
 #include "second_evaluation.hpp"
+#include "soak.hpp"
 #include "soak_script.hpp"
 #include "test/check_contacts/contact_contract.hpp"
 
@@ -204,26 +202,18 @@ class Judge {
 };
 
 }  // namespace
-}  // namespace organ_collision::soak
 
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "judge");
-  if (argc != 2) {
-    std::cerr << "Usage: soak_judge SEED\n";
-    return 2;
-  }
-  organ_collision::soak::Judge judge(std::strtoull(argv[1], nullptr, 10));
+int judge(std::uint64_t seed) {
+  Judge judge(seed);
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-  while (!judge.is_connected()) {
-    if (std::chrono::steady_clock::now() > give_up) {
-      std::cerr << "soak_judge: no node publishes\n";
-      return 1;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (!wait_for([&] { return judge.is_connected(); })) {
+    std::cerr << "soak: no node publishes\n";
+    return 1;
   }
   std::cout << std::endl;
   for (std::string line; std::getline(std::cin, line);) judge.report(std::cout);
   return 0;
 }
+
+}  // namespace organ_collision::soak

@@ -1,6 +1,3 @@
-// The simulator of run_soak. It begins when a node listens, and prints an empty line. At the line
-// "end" on standard input, it ends calmly, and prints as JSON what it has sent. It stays until
-// standard input is closed, so that nothing of it is lost on the way.
 #include <geometry_msgs/PoseStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/ListOrgans.h>
@@ -22,6 +19,7 @@
 #include <string>
 #include <thread>
 
+#include "soak.hpp"
 #include "soak_script.hpp"
 
 namespace organ_collision::soak {
@@ -305,27 +303,19 @@ class Simulator {
   Lag lag_;
 };
 
-template <typename Condition>
-bool wait_for(const Condition& condition) {
-  const auto give_up = SteadyClock::now() + kStart;
-  while (!condition()) {
-    if (SteadyClock::now() > give_up) return false;
-    std::this_thread::sleep_for(20ms);
-  }
-  return true;
-}
+}  // namespace
 
-int run(std::uint64_t seed) {
+int simulate(std::uint64_t seed) {
   Simulator simulator(seed);
   if (!wait_for([&] { return simulator.has_listener(); })) {
-    std::cerr << "soak_simulator: no node listens\n";
+    std::cerr << "soak: no node listens\n";
     return 1;
   }
   ros::AsyncSpinner spinner(1);
   spinner.start();
   simulator.send_scene();
   if (!wait_for(Simulator::scene_has_come)) {
-    std::cerr << "soak_simulator: the node does not know the organ\n";
+    std::cerr << "soak: the node does not know the organ\n";
     return 1;
   }
   // The node counts losses from the first message that it gets. It must be the first one of all.
@@ -356,14 +346,4 @@ int run(std::uint64_t seed) {
   return 0;
 }
 
-}  // namespace
 }  // namespace organ_collision::soak
-
-int main(int argc, char** argv) {
-  ros::init(argc, argv, "simulator");
-  if (argc != 2) {
-    std::cerr << "Usage: soak_simulator SEED\n";
-    return 2;
-  }
-  return organ_collision::soak::run(std::strtoull(argv[1], nullptr, 10));
-}
