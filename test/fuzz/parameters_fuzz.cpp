@@ -150,7 +150,7 @@ void check(const NodeParameters& parameters) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("parameters", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   const XmlRpcValue all = group(input, 0);
   load([&] {
@@ -170,5 +170,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   });
   load([&] { parse_mesh_adapter_parameters(all); });
   if (all.hasMember("tools")) shaft_radius(all["tools"], "name");
-  return 0;
-}
+});

@@ -1,6 +1,5 @@
-// Mesh files of a robot's links: STL, DAE, OBJ and PLY, as the program robot_reader reads them, and
-// the links that the node makes of its answer. The parsers of such files may crash, so another
-// process reads them. The first byte chooses the format.
+// Robots: URDF and the mesh files of links, as the program robot_reader reads them, and its
+// answers, as the node reads them, even if it was ended by a broken file.
 #include <unistd.h>
 
 #include <array>
@@ -10,6 +9,7 @@
 
 #include "fuzz_input.hpp"
 #include "reader_process.hpp"
+#include "robot_reader/robot_model.hpp"
 #include "ros/tools/robot_reply.hpp"
 #include "ros/tools/tool.hpp"
 
@@ -27,20 +27,27 @@ struct Folder {
       std::filesystem::temp_directory_path() / ("tool_mesh_fuzz." + std::to_string(getpid()));
 };
 
-void check(LinkDescription description) {
+/// The link that the node makes of a description.
+void check(const std::string& name, LinkDescription description) {
   try {
-    const Link link = build_link("tip", std::move(description));
+    const Link link = build_link(name, std::move(description));
     demand(!link.parts.empty(), "a link has parts");
     for (const LinkPart& part : link.parts) {
       demand(std::isfinite(part.project_onto({0.6, 0.0, 0.8}).high), "parts are finite");
     }
-  } catch (const ToolError&) {
+  } catch (const ToolError& error) {
+    demand(std::string(error.what()).find("link '") == 0, "an error names the link");
   }
 }
 
-}  // namespace
+const FuzzTarget robot_reply_target("robot_reply", [](const std::uint8_t* data, std::size_t size) {
+  RobotReply reply = parse_reply(FuzzInput(data, size).rest());
+  demand(!(reply.refusal && reply.links), "a reply is a refusal or has links");
+  if (!reply.links) return;
+  for (LinkDescription& description : *reply.links) check("jaw", std::move(description));
+});
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+const FuzzTarget tool_mesh_target("tool_mesh", [](const std::uint8_t* data, std::size_t size) {
   static const Folder folder;
   static ReaderProcess reader;
   FuzzInput input(data, size);
@@ -54,8 +61,23 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
                               file + "'/></geometry></collision></link></robot>"));
   demand(reply.reading.find(file) != std::string::npos, "the file was read");
   demand(!(reply.refusal && reply.links), "a reply is a refusal or has links");
-  if (!reply.links) return 0;
+  if (!reply.links) return;
   demand(reply.links->size() == 1, "there is one link");
-  check(std::move(reply.links->front()));
-  return 0;
-}
+  check("tip", std::move(reply.links->front()));
+});
+
+const FuzzTarget urdf_target("urdf", [](const std::uint8_t* data, std::size_t size) {
+  try {
+    const RobotModel robot(FuzzInput(data, size).rest());
+    for (const char* name : {"tip", "shaft", "wrist"}) {
+      try {
+        check(name, robot.link(name, [](const std::string&) {}));
+      } catch (const ToolError& error) {
+        demand(std::string(error.what()).find("link '") == 0, "an error names the link");
+      }
+    }
+  } catch (const ToolError&) {
+  }
+});
+
+}  // namespace

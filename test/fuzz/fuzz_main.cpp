@@ -1,18 +1,21 @@
-// The program of a fuzz target that was not built with libFuzzer: runs the inputs of its corpus,
-// and mutations of them, which are the same each time. An input that crashes or takes longer than
-// kMost ends the program; it is then in the file PROGRAM.failed_input.
+// The program `fuzz`, with one of its targets: `fuzz TARGET ...`. run_fuzz builds it with
+// libFuzzer, which looks for inputs that reach new code and takes the other arguments. Otherwise
+// `fuzz TARGET CORPUS MUTATIONS` runs the inputs of a corpus, and mutations of them, which are the
+// same each time. An input that crashes or takes longer than kMost ends the program; it is then in
+// the file fuzz.TARGET.failed_input beside the program.
+#include <console_bridge/console.h>
 #include <fcntl.h>
+#include <ros/console.h>
+#include <ros/time.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <random>
 #include <set>
 #include <string>
@@ -20,6 +23,49 @@
 
 #include "fuzz_input.hpp"
 
+namespace organ_collision {
+namespace {
+
+std::map<std::string, FuzzTarget::Run>& targets() {
+  static std::map<std::string, FuzzTarget::Run> targets;
+  return targets;
+}
+
+FuzzTarget::Run target;  ///< the one that runs
+
+}  // namespace
+
+FuzzTarget::FuzzTarget(const char* name, Run run) { targets()[name] = std::move(run); }
+
+}  // namespace organ_collision
+
+/// Takes the target's name out of the arguments. The log says nothing, because it would say the
+/// same for thousands of inputs, and ROS time stands still.
+extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv) {
+  const auto found = organ_collision::targets().find(*argc > 1 ? (*argv)[1] : "");
+  if (found == organ_collision::targets().end()) {
+    std::cerr << "usage: fuzz TARGET ...; the targets are";
+    for (const auto& [name, run] : organ_collision::targets()) std::cerr << ' ' << name;
+    std::cerr << '\n';
+    std::exit(2);
+  }
+  organ_collision::target = found->second;
+  std::rotate(*argv + 1, *argv + 2, *argv + *argc);
+  --*argc;
+  ros::console::set_logger_level(ROSCONSOLE_DEFAULT_NAME, ros::console::levels::Fatal);
+  ros::console::notifyLoggerLevelsChanged();
+  console_bridge::noOutputHandler();
+  ros::Time::init();
+  ros::Time::setNow(ros::Time(50));
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  organ_collision::target(data, size);
+  return 0;
+}
+
+#ifndef ORGAN_COLLISION_LIBFUZZER
 namespace {
 
 using Input = std::vector<std::uint8_t>;
@@ -146,30 +192,29 @@ void run_mutations(const std::vector<Input>& corpus, long count) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::string name = argc > 1 ? argv[1] : "";
+  LLVMFuzzerInitialize(&argc, &argv);
   char* end = nullptr;
   const long mutations = argc == 3 ? std::strtol(argv[2], &end, 10) : -1;
-  if (mutations < 0 || *end != '\0') {
-    std::cerr << "usage: NAME_fuzz CORPUS MUTATIONS; a folder or file with inputs, and how many\n"
+  if (mutations < 0 || *end != '\0' || !std::filesystem::exists(argv[1])) {
+    std::cerr << "usage: fuzz TARGET CORPUS MUTATIONS; a folder or file with inputs, and how many\n"
                  "mutations of them are run\n";
     return 2;
   }
-  failed_input = std::filesystem::read_symlink("/proc/self/exe").string() + ".failed_input";
+  failed_input =
+      std::filesystem::read_symlink("/proc/self/exe").string() + "." + name + ".failed_input";
   for (const int signal : {SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
     std::signal(signal, fail);
   }
   const std::filesystem::path place = argv[1];
-  if (!std::filesystem::exists(place)) {
-    std::cerr << place << " does not exist\n";
-    return 2;
-  }
   const std::vector<Input> corpus =
       std::filesystem::is_directory(place) ? read_corpus(place) : std::vector<Input>{read(place)};
   if (corpus.empty()) {
     std::cerr << place << " has no inputs\n";
     return 2;
   }
-  LLVMFuzzerInitialize(&argc, &argv);
   for (const Input& input : corpus) run(input);
   run_mutations(corpus, mutations);
   std::cout << corpus.size() << " inputs and " << mutations << " mutations\n";
 }
+#endif
