@@ -3,8 +3,16 @@
 
 sanitizers=$repository/test/sanitizers
 
-# short_tests SANITIZER: prints the names of the few tests for .ci/run.
-short_tests() { awk -v sanitizer="$1" '$1 == sanitizer {print $2}' "$sanitizers/short.txt"; }
+# short_programs SANITIZER: prints the names of the few test programs for .ci/run.
+short_programs() { awk -v sanitizer="$1" '$1 == sanitizer {print $2}' "$sanitizers/short.txt"; }
+
+# short_tests SANITIZER FOLDER: runs the few tests for .ci/run of the programs in this folder.
+short_tests() {
+  local kind program filter
+  while read -r kind program filter; do
+    if [ "$kind" = "$1" ]; then under_sanitizer "$1" "$2/$program" --gtest_brief=1 --gtest_filter="$filter"; fi
+  done < "$sanitizers/short.txt"
+}
 
 # left_out_tests SANITIZER: prints a regular expression for the names of the tests that it leaves out.
 left_out_tests() {
