@@ -322,12 +322,13 @@ def run_kind(kind, master, options):
 
 
 def run_others(options):
-    """Kills and garbage, each for a quarter of the minutes. Returns what has failed."""
+    """Kills and garbage, each for a quarter of the minutes, and a restart of the master. Returns what has failed."""
     names = ['kills_test.py', 'garbage_test.py']
     if options.sanitizer == 'thread':
         names.pop()  # roscpp reads beyond the end of headers, where the sanitizer has no memory: the node ends.
     commands = [[options.devel / 'env.sh', FOLDER / name, '--seconds', str(15.0 * options.minutes),
                  '--seed', str(options.seed)] for name in names]
+    commands.append([options.devel / 'env.sh', FOLDER / 'master_restart_test.py'])
     return ['%s has failed' % command[1].name for command in commands if subprocess.call(command)]
 
 

@@ -95,14 +95,21 @@ class OwnMaster:
     """The program that roscore runs as master, on a port of its own, and the programs that use it."""
 
     def __init__(self):
-        port = free_port()
-        self.uri = 'http://localhost:%d' % port
+        self.port = free_port()
+        self.uri = 'http://localhost:%d' % self.port
         self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_HOSTNAME='localhost')
         self.environment.pop('ROS_IP', None)
         self.processes = []
-        self.master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], env=self.environment,
+        self.start()
+
+    def start(self):
+        self.master = subprocess.Popen(['rosmaster', '--core', '-p', str(self.port)], env=self.environment,
                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         wait_until(lambda: self.ask('getPid'), 'the master at ' + self.uri)
+
+    def kill(self):
+        self.master.kill()
+        self.master.wait()
 
     def ask(self, method, *arguments):
         """What the master answers; None if it does not, or refuses."""
@@ -139,5 +146,4 @@ class OwnMaster:
 
     def stop(self):
         self.stop_programs()
-        self.master.kill()
-        self.master.wait()
+        self.kill()
