@@ -2,12 +2,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cstdint>
-#include <map>
+#include <numeric>
+#include <optional>
 #include <tuple>
-#include <unordered_map>
-#include <utility>
 
 #include "ros/messages/conversions.hpp"
 
@@ -21,72 +19,54 @@ constexpr double kOnEdge = 1e-9;
 /// [m] Smaller differences between the distances of two faces count as rounding errors.
 constexpr double kNearer = 1e-9;
 
-/// The corners that the contact's point depends on: one, two (the point is on an edge), or three.
-struct Support {
-  std::array<std::uint32_t, 3> vertices{};  ///< for an edge: its two vertices in rising order
-  std::size_t count = 0;
+/// A vertex or an edge of a contact's face: two of its vertices in rising order, which are the same
+/// for a vertex.
+struct Corner {
+  std::uint32_t link, low, high;
+  std::size_t contact;  ///< its index
+  bool has_point;       ///< the contact's point is on it, and depends on no other vertex
+
+  bool is_same(const Corner& other) const {
+    return link == other.link && low == other.low && high == other.high;
+  }
 };
 
-Support support_of(const Contact& contact) {
-  Support support;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (contact.barycentric[k] > kOnEdge) support.vertices[support.count++] = contact.vertices[k];
-  }
-  if (support.count == 2 && support.vertices[0] > support.vertices[1]) {
-    std::swap(support.vertices[0], support.vertices[1]);
-  }
-  return support;
-}
-
-bool holds(const Contact& face, const Support& support) {
-  return std::all_of(support.vertices.begin(), support.vertices.begin() + support.count,
-                     [&face](std::uint32_t vertex) {
-                       return std::find(face.vertices.begin(), face.vertices.end(), vertex) !=
-                              face.vertices.end();
-                     });
-}
-
-/// Finds the contacts of a link whose faces have a given vertex.
-class ContactsAtVertices {
- public:
-  explicit ContactsAtVertices(const std::vector<Contact>& contacts) {
-    for (std::size_t i = 0; i < contacts.size(); ++i) {
-      for (const std::uint32_t vertex : contacts[i].vertices) {
-        at_[key(contacts[i].link, vertex)].push_back(i);
+/// The vertices and edges of all contacts' faces. Those that faces of a link share follow each
+/// other.
+std::vector<Corner> corners_of(const std::vector<Contact>& contacts) {
+  std::vector<Corner> corners;
+  corners.reserve(6 * contacts.size());
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    const auto is_used = [&](std::size_t k) { return contact.barycentric[k] > kOnEdge; };
+    const int used = is_used(0) + is_used(1) + is_used(2);
+    for (std::size_t a = 0; a < 3; ++a) {
+      for (std::size_t b = a; b < 3; ++b) {
+        const auto [low, high] = std::minmax(contact.vertices[a], contact.vertices[b]);
+        const bool has_point = is_used(a) && is_used(b) && used == (a == b ? 1 : 2);
+        corners.push_back({contact.link, low, high, i, has_point});
       }
     }
   }
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) {
+    return std::tie(a.link, a.low, a.high, a.contact) < std::tie(b.link, b.low, b.high, b.contact);
+  });
+  return corners;
+}
 
-  /// The contacts at that corner of the support that has the fewest contacts.
-  const std::vector<std::size_t>& around(std::uint32_t link, const Support& support) const {
-    const std::vector<std::size_t>* fewest = &at_.at(key(link, support.vertices[0]));
-    if (support.count > 1) {
-      const std::vector<std::size_t>& second = at_.at(key(link, support.vertices[1]));
-      if (second.size() < fewest->size()) fewest = &second;
-    }
-    return *fewest;
-  }
-
- private:
-  static std::uint64_t key(std::uint32_t link, std::uint32_t vertex) {
-    return (std::uint64_t{link} << 32U) | vertex;
-  }
-
-  std::unordered_map<std::uint64_t, std::vector<std::size_t>> at_;
-};
-
-/// The face that contains the point of contact i and extends nearest to the tool, or i itself if
-/// none is nearer.
-std::size_t nearer_face(std::size_t i, const Support& support, const std::vector<Contact>& contacts,
-                        const std::vector<std::size_t>& around) {
+/// Among faces that contain the point of contact i, the one that extends nearest to the tool, or i
+/// itself if none is nearer.
+template <typename Iterator>
+std::size_t nearest_face(std::size_t i, const std::vector<Contact>& contacts, Iterator begin,
+                         Iterator end) {
   const Vector3d point = to_eigen(contacts[i].point);
   const Vector3d normal = to_eigen(contacts[i].normal);
   std::size_t nearest = i;
   double most = kNearer;
-  for (const std::size_t j : around) {
-    const double nearer = normal.dot(point - to_eigen(contacts[j].point));
-    if (nearer > most && holds(contacts[j], support)) {
-      nearest = j;
+  for (auto face = begin; face != end; ++face) {
+    const double nearer = normal.dot(point - to_eigen(contacts[face->contact].point));
+    if (nearer > most) {
+      nearest = face->contact;
       most = nearer;
     }
   }
@@ -121,23 +101,23 @@ void follow_to_the_end(std::vector<std::size_t>& next) {
 }  // namespace
 
 std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts) {
-  const ContactsAtVertices at_vertices(contacts);
-  // Contacts with the same support have the same point, and so the same nearer face. This face is
-  // searched for only once. Otherwise each face around a vertex would be compared with each other
-  // face.
-  std::map<std::tuple<std::uint32_t, std::uint32_t, std::uint32_t>, std::size_t> seen;
   std::vector<std::size_t> next(contacts.size());
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    next[i] = i;
-    const Support support = support_of(contacts[i]);
-    if (support.count == 0 || support.count == 3) continue;
-    const auto [first, is_new] = seen.insert(
-        {{contacts[i].link, support.vertices[0], support.vertices[support.count - 1]}, i});
-    if (is_new) {
-      next[i] = nearer_face(i, support, contacts, at_vertices.around(contacts[i].link, support));
-    } else if (next[first->second] != first->second) {
-      next[i] = next[first->second];
+  std::iota(next.begin(), next.end(), 0);
+  const std::vector<Corner> corners = corners_of(contacts);
+  for (auto begin = corners.begin(); begin != corners.end();) {
+    const auto end = std::find_if(begin, corners.end(),
+                                  [begin](const Corner& at) { return !at.is_same(*begin); });
+    // Contacts whose points are on one corner have the same point, and so the same nearest face.
+    std::optional<std::size_t> first, nearest;
+    for (auto at = begin; at != end; ++at) {
+      if (!at->has_point) continue;
+      if (!nearest) {
+        first = at->contact;
+        nearest = nearest_face(*first, contacts, begin, end);
+      }
+      if (*nearest != *first) next[at->contact] = *nearest;
     }
+    begin = end;
   }
   follow_to_the_end(next);
   return next;

@@ -14,6 +14,9 @@
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector3d;
+using XmlRpc::XmlRpcValue;
+
 constexpr double kUnitTolerance = 1e-6;  // [1]
 
 template <typename... Parts>
@@ -26,35 +29,54 @@ void refuse_illegal_name(const char* what, const std::string& name) {
   if (!fault.empty()) refuse(what, " ", fault);
 }
 
-void check_geometry(const Contact& contact) {
-  const Eigen::Vector3d point = to_eigen(contact.point);
-  const Eigen::Vector3d normal = to_eigen(contact.normal);
-  if (!point.allFinite()) {
-    refuse("point of face ", contact.face, " is ", point.transpose(), "; must be finite");
-  }
-  const Eigen::Vector3d end_point = to_eigen(contact.end_point);
-  if (!end_point.allFinite()) {
-    refuse("end_point of face ", contact.face, " is ", end_point.transpose(), "; must be finite");
-  }
-  if (!std::isfinite(contact.depth)) {
-    refuse("depth of face ", contact.face, " is ", contact.depth, "; must be finite");
-  }
-  if (!(std::abs(normal.norm() - 1.0) <= kUnitTolerance)) {
-    refuse("normal of face ", contact.face, " is ", normal.transpose(), "; must be unit");
+// `what`: the parts of the value's name, which are put together only for a refusal.
+
+template <typename... What>
+void check_finite(double value, const What&... what) {
+  if (!std::isfinite(value)) refuse(what..., " is ", value, "; must be finite");
+}
+
+template <typename... What>
+void check_finite(const geometry_msgs::Point& point, const What&... what) {
+  const Vector3d value = to_eigen(point);
+  if (!value.allFinite()) refuse(what..., " is ", value.transpose(), "; must be finite");
+}
+
+template <typename... What>
+void check_unit(const geometry_msgs::Vector3& normal, const What&... what) {
+  const Vector3d value = to_eigen(normal);
+  if (!(std::abs(value.norm() - 1.0) <= kUnitTolerance)) {
+    refuse(what..., " is ", value.transpose(), "; must be unit");
   }
 }
 
-void check_clearance(const Clearance& clearance) {
-  const Eigen::Vector3d place = to_eigen(clearance.on_organ), normal = to_eigen(clearance.normal);
-  if (!std::isfinite(clearance.distance)) {
-    refuse("distance of the clearance is ", clearance.distance, "; must be finite");
+void check_geometry(const ContactArray& answer) {
+  for (const Contact& contact : answer.contacts) {
+    check_finite(contact.point, "point of face ", contact.face);
+    check_finite(contact.end_point, "end_point of face ", contact.face);
+    check_finite(contact.depth, "depth of face ", contact.face);
+    check_unit(contact.normal, "normal of face ", contact.face);
   }
-  if (!place.allFinite()) {
-    refuse("on_organ of the clearance is ", place.transpose(), "; must be finite");
-  }
-  if (!(std::abs(normal.norm() - 1.0) <= kUnitTolerance)) {
-    refuse("normal of the clearance is ", normal.transpose(), "; must be unit");
-  }
+  const Clearance& clearance = answer.clearance;
+  if (clearance.state != Clearance::KNOWN) return;
+  check_finite(clearance.distance, "distance of the clearance");
+  check_finite(clearance.on_organ, "on_organ of the clearance");
+  check_unit(clearance.normal, "normal of the clearance");
+}
+
+ShaftRadius positive_number(const XmlRpcValue& value) {
+  double number = 0.0;
+  if (value.getType() == XmlRpcValue::TypeInt) number = static_cast<int>(value);
+  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<double>(value);
+  if (number > 0.0) return number;
+  return std::nullopt;
+}
+
+bool is_named(const XmlRpcValue& entry, const std::string& tool) {
+  if (entry.getType() != XmlRpcValue::TypeStruct || !entry.hasMember(names::kToolName))
+    return false;
+  const XmlRpcValue& name = entry[names::kToolName];
+  return name.getType() == XmlRpcValue::TypeString && static_cast<std::string>(name) == tool;
 }
 
 }  // namespace
@@ -80,49 +102,7 @@ void check_contacts(const ContactArray& contacts) {
   if (regions != 0 && regions != contacts.contacts.size()) {
     refuse(regions, " regions of ", contacts.contacts.size(), " contacts; must be none or as many");
   }
-  if (!has_geometry(contacts)) return;
-  for (const Contact& contact : contacts.contacts) check_geometry(contact);
-  if (contacts.clearance.state == Clearance::KNOWN) check_clearance(contacts.clearance);
-}
-
-namespace {
-
-using XmlRpc::XmlRpcValue;
-
-std::optional<double> positive_number(const XmlRpcValue& value) {
-  double number = 0.0;
-  if (value.getType() == XmlRpcValue::TypeInt) number = static_cast<int>(value);
-  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<double>(value);
-  if (number > 0.0) return number;
-  return std::nullopt;
-}
-
-bool is_named(const XmlRpcValue& entry, const std::string& tool) {
-  if (entry.getType() != XmlRpcValue::TypeStruct || !entry.hasMember(names::kToolName))
-    return false;
-  const XmlRpcValue& name = entry[names::kToolName];
-  return name.getType() == XmlRpcValue::TypeString && static_cast<std::string>(name) == tool;
-}
-
-}  // namespace
-
-std::optional<double> shaft_radius(const XmlRpcValue& tools, const std::string& tool) {
-  if (tools.getType() != XmlRpcValue::TypeArray) return std::nullopt;
-  for (int i = 0; i < tools.size(); ++i) {
-    if (!is_named(tools[i], tool)) continue;
-    return tools[i].hasMember(names::kRadius) ? positive_number(tools[i][names::kRadius])
-                                              : std::nullopt;
-  }
-  return std::nullopt;
-}
-
-bool is_shaft(std::uint32_t link, const ContactArray& answer) {
-  return link < answer.links.size() && answer.links[link].empty();
-}
-
-std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
-                                const std::optional<double>& shaft_radius) {
-  return is_shaft(contact.link, answer) ? shaft_radius : std::nullopt;
+  if (has_geometry(contacts)) check_geometry(contacts);
 }
 
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts) {
@@ -137,6 +117,25 @@ std_msgs::UInt32MultiArray face_list(const ContactArray& contacts) {
   faces.layout.dim[0].size = faces.data.size();
   faces.layout.dim[0].stride = faces.data.size();
   return faces;
+}
+
+ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {
+  if (tools.getType() != XmlRpcValue::TypeArray) return std::nullopt;
+  for (int i = 0; i < tools.size(); ++i) {
+    if (!is_named(tools[i], tool)) continue;
+    return tools[i].hasMember(names::kRadius) ? positive_number(tools[i][names::kRadius])
+                                              : std::nullopt;
+  }
+  return std::nullopt;
+}
+
+bool is_shaft(std::uint32_t link, const ContactArray& answer) {
+  return link < answer.links.size() && answer.links[link].empty();
+}
+
+ShaftRadius radius_at(const Contact& contact, const ContactArray& answer,
+                      const ShaftRadius& shaft_radius) {
+  return is_shaft(contact.link, answer) ? shaft_radius : std::nullopt;
 }
 
 }  // namespace organ_collision

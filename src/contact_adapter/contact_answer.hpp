@@ -23,18 +23,20 @@ bool has_geometry(const ContactArray& contacts);
 /// The collision node sends only the first of these.
 void check_contacts(const ContactArray& contacts);
 
-/// [m] The radius of a tool's shaft, from the collision node's parameter `tools`. std::nullopt if
-/// the parameter does not contain the tool, or if the tool has no shaft.
-std::optional<double> shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
+/// The numbers of the touched faces in rising order, each once, in one dimension called "faces".
+std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
+
+/// [m] The radius of a tool's shaft. Unset if it is not known, or if the tool has no shaft.
+using ShaftRadius = std::optional<double>;
+
+/// The radius from the collision node's parameter `tools`.
+ShaftRadius shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
 
 /// Whether this link of the answer's tool is its shaft.
 bool is_shaft(std::uint32_t link, const ContactArray& answer);
 
-/// [m] `shaft_radius` if the contact is of the shaft; std::nullopt if it is of a link.
-std::optional<double> radius_at(const Contact& contact, const ContactArray& answer,
-                                const std::optional<double>& shaft_radius);
-
-/// The numbers of the touched faces in rising order, each once, in one dimension called "faces".
-std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
+/// `shaft_radius` if the contact is of the shaft; unset if it is of a link.
+ShaftRadius radius_at(const Contact& contact, const ContactArray& answer,
+                      const ShaftRadius& shaft_radius);
 
 }  // namespace organ_collision

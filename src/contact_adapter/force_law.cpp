@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
-#include "contact_answer.hpp"
 #include "penalty_forces.hpp"
 #include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {
+
+using Eigen::Vector3d;
 
 /// [1] Cosine of the largest angle by which the normal of a pierced face turns in a step. If the
 /// normal turned more, one of the two contacts is from before the face was pierced, and their
@@ -18,15 +20,37 @@ constexpr double kSame = 0.999;
 /// normal is that of the face. Only if this changes nothing, the depths can be compared.
 constexpr double kExactlySame = 1.0 - 1e-9;
 
+/// [1] The allowed change of force, as a multiple of stiffness * motion. A flat surface needs 1, a
+/// crease 2, a narrow crease more.
+constexpr double kSteepness = 4.0;
+/// [m/s] The allowed change of force while the tool rests, divided by stiffness and time.
+constexpr double kSettling = 0.05;
+
 std::optional<double> known_distance(const Clearance& clearance) {
   if (clearance.state != Clearance::KNOWN || clearance.unresolved) return std::nullopt;
   return clearance.distance;
 }
 
+/// The contacts' faces, and then the clearance's face if there is a push for it. Without forces.
+std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Push>& pushes) {
+  std::vector<FaceForce> faces;
+  faces.reserve(pushes.size());
+  for (const Contact& contact : answer.contacts) {
+    faces.push_back({contact.face, contact.link, contact.vertices, contact.barycentric,
+                     to_eigen(contact.end_point)});
+  }
+  if (pushes.size() > faces.size()) {
+    const Clearance& clearance = answer.clearance;
+    faces.push_back({clearance.face, clearance.link, clearance.vertices, clearance.barycentric,
+                     to_eigen(clearance.on_organ)});
+  }
+  return faces;
+}
+
 }  // namespace
 
 ContactMotion::Place ContactMotion::place_of(const Contact& contact, const Push& push,
-                                             const KeptSides::Radius& radius) {
+                                             const ShaftRadius& radius) {
   Place place{to_eigen(contact.normal), contact.depth, contact.fraction > 0.0, std::nullopt,
               std::nullopt};
   if (!radius) return place;
@@ -46,7 +70,7 @@ double ContactMotion::path_length_between(const Place& before, const Place& now)
     return std::min(std::abs(now.pierced->depth - before.pierced->depth),
                     std::abs(now.pierced->push - before.pierced->push));
   }
-  const Eigen::Vector3d change = *now.offset - *before.offset;
+  const Vector3d change = *now.offset - *before.offset;
   const double nearer = now.depth - before.depth;
   const double farther = change.dot(before.offset->normalized());
   return std::max({0.5 * change.norm(), nearer, farther});
@@ -62,10 +86,7 @@ double ContactMotion::path_length_to(const Contact& contact, const Place& now) {
 
 std::optional<double> ContactMotion::follow(const ContactArray& answer,
                                             const std::vector<Push>& pushes,
-                                            const KeptSides::Radius& shaft_radius) {
-  if (answer.mode == ContactArray::STATIC || answer.topology != topology_) last_.reset();
-  topology_ = answer.topology;
-
+                                            const ShaftRadius& shaft_radius) {
   double way = 0.0;
   Places places;
   for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
@@ -97,51 +118,8 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
   return follows ? std::optional<double>(way) : std::nullopt;
 }
 
-namespace {
-
-using Eigen::Vector3d;
-
-/// [1] The allowed change of force, as a multiple of stiffness * motion. A flat surface needs 1, a
-/// crease 2, a narrow crease more.
-constexpr double kSteepness = 4.0;
-/// [m/s] The allowed change of force while the tool rests, divided by stiffness and time.
-constexpr double kSettling = 0.05;
-
-/// The contacts' faces, and then the clearance's face if there is a push for it. Without forces.
-std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Push>& pushes) {
-  std::vector<FaceForce> faces;
-  faces.reserve(pushes.size());
-  for (const Contact& contact : answer.contacts) {
-    faces.push_back({contact.face, contact.link, contact.vertices, contact.barycentric,
-                     to_eigen(contact.end_point)});
-  }
-  if (pushes.size() > faces.size()) {
-    const Clearance& clearance = answer.clearance;
-    faces.push_back({clearance.face, clearance.link, clearance.vertices, clearance.barycentric,
-                     to_eigen(clearance.on_organ)});
-  }
-  return faces;
-}
-
-Vector3d sum_of(const std::vector<FaceForce>& forces) {
-  Vector3d sum = Vector3d::Zero();
-  for (const FaceForce& at : forces) sum += at.force;
-  return sum;
-}
-
-/// Adds `force` to `forces`, in proportion to `weights`. To all alike if the weights are zero.
-void spread(const Vector3d& force, const std::vector<double>& weights,
-            std::vector<FaceForce>& forces) {
-  double sum = 0.0;
-  for (const double weight : weights) sum += weight;
-  for (std::size_t i = 0; i < forces.size(); ++i) {
-    forces[i].force += (sum > 0.0 ? weights[i] / sum : 1.0 / forces.size()) * force;
-  }
-}
-
-}  // namespace
-
 /// Interpolates from the last forces to `forces`. `share`: 0 gives the last ones, 1 gives `forces`.
+/// What was lost with faces is shared in proportion to `forces`, or equally if these are zero.
 void ForceLaw::blend_with_last(std::vector<FaceForce>& forces, double share) {
   std::vector<double> weights;
   for (FaceForce& at : forces) {
@@ -154,12 +132,19 @@ void ForceLaw::blend_with_last(std::vector<FaceForce>& forces, double share) {
   }
   Vector3d lost = Vector3d::Zero();
   for (const auto& [face, force] : last_) lost += (1.0 - share) * force;
-  spread(lost, weights, forces);
+  const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    forces[i].force += (sum > 0.0 ? weights[i] / sum : 1.0 / forces.size()) * lost;
+  }
 }
 
 std::vector<FaceForce> ForceLaw::follow(const ContactArray& answer, double seconds,
-                                        double stiffness, const KeptSides::Radius& shaft_radius) {
-  const std::vector<Push> pushes = way_out_.follow(answer, shaft_radius);
+                                        double stiffness, const ShaftRadius& shaft_radius) {
+  if (answer.mode == ContactArray::STATIC || answer.topology != topology_) {
+    *this = ForceLaw(way_out_);
+    topology_ = answer.topology;
+  }
+  const std::vector<Push> pushes = pushes_.follow(answer, shaft_radius);
   const std::optional<double> way = motion_.follow(answer, pushes, shaft_radius);
   const std::vector<Vector3d> penalties = penalty_forces(pushes, stiffness);
   std::vector<FaceForce> forces = faces_of(answer, pushes);

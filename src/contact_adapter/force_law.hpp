@@ -1,12 +1,8 @@
 #pragma once
 
-#include <organ_collision/ContactArray.h>
-
-#include <Eigen/Core>
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "forces/forces.hpp"
@@ -35,11 +31,11 @@ namespace organ_collision {
 ///   most the motion.
 class ContactMotion {
  public:
-  /// [m] A lower bound of the motion since the answer of the last call. std::nullopt if this answer
-  /// is the first one, is static, or has another topology. `pushes`: one for each contact of the
-  /// answer; others may follow them. `shaft_radius`: as for KeptSides::follow().
+  /// [m] A lower bound of the motion since the answer of the last call, which has the same
+  /// topology. std::nullopt if this answer is the first one. `pushes`: one for each contact of the
+  /// answer; others may follow them.
   std::optional<double> follow(const ContactArray& answer, const std::vector<Push>& pushes,
-                               const KeptSides::Radius& shaft_radius);
+                               const ShaftRadius& shaft_radius);
 
  private:
   struct Pierced {
@@ -53,16 +49,14 @@ class ContactMotion {
     std::optional<Eigen::Vector3d> offset;  ///< [m] axis to face; unset: the radius is unknown
     std::optional<Pierced> pierced;         ///< if the axis is past the face and the push counts
   };
-  using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
   using Places = std::map<FaceAndLink, Place>;
 
-  static Place place_of(const Contact& contact, const Push& push, const KeptSides::Radius& radius);
+  static Place place_of(const Contact& contact, const Push& push, const ShaftRadius& radius);
   static double path_length_between(const Place& before, const Place& now);
   static double path_length_to(const Contact& contact, const Place& now);
 
   std::optional<Places> last_;
   std::optional<double> last_distance_;  ///< [m] Clearance.distance; unset: not known
-  std::uint32_t topology_ = 0;
 };
 
 /// Turns the answers about one organ and one tool into forces: the penalty law of the pushes, with
@@ -80,25 +74,25 @@ class ContactMotion {
 /// face that is no longer among them is shared among those that are.
 class ForceLaw {
  public:
-  /// `way_out`: whether a tool that is wholly inside is pushed out, see WayOut.
+  /// `way_out`: whether a tool that is wholly inside is pushed out.
   explicit ForceLaw(bool way_out = true) : way_out_(way_out) {}
 
-  /// One force for each push of WayOut. `answer`: the next answer about the same organ and tool.
-  /// `seconds`: time since the last call. The limit does not apply to the first answer, a static
-  /// one, or one with a new topology. `stiffness` [N/m]. `shaft_radius`: as for
-  /// KeptSides::follow(). Throws Rejection if the result is not finite, and where WayOut::follow()
-  /// does.
+  /// One force for each push of PushTracker. `answer`: the next answer about the same organ and
+  /// tool. A static answer (the first one after a reset) and one with a new topology begin anew:
+  /// all that was kept of earlier answers is forgotten, and the limit does not apply. `seconds`:
+  /// time since the last call. `stiffness` [N/m]. Throws Rejection if the result is not finite, and
+  /// where PushTracker::follow() does.
   std::vector<FaceForce> follow(const ContactArray& answer, double seconds, double stiffness,
-                                const KeptSides::Radius& shaft_radius);
+                                const ShaftRadius& shaft_radius);
 
  private:
-  using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
-
   void blend_with_last(std::vector<FaceForce>& forces, double share);
 
-  WayOut way_out_;
+  bool way_out_;
+  std::uint32_t topology_ = 0;
+  PushTracker pushes_{way_out_};
   ContactMotion motion_;
-  std::map<FaceAndLink, Eigen::Vector3d> last_;
+  std::map<FaceAndLink, Eigen::Vector3d> last_;  ///< [N]
 };
 
 }  // namespace organ_collision

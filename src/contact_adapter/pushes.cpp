@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "basins.hpp"
-#include "contact_answer.hpp"
 #include "geometry/concatenate.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
@@ -46,139 +45,7 @@ double depth_of_side(const Contact& contact, const Vector3d& side, double radius
   return (radius - distance) * std::max(0.0, 1.0 - distance / radius * turned_away);
 }
 
-}  // namespace
-
-const KeptSides::Kept* KeptSides::find(const Contact& contact) const {
-  const auto kept = kept_.find({contact.face, contact.link});
-  return kept == kept_.end() ? nullptr : &kept->second;
-}
-
-KeptSides::Kept KeptSides::first_touch(const Contact& contact, const Radius& radius) {
-  Kept kept;
-  kept.normal = to_eigen(contact.normal);
-  kept.depth = contact.depth;
-  kept.depth_in_plane = radius.value_or(contact.depth);
-  // The face may have been pierced before this step. Then assume that the tip pierced it.
-  kept.by_tip = contact.shaft >= 1.0 || contact.fraction == 0.0;
-  if (!radius) return kept;
-  kept.is_past = contact.depth >= *radius;
-  if (!kept.is_past) kept.behind = contact.behind != 0;
-  return kept;
-}
-
-KeptSides::Kept KeptSides::first_touch_from_inside(const Contact& contact, double depth_inside) {
-  Kept kept;
-  kept.normal = -to_eigen(contact.normal);
-  kept.depth_in_plane = 0.5 * depth_inside;
-  kept.depth = depth_inside - contact.depth;
-  kept.behind = false;
-  kept.is_past = contact.depth <= kept.depth_in_plane;
-  return kept;
-}
-
-void KeptSides::move_on(const Contact& contact, Kept& kept) {
-  const Vector3d now = to_eigen(contact.normal);
-  const bool was_past = kept.is_past;
-  kept.is_past = now.dot(kept.normal) < 0.0;
-  if (kept.is_past) {
-    // The depth continues from its last value.
-    if (!was_past) kept.depth_in_plane = 0.5 * (kept.depth + contact.depth);
-    const double distance = kept.depth_in_plane - contact.depth;
-    kept.depth = kept.depth_in_plane - distance * kept.normal.dot(now);
-  } else {
-    kept.normal = now;
-    kept.depth = contact.depth;
-  }
-}
-
-void KeptSides::move_on(const Contact& contact, double radius, Kept& kept) {
-  const Vector3d now = to_eigen(contact.normal);
-  const double distance = radius - contact.depth;
-  if (distance <= 0.0) {  // The axis pierces the face, or passed it during the step.
-    kept.is_past = true;
-    if (kept.by_tip && now.dot(kept.normal) >= kSameSide) kept.depth_in_plane = contact.depth;
-    kept.depth = kept.depth_in_plane;
-    return;
-  }
-  const bool behind = contact.behind != 0;
-  if (!kept.behind) kept.behind = (now.dot(kept.normal) > 0.0) == behind;
-  kept.is_past = behind != *kept.behind;
-  if (!kept.is_past) {
-    kept.normal = turned(kept.normal, now, greatest_angle(distance, radius));
-    kept.by_tip = contact.shaft >= 1.0;
-    kept.depth_in_plane = radius;
-  } else if (!kept.is_nearest) {
-    // The face becomes nearest when the axis is already past the surface, for example beside an
-    // edge. The depth continues from its last value, so that the force does not jump.
-    kept.depth_in_plane =
-        std::min(kept.depth_in_plane, kept.depth + distance * kept.normal.dot(now));
-  }
-  kept.depth = kept.depth_in_plane - distance * kept.normal.dot(now);
-}
-
-KeptSides::Kept KeptSides::kept_now(const Contact& contact, const Radius& radius,
-                                    const DepthsInside& inside) const {
-  const Kept* before = find(contact);
-  if (!before) {
-    const auto depth = inside.find(contact.link);
-    return depth == inside.end() ? first_touch(contact, radius)
-                                 : first_touch_from_inside(contact, depth->second);
-  }
-  Kept kept = *before;
-  if (radius) {
-    move_on(contact, *radius, kept);
-  } else {
-    move_on(contact, kept);
-  }
-  return kept;
-}
-
-std::vector<Push> KeptSides::follow(const ContactArray& answer, const Radius& shaft_radius,
-                                    const DepthsInside& inside) {
-  if (answer.mode == ContactArray::STATIC || answer.topology != topology_) kept_.clear();
-  topology_ = answer.topology;
-
-  const std::vector<Contact>& contacts = answer.contacts;
-  const std::vector<std::size_t> basins = basins_of(contacts);
-  std::vector<Kept> nearest(contacts.size());
-  std::vector<bool> passed(contacts.size());  // past the face when the step begins or ends
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    if (basins[i] != i) continue;
-    const Kept* before = find(contacts[i]);
-    nearest[i] = kept_now(contacts[i], radius_at(contacts[i], answer, shaft_radius), inside);
-    nearest[i].is_nearest = true;
-    passed[i] = nearest[i].is_past || (before && before->is_past);
-  }
-
-  std::map<FaceAndLink, Kept> kept;
-  std::vector<Push> pushes;
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const Contact& contact = contacts[i];
-    const Kept& there = nearest[basins[i]];
-    Push push{to_eigen(contact.end_point), there.normal, there.depth, basins[i] == i};
-    if (!push.counts) push.depth = std::min(there.depth, contact.depth);
-    // Faces around the nearest one share its side. Faces of another side keep their own side: past
-    // a crease, where the edge of the crease is nearest, both sides keep pushing.
-    const Kept* own = push.counts ? nullptr : find(contact);
-    if (own && own->normal.dot(there.normal) >= kSameSide) own = nullptr;
-    if (own) {
-      const Radius radius = radius_at(contact, answer, shaft_radius);
-      push.normal = own->normal;
-      push.counts = radius && passed[basins[i]];
-      if (push.counts) push.depth = depth_of_side(contact, own->normal, *radius);
-    }
-    Kept& now = kept[{contact.face, contact.link}];
-    now = own ? *own : there;
-    now.is_nearest = basins[i] == i;
-    pushes.push_back(push);
-  }
-  kept_ = std::move(kept);
-  return pushes;
-}
-
-namespace {
-
-bool is_inside(const ContactArray& answer) {
+bool is_tool_inside(const ContactArray& answer) {
   const ToolPlacement& placement = answer.placement;
   if (answer.clearance.state == Clearance::NOT_ASKED) return false;
   if (placement.tip != ToolPlacement::INSIDE || !placement.crossings.empty()) return false;
@@ -205,18 +72,140 @@ void refuse_unknown_way(const Clearance& clearance) {
 
 }  // namespace
 
-KeptSides::DepthsInside WayOut::depths_inside(const ContactArray& answer,
-                                              const KeptSides::Radius& shaft_radius) const {
-  KeptSides::DepthsInside depths;
-  for (std::uint32_t link = 0; link < answer.links.size(); ++link) {
-    const auto known = depths_.find(link);
-    depths[link] = known == depths_.end() ? 0.0 : known->second;
-    if (shaft_radius && is_shaft(link, answer)) depths[link] = 2.0 * *shaft_radius;
-  }
-  return depths;
+PushTracker::Side PushTracker::Side::first_touch(const Contact& contact,
+                                                 const ShaftRadius& radius) {
+  Side side;
+  side.normal = to_eigen(contact.normal);
+  side.depth = contact.depth;
+  side.depth_in_plane = radius.value_or(contact.depth);
+  // The face may have been pierced before this step. Then assume that the tip pierced it.
+  side.by_tip = contact.shaft >= 1.0 || contact.fraction == 0.0;
+  if (!radius) return side;
+  side.is_past = contact.depth >= *radius;
+  if (!side.is_past) side.behind = contact.behind != 0;
+  return side;
 }
 
-void WayOut::keep_depths(const ContactArray& answer, const std::vector<Push>& pushes) {
+PushTracker::Side PushTracker::Side::first_touch_from_inside(const Contact& contact,
+                                                             double depth_inside) {
+  Side side;
+  side.normal = -to_eigen(contact.normal);
+  side.depth_in_plane = 0.5 * depth_inside;
+  side.depth = depth_inside - contact.depth;
+  side.behind = false;
+  side.is_past = contact.depth <= side.depth_in_plane;
+  return side;
+}
+
+/// For links, and for a shaft of unknown radius.
+void PushTracker::Side::move_on(const Contact& contact) {
+  const Vector3d now = to_eigen(contact.normal);
+  const bool was_past = is_past;
+  is_past = now.dot(normal) < 0.0;
+  if (!is_past) {
+    normal = now;
+    depth = contact.depth;
+    return;
+  }
+  // The depth continues from its last value.
+  if (!was_past) depth_in_plane = 0.5 * (depth + contact.depth);
+  const double distance = depth_in_plane - contact.depth;
+  depth = depth_in_plane - distance * normal.dot(now);
+}
+
+void PushTracker::Side::move_on(const Contact& contact, double radius) {
+  const Vector3d now = to_eigen(contact.normal);
+  const double distance = radius - contact.depth;
+  if (distance <= 0.0) {  // The axis pierces the face, or passed it during the step.
+    is_past = true;
+    if (by_tip && now.dot(normal) >= kSameSide) depth_in_plane = contact.depth;
+    depth = depth_in_plane;
+    return;
+  }
+  const bool is_behind = contact.behind != 0;
+  if (!behind) behind = (now.dot(normal) > 0.0) == is_behind;
+  is_past = is_behind != *behind;
+  if (!is_past) {
+    normal = turned(normal, now, greatest_angle(distance, radius));
+    by_tip = contact.shaft >= 1.0;
+    depth_in_plane = radius;
+  } else if (!is_nearest) {
+    // The face becomes nearest when the axis is already past the surface, for example beside an
+    // edge. The depth continues from its last value, so that the force does not jump.
+    depth_in_plane = std::min(depth_in_plane, depth + distance * normal.dot(now));
+  }
+  depth = depth_in_plane - distance * normal.dot(now);
+}
+
+const PushTracker::Side* PushTracker::find(const Contact& contact) const {
+  const auto side = sides_.find({contact.face, contact.link});
+  return side == sides_.end() ? nullptr : &side->second;
+}
+
+PushTracker::Side PushTracker::side_now(const Contact& contact, const ContactArray& answer,
+                                        const ShaftRadius& shaft_radius, bool began_inside) const {
+  const ShaftRadius radius = radius_at(contact, answer, shaft_radius);
+  if (const Side* before = find(contact)) {
+    Side side = *before;
+    radius ? side.move_on(contact, *radius) : side.move_on(contact);
+    return side;
+  }
+  if (!began_inside || contact.link >= answer.links.size()) {
+    return Side::first_touch(contact, radius);
+  }
+  return Side::first_touch_from_inside(contact, depth_inside(contact.link, answer, shaft_radius));
+}
+
+/// The pushes of the contacts.
+std::vector<Push> PushTracker::keep_sides(const ContactArray& answer,
+                                          const ShaftRadius& shaft_radius, bool began_inside) {
+  const std::vector<Contact>& contacts = answer.contacts;
+  const std::vector<std::size_t> basins = basins_of(contacts);
+  std::vector<Side> nearest(contacts.size());
+  std::vector<bool> passed(contacts.size());  // past the face when the step begins or ends
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    if (basins[i] != i) continue;
+    const Side* before = find(contacts[i]);
+    nearest[i] = side_now(contacts[i], answer, shaft_radius, began_inside);
+    nearest[i].is_nearest = true;
+    passed[i] = nearest[i].is_past || (before && before->is_past);
+  }
+
+  std::map<FaceAndLink, Side> sides;
+  std::vector<Push> pushes;
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Contact& contact = contacts[i];
+    const Side& there = nearest[basins[i]];
+    Push push{to_eigen(contact.end_point), there.normal, there.depth, basins[i] == i};
+    if (!push.counts) push.depth = std::min(there.depth, contact.depth);
+    // Faces around the nearest one share its side. Faces of another side keep their own side: past
+    // a crease, where the edge of the crease is nearest, both sides keep pushing.
+    const Side* own = push.counts ? nullptr : find(contact);
+    if (own && own->normal.dot(there.normal) >= kSameSide) own = nullptr;
+    if (own) {
+      const ShaftRadius radius = radius_at(contact, answer, shaft_radius);
+      push.normal = own->normal;
+      push.counts = radius && passed[basins[i]];
+      if (push.counts) push.depth = depth_of_side(contact, own->normal, *radius);
+    }
+    Side& now = sides[{contact.face, contact.link}];
+    now = own ? *own : there;
+    now.is_nearest = basins[i] == i;
+    pushes.push_back(push);
+  }
+  sides_ = std::move(sides);
+  return pushes;
+}
+
+/// [m] The depth with which a link is pushed when it is wholly inside, just below the surface.
+double PushTracker::depth_inside(std::uint32_t link, const ContactArray& answer,
+                                 const ShaftRadius& shaft_radius) const {
+  if (shaft_radius && is_shaft(link, answer)) return 2.0 * *shaft_radius;
+  const auto known = depths_.find(link);
+  return known == depths_.end() || link >= answer.links.size() ? 0.0 : known->second;
+}
+
+void PushTracker::keep_depths(const ContactArray& answer, const std::vector<Push>& pushes) {
   for (const Contact& contact : answer.contacts) depths_[contact.link] = 0.0;
   for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
     double& depth = depths_[answer.contacts[i].link];
@@ -224,32 +213,21 @@ void WayOut::keep_depths(const ContactArray& answer, const std::vector<Push>& pu
   }
 }
 
-Push WayOut::push_out(const ContactArray& answer, const KeptSides::Radius& shaft_radius) const {
+Push PushTracker::push_out(const ContactArray& answer, const ShaftRadius& shaft_radius) const {
   const Clearance& clearance = answer.clearance;
   refuse_unknown_way(clearance);
-  const KeptSides::DepthsInside depths = depths_inside(answer, shaft_radius);
-  const auto depth = depths.find(clearance.link);
   return {to_eigen(clearance.on_organ), -to_eigen(clearance.normal),
-          clearance.distance + (depth == depths.end() ? 0.0 : depth->second), true};
+          clearance.distance + depth_inside(clearance.link, answer, shaft_radius), true};
 }
 
-std::vector<Push> WayOut::follow(const ContactArray& answer,
-                                 const KeptSides::Radius& shaft_radius) {
-  if (answer.mode == ContactArray::STATIC || answer.topology != topology_) {
-    was_inside_.reset();
-    depths_.clear();
-  }
-  topology_ = answer.topology;
-
-  const bool inside = enabled_ && is_inside(answer);
-  std::vector<Push> pushes =
-      sides_.follow(answer, shaft_radius,
-                    was_inside_.value_or(inside) ? depths_inside(answer, shaft_radius)
-                                                 : KeptSides::DepthsInside());
-  was_inside_ = inside;
-  if (!inside && answer.contacts.empty()) depths_.clear();
+std::vector<Push> PushTracker::follow(const ContactArray& answer, const ShaftRadius& shaft_radius) {
+  const bool is_inside = pushes_out_ && is_tool_inside(answer);
+  const bool began_inside = was_inside_.value_or(is_inside);
+  std::vector<Push> pushes = keep_sides(answer, shaft_radius, began_inside);
+  was_inside_ = is_inside;
+  if (!is_inside && answer.contacts.empty()) depths_.clear();
   keep_depths(answer, pushes);
-  if (inside && std::none_of(pushes.begin(), pushes.end(), is_pushing)) {
+  if (is_inside && std::none_of(pushes.begin(), pushes.end(), is_pushing)) {
     pushes.push_back(push_out(answer, shaft_radius));
   }
   return pushes;

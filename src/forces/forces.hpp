@@ -1,7 +1,6 @@
 #pragma once
 
 #include <geometry_msgs/Wrench.h>
-#include <organ_collision/Contact.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/VertexForces.h>
 
@@ -13,7 +12,6 @@
 #include <vector>
 
 /// The names that all nodes with forces have in the ROS graph.
-
 namespace organ_collision::names {
 
 /// Topics of a pair, below ~ORGAN/TOOL.
@@ -37,6 +35,9 @@ struct FaceForce {
   Eigen::Vector3d place;                    ///< [m] the point, at the end of the step
   Eigen::Vector3d force = {0.0, 0.0, 0.0};  ///< [N]
 };
+
+/// [N]
+Eigen::Vector3d sum_of(const std::vector<FaceForce>& forces);
 
 /// The sum of the forces [N], and of their torques about the origin of the organ's frame [N m].
 geometry_msgs::Wrench wrench_of(const std::vector<FaceForce>& forces);

@@ -48,23 +48,21 @@ SteadyClock::duration duration(double seconds) {
 HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
       inbox_({core_.parameters().max_faces, core_.parameters().max_ahead_sec},
-             core_.parameters().tools,
-             {[this](std::size_t tool) {
-                if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
-              },
-              counters_.rejected, core_.loop().queue()}),
-      poses_(inbox_.transforms(), kNoPaths),
+             core_.parameters().tools, counters_.rejected,
+             [this](std::size_t tool) {
+               if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
+             },
+             OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
+                                  core_.background().queue()}),
+      poses_(inbox_.transforms, kNoPaths),
       frame_(core_.parameters().frame),
       hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
       started_(SteadyClock::now()),
-      publisher_(core_.private_node(), inbox_.organs(), counters_.failed,
+      publisher_(core_.private_node(), inbox_.organs, counters_.failed,
                  core_.parameters().publish_tf),
       markers_(core_.private_node(), core_.parameters().markers),
-      inbox_diagnostics_({core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs(),
-                          inbox_.organ_topics(), counters_.meshes, counters_.rejected}),
-      surfaces_(core_.background().queue()),
-      organ_services_({inbox_.organs(), inbox_.organ_topics(), core_.loop().queue(),
-                       core_.background().queue()}) {
+      organ_services_(inbox_.organs, inbox_.intake, core_.loop().queue(),
+                      core_.background().queue()) {
   try {
     start();
   } catch (...) {
@@ -100,7 +98,10 @@ void HapticProxyNode::start() {
   inbox_.subscribe(core_.node(), core_.private_node());
   organ_services_.advertise(core_.private_node());
   core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
-  inbox_diagnostics_.add_to(core_.updater());
+  add_diagnostics(core_.updater(),
+                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
+                                inbox_.organs, inbox_.intake, counters_.meshes,
+                                counters_.rejected});
   core_.start();
   ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
            core_.parameters().stiffness);
@@ -113,8 +114,7 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
 
 void HapticProxyNode::work() {
   follow_hands();
-  markers_.update(inbox_.organs(), [this] { return views(); });
-  surfaces_.update(inbox_.organs(), SteadyClock::now());
+  markers_.update(inbox_.organs, [this] { return views(); });
 }
 
 /// Lets all forces fade, and tells each hand why. Returns when the last messages have left.
@@ -140,11 +140,9 @@ void HapticProxyNode::watch_clock() {
 }
 
 void HapticProxyNode::apply_organ_messages() {
-  while (const auto update = inbox_.organ_topics().next()) {
+  while (const auto update = inbox_.intake.next()) {
     has_new_shape_ = true;
     if (update->status == ContactArray::OK) counters_.meshes.count();
-    // At once, because the next callback may ask what is known of the surface.
-    surfaces_.update(inbox_.organs(), SteadyClock::now());
   }
 }
 
@@ -161,7 +159,7 @@ void HapticProxyNode::follow_waiting_hands() {
 /// After a batch of messages: a tick for each hand with a new pose.
 void HapticProxyNode::follow_hands() {
   batch_began_.reset();
-  if (frame_.update(inbox_.organs())) reset_proxies("the proxy's frame changed");
+  if (frame_.update(inbox_.organs)) reset_proxies("the proxy's frame changed");
   const Time now = SteadyClock::now();
   for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) follow_hand(tool, now);
   has_new_shape_ = false;
@@ -174,7 +172,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     if (hand.is_leaving) throw Rejection(*hand.why_not);
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
-    const ProxyScene scene = proxy_scene(inbox_.organs(), inbox_.transforms(), frame_.name(),
+    const ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
                                          age_limits(core_.parameters()), ros::Time::now());
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
@@ -222,7 +220,7 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
     return true;
   }
   const HapticProxyParameters& parameters = core_.parameters();
-  check_age(inbox_.transforms(), frame_.name(), swept_frames(core_.tools()[tool]), stamp,
+  check_age(inbox_.transforms, frame_.name(), swept_frames(core_.tools()[tool]), stamp,
             age_limits(parameters), ros::Time::now());
   const double timeout = parameters.pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {

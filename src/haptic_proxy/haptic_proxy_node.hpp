@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "haptic_proxy_parameters.hpp"
-#include "proxy_counters.hpp"
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "ros/markers/marker_publisher.hpp"
@@ -94,8 +93,6 @@ class HapticProxyNode {
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
-  InboxDiagnostics inbox_diagnostics_;
-  SurfaceInspector surfaces_;
   OrganServices organ_services_;
 };
 

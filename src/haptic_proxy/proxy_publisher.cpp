@@ -131,7 +131,7 @@ void ProxyPublisher::publish(const ProxyReport& report) {
   ToolTopics& topics = tools_.at(report.tool.name);
   publish_wrenches(report);
   publish_proxy(report, topics);
-  publish_state(report, topics);
+  topics.state.publish(state_of(report));
   publish_vertex_forces(report);
   publish_contacts(report);
 }
@@ -172,10 +172,6 @@ void ProxyPublisher::publish_proxy(const ProxyReport& report, ToolTopics& topics
   transform.transform.translation.z = pose.position.z;
   transform.transform.rotation = pose.orientation;
   frames_->sendTransform(transform);
-}
-
-void ProxyPublisher::publish_state(const ProxyReport& report, const ToolTopics& topics) {
-  topics.state.publish(state_of(report));
 }
 
 void ProxyPublisher::publish_vertex_forces(const ProxyReport& report) {

@@ -3,6 +3,8 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <chrono>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,9 +14,23 @@
 #include "forces/forces.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/organs/organ_registry.hpp"
+#include "ros/publishing/counters.hpp"
+#include "ros/steps/duration_statistics.hpp"
 #include "tool_proxy.hpp"
 
 namespace organ_collision {
+
+/// What haptic_proxy counts for /diagnostics.
+struct ProxyCounters {
+  EventRate meshes{std::chrono::steady_clock::now()};  ///< accepted shapes of organs
+  EventRate ticks{std::chrono::steady_clock::now()};
+  DurationStatistics tick_times;
+  std::uint64_t poses_merged = 0;  ///< poses that came while an earlier one still waited
+  FailureLog rejected;             ///< messages that were refused
+  FailureLog failed;               ///< ticks without an answer
+  FailureLog clipped;              ///< forces that were reduced
+  FailureLog placed_anew;          ///< proxies that left their place otherwise than by a motion
+};
 
 /// Publishes what there is to say about tools: wrenches first, because a hand waits for them.
 class ProxyPublisher {
@@ -39,7 +55,6 @@ class ProxyPublisher {
   };
 
   void publish_wrenches(const ProxyReport& report);
-  void publish_state(const ProxyReport& report, const ToolTopics& topics);
   void publish_proxy(const ProxyReport& report, ToolTopics& topics);
   void publish_vertex_forces(const ProxyReport& report);
   void publish_contacts(const ProxyReport& report);

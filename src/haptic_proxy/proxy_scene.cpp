@@ -11,17 +11,6 @@
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
-
-bool ProxyFrame::update(const OrganRegistry& organs) {
-  const auto& all = organs.organs();
-  if (fixed_ || all.empty()) return false;
-  const bool is_used = std::any_of(
-      all.begin(), all.end(), [this](const auto& organ) { return organ.second.frame() == name_; });
-  if (is_used) return false;
-  name_ = all.begin()->second.frame();
-  return true;
-}
-
 namespace {
 
 /// How old the newest transform of a frame may be.
@@ -64,6 +53,16 @@ std::string oldest_between(const TransformBuffer& transforms, const std::string&
 }
 
 }  // namespace
+
+bool ProxyFrame::update(const OrganRegistry& organs) {
+  const auto& all = organs.organs();
+  if (fixed_ || all.empty()) return false;
+  const bool is_used = std::any_of(
+      all.begin(), all.end(), [this](const auto& organ) { return organ.second.frame() == name_; });
+  if (is_used) return false;
+  name_ = all.begin()->second.frame();
+  return true;
+}
 
 Rejection no_organ() {
   return {ContactArray::NO_MESH, "no organ", "there is no organ; send one on organ_mesh"};

@@ -1,36 +1,17 @@
 #include "tool_proxy.hpp"
 
-#include <organ_collision/ContactArray.h>
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
 #include <utility>
 
-#include "forces/forces.hpp"
-#include "ros/messages/failure_log.hpp"
-
 namespace organ_collision {
-
-geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
-  if (!tool.has_shaft()) return tf2::toMsg(pose.links.front());
-  Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
-  tip.translation() = pose.axis.tip;
-  tip.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), pose.axis.tip - pose.axis.trocar)
-          .toRotationMatrix();
-  return tf2::toMsg(tip);
-}
-
 namespace {
 
 using Eigen::Vector3d;
 
 ProxyTool proxy_tool(const Tool& tool) {
   return {tool.parameters.radius, tool.links, tool.parameters.freedom};
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// From whole nanoseconds, because ros::Duration overflows for extreme stamps.
@@ -40,6 +21,16 @@ double seconds_between(ros::Time from, ros::Time to) {
 }
 
 }  // namespace
+
+geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
+  if (!tool.has_shaft()) return tf2::toMsg(pose.links.front());
+  Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
+  tip.translation() = pose.axis.tip;
+  tip.linear() =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), pose.axis.tip - pose.axis.trocar)
+          .toRotationMatrix();
+  return tf2::toMsg(tip);
+}
 
 const Vector3d& PullVelocity::update(const Vector3d& pull, ros::Time stamp, bool leaps) {
   const double interval = seconds_between(begun_, stamp);
@@ -63,7 +54,7 @@ ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
 ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
   const auto start = std::chrono::steady_clock::now();
   const ProxyAnswer& answer = proxy_.follow(hand.value, scene.organs);
-  const double tick_sec = seconds_since(start);
+  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
   if (answer.state == ProxyStatus::kNoAnswer) {
     throw Rejection(ContactArray::INVALID_REQUEST, "no proxy", answer.message);
   }
@@ -86,7 +77,7 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   }
   ProxyReport report{tool_,  scene.frame, stamp, ContactArray::OK, answer.message, &answer,
                      &scene, hand_,       held_};
-  report.tick_sec = tick_sec;
+  report.tick_sec = passed.count();
   set_forces(report, ramp_.share());
   return report;
 }

@@ -14,6 +14,8 @@
 namespace organ_collision {
 namespace {
 
+using topic_tools::ShapeShifter;
+
 /// The collision node decides how large an organ may be.
 constexpr MeshLimits kNoLimits = {std::numeric_limits<std::uint32_t>::max() / 3};
 
@@ -33,81 +35,6 @@ SharedVertices vertices_of(const boost::shared_ptr<Message>& message) {
   return {&message->vertices, [message](const void*) {}};
 }
 
-}  // namespace
-
-OrganFeed::OrganFeed(std::string organ, std::uint32_t last_topology, Outlet outlet)
-    : organ_(std::move(organ)), last_topology_(last_topology), outlet_(std::move(outlet)) {}
-
-void OrganFeed::send(ReceivedSurface& surface) {
-  if (surface.empty()) {
-    mesh_.reset();
-    outlet_.mesh(message_of<OrganMesh>(organ_, last_topology_, surface.frame, surface.stamp));
-  } else if (!has_triangles(surface)) {
-    send_mesh(surface, ++last_topology_);
-  } else if (surface.frame != frame_) {
-    send_mesh(surface, mesh_->topology());
-  } else {
-    send_vertices(surface.frame, surface.stamp, std::move(surface.vertices));
-  }
-}
-
-/// Sends the message before it is checked here, so that the collision node need not wait.
-void OrganFeed::send_mesh(ReceivedSurface& surface, std::uint32_t topology) {
-  const auto message = message_of<OrganMesh>(organ_, topology, surface.frame, surface.stamp);
-  message->vertices = std::move(surface.vertices);
-  message->triangles = surface.triangles;
-  outlet_.mesh(message);
-  try {
-    mesh_.emplace(TriangleMesh(vertices_of(message), message->triangles, topology, kNoLimits));
-    frame_ = surface.frame;
-    stamp_ = surface.stamp;
-  } catch (const MeshError&) {  // The collision node refuses and reports the mesh.
-  }
-}
-
-void OrganFeed::send_vertices(const std::string& frame, ros::Time stamp,
-                              std::vector<float> vertices) {
-  const std::string named =
-      std::to_string(vertices.size() / 3) + " vertices for organ '" + organ_ + "'";
-  if (!mesh_) throw MessageError("no mesh", named + ", which has no mesh; must come after one");
-  if (vertices.size() != mesh_->vertices().size()) {
-    throw MessageError("wrong number of vertices", named + "; must be as many as its mesh has, " +
-                                                       std::to_string(mesh_->vertex_count()));
-  }
-  const auto message = message_of<OrganVertices>(organ_, mesh_->topology(), frame, stamp);
-  message->vertices = std::move(vertices);
-  outlet_.vertices(message);
-  if (frame == frame_) move(vertices_of(message), stamp);
-}
-
-void OrganFeed::move(SharedVertices vertices, ros::Time stamp) {
-  try {
-    mesh_->move_vertices(std::move(vertices));
-    stamp_ = stamp;
-  } catch (const MeshError&) {  // The collision node refuses and reports the vertices.
-  }
-}
-
-bool OrganFeed::has_triangles(const ReceivedSurface& surface) const {
-  return mesh_ && surface.vertices.size() == mesh_->vertices().size() &&
-         mesh_->has_triangles(surface.triangles);
-}
-
-OrganMeshPtr OrganFeed::mesh() const {
-  if (!mesh_) return nullptr;
-  auto message = message_of<OrganMesh>(organ_, mesh_->topology(), frame_, stamp_);
-  message->vertices = mesh_->vertices();
-  message->triangles.reserve(3 * mesh_->face_count());
-  for (const FaceIndices& face : mesh_->faces()) {
-    message->triangles.insert(message->triangles.end(), face.begin(), face.end());
-  }
-  return message;
-}
-
-namespace {
-
-using topic_tools::ShapeShifter;
-
 template <typename Message>
 bool is(const ShapeShifter& message) {
   return message.getDataType() == ros::message_traits::datatype<Message>();
@@ -121,15 +48,14 @@ boost::shared_ptr<Message> instance(const ShapeShifter& message) {
     }
     return held_message<Message>(message);
   } catch (const std::exception& error) {
-    throw MessageError("unreadable message", std::to_string(message.size()) + " bytes are no " +
-                                                 message.getDataType() + ": " + error.what() +
-                                                 "; must be one as this node was built with");
+    throw MessageError("unreadable message", message.size(), " bytes are no ",
+                       message.getDataType(), ": ", error.what(),
+                       "; must be one as this node was built with");
   }
 }
 
 [[noreturn]] void refuse_type(const ShapeShifter& message, const std::string& legal) {
-  throw MessageError("wrong type",
-                     "the messages are " + message.getDataType() + "; must be " + legal);
+  throw MessageError("wrong type", "the messages are ", message.getDataType(), "; must be ", legal);
 }
 
 ros::Time stamp_or(ros::Time arrival, ros::Time stamp) { return stamp.isZero() ? arrival : stamp; }
@@ -137,15 +63,28 @@ ros::Time stamp_or(ros::Time arrival, ros::Time stamp) { return stamp.isZero() ?
 }  // namespace
 
 OrganSource::OrganSource(OrganParameters parameters, std::uint32_t last_topology,
-                         OrganFeed::Outlet outlet)
+                         Callbacks callbacks)
     : parameters_(std::move(parameters)),
-      feed_(parameters_.name, last_topology, std::move(outlet)) {}
+      last_topology_(last_topology),
+      callbacks_(std::move(callbacks)) {}
 
 void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
   read(message);
   surface_.stamp = stamp_or(arrival, surface_.stamp);
-  if (!surface_.empty()) surface_.frame = frame_or_given(surface_.frame);
-  feed_.send(surface_);
+  if (surface_.empty()) {
+    mesh_.reset();
+    callbacks_.mesh(
+        message_of<OrganMesh>(parameters_.name, last_topology_, surface_.frame, surface_.stamp));
+  } else {
+    surface_.frame = frame_or_given(surface_.frame);
+    if (!has_triangles_of_mesh()) {
+      send_mesh(++last_topology_);
+    } else if (surface_.frame != frame_) {
+      send_mesh(mesh_->topology());
+    } else {
+      send_vertices(surface_.frame, surface_.stamp, std::move(surface_.vertices));
+    }
+  }
   marker_reader_.keep();
 }
 
@@ -154,8 +93,59 @@ void OrganSource::take_vertices(const ShapeShifter& message, ros::Time arrival) 
   const auto cloud = instance<sensor_msgs::PointCloud2>(message);
   std::vector<float> vertices;
   read_points(*cloud, vertices);
-  feed_.send_vertices(frame_or_given(cloud->header.frame_id),
-                      stamp_or(arrival, cloud->header.stamp), std::move(vertices));
+  send_vertices(frame_or_given(cloud->header.frame_id), stamp_or(arrival, cloud->header.stamp),
+                std::move(vertices));
+}
+
+bool OrganSource::has_triangles_of_mesh() const {
+  return mesh_ && surface_.vertices.size() == mesh_->vertices().size() &&
+         mesh_->has_triangles(surface_.triangles);
+}
+
+/// Sends the message before it is checked here, so that the collision node need not wait.
+void OrganSource::send_mesh(std::uint32_t topology) {
+  const auto message =
+      message_of<OrganMesh>(parameters_.name, topology, surface_.frame, surface_.stamp);
+  message->vertices = std::move(surface_.vertices);
+  message->triangles = surface_.triangles;
+  callbacks_.mesh(message);
+  try {
+    mesh_.emplace(TriangleMesh(vertices_of(message), message->triangles, topology, kNoLimits));
+    frame_ = surface_.frame;
+    stamp_ = surface_.stamp;
+  } catch (const MeshError&) {  // The collision node refuses and reports the mesh.
+  }
+}
+
+void OrganSource::send_vertices(const std::string& frame, ros::Time stamp,
+                                std::vector<float> vertices) {
+  const std::string named =
+      concatenate(vertices.size() / 3, " vertices for organ '", parameters_.name, "'");
+  if (!mesh_) throw MessageError("no mesh", named, ", which has no mesh; must come after one");
+  if (vertices.size() != mesh_->vertices().size()) {
+    throw MessageError("wrong number of vertices", named, "; must be as many as its mesh has, ",
+                       mesh_->vertex_count());
+  }
+  const auto message = message_of<OrganVertices>(parameters_.name, mesh_->topology(), frame, stamp);
+  message->vertices = std::move(vertices);
+  callbacks_.vertices(message);
+  if (frame != frame_) return;
+  try {
+    mesh_->move_vertices(vertices_of(message));
+    stamp_ = stamp;
+  } catch (const MeshError&) {  // The collision node refuses and reports the vertices.
+  }
+}
+
+OrganMeshPtr OrganSource::mesh() const {
+  if (!mesh_) return nullptr;
+  auto message = message_of<OrganMesh>(parameters_.name, mesh_->topology(), frame_, stamp_);
+  message->vertices = mesh_->vertices();
+  message->triangles.reserve(3 * mesh_->face_count());
+  for (const FaceIndices& face : mesh_->faces()) {
+    message->triangles.insert(message->triangles.end(), face.begin(), face.end());
+  }
+  return message;
 }
 
 void OrganSource::read(const ShapeShifter& message) {
@@ -174,13 +164,13 @@ void OrganSource::read(const ShapeShifter& message) {
 std::string OrganSource::frame_or_given(const std::string& named) {
   std::string frame = tf_frame(named);
   if (const std::string fault = name_fault(frame); !fault.empty()) {
-    throw MessageError("illegal name", "the messages' frame " + fault);
+    throw MessageError("illegal name", "the messages' frame ", fault);
   }
   const std::string& given = parameters_.frame;
   if (given.empty()) {
     if (!frame.empty()) return frame;
-    throw MessageError("no frame", "the message names no frame; the organ '" + parameters_.name +
-                                       "' must be given one, by the parameter 'frame'");
+    throw MessageError("no frame", "the message names no frame; the organ '", parameters_.name,
+                       "' must be given one, by the parameter 'frame'");
   }
   if (!frame.empty() && frame != given && !has_warned_) {
     has_warned_ = true;

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <numeric>
 
-#include "geometry/concatenate.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 
@@ -16,8 +15,11 @@ namespace {
 
 using sensor_msgs::PointCloud2;
 using sensor_msgs::PointField;
+using visualization_msgs::Marker;
 
 constexpr bool kHostIsBigEndian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
+/// [1] The norm of a legal orientation differs from 1 by at most this.
+constexpr double kUnitTolerance = 1e-2;
 
 std::size_t size_of(const PointField& field) {
   return field.datatype == PointField::FLOAT64 ? sizeof(double) : sizeof(float);
@@ -30,24 +32,21 @@ const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
   if (field == cloud.fields.end()) {
     std::vector<std::string> names;
     for (const PointField& other : cloud.fields) names.push_back(other.name);
-    throw MessageError("missing field", "the fields of the points are '" + listed(names) +
-                                            "'; must hold x, y and z");
+    throw MessageError("missing field", "the fields of the points are '", listed(names),
+                       "'; must hold x, y and z");
   }
   if (field->datatype != PointField::FLOAT32 && field->datatype != PointField::FLOAT64) {
-    throw MessageError("wrong field type", "field " + name + " has datatype " +
-                                               std::to_string(field->datatype) +
-                                               "; must be 7 (float32) or 8 (float64)");
+    throw MessageError("wrong field type", "field ", name, " has datatype ", int{field->datatype},
+                       "; must be 7 (float32) or 8 (float64)");
   }
   if (field->count > 1) {  // Old PCL versions write 0 for 1.
-    throw MessageError("wrong field count", "field " + name + " has count " +
-                                                std::to_string(field->count) + "; must be 1");
+    throw MessageError("wrong field count", "field ", name, " has count ", field->count,
+                       "; must be 1");
   }
   const std::size_t end = std::size_t{field->offset} + size_of(*field);
   if (end > cloud.point_step) {
-    throw MessageError("wrong point_step", "field " + name + " ends at byte " +
-                                               std::to_string(end) + " of a point; point_step is " +
-                                               std::to_string(cloud.point_step) +
-                                               ", must be at least that");
+    throw MessageError("wrong point_step", "field ", name, " ends at byte ", end,
+                       " of a point; point_step is ", cloud.point_step, ", must be at least that");
   }
   return *field;
 }
@@ -58,18 +57,14 @@ const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
 void check_sizes(const PointCloud2& cloud) {
   const std::uint64_t row = std::uint64_t{cloud.width} * cloud.point_step;
   if (cloud.height > 1 && cloud.row_step < row) {
-    throw MessageError("wrong row_step",
-                       "row_step is " + std::to_string(cloud.row_step) + "; " +
-                           std::to_string(cloud.width) + " points of point_step " +
-                           std::to_string(cloud.point_step) + " need " + std::to_string(row));
+    throw MessageError("wrong row_step", "row_step is ", cloud.row_step, "; ", cloud.width,
+                       " points of point_step ", cloud.point_step, " need ", row);
   }
   const std::uint64_t size = cloud.data.size();
   const std::uint64_t earlier_rows = std::uint64_t{cloud.height - 1} * cloud.row_step;
   if (row > size || (cloud.height > 1 && earlier_rows > size - row)) {
-    throw MessageError("truncated cloud",
-                       "data has " + std::to_string(size) + " bytes; too few for " +
-                           std::to_string(cloud.width) + " x " + std::to_string(cloud.height) +
-                           " points of point_step " + std::to_string(cloud.point_step));
+    throw MessageError("truncated cloud", "data has ", size, " bytes; too few for ", cloud.width,
+                       " x ", cloud.height, " points of point_step ", cloud.point_step);
   }
 }
 
@@ -95,14 +90,54 @@ void copy(const PointCloud2& cloud, std::size_t offset, float* to) {
   }
 }
 
+std::string type_name(int type) {
+  constexpr std::array<const char*, 12> kNames = {
+      "ARROW",     "CUBE",        "SPHERE", "CYLINDER",         "LINE_STRIP",    "LINE_LIST",
+      "CUBE_LIST", "SPHERE_LIST", "POINTS", "TEXT_VIEW_FACING", "MESH_RESOURCE", "TRIANGLE_LIST"};
+  const bool known = type >= 0 && type < static_cast<int>(kNames.size());
+  return std::to_string(type) + " (" + (known ? kNames[type] : "unknown") + ")";
+}
+
+/// Refuses zero and negative scales: they would make the organ flat or turn it inside out.
+Eigen::Vector3d scale_of(const Marker& marker) {
+  Eigen::Vector3d scale = to_eigen(marker.scale);
+  if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
+    throw MessageError("wrong scale", "scale is ", scale.transpose(),
+                       "; must be finite and more than 0");
+  }
+  return scale;
+}
+
+Eigen::Isometry3d pose_of(const Marker& marker) {
+  const auto& q = marker.pose.orientation;
+  Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const double length = rotation.norm();
+  if (length == 0.0) {
+    rotation.setIdentity();
+  } else if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
+    throw MessageError("wrong orientation", "pose.orientation has length ", length,
+                       "; must be 1, or 0 for none");
+  }
+  return Eigen::Translation3d(to_eigen(marker.pose.position)) * rotation.normalized();
+}
+
+void place_points(const Marker& marker, std::vector<float>& vertices) {
+  const Eigen::Affine3d placed = pose_of(marker) * Eigen::Scaling(scale_of(marker));
+  vertices.resize(3 * marker.points.size());
+  float* coordinate = vertices.data();
+  for (const geometry_msgs::Point& point : marker.points) {
+    const Eigen::Vector3f vertex = (placed * to_eigen(point)).cast<float>();
+    coordinate = std::copy_n(vertex.data(), 3, coordinate);
+  }
+}
+
 }  // namespace
 
 void read_points(const PointCloud2& cloud, std::vector<float>& vertices) {
   if (cloud.width == 0 || cloud.height == 0) {
     if (!cloud.data.empty()) {
-      throw MessageError("wrong size", "the cloud is " + std::to_string(cloud.width) + " x " +
-                                           std::to_string(cloud.height) +
-                                           " points; must be none only where data is empty");
+      throw MessageError("wrong size", "the cloud is ", cloud.width, " x ", cloud.height,
+                         " points; must be none only where data is empty");
     }
     return vertices.clear();
   }
@@ -146,9 +181,8 @@ void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface) {
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const auto& corners = mesh.polygons[i].vertices;
     if (corners.size() < 3) {
-      throw MessageError("polygon without area", "polygon " + std::to_string(i) + " has " +
-                                                     std::to_string(corners.size()) +
-                                                     " corners; must have at least 3");
+      throw MessageError("polygon without area", "polygon ", i, " has ", corners.size(),
+                         " corners; must have at least 3");
     }
     for (std::size_t last = 2; last < corners.size(); ++last) {
       surface.triangles.insert(surface.triangles.end(),
@@ -157,70 +191,20 @@ void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface) {
   }
 }
 
-namespace {
-
-using visualization_msgs::Marker;
-
-/// [1] The norm of a legal orientation differs from 1 by at most this.
-constexpr double kUnitTolerance = 1e-2;
-
-std::string name_of(const Marker& marker) { return marker.ns + "/" + std::to_string(marker.id); }
-
-std::string type_name(int type) {
-  constexpr std::array<const char*, 12> kNames = {
-      "ARROW",     "CUBE",        "SPHERE", "CYLINDER",         "LINE_STRIP",    "LINE_LIST",
-      "CUBE_LIST", "SPHERE_LIST", "POINTS", "TEXT_VIEW_FACING", "MESH_RESOURCE", "TRIANGLE_LIST"};
-  const bool known = type >= 0 && type < static_cast<int>(kNames.size());
-  return std::to_string(type) + " (" + (known ? kNames[type] : "unknown") + ")";
-}
-
-/// Refuses zero and negative scales: they would make the organ flat or turn it inside out.
-Eigen::Vector3d scale_of(const Marker& marker) {
-  Eigen::Vector3d scale = to_eigen(marker.scale);
-  if (!scale.allFinite() || scale.minCoeff() <= 0.0) {
-    throw MessageError("wrong scale", concatenate("scale is ", scale.transpose(),
-                                                  "; must be finite and more than 0"));
-  }
-  return scale;
-}
-
-Eigen::Isometry3d pose_of(const Marker& marker) {
-  const auto& q = marker.pose.orientation;
-  Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
-  const double length = rotation.norm();
-  if (length == 0.0) {
-    rotation.setIdentity();
-  } else if (!(std::abs(length - 1.0) <= kUnitTolerance)) {
-    throw MessageError("wrong orientation", concatenate("pose.orientation has length ", length,
-                                                        "; must be 1, or 0 for none"));
-  }
-  return Eigen::Translation3d(to_eigen(marker.pose.position)) * rotation.normalized();
-}
-
-void place_points(const Marker& marker, std::vector<float>& vertices) {
-  const Eigen::Affine3d placed = pose_of(marker) * Eigen::Scaling(scale_of(marker));
-  vertices.resize(3 * marker.points.size());
-  float* coordinate = vertices.data();
-  for (const geometry_msgs::Point& point : marker.points) {
-    const Eigen::Vector3f vertex = (placed * to_eigen(point)).cast<float>();
-    coordinate = std::copy_n(vertex.data(), 3, coordinate);
-  }
-}
-
-}  // namespace
-
 void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
   if (const std::string fault = name_fault(marker.ns); !fault.empty()) {
-    throw MessageError("illegal name", "the marker's namespace " + fault);
+    throw MessageError("illegal name", "the marker's namespace ", fault);
   }
-  const std::string name = name_of(marker);
+  const std::string name = concatenate(marker.ns, "/", marker.id);
   const bool add = marker.action == Marker::ADD;
   if (!add && marker.action != Marker::DELETE && marker.action != Marker::DELETEALL) {
-    throw MessageError("unknown action", "marker '" + name + "' has action " +
-                                             std::to_string(marker.action) +
-                                             "; must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
+    throw MessageError("unknown action", "marker '", name, "' has action ", marker.action,
+                       "; must be 0 (ADD), 2 (DELETE) or 3 (DELETEALL)");
   }
-  if (marker.action != Marker::DELETEALL) check_name(name);
+  if (marker.action != Marker::DELETEALL && !name_.empty() && name != name_) {
+    throw MessageError("other marker", "marker '", name, "' is not the organ's, which is '", name_,
+                       "'; must have a topic of its own");
+  }
   surface.frame = marker.header.frame_id;
   surface.stamp = marker.header.stamp;
   if (!add) {
@@ -229,25 +213,17 @@ void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
     return read_name_.clear();
   }
   if (marker.type != Marker::TRIANGLE_LIST) {
-    throw MessageError("other marker type", "marker '" + name + "' is of type " +
-                                                type_name(marker.type) +
-                                                "; must be 11 (TRIANGLE_LIST)");
+    throw MessageError("other marker type", "marker '", name, "' is of type ",
+                       type_name(marker.type), "; must be 11 (TRIANGLE_LIST)");
   }
   if (marker.points.size() % 3 != 0) {
-    throw MessageError("wrong number of points", "marker '" + name + "' has " +
-                                                     std::to_string(marker.points.size()) +
-                                                     " points; must be a multiple of three");
+    throw MessageError("wrong number of points", "marker '", name, "' has ", marker.points.size(),
+                       " points; must be a multiple of three");
   }
   place_points(marker, surface.vertices);
   surface.triangles.resize(marker.points.size());
   std::iota(surface.triangles.begin(), surface.triangles.end(), 0);
   read_name_ = name;
-}
-
-void MarkerReader::check_name(const std::string& name) const {
-  if (name_.empty() || name == name_) return;
-  throw MessageError("other marker", "marker '" + name + "' is not the organ's, which is '" +
-                                         name_ + "'; must have a topic of its own");
 }
 
 }  // namespace organ_collision

@@ -9,8 +9,9 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "geometry/concatenate.hpp"
 
 namespace organ_collision {
 
@@ -29,9 +30,10 @@ struct ReceivedSurface {
 class MessageError : public std::runtime_error {
  public:
   /// `reason`: a short text that is the same for all errors of one kind. Errors are counted by
-  /// reason.
-  MessageError(std::string reason, const std::string& message)
-      : std::runtime_error(message), reason_(std::move(reason)) {}
+  /// reason. `parts`: of what().
+  template <typename... Parts>
+  explicit MessageError(const char* reason, const Parts&... parts)
+      : std::runtime_error(concatenate(parts...)), reason_(reason) {}
 
   const std::string& reason() const { return reason_; }
 
@@ -70,8 +72,6 @@ class MarkerReader {
   void keep() { name_ = read_name_; }
 
  private:
-  void check_name(const std::string& name) const;
-
   std::string name_;       ///< "namespace/id" of the organ's marker; empty: none yet
   std::string read_name_;  ///< name of the marker read last; empty: it deleted the organ's
 };

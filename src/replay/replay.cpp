@@ -32,26 +32,25 @@ Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
       tools_(tools),
       follows_clock_(follows_clock),
       answer_(std::move(answer)),
-      pipeline_(parameters, tools,
+      pipeline_(parameters, tools, rejected_,
                 {[this](const EvaluatedStep& step) { write(*step.answer); },
-                 [this](const OrganUpdate& update) { report(update); }, rejected_, callbacks_}) {
+                 [this](const OrganUpdate& update) { report(update); }}) {
   ros::Time::init();
   ros::Time::setNow(now_);  // From now on, ROS time is that of the bag.
-  pipeline_.keep_all_shapes();
-  pipeline_.inspect_surfaces_at_once();
+  pipeline_.steps.keep_all_shapes();
   handle<OrganMesh>(node + "/" + names::kOrganMesh, [this](const auto& mesh, const auto& instance) {
-    pipeline_.organ_topics().take_mesh(mesh, instance.getConnectionHeader());
-    apply_organ_messages();
+    pipeline_.inbox.intake.take_mesh(mesh, instance.getConnectionHeader());
+    pipeline_.apply_organ_messages(steady(now_));
   });
   handle<OrganVertices>(node + "/" + names::kOrganVertices,
                         [this](const auto& vertices, const auto&) {
-                          pipeline_.organ_topics().take_vertices(vertices);
-                          apply_organ_messages();
+                          pipeline_.inbox.intake.take_vertices(vertices);
+                          pipeline_.apply_organ_messages(steady(now_));
                         });
   for (const bool resting : {false, true}) {
     handle<tf2_msgs::TFMessage>(resting ? "/tf_static" : "/tf",
                                 [this, resting](const auto& transforms, const auto& instance) {
-                                  pipeline_.transform_topics().take(
+                                  pipeline_.inbox.motion.take_transforms(
                                       *transforms, instance.getCallerId(), resting);
                                 });
   }
@@ -77,12 +76,12 @@ void Replay::handle_poses(const std::vector<ToolParameters>& tools, const std::s
     if (topic.empty()) return;
     const std::string name = ros::names::resolve(ros::names::parentNamespace(node), topic, false);
     handle<Pose>(name, [this, take, tool](const auto& pose, const auto&) {
-      (pipeline_.pose_topics().*take)(tool, *pose);
+      (pipeline_.inbox.motion.*take)(tool, *pose);
     });
   };
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    handle_topic(tools[tool].tip_pose_topic, &PoseTopics::take_tip, tool);
-    handle_topic(tools[tool].base_pose_topic, &PoseTopics::take_base, tool);
+    handle_topic(tools[tool].tip_pose_topic, &MotionTopics::take_tip, tool);
+    handle_topic(tools[tool].base_pose_topic, &MotionTopics::take_base, tool);
   }
 }
 
@@ -97,24 +96,14 @@ void Replay::take(const rosbag::MessageInstance& message) {
   for (auto handler = first; handler != last; ++handler) handler->second(message);
   pipeline_.watch_clock();
   // A shape whose time ends now may still get its transform from another message of this time.
-  pipeline_.evaluate(steady(now_) - std::chrono::nanoseconds(1));
-}
-
-/// A large mesh is built in another thread. The replay waits for it.
-void Replay::apply_organ_messages() {
-  is_applied_ = false;
-  while (true) {
-    pipeline_.apply_organ_messages(steady(now_));
-    if (is_applied_) return;
-    callbacks_.callAvailable(ros::WallDuration(0.1));
-  }
+  pipeline_.steps.evaluate(steady(now_) - std::chrono::nanoseconds(1));
 }
 
 void Replay::finish() {
-  while (const auto deadline = pipeline_.next_deadline()) {
+  while (const auto deadline = pipeline_.steps.next_deadline()) {
     now_ = std::max(now_, ros_time(*deadline));
     ros::Time::setNow(now_);
-    pipeline_.evaluate(*deadline);
+    pipeline_.steps.evaluate(*deadline);
   }
 }
 
@@ -135,13 +124,13 @@ void Replay::go_to(ros::Time time) {
 void Replay::evaluate_before(ros::Time time) {
   evaluate_deadlines(time);
   // The node looks for steps that become too long also while no message comes.
-  if (time - now_ > kSilence) pipeline_.evaluate(steady(time) - std::chrono::nanoseconds(1));
+  if (time - now_ > kSilence) pipeline_.steps.evaluate(steady(time) - std::chrono::nanoseconds(1));
 }
 
 void Replay::evaluate_deadlines(ros::Time time) {
   const bool ticks = parameters_.rate_hz > 0.0 && time <= next_tick_ + kLongestGap;
   while (true) {
-    const auto deadline = pipeline_.next_deadline();
+    const auto deadline = pipeline_.steps.next_deadline();
     const bool is_tick = ticks && (!deadline || next_tick_ < ros_time(*deadline));
     if (!is_tick && !deadline) return;
     const ros::Time due = is_tick ? next_tick_ : ros_time(*deadline);
@@ -149,10 +138,10 @@ void Replay::evaluate_deadlines(ros::Time time) {
     now_ = std::max(now_, due);
     ros::Time::setNow(now_);
     if (is_tick) {
-      pipeline_.add_tick();
+      pipeline_.steps.add_tick();
       next_tick_ += ros::Duration(1.0 / parameters_.rate_hz);
     }
-    pipeline_.evaluate(steady(due));
+    pipeline_.steps.evaluate(steady(due));
   }
 }
 
@@ -169,7 +158,6 @@ ros::Time Replay::ros_time(SteadyTime time) const {
 }
 
 void Replay::report(const OrganUpdate& update) {
-  is_applied_ = true;
   if (update.status == ContactArray::OK) return;
   for (const Tool& tool : tools_) {
     write(failed_answer(update.message.organ(), tool.parameters, update.message.header(),

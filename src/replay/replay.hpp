@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/callback_queue.h>
 #include <ros/time.h>
 #include <rosbag/message_instance.h>
 
@@ -40,7 +39,7 @@ class Replay {
   const std::map<std::string, Type>& topics() const { return topics_; }
   /// Whether TF, or a topic of poses, has told of a frame.
   bool knows_frame(const std::string& frame) const {
-    return pipeline_.transforms()._frameExists(frame);
+    return pipeline_.inbox.transforms._frameExists(frame);
   }
 
  private:
@@ -50,7 +49,6 @@ class Replay {
       std::function<void(const boost::shared_ptr<const Message>&, const rosbag::MessageInstance&)>
           handler);
   void handle_poses(const std::vector<ToolParameters>& tools, const std::string& node);
-  void apply_organ_messages();
   void go_to(ros::Time time);
   void evaluate_before(ros::Time time);
   void evaluate_deadlines(ros::Time time);
@@ -67,8 +65,6 @@ class Replay {
   std::multimap<std::string, Handler> handlers_;  ///< by topic
 
   FailureLog rejected_;
-  ros::CallbackQueue callbacks_;
-  bool is_applied_ = true;  ///< false: an organ message waits for its mesh to be built
   CollisionPipeline pipeline_;
 
   ros::Time start_;  ///< the first time of the bag; zero: it has not come yet

@@ -64,17 +64,21 @@ ShapeDescription shape(const urdf::Geometry& geometry, const ShapePose& pose,
                        const AboutToRead& about_to_read) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
-      return SphereDescription{pose, static_cast<const urdf::Sphere&>(geometry).radius};
+      return {
+          ShapeKind::kSphere, pose, {static_cast<const urdf::Sphere&>(geometry).radius, 0.0, 0.0}};
     case urdf::Geometry::CYLINDER: {
       const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-      return CylinderDescription{pose, cylinder.radius, cylinder.length};
+      return {ShapeKind::kCylinder, pose, {cylinder.radius, cylinder.length, 0.0}};
     }
     case urdf::Geometry::BOX:
-      return BoxDescription{pose, to_eigen(static_cast<const urdf::Box&>(geometry).dim)};
+      return {ShapeKind::kBox, pose, to_eigen(static_cast<const urdf::Box&>(geometry).dim)};
     case urdf::Geometry::MESH:
       break;
   }
-  return mesh(static_cast<const urdf::Mesh&>(geometry), pose, about_to_read);
+  return {ShapeKind::kMesh,
+          {},
+          Vector3d::Zero(),
+          mesh(static_cast<const urdf::Mesh&>(geometry), pose, about_to_read)};
 }
 
 /// The shapes of collision or visual elements.

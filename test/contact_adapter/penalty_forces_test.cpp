@@ -60,23 +60,100 @@ std::vector<Push> scattered_pushes(std::mt19937& random, int count) {
 
 }  // namespace
 
-TEST(PenaltyForces, OneContactIsASpring) {
-  const Wrench found = wrench({push({0.1, 0.2, 0.3}, {0.0, 0.0, -1.0}, 0.004)});
-  expect_near(found.force, {0.0, 0.0, 1.0});  // 250 N/m * 4 mm, against the normal
-  expect_near(found.torque, {0.2, -0.1, 0.0});
+TEST(PenaltyForces, OfAFewPushes) {
+  const double angle = M_PI / 6.0;  // Both sides of the crease rise by 30 degrees.
+  const Vector3d rising(std::sin(angle), 0.0, -std::cos(angle));
+  const Vector3d falling(-rising.x(), 0.0, rising.z());
+  const Vector3d down(0.0, 0.0, -1.0), right(1.0, 0.0, 0.0), slanted(0.3, 0.5, -1.0);
+  const Vector3d slanted_force = -0.004 * kStiffness * slanted.normalized();
+  Push beside = push({0.02, 0.0, 0.0}, down, 0.001);
+  beside.counts = false;
+  std::vector<Push> lying;  // a shaft on the tissue
+  for (int i = 0; i <= 10; ++i) lying.push_back(push({0.01 * i, 0.0, 0.0}, down, 0.001));
+  struct {
+    const char* name;
+    std::vector<Push> pushes;
+    Vector3d force, torque;  ///< [N], [N m]
+  } const rows[] = {
+      {"none", {}, {0, 0, 0}, {0, 0, 0}},
+      {"one spring", {push({0.1, 0.2, 0.3}, down, 0.004)}, {0, 0, 1.0}, {0.2, -0.1, 0}},
+      {"grazed or left",
+       {push({0, 0, 1}, right, 0.0), push({0, 0, 1}, right, -0.002)},
+       {0, 0, 0},
+       {0, 0, 0}},
+      {"another face was left",
+       {push({0.12, 0.2, 0.29}, right, -0.05), push({0, 0, 0}, slanted, 0.004)},
+       slanted_force,
+       {0, 0, 0}},
+      {"opposite, equal",
+       {push({0.004, 0.01, 0}, right, 0.001), push({-0.004, 0.01, 0}, -right, 0.001)},
+       {0, 0, 0},
+       {0, 0, 0}},
+      {"opposite, unequal",
+       {push({0.004, 0, 0}, right, 0.001), push({-0.002, 0, 0}, -right, 0.003)},
+       {kStiffness * 0.002, 0, 0},
+       {0, 0, 0}},
+      {"jaws at two places",
+       {push({-0.004, 0, 0}, right, 0.001), push({0.004, 0, 0.1}, -right, 0.001)},
+       {0, 0, 0},
+       {0, kStiffness * 0.001 * 0.1, 0}},
+      {"wall and floor",
+       {push({0.004, 0, 0}, right, 0.001), push({0, 0, -0.003}, down, 0.002)},
+       {-kStiffness * 0.001, 0, kStiffness * 0.002},
+       {0, 0, 0}},
+      // To leave both sides, a ball of 5 mm must rise by depth / cos(30 degrees).
+      {"a crease",
+       {push(0.004 * rising, rising, 0.001), push(0.004 * falling, falling, 0.001)},
+       {0, 0, kStiffness * 0.001 / std::cos(angle)},
+       {0, 0, 0}},
+      {"a shaft that lies", lying, {0, 0, 0.25}, {0, -0.05 * 0.25, 0}},
+      {"what does not count moves the place",
+       {push({0, 0, 0}, down, 0.001), beside},
+       {0, 0, 0.25},
+       {0, -0.01 * 0.25, 0}},
+  };
+  for (const auto& row : rows) {
+    SCOPED_TRACE(row.name);
+    expect_same(wrench(row.pushes), {row.force, row.torque}, kSearched);
+  }
 }
 
-TEST(PenaltyForces, NothingTouchedOrAllLeftIsZero) {
-  expect_same(wrench({}), {Vector3d::Zero(), Vector3d::Zero()}, 0.0);
-  const Push left = push({0.1, 0.2, 0.3}, {1.0, 0.5, 0.0}, -0.002);
-  const Push grazed = push({0.1, 0.2, 0.3}, {1.0, 0.5, 0.0}, 0.0);
-  expect_same(wrench({left, grazed}), {Vector3d::Zero(), Vector3d::Zero()}, 0.0);
+TEST(PenaltyForces, EachPushHasAShareOfTheForce) {
+  // The second push is twice as deep, and leans by 60 degrees. The third one has been left.
+  const std::vector<Vector3d> forces =
+      penalty_forces({push({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.004),
+                      push({0.1, 0.0, 0.0}, {std::sqrt(0.75), 0.0, -0.5}, 0.002),
+                      push({0.2, 0.0, 0.0}, {0.0, 0.0, -1.0}, -0.001)},
+                     kStiffness);
+  ASSERT_EQ(forces.size(), 3u);
+  expect_near(forces[0], {0.0, 0.0, 0.8});
+  expect_near(forces[1], {0.0, 0.0, 0.2});
+  expect_near(forces[2], Vector3d::Zero());
 }
 
-TEST(PenaltyForces, WhatWasLeftDoesNotCount) {
-  const Push deep = push({0.1, 0.2, 0.3}, {0.3, 0.5, -1.0}, 0.004);
-  const Push left = push({0.12, 0.2, 0.29}, {1.0, 0.5, 0.0}, -0.05);
-  expect_same(wrench({left, deep}), wrench({deep}), 0.0);
+TEST(PenaltyForces, DoNotDependOnOrderPlaceDirectionOrDoubledFaces) {
+  std::mt19937 random(6);
+  const Vector3d shift(0.3, -0.2, 0.1);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<Push> pushes = scattered_pushes(random, 10);
+    pushes[3].depth = pushes[4].depth = pushes[5].depth = 0.02;
+    const Wrench before = wrench(pushes);
+    std::vector<Push> others = pushes;
+    std::shuffle(others.begin(), others.end(), random);
+    expect_same(wrench(others), before, kSearched);
+    for (int piece = 0; piece < 4; ++piece)
+      others.insert(others.end(), pushes.begin(), pushes.end());
+    expect_same(wrench(others), before, kSearched);
+    expect_same(wrench(pushes, 3.0 * kStiffness), {3.0 * before.force, 3.0 * before.torque}, 1e-9);
+    const Eigen::Matrix3d R =
+        Eigen::AngleAxisd(0.3 + i, Vector3d(1.0, -2.0, 0.5 + i).normalized()).toRotationMatrix();
+    for (Push& p : pushes) {
+      p.place = R * p.place + shift;
+      p.normal = R * p.normal;
+    }
+    const Vector3d turned = R * before.force;
+    expect_same(wrench(pushes), {turned, R * before.torque + shift.cross(turned)}, kSearched);
+  }
 }
 
 TEST(PenaltyForces, SplittingSomeFacesMoreThanOthersChangesNoForce) {
@@ -101,93 +178,6 @@ TEST(PenaltyForces, SplittingSomeFacesMoreThanOthersChangesNoForce) {
   }
 }
 
-TEST(PenaltyForces, SplittingAllFacesAlikeChangesNothing) {
-  std::mt19937 random(4);
-  for (int i = 0; i < 50; ++i) {
-    const std::vector<Push> whole = scattered_pushes(random, 10);
-    std::vector<Push> split;
-    for (int piece = 0; piece < 5; ++piece) split.insert(split.end(), whole.begin(), whole.end());
-    expect_same(wrench(split), wrench(whole), kSearched);
-  }
-}
-
-TEST(PenaltyForces, OrderDoesNotMatter) {
-  std::mt19937 random(6);
-  for (int i = 0; i < 50; ++i) {
-    std::vector<Push> pushes = scattered_pushes(random, 10);
-    pushes[3].depth = pushes[4].depth = pushes[5].depth = 0.02;
-    const Wrench expected = wrench(pushes);
-    std::shuffle(pushes.begin(), pushes.end(), random);
-    expect_same(wrench(pushes), expected, kSearched);
-  }
-}
-
-TEST(PenaltyForces, TurnsWithTheContacts) {
-  std::mt19937 random(7);
-  for (int i = 0; i < 50; ++i) {
-    std::vector<Push> pushes = scattered_pushes(random, 10);
-    const Wrench before = wrench(pushes);
-    const Eigen::Matrix3d R =
-        Eigen::AngleAxisd(0.3 + i, Vector3d(1.0, -2.0, 0.5 + i).normalized()).toRotationMatrix();
-    for (Push& p : pushes) {
-      p.place = R * p.place;
-      p.normal = R * p.normal;
-    }
-    expect_same(wrench(pushes), {R * before.force, R * before.torque}, kSearched);
-  }
-}
-
-TEST(PenaltyForces, MovedContactsAddTheLeverAlone) {
-  std::mt19937 random(8);
-  const Vector3d shift(0.3, -0.2, 0.1);
-  std::vector<Push> pushes = scattered_pushes(random, 10);
-  const Wrench before = wrench(pushes);
-  for (Push& p : pushes) p.place += shift;
-  expect_same(wrench(pushes), {before.force, before.torque + shift.cross(before.force)}, 1e-12);
-}
-
-TEST(PenaltyForces, IsProportionalToTheStiffness) {
-  std::mt19937 random(9);
-  const std::vector<Push> pushes = scattered_pushes(random, 10);
-  const Wrench soft = wrench(pushes, 1.0);
-  expect_same(wrench(pushes, 800.0), {800.0 * soft.force, 800.0 * soft.torque}, 1e-12);
-}
-
-TEST(PenaltyForces, OppositeEqualContactsCancel) {
-  const Push right = push({0.004, 0.01, 0.0}, {1.0, 0.0, 0.0}, 0.001);
-  const Push left = push({-0.004, 0.01, 0.0}, {-1.0, 0.0, 0.0}, 0.001);
-  expect_same(wrench({right, left}), {Vector3d::Zero(), Vector3d::Zero()});
-}
-
-TEST(PenaltyForces, OppositeWallsAreSpringsOfTheirOwn) {
-  const Push right = push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
-  const Push left = push({-0.002, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 0.003);
-  expect_near(wrench({right, left}).force, {kStiffness * 0.002, 0.0, 0.0});
-}
-
-TEST(PenaltyForces, OppositePushesAtTwoPlacesTurnTheTool) {
-  const Push right = push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
-  const Push left = push({-0.004, 0.0, 0.1}, {-1.0, 0.0, 0.0}, 0.001);
-  const Wrench found = wrench({right, left});
-  expect_near(found.force, Vector3d::Zero());
-  expect_near(found.torque, {0.0, kStiffness * 0.001 * 0.1, 0.0});
-}
-
-TEST(PenaltyForces, WallsAtRightAnglesAreSpringsOfTheirOwn) {
-  const Push wall = push({0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
-  const Push floor = push({0.0, 0.0, -0.003}, {0.0, 0.0, -1.0}, 0.002);
-  expect_near(wrench({wall, floor}).force, {-kStiffness * 0.001, 0.0, kStiffness * 0.002});
-}
-
-TEST(PenaltyForces, InACreaseTheForceIsOfTheSmallestShiftThatLeavesBothSides) {
-  // Both sides rise by 30 degrees. To leave both, the ball must rise by depth / cos(30 degrees).
-  const double radius = 0.005, depth = 0.001, angle = M_PI / 6.0;
-  const Vector3d a(std::sin(angle), 0.0, -std::cos(angle)), b(-a.x(), 0.0, a.z());
-  const std::vector<Push> sides = {push((radius - depth) * a, a, depth),
-                                   push((radius - depth) * b, b, depth)};
-  expect_near(wrench(sides).force, {0.0, 0.0, kStiffness * depth / std::cos(angle)}, kSearched);
-}
-
 TEST(PenaltyForces, InADentOfTheToolsShapeTheForceIsOneContacts) {
   // A half ball that is pressed down by `shift`. The depths are the components along the normals.
   const double radius = 0.005, shift = 0.0002;
@@ -204,53 +194,6 @@ TEST(PenaltyForces, InADentOfTheToolsShapeTheForceIsOneContacts) {
     }
     expect_near(wrench(pushes).force, {0.0, 0.0, kStiffness * shift}, kSearched);
   }
-}
-
-TEST(PenaltyForces, AShaftThatLiesOnTheTissueIsPushedAtItsMiddle) {
-  std::vector<Push> pushes;
-  for (int i = 0; i <= 10; ++i) pushes.push_back(push({0.01 * i, 0.0, 0.0}, {0, 0, -1}, 0.001));
-  const Wrench found = wrench(pushes);
-  expect_near(found.force, {0.0, 0.0, 0.25});
-  expect_near(found.torque, {0.0, -0.05 * 0.25, 0.0});
-}
-
-TEST(PenaltyForces, ALinkThatCoversAnotherAddsNothing) {
-  std::mt19937 random(10);
-  for (int i = 0; i < 50; ++i) {
-    std::vector<Push> pushes = scattered_pushes(random, 10);
-    const Wrench alone = wrench(pushes);
-    for (std::size_t k = 0; k < 10; ++k) pushes.push_back(Push(pushes[k]));
-    expect_same(wrench(pushes), alone, kSearched);
-  }
-}
-
-TEST(PenaltyForces, WhatDoesNotCountMovesThePlaceAlone) {
-  Push beside = push({0.02, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.001);
-  beside.counts = false;
-  const Wrench found = wrench({push({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.001), beside});
-  expect_near(found.force, {0.0, 0.0, 0.25});
-  expect_near(found.torque, {0.0, -0.01 * 0.25, 0.0});
-}
-
-TEST(PenaltyForces, JawsThatCloseOnTissueAreSpringsOfTheirOwn) {
-  Push left = push({-0.004, 0.0, 0.0}, {1.0, 0.0, 0.0}, 0.001);
-  Push right = push({0.004, 0.0, 0.02}, {-1.0, 0.0, 0.0}, 0.003);
-  const Wrench found = wrench({left, right});
-  expect_near(found.force, {kStiffness * 0.002, 0.0, 0.0});
-  expect_near(found.torque, {0.0, kStiffness * 0.003 * 0.02, 0.0});
-}
-
-TEST(PenaltyForces, EachPushHasAShareOfTheForce) {
-  // The second push is twice as deep, and leans by 60 degrees. The third one has been left.
-  const std::vector<Vector3d> forces =
-      penalty_forces({push({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, 0.004),
-                      push({0.1, 0.0, 0.0}, {std::sqrt(0.75), 0.0, -0.5}, 0.002),
-                      push({0.2, 0.0, 0.0}, {0.0, 0.0, -1.0}, -0.001)},
-                     kStiffness);
-  ASSERT_EQ(forces.size(), 3u);
-  expect_near(forces[0], {0.0, 0.0, 0.8});
-  expect_near(forces[1], {0.0, 0.0, 0.2});
-  expect_near(forces[2], Vector3d::Zero());
 }
 
 TEST(PenaltyForces, AForceThatIsNotFiniteIsRefused) {

@@ -23,14 +23,13 @@ class SecondEvaluationTest : public testing::Test {
   }
 
   ToolPath path(Tick begin, Tick end) const {
-    const PathDeviation deviation(jaw_);
     const auto pose = [this](Tick tick) { return ToolPose{{}, {script_.tools(tick).jaw}}; };
-    PathBuilder path(deviation, pose(begin));
+    PathBuilder path(jaw_, pose(begin));
     for (Tick tick = begin + 1; tick <= end; ++tick) {
       if (!script_.has_poses(tick)) continue;
       path.add(static_cast<double>(tick - begin) / static_cast<double>(end - begin), pose(tick));
     }
-    return path.take();
+    return path.take(1000).path;
   }
 
   /// `shape`: the tick of the organ's shape at the end of the step.

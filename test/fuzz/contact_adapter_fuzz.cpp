@@ -19,7 +19,7 @@ void take(const ContactArray& answer, bool knows_radius, ForceLaw& law, PairName
   names.of(answer.organ, answer.tool);
   face_list(answer);
   if (!has_geometry(answer)) return;
-  const KeptSides::Radius radius = knows_radius ? KeptSides::Radius(0.01) : std::nullopt;
+  const ShaftRadius radius = knows_radius ? ShaftRadius(0.01) : std::nullopt;
   std::vector<FaceForce> forces = law.follow(answer, 0.001, 300.0, radius);
   limit_force(forces, kMaxForce);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();

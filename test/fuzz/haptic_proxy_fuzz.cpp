@@ -65,11 +65,10 @@ class Node {
         break;
       case 2:
         if (auto message = next_message<tf2_msgs::TFMessage>(input))
-          transform_topics_.take(*message, "fuzz", false);
+          motion_.take_transforms(*message, "fuzz", false);
         break;
       default:
-        if (auto pose = next_message<geometry_msgs::PoseStamped>(input))
-          pose_topics_.take_tip(0, *pose);
+        if (auto pose = next_message<geometry_msgs::PoseStamped>(input)) motion_.take_tip(0, *pose);
     }
     frame_.update(organs_);
     hand_.now += std::chrono::milliseconds(1);
@@ -115,8 +114,7 @@ class Node {
   OrganRegistry organs_{MeshLimits{100}};
   TransformBuffer transforms_;
   FailureLog rejected_;
-  TransformTopics transform_topics_{transforms_, rejected_};
-  PoseTopics pose_topics_{{hand_.tool.parameters}, {transforms_, rejected_, [](std::size_t) {}}};
+  MotionTopics motion_{{hand_.tool.parameters}, transforms_, rejected_, [](std::size_t) {}};
   ToolPoses poses_{transforms_, {1.0, 1}};
   ProxyFrame frame_{""};
 };

@@ -14,7 +14,8 @@ import sys
 
 import genpy
 from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion, TransformStamped, Vector3
-from organ_collision.msg import (Clearance, Contact, ContactArray, LinkMotion, OrganMesh, OrganVertices, ToolMotion)
+from organ_collision.msg import (Clearance, Contact, ContactArray, LinkMotion, OrganMesh, OrganVertices, RobotLink,
+                                 RobotRecord, RobotShape, ToolMotion)
 from organ_collision.srv import QueryCollisionBatchRequest, QueryCollisionRequest
 from pcl_msgs.msg import PolygonMesh, Vertices
 from sensor_msgs.msg import PointCloud2, PointField
@@ -251,18 +252,17 @@ def urdf():
 
 
 def robot_reply():
-    text = lambda kind, content: struct.pack('<QQ', kind, len(content)) + content
-    numbers = lambda *n: struct.pack('<%dd' % len(n), *n)
-    here = numbers(0.1, 0.2, 0.3, 0, 0, 0, 1)
-    joint = lambda content: struct.pack('<Q', len(content)) + content
-    shapes = [(0, here + numbers(0.01)), (1, here + numbers(0.01, 0.3)), (2, here + numbers(0.01, 0.02, 0.03)),
-              (3, text(4, b'abcd')[8:] + struct.pack('<Q', 4) + numbers(*SOLID) + struct.pack('<Q', 4)
-               + struct.pack('<12I', *SOLID_FACES))]
-    links = struct.pack('<QQ', 3, 1) + joint(b'jaw_joint') + struct.pack('<Q', len(shapes)) + b''.join(
-        struct.pack('<Q', kind) + shape for kind, shape in shapes)
-    return {'links': text(1, b"mesh 'a'") + links, 'refusal': text(2, b'no legal URDF'),
-            'cut_off': links[:-9], 'huge_list': struct.pack('<QQ', 1, 2**63), 'nothing': b'\0',
-            'huge_count': struct.pack('<QQ', 3, 2**62)}
+    pose = [0.1, 0.2, 0.3, 0, 0, 0, 1]
+    shape = lambda kind, *size: RobotShape(kind=kind, pose=pose, size=list(size) + [0] * (3 - len(size)))
+    shapes = [shape(RobotShape.SPHERE, 0.01), shape(RobotShape.CYLINDER, 0.01, 0.3),
+              shape(RobotShape.BOX, 0.01, 0.02, 0.03),
+              RobotShape(kind=RobotShape.MESH, file='abcd', vertices=SOLID, triangles=SOLID_FACES)]
+    wire_of = lambda **fields: wire(RobotRecord(**fields))[2:]
+    links = wire_of(kind=RobotRecord.LINKS, links=[RobotLink('jaw_joint', shapes)])
+    return {'links': wire_of(kind=RobotRecord.READING, text="mesh 'a'") + links,
+            'refusal': wire_of(kind=RobotRecord.REFUSAL, text='no legal URDF'), 'cut_off': links[:-9],
+            'huge_text': struct.pack('<BI', 0, 2**31), 'nothing': b'\0',
+            'huge_count': struct.pack('<BII', 2, 0, 2**31)}
 
 
 def tool_mesh():

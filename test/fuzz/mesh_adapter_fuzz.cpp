@@ -46,11 +46,11 @@ void take(FuzzInput& input, OrganSource& source) {
 
 static const FuzzTarget target("mesh_adapter", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
-  const OrganFeed::Outlet outlet{
+  const OrganSource::Callbacks callbacks{
       [](const OrganMeshPtr& mesh) { demand(mesh->organ == "liver", "a mesh names its organ"); },
       [](const OrganVerticesPtr& mesh) { demand(!mesh->vertices.empty(), "there are vertices"); }};
   OrganSource source({"liver", "mesh", input.byte() % 2 == 0 ? "" : "liver_frame", "cloud"}, 7,
-                     outlet);
+                     callbacks);
   while (!input.empty()) {
     try {
       take(input, source);

@@ -25,11 +25,11 @@ class Receivers {
     const std::uint8_t kind = input.byte() % 4;
     if (kind < 2) {
       const auto message = next_message<tf2_msgs::TFMessage>(input);
-      if (message) transform_topics_.take(*message, "fuzz", kind == 1);
+      if (message) motion_.take_transforms(*message, "fuzz", kind == 1);
     } else {
       const auto pose = next_message<geometry_msgs::PoseStamped>(input);
-      if (pose && kind == 2) pose_topics_.take_tip(1, *pose);
-      if (pose && kind == 3) pose_topics_.take_base(1, *pose);
+      if (pose && kind == 2) motion_.take_tip(1, *pose);
+      if (pose && kind == 3) motion_.take_base(1, *pose);
     }
   }
 
@@ -66,8 +66,7 @@ class Receivers {
   std::vector<ToolParameters> parameters_ = {tools_[0].parameters, tools_[1].parameters};
   TransformBuffer buffer_;
   FailureLog rejected_;
-  TransformTopics transform_topics_{buffer_, rejected_};
-  PoseTopics pose_topics_{parameters_, {buffer_, rejected_, [](std::size_t) {}}};
+  MotionTopics motion_{parameters_, buffer_, rejected_, [](std::size_t) {}};
   ToolPoses poses_{buffer_, {0.001, 20}};
 };
 

@@ -1,7 +1,5 @@
 // All topics of the node in any order: bytes from the wire, to the answers of steps. Kinds of
 // message: mesh, vertices, /tf, /tf_static, a pose of a tip, a tick, a later time, a reset.
-#include <ros/callback_queue.h>
-
 #include <boost/make_shared.hpp>
 #include <iostream>
 
@@ -60,10 +58,10 @@ class Node {
   void take(FuzzInput& input) {
     switch (input.byte() % 8) {
       case 0:
-        if (auto mesh = shared<OrganMesh>(input)) inbox_.organ_topics().take_mesh(mesh);
+        if (auto mesh = shared<OrganMesh>(input)) inbox_.intake.take_mesh(mesh);
         break;
       case 1:
-        if (auto mesh = shared<OrganVertices>(input)) inbox_.organ_topics().take_vertices(mesh);
+        if (auto mesh = shared<OrganVertices>(input)) inbox_.intake.take_vertices(mesh);
         break;
       case 2:
         if (auto message = next_message<tf2_msgs::TFMessage>(input)) take(*message, false);
@@ -73,7 +71,7 @@ class Node {
         break;
       case 4:
         if (auto pose = next_message<geometry_msgs::PoseStamped>(input)) {
-          inbox_.pose_topics().take_tip(0, *pose);
+          inbox_.motion.take_tip(0, *pose);
         }
         break;
       case 5:
@@ -86,10 +84,10 @@ class Node {
         inbox_.forget_history();
         steps_.reset();
     }
-    while (const auto update = inbox_.organ_topics().next()) {
-      steps_.add(inbox_.organs(), *update, now_);
+    while (const auto update = inbox_.intake.next()) {
+      steps_.add(*update, now_);
     }
-    steps_.evaluate(inbox_.organs(), now_);
+    steps_.evaluate(now_);
   }
 
   /// Answers what still waits for transforms.
@@ -97,7 +95,7 @@ class Node {
     while (const auto deadline = steps_.next_deadline()) {
       demand(*deadline > now_, "what is due was evaluated");
       now_ = *deadline;
-      steps_.evaluate(inbox_.organs(), now_);
+      steps_.evaluate(now_);
     }
   }
 
@@ -108,11 +106,11 @@ class Node {
     return message ? boost::make_shared<const Message>(*message) : nullptr;
   }
   void take(const tf2_msgs::TFMessage& message, bool resting) {
-    inbox_.transform_topics().take(message, "fuzz", resting);
+    inbox_.motion.take_transforms(message, "fuzz", resting);
   }
   void go_to(std::uint32_t seconds) {
     ros::Time::setNow(ros::Time(seconds, 0));
-    if (inbox_.watch_clock()) steps_.start_anew(inbox_.organs());
+    if (inbox_.watch_clock()) steps_.start_anew();
   }
   static const std::vector<Tool>& tools() {
     static const std::vector<Tool> tools = make_tools();
@@ -128,15 +126,16 @@ class Node {
   }
 
   FailureLog rejected_;
-  ros::CallbackQueue callbacks_;
   SteadyTime now_{std::chrono::hours(1)};
   Inbox inbox_{{parameters().max_faces, parameters().max_ahead_sec},
                parameters().tools,
-               {[this](std::size_t tool) { steps_.add_pose(tool); }, rejected_, callbacks_}};
-  ToolPoses poses_{inbox_.transforms(), {0.001, 10}};
+               rejected_,
+               [this](std::size_t tool) { steps_.add_pose(tool); }};
+  ToolPoses poses_{inbox_.transforms, {0.001, 10}};
   AnswerCheck check_;
-  StepScheduler steps_{parameters(), tools(), poses_, workers(),
-                       [this](const EvaluatedStep& step) { check_(*step.answer); }};
+  StepScheduler steps_{parameters(),  tools(),
+                       inbox_.organs, poses_,
+                       workers(),     [this](const EvaluatedStep& step) { check_(*step.answer); }};
 };
 
 }  // namespace

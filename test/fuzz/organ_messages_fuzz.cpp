@@ -28,8 +28,8 @@ void check_shapes(const OrganRegistry& organs) {
         demand(corner.allFinite(), "the corners of faces are finite");
       }
     }
-    summary(organ);
-    doubts(organ);
+    summary(name, *organ.surface());
+    doubts(name, mesh.box().cast<double>(), *organ.surface());
     organ.latest().age(ros::Time(50));
   }
   for (const ListedOrgan& organ : list_organs(organs)) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <memory>
 #include <random>
 
@@ -55,13 +56,6 @@ class ProxyForcesTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(ProxyForcesTest, AFreeProxyHasNoForce) {
-  for (const OrganForce& of_organ : forces(ProxyFreedom::kFree)) {
-    EXPECT_TRUE(of_organ.force.isZero(0.0));
-    EXPECT_TRUE(of_organ.torque.isZero(0.0));
-  }
-}
-
 TEST_F(ProxyForcesTest, WithoutContactsAllOrgansHaveTheSameShareAndNoFaceBearsIt) {
   answer_.pull = random_vector(0.01);
   answer_.twist = random_vector(1e-4);
@@ -94,16 +88,6 @@ TEST_F(ProxyForcesTest, OfAFreeToolTheForcesOnFacesAddUpToTheWrenches) {
   const Vector3d whole = kStiffness * answer_.pull + damping;
   expect_near(sum, whole);
   expect_near(torque, answer_.center.cross(whole) + kStiffness * answer_.twist);
-}
-
-TEST_F(ProxyForcesTest, EachOrganPushesAlongItsOwnNormals) {
-  answer_.contacts = {contact(0, 0.003, 1.0), contact(1, 0.001, 1.0)};
-  for (const ProxyContact& at : answer_.contacts) answer_.pull -= at.load * at.contact.normal;
-  const std::vector<OrganForce> found = forces(ProxyFreedom::kFree);
-  for (std::size_t i = 0; i < 2; ++i) {
-    expect_near(found[i].force,
-                -kStiffness * answer_.contacts[i].load * answer_.contacts[i].contact.normal);
-  }
 }
 
 TEST_F(ProxyForcesTest, ThroughATrocarTheForceActsAtTheTipWithTheLeverOfTheContact) {
@@ -149,65 +133,23 @@ TEST_F(ProxyForcesTest, ACrossingLoadsTheTissueWholeAndTheHandWithItsLever) {
   EXPECT_EQ(at.barycentric[1], 0.6);
 }
 
-TEST_F(ProxyForcesTest, ScalingScalesAll) {
-  answer_.contacts = {contact(1, 0.004, 1.0)};
-  answer_.pull = random_vector(0.01);
-  answer_.center = random_vector(0.2);
-  OrganForce scaled = forces(ProxyFreedom::kFree)[1];
-  const OrganForce whole = scaled;
-  scaled.scale(0.25);
-  expect_near(scaled.force, 0.25 * whole.force);
-  expect_near(scaled.torque, 0.25 * whole.torque);
-  expect_near(scaled.on_faces[0].force, 0.25 * whole.on_faces[0].force);
-  expect_near(scaled.on_faces[0].place, whole.on_faces[0].place);
-}
-
-using namespace organ_collision;
-
-namespace {
-
-/// [ms] after some moment of the steady clock.
-ForceRamp::Time at(double milliseconds) {
-  return ForceRamp::Time(std::chrono::hours(7)) +
-         std::chrono::duration_cast<ForceRamp::Time::duration>(
-             std::chrono::duration<double, std::milli>(milliseconds));
-}
-
-}  // namespace
-
-TEST(ForceRamp, RisesFromZeroWhenItIsFirstAsked) {
+TEST(ForceRamp, RisesAndFallsLinearlyWithinTenMilliseconds) {
+  const struct {
+    double at;  ///< [ms]
+    bool rises;
+    double share;
+  } rows[] = {
+      {0.0, true, 0.0},    {4.0, true, 0.4},    {7.0, true, 0.7},   {25.0, true, 1.0},
+      {120.0, false, 1.0},  // Until now it rose.
+      {123.0, false, 0.7}, {129.0, true, 0.1},  {131.0, true, 0.3}, {133.0, false, 0.5},
+      {143.0, false, 0.0}, {5000.0, true, 0.0},  // A long time at zero is no rise.
+      {5001.0, true, 0.1},
+  };
   ForceRamp ramp;
-  EXPECT_EQ(ramp.share(), 0.0);
-  EXPECT_EQ(ramp.rise(at(0.0)), 0.0);
-  EXPECT_NEAR(ramp.rise(at(4.0)), 0.4, 1e-9);
-  EXPECT_NEAR(ramp.rise(at(7.0)), 0.7, 1e-9);
-  EXPECT_EQ(ramp.rise(at(25.0)), 1.0);
-  EXPECT_EQ(ramp.share(), 1.0);
-}
-
-TEST(ForceRamp, FallsToZeroInTenMilliseconds) {
-  ForceRamp ramp;
-  ramp.rise(at(0.0));
-  ramp.rise(at(20.0));
-  EXPECT_EQ(ramp.fall(at(120.0)), 1.0) << "until now it rose";
-  EXPECT_NEAR(ramp.fall(at(123.0)), 0.7, 1e-9);
-  EXPECT_NEAR(ramp.fall(at(129.0)), 0.1, 1e-9);
-  EXPECT_EQ(ramp.fall(at(131.0)), 0.0);
-}
-
-TEST(ForceRamp, TurnsWithoutAJump) {
-  ForceRamp ramp;
-  ramp.rise(at(0.0));
-  ramp.rise(at(20.0));
-  ramp.fall(at(21.0));
-  EXPECT_NEAR(ramp.rise(at(27.0)), 0.4, 1e-9);
-  EXPECT_NEAR(ramp.rise(at(29.0)), 0.6, 1e-9);
-}
-
-TEST(ForceRamp, ALongTimeAtZeroIsNoRise) {
-  ForceRamp ramp;
-  ramp.rise(at(0.0));
-  ramp.fall(at(20.0));
-  ramp.fall(at(40.0));
-  EXPECT_EQ(ramp.rise(at(5000.0)), 0.0);
+  for (const auto& row : rows) {
+    const auto now = ForceRamp::Time(std::chrono::hours(7)) +
+                     std::chrono::microseconds(std::lround(1e3 * row.at));
+    EXPECT_NEAR(row.rises ? ramp.rise(now) : ramp.fall(now), row.share, 1e-9) << row.at;
+    EXPECT_NEAR(ramp.share(), row.share, 1e-9);
+  }
 }

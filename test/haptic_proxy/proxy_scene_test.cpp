@@ -7,50 +7,6 @@ using namespace organ_collision;
 
 namespace {
 
-class ProxyFrameTest : public OrganRegistryTest {
- protected:
-  void send(const std::string& organ, const std::string& frame) {
-    OrganMesh message = mesh(organ);
-    message.header.frame_id = frame;
-    apply(message, ros::Time(9));
-  }
-  void remove(const std::string& organ) {
-    OrganMesh message;
-    message.organ = organ;
-    apply(message, ros::Time(9));
-  }
-};
-
-}  // namespace
-
-TEST_F(ProxyFrameTest, IsThatOfTheFirstOrganAndStays) {
-  ProxyFrame frame("");
-  EXPECT_FALSE(frame.update(store_));
-  EXPECT_EQ(frame.name(), "");
-  send("liver", "liver_frame");
-  EXPECT_TRUE(frame.update(store_));
-  EXPECT_EQ(frame.name(), "liver_frame");
-  send("kidney", "kidney_frame");
-  EXPECT_FALSE(frame.update(store_)) << "the name of another organ comes first, but it came later";
-  remove("liver");
-  EXPECT_TRUE(frame.update(store_));
-  EXPECT_EQ(frame.name(), "kidney_frame");
-  remove("kidney");
-  EXPECT_FALSE(frame.update(store_));
-  EXPECT_EQ(frame.name(), "kidney_frame");
-}
-
-TEST_F(ProxyFrameTest, AFixedFrameIsNeverChanged) {
-  ProxyFrame frame("world");
-  send("liver", "liver_frame");
-  EXPECT_FALSE(frame.update(store_));
-  EXPECT_EQ(frame.name(), "world");
-}
-
-using namespace organ_collision;
-
-namespace {
-
 class ProxySceneTest : public OrganRegistryTest {
  protected:
   ProxyScene scene(const std::string& frame, const AgeLimits& limits = {}) {
@@ -74,10 +30,43 @@ class ProxySceneTest : public OrganRegistryTest {
     }
   }
 
+  /// Without a frame, removes the organ.
+  void send(const std::string& organ, const std::string& frame) {
+    OrganMesh message;
+    message.organ = organ;
+    if (!frame.empty()) message = mesh(organ);
+    if (!frame.empty()) message.header.frame_id = frame;
+    apply(message, ros::Time(9));
+  }
+
   TransformBuffer transforms_;
 };
 
 }  // namespace
+
+TEST_F(ProxySceneTest, TheFrameIsThatOfTheFirstOrganAndStays) {
+  ProxyFrame frame(""), fixed("world");
+  const struct {
+    const char *organ, *organ_frame;  ///< that comes, or leaves if it has no frame
+    bool changes;
+    const char* frame;
+  } rows[] = {
+      {"liver", "liver_frame", true, "liver_frame"},
+      // The name of another organ comes first, but it came later.
+      {"kidney", "kidney_frame", false, "liver_frame"},
+      {"liver", "", true, "kidney_frame"},
+      {"kidney", "", false, "kidney_frame"},
+  };
+  EXPECT_FALSE(frame.update(store_));
+  EXPECT_EQ(frame.name(), "");
+  for (const auto& row : rows) {
+    send(row.organ, row.organ_frame);
+    EXPECT_EQ(frame.update(store_), row.changes);
+    EXPECT_EQ(frame.name(), row.frame);
+    EXPECT_FALSE(fixed.update(store_));
+    EXPECT_EQ(fixed.name(), "world");
+  }
+}
 
 TEST_F(ProxySceneTest, WithoutAnOrganThereIsNone) {
   expect_refused("liver_frame", {}, ContactArray::NO_MESH, "there is no organ");

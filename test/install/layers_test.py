@@ -100,7 +100,7 @@ class LayersTest(unittest.TestCase):
             self.assertGreater(found, 0, room)
 
     def test_what_robot_reader_shares_with_the_node_includes_no_ros(self):
-        for room, files in (('ros/messages', 'text'), ('ros/tools', 'robot_reply')):
+        for room, files in (('ros/messages', 'text'),):
             found = 0
             for path, included in includes(room, files):
                 found += 1

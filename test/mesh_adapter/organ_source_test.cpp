@@ -14,25 +14,49 @@
 namespace organ_collision {
 namespace {
 
+using topic_tools::ShapeShifter;
+
+/// The message as a subscriber receives it, without its last `cut` bytes.
+template <typename Message>
+ShapeShifter shape_shifter(const Message& message, std::uint32_t cut = 0) {
+  namespace traits = ros::message_traits;
+  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
+  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(out, message);
+  ShapeShifter shifter;
+  shifter.morph(traits::md5sum<Message>(), traits::datatype<Message>(),
+                traits::definition<Message>(), "0");
+  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()) - cut);
+  shifter.read(in);
+  return shifter;
+}
+
 constexpr std::uint32_t kLastTopology = 4294967294;  // The second mesh's wraps to 0.
 
-/// Keeps what the feed sent in the last call: `mesh_` or `vertices_`. The other one is null.
-class OrganFeedTest : public testing::Test {
+/// Keeps what the source sent in the last call: `mesh_` or `vertices_`. The other one is null.
+class OrganSourceTest : public testing::Test {
  protected:
   void send(const GridSurface& grid, const std::string& frame = "liver") {
-    ReceivedSurface surface{frame, stamp_ += ros::Duration(0.01), grid.vertices, grid.triangles()};
-    send(surface);
-  }
-  void send(ReceivedSurface& surface) {
+    pcl_msgs::PolygonMesh message;
+    message.cloud = cloud_of({grid.vertices.begin(), grid.vertices.end()});
+    for (const FaceIndices& face : grid.faces) {
+      message.polygons.emplace_back();
+      message.polygons.back().vertices.assign(face.begin(), face.end());
+    }
+    message.header.frame_id = frame;
+    message.header.stamp = stamp_ += ros::Duration(0.01);
     mesh_.reset();
     vertices_.reset();
-    feed_.send(surface);
+    source_.take_surface(shape_shifter(message), {});
     ASSERT_NE(mesh_ == nullptr, vertices_ == nullptr);
   }
   void send_vertices(const std::vector<float>& vertices, const std::string& frame = "liver") {
+    sensor_msgs::PointCloud2 message = cloud_of({vertices.begin(), vertices.end()});
+    message.header.frame_id = frame;
+    message.header.stamp = stamp_ += ros::Duration(0.01);
     mesh_.reset();
     vertices_.reset();
-    feed_.send_vertices(frame, stamp_ += ros::Duration(0.01), vertices);
+    source_.take_vertices(shape_shifter(message), {});
     ASSERT_TRUE(vertices_);
   }
 
@@ -56,57 +80,41 @@ class OrganFeedTest : public testing::Test {
   ros::Time stamp_{100.0};
   OrganMeshPtr mesh_;
   OrganVerticesPtr vertices_;
-  OrganFeed feed_{"organ",
-                  kLastTopology,
-                  {[this](const OrganMeshPtr& message) { mesh_ = message; },
-                   [this](const OrganVerticesPtr& message) { vertices_ = message; }}};
+  OrganSource source_{{"organ", "topic", "", "points"},
+                      kLastTopology,
+                      {[this](const OrganMeshPtr& message) { mesh_ = message; },
+                       [this](const OrganVerticesPtr& message) { vertices_ = message; }}};
 };
 
-TEST_F(OrganFeedTest, NewTrianglesAreAMeshWithTheNextTopology) {
+TEST_F(OrganSourceTest, OnlyNewTrianglesAreAMeshWithTheNextTopology) {
   send(grid_);
   expect_mesh(mesh_, 1, grid_);
-  send(other_);
-  expect_mesh(mesh_, 2, other_);
-  send(grid_);
-  expect_mesh(mesh_, 3, grid_);
-}
-
-TEST_F(OrganFeedTest, TheSameTrianglesAreVertices) {
-  send(grid_);
   send(moved_);
   expect(vertices_, 1, moved_.vertices);
-  expect_mesh(feed_.mesh(), 1, moved_);
-}
-
-TEST_F(OrganFeedTest, MoreVerticesAreANewMeshEvenIfNoTriangleHasThem) {
-  send(grid_);
-  GridSurface larger = grid_;
-  larger.vertices.insert(larger.vertices.end(), {0.1f, 0.2f, 0.3f});
-  send(larger);
-  expect_mesh(mesh_, 2, larger);
-}
-
-TEST_F(OrganFeedTest, AnotherFrameIsAMeshOfTheSameTopology) {
-  send(grid_, "table");
+  expect_mesh(source_.mesh(), 1, moved_);
+  send(grid_, "table");  // Another frame is a mesh of the same topology.
   send(moved_);
   expect_mesh(mesh_, 1, moved_);
-  send(grid_);
-  expect(vertices_, 1, grid_.vertices);
+  send(other_);
+  expect_mesh(mesh_, 2, other_);
+  GridSurface larger = other_;  // It has a vertex that no triangle has.
+  larger.vertices.insert(larger.vertices.end(), {0.1f, 0.2f, 0.3f});
+  send(larger);
+  expect_mesh(mesh_, 3, larger);
 }
 
-TEST_F(OrganFeedTest, AnEmptySurfaceRemovesTheOrgan) {
+TEST_F(OrganSourceTest, AnEmptySurfaceRemovesTheOrgan) {
   send(grid_);
-  ReceivedSurface none{"", ros::Time(7), {}, {}};
-  send(none);
+  send({});
   EXPECT_TRUE(mesh_->vertices.empty() && mesh_->triangles.empty());
   EXPECT_EQ(mesh_->organ, "organ");
-  EXPECT_EQ(feed_.mesh(), nullptr);
+  EXPECT_EQ(source_.mesh(), nullptr);
   expect_words(refusal([&] { send_vertices(grid_.vertices); }), {"no mesh: ", "16 vertices"});
   send(grid_);
   expect_mesh(mesh_, 2, grid_);
 }
 
-TEST_F(OrganFeedTest, VerticesNeedAMeshOfAsMany) {
+TEST_F(OrganSourceTest, VerticesNeedAMeshOfAsMany) {
   expect_words(refusal([&] { send_vertices(grid_.vertices); }),
                {"no mesh: ", "16 vertices", "'organ'"});
   send(grid_);
@@ -116,62 +124,35 @@ TEST_F(OrganFeedTest, VerticesNeedAMeshOfAsMany) {
   }
   send_vertices(moved_.vertices);
   expect(vertices_, 1, moved_.vertices);
-  expect_mesh(feed_.mesh(), 1, moved_);
+  expect_mesh(source_.mesh(), 1, moved_);
 }
 
-TEST_F(OrganFeedTest, WhatTheCollisionNodeRefusesIsSentButNotRemembered) {
+TEST_F(OrganSourceTest, WhatTheCollisionNodeRefusesIsSentButNotRemembered) {
   send(grid_);
   const ros::Time good = stamp_;
   std::vector<float> vertices = moved_.vertices;
   vertices[10] = std::nanf("");
   send_vertices(vertices);  // It is sent all the same.
-  EXPECT_EQ(feed_.mesh()->vertices, grid_.vertices);
+  EXPECT_EQ(source_.mesh()->vertices, grid_.vertices);
   send_vertices(moved_.vertices, "table");
   EXPECT_EQ(vertices_->header.frame_id, "table");
-  EXPECT_EQ(feed_.mesh()->vertices, grid_.vertices);
-  EXPECT_EQ(feed_.mesh()->header.stamp, good);
+  EXPECT_EQ(source_.mesh()->vertices, grid_.vertices);
+  EXPECT_EQ(source_.mesh()->header.stamp, good);
 
   GridSurface broken = other_;
   broken.faces[4][1] = 16;
   send(broken);
   expect(mesh_, 2, broken.vertices);
-  EXPECT_EQ(feed_.mesh()->triangles, grid_.triangles());
+  EXPECT_EQ(source_.mesh()->triangles, grid_.triangles());
   send(moved_);
   expect(vertices_, 1, moved_.vertices);
-}
-
-TEST_F(OrganFeedTest, AMeshThatFollowsARefusedOneIsSentAsAMesh) {
-  GridSurface broken = grid_;
+  broken = moved_;
   broken.vertices[0] = std::nanf("");
-  send(broken);
-  EXPECT_EQ(feed_.mesh(), nullptr);
-  send(grid_);
-  expect_mesh(mesh_, 2, grid_);
-}
-
-TEST_F(OrganFeedTest, VerticesAreNotCopied) {
-  send(grid_);
-  ReceivedSurface surface{"liver", ros::Time(7), moved_.vertices, moved_.triangles()};
-  const float* address = surface.vertices.data();
-  send(surface);
-  EXPECT_EQ(vertices_->vertices.data(), address);
-}
-
-using topic_tools::ShapeShifter;
-
-/// The message as a subscriber receives it, without its last `cut` bytes.
-template <typename Message>
-ShapeShifter shape_shifter(const Message& message, std::uint32_t cut = 0) {
-  namespace traits = ros::message_traits;
-  std::vector<std::uint8_t> bytes(ros::serialization::serializationLength(message));
-  ros::serialization::OStream out(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
-  ros::serialization::serialize(out, message);
-  ShapeShifter shifter;
-  shifter.morph(traits::md5sum<Message>(), traits::datatype<Message>(),
-                traits::definition<Message>(), "0");
-  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()) - cut);
-  shifter.read(in);
-  return shifter;
+  send({});
+  for (const GridSurface& grid : {broken, moved_}) {  // It is sent as a mesh after a refused one.
+    send(grid);
+    ASSERT_TRUE(mesh_);
+  }
 }
 
 const std::vector<double> kPoints = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.9, 0.8};
@@ -257,49 +238,31 @@ TEST(OrganSource, TakesEachType) {
   polygons.expect_mesh("liver", ros::Time(49.5));
   markers.take(marker());
   markers.expect_mesh("liver", kArrival);
+  shape.take(marker());  // Another type may follow.
+  ASSERT_TRUE(shape.vertices);
+  EXPECT_EQ(shape.vertices->topology, shape.mesh->topology);
+  shape.take(shape_msgs::Mesh());  // It removes the organ, in whatever frame.
+  EXPECT_TRUE(shape.mesh->triangles.empty());
 }
 
-TEST(OrganSource, AnotherTypeMayFollow) {
-  Rig rig("liver");
-  rig.take(shape_mesh());
-  rig.take(marker());
-  ASSERT_TRUE(rig.vertices);
-  EXPECT_EQ(rig.vertices->topology, rig.mesh->topology);
-}
+TEST(OrganSource, TheParameterIsTheFrameElseTheMessagesMustNameOne) {
+  Rig given("liver"), rig;
+  given.take(polygon_mesh("world"));
+  given.expect_mesh("liver", ros::Time(49.5));
+  given.take_vertices(cloud("camera"));
+  EXPECT_EQ(given.vertices->header.frame_id, "liver");
 
-TEST(OrganSource, TheParameterIsTheFrameWhateverTheMessagesSay) {
-  Rig rig("liver");
-  rig.take(polygon_mesh("world"));
-  rig.expect_mesh("liver", ros::Time(49.5));
-  rig.take_vertices(cloud("camera"));
-  EXPECT_EQ(rig.vertices->header.frame_id, "liver");
-}
-
-TEST(OrganSource, RefusesMessagesWithoutFrame) {
-  Rig rig;
   expect_words(refusal([&] { rig.take(shape_mesh()); }), {"no frame: ", "'organ'", "'frame'"});
-  rig.take(polygon_mesh("liver"));
-  expect_words(refusal([&] { rig.take_vertices(cloud("")); }), {"no frame: "});
-  EXPECT_FALSE(rig.vertices);
-}
-
-TEST(OrganSource, ARefusedMarkerIsNotTheOrgans) {
-  Rig rig;
   visualization_msgs::Marker nowhere = marker();
   nowhere.header.frame_id = "a\nb";
   expect_words(refusal([&] { rig.take(nowhere); }), {"illegal name: ", "frame 'a b'"});
   nowhere.header.frame_id = "";
   nowhere.id = 7;
   expect_words(refusal([&] { rig.take(nowhere); }), {"no frame: "});
-  rig.take(marker());
+  rig.take(marker());  // The refused marker is not the organ's.
   rig.expect_mesh("liver", kArrival);
-}
-
-TEST(OrganSource, AnOrganIsRemovedInWhateverFrame) {
-  Rig rig;
-  rig.take(shape_msgs::Mesh());
-  ASSERT_TRUE(rig.mesh);
-  EXPECT_TRUE(rig.mesh->triangles.empty());
+  expect_words(refusal([&] { rig.take_vertices(cloud("")); }), {"no frame: "});
+  EXPECT_FALSE(rig.vertices);
 }
 
 TEST(OrganSource, TakesVertices) {
@@ -314,17 +277,13 @@ TEST(OrganSource, TakesVertices) {
   EXPECT_EQ(rig.source.mesh()->header.stamp, ros::Time(48.5));
 }
 
-TEST(OrganSource, RefusesOtherTypes) {
+TEST(OrganSource, RefusesOtherTypesAndWhatIsNotAsItsTypeSays) {
   Rig rig("liver");
   expect_words(refusal([&] { rig.take(cloud("liver")); }),
                {"wrong type: ", "sensor_msgs/PointCloud2", "shape_msgs/Mesh",
                 "pcl_msgs/PolygonMesh", "visualization_msgs/Marker"});
   expect_words(refusal([&] { rig.take_vertices(shape_mesh()); }),
                {"wrong type: ", "shape_msgs/Mesh", "sensor_msgs/PointCloud2"});
-}
-
-TEST(OrganSource, RefusesWhatIsNotAsItsTypeSays) {
-  Rig rig("liver");
   expect_words(refusal([&] { rig.take(shape_mesh(), 1); }),
                {"unreadable message: ", "shape_msgs/Mesh"});
   expect_words(refusal([&] { rig.take_vertices(cloud("liver"), 3); }), {"unreadable message: "});

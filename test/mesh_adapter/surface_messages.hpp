@@ -76,6 +76,7 @@ inline sensor_msgs::PointCloud2 cloud_of(const std::vector<double>& points,
     cloud.point_step += size_of(field.datatype);
   }
   const auto count = static_cast<std::uint32_t>(points.size() / 3);
+  if (count == 0) return cloud;
   cloud.width = layout.width == 0 ? count : layout.width;
   cloud.height = count / cloud.width;
   cloud.row_step = cloud.width * cloud.point_step + layout.row_padding;

@@ -4,36 +4,30 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <random>
 
 #include "ros/messages/conversions.hpp"
 #include "surface_messages.hpp"
 
-TEST(ReceivedSurface, IsEmptyWithoutVerticesAndTriangles) {
-  organ_collision::ReceivedSurface surface;
-  surface.frame = "liver";
-  EXPECT_TRUE(surface.empty());
-  surface.triangles = {0, 1, 2};
-  EXPECT_FALSE(surface.empty());
-  surface.triangles.clear();
-  surface.vertices = {0.1f, 0.2f, 0.3f};
-  EXPECT_FALSE(surface.empty());
-}
-
-TEST(MessageError, HasReasonAndMessage) {
-  const organ_collision::MessageError error("truncated cloud", "data has 3 bytes");
-  EXPECT_EQ(error.reason(), "truncated cloud");
-  EXPECT_STREQ(error.what(), "data has 3 bytes");
-}
-
 namespace organ_collision {
 namespace {
 
 using sensor_msgs::PointCloud2;
 using sensor_msgs::PointField;
+using visualization_msgs::Marker;
+using Floats = std::vector<float>;
+using Indices = std::vector<std::uint32_t>;
 
-constexpr std::uint8_t kDouble = PointField::FLOAT64;
+const double kNan = std::nan(""), kInfinity = std::numeric_limits<double>::infinity();
+
+/// A message that is spoiled, and words of its refusal. The first is its reason.
+template <typename Message>
+struct Refusal {
+  std::function<void(Message& message)> spoil;
+  std::vector<std::string> words;
+};
 
 /// Random coordinates as multiples of 2^-40. Most of them are not exact as 32-bit floats.
 std::vector<double> random_points(std::size_t count, unsigned seed) {
@@ -44,21 +38,16 @@ std::vector<double> random_points(std::size_t count, unsigned seed) {
   return points;
 }
 
-std::vector<float> floats(const std::vector<double>& numbers) {
-  return {numbers.begin(), numbers.end()};
-}
+Floats floats(const std::vector<double>& numbers) { return {numbers.begin(), numbers.end()}; }
 
-std::vector<float> read(const PointCloud2& cloud) {
-  std::vector<float> vertices = {4.0f, 5.0f};
+Floats read(const PointCloud2& cloud) {
+  Floats vertices = {4.0f, 5.0f};
   read_points(cloud, vertices);
   return vertices;
 }
 
-std::string refusal_of(const PointCloud2& cloud) {
-  return refusal([&] { read(cloud); });
-}
-
 TEST(PointCloudReader, ReadsEveryLayout) {
+  constexpr std::uint8_t kDouble = PointField::FLOAT64;
   const std::vector<CloudLayout> layouts = {
       kPackedFloats,
       {{{"z"}, {"x"}, {"y"}}},
@@ -72,7 +61,8 @@ TEST(PointCloudReader, ReadsEveryLayout) {
       {{{"x", kDouble}, {"y", kDouble}, {"z", kDouble}}},
       {{{"time", kDouble}, {"y", kDouble}, {"x"}, {"z", kDouble}, {"ring", PointField::INT8}}},
   };
-  const std::vector<double> points = random_points(60, 7);
+  std::vector<double> points = random_points(60, 7);
+  points[4] = kInfinity;  // Numbers need not be finite.
   for (CloudLayout layout : layouts) {
     for (const bool big_endian : {false, true}) {
       for (const std::uint32_t width : {0, 1, 12, 60}) {
@@ -96,75 +86,47 @@ TEST(PointCloudReader, TakesWhatIsLooselyFilledIn) {
   for (PointField& field : cloud.fields) field.count = 0;
   cloud.data.resize(cloud.data.size() + 7);
   EXPECT_EQ(read(cloud), floats(points));
-
   cloud = cloud_of(points, {{{"x"}, {"y"}, {"z"}}, false, 2, 8});
   cloud.data.resize(cloud.data.size() - 8);  // The last row needs no padding.
   EXPECT_EQ(read(cloud), floats(points));
+  cloud = PointCloud2();
+  EXPECT_TRUE(read(cloud).empty());
+  cloud.height = 1;
+  cloud.row_step = 16;
+  EXPECT_TRUE(read(cloud).empty());
 }
 
-TEST(PointCloudReader, NumbersNeedNotBeFinite) {
-  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  for (const std::uint8_t datatype : {PointField::FLOAT32, PointField::FLOAT64}) {
-    const CloudLayout layout{{{"x", datatype}, {"y", datatype}, {"z", datatype}}};
-    const std::vector<float> vertices = read(cloud_of({nan, infinity, -infinity}, layout));
-    EXPECT_TRUE(std::isnan(vertices[0]));
-    EXPECT_EQ(vertices[1], infinity);
-    EXPECT_EQ(vertices[2], -infinity);
-  }
-}
-
-TEST(PointCloudReader, NoPointsAreNoVertices) {
-  EXPECT_TRUE(read(PointCloud2()).empty());
-  PointCloud2 flat;
-  flat.height = 1;
-  flat.row_step = 16;
-  EXPECT_TRUE(read(flat).empty());
-}
-
-TEST(PointCloudReader, RefusesFieldsThatAreNoCoordinates) {
-  PointCloud2 cloud = cloud_of({0.1, 0.2, 0.3}, {{{"x"}, {"y"}, {"intensity"}}});
-  expect_words(refusal_of(cloud), {"missing field: ", "'x, y, intensity'", "x, y and z"});
-  cloud.fields.clear();
-  expect_words(refusal_of(cloud), {"missing field: ", "''"});
-
-  cloud = cloud_of({0.1, 0.2, 0.3});
-  for (const int datatype : {0, 1, 2, 3, 4, 5, 6, 9, 255}) {
-    cloud.fields[1].datatype = static_cast<std::uint8_t>(datatype);
-    expect_words(refusal_of(cloud), {"wrong field type: ", "field y",
-                                     "datatype " + std::to_string(datatype), "7", "8"});
-  }
-  cloud.fields[1].datatype = PointField::FLOAT32;
-  cloud.fields[2].count = 3;
-  expect_words(refusal_of(cloud), {"wrong field count: ", "field z", "count 3", "1"});
-}
-
-TEST(PointCloudReader, RefusesFieldsBeyondThePoint) {
-  PointCloud2 cloud = cloud_of({0.1, 0.2, 0.3, 0.4, 0.5, 0.6});
-  cloud.fields[2].offset = 9;
-  expect_words(refusal_of(cloud), {"wrong point_step: ", "field z", "byte 13", "is 12"});
-  cloud.fields[2].offset = 4294967295;
-  expect_words(refusal_of(cloud), {"wrong point_step: ", "byte 4294967299", "is 12"});
-  cloud.fields[2].offset = 8;
-  cloud.fields[2].datatype = PointField::FLOAT64;
-  expect_words(refusal_of(cloud), {"wrong point_step: ", "byte 16", "is 12"});
-  cloud.fields[2].datatype = PointField::FLOAT32;
-  cloud.point_step = 0;
-  expect_words(refusal_of(cloud), {"wrong point_step: ", "field x", "is 0"});
-}
-
-TEST(PointCloudReader, RefusesTooFewBytes) {
+TEST(PointCloudReader, RefusesWhatIsNoCloudOfPoints) {
   const PointCloud2 good = cloud_of(random_points(6, 9), {{{"x"}, {"y"}, {"z"}}, false, 3});
-  PointCloud2 cloud = good;
-  cloud.data.pop_back();
-  expect_words(refusal_of(cloud), {"truncated cloud: ", "71 bytes", "3 x 2", "point_step 12"});
-  cloud.data.clear();
-  expect_words(refusal_of(cloud), {"truncated cloud: ", "0 bytes"});
-  cloud = good;
-  cloud.point_step = 13;
-  expect_words(refusal_of(cloud), {"wrong row_step: ", "36", "3 points", "39"});
-  cloud = good;
-  cloud.row_step = 37;
-  expect_words(refusal_of(cloud), {"truncated cloud: ", "72 bytes"});
+  std::vector<Refusal<PointCloud2>> rows = {
+      {[](auto& c) { c.fields[2].name = "intensity"; },
+       {"missing field: ", "'x, y, intensity'", "x, y and z"}},
+      {[](auto& c) { c.fields.clear(); }, {"missing field: ", "''"}},
+      {[](auto& c) { c.fields[2].count = 3; }, {"wrong field count: ", "field z", "count 3", "1"}},
+      {[](auto& c) { c.fields[2].offset = 9; },
+       {"wrong point_step: ", "field z", "byte 13", "is 12"}},
+      {[](auto& c) { c.fields[2].offset = 4294967295; },
+       {"wrong point_step: ", "byte 4294967299", "is 12"}},
+      {[](auto& c) { c.fields[2].datatype = PointField::FLOAT64; },
+       {"wrong point_step: ", "byte 16", "is 12"}},
+      {[](auto& c) { c.point_step = 0; }, {"wrong point_step: ", "field x", "is 0"}},
+      {[](auto& c) { c.data.pop_back(); },
+       {"truncated cloud: ", "71 bytes", "3 x 2", "point_step 12"}},
+      {[](auto& c) { c.data.clear(); }, {"truncated cloud: ", "0 bytes"}},
+      {[](auto& c) { c.point_step = 13; }, {"wrong row_step: ", "36", "3 points", "39"}},
+      {[](auto& c) { c.row_step = 37; }, {"truncated cloud: ", "72 bytes"}},
+      {[](auto& c) { c.width = 0; }, {"wrong size: ", "0 x 2"}},
+      {[](auto& c) { c.height = 0; }, {"wrong size: ", "3 x 0"}},
+  };
+  for (const int datatype : {0, 1, 2, 3, 4, 5, 6, 9, 255}) {
+    rows.push_back({[datatype](auto& c) { c.fields[1].datatype = datatype; },
+                    {"wrong field type: ", "field y", "datatype " + std::to_string(datatype)}});
+  }
+  for (const auto& row : rows) {
+    PointCloud2 cloud = good;
+    row.spoil(cloud);
+    expect_words(refusal([&] { read(cloud); }), row.words);
+  }
 }
 
 TEST(PointCloudReader, RefusesSizesWhoseBytesOverflow) {
@@ -180,7 +142,7 @@ TEST(PointCloudReader, RefusesSizesWhoseBytesOverflow) {
           cloud.point_step = point_step;
           cloud.row_step = row_step;
           const bool legal = width == 6 && height == 1 && point_step == 12;
-          EXPECT_EQ(refusal_of(cloud) == "accepted", legal)
+          EXPECT_EQ(refusal([&] { read(cloud); }) == "accepted", legal)
               << width << " x " << height << ", " << point_step << ", " << row_step;
         }
       }
@@ -188,119 +150,62 @@ TEST(PointCloudReader, RefusesSizesWhoseBytesOverflow) {
   }
 }
 
-TEST(PointCloudReader, RefusesDataOfNoPoints) {
-  PointCloud2 cloud = cloud_of({0.1, 0.2, 0.3});
-  cloud.width = 0;
-  expect_words(refusal_of(cloud), {"wrong size: ", "0 x 1"});
-  cloud.width = 1;
-  cloud.height = 0;
-  expect_words(refusal_of(cloud), {"wrong size: ", "1 x 0"});
-}
-
-using Floats = std::vector<float>;
-using Indices = std::vector<std::uint32_t>;
-
 /// A surface with the content of an earlier message.
 ReceivedSurface used_surface() {
   return {"table", ros::Time(3), {1.0f, 2.0f, 3.0f, 4.0f}, {7, 8, 9, 10}};
 }
 
-geometry_msgs::Point point(double x, double y, double z) {
-  geometry_msgs::Point point;
-  point.x = x;
-  point.y = y;
-  point.z = z;
-  return point;
-}
-
-shape_msgs::MeshTriangle triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-  shape_msgs::MeshTriangle triangle;
-  triangle.vertex_indices = {a, b, c};
-  return triangle;
-}
-
-pcl_msgs::Vertices polygon(const Indices& corners) {
-  pcl_msgs::Vertices polygon;
-  polygon.vertices = corners;
-  return polygon;
+template <typename Message>
+ReceivedSurface converted(const Message& message) {
+  ReceivedSurface surface = used_surface();
+  convert(message, surface);
+  return surface;
 }
 
 TEST(MeshConversions, TakesAShapeMeshAsItIs) {
   shape_msgs::Mesh mesh;
-  mesh.vertices = {point(0.1, -0.2, 0.3), point(std::nan(""), 5.5, 1e30), point(0.7, 0.8, 0.9)};
-  mesh.triangles = {triangle(2, 0, 1), triangle(1, 1, 4000)};
-  ReceivedSurface surface = used_surface();
-  convert(mesh, surface);
+  for (const Eigen::Vector3d& at :
+       {Eigen::Vector3d(0.1, -0.2, 0.3), Eigen::Vector3d(kInfinity, 5.5, 1e30)}) {
+    mesh.vertices.push_back(tf2::toMsg(at));
+  }
+  mesh.triangles.resize(2);
+  mesh.triangles[0].vertex_indices = {2, 0, 1};
+  mesh.triangles[1].vertex_indices = {1, 1, 4000};
+  const ReceivedSurface surface = converted(mesh);
   EXPECT_EQ(surface.frame, "");
   EXPECT_TRUE(surface.stamp.isZero());
-  ASSERT_EQ(surface.vertices.size(), 9u);
-  EXPECT_TRUE(std::isnan(surface.vertices[3]));
-  surface.vertices[3] = 0.0f;
-  EXPECT_EQ(surface.vertices, (Floats{0.1f, -0.2f, 0.3f, 0.0f, 5.5f, 1e30f, 0.7f, 0.8f, 0.9f}));
+  EXPECT_EQ(surface.vertices, (Floats{0.1f, -0.2f, 0.3f, INFINITY, 5.5f, 1e30f}));
   EXPECT_EQ(surface.triangles, (Indices{2, 0, 1, 1, 1, 4000}));
+  EXPECT_TRUE(converted(shape_msgs::Mesh()).empty());
+  EXPECT_TRUE(converted(pcl_msgs::PolygonMesh()).empty());
 }
 
-TEST(MeshConversions, AnEmptyMeshIsAnEmptySurface) {
-  ReceivedSurface surface = used_surface();
-  convert(shape_msgs::Mesh(), surface);
-  EXPECT_TRUE(surface.empty());
-  surface = used_surface();
-  convert(pcl_msgs::PolygonMesh(), surface);
-  EXPECT_TRUE(surface.empty());
-}
-
-class PolygonMeshTest : public testing::Test {
- protected:
-  PolygonMeshTest() {
-    mesh_.cloud = cloud_of({0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {{{"z"}, {"y"}, {"x"}}, true});
-    mesh_.polygons = {polygon({3, 1, 2})};
-  }
-
-  ReceivedSurface converted() const {
-    ReceivedSurface surface = used_surface();
-    convert(mesh_, surface);
-    return surface;
-  }
-
-  pcl_msgs::PolygonMesh mesh_;
-};
-
-TEST_F(PolygonMeshTest, VerticesAreThePointsOfTheCloud) {
-  EXPECT_EQ(converted().vertices, (Floats{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f}));
-}
-
-TEST_F(PolygonMeshTest, PolygonsAreFans) {
-  mesh_.polygons = {polygon({3, 1, 2}), polygon({9, 8, 7, 6, 5}), polygon({0, 0, 4, 0})};
-  EXPECT_EQ(converted().triangles, (Indices{3, 1, 2, 9, 8, 7, 9, 7, 6, 9, 6, 5, 0, 0, 4, 0, 4, 0}));
-}
-
-TEST_F(PolygonMeshTest, RefusesPolygonsOfFewerThanThreeCorners) {
+TEST(MeshConversions, PolygonsAreFansOfTheCloudsPoints) {
+  pcl_msgs::PolygonMesh mesh;
+  mesh.cloud = cloud_of({0.1, 0.2, 0.3, 0.4, 0.5, 0.6}, {{{"z"}, {"y"}, {"x"}}, true});
+  mesh.cloud.header.frame_id = "camera";
+  mesh.cloud.header.stamp = ros::Time(5.5);
+  mesh.polygons.resize(2);
+  mesh.polygons[0].vertices = {9, 8, 7, 6, 5};
+  mesh.polygons[1].vertices = {0, 0, 4, 0};
+  const ReceivedSurface surface = converted(mesh);
+  EXPECT_EQ(surface.vertices, (Floats{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f}));
+  EXPECT_EQ(surface.triangles, (Indices{9, 8, 7, 9, 7, 6, 9, 6, 5, 0, 0, 4, 0, 4, 0}));
+  EXPECT_EQ(surface.frame, "camera");
+  EXPECT_EQ(surface.stamp, ros::Time(5.5));
+  mesh.header.frame_id = "liver";
+  mesh.header.stamp = ros::Time(6.5);
+  EXPECT_EQ(converted(mesh).frame, "liver");
+  EXPECT_EQ(converted(mesh).stamp, ros::Time(6.5));
   for (const Indices& corners : {Indices{}, Indices{1}, Indices{1, 0}}) {
-    mesh_.polygons = {polygon({3, 1, 2}), polygon(corners)};
-    expect_words(refusal([&] { converted(); }),
+    mesh.polygons[1].vertices = corners;
+    expect_words(refusal([&] { converted(mesh); }),
                  {"polygon without area: ", "polygon 1 ",
                   std::to_string(corners.size()) + " corners", "at least 3"});
   }
+  mesh.cloud.data.pop_back();
+  expect_words(refusal([&] { converted(mesh); }), {"truncated cloud: "});
 }
-
-TEST_F(PolygonMeshTest, RefusesAnUnreadableCloud) {
-  mesh_.cloud.data.pop_back();
-  expect_words(refusal([&] { converted(); }), {"truncated cloud: "});
-}
-
-TEST_F(PolygonMeshTest, FrameAndStampAreTheMeshsOwnElseTheClouds) {
-  mesh_.cloud.header.frame_id = "camera";
-  mesh_.cloud.header.stamp = ros::Time(5.5);
-  EXPECT_EQ(converted().frame, "camera");
-  EXPECT_EQ(converted().stamp, ros::Time(5.5));
-  mesh_.header.frame_id = "liver";
-  EXPECT_EQ(converted().frame, "liver");
-  EXPECT_EQ(converted().stamp, ros::Time(5.5));
-  mesh_.header.stamp = ros::Time(6.5);
-  EXPECT_EQ(converted().stamp, ros::Time(6.5));
-}
-
-using visualization_msgs::Marker;
 
 class MarkerReaderTest : public testing::Test {
  protected:
@@ -312,48 +217,36 @@ class MarkerReaderTest : public testing::Test {
     marker_.type = Marker::TRIANGLE_LIST;
     marker_.scale = to_vector({1.0, 1.0, 1.0});
     marker_.pose.orientation.w = 1.0;
-    std::mt19937 random(11);
-    std::uniform_real_distribution<double> coordinate(-0.2, 0.2);
-    for (int i = 0; i < 6; ++i) {
-      marker_.points.push_back(
-          tf2::toMsg(Eigen::Vector3d(coordinate(random), coordinate(random), coordinate(random))));
+    const std::vector<double> points = random_points(6, 11);
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+      marker_.points.push_back(tf2::toMsg(Eigen::Vector3d(&points[i])));
     }
   }
 
-  ReceivedSurface read() { return read(marker_); }
   ReceivedSurface read(const Marker& marker) {
-    ReceivedSurface surface{"table", ros::Time(3), {1.0f, 2.0f}, {9}};
+    ReceivedSurface surface = used_surface();
     reader_.read(marker, surface);
     reader_.keep();
     return surface;
   }
-  std::string refusal_now() {
-    return refusal([&] { read(); });
+  std::string refusal_of(const Marker& marker) {
+    return refusal([&] { read(marker); });
   }
 
   Marker marker_;
   MarkerReader reader_;
 };
 
-TEST_F(MarkerReaderTest, ThreePointsAreAFace) {
-  const ReceivedSurface surface = read();
-  EXPECT_EQ(surface.frame, "liver");
-  EXPECT_EQ(surface.stamp, ros::Time(7.25));
-  EXPECT_EQ(surface.triangles, (std::vector<std::uint32_t>{0, 1, 2, 3, 4, 5}));
-  ASSERT_EQ(surface.vertices.size(), 18u);
-  for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_EQ(surface.vertices[3 * i], static_cast<float>(marker_.points[i].x));
-    EXPECT_EQ(surface.vertices[3 * i + 1], static_cast<float>(marker_.points[i].y));
-    EXPECT_EQ(surface.vertices[3 * i + 2], static_cast<float>(marker_.points[i].z));
-  }
-}
-
-TEST_F(MarkerReaderTest, ScaleComesBeforePose) {
+TEST_F(MarkerReaderTest, ThreePointsAreAFaceAndScaleComesBeforePose) {
   marker_.scale = to_vector({2.0, 0.5, 3.0});
   marker_.pose.position = tf2::toMsg(Eigen::Vector3d(0.4, -0.3, 0.2));
   marker_.pose.orientation.w = marker_.pose.orientation.z =
       std::sqrt(0.5);  // maps x to y, and y to -x
-  const ReceivedSurface surface = read();
+  const ReceivedSurface surface = read(marker_);
+  EXPECT_EQ(surface.frame, "liver");
+  EXPECT_EQ(surface.stamp, ros::Time(7.25));
+  EXPECT_EQ(surface.triangles, (Indices{0, 1, 2, 3, 4, 5}));
+  ASSERT_EQ(surface.vertices.size(), 18u);
   for (std::size_t i = 0; i < 6; ++i) {
     EXPECT_NEAR(surface.vertices[3 * i], 0.4 - 0.5 * marker_.points[i].y, 1e-7);
     EXPECT_NEAR(surface.vertices[3 * i + 1], -0.3 + 2.0 * marker_.points[i].x, 1e-7);
@@ -362,87 +255,68 @@ TEST_F(MarkerReaderTest, ScaleComesBeforePose) {
 }
 
 TEST_F(MarkerReaderTest, AnOrientationIsNormalisedOrNone) {
-  const std::vector<float> vertices = read().vertices;
-  marker_.pose.orientation.w = 0.995;
-  EXPECT_EQ(read().vertices, vertices);
-  marker_.pose.orientation.w = 0.0;
-  EXPECT_EQ(read().vertices, vertices);
-  marker_.pose.orientation.x = 2.0;
-  expect_words(refusal_now(), {"wrong orientation: ", "length 2", "must be 1"});
-  marker_.pose.orientation.x = std::nan("");
-  expect_words(refusal_now(), {"wrong orientation: ", "nan"});
-}
-
-TEST_F(MarkerReaderTest, RefusesAScaleThatLeavesNoSurface) {
-  for (const double factor : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()}) {
-    marker_.scale.y = factor;
-    expect_words(refusal_now(), {"wrong scale: ", "1", "finite and more than 0"});
+  const Floats vertices = read(marker_).vertices;
+  for (const double w : {0.995, 0.0}) {
+    marker_.pose.orientation.w = w;
+    EXPECT_EQ(read(marker_).vertices, vertices);
   }
 }
 
-TEST_F(MarkerReaderTest, RefusesAnIncompleteFace) {
-  marker_.points.pop_back();
-  expect_words(refusal_now(), {"wrong number of points: ", "'organs/3'", "5 points", "three"});
-}
-
-TEST_F(MarkerReaderTest, RefusesOtherTypesByName) {
-  marker_.type = Marker::TEXT_VIEW_FACING;
-  expect_words(refusal_now(),
-               {"other marker type: ", "'organs/3'", "9 (TEXT_VIEW_FACING)", "11 (TRIANGLE_LIST)"});
-  for (const int type : {-5, 12, 1000}) {
-    marker_.type = type;
-    expect_words(refusal_now(), {std::to_string(type) + " (unknown)"});
+TEST_F(MarkerReaderTest, RefusesWhatIsNoSurface) {
+  const std::vector<Refusal<Marker>> rows = {
+      {[](auto& m) { m.pose.orientation.x = 2.0, m.pose.orientation.w = 0.0; },
+       {"wrong orientation: ", "length 2", "must be 1"}},
+      {[](auto& m) { m.pose.orientation.x = kNan; }, {"wrong orientation: ", "nan"}},
+      {[](auto& m) { m.scale.y = 0.0; }, {"wrong scale: ", "1 0 1", "finite and more than 0"}},
+      {[](auto& m) { m.scale.y = -1.0; }, {"wrong scale: "}},
+      {[](auto& m) { m.scale.y = kNan; }, {"wrong scale: "}},
+      {[](auto& m) { m.scale.y = kInfinity; }, {"wrong scale: "}},
+      {[](auto& m) { m.points.pop_back(); },
+       {"wrong number of points: ", "'organs/3'", "5 points", "three"}},
+      {[](auto& m) { m.type = Marker::TEXT_VIEW_FACING; },
+       {"other marker type: ", "'organs/3'", "9 (TEXT_VIEW_FACING)", "11 (TRIANGLE_LIST)"}},
+      {[](auto& m) { m.type = -5; }, {"other marker type: ", "-5 (unknown)"}},
+      {[](auto& m) { m.type = 12; }, {"other marker type: ", "12 (unknown)"}},
+      {[](auto& m) { m.action = 7; }, {"unknown action: ", "'organs/3'", "action 7", "0 (ADD)"}},
+      {[](auto& m) { m.ns.assign(10'000'000, 'x'); },
+       {"illegal name: ", "namespace 'xxx", "at most 256 bytes"}},
+  };
+  for (const auto& row : rows) {
+    Marker marker = marker_;
+    row.spoil(marker);
+    const std::string text = refusal_of(marker);
+    expect_words(text, row.words);
+    EXPECT_LT(text.size(), 1000u);
   }
 }
 
 TEST_F(MarkerReaderTest, TheFirstTriangleListIsTheOrganUntilItIsDeleted) {
-  Marker arrow = marker_;
+  Marker arrow = marker_, empty = marker_, other = marker_;
   arrow.id = 2;
   arrow.type = Marker::ARROW;
   EXPECT_THROW(read(arrow), MessageError);
-  EXPECT_FALSE(read().empty());
-
-  Marker other = marker_;
+  empty.points.clear();  // It keeps its name.
+  EXPECT_TRUE(read(empty).empty());
+  EXPECT_FALSE(read(marker_).empty());
   other.ns = "tools";
-  expect_words(refusal([&] { read(other); }), {"other marker: ", "'tools/3'", "'organs/3'"});
-  other.action = Marker::DELETE;
-  expect_words(refusal([&] { read(other); }), {"other marker: "});
-  other.ns = std::string(10'000'000, 'x');
-  const std::string illegal = refusal([&] { read(other); });
-  expect_words(illegal, {"illegal name: ", "namespace 'xxx", "at most 256 bytes"});
-  EXPECT_LT(illegal.size(), 1000u);
+  for (const int action : {Marker::ADD, Marker::DELETE}) {
+    other.action = action;
+    expect_words(refusal_of(other), {"other marker: ", "'tools/3'", "'organs/3'"});
+  }
   other.ns = marker_.ns;
   other.id = 4;
-  expect_words(refusal([&] { read(other); }), {"other marker: ", "'organs/4'"});
+  expect_words(refusal_of(other), {"other marker: ", "'organs/4'"});
 
   marker_.action = Marker::DELETE;
-  EXPECT_TRUE(read().empty());
+  EXPECT_TRUE(read(marker_).empty());
   other.action = Marker::ADD;
   EXPECT_FALSE(read(other).empty());
-}
-
-TEST_F(MarkerReaderTest, DeleteAllRemovesWhateverItsName) {
-  read();
   Marker all;
-  all.action = Marker::DELETEALL;
+  all.action = Marker::DELETEALL;  // Whatever its name.
   EXPECT_TRUE(read(all).empty());
-  marker_.ns = "anew";
-  EXPECT_FALSE(read().empty());
-}
-
-TEST_F(MarkerReaderTest, WithoutPointsItIsEmptyAndKeepsItsName) {
-  Marker empty = marker_;
-  empty.points.clear();
-  EXPECT_TRUE(read(empty).empty());
-  marker_.id = 4;
-  expect_words(refusal_now(), {"other marker: "});
-}
-
-TEST_F(MarkerReaderTest, RefusesUnknownActions) {
-  marker_.action = 7;
-  expect_words(refusal_now(), {"unknown action: ", "'organs/3'", "action 7", "0 (ADD)"});
+  marker_.action = Marker::ADD;
+  EXPECT_FALSE(read(marker_).empty());
 }
 
 }  // namespace
-
 }  // namespace organ_collision

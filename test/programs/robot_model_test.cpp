@@ -54,19 +54,21 @@ class SilentHandler : public console_bridge::OutputHandler {
 TEST(RobotModel, CollisionShapesWhereTheirOriginsAre) {
   const LinkDescription shaft = link(gripper(), "shaft");
   ASSERT_EQ(shaft.shapes.size(), 2u);  // Without the visual box.
-  const auto& cylinder = std::get<CylinderDescription>(shaft.shapes[0]);
-  EXPECT_EQ(cylinder.radius, 0.004);
-  EXPECT_EQ(cylinder.length, 0.3);
+  const ShapeDescription& cylinder = shaft.shapes[0];
+  EXPECT_EQ(cylinder.kind, ShapeKind::kCylinder);
+  EXPECT_EQ(cylinder.size, Vector3d(0.004, 0.3, 0.0));
   expect_pose(cylinder.pose, {0.01, -0.02, 0.1}, -Vector3d::UnitZ());
-  const auto& sphere = std::get<SphereDescription>(shaft.shapes[1]);
-  EXPECT_EQ(sphere.radius, 0.005);
+  const ShapeDescription& sphere = shaft.shapes[1];
+  EXPECT_EQ(sphere.kind, ShapeKind::kSphere);
+  EXPECT_EQ(sphere.size, Vector3d(0.005, 0.0, 0.0));
   expect_pose(sphere.pose, {0.16, -0.02, 0.1}, Vector3d::UnitX());
 }
 
 TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
   const LinkDescription wrist = link(gripper(), "wrist");
   ASSERT_EQ(wrist.shapes.size(), 1u);
-  const auto& box = std::get<BoxDescription>(wrist.shapes[0]);
+  const ShapeDescription& box = wrist.shapes[0];
+  EXPECT_EQ(box.kind, ShapeKind::kBox);
   EXPECT_EQ(box.size, Vector3d(0.02, 0.04, 0.06));
   expect_pose(box.pose, {0.5, 0.25, -0.125}, Vector3d::UnitY());
 }
@@ -78,7 +80,8 @@ TEST(RobotModel, MeshesAreToldOfAndThenRead) {
   EXPECT_EQ(told,
             std::vector<std::string>{"link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'"});
   ASSERT_EQ(jaw.shapes.size(), 1u);
-  const auto& mesh = std::get<MeshDescription>(jaw.shapes[0]);
+  EXPECT_EQ(jaw.shapes[0].kind, ShapeKind::kMesh);
+  const MeshDescription& mesh = jaw.shapes[0].mesh;
   EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
   EXPECT_EQ(mesh.triangles.size(), 4u);
   EXPECT_EQ(mesh.vertices.size(), 4u);

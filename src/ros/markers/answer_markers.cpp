@@ -2,63 +2,42 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 #include <vector>
 
+#include "marker_shapes.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
-#include "tool_markers.hpp"
 
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector3d;
 using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
 
-/// A share of the organ's size.
-constexpr double kRegionWidth = 2e-3;
+// Lengths are shares of the organ's size.
+constexpr double kTextHeight = 0.03;
+constexpr std::size_t kLongestReason = 100;  // [bytes]
 
-}  // namespace
-
-void TouchedFaces::add(const SceneOrgan& organ, const ContactArray& answer, SteadyTime time) {
-  Organ& known = organs_[organ.name];
-  if (known.faces != organ.faces) known = {organ.faces, {}};
-  for (const Contact& contact : answer.contacts) {
-    Touch& touch = known.touches[contact.face];
-    touch.depth = touch.time == time ? std::max(touch.depth, contact.depth) : contact.depth;
-    touch.time = time;
-  }
+std::string rounded(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
 }
 
-void TouchedFaces::add_markers(const Scene& scene, const SceneOrgan& organ, MarkerSheet& sheet) {
-  const auto known = organs_.find(organ.name);
-  if (known == organs_.end() || known->second.faces != organ.faces) return;
-  Marker faces =
-      make_marker(marker_names::kTouched, organ.frame, Marker::TRIANGLE_LIST, colours::depth(0.0));
-  auto& touches = known->second.touches;
-  for (auto entry = touches.begin(); entry != touches.end();) {
-    const auto& [face, touch] = *entry;
-    const double share = visibility(touch.time, scene.time);
-    if (share == 0.0) {
-      entry = touches.erase(entry);
-      continue;
-    }
-    const double depth = touch.depth / scene.settings.markers_depth;
-    add_lifted_face(organ, face, colours::faded(colours::depth(depth), share), faces);
-    ++entry;
-  }
-  sheet.add(std::move(faces));
+bool is_deeper(const Contact& a, const Contact& b) { return a.depth > b.depth; }
+
+/// The place at `distance` from a contact, on the side of the tool.
+Vector3d before(const Contact& contact, double distance) {
+  return to_eigen(contact.end_point) - distance * to_eigen(contact.normal);
 }
 
-void TouchedFaces::forget_others(const Scene& scene) {
-  for (auto known = organs_.begin(); known != organs_.end();) {
-    known = scene.organ(known->first) ? std::next(known) : organs_.erase(known);
-  }
-}
-
-void add_regions(const SceneOrgan& organ, const ContactArray& answer, MarkerSheet& sheet) {
-  Marker lines =
-      make_marker(marker_names::kRegions, organ.frame, Marker::LINE_LIST, colours::region());
-  lines.scale.x = kRegionWidth * organ.size();
+void add_regions(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
+  constexpr double kWidth = 2e-3;
+  Marker lines = make_marker({"regions", organ.frame, colours::kRegion}, Marker::LINE_LIST);
+  lines.scale.x = kWidth * organ.size();
   const auto add = [&](const geometry_msgs::Point32& corner) {
     add_point(lines, {corner.x, corner.y, corner.z});
   };
@@ -68,90 +47,48 @@ void add_regions(const SceneOrgan& organ, const ContactArray& answer, MarkerShee
       add(region.points[(i + 1) % region.points.size()]);
     }
   }
-  sheet.add(std::move(lines));
+  add_marker(std::move(lines), picture);
 }
-
-namespace {
-
-using Eigen::Vector3d;
-
-/// Shares of the organ's size.
-constexpr double kArrowLength = 0.07;
-constexpr double kNameDistance = 0.15;  ///< from the contact
-constexpr double kNameHeight = 0.03;
-
-/// The place at `distance` from a contact, on the side of the tool.
-Vector3d before(const Contact& contact, double distance) {
-  const Vector3d end(contact.end_point.x, contact.end_point.y, contact.end_point.z);
-  const Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
-  return end - distance * normal;
-}
-
-bool is_deeper(const Contact* a, const Contact* b) { return a->depth > b->depth; }
-
-std::vector<const Contact*> deepest(const ContactArray& answer, std::size_t count) {
-  std::vector<const Contact*> contacts;
-  for (const Contact& contact : answer.contacts) contacts.push_back(&contact);
-  const std::size_t kept = std::min(count, contacts.size());
-  std::partial_sort(contacts.begin(), contacts.begin() + kept, contacts.end(), is_deeper);
-  contacts.resize(kept);
-  return contacts;
-}
-
-std::string name_of(const ContactArray& answer, std::uint32_t link) {
-  const std::string& name = answer.links.at(link);
-  return name.empty() ? answer.tool : name;
-}
-
-}  // namespace
 
 void add_normals(const SceneOrgan& organ, const ContactArray& answer, double share,
-                 MarkerSheet& sheet) {
-  Marker arrows = make_marker(marker_names::kNormals, organ.frame, Marker::TRIANGLE_LIST,
-                              colours::faded(colours::normal(), share));
-  for (const Contact* contact : deepest(answer, kMostArrows)) {
-    add_arrow(before(*contact, kArrowLength * organ.size()), before(*contact, 0.0), arrows);
+                 MarkerArray& picture) {
+  constexpr double kLength = 0.07;
+  std::vector<Contact> deepest(std::min(kMostArrows, answer.contacts.size()));
+  std::partial_sort_copy(answer.contacts.begin(), answer.contacts.end(), deepest.begin(),
+                         deepest.end(), is_deeper);
+  const MarkerStyle style{"normals", organ.frame, colours::faded(colours::kNormal, share)};
+  for (const Contact& contact : deepest) {
+    add_arrow(style, before(contact, kLength * organ.size()), before(contact, 0.0), {}, picture);
   }
-  // RViz lights only markers without colours of their own. It would leave half of the arrows dark.
-  arrows.colors.assign(arrows.points.size(), arrows.color);
-  sheet.add(std::move(arrows));
 }
 
 void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
-               MarkerSheet& sheet) {
+               MarkerArray& picture) {
+  constexpr double kDistance = 0.15;  // From the contact.
   std::map<std::uint32_t, const Contact*> by_link;
   for (const Contact& contact : answer.contacts) {
     const Contact*& known = by_link[contact.link];
-    if (!known || is_deeper(&contact, known)) known = &contact;
+    if (!known || is_deeper(contact, *known)) known = &contact;
   }
+  const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
   for (const auto& [link, contact] : by_link) {
-    Marker name = make_marker(marker_names::kNames, organ.frame, Marker::TEXT_VIEW_FACING,
-                              colours::faded(colours::text(), share));
-    name.text = name_of(answer, link);
-    name.pose.position =
-        pose_message(
-            Eigen::Isometry3d(Eigen::Translation3d(before(*contact, kNameDistance * organ.size()))))
-            .position;
-    name.scale.z = kNameHeight * organ.size();
-    sheet.add(std::move(name));
+    const std::string& name = answer.links.at(link);
+    add_text(style, before(*contact, kDistance * organ.size()), kTextHeight * organ.size(),
+             name.empty() ? answer.tool : name, picture);
   }
 }
 
-namespace {
-
-/// The opacity of a near face at the margin, as a share of that of a face at the tool.
-constexpr double kFaintest = 0.15;
-/// Shares of the organ's size.
-constexpr double kLineWidth = 4e-3;
-constexpr double kTextHeight = 0.03;
-constexpr double kTextDistance = 0.10;  ///< from the line, at right angles to it
-constexpr double kTextLift = 0.06;      ///< from the organ
-
-std::string text_of(const Clearance& clearance) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s%.1f mm", clearance.unresolved ? "at most " : "",
-                1e3 * clearance.distance);
-  return text;
+void add_near_faces(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
+  /// The opacity of a near face at the margin, as a share of that of a face at the tool.
+  constexpr double kFaintest = 0.15;
+  Marker faces = make_marker({"near", organ.frame, colours::kNearFace}, Marker::TRIANGLE_LIST);
+  for (std::size_t i = 0; i < std::min(answer.near.size(), kMostNearFaces); ++i) {
+    const double nearness =
+        std::clamp(1.0 + answer.near[i].depth / answer.clearance.margin, kFaintest, 1.0);
+    add_lifted_face(organ, answer.near[i].face, colours::faded(colours::kNearFace, nearness),
+                    faces);
+  }
+  add_marker(std::move(faces), picture);
 }
 
 /// The unit vector at right angles to `normal` that points up most.
@@ -160,87 +97,20 @@ Vector3d upward(const Vector3d& normal) {
   return up.norm() > 0.1 ? Vector3d(up.normalized()) : normal.unitOrthogonal();
 }
 
-}  // namespace
-
-void add_near_faces(const SceneOrgan& organ, const ContactArray& answer, MarkerSheet& sheet) {
-  Marker faces =
-      make_marker(marker_names::kNear, organ.frame, Marker::TRIANGLE_LIST, colours::near_face());
-  const std::size_t count = std::min(answer.near.size(), kMostNearFaces);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double nearness =
-        std::clamp(1.0 + answer.near[i].depth / answer.clearance.margin, kFaintest, 1.0);
-    add_lifted_face(organ, answer.near[i].face, colours::faded(colours::near_face(), nearness),
-                    faces);
-  }
-  sheet.add(std::move(faces));
-}
-
-void add_clearance(const SceneOrgan& organ, const ContactArray& answer, MarkerSheet& sheet) {
-  const Clearance& clearance = answer.clearance;
+void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerArray& picture) {
+  constexpr double kLineWidth = 4e-3;
+  // The text is beside the line and away from the organ, so that neither tool nor organ hides it.
+  constexpr double kTextDistance = 0.10;  // From the line, at right angles to it.
+  constexpr double kTextLift = 0.06;      // From the organ.
   if (clearance.state != Clearance::KNOWN) return;
   const Vector3d on_tool = to_eigen(clearance.on_tool), on_organ = to_eigen(clearance.on_organ);
-  Marker line =
-      make_marker(marker_names::kClearance, organ.frame, Marker::LINE_LIST, colours::clearance());
-  line.scale.x = kLineWidth * organ.size();
-  add_point(line, on_tool);
-  add_point(line, on_organ);
-  sheet.add(std::move(line));
-
-  Marker text = make_marker(marker_names::kClearance, organ.frame, Marker::TEXT_VIEW_FACING,
-                            colours::clearance());
-  // Beside the line and away from the organ, so that neither tool nor organ hides it.
+  const MarkerStyle style{"clearance", organ.frame, colours::kClearance};
+  add_line(style, on_tool, on_organ, kLineWidth * organ.size(), picture);
   const Vector3d normal = to_eigen(clearance.normal);
   const Vector3d shift = kTextDistance * upward(normal) - kTextLift * normal;
-  const Vector3d place = 0.5 * (on_tool + on_organ) + organ.size() * shift;
-  text.pose = pose_message(Eigen::Isometry3d(Eigen::Translation3d(place)));
-  text.text = text_of(clearance);
-  text.scale.z = kTextHeight * organ.size();
-  sheet.add(std::move(text));
-}
-
-namespace {
-
-constexpr double kRadius = 2.5;        ///< of a head, as a multiple of the shaft's
-constexpr double kLeastRadius = 0.02;  ///< of a head, as a share of the organ's size
-constexpr double kLength = 2.0;        ///< of a head, as a multiple of its radius
-
-}  // namespace
-
-void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
-                   const ToolPlacement& placement, MarkerSheet& sheet) {
-  Marker heads =
-      make_marker(marker_names::kCrossings, organ.frame, Marker::TRIANGLE_LIST, colours::text());
-  const double head_radius = std::max(kRadius * radius, kLeastRadius * organ.size());
-  const Vector3d head = kLength * head_radius * (axis.tip - axis.trocar).normalized();
-  const std::size_t count = std::min(placement.crossings.size(), kMostCrossings);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vector3d point = to_eigen(placement.crossings[i].point);
-    const bool enters = placement.crossings[i].direction > 0;
-    const Vector3d base = enters ? Vector3d(point - head) : point;
-    add_arrow_head(base, base + head, head_radius, heads);
-    heads.colors.resize(heads.points.size(), enters ? colours::entering() : colours::leaving());
-  }
-  sheet.add(std::move(heads));
-}
-
-namespace {
-
-constexpr std::size_t kLongestReason = 100;  // [bytes]
-/// Shares of the organ's size.
-constexpr double kHeight = 0.03;
-constexpr double kDistance = 0.15;  ///< of the text from the organ's box
-constexpr double kLineSpacing = 0.09;
-
-std::string rounded(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-double deepest(const ContactArray& answer) {
-  double deepest = answer.contacts.front().depth;
-  for (const Contact& contact : answer.contacts) deepest = std::max(deepest, contact.depth);
-  return deepest;
+  add_text(style, 0.5 * (on_tool + on_organ) + organ.size() * shift, kTextHeight * organ.size(),
+           (clearance.unresolved ? "at most " : "") + rounded("%.1f mm", 1e3 * clearance.distance),
+           picture);
 }
 
 /// ", 3.2 mm away"; empty if nothing is known.
@@ -265,21 +135,41 @@ std::string side_text(const ToolPlacement& placement) {
 
 }  // namespace
 
-std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
-  if (!answer) return tool + ": no answer yet";
-  if (answer->status != ContactArray::OK) {
-    return tool + ": " + reason_of(answer->status) + ": " +
-           plain_text(answer->message, kLongestReason);
-  }
-  const std::string contacts = answer->contacts.empty()
-                                   ? "touches nothing" + distance_text(answer->clearance)
-                                   : counted(answer->contacts.size(), "contact") +
-                                         rounded(", %.1f mm deep", 1e3 * deepest(*answer));
-  return tool + ": " + contacts + side_text(answer->placement);
+void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
+                  MarkerArray& picture) {
+  add_regions(organ, answer, picture);
+  add_normals(organ, answer, share, picture);
+  add_names(organ, answer, share, picture);
 }
 
-void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec, MarkerSheet& sheet) {
-  std::string text = organ.name + ": " + counted(organ.faces->size(), "face");
+void add_surroundings(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
+  add_near_faces(organ, answer, picture);
+  add_clearance(organ, answer.clearance, picture);
+}
+
+void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
+                   const ToolPlacement& placement, MarkerArray& picture) {
+  constexpr double kRadius = 2.5;        // Of a cone, as a multiple of the shaft's.
+  constexpr double kLeastRadius = 0.02;  // Of a cone, as a share of the organ's size.
+  constexpr double kLength = 2.0;        // Of a cone, as a multiple of its radius.
+  // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
+  const ArrowShape shape{0.01, 2.0 / kLength, 0.999};
+  const double length = kLength * std::max(kRadius * radius, kLeastRadius * organ.size());
+  const Vector3d cone = length * (axis.tip - axis.trocar).normalized();
+  for (std::size_t i = 0; i < std::min(placement.crossings.size(), kMostCrossings); ++i) {
+    const bool enters = placement.crossings[i].direction > 0;
+    const Vector3d point = to_eigen(placement.crossings[i].point);
+    const Vector3d base = enters ? Vector3d(point - cone) : point;
+    add_arrow({"crossings", organ.frame, enters ? colours::kEntering : colours::kLeaving}, base,
+              base + cone, shape, picture);
+  }
+}
+
+void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
+                MarkerArray& picture) {
+  constexpr double kDistance = 0.15;  // Of the text from the organ's box.
+  constexpr double kLineSpacing = 0.09;
+  std::string text = organ.name + ": " + counted(organ.mesh->face_count(), "face");
   bool failed = false;
   for (const ScenePair& pair : scene.pairs) {
     if (pair.organ != organ.name) continue;
@@ -288,17 +178,29 @@ void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec, M
   }
   if (query_sec > 0.0) text += rounded("\n%.0f us a query", 1e6 * query_sec);
 
-  const Eigen::AlignedBox3d box = organ.box.cast<double>();
-  Vector3d place = box.center();
+  const Eigen::AlignedBox3d box = organ.mesh->box().cast<double>();
   const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
-  // The place of a text is its centre.
+  Vector3d place = box.center();  // The place of a text is its centre.
   place.z() = box.max().z() + (kDistance + 0.5 * kLineSpacing * lines) * organ.size();
-  Marker status = make_marker(marker_names::kStatus, organ.frame, Marker::TEXT_VIEW_FACING,
-                              failed ? colours::failure() : colours::text());
-  status.text = std::move(text);
-  status.pose = pose_message(Eigen::Isometry3d(Eigen::Translation3d(place)));
-  status.scale.z = kHeight * organ.size();
-  sheet.add(std::move(status));
+  add_text({"status", organ.frame, failed ? colours::kFailure : colours::kText}, place,
+           kTextHeight * organ.size(), text, picture);
+}
+
+std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
+  if (!answer) return tool + ": no answer yet";
+  if (answer->status != ContactArray::OK) {
+    return tool + ": " + reason_of(answer->status) + ": " +
+           plain_text(answer->message, kLongestReason);
+  }
+  const std::vector<Contact>& contacts = answer->contacts;
+  if (contacts.empty()) {
+    return tool + ": touches nothing" + distance_text(answer->clearance) +
+           side_text(answer->placement);
+  }
+  // is_deeper() sorts the deepest first.
+  const double depth = std::min_element(contacts.begin(), contacts.end(), is_deeper)->depth;
+  return tool + ": " + counted(contacts.size(), "contact") +
+         rounded(", %.1f mm deep", 1e3 * depth) + side_text(answer->placement);
 }
 
 }  // namespace organ_collision

@@ -3,78 +3,46 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <chrono>
-#include <iterator>
-#include <utility>
+#include <unordered_map>
 
+#include "answer_markers.hpp"
 #include "marker_shapes.hpp"
 #include "tool_markers.hpp"
 
 namespace organ_collision {
-
-using visualization_msgs::Marker;
-
-std::size_t surface_marker_count(const SceneOrgan& organ) {
-  return (organ.faces->size() + kFacesPerMarker - 1) / kFacesPerMarker;
-}
-
-Marker surface_marker(const SceneOrgan& organ, std::size_t number, std::size_t index) {
-  Marker surface = make_marker(marker_names::kSurface + organ.name, organ.frame,
-                               Marker::TRIANGLE_LIST, colours::tissue(number));
-  surface.id = static_cast<int>(index);
-  const std::size_t begin = index * kFacesPerMarker;
-  const std::size_t end = std::min(begin + kFacesPerMarker, organ.faces->size());
-  surface.points.reserve(3 * (end - begin));
-  for (std::size_t face = begin; face < end; ++face) {
-    for (const std::uint32_t corner : (*organ.faces)[face]) {
-      add_point(surface, organ.vertex(corner));
-    }
-  }
-  return surface;
-}
-
-void ShownMarkers::replace(Groups now, visualization_msgs::MarkerArray& array) {
-  for (const auto& [name_space, before] : groups_) {
-    const auto kept = now.find(name_space);
-    for (int id = kept != now.end() ? kept->second.count : 0; id < before.count; ++id) {
-      Marker gone = make_marker(name_space, before.frame, Marker::CUBE, colours::text());
-      gone.action = Marker::DELETE;
-      gone.id = id;
-      array.markers.push_back(gone);
-    }
-  }
-  groups_ = std::move(now);
-}
-
-void SecondMean::add(double value) {
-  sum_ += value;
-  ++count_;
-}
-
-double SecondMean::at(SteadyTime now) {
-  if (count_ > 0 && now - since_ >= std::chrono::seconds(1)) {
-    mean_ = sum_ / static_cast<double>(count_);
-    sum_ = 0.0;
-    count_ = 0;
-    since_ = now;
-  }
-  return mean_;
-}
-
 namespace {
 
+using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
+constexpr char kSurface[] = "surface/";
 /// Markers that were not sent again for this many refresh times disappear: the node has ended.
 constexpr double kLifetimes = 5.0;
-
-double seconds_between(SteadyTime from, SteadyTime to) {
-  return std::chrono::duration<double>(to - from).count();
-}
 
 /// [s] A surface that rests is sent again after this time. Refreshing takes at most a tenth of what
 /// kFacesPerSecond allows.
 double refresh_sec(const SceneOrgan& organ) {
-  return std::max(kRefreshSec, 10.0 * organ.faces->size() / kFacesPerSecond);
+  return std::max(kRefreshSec, 10.0 * organ.mesh->face_count() / kFacesPerSecond);
+}
+
+int surface_marker_count(const SceneOrgan& organ) {
+  return static_cast<int>((organ.mesh->face_count() + kFacesPerMarker - 1) / kFacesPerMarker);
+}
+
+/// The marker of a surface with this id. `number`: the organ's place among the organs.
+Marker surface_marker(const SceneOrgan& organ, std::size_t number, int id) {
+  const TriangleMesh& mesh = *organ.mesh;
+  Marker surface = make_marker({kSurface + organ.name, organ.frame, colours::tissue(number)},
+                               Marker::TRIANGLE_LIST);
+  surface.id = id;
+  surface.lifetime = ros::Duration(kLifetimes * refresh_sec(organ));
+  const std::size_t begin = id * kFacesPerMarker;
+  const std::size_t end = std::min(begin + kFacesPerMarker, mesh.face_count());
+  surface.points.reserve(3 * (end - begin));
+  for (std::size_t face = begin; face < end; ++face) {
+    for (const Eigen::Vector3d& corner : mesh.triangle(face)) add_point(surface, corner);
+  }
+  return surface;
 }
 
 void publish_alone(Marker marker, const MarkerPainter::Publish& publish) {
@@ -83,111 +51,84 @@ void publish_alone(Marker marker, const MarkerPainter::Publish& publish) {
   publish(array);
 }
 
+bool is_about(const SceneStep& step, const SceneOrgan& organ) {
+  return step.answer->organ == organ.name && step.faces == organ.mesh->shared_faces();
+}
+
 }  // namespace
 
 void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
   if (scene.anew) start_anew(scene, publish);
   remember(scene);
-  remove_surfaces(scene, publish);
-  for (std::size_t number = 0; number < scene.organs.size(); ++number) {
-    if (is_due(scene, scene.organs[number])) paint_surface(scene, number, publish);
+  paint_surfaces(scene, publish);
+  const auto picture = boost::make_shared<MarkerArray>();
+  add_tools(scene, *picture);
+  for (const SceneOrgan& organ : scene.organs) add_touched(scene, organ, *picture);
+  for (const ScenePair& pair : scene.pairs) add_answer(scene, pair, *picture);
+  for (const SceneOrgan& organ : scene.organs) {
+    add_status(scene, organ, mean_query_sec_, *picture);
   }
-  publish_rest(paint_rest(scene), publish);
+  for (const ProxyView& view : scene.proxies) add_proxy(view, *picture);
+  delete_rest(scene, *picture);
+  if (!picture->markers.empty()) publish(picture);
 }
 
 /// The new subscriber may still show what an earlier run of the node has published.
 void MarkerPainter::start_anew(const Scene& scene, const Publish& publish) {
   shown_.clear();
-  shown_surfaces_.clear();
   surfaces_.clear();
   std::string frame;
   if (!scene.organs.empty()) frame = scene.organs.front().frame;
   if (!scene.proxies.empty()) frame = scene.proxies.front().frame;
   if (frame.empty()) return;  // RViz ignores a marker without a frame.
-  Marker all = make_marker("", frame, Marker::CUBE, colours::text());
+  Marker all = make_marker({"", frame, colours::kText}, Marker::CUBE);
   all.action = Marker::DELETEALL;
   publish_alone(std::move(all), publish);
 }
 
 void MarkerPainter::remember(const Scene& scene) {
-  touched_.forget_others(scene);
   for (const SceneStep& step : scene.steps) {
-    if (step.query_sec > 0.0) query_sec_.add(step.query_sec);
     const SceneOrgan* organ = scene.organ(step.answer->organ);
-    if (!organ || step.faces != organ->faces) continue;
-    trail_.push_back(step);
-    if (step.answer->contacts.empty()) continue;
-    touched_.add(*organ, *step.answer, step.time);
-    contacts_[{organ->name, step.answer->tool}] = {step.time, step.answer, step.faces};
-  }
-  // A contact lasts as long as the latest answer has it.
-  for (const ScenePair& pair : scene.pairs) {
-    const SceneOrgan* organ = scene.organ(pair.organ);
-    if (!organ || !pair.answer || pair.answer->contacts.empty()) continue;
-    touched_.add(*organ, *pair.answer, scene.time);
-    contacts_[{organ->name, pair.answer->tool}] = {scene.time, pair.answer, organ->faces};
+    if (organ && is_about(step, *organ)) trail_.push_back(step);
+    if (step.query_sec == 0.0) continue;
+    query_sec_sum_ += step.query_sec;
+    ++query_count_;
   }
   while (!trail_.empty() && visibility(trail_.front().time, scene.time) == 0.0) trail_.pop_front();
-  for (auto entry = contacts_.begin(); entry != contacts_.end();) {
-    const bool is_old = visibility(entry->second.time, scene.time) == 0.0;
-    entry = is_old ? contacts_.erase(entry) : std::next(entry);
+  if (query_count_ == 0 || scene.time - mean_since_ < std::chrono::seconds(1)) return;
+  mean_query_sec_ = query_sec_sum_ / static_cast<double>(query_count_);
+  mean_since_ = scene.time;
+  query_sec_sum_ = 0.0;
+  query_count_ = 0;
+}
+
+void MarkerPainter::paint_surfaces(const Scene& scene, const Publish& publish) {
+  const bool is_shown = scene.settings.surface_rate_hz > 0.0;
+  for (auto sent = surfaces_.begin(); sent != surfaces_.end();) {
+    sent = is_shown && scene.organ(sent->first) ? std::next(sent) : surfaces_.erase(sent);
+  }
+  for (std::size_t number = 0; is_shown && number < scene.organs.size(); ++number) {
+    const SceneOrgan& organ = scene.organs[number];
+    if (!is_due(scene, organ)) continue;
+    for (int id = 0; id < surface_marker_count(organ); ++id) {
+      publish_alone(surface_marker(organ, number, id), publish);
+    }
+    surfaces_[organ.name] = {scene.time, organ.mesh, organ.frame};
   }
 }
 
 bool MarkerPainter::is_due(const Scene& scene, const SceneOrgan& organ) const {
-  if (scene.settings.surface_rate_hz == 0.0) return false;
   const auto sent = surfaces_.find(organ.name);
   if (sent == surfaces_.end()) return true;
   const Surface& last = sent->second;
-  const double waited = seconds_between(last.sent, scene.time);
-  const bool changed =
-      last.vertices != organ.vertices || last.faces != organ.faces || last.frame != organ.frame;
+  const double waited = std::chrono::duration<double>(scene.time - last.sent).count();
+  const bool changed = last.mesh != organ.mesh || last.frame != organ.frame;
   if (!changed) return waited >= refresh_sec(organ);
   return waited >= 1.0 / scene.settings.surface_rate_hz &&
-         waited >= organ.faces->size() / kFacesPerSecond;
+         waited >= organ.mesh->face_count() / kFacesPerSecond;
 }
 
-void MarkerPainter::paint_surface(const Scene& scene, std::size_t number, const Publish& publish) {
-  const SceneOrgan& organ = scene.organs[number];
-  for (std::size_t index = 0; index < surface_marker_count(organ); ++index) {
-    Marker surface = surface_marker(organ, number, index);
-    surface.lifetime = ros::Duration(kLifetimes * refresh_sec(organ));
-    publish_alone(std::move(surface), publish);
-  }
-  surfaces_[organ.name] = {scene.time, organ.vertices, organ.faces, organ.frame};
-}
-
-/// Deletes the markers of surfaces that are gone, and those that a smaller surface leaves over.
-void MarkerPainter::remove_surfaces(const Scene& scene, const Publish& publish) {
-  ShownMarkers::Groups now;
-  if (scene.settings.surface_rate_hz > 0.0) {
-    for (const SceneOrgan& organ : scene.organs) {
-      now[marker_names::kSurface + organ.name] = {static_cast<int>(surface_marker_count(organ)),
-                                                  organ.frame};
-    }
-  }
-  for (auto sent = surfaces_.begin(); sent != surfaces_.end();) {
-    sent =
-        now.count(marker_names::kSurface + sent->first) ? std::next(sent) : surfaces_.erase(sent);
-  }
-  const auto array = boost::make_shared<MarkerArray>();
-  shown_surfaces_.replace(std::move(now), *array);
-  if (!array->markers.empty()) publish(array);
-}
-
-MarkerSheet MarkerPainter::paint_rest(const Scene& scene) {
-  MarkerSheet sheet;
-  add_tools(scene, sheet);
-  for (const SceneOrgan& organ : scene.organs) touched_.add_markers(scene, organ, sheet);
-  for (const ScenePair& pair : scene.pairs) add_surroundings(scene, pair, sheet);
-  add_contacts(scene, sheet);
-  const double query_sec = query_sec_.at(scene.time);
-  for (const SceneOrgan& organ : scene.organs) add_status(scene, organ, query_sec, sheet);
-  for (const ProxyView& view : scene.proxies) add_proxy(view, sheet);
-  return sheet;
-}
-
-void MarkerPainter::add_tools(const Scene& scene, MarkerSheet& sheet) const {
+void MarkerPainter::add_tools(const Scene& scene, MarkerArray& picture) const {
   for (std::size_t number = 0; number < scene.tools->size(); ++number) {
     const Tool& tool = (*scene.tools)[number];
     const ScenePair* placed = scene.placement(number);
@@ -199,43 +140,82 @@ void MarkerPainter::add_tools(const Scene& scene, MarkerSheet& sheet) const {
           step.answer->organ == placed->organ && step.answer->tool == tool.parameters.name;
       if (is_own) steps.push_back(&step);
     }
-    add_tool(tool, *placed->pose, frame, sheet);
-    add_swept(tool, steps, frame, scene.time, sheet);
+    add_tool(tool, *placed->pose, {"tools", frame, colours::kTool}, picture);
+    add_swept(tool, steps, frame, scene.time, picture);
   }
 }
 
-/// Adds what the latest answer tells besides contacts.
-void MarkerPainter::add_surroundings(const Scene& scene, const ScenePair& pair,
-                                     MarkerSheet& sheet) {
+/// Adds the faces that are touched or were touched lately, coloured by depth, at their present
+/// place. Of contacts at the same time, the deepest counts.
+void MarkerPainter::add_touched(const Scene& scene, const SceneOrgan& organ,
+                                MarkerArray& picture) const {
+  struct Touch {
+    SteadyTime time;
+    double depth;
+  };
+  std::unordered_map<std::uint32_t, Touch> touches;
+  const auto note = [&](const ContactArray& answer, SteadyTime time) {
+    for (const Contact& contact : answer.contacts) {
+      Touch& touch = touches[contact.face];
+      touch.depth = touch.time == time ? std::max(touch.depth, contact.depth) : contact.depth;
+      touch.time = time;
+    }
+  };
+  for (const SceneStep& step : trail_) {
+    if (is_about(step, organ)) note(*step.answer, step.time);
+  }
+  for (const ScenePair& pair : scene.pairs) {
+    if (pair.organ == organ.name && pair.answer) note(*pair.answer, scene.time);
+  }
+  Marker faces = make_marker({"touched", organ.frame, colours::depth(0.0)}, Marker::TRIANGLE_LIST);
+  for (const auto& [face, touch] : touches) {
+    const std_msgs::ColorRGBA colour = colours::depth(touch.depth / scene.settings.markers_depth);
+    add_lifted_face(organ, face, colours::faded(colour, visibility(touch.time, scene.time)), faces);
+  }
+  add_marker(std::move(faces), picture);
+}
+
+/// Adds what the latest answer tells. If it has no contacts, the latest ones fade.
+void MarkerPainter::add_answer(const Scene& scene, const ScenePair& pair,
+                               MarkerArray& picture) const {
   const SceneOrgan* organ = scene.organ(pair.organ);
-  if (!organ || !pair.answer) return;
-  add_near_faces(*organ, *pair.answer, sheet);
-  add_clearance(*organ, *pair.answer, sheet);
-  if (!pair.pose) return;
-  const double radius = (*scene.tools)[pair.tool].parameters.radius;
-  add_crossings(*organ, pair.pose->axis, radius, pair.answer->placement, sheet);
-}
-
-void MarkerPainter::add_contacts(const Scene& scene, MarkerSheet& sheet) const {
-  for (const auto& [names, last] : contacts_) {
-    const SceneOrgan* organ = scene.organ(names.first);
-    if (!organ || last.faces != organ->faces) continue;
-    const double share = visibility(last.time, scene.time);
-    add_regions(*organ, *last.answer, sheet);
-    add_normals(*organ, *last.answer, share, sheet);
-    add_names(*organ, *last.answer, share, sheet);
+  if (!organ) return;
+  const ToolParameters& tool = (*scene.tools)[pair.tool].parameters;
+  if (pair.answer) {
+    add_surroundings(*organ, *pair.answer, picture);
+    if (pair.pose) {
+      add_crossings(*organ, pair.pose->axis, tool.radius, pair.answer->placement, picture);
+    }
+    if (!pair.answer->contacts.empty()) return add_contacts(*organ, *pair.answer, 1.0, picture);
   }
+  const auto step = std::find_if(trail_.rbegin(), trail_.rend(), [&](const SceneStep& step) {
+    return is_about(step, *organ) && step.answer->tool == tool.name &&
+           !step.answer->contacts.empty();
+  });
+  if (step == trail_.rend()) return;
+  add_contacts(*organ, *step->answer, visibility(step->time, scene.time), picture);
 }
 
-void MarkerPainter::publish_rest(MarkerSheet sheet, const Publish& publish) {
-  const auto array = boost::make_shared<MarkerArray>(sheet.take());
-  ShownMarkers::Groups now;
-  for (Marker& marker : array->markers) {
+/// Adds a DELETE for each marker that subscribers have beyond this picture and the surfaces.
+void MarkerPainter::delete_rest(const Scene& scene, MarkerArray& picture) {
+  std::map<std::string, Group> now;
+  for (Marker& marker : picture.markers) {
     marker.lifetime = ros::Duration(kLifetimes * kRefreshSec);
     now[marker.ns] = {now[marker.ns].count + 1, marker.header.frame_id};
   }
-  shown_.replace(std::move(now), *array);
-  if (!array->markers.empty()) publish(array);
+  for (const SceneOrgan& organ : scene.organs) {
+    if (surfaces_.count(organ.name) == 0) continue;
+    now[kSurface + organ.name] = {surface_marker_count(organ), organ.frame};
+  }
+  for (const auto& [name_space, before] : shown_) {
+    for (int id = now.count(name_space) > 0 ? now[name_space].count : 0; id < before.count; ++id) {
+      Marker gone = make_marker({name_space, before.frame, colours::kText}, Marker::CUBE);
+      gone.action = Marker::DELETE;
+      gone.id = id;
+      picture.markers.push_back(std::move(gone));
+    }
+  }
+  shown_ = std::move(now);
 }
 
 }  // namespace organ_collision

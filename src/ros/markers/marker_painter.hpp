@@ -1,16 +1,14 @@
 #pragma once
 
-#include <visualization_msgs/Marker.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <cstddef>
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 
-#include "answer_markers.hpp"
-#include "ros/steps/step_history.hpp"
 #include "scene.hpp"
 
 namespace organ_collision {
@@ -19,49 +17,6 @@ namespace organ_collision {
 /// for long a socket, with the messages of others, or roscpp's lock of all topics, which it holds
 /// while it writes a message into bytes.
 inline constexpr std::size_t kFacesPerMarker = 2048;
-
-/// The number of markers of a surface.
-std::size_t surface_marker_count(const SceneOrgan& organ);
-
-/// One marker of a surface, with the id `index`. `number`: the organ's place among the organs.
-visualization_msgs::Marker surface_marker(const SceneOrgan& organ, std::size_t number,
-                                          std::size_t index);
-
-/// Which markers the subscribers have, so that what is no longer there can be deleted.
-class ShownMarkers {
- public:
-  /// The number of markers that a namespace has now, with the ids 0 ... count - 1.
-  struct Group {
-    int count = 0;
-    std::string frame = {};  ///< of one of them; RViz ignores a DELETE without a frame
-  };
-  using Groups = std::map<std::string, Group>;
-
-  /// Notes that `now` is all that subscribers are to have. Adds a DELETE to `array` for each marker
-  /// that they have beyond that.
-  void replace(Groups now, visualization_msgs::MarkerArray& array);
-  /// Notes that the subscribers have nothing.
-  void clear() { groups_.clear(); }
-
- private:
-  Groups groups_;
-};
-
-/// The mean of the values of about the last second, for a number that people can read: it changes
-/// once a second.
-class SecondMean {
- public:
-  void add(double value);
-  /// To be called often. 0 if no value has come.
-  double at(SteadyTime now);
-
- private:
-  SteadyTime since_;
-  double sum_ = 0.0;
-  std::size_t count_ = 0;
-  double mean_ = 0.0;
-};
-
 /// Surfaces with so many faces are sent once a second, and larger ones less often, whatever
 /// `surface_rate` is.
 inline constexpr double kFacesPerSecond = 1e6;
@@ -80,36 +35,39 @@ class MarkerPainter {
   void paint(const Scene& scene, const Publish& publish);
 
  private:
+  /// A surface that was sent.
   struct Surface {
     SteadyTime sent;
-    SharedVertices vertices;
-    SharedFaces faces;
+    std::shared_ptr<const TriangleMesh> mesh;
     std::string frame;
   };
-  struct LastContacts {
-    SteadyTime time;
-    ContactArrayConstPtr answer;
-    SharedFaces faces;
+  /// The markers that a namespace has, with the ids 0 ... count - 1.
+  struct Group {
+    int count = 0;
+    std::string frame;  ///< of one of them; RViz ignores a DELETE without a frame
   };
 
   void start_anew(const Scene& scene, const Publish& publish);
   void remember(const Scene& scene);
-  void paint_surface(const Scene& scene, std::size_t number, const Publish& publish);
+  void paint_surfaces(const Scene& scene, const Publish& publish);
   bool is_due(const Scene& scene, const SceneOrgan& organ) const;
-  void remove_surfaces(const Scene& scene, const Publish& publish);
-  MarkerSheet paint_rest(const Scene& scene);
-  void add_contacts(const Scene& scene, MarkerSheet& sheet) const;
-  void add_tools(const Scene& scene, MarkerSheet& sheet) const;
-  static void add_surroundings(const Scene& scene, const ScenePair& pair, MarkerSheet& sheet);
-  void publish_rest(MarkerSheet sheet, const Publish& publish);
+  void add_tools(const Scene& scene, visualization_msgs::MarkerArray& picture) const;
+  void add_touched(const Scene& scene, const SceneOrgan& organ,
+                   visualization_msgs::MarkerArray& picture) const;
+  void add_answer(const Scene& scene, const ScenePair& pair,
+                  visualization_msgs::MarkerArray& picture) const;
+  void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
 
-  ShownMarkers shown_;  ///< without those of surfaces
-  ShownMarkers shown_surfaces_;
-  std::map<std::string, Surface> surfaces_;  ///< by organ: the shape that was sent last
-  TouchedFaces touched_;
-  std::map<std::pair<std::string, std::string>, LastContacts> contacts_;  ///< by organ and tool
-  std::deque<SceneStep> trail_;
-  SecondMean query_sec_;
+  std::map<std::string, Surface> surfaces_;  ///< by organ
+  std::map<std::string, Group> shown_;       ///< what subscribers have, by namespace
+  std::deque<SceneStep> trail_;              ///< the recent steps, which fade
+
+  // The mean time of the queries of about a second, which changes once a second so that people can
+  // read it.
+  SteadyTime mean_since_;
+  double query_sec_sum_ = 0.0;
+  std::size_t query_count_ = 0;
+  double mean_query_sec_ = 0.0;
 };
 
 }  // namespace organ_collision

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <ros/node_handle.h>
-#include <visualization_msgs/MarkerArray.h>
 
 #include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
 
@@ -18,43 +18,40 @@
 
 namespace organ_collision {
 
-/// The topic of a node's markers, and the thread of lower priority that draws them. The node's
-/// thread decides when a picture is due, and hands over what it shows.
+/// The topic of a node's markers, and the thread of lower priority that draws them, so that the
+/// node's thread does not wait. Without subscribers, both do nothing.
 ///
 /// Only one thread may call these functions: the node's.
 class MarkerTopic {
  public:
-  using Publish = std::function<void(const visualization_msgs::MarkerArrayConstPtr&)>;
-  /// Draws one picture, in the other thread. It must own what it shows.
-  using Picture = std::function<void(const Publish&)>;
-
-  explicit MarkerTopic(ros::NodeHandle private_node);
+  MarkerTopic(ros::NodeHandle private_node, const MarkerSettings& settings);
   ~MarkerTopic();
 
   bool has_subscribers() const { return subscribers_ > 0; }
-  /// Whether draw() is to be called: somebody looks, the last picture is finished, and 1 /
-  /// `rate_hz` has passed since it was due. If the rate is 0, an empty picture is due now and then.
-  bool is_due(double rate_hz, SteadyTime now);
-  /// The next picture is due as soon as the last one is finished.
-  void hurry() { due_ = {}; }
-  /// Whether there is a subscriber that knows nothing yet. Forgets it.
-  bool take_anew();
-  /// Hands a picture that is due to the other thread. If it throws, it is left out.
-  void draw(Picture picture);
+  bool is_switched_off() const { return settings_.markers_rate_hz == 0.0; }
+  /// Takes effect with the next picture, which is due as soon as the last one is finished.
+  void set_settings(const MarkerSettings& settings);
+  /// The scene of the next picture, still without what it shows, if one is due: somebody looks, the
+  /// last picture is finished, and the time since it was due has passed. If markers are switched
+  /// off, an empty picture is due now and then.
+  std::optional<Scene> next_scene();
+  /// Hands the scene to the other thread.
+  void draw(Scene scene);
 
  private:
   void draw_pictures();
-  Picture next_picture();
   void publish(const visualization_msgs::MarkerArrayConstPtr& array);
 
+  MarkerSettings settings_;
   int subscribers_ = 0;
-  bool anew_ = false;
+  bool anew_ = false;  ///< there is a subscriber that knows nothing yet
   SteadyTime due_;
+  MarkerPainter painter_;  ///< of the drawing thread
 
   // Shared with the drawing thread.
   std::mutex mutex_;
   std::condition_variable changed_;
-  Picture picture_;  ///< to be drawn
+  std::optional<Scene> scene_;  ///< to be drawn
   bool drawing_ = false;
   bool stop_ = false;
 
@@ -62,58 +59,40 @@ class MarkerTopic {
   std::thread thread_;
 };
 
-/// Publishes markers for RViz. The node's thread only notes what there is to see. A thread of its
-/// own, of lower priority, draws and publishes it. Without subscribers, both do nothing.
-///
-/// Only one thread may call these functions: the node's.
+/// Publishes what the collision node has to show: organs, tools and answers. The node's thread only
+/// notes what there is to see.
 class MarkerPublisher {
  public:
-  MarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings,
+  MarkerPublisher(const ros::NodeHandle& private_node, const MarkerSettings& settings,
                   const std::vector<Tool>& tools);
 
-  /// Takes effect with the next picture.
-  void set_settings(const MarkerSettings& settings);
+  void set_settings(const MarkerSettings& settings) { topic_.set_settings(settings); }
   void set_tools(const std::vector<Tool>& tools);
-
-  /// Notes a step: its contacts and its path leave traces in the next pictures. Never throws: if
-  /// memory is short, the step leaves no traces.
+  /// Notes a step: its contacts and its path leave traces in the next pictures.
   void add(const EvaluatedStep& step);
-  /// Hands the scene to the other thread if a picture is due and the last one is finished.
   void update(const OrganRegistry& organs, const StepHistory& history);
 
  private:
-  Scene take_scene(const OrganRegistry& organs, const StepHistory& history, SteadyTime now);
-
-  MarkerSettings settings_;
   std::shared_ptr<const std::vector<Tool>> tools_;
   std::vector<SceneStep> steps_;  ///< since the last picture
-  MarkerPainter painter_;         ///< of the drawing thread
-  MarkerTopic topic_;             ///< the last member: its thread ends before the painter does
+  MarkerTopic topic_;
 };
 
-/// Publishes hands, proxies and organs for RViz. A thread of its own, of lower priority, draws
-/// them, so that the thread that moves the proxies does not wait. Without subscribers, both do
-/// nothing.
-///
-/// Only one thread may call these functions: the node's.
+/// Publishes what haptic_proxy has to show: hands, proxies and organs.
 class ProxyMarkerPublisher {
  public:
   using Views = std::function<std::vector<ProxyView>()>;
 
-  ProxyMarkerPublisher(const ros::NodeHandle& private_node, const MarkerSettings& settings);
+  ProxyMarkerPublisher(const ros::NodeHandle& private_node, const MarkerSettings& settings)
+      : topic_(private_node, settings) {}
 
-  /// Takes effect with the next picture.
-  void set_settings(const MarkerSettings& settings);
-  /// Hands a picture to the other thread if one is due. Only then, `views` is called: it makes a
-  /// view of each proxy. Their `size` is set here.
+  void set_settings(const MarkerSettings& settings) { topic_.set_settings(settings); }
+  /// Only if a picture is due, `views` is called: it makes a view of each proxy. Their `size` is
+  /// set here.
   void update(const OrganRegistry& organs, const Views& views);
 
  private:
-  Scene take_scene(const OrganRegistry& organs, const Views& views, SteadyTime now);
-
-  MarkerSettings settings_;
-  MarkerPainter painter_;  ///< of the drawing thread
-  MarkerTopic topic_;      ///< the last member: its thread ends before the painter does
+  MarkerTopic topic_;
 };
 
 }  // namespace organ_collision

@@ -2,8 +2,6 @@
 
 #include <organ_collision/ContactArray.h>
 
-#include <Eigen/Geometry>
-#include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,34 +10,21 @@
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "ros/organs/deformable_organ.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/step_history.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {
 
-/// An organ and its latest shape. Nobody changes the arrays that it shares.
+/// An organ and its latest shape, which nobody changes.
 struct SceneOrgan {
   std::string name;
   std::string frame;
-  SharedVertices vertices;
-  SharedFaces faces;
-  Eigen::AlignedBox3f box;
+  std::shared_ptr<const TriangleMesh> mesh;
 
-  Eigen::Vector3d vertex(std::size_t index) const {
-    return Eigen::Map<const Eigen::Vector3f>(&(*vertices)[3 * index]).cast<double>();
-  }
-  Triangle triangle(std::size_t face) const {
-    const FaceIndices& corners = (*faces)[face];
-    return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
-  }
   /// [m] The diagonal of its box. Widths of lines and heights of texts are shares of it.
-  double size() const { return box.diagonal().cast<double>().norm(); }
+  double size() const { return mesh->box().diagonal().cast<double>().norm(); }
 };
-
-/// The latest shape of an organ that has one.
-SceneOrgan scene_organ(const DeformableOrgan& organ);
 
 /// What is known of a tool and an organ.
 struct ScenePair {
@@ -80,10 +65,20 @@ struct Scene {
   std::vector<ProxyView> proxies;
 
   /// Null if there is no such organ.
-  const SceneOrgan* organ(const std::string& name) const;
+  const SceneOrgan* organ(const std::string& name) const {
+    for (const SceneOrgan& organ : organs) {
+      if (organ.name == name) return &organ;
+    }
+    return nullptr;
+  }
   /// The first pair of the tool that has a pose: the tool is drawn in the frame of that organ. Null
   /// if there is none.
-  const ScenePair* placement(std::size_t tool) const;
+  const ScenePair* placement(std::size_t tool) const {
+    for (const ScenePair& pair : pairs) {
+      if (pair.tool == tool && pair.pose && organ(pair.organ)) return &pair;
+    }
+    return nullptr;
+  }
 };
 
 }  // namespace organ_collision

@@ -1,7 +1,8 @@
 #include "tool_markers.hpp"
 
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 
 #include "ros/messages/text.hpp"
@@ -12,90 +13,55 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
 
-constexpr double kThinnest = 1e-6;  // [m] RViz warns of a scale of 0.
-
-/// Makes the markers of one tool.
-class ToolPainter {
- public:
-  ToolPainter(const std::string& frame, const ToolLook& look) : frame_(frame), look_(look) {}
-
-  Marker ball(const Vector3d& center, double radius) const {
-    return shape(Marker::SPHERE, Isometry3d(Eigen::Translation3d(center)),
-                 Vector3d::Constant(2.0 * radius));
-  }
-
-  /// A flat-ended cylinder around an axis.
-  Marker cylinder(const ShaftAxis& axis, double radius) const {
-    const Vector3d along = axis.tip - axis.trocar;
-    Isometry3d pose(Eigen::Translation3d(axis.at(0.5)));
-    if (!along.isZero(0.0)) {
-      pose.rotate(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along));
-    }
-    return shape(Marker::CYLINDER, pose, {2.0 * radius, 2.0 * radius, along.norm()});
-  }
-
-  Marker link_part(const Isometry3d& T_frame_link, const LinkPart& part) const {
-    if (part.surface && part.surface->faces().size() <= kMostFacesOfTool) {
-      return mesh(T_frame_link, *part.surface);
-    }
-    const ConvexCore core = T_frame_link * part.core;
-    if (part.core.is_cylinder()) {
-      return cylinder(core.axis(), part.radius + core.rim.col(0).norm());
-    }
-    if (part.core.count == 1) return ball(core.points[0], part.radius);
-    return box(T_frame_link, part);
-  }
-
- private:
-  Marker shape(int type, const Isometry3d& pose, const Vector3d& scale) const {
-    Marker marker = make_marker(look_.name_space, frame_, type, look_.colour);
-    marker.pose = pose_message(pose);
-    marker.scale.x = std::max(kThinnest, scale.x());
-    marker.scale.y = std::max(kThinnest, scale.y());
-    marker.scale.z = std::max(kThinnest, scale.z());
-    return marker;
-  }
-
-  Marker box(const Isometry3d& T_frame_link, const LinkPart& part) const {
-    Isometry3d T_link_box(Eigen::Translation3d(part.bounds.center));
-    T_link_box.rotate(part.bounds.axes);
-    return shape(Marker::CUBE, T_frame_link * T_link_box,
-                 2.0 * (part.bounds.half_size + Vector3d::Constant(part.radius)));
-  }
-
-  Marker mesh(const Isometry3d& T_frame_link, const ToolSurface& surface) const {
-    Marker triangles = shape(Marker::TRIANGLE_LIST, T_frame_link, Vector3d::Constant(1.0));
-    for (std::size_t face = 0; face < surface.faces().size(); ++face) {
-      for (const Vector3d& corner : surface.triangle(face)) add_point(triangles, corner);
-    }
-    return triangles;
-  }
-
-  const std::string& frame_;
-  const ToolLook& look_;
-};
-
-}  // namespace
-
-void add_tool(const Tool& tool, const ToolPose& pose, const std::string& frame, MarkerSheet& sheet,
-              const ToolLook& look) {
-  const ToolPainter painter(frame, look);
-  if (tool.parameters.has_shaft()) {
-    const double radius = tool.parameters.radius;
-    sheet.add(painter.cylinder(pose.axis, radius));
-    sheet.add(painter.ball(pose.axis.trocar, radius));
-    sheet.add(painter.ball(pose.axis.tip, radius));
-  }
-  const std::size_t known = std::min(tool.links.size(), pose.links.size());
-  for (std::size_t i = 0; i < known; ++i) {
-    for (const LinkPart& part : tool.links[i].parts) {
-      sheet.add(painter.link_part(pose.links[i], part));
-    }
-  }
+Marker shape(const MarkerStyle& style, int type, const Isometry3d& pose, const Vector3d& scale) {
+  constexpr double kThinnest = 1e-6;  // [m] RViz warns of a scale of 0.
+  Marker marker = make_marker(style, type);
+  marker.pose = tf2::toMsg(pose);
+  marker.scale.x = std::max(kThinnest, scale.x());
+  marker.scale.y = std::max(kThinnest, scale.y());
+  marker.scale.z = std::max(kThinnest, scale.z());
+  return marker;
 }
 
-namespace {
+Marker ball(const MarkerStyle& style, const Vector3d& center, double radius) {
+  return shape(style, Marker::SPHERE, Isometry3d(Eigen::Translation3d(center)),
+               Vector3d::Constant(2.0 * radius));
+}
+
+/// A flat-ended cylinder around an axis.
+Marker cylinder(const MarkerStyle& style, const ShaftAxis& axis, double radius) {
+  const Vector3d along = axis.tip - axis.trocar;
+  Isometry3d pose(Eigen::Translation3d(axis.at(0.5)));
+  if (!along.isZero(0.0)) {
+    pose.rotate(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along));
+  }
+  return shape(style, Marker::CYLINDER, pose, {2.0 * radius, 2.0 * radius, along.norm()});
+}
+
+Marker mesh(const MarkerStyle& style, const Isometry3d& T_frame_link, const ToolSurface& surface) {
+  Marker triangles = shape(style, Marker::TRIANGLE_LIST, T_frame_link, Vector3d::Constant(1.0));
+  for (std::size_t face = 0; face < surface.faces().size(); ++face) {
+    for (const Vector3d& corner : surface.triangle(face)) add_point(triangles, corner);
+  }
+  return triangles;
+}
+
+Marker link_part(const MarkerStyle& style, const Isometry3d& T_frame_link, const LinkPart& part) {
+  if (part.surface && part.surface->faces().size() <= kMostFacesOfTool) {
+    return mesh(style, T_frame_link, *part.surface);
+  }
+  const ConvexCore core = T_frame_link * part.core;
+  if (part.core.is_cylinder()) {
+    return cylinder(style, core.axis(), part.radius + core.rim.col(0).norm());
+  }
+  if (part.core.count == 1) return ball(style, core.points[0], part.radius);
+  Isometry3d T_link_box(Eigen::Translation3d(part.bounds.center));
+  T_link_box.rotate(part.bounds.axes);
+  return shape(style, Marker::CUBE, T_frame_link * T_link_box,
+               2.0 * (part.bounds.half_size + Vector3d::Constant(part.radius)));
+}
 
 /// The line in a link whose motion stands for that of a part.
 ShaftAxis longest_axis(const LinkPart& part) {
@@ -136,78 +102,22 @@ void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
   }
 }
 
-}  // namespace
-
-double visibility(SteadyTime time, SteadyTime now) {
-  const double age = std::chrono::duration<double>(now - time).count();
-  return std::clamp(1.0 - age / kFadeSec, 0.0, 1.0);
-}
-
-void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
-               const std::string& frame, SteadyTime now, MarkerSheet& sheet) {
-  Marker swept = make_marker(marker_names::kSwept, frame, Marker::TRIANGLE_LIST, colours::swept());
-  std::size_t legs = 0;
-  for (auto step = steps.rbegin(); step != steps.rend() && legs < kMostLegs; ++step) {
-    const double share = visibility((*step)->time, now);
-    if (share == 0.0) continue;
-    const ToolPath& path = (*step)->path;
-    for (std::size_t i = path.size(); i-- > 1 && legs < kMostLegs; ++legs) {
-      add_leg(tool, path[i - 1], path[i], colours::faded(colours::swept(), share), swept);
-    }
+/// Adds an arrow for each force of the proxy on the tissue. The longest arrow stands for the
+/// greatest force.
+void add_loads(const ProxyView& view, MarkerArray& picture) {
+  constexpr double kLongest = 0.10;                  // A share of the scene's size.
+  std::vector<std::pair<Vector3d, Vector3d>> loads;  // Points and forces, divided by the stiffness.
+  for (const ProxyContact& at : view.answer.contacts) {
+    loads.emplace_back(at.contact.point, at.load * at.contact.normal);
   }
-  sheet.add(std::move(swept));
-}
-
-namespace {
-
-constexpr std::size_t kLongestReason = 100;  // [bytes]
-/// Shares of the scene's size.
-constexpr double kSpringWidth = 6e-3;
-constexpr double kLongestArrow = 0.10;  ///< of the greatest force on the tissue
-constexpr double kTextHeight = 0.03;
-constexpr double kTextLift = 0.06;  ///< from the far end of the tool
-
-/// A force of the proxy on the tissue, divided by the stiffness. [m]
-struct Load {
-  Vector3d point;
-  Vector3d force;
-};
-
-std::vector<Load> loads_of(const ProxyAnswer& answer) {
-  std::vector<Load> loads;
-  for (const ProxyContact& at : answer.contacts) {
-    loads.push_back({at.contact.point, at.load * at.contact.normal});
-  }
-  for (const ProxyCrossing& at : answer.crossings) loads.push_back({at.point, at.load});
-  return loads;
-}
-
-/// The longest arrow stands for the greatest force.
-void add_loads(const ProxyView& view, MarkerSheet& sheet) {
-  const std::vector<Load> loads = loads_of(view.answer);
+  for (const ProxyCrossing& at : view.answer.crossings) loads.emplace_back(at.point, at.load);
   double greatest = 0.0;
-  for (const Load& load : loads) greatest = std::max(greatest, load.force.norm());
-  Marker arrows =
-      make_marker(marker_names::kLoads, view.frame, Marker::TRIANGLE_LIST, colours::load());
+  for (const auto& [point, force] : loads) greatest = std::max(greatest, force.norm());
   if (greatest == 0.0) return;
-  for (const Load& load : loads) {
-    const Vector3d way = kLongestArrow * view.size / greatest * load.force;
-    add_arrow(load.point - way, load.point, arrows);
+  for (const auto& [point, force] : loads) {
+    add_arrow({"loads", view.frame, colours::kLoad},
+              point - kLongest * view.size / greatest * force, point, {}, picture);
   }
-  // RViz lights only markers without colours of their own. It would leave half of the arrows dark.
-  arrows.colors.assign(arrows.points.size(), arrows.color);
-  sheet.add(std::move(arrows));
-}
-
-void add_spring(const ProxyView& view, MarkerSheet& sheet) {
-  const ProxyAnswer& answer = view.answer;
-  if (answer.pull.isZero(0.0)) return;
-  Marker spring = make_marker(marker_names::kSpring, view.frame, Marker::LINE_LIST,
-                              colours::proxy(answer.state));
-  spring.scale.x = kSpringWidth * view.size;
-  add_point(spring, answer.center);
-  add_point(spring, answer.center + answer.pull);
-  sheet.add(std::move(spring));
 }
 
 /// Where the hand's tool is far from tissue: the trocar of a shaft, else the origin of the first
@@ -218,17 +128,49 @@ Vector3d far_end(const ProxyView& view) {
   return view.hand->links.front().translation();
 }
 
-void add_state(const ProxyView& view, MarkerSheet& sheet) {
-  Marker text = make_marker(marker_names::kState, view.frame, Marker::TEXT_VIEW_FACING,
-                            colours::proxy(view.answer.state));
-  const Vector3d place = far_end(view) + kTextLift * view.size * Vector3d::UnitZ();
-  text.pose = pose_message(Eigen::Isometry3d(Eigen::Translation3d(place)));
-  text.text = state_line(view);
-  text.scale.z = kTextHeight * view.size;
-  sheet.add(std::move(text));
+/// "probe: TOUCHING, 1.2 N"; "probe: NO_ANSWER: ..." with the reason if there is no answer.
+std::string state_line(const ProxyView& view) {
+  constexpr std::size_t kLongestReason = 100;  // [bytes]
+  const std::string line = view.tool.parameters.name + ": " + name_of(view.answer.state);
+  if (view.answer.state == ProxyStatus::kNoAnswer) {
+    return line + ": " + plain_text(view.answer.message, kLongestReason);
+  }
+  char force[32];
+  std::snprintf(force, sizeof force, ", %.1f N", view.force);
+  return line + force;
 }
 
 }  // namespace
+
+void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
+              MarkerArray& picture) {
+  if (tool.parameters.has_shaft()) {
+    const double radius = tool.parameters.radius;
+    add_marker(cylinder(style, pose.axis, radius), picture);
+    add_marker(ball(style, pose.axis.trocar, radius), picture);
+    add_marker(ball(style, pose.axis.tip, radius), picture);
+  }
+  for (std::size_t i = 0; i < std::min(tool.links.size(), pose.links.size()); ++i) {
+    for (const LinkPart& part : tool.links[i].parts) {
+      add_marker(link_part(style, pose.links[i], part), picture);
+    }
+  }
+}
+
+void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
+               const std::string& frame, SteadyTime now, MarkerArray& picture) {
+  Marker swept = make_marker({"swept", frame, colours::kSwept}, Marker::TRIANGLE_LIST);
+  std::size_t legs = 0;
+  for (auto step = steps.rbegin(); step != steps.rend() && legs < kMostLegs; ++step) {
+    const double share = visibility((*step)->time, now);
+    if (share == 0.0) continue;
+    const ToolPath& path = (*step)->path;
+    for (std::size_t i = path.size(); i-- > 1 && legs < kMostLegs; ++legs) {
+      add_leg(tool, path[i - 1], path[i], colours::faded(colours::kSwept, share), swept);
+    }
+  }
+  add_marker(std::move(swept), picture);
+}
 
 std::string name_of(ProxyStatus state) {
   switch (state) {
@@ -246,29 +188,26 @@ std::string name_of(ProxyStatus state) {
   return "NO_ANSWER";
 }
 
-std::string state_line(const ProxyView& view) {
-  const std::string line = view.tool.parameters.name + ": " + name_of(view.answer.state);
-  if (view.answer.state == ProxyStatus::kNoAnswer) {
-    return line + ": " + plain_text(view.answer.message, kLongestReason);
+void add_proxy(const ProxyView& view, MarkerArray& picture) {
+  // Shares of the scene's size.
+  constexpr double kSpringWidth = 6e-3;
+  constexpr double kTextHeight = 0.03;
+  constexpr double kTextLift = 0.06;  // From the far end of the tool.
+  const ProxyAnswer& answer = view.answer;
+  const std_msgs::ColorRGBA colour = colours::proxy(answer.state);
+  if (view.hand && answer.state != ProxyStatus::kFree) {
+    add_tool(view.tool, *view.hand, {"hand", view.frame, colours::kHand}, picture);
   }
-  char force[32];
-  std::snprintf(force, sizeof force, ", %.1f N", view.force);
-  return line + force;
-}
-
-void add_proxy(const ProxyView& view, MarkerSheet& sheet) {
-  const bool has_proxy = view.answer.state != ProxyStatus::kNoAnswer;
-  const bool is_held = view.answer.state != ProxyStatus::kFree;
-  if (view.hand && is_held) {
-    add_tool(view.tool, *view.hand, view.frame, sheet, {marker_names::kHand, colours::hand()});
+  if (answer.state != ProxyStatus::kNoAnswer) {
+    add_tool(view.tool, answer.proxy, {"proxy", view.frame, colours::kTool}, picture);
+    if (!answer.pull.isZero(0.0)) {
+      add_line({"spring", view.frame, colour}, answer.center, answer.center + answer.pull,
+               kSpringWidth * view.size, picture);
+    }
+    add_loads(view, picture);
   }
-  if (has_proxy) {
-    add_tool(view.tool, view.answer.proxy, view.frame, sheet,
-             {marker_names::kProxy, colours::tool()});
-    add_spring(view, sheet);
-    add_loads(view, sheet);
-  }
-  add_state(view, sheet);
+  add_text({"state", view.frame, colour}, far_end(view) + kTextLift * view.size * Vector3d::UnitZ(),
+           kTextHeight * view.size, state_line(view), picture);
 }
 
 }  // namespace organ_collision

@@ -17,55 +17,33 @@
 
 namespace organ_collision {
 
-/// Receives /tf and /tf_static into the node's buffer.
-class TransformTopics {
+/// Receives /tf and /tf_static into the node's buffer, and the poses of tool tips that are sent as
+/// PoseStamped, for example CRTK's measured_cp. Such a message names the frame in which the pose is
+/// given, but not the frame of the tip. Each pose becomes a transform to the tool's tip frame, so
+/// that the rest of the node treats these tools like those on TF.
+class MotionTopics {
  public:
-  /// Both must outlive this.
-  TransformTopics(TransformBuffer& buffer, FailureLog& rejected,
-                  double max_ahead_sec = kMaxAheadDefault)
-      : buffer_(buffer), rejected_(rejected), max_ahead_sec_(max_ahead_sec) {}
+  /// Called with a tool's index after each pose of its tip from a topic.
+  using Arrived = std::function<void(std::size_t tool)>;
 
-  void subscribe(ros::NodeHandle node);
+  /// `transforms` and `rejected` must outlive this. What has a stamp further ahead of the clock
+  /// than `max_ahead_sec` is refused.
+  MotionTopics(const std::vector<ToolParameters>& tools, TransformBuffer& transforms,
+               FailureLog& rejected, Arrived arrived, double max_ahead_sec = kMaxAheadDefault);
+  MotionTopics(const MotionTopics&) = delete;  ///< The subscriptions refer to this.
 
-  /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
-  /// ahead of the clock, is counted as rejected; the others are added. One with the stamp of an
-  /// earlier one is left out: senders repeat transforms.
-  void take(const tf2_msgs::TFMessage& message, const std::string& authority, bool resting);
-
- private:
-  void reject(const geometry_msgs::TransformStamped& transform, const std::string& why);
-
-  TransformBuffer& buffer_;
-  FailureLog& rejected_;
-  double max_ahead_sec_;
-  std::vector<ros::Subscriber> subscribers_;
-};
-
-/// Receives the poses of tool tips that are sent as PoseStamped, for example CRTK's measured_cp.
-/// Such a message names the frame in which the pose is given, but not the frame of the tip. Each
-/// pose becomes a transform to the tool's tip frame in the node's buffer, so that the rest of the
-/// node treats these tools like those on TF.
-class PoseTopics {
- public:
-  /// Where poses go; all must outlive this. `arrived` is called with the tool's index after each
-  /// pose of its tip.
-  struct Sinks {
-    TransformBuffer& transforms;
-    FailureLog& rejected;
-    std::function<void(std::size_t)> arrived;
-    double max_ahead_sec =
-        kMaxAheadDefault;  ///< poses with stamps further ahead of the clock are refused
-  };
-  PoseTopics(const std::vector<ToolParameters>& tools, const Sinks& sinks);
-  PoseTopics(const PoseTopics&) = delete;  ///< The subscriptions refer to this.
-
-  /// Subscribes to the topics that the tools name; `node` resolves their names.
+  /// Subscribes to TF and to the topics that the tools name; `node` resolves their names.
   void subscribe(const ros::NodeHandle& node);
   /// Takes a new list of tools. The subscriptions of tools with the same name, tip frame and topics
   /// stay, so that no pose is lost. Throws std::runtime_error if a topic cannot be subscribed to;
   /// then nothing has changed.
   void change_tools(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node);
 
+  /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
+  /// ahead of the clock, is counted as rejected; the others are added. One with the stamp of an
+  /// earlier one is left out: senders repeat transforms.
+  void take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
+                       bool resting);
   /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal
   /// pose is counted as rejected, and the last pose stays.
   void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
@@ -84,16 +62,20 @@ class PoseTopics {
     ros::Subscriber tips, bases;
   };
   void subscribe(Stream& stream, ros::NodeHandle node);
-  std::unique_ptr<Stream>* find_stream(const ToolParameters& tool);
+  std::shared_ptr<Stream> find_stream(const ToolParameters& tool) const;
   static ros::Time arrival(const Stream& stream);
   bool came_for_another_tool(const Stream& stream, ros::Time stamp) const;
   void place_base(const Stream& stream);
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
-  void reject(const std::string& frame, const std::string& wrong);
+  void reject(const std::string& what, const std::string& frame, const std::string& why);
 
+  TransformBuffer& transforms_;
+  FailureLog& rejected_;
+  Arrived arrived_;
+  double max_ahead_sec_;
   /// By tool. Subscriptions refer to them, so their addresses must not change.
-  std::vector<std::unique_ptr<Stream>> streams_;
-  Sinks sinks_;
+  std::vector<std::shared_ptr<Stream>> streams_;
+  std::vector<ros::Subscriber> tf_;
 };
 
 }  // namespace organ_collision

@@ -5,8 +5,15 @@
 #include <queue>
 #include <utility>
 
+#include "geometry/tool/leg_motion.hpp"
+
 namespace organ_collision {
 namespace {
+
+/// [m] Smaller deviations of an axis and smaller motions of a trocar count as rounding errors.
+constexpr double kStraight = 1e-9;
+/// [m] The same for points of links.
+constexpr double kStraightLink = 1e-6;
 
 /// [m] An upper bound for the distance of the link's points from its origin.
 double reach(const Link& link) {
@@ -33,38 +40,63 @@ double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double r
          reach * std::sqrt(0.5) * (a.linear() - b.linear()).norm();
 }
 
-}  // namespace
+/// The distance of a waypoint from a straight motion at the same time [m].
+struct Deviation {
+  double axis;   ///< the larger deviation of the two ends of the axis
+  double links;  ///< an upper bound for all points of the links
+};
 
-StraightMotion::StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to)
-    : begin(from.fraction), duration(to.fraction - from.fraction), axis{from.axis, to.axis} {
-  links.reserve(from.links.size());
-  for (std::size_t i = 0; i < from.links.size(); ++i) {
-    links.emplace_back(from.links[i], to.links[i]);
+/// The straight motion from one waypoint to another: the ends of the axis move linearly, and each
+/// link moves as a RigidMotion.
+class StraightMotion {
+ public:
+  /// `to` has a larger fraction than `from`.
+  StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to)
+      : begin_(from.fraction), duration_(to.fraction - from.fraction), axis_{from.axis, to.axis} {
+    links_.reserve(from.links.size());
+    for (std::size_t i = 0; i < from.links.size(); ++i) {
+      links_.emplace_back(from.links[i], to.links[i]);
+    }
   }
-}
 
-PathDeviation::PathDeviation(const std::vector<Link>& links) {
-  reaches_.reserve(links.size());
-  for (const Link& link : links) reaches_.push_back(reach(link));
-}
-
-Deviation PathDeviation::operator()(const ToolWaypoint& waypoint,
-                                    const StraightMotion& motion) const {
-  const double time = (waypoint.fraction - motion.begin) / motion.duration;
-  Deviation deviation{distance(motion.axis.at(time), waypoint.axis), 0.0};
-  for (std::size_t i = 0; i < reaches_.size(); ++i) {
-    deviation.links = std::max(deviation.links,
-                               distance(motion.links[i].at(time), waypoint.links[i], reaches_[i]));
+  Deviation deviation(const ToolWaypoint& waypoint, const std::vector<double>& reaches) const {
+    const double time = (waypoint.fraction - begin_) / duration_;
+    Deviation deviation{distance(axis_.at(time), waypoint.axis), 0.0};
+    for (std::size_t i = 0; i < reaches.size(); ++i) {
+      deviation.links =
+          std::max(deviation.links, distance(links_[i].at(time), waypoint.links[i], reaches[i]));
+    }
+    return deviation;
   }
-  return deviation;
+
+ private:
+  double begin_, duration_;  ///< fractions of the step
+  ShaftMotion axis_;
+  std::vector<RigidMotion> links_;
+};
+
+/// The straight motion between two waypoints, and the waypoint in between that deviates most.
+struct Leg {
+  std::size_t begin, end, farthest;
+  double deviation = 0.0;  ///< [m]
+
+  bool operator<(const Leg& other) const { return deviation < other.deviation; }
+};
+
+Leg straight_leg(const ToolPath& path, const std::vector<double>& reaches, std::size_t begin,
+                 std::size_t end) {
+  Leg leg{begin, end, begin};
+  const StraightMotion motion(path[begin], path[end]);
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const Deviation deviation = motion.deviation(path[i], reaches);
+    const double most = std::max(deviation.axis, deviation.links);
+    if (most > leg.deviation) {
+      leg.deviation = most;
+      leg.farthest = i;
+    }
+  }
+  return leg;
 }
-
-namespace {
-
-/// [m] Smaller deviations of an axis and smaller motions of a trocar count as rounding errors.
-constexpr double kStraight = 1e-9;
-/// [m] The same for points of links.
-constexpr double kStraightLink = 1e-6;
 
 /// Stops a trocar that moves only by rounding errors: the viewing volumes of a resting trocar are
 /// tighter.
@@ -79,75 +111,47 @@ void rest_trocar(ToolPath& path) {
 
 }  // namespace
 
+PathBuilder::PathBuilder(const std::vector<Link>& links, const ToolPose& begin)
+    : path_(resting_path(begin)) {
+  reaches_.reserve(links.size());
+  for (const Link& link : links) reaches_.push_back(reach(link));
+}
+
 void PathBuilder::add(double fraction, const ToolPose& pose) {
   ToolWaypoint next{fraction, pose.axis, pose.links};
   const std::size_t size = path_.size();
-  const double added = size > 1 ? relative_deviation(path_[size - 2], path_[size - 1], next) : 0.0;
-  // Each dropped sample changes the leg by at most its own deviation, so the sum bounds the change.
-  if (size > 1 && dropped_deviation_ + added <= 1.0) {
-    dropped_deviation_ += added;
-    path_.back() = std::move(next);
-  } else {
-    dropped_deviation_ = 0.0;
-    path_.push_back(std::move(next));
-  }
-}
-
-ToolPath PathBuilder::take() {
-  rest_trocar(path_);
-  return std::move(path_);
-}
-
-/// The deviation of `b` from the straight motion from `a` to `c` at the time of `b`, as a multiple
-/// of the tolerance.
-double PathBuilder::relative_deviation(const ToolWaypoint& a, const ToolWaypoint& b,
-                                       const ToolWaypoint& c) const {
-  const Deviation deviation = deviation_(b, StraightMotion(a, c));
-  return std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
-}
-
-namespace {
-
-/// The straight motion between two waypoints, and the waypoint in between that deviates most.
-struct Leg {
-  std::size_t begin, end, farthest;
-  double deviation = 0.0;  ///< [m]
-
-  bool operator<(const Leg& other) const { return deviation < other.deviation; }
-};
-
-Leg straight_leg(const ToolPath& path, const PathDeviation& deviation, std::size_t begin,
-                 std::size_t end) {
-  Leg leg{begin, end, begin};
-  const StraightMotion motion(path[begin], path[end]);
-  for (std::size_t i = begin + 1; i < end; ++i) {
-    const double most = deviation(path[i], motion).most();
-    if (most > leg.deviation) {
-      leg.deviation = most;
-      leg.farthest = i;
+  if (size > 1) {
+    const Deviation deviation =
+        StraightMotion(path_[size - 2], next).deviation(path_[size - 1], reaches_);
+    // Each dropped sample changes the leg by at most its own deviation, so the sum bounds the
+    // change. It is a multiple of the tolerance.
+    dropped_deviation_ += std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
+    if (dropped_deviation_ <= 1.0) {
+      path_.back() = std::move(next);
+      return;
     }
   }
-  return leg;
+  dropped_deviation_ = 0.0;
+  path_.push_back(std::move(next));
 }
 
-}  // namespace
-
-SimplifiedPath simplify_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max) {
-  if (path.size() <= legs_max + 1) return {std::move(path)};
+BuiltPath PathBuilder::take(std::size_t legs_max) {
+  rest_trocar(path_);
+  if (path_.size() <= legs_max + 1) return {std::move(path_)};
   std::priority_queue<Leg> legs;
-  legs.push(straight_leg(path, deviation, 0, path.size() - 1));
-  std::vector<std::size_t> kept = {0, path.size() - 1};
+  legs.push(straight_leg(path_, reaches_, 0, path_.size() - 1));
+  std::vector<std::size_t> kept = {0, path_.size() - 1};
   while (legs.size() < legs_max && legs.top().deviation > 0.0) {
     const Leg leg = legs.top();
     legs.pop();
-    legs.push(straight_leg(path, deviation, leg.begin, leg.farthest));
-    legs.push(straight_leg(path, deviation, leg.farthest, leg.end));
+    legs.push(straight_leg(path_, reaches_, leg.begin, leg.farthest));
+    legs.push(straight_leg(path_, reaches_, leg.farthest, leg.end));
     kept.push_back(leg.farthest);
   }
   std::sort(kept.begin(), kept.end());
-  SimplifiedPath result{{}, path.size() - kept.size(), legs.top().deviation};
-  for (const std::size_t waypoint : kept) result.path.push_back(std::move(path[waypoint]));
-  return result;
+  BuiltPath built{{}, path_.size() - kept.size(), legs.top().deviation};
+  for (const std::size_t waypoint : kept) built.path.push_back(std::move(path_[waypoint]));
+  return built;
 }
 
 }  // namespace organ_collision

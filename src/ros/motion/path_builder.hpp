@@ -3,40 +3,16 @@
 #include <cstddef>
 #include <vector>
 
-#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
 #include "organ_collision/geometry/tool/tool_path.hpp"
 
 namespace organ_collision {
 
-/// The straight motion from one waypoint to another: the ends of the axis move linearly, and each
-/// link moves as a RigidMotion.
-struct StraightMotion {
-  /// `to` has a larger fraction than `from`.
-  StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to);
-
-  double begin, duration;  ///< fractions of the step
-  ShaftMotion axis;
-  std::vector<RigidMotion> links;
-};
-
-/// The distance of a waypoint from a straight motion at the same time [m].
-struct Deviation {
-  double axis;   ///< the larger deviation of the two ends of the axis
-  double links;  ///< an upper bound for all points of the links
-
-  double most() const { return axis > links ? axis : links; }
-};
-
-/// Measures deviations of one tool.
-class PathDeviation {
- public:
-  explicit PathDeviation(const std::vector<Link>& links);
-
-  Deviation operator()(const ToolWaypoint& waypoint, const StraightMotion& motion) const;
-
- private:
-  std::vector<double> reaches_;  ///< [m] of each link: an upper bound, see reach()
+/// A path, and what was dropped from it because it had too many legs.
+struct BuiltPath {
+  ToolPath path;
+  std::size_t dropped = 0;  ///< waypoints
+  double deviation = 0.0;   ///< [m] the largest distance of a dropped waypoint from the path
 };
 
 /// Builds a path from samples of a tool's motion, without redundant waypoints, because each leg of
@@ -46,36 +22,22 @@ class PathDeviation {
 /// straight motion of a link is RigidMotion; chains of joints follow it only roughly.
 class PathBuilder {
  public:
-  /// Starts at fraction 0. `deviation` must outlive this.
-  PathBuilder(const PathDeviation& deviation, const ToolPose& begin)
-      : deviation_(deviation), path_(resting_path(begin)) {}
+  /// Starts at fraction 0.
+  PathBuilder(const std::vector<Link>& links, const ToolPose& begin);
 
   /// Fractions rise from call to call, up to 1.
   void add(double fraction, const ToolPose& pose);
 
   /// The path through all samples. Its first and last waypoints are as given, except that a trocar
-  /// that moved by at most 1e-9 m is at rest.
-  ToolPath take();
+  /// that moved by at most 1e-9 m is at rest. If it has more than `legs_max` legs, at least 1, the
+  /// waypoints that matter least are dropped, as Douglas and Peucker (1973) do, but waypoint and
+  /// path are compared at the same time. The waypoint with the largest deviation is kept first.
+  BuiltPath take(std::size_t legs_max);
 
  private:
-  double relative_deviation(const ToolWaypoint& a, const ToolWaypoint& b,
-                            const ToolWaypoint& c) const;
-
-  const PathDeviation& deviation_;
+  std::vector<double> reaches_;  ///< [m] of each link: an upper bound of its points' distances
   ToolPath path_;
   double dropped_deviation_ = 0.0;  ///< sum over the samples dropped from the last leg
 };
-
-/// A path with fewer waypoints.
-struct SimplifiedPath {
-  ToolPath path;
-  std::size_t dropped = 0;  ///< waypoints
-  double deviation = 0.0;   ///< [m] the largest distance of a dropped waypoint from the path
-};
-
-/// Simplifies a path to at most `legs_max` legs; `legs_max` must be at least 1. Follows Douglas and
-/// Peucker (1973), but compares waypoint and path at the same time. The waypoint with the largest
-/// deviation is kept first.
-SimplifiedPath simplify_path(ToolPath path, const PathDeviation& deviation, std::size_t legs_max);
 
 }  // namespace organ_collision

@@ -93,9 +93,8 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
 std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
                                                ros::Time from, ros::Time to,
                                                SampledPath& lost) const {
-  const TransformBuffer::Frames frames = swept_frames(tool);
-  std::vector<ros::Time> stamps = buffer_.stamps_between(organ_frame, frames, from, to);
-  if (const ros::Time forgotten = buffer_.forgotten(organ_frame, frames); forgotten > from) {
+  auto [stamps, forgotten] = buffer_.stamps_between(organ_frame, swept_frames(tool), from, to);
+  if (forgotten > from) {
     lost.unknown = concatenate("the tool's way from ", from, " s to ", std::min(forgotten, to),
                                " s is not known: it is longer ago than transforms are kept (",
                                buffer_.getCacheLength().toSec(), " s)");
@@ -186,7 +185,8 @@ Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& or
 bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_frame,
                                     ros::Time from, ros::Time to) const {
   return seconds(from, to) >= longest_step().toSec() ||
-         buffer_.stamps_between(organ_frame, swept_frames(tool), from, to).size() >= kMostRead / 2;
+         buffer_.stamps_between(organ_frame, swept_frames(tool), from, to).rising.size() >=
+             kMostRead / 2;
 }
 
 bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
@@ -203,8 +203,7 @@ std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::stri
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
                             const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
   const double duration = nanoseconds(from.stamp, to.stamp);
-  const PathDeviation deviation(tool.links);
-  PathBuilder path(deviation, from.value);
+  PathBuilder path(tool.links, from.value);
   SampledPath sampled;
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
@@ -218,11 +217,10 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
     }
   }
   path.add(1.0, to.value);
-  SimplifiedPath simplified =
-      simplify_path(path.take(), deviation, static_cast<std::size_t>(sampling_.samples_max));
-  sampled.path = std::move(simplified.path);
-  sampled.samples_cut += simplified.dropped;
-  sampled.deviation_cut = std::max(sampled.deviation_cut, simplified.deviation);
+  BuiltPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
+  sampled.path = std::move(built.path);
+  sampled.samples_cut += built.dropped;
+  sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation);
   return sampled;
 }
 

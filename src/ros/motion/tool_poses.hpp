@@ -44,8 +44,8 @@ class ToolPoses {
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
   /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
-  /// Samples that TF cannot give are dropped, PathBuilder drops redundant ones, and simplify_path
-  /// reduces the rest to samples_max. At most max(1000, samples_max) of the stamps are read, evenly
+  /// Samples that TF cannot give are dropped. PathBuilder drops redundant ones, and reduces the rest
+  /// to samples_max. At most max(1000, samples_max) of the stamps are read, evenly
   /// spread; if there are more, or if TF has forgotten some, the path is not wholly known.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;

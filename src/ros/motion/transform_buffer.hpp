@@ -15,35 +15,6 @@
 
 namespace organ_collision {
 
-/// The stamps of the recent transforms of one frame. It forgets a stamp when TF forgets the
-/// transform, or when there are more than kMost stamps.
-class StampRecord {
- public:
-  /// As many transforms as TF keeps at 1 kHz.
-  static constexpr std::size_t kMost = 10'000;
-
-  /// `kept`: how long TF keeps a transform, counted back from the latest one.
-  explicit StampRecord(ros::Duration kept) : kept_(kept) {}
-
-  void add(ros::Time stamp);
-  bool contains(ros::Time stamp) const;
-  bool empty() const { return rising_.empty(); }
-  void clear() { *this = StampRecord(kept_); }
-  /// The largest stamp; zero if there is none.
-  ros::Time latest() const { return empty() ? ros::Time() : rising_.back(); }
-  /// The stamp that came last; zero if there is none.
-  ros::Time heard() const { return heard_; }
-  /// The latest stamp that was forgotten; zero if there is none.
-  ros::Time forgotten() const { return forgotten_; }
-  /// Appends the stamps after `from` and before `to`, in rising order.
-  void append_between(ros::Time from, ros::Time to, std::vector<ros::Time>& stamps) const;
-
- private:
-  ros::Duration kept_;
-  std::deque<ros::Time> rising_;
-  ros::Time heard_, forgotten_;
-};
-
 /// TF's buffer, with a record of the stamps of each frame's transforms, because tf2 does not give
 /// them. Transforms that are set with setTransform instead of add are not in the record.
 class TransformBuffer : public tf2::BufferCore {
@@ -67,16 +38,19 @@ class TransformBuffer : public tf2::BufferCore {
   /// them can. A stamp that is ahead of the clock is disproved once its sender sends an earlier
   /// one, by more than kClockTolerance. Until the sender gets there, what it sent last counts.
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
-  /// The latest stamp of the transforms between `target` and `sources` that were forgotten, because
-  /// they are older than TF keeps them; zero if there is none.
-  ros::Time forgotten(const std::string& target, const Frames& sources) const;
-
   /// Whether the record has a transform of the frame.
   bool has_heard(const std::string& frame) const;
+  /// The stamps of the transforms between a target frame and some sources.
+  struct Stamps {
+    std::vector<ros::Time> rising;  ///< in rising order, each once
+    /// The latest stamp of a transform that was forgotten, because it is older than TF keeps it, or
+    /// because there were too many; zero if there is none.
+    ros::Time forgotten;
+  };
   /// The stamps, after `from` and before `to`, of all transforms between `target` and any of
-  /// `sources`: in rising order, each once.
-  std::vector<ros::Time> stamps_between(const std::string& target, const Frames& sources,
-                                        ros::Time from, ros::Time to) const;
+  /// `sources`.
+  Stamps stamps_between(const std::string& target, const Frames& sources, ros::Time from,
+                        ros::Time to) const;
 
   /// Notes that the poses of `sources` in the target frame have been used, up to `stamp`.
   void set_answered(const std::string& target, const Frames& sources, ros::Time stamp);
@@ -84,17 +58,22 @@ class TransformBuffer : public tf2::BufferCore {
   std::size_t late() const { return late_; }
 
  private:
-  struct Frame {
-    StampRecord stamps;
-    /// A stamp that its sender showed to be wrong, until later ones come; zero: there is none.
-    ros::Time disproved;
-    ros::Time answered;                ///< poses were used up to this stamp; zero: never
-    std::vector<std::size_t> parents;  ///< recent parents, as indices
-  };
   using Indices = std::vector<std::size_t>;
+  struct Frame {
+    std::deque<ros::Time> stamps = {};  ///< of recent transforms, in rising order
+    ros::Time heard = {};               ///< the stamp that came last; zero: none came
+    ros::Time forgotten = {};           ///< the latest stamp that was forgotten; zero: none was
+    /// A stamp that its sender showed to be wrong, until later ones come; zero: there is none.
+    ros::Time disproved = {};
+    ros::Time answered = {};  ///< poses were used up to this stamp; zero: never
+    Indices parents = {};     ///< recent parents
+
+    bool has(ros::Time stamp) const;
+  };
 
   std::size_t index_of(const std::string& frame);
   void judge(Frame& frame, ros::Time stamp);
+  void note(Frame& frame, ros::Time stamp);
   Indices chain(const std::string& target, const Frames& sources) const;
   Indices upward(const std::string& frame) const;
   bool is_line(const Indices& frames) const;
@@ -142,7 +121,7 @@ struct NewestTransform {
 /// Of the frames that carry `frame`, the one whose newest transform is the oldest; a static one has
 /// no age. These are `frame` and those above it, without those that also carry each of `others`:
 /// what they do, moves none against the other. Empty if nothing but static transforms is left.
-std::optional<NewestTransform> oldest_transform(const tf2::BufferCore& buffer,
+std::optional<NewestTransform> oldest_transform(const TransformBuffer& buffer,
                                                 const std::string& frame,
                                                 const std::vector<std::string>& others);
 

@@ -6,36 +6,25 @@
 
 namespace organ_collision {
 
-using SteadyClock = std::chrono::steady_clock;
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
       publisher_(core_.private_node(), core_.tools(), counters_),
       markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
-      pipeline_(core_.parameters(), core_.tools(),
+      pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
                 {[this](const EvaluatedStep& step) {
                    publisher_.publish(step);
                    markers_.add(step);
                  },
-                 [this](const OrganUpdate& update) {
-                   publisher_.report(update);
-                   // At once, because the next callback may be of a query, which then waits for the
-                   // surface.
-                   surfaces_.update(pipeline_.organs(), SteadyClock::now());
-                 },
-                 counters_.rejected, core_.loop().queue()}),
-      services_({{core_.parameters(), core_.tools(), pipeline_.organs(), pipeline_.transforms(),
-                  pipeline_.poses(), pipeline_.steps().history()},
+                 [this](const OrganUpdate& update) { publisher_.report(update); }},
+                OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
+                                     core_.background().queue()}),
+      services_({{core_.parameters(), core_.tools(), pipeline_.inbox.organs, pipeline_.inbox.transforms,
+                  pipeline_.poses, pipeline_.steps.history()},
                  [this](const std::function<void()>& action) { core_.in_node_thread(action); },
-                 counters_.refused,
-                 core_.parameters().threads}),
-      query_diagnostics_({core_.parameters().misspelt, pipeline_.gl_version(), pipeline_.steps(),
-                          pipeline_.transforms(), services_.statistics(), counters_}),
-      inbox_diagnostics_({core_.parameters().mesh_timeout_sec, core_.tools(), pipeline_.organs(),
-                          pipeline_.organ_topics(), counters_.meshes, counters_.rejected}),
-      surfaces_(core_.background().queue()),
-      organ_services_({pipeline_.organs(), pipeline_.organ_topics(), core_.loop().queue(),
-                       core_.background().queue()}) {
+                 counters_),
+      organ_services_(pipeline_.inbox.organs, pipeline_.inbox.intake, core_.loop().queue(),
+                      core_.background().queue()) {
   try {
     start();
   } catch (...) {
@@ -51,29 +40,34 @@ NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
   callbacks.loop = {[this] { pipeline_.watch_clock(); },
                     [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }};
   callbacks.work = [this] { work(); };
-  callbacks.next_deadline = [this] { return pipeline_.next_deadline(); };
+  callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
   callbacks.reset = [this] { pipeline_.reset(); };
   callbacks.parameters_changed = [this](const auto& before) { change_parameters(before); };
   callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
     core_.in_node_thread([&] { exchange_tools(loaded, kept); });
   };
   callbacks.break_down = [this](const std::string& why) {
-    publisher_.report_breakdown(pipeline_.organs(), why);
+    publisher_.report_breakdown(pipeline_.inbox.organs, why);
   };
   return callbacks;
 }
 
 void CollisionNode::start() {
-  pipeline_.subscribe(core_.node(), core_.private_node());
+  pipeline_.inbox.subscribe(core_.node(), core_.private_node());
   services_.advertise(on_queue(core_.private_node(), query_thread_.queue()),
                       on_queue(core_.private_node(), batch_thread_.queue()));
   organ_services_.advertise(core_.private_node());
   start_ticks();
-  query_diagnostics_.add_to(core_.updater());
-  inbox_diagnostics_.add_to(core_.updater());
+  add_diagnostics(core_.updater(),
+                  AnsweredParts{core_.parameters().misspelt, pipeline_.workers.gl_version(),
+                                pipeline_.steps, pipeline_.inbox.transforms, counters_});
+  add_diagnostics(core_.updater(),
+                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
+                                pipeline_.inbox.organs, pipeline_.inbox.intake, counters_.meshes,
+                                counters_.rejected});
   core_.start();
   ROS_INFO("ready: %s, GL %s", counted(core_.tools().size(), "tool").c_str(),
-           pipeline_.gl_version().c_str());
+           pipeline_.workers.gl_version().c_str());
 }
 
 /// Ends the other threads, which use members.
@@ -85,9 +79,8 @@ void CollisionNode::end() {
 }
 
 void CollisionNode::work() {
-  pipeline_.evaluate(core_.loop().heard_until());
-  surfaces_.update(pipeline_.organs(), SteadyClock::now());
-  markers_.update(pipeline_.organs(), pipeline_.steps().history());
+  pipeline_.steps.evaluate(core_.loop().heard_until());
+  markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
 }
 
 /// Also called when the rate has changed.
@@ -96,15 +89,15 @@ void CollisionNode::start_ticks() {
   const double rate = core_.parameters().rate_hz;
   if (!(rate > 0.0)) return;
   tick_ = core_.private_node().createTimer(
-      ros::Duration(1.0 / rate), [this](const ros::TimerEvent&) { pipeline_.add_tick(); });
+      ros::Duration(1.0 / rate), [this](const ros::TimerEvent&) { pipeline_.steps.add_tick(); });
 }
 
 void CollisionNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
   core_.exchange_tools(
       loaded,
-      [this](const auto& parameters) { pipeline_.change_pose_topics(parameters, core_.node()); },
+      [this](const auto& parameters) { pipeline_.inbox.motion.change_tools(parameters, core_.node()); },
       [&] {
-        pipeline_.change_tools(kept);
+        pipeline_.steps.change_tools(kept);
         markers_.set_tools(core_.tools());
       });
 }

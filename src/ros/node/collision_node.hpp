@@ -6,7 +6,6 @@
 
 #include "node_core.hpp"
 #include "ros/markers/marker_publisher.hpp"
-#include "ros/organs/organ_report.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/publishing/contact_publisher.hpp"
 #include "ros/publishing/counters.hpp"
@@ -49,9 +48,6 @@ class CollisionNode {
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
-  QueryDiagnostics query_diagnostics_;
-  InboxDiagnostics inbox_diagnostics_;
-  SurfaceInspector surfaces_;
   OrganServices organ_services_;
   ros::Timer tick_;
 };

@@ -16,7 +16,7 @@
 #include "program.hpp"
 #include "queues.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/steps/wait_clock.hpp"
+#include "ros/steps/step_history.hpp"
 #include "ros/tools/tool.hpp"
 #include "scheduling.hpp"
 
@@ -119,7 +119,9 @@ class NodeCore {
   NodeCore& operator=(const NodeCore&) = delete;
 
   MessageLoop& loop() { return loop_; }
+  /// The thread of slow work, and the one that builds large meshes.
   QueueThread& background() { return background_; }
+  QueueThread& builder() { return builder_; }
   /// Their callbacks are called in the node's thread.
   const ros::NodeHandle& node() const { return node_; }
   ros::NodeHandle& private_node() { return private_node_; }
@@ -153,11 +155,12 @@ class NodeCore {
     }
   }
 
-  /// Ends the waits of other threads for the node's thread, and then the background thread, which
-  /// uses members. A node must call it before it destroys what the callbacks use.
+  /// Ends the waits of other threads for the node's thread, and then the background threads, which
+  /// use members. A node must call it before it destroys what the callbacks use.
   void end() {
     loop_.end();
     background_.stop();
+    builder_.stop();
   }
 
   /// In the background thread: runs an action in the node's thread, and waits for its end.
@@ -229,7 +232,7 @@ class NodeCore {
 
   Callbacks callbacks_;
   MessageLoop loop_;
-  QueueThread background_;
+  QueueThread background_, builder_;
   ros::NodeHandle node_;
   ros::NodeHandle private_node_;
   Parameters parameters_;

@@ -2,13 +2,9 @@
 
 #include <ros/time.h>
 
-#include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
+#include <future>
 #include <memory>
-#include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,72 +13,52 @@
 
 namespace organ_collision {
 
-/// What is known of an organ's surface as long as its triangles stay the same. A large mesh takes
-/// tens of milliseconds, so the node's background thread finds it out (surface_inspector.hpp).
+/// What is known of an organ's surface as long as its triangles stay the same. For a large mesh, it
+/// takes tens of milliseconds to find out, so that a background thread does it (organ_intake.hpp).
 class OrganSurface {
  public:
   /// `mesh`: as its message describes it. The vertices of this shape are welded. Takes no time.
   explicit OrganSurface(const TriangleMesh& mesh)
-      : faces_(mesh.shared_faces()), vertices_(mesh.shared_vertices()) {}
+      : faces_(mesh.shared_faces()),
+        vertices_(mesh.shared_vertices()),
+        box_(mesh.box().cast<double>()) {}
 
   /// Finds out everything. Does nothing if that is done. Only one thread may call this.
   void find();
-  /// Whether find() is done. Any thread may call this.
-  bool is_found() const { return found_; }
-  /// Waits until find() has ended in another thread, but at most for `longest`. Returns
-  /// is_found(), which is false after that time, and if find() threw an exception.
-  bool wait_until_found(std::chrono::milliseconds longest) const;
+
+  // For any thread.
+
+  /// Whether find() is done.
+  bool is_found() const { return wait_until_found(std::chrono::milliseconds(0)); }
+  /// Waits until find() is done in another thread, but at most for `longest`. Returns is_found().
+  bool wait_until_found(std::chrono::milliseconds longest) const {
+    return found_.wait_for(longest) == std::future_status::ready;
+  }
+  std::size_t face_count() const { return faces_->size(); }
+  /// [m] Around the mesh as its message described it.
+  const Eigen::AlignedBox3d& box() const { return box_; }
 
   // For any thread, once is_found().
 
-  const SurfaceTopology& topology() const { return *topology_; }
+  const SurfaceTopology& topology() const { return found_.get().topology; }
   /// Whether the surface is closed and its faces point inward.
-  bool is_inward() const { return inward_; }
+  bool is_inward() const { return found_.get().is_inward; }
   /// [m^3] Signed, see signed_volume(). `vertices`: the present positions [m].
   double volume(const std::vector<float>& vertices) const {
-    return signed_volume(*topology_, *faces_, vertices);
+    return signed_volume(topology(), *faces_, vertices);
   }
 
  private:
-  void find_all();
-  void set_ended();
+  struct Found {
+    SurfaceTopology topology;
+    bool is_inward;
+  };
 
   SharedFaces faces_;
   SharedVertices vertices_;  ///< of the message; released when everything is found
-  std::optional<SurfaceTopology> topology_;
-  bool inward_ = false;
-  std::atomic<bool> found_{false};
-
-  mutable std::mutex mutex_;
-  mutable std::condition_variable has_ended_;
-  bool ended_ = false;  ///< find() has succeeded or failed; guarded by mutex_
-};
-
-/// Shapes of one organ that share its triangles. The last user of a shape, in whichever thread,
-/// gives it back by releasing it. The next shape then takes over its memory, instead of allocating
-/// boxes for a large organ again. Shapes may be in use longer than the pool exists.
-class ShapePool {
- public:
-  ShapePool() : unused_(std::make_shared<Unused>()) {}
-
-  /// A shape that nobody else uses: one that was given back, or else a copy of `model`. It has
-  /// the vertices of some earlier shape: move it before it is used.
-  std::shared_ptr<TriangleMesh> take(const TriangleMesh& model);
-  /// Makes a mesh a shape of this pool.
-  std::shared_ptr<TriangleMesh> add(TriangleMesh mesh);
-
- private:
-  /// The shapes that were given back. The shapes in use refer to it, too, so that it outlives them.
-  struct Unused {
-    std::mutex mutex;
-    std::vector<std::unique_ptr<TriangleMesh>> shapes;
-
-    std::unique_ptr<TriangleMesh> take();
-    void give_back(std::unique_ptr<TriangleMesh> shape);
-  };
-  std::shared_ptr<TriangleMesh> lend(std::unique_ptr<TriangleMesh> shape) const;
-
-  std::shared_ptr<Unused> unused_;
+  Eigen::AlignedBox3d box_;
+  std::promise<Found> promise_;
+  std::shared_future<Found> found_ = promise_.get_future().share();
 };
 
 /// An organ's surface at one time. Its users share it, and it does not change while they use it.
@@ -118,12 +94,11 @@ class DeformableOrgan {
   /// The shape before the latest one. It has no mesh if the latest one is the first of its
   /// topology, or after forget_previous().
   const OrganShape& previous() const { return previous_; }
-
   /// What is known of the surface. Another object if the triangles change.
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
   /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if they do
-  /// not fit. Reuses a shape that nobody uses any more, if there is one.
+  /// not fit. Takes over the memory of a shape that nobody uses any more, if there is one.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
   /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
@@ -132,17 +107,16 @@ class DeformableOrgan {
   void forget_previous() { previous_ = {}; }
   /// For a clock that jumped back to `now`, or began: the latest shape counts as received then at
   /// the latest.
-  void receive_anew(ros::Time now) {
-    const bool came_before_time = latest_.received.isZero();
-    latest_.received = came_before_time ? now : std::min(latest_.received, now);
-  }
+  void receive_anew(ros::Time now);
 
  private:
+  std::shared_ptr<TriangleMesh> unused_shape();
+
   std::string name_;
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
-  ShapePool shapes_;  ///< of the present topology
+  std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< of the present topology
 };
 
 }  // namespace organ_collision

@@ -5,37 +5,28 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <new>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/checked_messages.hpp"
 #include "ros/node/queues.hpp"
-#include "ros/node/scheduling.hpp"
 
 namespace organ_collision {
 namespace {
 
-/// Publishers may have a new name at each start. If there were so many, all are forgotten.
-constexpr std::size_t kMostPublishers = 1000;
+using SteadyClock = std::chrono::steady_clock;
 
-}  // namespace
+/// [messages] For all organs together. If more wait while the node's thread is busy, roscpp drops
+/// the oldest.
+constexpr std::uint32_t kQueue = 100;
 
-std::uint64_t SequenceGaps::add(const std::string& publisher, std::uint32_t number) {
-  const auto known = last_.find(publisher);
-  if (known == last_.end()) {
-    if (last_.size() == kMostPublishers) last_.clear();
-    last_.emplace(publisher, number);
-    return 0;
-  }
-  const std::uint32_t last = std::exchange(known->second, number);
-  return number > last ? number - last - 1 : 0;
-}
-
-namespace {
+/// Vertices may come this long before the mesh of their organ.
+constexpr std::chrono::seconds kStart(2);
 
 bool is_large(const OrganMesh& mesh) {
-  return std::max(mesh.triangles.size(), mesh.vertices.size()) > 3 * OrganMessageQueue::kLarge;
+  return std::max(mesh.triangles.size(), mesh.vertices.size()) > 3 * OrganIntake::kLarge;
 }
 
 bool is_ready(const OrganMessage& message) {
@@ -50,150 +41,15 @@ bool is_replaced(const OrganMessage& message, const OrganMessage& next) {
   return next.mesh && (!is_removal(*message.mesh) || is_removal(*next.mesh));
 }
 
-template <typename Messages>
-OrganMessage take_front(Messages& messages) {
-  OrganMessage message = std::move(messages.front());
-  messages.pop_front();
-  return message;
-}
-
 }  // namespace
 
-OrganMessageQueue::OrganMessageQueue(Functions functions)
-    : functions_(std::move(functions)), thread_([this] { build_meshes(); }) {}
-
-OrganMessageQueue::~OrganMessageQueue() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stop_ = true;
-  }
-  has_work_.notify_one();
-  thread_.join();
-}
-
-void OrganMessageQueue::add(const OrganMeshConstPtr& message, const Connection& connection) {
-  add(OrganMessage{message, connection});
-}
-
-void OrganMessageQueue::add(const OrganVerticesConstPtr& message) {
-  OrganMessage entry;
-  entry.vertices = message;
-  add(std::move(entry));
-}
-
-void OrganMessageQueue::add(OrganMessage message) {
-  if (waiting_.count(message.organ()) == 0) {
-    begin(message);
-    if (is_ready(message)) return ready_.push_back(std::move(message));
-  }
-  Messages& messages = waiting_[message.organ()];
-  messages.push_back(std::move(message));
-  if (messages.size() > kMostWaiting) drop_oldest(messages);
-}
-
-/// Has the mesh of a message built if it must be. All earlier messages of the organ must be taken.
-void OrganMessageQueue::begin(OrganMessage& message) {
-  if (!message.mesh || !is_large(*message.mesh) || message.built.valid()) return;
-  if (functions_.is_new(*message.mesh, message.connection)) {
-    message.built = start_building(message.mesh);
-  }
-}
-
-/// Never drops the first message, whose mesh is being built, nor the last one.
-void OrganMessageQueue::drop_oldest(Messages& messages) {
-  for (auto message = messages.begin() + 1; message + 1 != messages.end(); ++message) {
-    if (!is_replaced(*message, *(message + 1))) continue;
-    messages.erase(message);
-    ++dropped_;
-    return;
-  }
-}
-
-std::size_t OrganMessageQueue::waiting() const {
-  std::size_t waiting = ready_.size();
-  for (const auto& [organ, messages] : waiting_) waiting += messages.size();
-  return waiting;
-}
-
-bool OrganMessageQueue::has(const std::string& organ) const {
-  return waiting_.count(organ) > 0 ||
-         std::any_of(ready_.begin(), ready_.end(),
-                     [&](const OrganMessage& message) { return message.organ() == organ; });
-}
-
-std::optional<OrganMessage> OrganMessageQueue::next() {
-  if (!ready_.empty()) return take_front(ready_);
-  for (auto organ = waiting_.begin(); organ != waiting_.end(); ++organ) {
-    begin(organ->second.front());
-    if (!is_ready(organ->second.front())) continue;
-    OrganMessage message = take_front(organ->second);
-    if (organ->second.empty()) waiting_.erase(organ);
-    return message;
-  }
-  return std::nullopt;
-}
-
-std::future<TriangleMesh> OrganMessageQueue::start_building(const OrganMeshConstPtr& message) {
-  std::packaged_task<TriangleMesh()> task([this, message] { return functions_.build(message); });
-  std::future<TriangleMesh> built = task.get_future();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    tasks_.push_back(std::move(task));
-  }
-  has_work_.notify_one();
-  return built;
-}
-
-void OrganMessageQueue::build_meshes() {
-  lower_priority_of_this_thread();
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (true) {
-    has_work_.wait(lock, [this] { return stop_ || !tasks_.empty(); });
-    if (stop_) return;
-    std::packaged_task<TriangleMesh()> task = std::move(tasks_.front());
-    tasks_.pop_front();
-    lock.unlock();
-    task();
-    wake();
-    lock.lock();
-  }
-}
-
-void OrganMessageQueue::wake() const {
-  try {
-    functions_.wake();
-  } catch (const std::bad_alloc&) {  // The node also calls next() without a wake, but later.
-  }
-}
-
-namespace {
-
-/// [messages] For all organs together. If more wait while the node's thread is busy, roscpp drops
-/// the oldest.
-constexpr std::uint32_t kQueue = 100;
-
-/// Vertices may come this long before the mesh of their organ.
-constexpr std::chrono::seconds kStart(2);
-
-}  // namespace
-
-OrganTopics::OrganTopics(OrganRegistry& organs, FailureLog& rejected,
-                         ros::CallbackQueueInterface& callbacks)
-    : organs_(organs),
-      rejected_(rejected),
-      queue_({[this](const OrganMeshConstPtr& message) { return organs_.build(message); },
-              [this](const OrganMesh& message, const Connection& connection) {
-                return organs_.is_new(message, connection);
-              },
-              [&callbacks] { call_later(callbacks, [] {}); }}) {}
-
-void OrganTopics::subscribe(const ros::NodeHandle& private_node) {
+void OrganIntake::subscribe(const ros::NodeHandle& private_node) {
   subscribers_ = {
       subscribe_checked<OrganMesh>(
           private_node, names::kOrganMesh, kQueue,
           [this](const auto& event) {
             const OrganMeshConstPtr& message = event.getConstMessage();
-            counts_.lost += mesh_gaps_.add(event.getPublisherName(), message->header.seq);
+            counts_.lost += lost_before(meshes_, event.getPublisherName(), message->header.seq);
             take_mesh(message, event.getConnectionHeaderPtr());
           },
           rejected_),
@@ -201,39 +57,97 @@ void OrganTopics::subscribe(const ros::NodeHandle& private_node) {
           private_node, names::kOrganVertices, kQueue,
           [this](const auto& event) {
             const OrganVerticesConstPtr& message = event.getConstMessage();
-            counts_.lost += vertices_gaps_.add(event.getPublisherName(), message->header.seq);
+            counts_.lost += lost_before(vertices_, event.getPublisherName(), message->header.seq);
             take_vertices(message);
           },
           rejected_)};
 }
 
-void OrganTopics::take_mesh(const OrganMeshConstPtr& message, const Connection& connection) {
-  queue_.add(message, connection);
-  ++counts_.received;
+void OrganIntake::take_mesh(const OrganMeshConstPtr& message, const Connection& connection) {
+  add({message, connection});
 }
 
-void OrganTopics::take_vertices(const OrganVerticesConstPtr& message) {
-  queue_.add(message);
-  ++counts_.received;
+void OrganIntake::take_vertices(const OrganVerticesConstPtr& message) {
+  OrganMessage entry;
+  entry.vertices = message;
+  add(std::move(entry));
 }
 
-OrganMessageCounts OrganTopics::counts() const {
+void OrganIntake::add(OrganMessage message) {
+  if (!has(message.organ())) begin(message);
+  messages_.push_back(std::move(message));
+  ++counts_.received;
+  drop_replaced(messages_.back().organ());
+}
+
+bool OrganIntake::has(const std::string& organ) const {
+  return std::any_of(messages_.begin(), messages_.end(),
+                     [&](const OrganMessage& message) { return message.organ() == organ; });
+}
+
+/// Has the mesh of a message built if it must be. All earlier messages of the organ must have been
+/// applied: only then is it known whether its triangles are new.
+void OrganIntake::begin(OrganMessage& message) {
+  if (!threads_ || !message.mesh || !is_large(*message.mesh) || message.built.valid()) return;
+  if (!organs_.is_new(*message.mesh, message.connection)) return;
+  const auto task = std::make_shared<std::packaged_task<TriangleMesh()>>(
+      [this, mesh = message.mesh] { return organs_.build(mesh); });
+  message.built = task->get_future();
+  call_later(threads_->builder, [task, &node = threads_->node] {
+    (*task)();
+    call_later(node, [] {});
+  });
+}
+
+/// Never drops the first message, whose mesh is being built, nor the last one.
+void OrganIntake::drop_replaced(const std::string& organ) {
+  std::vector<std::list<OrganMessage>::iterator> messages;
+  for (auto message = messages_.begin(); message != messages_.end(); ++message) {
+    if (message->organ() == organ) messages.push_back(message);
+  }
+  if (messages.size() <= kMostWaiting || !messages.front()->built.valid()) return;
+  for (std::size_t i = 1; i + 1 < messages.size(); ++i) {
+    if (!is_replaced(*messages[i], *messages[i + 1])) continue;
+    messages_.erase(messages[i]);
+    ++counts_.dropped;
+    return;
+  }
+}
+
+/// The next message that waits for no mesh of its organ.
+std::optional<OrganMessage> OrganIntake::take_ready() {
+  std::set<std::string> waiting;
+  for (auto message = messages_.begin(); message != messages_.end(); ++message) {
+    if (waiting.count(message->organ()) > 0) continue;
+    begin(*message);
+    if (is_ready(*message)) {
+      OrganMessage taken = std::move(*message);
+      messages_.erase(message);
+      return taken;
+    }
+    waiting.insert(message->organ());
+  }
+  return std::nullopt;
+}
+
+OrganMessageCounts OrganIntake::counts() const {
   OrganMessageCounts counts = counts_;
-  counts.dropped = queue_.dropped();
-  counts.waiting = queue_.waiting();
+  counts.waiting = messages_.size();
+  counts.refused =
+      counts.received - counts.applied - counts.removals - counts.dropped - counts.waiting;
   return counts;
 }
 
-void OrganTopics::remove(const std::string& organ) {
+void OrganIntake::remove(const std::string& organ) {
   check_name("organ", organ);
-  if (!queue_.has(organ)) organs_.at(organ);
+  if (!has(organ)) organs_.at(organ);
   const auto removal = boost::make_shared<OrganMesh>();
   removal->organ = organ;
   take_mesh(removal);
 }
 
-std::optional<OrganUpdate> OrganTopics::next() {
-  std::optional<OrganMessage> message = queue_.next();
+std::optional<OrganUpdate> OrganIntake::next() {
+  std::optional<OrganMessage> message = take_ready();
   if (!message) return std::nullopt;
   OrganUpdate update{*std::move(message)};
   try {
@@ -246,19 +160,39 @@ std::optional<OrganUpdate> OrganTopics::next() {
       ++counts_.removals;
     }
   } catch (const Rejection& rejection) {
-    ++counts_.refused;
     count(rejection);
     update.status = rejection.status();
     update.why_not = rejection.what();
-  } catch (...) {  // Usually std::bad_alloc. The node counts it as an exception.
-    ++counts_.refused;
-    throw;
   }
   return update;
 }
 
-void OrganTopics::count(const Rejection& rejection) {
-  const auto now = std::chrono::steady_clock::now();
+OrganChange OrganIntake::apply(OrganMessage& message) {
+  const ros::Time now = ros::Time::now();
+  if (message.vertices) return organs_.apply(message.vertices, now);
+  bool is_new = false;
+  const OrganChange change = organs_.apply(message.mesh, message.connection, now, [&] {
+    is_new = true;
+    return message.built.valid() ? message.built.get() : organs_.build(message.mesh);
+  });
+  if (is_new) inspect(organs_.at(message.organ()));
+  return change;
+}
+
+/// Has the surface of an organ found out. A surface that nobody needs any more by then is left out.
+void OrganIntake::inspect(const DeformableOrgan& organ) {
+  if (!threads_) return organ.surface()->find();
+  const std::weak_ptr<OrganSurface> needed = organ.surface();
+  call_later(threads_->inspector, [this, needed, name = organ.name()] {
+    const std::shared_ptr<OrganSurface> surface = needed.lock();
+    if (!surface) return;
+    surface->find();
+    log_.tell(name, *surface, SteadyClock::now());
+  });
+}
+
+void OrganIntake::count(const Rejection& rejection) {
+  const auto now = SteadyClock::now();
   if (rejection.status() == ContactArray::UNKNOWN_ORGAN && now - start_ < kStart) {
     ROS_DEBUG("%s", rejection.what());
   } else {
@@ -266,12 +200,11 @@ void OrganTopics::count(const Rejection& rejection) {
   }
 }
 
-OrganChange OrganTopics::apply(OrganMessage& message) {
-  const ros::Time now = ros::Time::now();
-  if (message.vertices) return organs_.apply(message.vertices, now);
-  return organs_.apply(message.mesh, message.connection, now, [&] {
-    return message.built.valid() ? message.built.get() : organs_.build(message.mesh);
-  });
+std::uint64_t lost_before(std::map<std::string, std::uint32_t>& last, const std::string& publisher,
+                          std::uint32_t number) {
+  const auto [known, is_new] = last.emplace(publisher, number);
+  const std::uint32_t before = std::exchange(known->second, number);
+  return !is_new && number > before ? number - before - 1 : 0;
 }
 
 }  // namespace organ_collision

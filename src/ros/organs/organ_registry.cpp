@@ -8,13 +8,6 @@
 
 namespace organ_collision {
 
-void ConnectionSet::add(const Connection& connection) {
-  for (auto known = connections_.begin(); known != connections_.end();) {
-    known = known->expired() ? connections_.erase(known) : std::next(known);
-  }
-  connections_.insert(connection);
-}
-
 namespace {
 
 std::string quoted(const std::string& name) { return "'" + name + "'"; }
@@ -83,7 +76,7 @@ bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connectio
 bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                                      const Connection& connection) const {
   const auto known = connections_.find(organ.name());
-  if (known != connections_.end() && known->second.contains(connection)) return false;
+  if (known != connections_.end() && known->second.count(connection) > 0) return false;
   const TriangleMesh& latest = *organ.latest().mesh;
   return message.vertices.size() != latest.vertices().size() ||
          !latest.has_triangles(message.triangles);
@@ -97,8 +90,7 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
   if (is_removal(message)) {
     organs_.erase(message.organ);
     connections_.erase(message.organ);
-    refusals_.erase(message.organ);
-    without_mesh_.insert(message.organ);
+    refusals_[message.organ].clear();
     return OrganChange::kRemoved;
   }
   try {
@@ -109,15 +101,22 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
     check_name("header.frame_id", frame);
     check_stamp(message.header.stamp, now, "mesh of organ " + quoted(message.organ));
     const OrganChange change = apply_checked(pointer, connection, frame, now, built);
-    connections_[message.organ].add(connection);
-    without_mesh_.erase(message.organ);
+    note(connection, message.organ);
     refusals_.erase(message.organ);
     return change;
   } catch (const Rejection& rejection) {
-    if (organs_.count(message.organ) == 0) without_mesh_.insert(message.organ);
     refusals_[message.organ] = plain_text(rejection.what(), kLongestMessage);
     throw;
   }
+}
+
+/// Notes a connection of an organ's meshes, and forgets those that are closed.
+void OrganRegistry::note(const Connection& connection, const std::string& organ) {
+  std::set<Connection>& known = connections_[organ];
+  for (auto entry = known.begin(); entry != known.end();) {
+    entry = entry->expired() ? known.erase(entry) : std::next(entry);
+  }
+  known.insert(connection);
 }
 
 OrganChange OrganRegistry::apply_checked(const OrganMeshConstPtr& pointer,
@@ -187,7 +186,7 @@ OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time
 const DeformableOrgan& OrganRegistry::at(const std::string& name) const {
   const auto organ = organs_.find(name);
   if (organ != organs_.end()) return organ->second;
-  if (without_mesh_.count(name) > 0) {
+  if (refusals_.count(name) > 0) {
     const std::string refusal = last_refusal(name);
     throw Rejection(ContactArray::NO_MESH, "organ without mesh",
                     "organ " + quoted(name) +
@@ -203,8 +202,9 @@ std::string OrganRegistry::last_refusal(const std::string& organ) const {
   return refusal == refusals_.end() ? "" : refusal->second;
 }
 
-void OrganRegistry::forget_previous_shapes() {
+void OrganRegistry::forget_history() {
   for (auto& [name, organ] : organs_) organ.forget_previous();
+  connections_.clear();
 }
 
 void OrganRegistry::receive_anew(ros::Time now) {

@@ -21,19 +21,9 @@ namespace organ_collision {
 /// The connection over which a message came from a publisher to this node, identified by its
 /// header: roscpp makes one header for each connection, also within a process, and keeps it while
 /// the connection is open. A restarted publisher has a new connection, even under the same name.
+/// Connections are compared by the owner of the header, so that a new one is never mistaken for a
+/// closed one whose header had the same address.
 using Connection = boost::weak_ptr<const ros::M_string>;
-
-/// A set of connections, ordered by the owner of the header. Therefore a new connection is never
-/// mistaken for a closed one whose header had the same address.
-class ConnectionSet {
- public:
-  bool contains(const Connection& connection) const { return connections_.count(connection) > 0; }
-  /// Also drops the connections that are closed.
-  void add(const Connection& connection);
-
- private:
-  std::set<Connection> connections_;
-};
 
 /// What a message changed. After kFrame and kOrgan, the new shape cannot be compared with earlier
 /// ones.
@@ -72,8 +62,6 @@ class OrganRegistry {
   OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now);
   /// Whether `apply` would call `built`.
   bool is_new(const OrganMesh& message, const Connection& connection) const;
-  /// Treats all connections as new: the next mesh of each organ may be another organ.
-  void forget_connections() { connections_.clear(); }
 
   /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for an organ that was removed or whose meshes were
   /// all refused. The message of NO_MESH says which, and why the last mesh was refused.
@@ -86,8 +74,9 @@ class OrganRegistry {
   /// For a clock that jumped back to `now`: the latest shapes count as received then at the latest,
   /// so that they can become stale.
   void receive_anew(ros::Time now);
-  /// Makes each organ keep only its latest shape.
-  void forget_previous_shapes();
+  /// Makes each organ keep only its latest shape. Treats all connections as new: the next mesh of
+  /// each organ may be another organ.
+  void forget_history();
 
  private:
   OrganChange apply_checked(const OrganMeshConstPtr& message, const Connection& connection,
@@ -95,16 +84,17 @@ class OrganRegistry {
                             const std::function<TriangleMesh()>& built);
   bool is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                         const Connection& connection) const;
+  void note(const Connection& connection, const std::string& organ);
   std::string known_organs() const;
-
   void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;
 
   MeshLimits limits_;
   double max_ahead_sec_;
   std::map<std::string, DeformableOrgan> organs_;
-  std::map<std::string, ConnectionSet> connections_;  ///< by organ: its meshes' connections
-  std::set<std::string> without_mesh_;                ///< known names: removed, or never valid
-  std::map<std::string, std::string> refusals_;       ///< by organ: why its last mesh was refused
+  std::map<std::string, std::set<Connection>> connections_;  ///< by organ: of its meshes
+  /// By organ: why its last mesh was refused; empty: it was removed. Organs without a mesh are
+  /// here.
+  std::map<std::string, std::string> refusals_;
 };
 
 }  // namespace organ_collision

@@ -45,14 +45,14 @@ OrganInfo completed(const ListedOrgan& organ) {
 
 void OrganServices::advertise(ros::NodeHandle private_node) {
   remove_ = private_node.advertiseService(names::kRemoveOrgan, &OrganServices::on_remove, this);
-  private_node.setCallbackQueue(&sources_.background);
+  private_node.setCallbackQueue(&background_);
   list_ = private_node.advertiseService(names::kListOrgans, &OrganServices::on_list, this);
 }
 
 bool OrganServices::on_list(ListOrgans::Request&, ListOrgans::Response& response) {
   std::vector<ListedOrgan> list;
   try {
-    run_in_thread_of(sources_.node_queue, [&] { list = list_organs(sources_.organs); });
+    run_in_thread_of(node_queue_, [&] { list = list_organs(organs_); });
   } catch (const std::exception&) {  // The node ends.
     return false;
   }
@@ -62,7 +62,7 @@ bool OrganServices::on_list(ListOrgans::Request&, ListOrgans::Response& response
 
 bool OrganServices::on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response) {
   try {
-    sources_.topics.remove(request.name);
+    intake_.remove(request.name);
     response.success = true;
     response.message = "organ '" + request.name + "' is removed";
   } catch (const Rejection& rejection) {

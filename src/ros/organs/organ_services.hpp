@@ -1,17 +1,13 @@
 #pragma once
 
 #include <organ_collision/ListOrgans.h>
-#include <organ_collision/OrganInfo.h>
 #include <organ_collision/RemoveOrgan.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 
-#include <memory>
 #include <vector>
 
-#include "deformable_organ.hpp"
 #include "organ_intake.hpp"
-#include "organ_registry.hpp"
 
 namespace organ_collision {
 
@@ -35,15 +31,11 @@ OrganInfo completed(const ListedOrgan& organ);
 /// It asks the node's thread only for the list, so that no step waits for the rest.
 class OrganServices {
  public:
-  /// All must outlive this.
-  struct Sources {
-    const OrganRegistry& organs;
-    OrganTopics& topics;
-    ros::CallbackQueue& node_queue;           ///< of the node's thread, which owns the organs
-    ros::CallbackQueueInterface& background;  ///< of the thread that calls OrganSurface::find()
-  };
-
-  explicit OrganServices(const Sources& sources) : sources_(sources) {}
+  /// All must outlive this. `node_queue`: of the thread that owns the organs. `background`: of the
+  /// thread that finds out surfaces.
+  OrganServices(const OrganRegistry& organs, OrganIntake& intake, ros::CallbackQueue& node_queue,
+                ros::CallbackQueueInterface& background)
+      : organs_(organs), intake_(intake), node_queue_(node_queue), background_(background) {}
 
   void advertise(ros::NodeHandle private_node);
 
@@ -53,7 +45,10 @@ class OrganServices {
   bool on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response);
 
  private:
-  Sources sources_;
+  const OrganRegistry& organs_;
+  OrganIntake& intake_;
+  ros::CallbackQueue& node_queue_;
+  ros::CallbackQueueInterface& background_;
   ros::ServiceServer list_, remove_;
 };
 

@@ -5,7 +5,6 @@
 
 #include <boost/make_shared.hpp>
 #include <chrono>
-#include <exception>
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/steps/contact_array.hpp"
@@ -17,15 +16,6 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// [messages] Kept for each subscriber that reads more slowly than the node publishes.
 constexpr std::uint32_t kQueue = 100;
-
-/// Does one part of a report. If it throws, the caller goes on with the next part.
-template <typename Action>
-void attempt(const Action& action) {
-  try {
-    action();
-  } catch (const std::exception&) {  // Usually std::bad_alloc. There is nowhere left to report it.
-  }
-}
 
 }  // namespace
 
@@ -61,18 +51,14 @@ void ContactPublisher::report(const OrganUpdate& update) {
 }
 
 void ContactPublisher::report_breakdown(const OrganRegistry& organs, const std::string& why) {
-  std::string message;
-  attempt([&] {
-    message = "the node broke down: " + why + "; once it is back, send the organs again";
-    count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
-  });
+  const std::string message =
+      "the node broke down: " + why + "; once it is back, send the organs again";
+  count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
   for (const auto& [name, organ] : organs.organs()) {
+    std_msgs::Header header;
+    header.frame_id = organ.frame();
     for (const Tool& tool : tools_) {
-      attempt([&, &name = name, &organ = organ] {
-        std_msgs::Header header;
-        header.frame_id = organ.frame();
-        publish_failure(tool, name, header, ContactArray::PICKER_FAILED, message);
-      });
+      publish_failure(tool, name, header, ContactArray::PICKER_FAILED, message);
     }
   }
 }

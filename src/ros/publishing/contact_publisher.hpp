@@ -27,7 +27,7 @@ class ContactPublisher {
   /// that says why.
   void report(const OrganUpdate& update);
   /// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a
-  /// node that broke down for the absence of contacts. Never throws, even if memory is short.
+  /// node that broke down for the absence of contacts.
   void report_breakdown(const OrganRegistry& organs, const std::string& why);
 
  private:

@@ -32,41 +32,58 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
   status.add(organ.name() + ", surface", closedness(*organ.surface()));
   status.add(organ.name() + ", orientation", orientation(*organ.surface()));
   if (!last_refusal.empty()) status.add(organ.name() + ", newer mesh refused", last_refusal);
-  for (const std::string& doubt : doubts(organ)) status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  for (const std::string& doubt :
+       doubts(organ.name(), mesh.box().cast<double>(), *organ.surface())) {
+    status.mergeSummary(DiagnosticStatus::WARN, doubt);
+  }
+}
+
+/// "queries", "query time, median [us]" and so on.
+void show_times(const std::string& count, const std::string& time,
+                const DurationStatistics::Summary& times, DiagnosticStatusWrapper& status) {
+  constexpr double kMicroseconds = 1e6;
+  status.add(count, times.count);
+  status.add(time + ", median [us]", times.median * kMicroseconds);
+  status.add(time + ", 99th percentile [us]", times.percentile_99 * kMicroseconds);
+  status.add(time + ", worst [us]", times.worst * kMicroseconds);
 }
 
 }  // namespace
 
-void InboxDiagnostics::add_to(diagnostic_updater::Updater& updater) {
-  updater.add("tools", this, &InboxDiagnostics::tools);
-  updater.add("organs", this, &InboxDiagnostics::organs);
-  updater.add("messages", this, &InboxDiagnostics::messages);
+void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts) {
+  updater.add("tools", [parts](auto& status) { show_tools(parts, status); });
+  updater.add("organs", [parts](auto& status) { show_organs(parts, status); });
+  updater.add("messages", [parts](auto& status) { show_messages(parts, status); });
 }
 
-void InboxDiagnostics::tools(DiagnosticStatusWrapper& status) {
-  status.summary(DiagnosticStatus::OK, counted(sources_.tools.size(), "tool"));
-  if (sources_.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
-  for (const Tool& tool : sources_.tools) show_tool(tool, status);
+void add_diagnostics(diagnostic_updater::Updater& updater, const AnsweredParts& parts) {
+  updater.add("queries", [parts](auto& status) { show_queries(parts, status); });
 }
 
-void InboxDiagnostics::organs(DiagnosticStatusWrapper& status) {
+void show_tools(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
+  status.summary(DiagnosticStatus::OK, counted(parts.tools.size(), "tool"));
+  if (parts.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
+  for (const Tool& tool : parts.tools) show_tool(tool, status);
+}
+
+void show_organs(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
   const ros::Time now = ros::Time::now();
-  const double timeout = sources_.mesh_timeout_sec;
-  status.summary(DiagnosticStatus::OK, counted(sources_.organs.organs().size(), "organ"));
-  for (const auto& [name, organ] : sources_.organs.organs()) {
+  const double timeout = parts.mesh_timeout_sec;
+  status.summary(DiagnosticStatus::OK, counted(parts.organs.organs().size(), "organ"));
+  for (const auto& [name, organ] : parts.organs.organs()) {
     const OrganShape& shape = organ.latest();
     status.add(name + ", age of mesh [s]", shape.age(now));
-    show_organ(organ, sources_.organs.last_refusal(name), status);
+    show_organ(organ, parts.organs.last_refusal(name), status);
     if (is_stale(shape, now, timeout)) {
       status.mergeSummary(DiagnosticStatus::WARN, stale_message(name, shape, now, timeout));
     }
   }
 }
 
-void InboxDiagnostics::messages(DiagnosticStatusWrapper& status) {
+void show_messages(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
   status.summary(DiagnosticStatus::OK, "none rejected");
-  status.add("mesh rate [1/s]", sources_.meshes.take(std::chrono::steady_clock::now()));
-  const OrganMessageCounts counts = sources_.topics.counts();
+  status.add("mesh rate [1/s]", parts.meshes.take(std::chrono::steady_clock::now()));
+  const OrganMessageCounts counts = parts.intake.counts();
   status.add("organ messages received", counts.received);
   status.add("organ messages applied", counts.applied);
   status.add("organ messages refused", counts.refused);
@@ -74,63 +91,37 @@ void InboxDiagnostics::messages(DiagnosticStatusWrapper& status) {
   status.add("organ messages dropped behind a large mesh", counts.dropped);
   status.add("organ messages waiting", counts.waiting);
   status.add("organ messages lost before they came", counts.lost);
-  show_failures("rejected", sources_.rejected, status);
+  show_failures("rejected", parts.rejected, status);
 }
 
-namespace {
-
-constexpr double kMicroseconds = 1e6;
-
-}  // namespace
-
-void QueryDiagnostics::add_to(diagnostic_updater::Updater& updater) {
-  updater.add("queries", this, &QueryDiagnostics::queries);
-}
-
-void QueryDiagnostics::queries(DiagnosticStatusWrapper& status) {
+void show_queries(const AnsweredParts& parts, DiagnosticStatusWrapper& status) {
+  NodeCounters& counters = parts.counters;
   status.summary(DiagnosticStatus::OK, "answering");
-  const auto times = sources_.steps.query_times().summary();
-  status.add("GL version", sources_.gl_version);
-  status.add("contacts rate [1/s]",
-             sources_.counters.contacts.take(std::chrono::steady_clock::now()));
-  status.add("queries", times.count);
-  status.add("query time, median [us]", times.median * kMicroseconds);
-  status.add("query time, 99th percentile [us]", times.percentile_99 * kMicroseconds);
-  status.add("query time, worst [us]", times.worst * kMicroseconds);
-  status.add("motion samples cut", sources_.steps.samples_cut());
-  status.add("motion samples cut, farthest from the swept way [m]", sources_.steps.deviation_cut());
-  status.add("transforms after their step", sources_.transforms.late());
-  status.add("poses merged into later ones", sources_.steps.poses_merged());
-  add_shapes(status);
-  status.add("answers published", sources_.counters.published);
-  status.add("steps while TF was starting", sources_.counters.starting);
-  add_services(status);
-  for (const std::string& sentence : sources_.misspelt) {
-    status.mergeSummary(DiagnosticStatus::WARN, sentence);
-  }
-  show_failures("unanswered", sources_.counters.failed, status);
-  show_failures("answered in part", sources_.counters.incomplete, status);
-  show_failures("refused", sources_.counters.refused, status);
-}
-
-void QueryDiagnostics::add_shapes(DiagnosticStatusWrapper& status) const {
-  const ShapeCounts shapes = sources_.steps.shapes();
+  status.add("GL version", parts.gl_version);
+  status.add("contacts rate [1/s]", counters.contacts.take(std::chrono::steady_clock::now()));
+  show_times("queries", "query time", parts.steps.query_times().summary(), status);
+  status.add("motion samples cut", parts.steps.samples_cut());
+  status.add("motion samples cut, farthest from the swept way [m]", parts.steps.deviation_cut());
+  status.add("transforms after their step", parts.transforms.late());
+  status.add("poses merged into later ones", parts.steps.poses_merged());
+  const ShapeCounts shapes = parts.steps.shapes();
   status.add("shapes due", shapes.due);
   status.add("shapes answered", shapes.answered);
   status.add("shapes superseded by newer ones", shapes.superseded);
   status.add("shapes forgotten before their step", shapes.forgotten);
   status.add("shapes waiting", shapes.waiting);
-}
-
-void QueryDiagnostics::add_services(DiagnosticStatusWrapper& status) const {
-  const ServiceStatistics::Summary times = sources_.services.summary();
-  status.add("service queries", times.queries.count);
-  status.add("service query time, median [us]", times.queries.median * kMicroseconds);
-  status.add("service query time, 99th percentile [us]",
-             times.queries.percentile_99 * kMicroseconds);
-  status.add("service query time, worst [us]", times.queries.worst * kMicroseconds);
-  status.add("batches", times.batches);
-  status.add("motions of batches", times.motions);
+  status.add("answers published", counters.published);
+  status.add("steps while TF was starting", counters.starting);
+  const ServiceStatistics::Counts services = counters.services.counts();
+  show_times("service queries", "service query time", services.queries.summary(), status);
+  status.add("batches", services.batches);
+  status.add("motions of batches", services.motions);
+  for (const std::string& sentence : parts.misspelt) {
+    status.mergeSummary(DiagnosticStatus::WARN, sentence);
+  }
+  show_failures("unanswered", counters.failed, status);
+  show_failures("answered in part", counters.incomplete, status);
+  show_failures("refused", counters.refused, status);
 }
 
 }  // namespace organ_collision

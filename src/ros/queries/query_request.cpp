@@ -9,86 +9,50 @@
 
 namespace organ_collision {
 
+namespace {
+
 static_assert(ContactArray::STATIC == static_cast<int>(QueryMode::kStatic) &&
               ContactArray::SWEPT == static_cast<int>(QueryMode::kSwept) &&
               ContactArray::PAPER_STATIC == static_cast<int>(QueryMode::kPaperStatic) &&
               ContactArray::PAPER_SWEPT == static_cast<int>(QueryMode::kPaperSwept) &&
               ContactArray::PAPER_NAIVE == static_cast<int>(QueryMode::kPaperNaive));
 
-QueryMode checked_mode(std::uint8_t mode) {
-  if (mode <= ContactArray::PAPER_NAIVE) return static_cast<QueryMode>(mode);
-  refuse("mode is ", static_cast<int>(mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
-}
-
-void check_tool(const Tool& tool, QueryMode mode) {
-  if (!tool.fault.empty()) {
-    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
-  }
-  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
-    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
-           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
-           "(SWEPT)");
-  }
-}
-
-namespace {
-
 /// A query waits at most this long until the background thread has inspected a new surface.
 constexpr std::chrono::milliseconds kLongestInspection(200);
 
-/// CollisionQuery would refuse the same, but for each motion of a batch.
-QueryExtras checked(const QueryExtras& extras) {
-  if (!std::isfinite(extras.margin) || extras.margin < 0.0) {
-    refuse("margin is ", extras.margin,
-           " m; must be positive and finite, or 0 for no clearance within a margin");
+/// What single queries and batches have in common.
+template <typename Request>
+CollisionRequest common_request(const Request& request) {
+  if (request.mode > ContactArray::PAPER_NAIVE) {
+    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
   }
-  if (extras.max_near > 0 && extras.margin == 0.0) {
-    refuse("max_near is ", extras.max_near, ", and margin is 0; near faces need a margin above 0");
-  }
-  if (is_paper_mode(extras.mode) && (extras.margin > 0.0 || extras.clearance || extras.placement)) {
-    refuse("mode is ", static_cast<int>(extras.mode),
-           ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
-           "1 (SWEPT)");
-  }
-  return extras;
-}
-
-}  // namespace
-
-QueryExtras checked_extras(const QueryCollision::Request& request) {
-  return checked({checked_mode(request.mode), request.organ_motion != 0, request.regions != 0,
-                  request.margin, request.clearance != 0, request.max_near,
-                  request.placement != 0});
-}
-
-QueryExtras checked_extras(const QueryCollisionBatch::Request& request) {
-  return checked({checked_mode(request.mode), request.organ_motion != 0, false, request.margin,
-                  request.clearance != 0, 0, request.placement != 0});
-}
-
-CollisionRequest request_about(const QuerySnapshot& snapshot, const QueryExtras& extras) {
   CollisionRequest collision;
-  collision.organ = snapshot.latest.mesh.get();
-  const bool moves = extras.organ_motion && extras.mode == QueryMode::kSwept;
-  if (moves) collision.organ_before = snapshot.previous.mesh.get();
-  collision.mode = extras.mode;
-  collision.regions = extras.regions;
-  collision.margin = extras.margin;
-  collision.clearance = extras.clearance;
-  collision.max_near = extras.max_near;
-  collision.placement = extras.placement;
-  if (extras.placement) {
-    snapshot.latest.surface->wait_until_found(kLongestInspection);
-    collision.surface_topology = snapshot.latest.topology();
-  }
-  if (snapshot.tool) {
-    collision.radius = snapshot.tool->parameters.radius;
-    collision.links = &snapshot.tool->links;
-  }
+  collision.mode = static_cast<QueryMode>(request.mode);
+  collision.margin = request.margin;
+  collision.clearance = request.clearance != 0;
+  collision.placement = request.placement != 0;
   return collision;
 }
 
-namespace {
+/// CollisionQuery would refuse the same, but for each motion of a batch.
+CollisionRequest checked(const CollisionRequest& collision) {
+  const double margin = collision.margin;
+  if (!std::isfinite(margin) || margin < 0.0) {
+    refuse("margin is ", margin,
+           " m; must be positive and finite, or 0 for no clearance within a margin");
+  }
+  if (collision.max_near > 0 && margin == 0.0) {
+    refuse("max_near is ", collision.max_near,
+           ", and margin is 0; near faces need a margin above 0");
+  }
+  const bool asks_more = margin > 0.0 || collision.clearance || collision.placement;
+  if (is_paper_mode(collision.mode) && asks_more) {
+    refuse("mode is ", static_cast<int>(collision.mode),
+           ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
+           "1 (SWEPT)");
+  }
+  return collision;
+}
 
 using Poses = std::vector<geometry_msgs::Pose>;
 
@@ -191,6 +155,41 @@ std::optional<Eigen::Vector3d> tip_of_links(const ToolParameters& tool, const To
 }
 
 }  // namespace
+
+CollisionRequest checked_request(const QueryCollision::Request& request) {
+  CollisionRequest collision = common_request(request);
+  collision.regions = request.regions != 0;
+  collision.max_near = request.max_near;
+  return checked(collision);
+}
+
+CollisionRequest checked_request(const QueryCollisionBatch::Request& request) {
+  return checked(common_request(request));
+}
+
+void check_tool(const Tool& tool, QueryMode mode) {
+  if (!tool.fault.empty()) {
+    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
+  }
+  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
+    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
+           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
+           "(SWEPT)");
+  }
+}
+
+void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequest& collision) {
+  collision.organ = snapshot.latest.mesh.get();
+  const bool moves = organ_motion && collision.mode == QueryMode::kSwept;
+  if (moves) collision.organ_before = snapshot.previous.mesh.get();
+  if (collision.placement) {
+    snapshot.latest.surface->wait_until_found(kLongestInspection);
+    collision.surface_topology = snapshot.latest.topology();
+  }
+  if (!snapshot.tool) return;
+  collision.radius = snapshot.tool->parameters.radius;
+  collision.links = &snapshot.tool->links;
+}
 
 bool is_given(const ToolMotion& motion) { return motion != ToolMotion(); }
 

@@ -28,31 +28,18 @@ template <typename... Parts>
   throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", concatenate(parts...));
 }
 
-/// The mode of a request. Throws Rejection.
-QueryMode checked_mode(std::uint8_t mode);
-
 /// Throws Rejection if the tool has a fault, or if it cannot be asked about in this mode.
 void check_tool(const Tool& tool, QueryMode mode);
 
-/// What a request asks, besides which motion of which tool.
-struct QueryExtras {
-  QueryMode mode;
-  bool organ_motion;
-  bool regions;
-  double margin;  ///< [m]
-  bool clearance;
-  std::size_t max_near;
-  bool placement;
-};
+/// What a request asks, besides the organ and the motion of the tool. Throws Rejection. A batch has
+/// neither regions nor near faces.
+CollisionRequest checked_request(const QueryCollision::Request& request);
+CollisionRequest checked_request(const QueryCollisionBatch::Request& request);
 
-/// The extras of a request, after a check. Throws Rejection. A batch has neither regions nor near
-/// faces.
-QueryExtras checked_extras(const QueryCollision::Request& request);
-QueryExtras checked_extras(const QueryCollisionBatch::Request& request);
-
-/// The request to a CollisionQuery, without the motion. It refers to the snapshot, which must
-/// outlive it. If it asks for sides, waits for at most 0.2 s until a new surface is inspected.
-CollisionRequest request_about(const QuerySnapshot& snapshot, const QueryExtras& extras);
+/// Sets the organ, which moves on request, and the tool. `collision` then refers to the snapshot,
+/// which must outlive it. If it asks for sides, waits for at most 0.2 s until a new surface is
+/// inspected.
+void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequest& collision);
 
 /// A motion that a request gives, in its own frame.
 struct GivenMotion {

@@ -28,16 +28,8 @@ class QueryServices {
   /// throws, and std::runtime_error if the node ends before.
   using InNodeThread = std::function<void(const std::function<void()>& action)>;
 
-  /// All must outlive this.
-  struct Sources {
-    SnapshotTaker::Sources node;
-    InNodeThread in_node_thread;
-    FailureLog& refused;  ///< counts the calls that failed
-    int threads;          ///< that answer a batch together; 0: one for each processor
-  };
-
-  /// Throws GlError.
-  explicit QueryServices(const Sources& sources);
+  /// `node` and `counters` must outlive this. Throws GlError.
+  QueryServices(const NodeState& node, InNodeThread in_node_thread, NodeCounters& counters);
 
   /// Each node handle must have a callback queue with a thread of its own.
   void advertise(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node);
@@ -53,24 +45,20 @@ class QueryServices {
   /// motions than max_batch or if its results exceed max_batch_bytes.
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
 
-  /// What was answered, for any thread.
-  const ServiceStatistics& statistics() const { return statistics_; }
-
  private:
   bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
   bool on_query_batch(QueryCollisionBatch::Request& request,
                       QueryCollisionBatch::Response& response);
 
-  // These throw Rejection, or other exceptions such as std::bad_alloc.
+  // These throw Rejection and other exceptions.
   void answer_one(const QueryCollision::Request& request, ContactArray& answer);
   std::vector<ContactArray> answer_batch(const QueryCollisionBatch::Request& request);
-  QuerySnapshot take_snapshot(const QuerySubject& subject, ContactArray& answer) const;
-  void check_size(std::size_t motions) const;
+  QuerySnapshot snapshot_of(const QuerySubject& subject, ContactArray& answer) const;
 
-  Sources sources_;
-  SnapshotTaker snapshots_;
+  const NodeState node_;
+  const InNodeThread in_node_thread_;
+  NodeCounters& counters_;
   ContactQuery query_;
-  ServiceStatistics statistics_;
   BatchWorkers workers_;
   std::vector<ros::ServiceServer> servers_;
 };

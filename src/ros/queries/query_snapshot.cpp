@@ -17,32 +17,9 @@ void set_end(ros::Time end, ContactArray& answer) {
   answer.step_start = answer.header.stamp;
 }
 
-}  // namespace
-
-QuerySnapshot SnapshotTaker::take(const QuerySubject& subject, ContactArray& answer) const {
-  const Tool* const tool = subject.tool.empty() ? nullptr : &find_tool(subject.tool);
-  if (tool) {
-    set_links(answer, tool->parameters);
-    check_tool(*tool, subject.mode);
-  }
-  const DeformableOrgan& organ = find_organ(subject.organ);
-  set_organ(answer, organ, organ.latest());
-  check_age(organ);
-  QuerySnapshot snapshot;
-  if (tool && subject.moves_as_in_tf) {
-    read_tool_motion(subject, organ, *tool, snapshot, answer);
-  } else {
-    read_motion_frame(subject, organ, snapshot, answer);
-  }
-  snapshot.latest = organ.latest();
-  snapshot.previous = organ.previous();
-  if (tool) snapshot.tool = *tool;
-  return snapshot;
-}
-
-const Tool& SnapshotTaker::find_tool(const std::string& name) const {
+const Tool& find_tool(const NodeState& node, const std::string& name) {
   std::vector<std::string> names;
-  for (const Tool& tool : sources_.tools) {
+  for (const Tool& tool : node.tools) {
     if (tool.parameters.name == name) return tool;
     names.push_back("'" + tool.parameters.name + "'");
   }
@@ -51,25 +28,26 @@ const Tool& SnapshotTaker::find_tool(const std::string& name) const {
                       (names.empty() ? "the node has none" : "known are " + listed(names)));
 }
 
-const DeformableOrgan& SnapshotTaker::find_organ(const std::string& name) const {
+const DeformableOrgan& find_organ(const NodeState& node, const std::string& name) {
   if (name.empty()) refuse("organ is empty; must be an organ's name");
-  return sources_.organs.at(name);
+  return node.organs.at(name);
 }
 
-void SnapshotTaker::check_age(const DeformableOrgan& organ) const {
+void check_age(const NodeState& node, const DeformableOrgan& organ) {
   const ros::Time now = ros::Time::now();
-  const double timeout_sec = sources_.parameters.mesh_timeout_sec;
+  const double timeout_sec = node.parameters.mesh_timeout_sec;
   if (!is_stale(organ.latest(), now, timeout_sec)) return;
   throw Rejection(ContactArray::STALE_MESH, "stale mesh",
                   stale_message(organ.name(), organ.latest(), now, timeout_sec));
 }
 
-void SnapshotTaker::read_motion_frame(const QuerySubject& subject, const DeformableOrgan& organ,
-                                      QuerySnapshot& snapshot, ContactArray& answer) const {
+/// For a motion that the request gives.
+void read_motion_frame(const NodeState& node, const QuerySubject& subject,
+                       const DeformableOrgan& organ, QuerySnapshot& snapshot,
+                       ContactArray& answer) {
   const std::string frame = tf_frame(subject.header.frame_id);
   if (frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");
-  const auto T_organ_motion =
-      look_up(sources_.transforms, organ.frame(), frame, subject.header.stamp);
+  const auto T_organ_motion = look_up(node.transforms, organ.frame(), frame, subject.header.stamp);
   if (!T_organ_motion.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
   }
@@ -77,17 +55,18 @@ void SnapshotTaker::read_motion_frame(const QuerySubject& subject, const Deforma
   set_end(T_organ_motion.found->stamp, answer);
 }
 
-void SnapshotTaker::read_tool_motion(const QuerySubject& subject, const DeformableOrgan& organ,
-                                     const Tool& tool, QuerySnapshot& snapshot,
-                                     ContactArray& answer) const {
-  const auto end = sources_.poses.pose(tool, organ.frame(), subject.header.stamp);
+/// For a tool that moves as in TF.
+void read_tool_motion(const NodeState& node, const QuerySubject& subject,
+                      const DeformableOrgan& organ, const Tool& tool, QuerySnapshot& snapshot,
+                      ContactArray& answer) {
+  const auto end = node.poses.pose(tool, organ.frame(), subject.header.stamp);
   if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
   snapshot.tip = end.found->value.tip;
   set_end(end.found->stamp, answer);
 
-  const auto index = static_cast<std::size_t>(&tool - sources_.tools.data());
-  const LastStep* last = sources_.history.last(organ.name(), index);
-  const bool is_disproved = last && sources_.poses.is_disproved(tool, organ.frame(), last->stamp);
+  const auto index = static_cast<std::size_t>(&tool - node.tools.data());
+  const LastStep* last = node.history.last(organ.name(), index);
+  const bool is_disproved = last && node.poses.is_disproved(tool, organ.frame(), last->stamp);
   if (!last || is_disproved || is_static_mode(subject.mode)) {
     snapshot.path = resting_path(end.found->value);
     return;
@@ -100,11 +79,35 @@ void SnapshotTaker::read_tool_motion(const QuerySubject& subject, const Deformab
            " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
            last->stamp, " s; header.stamp must not be earlier");
   }
-  SampledPath sampled = sources_.poses.path(tool, organ.frame(), {last->pose, last->stamp},
-                                            {end.found->value, answer.header.stamp});
+  SampledPath sampled = node.poses.path(tool, organ.frame(), {last->pose, last->stamp},
+                                        {end.found->value, answer.header.stamp});
   snapshot.path = std::move(sampled.path);
   snapshot.unknown = std::move(sampled.unknown);
   answer.step_start = last->stamp;
+}
+
+}  // namespace
+
+QuerySnapshot take_snapshot(const NodeState& node, const QuerySubject& subject,
+                            ContactArray& answer) {
+  const Tool* const tool = subject.tool.empty() ? nullptr : &find_tool(node, subject.tool);
+  if (tool) {
+    set_links(answer, tool->parameters);
+    check_tool(*tool, subject.mode);
+  }
+  const DeformableOrgan& organ = find_organ(node, subject.organ);
+  set_organ(answer, organ, organ.latest());
+  check_age(node, organ);
+  QuerySnapshot snapshot;
+  if (tool && subject.moves_as_in_tf) {
+    read_tool_motion(node, subject, organ, *tool, snapshot, answer);
+  } else {
+    read_motion_frame(node, subject, organ, snapshot, answer);
+  }
+  snapshot.latest = organ.latest();
+  snapshot.previous = organ.previous();
+  if (tool) snapshot.tool = *tool;
+  return snapshot;
 }
 
 }  // namespace organ_collision

@@ -43,36 +43,20 @@ struct QuerySubject {
   QueryMode mode;
 };
 
-/// Takes snapshots of the node's state. Changes nothing.
-class SnapshotTaker {
- public:
-  /// All must outlive this. Only the node's thread changes them.
-  struct Sources {
-    const NodeParameters& parameters;
-    const std::vector<Tool>& tools;
-    const OrganRegistry& organs;
-    const TransformBuffer& transforms;
-    const ToolPoses& poses;
-    const StepHistory& history;
-  };
-
-  explicit SnapshotTaker(const Sources& sources) : sources_(sources) {}
-
-  /// Call it in the node's thread. Sets what is known of `answer` before there is an answer: tool,
-  /// frame, shape and stamps. Throws Rejection; what was known before is set then, too. The mode
-  /// must be legal.
-  QuerySnapshot take(const QuerySubject& subject, ContactArray& answer) const;
-
- private:
-  const Tool& find_tool(const std::string& name) const;
-  const DeformableOrgan& find_organ(const std::string& name) const;
-  void check_age(const DeformableOrgan& organ) const;
-  void read_motion_frame(const QuerySubject& subject, const DeformableOrgan& organ,
-                         QuerySnapshot& snapshot, ContactArray& answer) const;
-  void read_tool_motion(const QuerySubject& subject, const DeformableOrgan& organ, const Tool& tool,
-                        QuerySnapshot& snapshot, ContactArray& answer) const;
-
-  Sources sources_;
+/// The node's state, from which snapshots are taken. Only the node's thread changes it.
+struct NodeState {
+  const NodeParameters& parameters;
+  const std::vector<Tool>& tools;
+  const OrganRegistry& organs;
+  const TransformBuffer& transforms;
+  const ToolPoses& poses;
+  const StepHistory& history;
 };
+
+/// Takes a snapshot. Call it in the node's thread. Sets what is known of `answer` before there is
+/// an answer: tool, frame, shape and stamps. Throws Rejection; what was known before is set then,
+/// too. The mode must be legal.
+QuerySnapshot take_snapshot(const NodeState& node, const QuerySubject& subject,
+                            ContactArray& answer);
 
 }  // namespace organ_collision

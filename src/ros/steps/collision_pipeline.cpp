@@ -1,41 +1,35 @@
 #include "collision_pipeline.hpp"
 
+#include <utility>
+
 namespace organ_collision {
-namespace {
-
-PathSampling sampling(const NodeParameters& parameters) {
-  return {parameters.motion_sample_sec, parameters.motion_samples_max};
-}
-
-}  // namespace
 
 CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
-                                     const std::vector<Tool>& tools, const Sinks& sinks)
-    : update_(sinks.update),
-      inbox_(
-          {parameters.max_faces, parameters.max_ahead_sec}, parameters.tools,
-          {[this](std::size_t tool) { steps_.add_pose(tool); }, sinks.rejected, sinks.callbacks}),
-      poses_(inbox_.transforms(), sampling(parameters)),
-      workers_(parameters),
-      steps_(parameters, tools, poses_, workers_, sinks.step) {}
+                                     const std::vector<Tool>& tools, FailureLog& rejected,
+                                     Callbacks callbacks,
+                                     std::optional<OrganIntake::Threads> threads)
+    : inbox(
+          {parameters.max_faces, parameters.max_ahead_sec}, parameters.tools, rejected,
+          [this](std::size_t tool) { steps.add_pose(tool); }, threads),
+      poses(inbox.transforms, {parameters.motion_sample_sec, parameters.motion_samples_max}),
+      workers(parameters),
+      steps(parameters, tools, inbox.organs, poses, workers, std::move(callbacks.step)),
+      update_(std::move(callbacks.update)) {}
 
 void CollisionPipeline::watch_clock() {
-  if (inbox_.watch_clock()) steps_.start_anew(inbox_.organs());
+  if (inbox.watch_clock()) steps.start_anew();
 }
 
 void CollisionPipeline::apply_organ_messages(SteadyTime now) {
-  while (const auto update = inbox_.organ_topics().next()) {
-    if (inspects_surfaces_ && update->status == ContactArray::OK) {
-      inbox_.organs().at(update->message.organ()).surface()->find();
-    }
-    steps_.add(inbox_.organs(), *update, now);
+  while (const auto update = inbox.intake.next()) {
+    steps.add(*update, now);
     update_(*update);
   }
 }
 
 void CollisionPipeline::reset() {
-  inbox_.forget_history();
-  steps_.reset();
+  inbox.forget_history();
+  steps.reset();
 }
 
 }  // namespace organ_collision

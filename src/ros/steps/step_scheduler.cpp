@@ -19,18 +19,6 @@ constexpr std::chrono::seconds kStart(2);
 /// How often the node looks for steps that become too long.
 constexpr std::chrono::milliseconds kLookout(100);
 
-/// Empties a list at the end, also by an exception. It keeps its memory.
-class ScopedClear {
- public:
-  explicit ScopedClear(std::vector<DueStep>& steps) : steps_(steps) {}
-  ~ScopedClear() { steps_.clear(); }
-  ScopedClear(const ScopedClear&) = delete;
-  ScopedClear& operator=(const ScopedClear&) = delete;
-
- private:
-  std::vector<DueStep>& steps_;
-};
-
 /// Whether the last step already ended at this pose, against this shape.
 bool is_answered(const OrganToolPair& pair, ros::Time pose) {
   return pair.last && pair.last->mesh == pair.current.mesh && !pose.isZero() &&
@@ -39,76 +27,69 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 
 }  // namespace
 
-void StepScheduler::add(const OrganRegistry& organs, const OrganUpdate& update, SteadyTime now) {
+void StepScheduler::add(const OrganUpdate& update, SteadyTime now) {
   if (!update.change) return;
   const std::string& organ = update.message.organ();
-  if (update.change != OrganChange::kShape) forget([&] { history_.forget(organ); });
-  if (update.change != OrganChange::kRemoved) add_shape(organs.at(organ), now);
+  if (update.change != OrganChange::kShape) history_.forget(organ);
+  if (update.change == OrganChange::kRemoved) return;
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
+    ShapeQueue& queue = history_.of(organ, tool).queue;
+    if (queue.push({organs_.at(organ).latest(), now}, keeps_all_shapes_)) ++shapes_.superseded;
+    ++shapes_.due;
+  }
 }
 
 void StepScheduler::add_pose(std::size_t tool) {
   if (std::exchange(tool_is_due_[tool], true)) ++poses_merged_;
 }
 
-void StepScheduler::evaluate(const OrganRegistry& organs, SteadyTime now) {
+void StepScheduler::evaluate(SteadyTime now) {
   now_ = now;
+  due_.clear();  // An exception may have ended the last round.
   do {
-    plan_waiting(organs, now);
+    for (auto& [key, pair] : history_.pairs()) {
+      if (pair.queue.front()) plan_front(organs_.at(key.first), key.second, pair);
+    }
   } while (evaluate_due());  // Behind each shape, another one may wait.
   for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
-    if (std::exchange(tool_is_due_[tool], false)) plan_latest(organs, tool, now);
+    if (!std::exchange(tool_is_due_[tool], false)) continue;
+    for (const auto& [name, organ] : organs_.organs()) plan_latest(organ, tool, true);
   }
   evaluate_due();
-  if (std::exchange(tick_is_due_, false)) plan_tick(organs, now);
+  if (std::exchange(tick_is_due_, false)) {
+    for (const auto& [name, organ] : organs_.organs()) {
+      for (std::size_t tool = 0; tool < tools_.size(); ++tool) plan_latest(organ, tool, false);
+    }
+  }
   evaluate_due();
   // In a replay, `now` may go back.
   if (now < next_lookout_ && next_lookout_ - now <= kLookout) return;
   next_lookout_ = now + kLookout;
-  plan_long_steps(organs, now);
+  plan_long_steps();
   evaluate_due();
 }
 
 /// Evaluates and publishes the steps that are due. Returns whether there were any.
 bool StepScheduler::evaluate_due() {
   if (due_.empty()) return false;
-  const ScopedClear clear(due_);
   workers_.run(evaluator_, due_, deliver_);
+  due_.clear();
   return true;
-}
-
-void StepScheduler::add_shape(const DeformableOrgan& organ, SteadyTime now) {
-  for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-    ShapeQueue& queue = history_.of(organ.name(), tool).queue;
-    if (queue.push({organ.latest(), now}, keeps_all_shapes_)) ++shapes_.superseded;
-    ++shapes_.due;
-  }
-}
-
-/// Forgets a part of the history, and counts the shapes that waited in it.
-void StepScheduler::forget(const std::function<void()>& history) {
-  const std::size_t waited = history_.waiting();
-  history();
-  shapes_.forgotten += waited - history_.waiting();
 }
 
 ShapeCounts StepScheduler::shapes() const {
   ShapeCounts shapes = shapes_;
   shapes.waiting = history_.waiting();
+  shapes.forgotten = shapes.due - shapes.answered - shapes.superseded - shapes.waiting;
   return shapes;
 }
 
-void StepScheduler::plan_waiting(const OrganRegistry& organs, SteadyTime now) {
-  for (auto& [key, pair] : history_.pairs()) {
-    if (pair.queue.front()) plan_front(organs.at(key.first), key.second, pair, now);
-  }
-}
-
 /// Plans nothing if the shape still waits for its transform.
-void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                               SteadyTime now) {
+void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
+                               OrganToolPair& pair) {
   const ShapeQueue::Entry& entry = *pair.queue.front();
   const ros::Time stamp = entry.shape.stamp;
-  const bool may_wait = now < deadline(entry);
+  const bool may_wait = now_ < deadline(entry);
   forget_if_disproved(organ, tool, pair);
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
   const bool faulty = !tools_[tool].fault.empty();
@@ -120,7 +101,6 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, O
   }
   pair.current = entry.shape;
   pair.queue.pop();
-  ++shapes_.forgotten;  // Until deliver(), which an exception may prevent.
   DueStep step{&organ, tool, &pair};
   step.is_of_shape = true;
   const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
@@ -131,24 +111,14 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool, O
   } else if (end.found) {
     plan_step(std::move(step), *std::move(end.found));
   } else {
-    plan_without_transform(std::move(step), failure, end.why_not + waited(), now);
+    plan_without_transform(std::move(step), failure,
+                           end.why_not + "; waited " + duration_text(parameters_.tf_timeout_sec) +
+                               " (tf_timeout_sec)");
   }
 }
 
-/// All organs and tools with the latest poses.
-void StepScheduler::plan_tick(const OrganRegistry& organs, SteadyTime now) {
-  for (const auto& [name, organ] : organs.organs()) {
-    for (std::size_t tool = 0; tool < tools_.size(); ++tool) plan_latest(organ, tool, now, false);
-  }
-}
-
-/// All organs with the latest pose of one tool, unless that pose is answered already.
-void StepScheduler::plan_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now) {
-  for (const auto& [name, organ] : organs.organs()) plan_latest(organ, tool, now, true);
-}
-
-void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now,
-                                bool only_new) {
+/// With the latest poses. `only_new`: unless they are answered already.
+void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new) {
   OrganToolPair& pair = history_.of(organ.name(), tool);
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   forget_if_disproved(organ, tool, pair);
@@ -167,31 +137,31 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
     if (only_new && is_answered(pair, end.found->stamp)) return;
     plan_step(std::move(step), *std::move(end.found));
   } else {
-    plan_without_transform(std::move(step), stamp, end.why_not, now);
+    plan_without_transform(std::move(step), stamp, end.why_not);
   }
 }
 
 /// The pairs whose last step was so long ago that TF would soon forget how the tool moved since.
-void StepScheduler::plan_long_steps(const OrganRegistry& organs, SteadyTime now) {
+void StepScheduler::plan_long_steps() {
   const auto longest = std::chrono::nanoseconds(poses_.longest_step().toNSec());
   for (auto& [key, pair] : history_.pairs()) {
     if (!pair.last) continue;
     const auto& [organ_name, tool] = key;
-    const DeformableOrgan& organ = organs.at(organ_name);
+    const DeformableOrgan& organ = organs_.at(organ_name);
     if (forget_if_disproved(organ, tool, pair)) {
-      plan_latest(organ, tool, now, true);
+      plan_latest(organ, tool, true);
       continue;
     }
-    if (pair.tried && now - *pair.tried < longest) continue;
+    if (pair.tried && now_ - *pair.tried < longest) continue;
     const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
     if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
     const ros::Time from = pair.last->stamp, to = pose.found->stamp;
     const bool is_long =
-        to > from && (now - pair.last->taken >= longest ||
+        to > from && (now_ - pair.last->taken >= longest ||
                       poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
     if (!is_long) continue;
-    pair.tried = now;
-    plan_latest(organ, tool, now, true);
+    pair.tried = now_;
+    plan_latest(organ, tool, true);
   }
 }
 
@@ -210,13 +180,13 @@ bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_
   return true;
 }
 
-void StepScheduler::change_tools(const OrganRegistry& organs, const KeptTools& kept) {
-  forget([&] { history_.renumber(kept); });
+void StepScheduler::change_tools(const KeptTools& kept) {
+  history_.renumber(kept);
   const std::vector<char> was_due = std::exchange(tool_is_due_, std::vector<char>(kept.size()));
   for (std::size_t tool = 0; tool < kept.size(); ++tool) {
     tool_is_due_[tool] = !kept[tool] || was_due[*kept[tool]];
     if (kept[tool]) continue;
-    for (const auto& [name, organ] : organs.organs()) {
+    for (const auto& [name, organ] : organs_.organs()) {
       history_.of(name, tool).current = organ.latest();
     }
   }
@@ -229,9 +199,9 @@ void StepScheduler::reset() {
   }
 }
 
-void StepScheduler::start_anew(const OrganRegistry& organs) {
-  forget([this] { history_.clear(); });
-  for (const auto& [name, organ] : organs.organs()) {
+void StepScheduler::start_anew() {
+  history_.clear();
+  for (const auto& [name, organ] : organs_.organs()) {
     for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
       history_.of(name, tool).current = organ.latest();
     }
@@ -276,21 +246,17 @@ void StepScheduler::plan_failure(DueStep step, ros::Time stamp, std::uint8_t sta
   due_.push_back(std::move(step));
 }
 
-void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const std::string& why,
-                                           SteadyTime now) {
+void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const std::string& why) {
   OrganToolPair& pair = *step.pair;
-  if (!pair.first_without_transform) pair.first_without_transform = now;
-  step.is_starting = !pair.last && now - *pair.first_without_transform < kStart;
+  if (!pair.first_without_transform) pair.first_without_transform = now_;
+  step.is_starting = !pair.last && now_ - *pair.first_without_transform < kStart;
   plan_failure(std::move(step), stamp, ContactArray::NO_TRANSFORM, why);
 }
 
 /// Makes the step the last one of its pair, and publishes it.
 void StepScheduler::deliver(DueStep& step) {
   OrganToolPair& pair = *step.pair;
-  if (step.is_of_shape) {
-    ++shapes_.answered;
-    --shapes_.forgotten;
-  }
+  if (step.is_of_shape) ++shapes_.answered;
   samples_cut_ += step.samples_cut;
   deviation_cut_ = std::max(deviation_cut_, step.deviation_cut);
   if (step.answer->status == ContactArray::OK) {
@@ -301,10 +267,6 @@ void StepScheduler::deliver(DueStep& step) {
   }
   pair.answer = step.answer;
   publish_({step.answer, *pair.current.mesh, step.request.path, step.query_sec, step.is_starting});
-}
-
-std::string StepScheduler::waited() const {
-  return "; waited " + duration_text(parameters_.tf_timeout_sec) + " (tf_timeout_sec)";
 }
 
 SteadyTime StepScheduler::deadline(const ShapeQueue::Entry& entry) const {

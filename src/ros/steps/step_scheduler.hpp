@@ -58,11 +58,13 @@ class StepScheduler {
   using Publish = std::function<void(const EvaluatedStep&)>;
 
   /// The references must outlive this. `publish` gets the steps of a round in their
-  /// order. One that is ready waits for at most one task and 0.2 ms (worker_threads.hpp).
-  StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools, ToolPoses& poses,
-                StepWorkers& workers, Publish publish)
+  /// order. One that is ready waits for at most one task (worker_threads.hpp).
+  StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools,
+                const OrganRegistry& organs, ToolPoses& poses, StepWorkers& workers,
+                Publish publish)
       : parameters_(parameters),
         tools_(tools),
+        organs_(organs),
         poses_(poses),
         evaluator_(parameters, tools, poses),
         workers_(workers),
@@ -72,7 +74,7 @@ class StepScheduler {
 
   /// Notes what a message did to an organ. A new shape becomes due for every tool. Forgets history
   /// that cannot be compared with the organ's new shape.
-  void add(const OrganRegistry& organs, const OrganUpdate& update, SteadyTime now);
+  void add(const OrganUpdate& update, SteadyTime now);
   /// Notes that a tool's tip has a new pose: the tool becomes due.
   void add_pose(std::size_t tool);
   /// Makes every tool due.
@@ -85,18 +87,18 @@ class StepScheduler {
   /// then the tools whose tips moved, then, at a tick, all tools. The latter two use the latest
   /// poses. At last, the tools whose ways TF would soon forget: no step is longer than half of what
   /// it keeps.
-  void evaluate(const OrganRegistry& organs, SteadyTime now);
+  void evaluate(SteadyTime now);
 
   /// For a new list of tools, which must be in place already. The kept tools keep their history and
   /// what is due. The other tools become due, with a static step against each organ's latest shape.
-  void change_tools(const OrganRegistry& organs, const KeptTools& kept);
+  void change_tools(const KeptTools& kept);
 
   /// Forgets all history: the next step of every tool is static. Waiting shapes go on waiting.
   void reset();
   /// For a clock that jumped back: forgets all history, and drops the shapes that wait, because
   /// their transforms will not come. Ticks and poses are evaluated against each organ's latest
   /// shape.
-  void start_anew(const OrganRegistry& organs);
+  void start_anew();
 
   /// When evaluate() has something to do even if no transform comes; std::nullopt: never.
   std::optional<SteadyTime> next_deadline() const;
@@ -115,31 +117,23 @@ class StepScheduler {
   ShapeCounts shapes() const;
 
  private:
-  void add_shape(const DeformableOrgan& organ, SteadyTime now);
-  void forget(const std::function<void()>& history);
-
   // These find out which steps are due.
-  void plan_waiting(const OrganRegistry& organs, SteadyTime now);
-  void plan_latest(const OrganRegistry& organs, std::size_t tool, SteadyTime now);
-  void plan_tick(const OrganRegistry& organs, SteadyTime now);
-  void plan_long_steps(const OrganRegistry& organs, SteadyTime now);
-  void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair,
-                  SteadyTime now);
-  void plan_latest(const DeformableOrgan& organ, std::size_t tool, SteadyTime now, bool only_new);
+  void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
+  void plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new);
+  void plan_long_steps();
   bool forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   void plan_step(DueStep step, Timed<ToolPose> end);
   void plan_held(DueStep step);
   void plan_failure(DueStep step, ros::Time stamp, std::uint8_t status, const std::string& message);
-  void plan_without_transform(DueStep step, ros::Time stamp, const std::string& why,
-                              SteadyTime now);
+  void plan_without_transform(DueStep step, ros::Time stamp, const std::string& why);
 
   bool evaluate_due();
   void deliver(DueStep& step);
   SteadyTime deadline(const ShapeQueue::Entry& entry) const;
-  std::string waited() const;
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;
+  const OrganRegistry& organs_;
   ToolPoses& poses_;
   StepEvaluator evaluator_;
   StepWorkers& workers_;
@@ -152,7 +146,7 @@ class StepScheduler {
   SteadyTime now_;           ///< of the last call of evaluate()
   SteadyTime next_lookout_;  ///< for steps that become too long
   bool keeps_all_shapes_ = false;
-  ShapeCounts shapes_;  ///< without those that wait
+  ShapeCounts shapes_;  ///< without forgotten and waiting
   std::size_t poses_merged_ = 0;
   std::size_t samples_cut_ = 0;
   double deviation_cut_ = 0.0;

@@ -14,9 +14,10 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 #include <system_error>
 #include <utility>
+
+#include "geometry/concatenate.hpp"
 
 namespace organ_collision {
 namespace {
@@ -64,45 +65,33 @@ void open_input(const std::string& input, Descriptor& descriptor) {
   if (lseek(descriptor.get(), 0, SEEK_SET) != 0) fail(errno, "lseek");
 }
 
-/// The new process gets its standard streams, and no signal is blocked or ignored in it.
-class SpawnSettings {
- public:
-  SpawnSettings(int input, int output) {
-    posix_spawn_file_actions_init(&actions_);
-    posix_spawn_file_actions_adddup2(&actions_, input, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions_, output, STDOUT_FILENO);
-    posix_spawnattr_init(&attributes_);
-    sigset_t signals;
-    sigemptyset(&signals);
-    posix_spawnattr_setsigmask(&attributes_, &signals);
-    sigfillset(&signals);
-    posix_spawnattr_setsigdefault(&attributes_, &signals);
-    posix_spawnattr_setflags(&attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+/// Starts a process with these standard streams. No signal is blocked or ignored in it.
+pid_t start_process(const std::vector<std::string>& command, int input, int output) {
+  std::vector<char*> arguments;
+  for (const std::string& argument : command) {
+    arguments.push_back(const_cast<char*>(argument.c_str()));
   }
-  ~SpawnSettings() {
-    posix_spawnattr_destroy(&attributes_);
-    posix_spawn_file_actions_destroy(&actions_);
-  }
-  SpawnSettings(const SpawnSettings&) = delete;
-  SpawnSettings& operator=(const SpawnSettings&) = delete;
-
-  pid_t start(const std::vector<std::string>& command) const {
-    std::vector<char*> arguments;
-    for (const std::string& argument : command) {
-      arguments.push_back(const_cast<char*>(argument.c_str()));
-    }
-    arguments.push_back(nullptr);
-    pid_t process = 0;
-    const int error =
-        posix_spawn(&process, arguments[0], &actions_, &attributes_, arguments.data(), environ);
-    if (error != 0) fail(error, arguments[0]);
-    return process;
-  }
-
- private:
-  posix_spawn_file_actions_t actions_;
-  posix_spawnattr_t attributes_;
-};
+  arguments.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigemptyset(&signals);
+  posix_spawnattr_setsigmask(&attributes, &signals);
+  sigfillset(&signals);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  pid_t process = 0;
+  const int error =
+      posix_spawn(&process, arguments[0], &actions, &attributes, arguments.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) fail(error, arguments[0]);
+  return process;
+}
 
 /// A running process. The destructor kills it and waits for its end, unless end() was called.
 class Child {
@@ -132,14 +121,12 @@ class Child {
 };
 
 std::string describe(int status) {
-  std::ostringstream failure;
   if (WIFSIGNALED(status)) {
-    failure << "was ended by signal " << WTERMSIG(status) << " (" << strsignal(WTERMSIG(status))
-            << ")";
-  } else if (WEXITSTATUS(status) != 0) {
-    failure << "ended with exit code " << WEXITSTATUS(status);
+    const int signal = WTERMSIG(status);
+    return "was ended by signal " + std::to_string(signal) + " (" + strsignal(signal) + ")";
   }
-  return failure.str();
+  const int code = WEXITSTATUS(status);
+  return code == 0 ? "" : "ended with exit code " + std::to_string(code);
 }
 
 /// Reads until the other end is closed. Returns why it stopped earlier, or an empty text.
@@ -151,9 +138,8 @@ std::string read_all(int descriptor, const ProcessLimits& limits, std::string& o
     pollfd waited{descriptor, POLLIN, 0};
     const int ready = poll(&waited, 1, static_cast<int>(std::max<long>(0, left.count())));
     if (ready == 0) {
-      std::ostringstream failure;
-      failure << "took more than " << std::chrono::duration<double>(limits.time).count() << " s";
-      return failure.str();
+      return concatenate("took more than ", std::chrono::duration<double>(limits.time).count(),
+                         " s");
     }
     const ssize_t count = ready < 0 ? -1 : read(descriptor, block.data(), block.size());
     if (count < 0 && errno != EINTR) fail(errno, "read");
@@ -165,28 +151,6 @@ std::string read_all(int descriptor, const ProcessLimits& limits, std::string& o
     output.append(block.data(), static_cast<std::size_t>(count));
   }
 }
-
-}  // namespace
-
-ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
-                          const ProcessLimits& limits) {
-  Descriptor given, read_end, write_end;
-  open_input(input, given);
-  std::array<int, 2> pipe_ends;
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) fail(errno, "pipe");
-  read_end.take(pipe_ends[0], "pipe");
-  write_end.take(pipe_ends[1], "pipe");
-
-  Child child(SpawnSettings(given.get(), write_end.get()).start(command));
-  write_end.close();  // Only the child holds this end now.
-  ProcessResult result;
-  result.failure = read_all(read_end.get(), limits, result.output);
-  const int status = child.end();
-  if (result.failure.empty()) result.failure = describe(status);
-  return result;
-}
-
-namespace {
 
 constexpr char kProgram[] = "robot_reader";
 
@@ -242,6 +206,24 @@ std::vector<LinkDescription> read(const std::string& urdf, const std::string& in
 }
 
 }  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
+                          const ProcessLimits& limits) {
+  Descriptor given, read_end, write_end;
+  open_input(input, given);
+  std::array<int, 2> pipe_ends;
+  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) fail(errno, "pipe");
+  read_end.take(pipe_ends[0], "pipe");
+  write_end.take(pipe_ends[1], "pipe");
+
+  Child child(start_process(command, given.get(), write_end.get()));
+  write_end.close();  // Only the child holds this end now.
+  ProcessResult result;
+  result.failure = read_all(read_end.get(), limits, result.output);
+  const int status = child.end();
+  if (result.failure.empty()) result.failure = describe(status);
+  return result;
+}
 
 std::vector<LinkDescription> read_robot_file(const std::string& urdf,
                                              const std::vector<std::string>& links) {

@@ -1,194 +1,131 @@
 #include "robot_reply.hpp"
 
+#include <organ_collision/RobotRecord.h>
+
 #include <cstdint>
-#include <cstring>
 #include <utility>
+
+#include "ros/messages/checked_messages.hpp"
 
 namespace organ_collision {
 namespace {
 
-enum class Record : std::uint64_t { kReading = 1, kRefusal, kLinks };
+using Eigen::Vector3d;
 
 struct Malformed : std::runtime_error {
   Malformed() : std::runtime_error("malformed reply") {}
 };
 
-class ReplyWriter {
- public:
-  std::string bytes() && { return std::move(bytes_); }
+static_assert(RobotShape::SPHERE == static_cast<int>(ShapeKind::kSphere) &&
+              RobotShape::CYLINDER == static_cast<int>(ShapeKind::kCylinder) &&
+              RobotShape::BOX == static_cast<int>(ShapeKind::kBox) &&
+              RobotShape::MESH == static_cast<int>(ShapeKind::kMesh));
 
-  template <typename Value>
-  void value(const Value& value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(value));
+void write(const ShapeDescription& shape, RobotShape& message) {
+  message.kind = static_cast<std::uint8_t>(shape.kind);
+  Eigen::Map<Vector3d>(&message.pose[0]) = shape.pose.position;
+  Eigen::Map<Eigen::Vector4d>(&message.pose[3]) = shape.pose.orientation.coeffs();
+  Eigen::Map<Vector3d>(&message.size[0]) = shape.size;
+  message.file = shape.mesh.file;
+  message.vertices.reserve(3 * shape.mesh.vertices.size());
+  for (const Vector3d& vertex : shape.mesh.vertices) {
+    message.vertices.insert(message.vertices.end(), vertex.data(), vertex.data() + 3);
   }
-  /// A text, or an array of numbers.
-  template <typename List>
-  void list(const List& list) {
-    value<std::uint64_t>(list.size());
-    bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(list[0]));
-  }
-
- private:
-  std::string bytes_;
-};
-
-class ReplyReader {
- public:
-  explicit ReplyReader(const std::string& bytes) : bytes_(bytes) {}
-  bool at_end() const { return next_ == bytes_.size(); }
-
-  template <typename Value>
-  void value(Value& value) {
-    copy(&value, sizeof(value));
-  }
-  template <typename List>
-  void list(List& list) {
-    std::uint64_t size = 0;
-    value(size);
-    // Checked before the allocation: a malformed size must not exhaust the memory.
-    if (size > left() / sizeof(list[0])) throw Malformed();
-    list.resize(size);
-    copy(list.data(), size * sizeof(list[0]));
-  }
-
- private:
-  std::size_t left() const { return bytes_.size() - next_; }
-  void copy(void* to, std::size_t size) {
-    if (size > left()) throw Malformed();
-    if (size > 0) std::memcpy(to, bytes_.data() + next_, size);
-    next_ += size;
-  }
-
-  const std::string& bytes_;
-  std::size_t next_ = 0;
-};
-
-// The members of each description in their order, the same for writer and reader.
-
-template <typename Archive>
-void transfer(Archive& archive, ShapePose& pose) {
-  archive.value(pose.position);
-  archive.value(pose.orientation);
-}
-
-template <typename Archive>
-void transfer(Archive& archive, SphereDescription& sphere) {
-  transfer(archive, sphere.pose);
-  archive.value(sphere.radius);
-}
-
-template <typename Archive>
-void transfer(Archive& archive, CylinderDescription& cylinder) {
-  transfer(archive, cylinder.pose);
-  archive.value(cylinder.radius);
-  archive.value(cylinder.length);
-}
-
-template <typename Archive>
-void transfer(Archive& archive, BoxDescription& box) {
-  transfer(archive, box.pose);
-  archive.value(box.size);
-}
-
-template <typename Archive>
-void transfer(Archive& archive, MeshDescription& mesh) {
-  archive.list(mesh.file);
-  archive.list(mesh.vertices);
-  archive.list(mesh.triangles);
-}
-
-ShapeDescription empty_shape(std::uint64_t kind) {
-  switch (kind) {
-    case 0:
-      return SphereDescription();
-    case 1:
-      return CylinderDescription();
-    case 2:
-      return BoxDescription();
-    case 3:
-      return MeshDescription();
-    default:
-      throw Malformed();
+  message.triangles.reserve(3 * shape.mesh.triangles.size());
+  for (const FaceIndices& corners : shape.mesh.triangles) {
+    message.triangles.insert(message.triangles.end(), corners.begin(), corners.end());
   }
 }
 
-template <typename Archive>
-void transfer(Archive& archive, ShapeDescription& shape) {
-  std::uint64_t kind = shape.index();
-  archive.value(kind);
-  if (kind != shape.index()) shape = empty_shape(kind);
-  std::visit([&](auto& described) { transfer(archive, described); }, shape);
-}
-
-template <typename Archive, typename Item>
-void transfer(Archive& archive, std::vector<Item>& items);
-
-template <typename Archive>
-void transfer(Archive& archive, LinkDescription& link) {
-  archive.list(link.joint);
-  transfer(archive, link.shapes);
-}
-
-template <typename Archive, typename Item>
-void transfer(Archive& archive, std::vector<Item>& items) {
-  std::uint64_t count = items.size();
-  archive.value(count);
-  for (std::uint64_t i = 0; i < count; ++i) {
-    if (i == items.size()) items.emplace_back();
-    transfer(archive, items[i]);
+ShapeDescription shape_of(const RobotShape& message) {
+  const std::vector<double>& vertices = message.vertices;
+  const std::vector<std::uint32_t>& triangles = message.triangles;
+  if (message.kind > RobotShape::MESH) throw Malformed();
+  if (vertices.size() % 3 != 0 || triangles.size() % 3 != 0) throw Malformed();
+  ShapeDescription shape{static_cast<ShapeKind>(message.kind),
+                         {Vector3d(&message.pose[0]), Eigen::Quaterniond(&message.pose[3])},
+                         Vector3d(&message.size[0]),
+                         {message.file, {}, {}}};
+  shape.mesh.vertices.reserve(vertices.size() / 3);
+  for (std::size_t i = 0; i < vertices.size(); i += 3) {
+    shape.mesh.vertices.emplace_back(&vertices[i]);
   }
-}
-
-std::string text_record(Record record, const std::string& text) {
-  ReplyWriter writer;
-  writer.value(record);
-  writer.list(text);
-  return std::move(writer).bytes();
-}
-
-/// Throws Malformed; what was read before that stays in `reply`.
-void take(ReplyReader& reader, RobotReply& reply) {
-  Record record{};
-  for (reader.value(record); record == Record::kReading; reader.value(record)) {
-    reader.list(reply.reading);
+  shape.mesh.triangles.reserve(triangles.size() / 3);
+  for (std::size_t i = 0; i < triangles.size(); i += 3) {
+    shape.mesh.triangles.push_back({triangles[i], triangles[i + 1], triangles[i + 2]});
   }
-  std::string refusal;
+  return shape;
+}
+
+std::vector<LinkDescription> links_of(const RobotRecord& record) {
   std::vector<LinkDescription> links;
-  const bool is_refusal = record == Record::kRefusal;
-  if (is_refusal) {
-    reader.list(refusal);
-  } else if (record == Record::kLinks) {
-    transfer(reader, links);
-  } else {
-    throw Malformed();
+  for (const RobotLink& message : record.links) {
+    LinkDescription& link = links.emplace_back();
+    link.joint = message.joint;
+    for (const RobotShape& shape : message.shapes) link.shapes.push_back(shape_of(shape));
   }
-  if (!reader.at_end()) throw Malformed();
-  if (is_refusal) {
-    reply.refusal = std::move(refusal);
+  return links;
+}
+
+std::string bytes_of(const RobotRecord& record) {
+  std::string bytes(ros::serialization::serializationLength(record), '\0');
+  ros::serialization::OStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  ros::serialization::serialize(stream, record);
+  return bytes;
+}
+
+std::string text_record(std::uint8_t kind, const std::string& text) {
+  RobotRecord record;
+  record.kind = kind;
+  record.text = text;
+  return bytes_of(record);
+}
+
+/// Throws a std::runtime_error; what was read before that stays in `reply`.
+void read(CheckedStream stream, RobotReply& reply) {
+  RobotRecord record;
+  for (stream.next(record); record.kind == RobotRecord::READING; stream.next(record)) {
+    reply.reading = record.text;
+  }
+  if (stream.getLength() != 0 || record.kind > RobotRecord::LINKS) throw Malformed();
+  if (record.kind == RobotRecord::REFUSAL) {
+    reply.refusal = record.text;
   } else {
-    reply.links = std::move(links);
+    reply.links = links_of(record);
   }
 }
 
 }  // namespace
 
-std::string reading_record(const std::string& what) { return text_record(Record::kReading, what); }
+std::string reading_record(const std::string& what) {
+  return text_record(RobotRecord::READING, what);
+}
 
-std::string refusal_record(const std::string& why) { return text_record(Record::kRefusal, why); }
+std::string refusal_record(const std::string& why) {
+  return text_record(RobotRecord::REFUSAL, why);
+}
 
-std::string links_record(std::vector<LinkDescription> links) {
-  ReplyWriter writer;
-  writer.value(Record::kLinks);
-  transfer(writer, links);
-  return std::move(writer).bytes();
+std::string links_record(const std::vector<LinkDescription>& links) {
+  RobotRecord record;
+  record.kind = RobotRecord::LINKS;
+  for (const LinkDescription& link : links) {
+    RobotLink& message = record.links.emplace_back();
+    message.joint = link.joint;
+    for (const ShapeDescription& shape : link.shapes) {
+      write(shape, message.shapes.emplace_back());
+    }
+  }
+  return bytes_of(record);
 }
 
 RobotReply parse_reply(const std::string& bytes) {
   RobotReply reply;
-  ReplyReader reader(bytes);
   try {
-    take(reader, reply);
-  } catch (const Malformed&) {
+    read({reinterpret_cast<const std::uint8_t*>(bytes.data()),
+          static_cast<std::uint32_t>(bytes.size())},
+         reply);
+  } catch (const std::runtime_error&) {
     // The reply has neither links nor a refusal.
   }
   return reply;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "organ_collision/geometry/organ/face_clusters.hpp"
@@ -28,23 +27,6 @@ struct ShapePose {
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
 };
 
-struct SphereDescription {
-  ShapePose pose;
-  double radius = 0.0;
-};
-
-/// Its axis is z; the origin is its centre.
-struct CylinderDescription {
-  ShapePose pose;
-  double radius = 0.0, length = 0.0;
-};
-
-/// `size` along x, y and z [m]; the origin is its centre.
-struct BoxDescription {
-  ShapePose pose;
-  Eigen::Vector3d size = Eigen::Vector3d::Zero();
-};
-
 /// Already scaled, and in the link's frame.
 struct MeshDescription {
   std::string file;  ///< as the URDF names it
@@ -52,20 +34,43 @@ struct MeshDescription {
   std::vector<FaceIndices> triangles;
 };
 
-using ShapeDescription =
-    std::variant<SphereDescription, CylinderDescription, BoxDescription, MeshDescription>;
+/// The axis of a cylinder is z. The origin is the centre.
+enum class ShapeKind { kSphere, kCylinder, kBox, kMesh };
+
+struct ShapeDescription {
+  ShapeKind kind = ShapeKind::kSphere;
+  ShapePose pose = {};  ///< not of a mesh
+  /// [m] Of a sphere: its radius. Of a cylinder: its radius and length. Of a box: along x, y and z.
+  Eigen::Vector3d size = Eigen::Vector3d::Zero();
+  MeshDescription mesh = {};
+};
 
 struct LinkDescription {
   std::string joint;  ///< moves the link relative to its parent; empty: fixed, or the root
   std::vector<ShapeDescription> shapes;
 };
 
-}  // namespace organ_collision
+// What the program robot_reader writes to the node: messages of the type RobotRecord, one after the
+// other. Before it reads a file, it writes the name of the file, so that the node can say which
+// file ended the program. At the end it writes the links, or why it has none.
 
-/// What reading a robot's description may cost. The program robot_reader sets limits for
-/// itself. The node enforces the last two on the program.
+std::string reading_record(const std::string& what);
+std::string refusal_record(const std::string& why);
+std::string links_record(const std::vector<LinkDescription>& links);
 
-namespace organ_collision::reader_limits {
+/// Either `refusal` or `links` is set; neither, if the reply is cut off or malformed.
+struct RobotReply {
+  std::string reading;  ///< the file that was being read last; empty: the URDF itself
+  std::optional<std::string> refusal;
+  std::optional<std::vector<LinkDescription>> links;
+};
+
+/// Safe for any bytes: whatever is not exactly one complete reply is malformed.
+RobotReply parse_reply(const std::string& bytes);
+
+/// What reading a robot's description may cost. The program robot_reader sets limits for itself.
+/// The node enforces the last two on the program.
+namespace reader_limits {
 
 /// [bytes] Of the URDF, and of each mesh file. An STL file of two million triangles has this size.
 inline constexpr std::size_t kFileBytes = 100'000'000;
@@ -82,26 +87,6 @@ inline constexpr std::size_t kMeshBytesPerMillisecond = 2000;
 inline constexpr std::chrono::seconds kTime{30};
 inline constexpr std::size_t kReplyBytes = 500'000'000;
 
-}  // namespace organ_collision::reader_limits
-
-namespace organ_collision {
-
-// What the program robot_reader writes to the node. Before it reads a file, it writes the name of
-// the file, so that the node can say which file ended the program. At the end it writes the links,
-// or why it has none. Numbers are in native byte order: both programs run on the same machine.
-
-std::string reading_record(const std::string& what);
-std::string refusal_record(const std::string& why);
-std::string links_record(std::vector<LinkDescription> links);
-
-/// Either `refusal` or `links` is set; neither, if the reply is cut off or malformed.
-struct RobotReply {
-  std::string reading;  ///< the file that was being read last; empty: the URDF itself
-  std::optional<std::string> refusal;
-  std::optional<std::vector<LinkDescription>> links;
-};
-
-/// Safe for any bytes: whatever is not exactly one complete reply is malformed.
-RobotReply parse_reply(const std::string& bytes);
+}  // namespace reader_limits
 
 }  // namespace organ_collision

@@ -14,8 +14,6 @@
 namespace organ_collision {
 namespace {
 
-using Eigen::Vector3d;
-
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
   throw ToolError(concatenate(parts...));
@@ -38,23 +36,7 @@ Eigen::Isometry3d checked_pose(const ShapePose& pose) {
   return Eigen::Translation3d(pose.position) * pose.orientation.normalized();
 }
 
-LinkPart part(const SphereDescription& sphere) {
-  return LinkPart::sphere(checked_pose(sphere.pose).translation(),
-                          checked_size("a sphere's radius", sphere.radius));
-}
-
-LinkPart part(const CylinderDescription& cylinder) {
-  return LinkPart::cylinder(checked_pose(cylinder.pose),
-                            checked_size("a cylinder's radius", cylinder.radius),
-                            checked_size("a cylinder's length", cylinder.length));
-}
-
-LinkPart part(const BoxDescription& box) {
-  for (int axis = 0; axis < 3; ++axis) checked_size("a box's side", box.size[axis]);
-  return LinkPart::box(checked_pose(box.pose), box.size);
-}
-
-LinkPart part(MeshDescription& mesh) {
+LinkPart mesh_part(MeshDescription mesh) {
   try {
     return LinkPart::mesh({std::move(mesh.vertices), std::move(mesh.triangles)});
   } catch (const MeshError& error) {
@@ -62,22 +44,24 @@ LinkPart part(MeshDescription& mesh) {
   }
 }
 
-}  // namespace
-
-Link build_link(const std::string& name, LinkDescription description) {
-  Link link{name, {}};
-  try {
-    for (ShapeDescription& shape : description.shapes) {
-      link.parts.push_back(std::visit([](auto& described) { return part(described); }, shape));
-    }
-    if (link.parts.empty()) refuse("has no collision or visual geometry; name links that have");
-  } catch (const ToolError& error) {
-    refuse("link '", name, "': ", error.what());
+LinkPart part_of(ShapeDescription shape) {
+  const Eigen::Vector3d& size = shape.size;
+  switch (shape.kind) {
+    case ShapeKind::kSphere:
+      return LinkPart::sphere(checked_pose(shape.pose).translation(),
+                              checked_size("a sphere's radius", size[0]));
+    case ShapeKind::kCylinder:
+      return LinkPart::cylinder(checked_pose(shape.pose),
+                                checked_size("a cylinder's radius", size[0]),
+                                checked_size("a cylinder's length", size[1]));
+    case ShapeKind::kBox:
+      for (int axis = 0; axis < 3; ++axis) checked_size("a box's side", size[axis]);
+      return LinkPart::box(checked_pose(shape.pose), size);
+    case ShapeKind::kMesh:
+      break;
   }
-  return link;
+  return mesh_part(std::move(shape.mesh));
 }
-
-namespace {
 
 std::string find_text(const std::string& parameter, const ros::NodeHandle& private_node) {
   std::string resolved, text;
@@ -90,40 +74,6 @@ std::string find_text(const std::string& parameter, const ros::NodeHandle& priva
   if (!private_node.getParam(resolved, text)) throw ToolError("is no text; must be a URDF");
   return text;
 }
-
-}  // namespace
-
-Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node) {
-  return load_tool(
-      parameters, [&](const std::string& parameter) { return find_text(parameter, private_node); });
-}
-
-Tool load_tool(const ToolParameters& parameters,
-               const std::function<std::string(const std::string& parameter)>& find_text) {
-  Tool tool;
-  tool.parameters = parameters;
-  if (parameters.links.empty()) return tool;
-  const bool is_file = !parameters.urdf.empty();
-  try {
-    std::vector<LinkDescription> links =
-        is_file ? read_robot_file(parameters.urdf, parameters.links)
-                : read_robot_text(find_text(parameters.robot_description), parameters.links);
-    for (std::size_t i = 0; i < links.size(); ++i) {
-      tool.joints.push_back(links[i].joint);
-      tool.links.push_back(build_link(parameters.links[i], std::move(links[i])));
-    }
-  } catch (const std::exception& error) {
-    tool.links.clear();
-    tool.joints.clear();
-    const std::string fault = parameters.name + ": " + (is_file ? "urdf " : "parameter ") + "'" +
-                              (is_file ? parameters.urdf : parameters.robot_description) +
-                              "': " + error.what();
-    tool.fault = plain_text(fault, kLongestMessage);
-  }
-  return tool;
-}
-
-namespace {
 
 template <typename Range, typename Same>
 bool are_same(const Range& a, const Range& b, const Same& same) {
@@ -167,30 +117,68 @@ std::optional<std::size_t> find(const std::vector<Tool>& tools, const std::strin
   return std::nullopt;
 }
 
-/// "changed: 'hook', 'probe'"; empty if there are no names.
-std::string group(const std::string& what, const std::vector<std::string>& names) {
-  return names.empty() ? "" : what + ": " + listed(names);
+}  // namespace
+
+Link build_link(const std::string& name, LinkDescription description) {
+  Link link{name, {}};
+  try {
+    for (ShapeDescription& shape : description.shapes) {
+      link.parts.push_back(part_of(std::move(shape)));
+    }
+    if (link.parts.empty()) refuse("has no collision or visual geometry; name links that have");
+  } catch (const ToolError& error) {
+    refuse("link '", name, "': ", error.what());
+  }
+  return link;
 }
 
-}  // namespace
+Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node) {
+  return load_tool(
+      parameters, [&](const std::string& parameter) { return find_text(parameter, private_node); });
+}
+
+Tool load_tool(const ToolParameters& parameters,
+               const std::function<std::string(const std::string& parameter)>& find_text) {
+  Tool tool;
+  tool.parameters = parameters;
+  if (parameters.links.empty()) return tool;
+  const bool is_file = !parameters.urdf.empty();
+  try {
+    std::vector<LinkDescription> links =
+        is_file ? read_robot_file(parameters.urdf, parameters.links)
+                : read_robot_text(find_text(parameters.robot_description), parameters.links);
+    for (std::size_t i = 0; i < links.size(); ++i) {
+      tool.joints.push_back(links[i].joint);
+      tool.links.push_back(build_link(parameters.links[i], std::move(links[i])));
+    }
+  } catch (const std::exception& error) {
+    tool.links.clear();
+    tool.joints.clear();
+    const std::string fault = parameters.name + ": " + (is_file ? "urdf " : "parameter ") + "'" +
+                              (is_file ? parameters.urdf : parameters.robot_description) +
+                              "': " + error.what();
+    tool.fault = plain_text(fault, kLongestMessage);
+  }
+  return tool;
+}
 
 ToolChanges compare_tools(const std::vector<Tool>& old_tools, const std::vector<Tool>& new_tools) {
   ToolChanges changes;
   std::vector<std::string> unchanged, changed, added, removed;
   for (const Tool& tool : new_tools) {
-    const std::string name = "'" + tool.parameters.name + "'";
     const auto before = find(old_tools, tool.parameters.name);
     const bool is_kept = before && is_same(old_tools[*before], tool);
     changes.kept.push_back(is_kept ? before : std::nullopt);
-    (is_kept ? unchanged : before ? changed : added).push_back(name);
+    (is_kept ? unchanged : before ? changed : added).push_back("'" + tool.parameters.name + "'");
   }
   for (const Tool& tool : old_tools) {
     if (!find(new_tools, tool.parameters.name)) removed.push_back("'" + tool.parameters.name + "'");
   }
-  for (const std::string& part : {group("unchanged", unchanged), group("changed", changed),
-                                  group("new", added), group("removed", removed)}) {
-    if (part.empty()) continue;
-    changes.summary += (changes.summary.empty() ? "" : "; ") + part;
+  for (const auto& [what, names] :
+       {std::pair("unchanged: ", &unchanged), std::pair("changed: ", &changed),
+        std::pair("new: ", &added), std::pair("removed: ", &removed)}) {
+    if (names->empty()) continue;
+    changes.summary += (changes.summary.empty() ? "" : "; ") + (what + listed(*names));
   }
   if (changes.summary.empty()) changes.summary = "there are no tools";
   return changes;

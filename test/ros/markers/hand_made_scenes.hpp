@@ -14,8 +14,9 @@ namespace organ_collision {
 /// A square of two faces in the plane z = 0, from (0, 0) to (1, 1) [m]. Its size is the square root
 /// of 2.
 inline SceneOrgan square(const std::string& name = "liver") {
-  const TriangleMesh mesh({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 1, 3, 2});
-  return {name, name + "_frame", mesh.shared_vertices(), mesh.shared_faces(), mesh.box()};
+  return {name, name + "_frame",
+          std::make_shared<const TriangleMesh>(
+              TriangleMesh({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, {0, 1, 2, 1, 3, 2}))};
 }
 
 /// A contact in the plane z = 0, whose tool is above.
@@ -55,15 +56,14 @@ inline Scene hook_over_square(double seconds = 0.0) {
   return scene;
 }
 
-/// The first marker of a namespace; a marker without type if there is none.
-inline visualization_msgs::Marker find_marker(const visualization_msgs::MarkerArray& array,
-                                              const std::string& name_space) {
+/// The markers of a namespace.
+inline std::vector<visualization_msgs::Marker> find_markers(
+    const visualization_msgs::MarkerArray& array, const std::string& name_space) {
+  std::vector<visualization_msgs::Marker> found;
   for (const visualization_msgs::Marker& marker : array.markers) {
-    if (marker.ns == name_space) return marker;
+    if (marker.ns == name_space) found.push_back(marker);
   }
-  visualization_msgs::Marker none;
-  none.type = -1;
-  return none;
+  return found;
 }
 
 inline Eigen::Vector3d point(const visualization_msgs::Marker& marker, std::size_t index) {

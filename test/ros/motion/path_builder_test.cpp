@@ -14,57 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-ToolWaypoint at(double fraction, const Vector3d& trocar, const Vector3d& tip,
-                const std::vector<Isometry3d>& links = {}) {
-  return {fraction, {trocar, tip}, links};
-}
-
-Isometry3d pose(const Vector3d& origin, double angle = 0.0) {
-  return Eigen::Translation3d(origin) *
-         Eigen::AngleAxisd(angle, Vector3d(0.3, -1.0, 0.2).normalized());
-}
-
-}  // namespace
-
-TEST(PathDeviation, EitherEndOfTheAxisCounts) {
-  const PathDeviation deviation({});
-  const Vector3d trocar(0.1, 0.2, 0.3), tip(0.4, 0.1, -0.2), moved(0.04, -0.08, 0.02);
-  const StraightMotion way(at(0.2, trocar, tip), at(0.6, trocar + moved, tip - moved));
-  const ToolWaypoint straight = at(0.3, trocar + 0.25 * moved, tip - 0.25 * moved);
-  EXPECT_NEAR(deviation(straight, way).most(), 0.0, 1e-15);
-  ToolWaypoint bent = straight;
-  bent.axis.tip += Vector3d(0.0, 0.003, -0.004);
-  EXPECT_NEAR(deviation(bent, way).axis, 0.005, 1e-15);
-  bent.axis.trocar += Vector3d(0.012, 0.0, -0.005);
-  EXPECT_NEAR(deviation(bent, way).axis, 0.013, 1e-15);
-  EXPECT_EQ(deviation(bent, way).links, 0.0);
-}
-
-TEST(PathDeviation, LinksCountWithAllThatTheyReach) {
-  const Vector3d rest = Vector3d::Zero(), center(0.0, 0.05, 0.0);
-  const PathDeviation deviation(
-      {{"wrist", {LinkPart::sphere(rest, 0.01)}}, {"jaw", {LinkPart::sphere(center, 0.01)}}});
-  const auto poses = [&](double fraction, const Isometry3d& wrist, const Isometry3d& jaw) {
-    return at(fraction, rest, rest, {wrist, jaw});
-  };
-  const Isometry3d still = pose({0.1, 0.2, 0.3}, 0.4);
-  const StraightMotion way(poses(0.0, still, still), poses(1.0, still, still));
-  EXPECT_NEAR(deviation(poses(0.5, still, still), way).most(), 0.0, 1e-15);
-  const Isometry3d aside = Eigen::Translation3d(0.0, 0.02, 0.0) * still;
-  EXPECT_NEAR(deviation(poses(0.5, aside, still), way).links, 0.02, 1e-12);
-  // The jaw's farthest point is 60 mm from its origin, the wrist's 10 mm.
-  const Isometry3d turned = pose({0.1, 0.2, 0.3}, 0.5);
-  const double wrist = deviation(poses(0.5, turned, still), way).links;
-  const double jaw = deviation(poses(0.5, still, turned), way).links;
-  EXPECT_GE(jaw, 0.06 * 2.0 * std::sin(0.05) - 1e-12);
-  EXPECT_GT(jaw, wrist);
-  EXPECT_EQ(deviation(poses(0.5, turned, turned), way).most(), jaw);
-}
-
-using namespace organ_collision;
-
-namespace {
-
+constexpr std::size_t kAll = 10'000;  ///< legs
 const ShaftAxis kNowhere{Vector3d::Zero(), Vector3d::Zero()};
 const Vector3d kBallCenter{0.02, -0.03, 0.06};
 constexpr double kBallRadius = 0.01;
@@ -85,13 +35,12 @@ Isometry3d on_an_arm(double time) {
 
 template <typename PoseAt>
 ToolPath path_of(const std::vector<Link>& links, int steps, double duration, PoseAt pose_at) {
-  const PathDeviation deviation(links);
-  PathBuilder path(deviation, {kNowhere, {pose_at(0.0)}});
+  PathBuilder path(links, {kNowhere, {pose_at(0.0)}});
   for (int i = 1; i <= steps; ++i) {
     const double fraction = i == steps ? 1.0 : double(i) / steps;
     path.add(fraction, {kNowhere, {pose_at(fraction * duration)}});
   }
-  return path.take();
+  return path.take(kAll).path;
 }
 
 /// The pose of the link on the path at a fraction of the step.
@@ -158,15 +107,14 @@ TEST(PathBuilder, EveryLinkCounts) {
   const Isometry3d rest = pose({0.3, 0.1, 0.2}, 0.4, {1.0, 0.0, 2.0});
   std::vector<Link> links = one_ball();
   links.push_back(links.front());
-  const PathDeviation deviation(links);
   for (const std::size_t moving : {0u, 1u}) {
-    PathBuilder path(deviation, {kNowhere, {on_an_arm(0.0), on_an_arm(0.0)}});
+    PathBuilder path(links, {kNowhere, {on_an_arm(0.0), on_an_arm(0.0)}});
     for (const double fraction : {0.5, 1.0}) {
       ToolPose next{kNowhere, {rest, rest}};
       next.links[moving] = on_an_arm(fraction);
       path.add(fraction, next);
     }
-    EXPECT_EQ(path.take().size(), 3u);
+    EXPECT_EQ(path.take(kAll).path.size(), 3u);
   }
 }
 
@@ -182,14 +130,13 @@ TEST(PathBuilder, MoreThanHalfATurnIsNoStraightMotion) {
 TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
   // 10 nm from the straight motion.
   const Isometry3d still = on_an_arm(0.0);
-  const PathDeviation deviation(one_ball());
   const auto waypoints = [&](double axis_bend, double link_bend) {
     const ShaftAxis bent{Vector3d(0.0, axis_bend, 0.0), Vector3d(0.0, axis_bend, 0.3)};
     const ShaftAxis straight{Vector3d(0.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.3)};
-    PathBuilder path(deviation, {straight, {still}});
+    PathBuilder path(one_ball(), {straight, {still}});
     path.add(0.3, {bent, {Eigen::Translation3d(0.0, link_bend, 0.0) * still}});
     path.add(1.0, {straight, {still}});
-    return path.take().size();
+    return path.take(kAll).path.size();
   };
   EXPECT_EQ(waypoints(0.0, 0.0), 2u);
   EXPECT_EQ(waypoints(0.0, 1e-8), 2u);
@@ -200,23 +147,19 @@ TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
 TEST(PathBuilder, ATrocarThatMovesByRoundingRests) {
   const ShaftAxis from{Vector3d(0.1, 0.2, 0.3), Vector3d(0.1, 0.2, 0.0)};
   const ShaftAxis to{Vector3d(0.1, 0.2 + 1e-12, 0.3), Vector3d(0.2, 0.2, 0.0)};
-  const PathDeviation deviation({});
-  PathBuilder path(deviation, {from});
+  PathBuilder path({}, {from});
   path.add(1.0, {to});
-  const ToolPath taken = path.take();
+  const ToolPath taken = path.take(kAll).path;
   ASSERT_EQ(taken.size(), 2u);
   EXPECT_EQ(taken[0].axis.trocar, to.trocar);
   EXPECT_EQ(taken[0].axis.tip, from.tip);
 }
 
-using namespace organ_collision;
-
 namespace {
 
-const PathDeviation kOfAShaft({});
 const Vector3d kTrocar(0.1, 0.2, 0.5);
 
-/// A path whose waypoints are evenly spaced in time, with these heights of the tip.
+/// Waypoints that are evenly spaced in time, with these heights of the tip.
 ToolPath heights(const std::vector<double>& heights) {
   ToolPath path;
   for (std::size_t i = 0; i < heights.size(); ++i) {
@@ -226,11 +169,21 @@ ToolPath heights(const std::vector<double>& heights) {
   return path;
 }
 
+BuiltPath simplified(const ToolPath& samples, std::size_t legs) {
+  PathBuilder path({}, {samples.front().axis});
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    path.add(samples[i].fraction, {samples[i].axis});
+  }
+  return path.take(legs);
+}
+
 /// [m] The distance of the waypoint from the path at the same time.
 double distance(const ToolPath& path, const ToolWaypoint& waypoint) {
   std::size_t leg = 1;
   while (path[leg].fraction < waypoint.fraction) ++leg;
-  return kOfAShaft(waypoint, StraightMotion(path[leg - 1], path[leg])).most();
+  const ToolWaypoint &a = path[leg - 1], &b = path[leg];
+  const double time = (waypoint.fraction - a.fraction) / (b.fraction - a.fraction);
+  return (ShaftMotion{a.axis, b.axis}.at(time).tip - waypoint.axis.tip).norm();
 }
 
 std::vector<double> fractions(const ToolPath& path) {
@@ -241,39 +194,28 @@ std::vector<double> fractions(const ToolPath& path) {
 
 }  // namespace
 
-TEST(SimplifiedPath, WhatFitsStays) {
+TEST(BuiltPath, WhatFitsStays) {
   const ToolPath path = heights({0.0, 0.3, 0.1, 0.2, 0.5});
   for (const std::size_t legs : {4u, 5u, 100u}) {
-    const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
-    EXPECT_EQ(fractions(simplified.path), fractions(path));
-    EXPECT_EQ(simplified.dropped, 0u);
-    EXPECT_EQ(simplified.deviation, 0.0);
+    const BuiltPath built = simplified(path, legs);
+    EXPECT_EQ(fractions(built.path), fractions(path));
+    EXPECT_EQ(built.dropped, 0u);
+    EXPECT_EQ(built.deviation, 0.0);
   }
-  EXPECT_EQ(simplify_path(resting_path({{kTrocar, kTrocar}}), kOfAShaft, 1).path.size(), 1u);
+  EXPECT_EQ(simplified(resting_path({{kTrocar, kTrocar}}), 1).path.size(), 1u);
 }
 
-TEST(SimplifiedPath, WhatMattersMostStays) {
+TEST(BuiltPath, WhatMattersMostStays) {
   const ToolPath path = heights({0.0, 0.001, -0.002, 0.4, 0.0, 0.02, 0.0, 0.001, 0.0});
-  SimplifiedPath simplified = simplify_path(path, kOfAShaft, 2);
-  EXPECT_EQ(fractions(simplified.path), (std::vector<double>{0.0, 0.375, 1.0}));
-  EXPECT_EQ(simplified.dropped, 6u);
-  simplified = simplify_path(path, kOfAShaft, 4);
-  EXPECT_EQ(simplified.path.size(), 5u);
-  EXPECT_EQ(simplified.path[2].axis.tip.z(), 0.4);
-  EXPECT_LT(simplified.deviation, 0.021);
-  simplified = simplify_path(path, kOfAShaft, 1);
-  EXPECT_EQ(fractions(simplified.path), (std::vector<double>{0.0, 1.0}));
-  EXPECT_NEAR(simplified.deviation, 0.4, 1e-12);
+  EXPECT_EQ(fractions(simplified(path, 1).path), (std::vector<double>{0.0, 1.0}));
+  EXPECT_NEAR(simplified(path, 1).deviation, 0.4, 1e-12);
+  EXPECT_EQ(fractions(simplified(path, 2).path), (std::vector<double>{0.0, 0.375, 1.0}));
+  EXPECT_EQ(simplified(path, 2).dropped, 6u);
+  EXPECT_EQ(simplified(path, 4).path.size(), 5u);
+  EXPECT_LT(simplified(path, 4).deviation, 0.021);
 }
 
-TEST(SimplifiedPath, OnAStraightMotionNothingMatters) {
-  const SimplifiedPath simplified =
-      simplify_path(heights({0.0, 0.25, 0.5, 0.75, 1.0}), kOfAShaft, 3);
-  EXPECT_EQ(simplified.deviation, 0.0);
-  EXPECT_EQ(simplified.path.size() + simplified.dropped, 5u);
-}
-
-TEST(SimplifiedPath, NothingIsFartherFromTheWayThanItSays) {
+TEST(BuiltPath, NothingIsFartherFromTheWayThanItSays) {
   std::mt19937 random(11);
   std::normal_distribution<double> number(0.0, 0.05);
   for (int trial = 0; trial < 200; ++trial) {
@@ -281,14 +223,14 @@ TEST(SimplifiedPath, NothingIsFartherFromTheWayThanItSays) {
     while (tips.size() < 60) tips.push_back(tips.back() + number(random));
     const ToolPath path = heights(tips);
     for (const std::size_t legs : {1u, 3u, 10u, 40u}) {
-      const SimplifiedPath simplified = simplify_path(path, kOfAShaft, legs);
-      ASSERT_EQ(simplified.path.size(), legs + 1);
-      EXPECT_EQ(simplified.dropped, path.size() - simplified.path.size());
+      const BuiltPath built = simplified(path, legs);
+      ASSERT_EQ(built.path.size(), legs + 1);
+      EXPECT_EQ(built.dropped, path.size() - built.path.size());
       double farthest = 0.0;
       for (const ToolWaypoint& waypoint : path) {
-        farthest = std::max(farthest, distance(simplified.path, waypoint));
+        farthest = std::max(farthest, distance(built.path, waypoint));
       }
-      EXPECT_NEAR(simplified.deviation, farthest, 1e-12);
+      EXPECT_NEAR(built.deviation, farthest, 1e-12);
     }
   }
 }

@@ -118,9 +118,23 @@ class OrganRegistryTest : public testing::Test {
     }
     return ContactArray::OK;
   }
+  /// Why the organ is not there; empty if it is.
+  std::string why(const std::string& organ) {
+    try {
+      store_.at(organ);
+    } catch (const Rejection& rejection) {
+      return rejection.what();
+    }
+    return "";
+  }
 
-  const ros::M_stringPtr first_ = boost::make_shared<ros::M_string>();
-  const ros::M_stringPtr second_ = boost::make_shared<ros::M_string>();
+  /// A header such as roscpp makes for each connection.
+  static ros::M_stringPtr header() {
+    return ros::M_stringPtr(new ros::M_string{{"callerid", "/simulator"}});
+  }
+
+  const ros::M_stringPtr first_ = header();
+  const ros::M_stringPtr second_ = header();
   OrganRegistry store_{MeshLimits{2}};
 };
 

@@ -4,450 +4,323 @@
 #include <organ_collision/ContactArray.h>
 #include <ros/callback_queue.h>
 
-#include <atomic>
 #include <boost/make_shared.hpp>
-#include <new>
-#include <stdexcept>
-#include <string>
-#include <vector>
+#include <functional>
+#include <memory>
 
-using namespace organ_collision;
-
-TEST(SequenceGapsTest, CountsWhatIsMissingBetweenTwoMessages) {
-  SequenceGaps gaps;
-  EXPECT_EQ(gaps.add("/simulator", 7), 0U) << "what came before the first one was not meant for us";
-  EXPECT_EQ(gaps.add("/simulator", 8), 0U);
-  EXPECT_EQ(gaps.add("/simulator", 12), 3U);
-}
-
-TEST(SequenceGapsTest, EachPublisherHasItsOwnNumbers) {
-  SequenceGaps gaps;
-  gaps.add("/left", 1);
-  EXPECT_EQ(gaps.add("/right", 40), 0U);
-  EXPECT_EQ(gaps.add("/left", 2), 0U);
-  EXPECT_EQ(gaps.add("/right", 42), 1U);
-}
-
-TEST(SequenceGapsTest, AStartAgainAndAMessageWithoutANumberAreNoGap) {
-  SequenceGaps gaps;
-  gaps.add("/simulator", 1000);
-  EXPECT_EQ(gaps.add("/simulator", 0), 0U);
-  EXPECT_EQ(gaps.add("/simulator", 0), 0U) << "within a process, messages have no number";
-  EXPECT_EQ(gaps.add("/simulator", 1), 0U);
-}
-
-TEST(SequenceGapsTest, ManyPublishersDoNotFillTheMemory) {
-  SequenceGaps gaps;
-  for (int i = 0; i <= 1000; ++i) gaps.add("/rostopic_" + std::to_string(i), 5);
-  EXPECT_EQ(gaps.add("/rostopic_0", 9), 0U) << "forgotten";
-  EXPECT_EQ(gaps.add("/rostopic_1000", 9), 3U) << "the newest one is known";
-}
+#include "test/ros/organs/organ_fixture.hpp"
 
 using namespace organ_collision;
 
 namespace {
-
-constexpr std::size_t kFaces = OrganMessageQueue::kLarge + 1;
-
-OrganMeshConstPtr mesh(const std::string& organ, std::uint32_t topology, std::size_t faces) {
-  const auto message = boost::make_shared<OrganMesh>();
-  message->organ = organ;
-  message->topology = topology;
-  message->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-  for (std::size_t i = 0; i < faces; ++i) {
-    message->triangles.insert(message->triangles.end(), {0, 1, 2});
-  }
-  return message;
-}
-
-OrganVerticesConstPtr vertices(const std::string& organ, std::uint32_t topology) {
-  const auto message = boost::make_shared<OrganVertices>();
-  message->organ = organ;
-  message->topology = topology;
-  return message;
-}
-
-/// Notes what the queue hands on. A mesh of topology n is built once `let(n)` allows it.
-class OrganMessageQueueTest : public testing::Test {
- protected:
-  void let(std::uint32_t topology) { allowed_[topology].set_value(); }
-  /// Waits until the queue's thread has called wake() so often.
-  void wait_for_wakes(int wakes) {
-    while (wakes_ < wakes) std::this_thread::yield();
-  }
-
-  /// Takes all messages that are ready, in the calling thread.
-  void take_all() {
-    while (auto message = queue_.next()) taken_.push_back(text(*message));
-  }
-  /// Takes messages until so many have been taken. Does not wait for wake().
-  void take_until(std::size_t messages) {
-    while (taken_.size() < messages) {
-      std::this_thread::yield();
-      take_all();
-    }
-  }
-
-  bool memory_is_short_ = false;  ///< building and waking throw std::bad_alloc
-  std::vector<std::string> taken_;
-  std::thread::id built_in_;
-  Connection connection_;  ///< of the last mesh taken
-  std::uint32_t known_ = 0;
-
- private:
-  std::string text(OrganMessage& message) {
-    if (message.vertices) {
-      return message.organ() + " vertices " + std::to_string(message.vertices->topology);
-    }
-    connection_ = message.connection;
-    const std::string text = message.organ() + " mesh " + std::to_string(message.mesh->topology);
-    if (!message.built.valid()) return text;
-    try {
-      return text + ", " + std::to_string(message.built.get().face_count());
-    } catch (const MeshError&) {
-      return text + ", refused";
-    } catch (const std::bad_alloc&) {
-      return text + ", no memory";
-    }
-  }
-
-  OrganMessageQueue::Functions functions() {
-    OrganMessageQueue::Functions functions;
-    functions.build = [this](const OrganMeshConstPtr& message) {
-      allowed_.at(message->topology).get_future().wait();
-      built_in_ = std::this_thread::get_id();
-      if (memory_is_short_) throw std::bad_alloc();
-      return TriangleMesh(message->vertices, message->triangles, message->topology);
-    };
-    functions.is_new = [this](const OrganMesh& message, const Connection&) {
-      return message.topology != known_;
-    };
-    functions.wake = [this] {
-      if (memory_is_short_) throw std::bad_alloc();
-      ++wakes_;
-    };
-    return functions;
-  }
-
-  std::vector<std::promise<void>> allowed_ = std::vector<std::promise<void>>(300);
-  std::atomic<int> wakes_{0};
-
- protected:
-  OrganMessageQueue queue_{functions()};
-};
 
 using Texts = std::vector<std::string>;
 
-TEST_F(OrganMessageQueueTest, SmallMeshesAndVerticesPassAtOnce) {
-  queue_.add(mesh("liver", 1, OrganMessageQueue::kLarge));
-  queue_.add(vertices("liver", 1));
-  take_all();
-  EXPECT_EQ(taken_, (Texts{"liver mesh 1", "liver vertices 1"}));
-}
+constexpr std::size_t kFaces = OrganIntake::kLarge + 1;
+constexpr std::size_t kMost = OrganIntake::kMostWaiting;
 
-TEST_F(OrganMessageQueueTest, ManyVerticesMakeAMeshLargeToo) {
-  const auto soup = boost::make_shared<OrganMesh>(*mesh("liver", 1, 1));
-  soup->vertices.resize(3 * kFaces);
-  queue_.add(OrganMeshConstPtr(soup));
-  take_all();
-  EXPECT_EQ(taken_, Texts{}) << "it is being built";
-  let(1);
-  take_until(1);
-  EXPECT_EQ(taken_, Texts{"liver mesh 1, 1"});
-}
-
-TEST_F(OrganMessageQueueTest, LargeMeshesAreBuiltElsewhereAndOtherOrgansDoNotWait) {
-  queue_.add(mesh("liver", 1, kFaces));
-  queue_.add(vertices("liver", 1));
-  queue_.add(vertices("spleen", 7));
-  take_all();
-  EXPECT_EQ(taken_, Texts{"spleen vertices 7"});
-  let(1);
-  wait_for_wakes(1);
-  EXPECT_EQ(taken_.size(), 1U) << "taken in the wrong thread";
-  take_all();
-  EXPECT_EQ(taken_, (Texts{"spleen vertices 7", "liver mesh 1, 10001", "liver vertices 1"}));
-  EXPECT_NE(built_in_, std::this_thread::get_id());
-  queue_.add(vertices("liver", 1));
-  take_all();
-  EXPECT_EQ(taken_.back(), "liver vertices 1");
-  EXPECT_EQ(taken_.size(), 4U);
-}
-
-TEST_F(OrganMessageQueueTest, TheOrderOfEachOrganStays) {
-  queue_.add(mesh("liver", 1, kFaces));
-  queue_.add(mesh("liver", 2, 1));
-  queue_.add(vertices("liver", 2));
-  queue_.add(mesh("liver", 3, kFaces));
-  queue_.add(mesh("spleen", 4, kFaces));
-  let(2);
-  let(1);
-  wait_for_wakes(1);
-  take_all();
-  EXPECT_EQ(taken_, (Texts{"liver mesh 1, 10001", "liver mesh 2", "liver vertices 2"}));
-  let(3);
-  let(4);
-  wait_for_wakes(3);
-  take_all();
-  EXPECT_EQ(Texts(taken_.begin() + 3, taken_.end()),
-            (Texts{"liver mesh 3, 10001", "spleen mesh 4, 10001"}));
-}
-
-TEST_F(OrganMessageQueueTest, AMeshIsTakenWithItsConnection) {
-  const auto header = boost::make_shared<const ros::M_string>();
-  queue_.add(mesh("liver", 1, kFaces), header);
-  let(1);
-  wait_for_wakes(1);
-  take_all();
-  EXPECT_EQ(connection_.lock(), header);
-}
-
-TEST_F(OrganMessageQueueTest, AKnownTopologyIsNotBuiltAgain) {
-  known_ = 1;
-  queue_.add(mesh("liver", 1, kFaces));
-  take_all();
-  EXPECT_EQ(taken_, Texts{"liver mesh 1"});
-}
-
-TEST_F(OrganMessageQueueTest, AFaultOfAMeshComesWithIt) {
-  const auto bad = boost::make_shared<OrganMesh>(*mesh("liver", 1, kFaces));
-  bad->triangles.back() = 3;
-  queue_.add(bad);
-  let(1);
-  wait_for_wakes(1);
-  take_all();
-  EXPECT_EQ(taken_, Texts{"liver mesh 1, refused"});
-}
-
-TEST_F(OrganMessageQueueTest, AMeshThatCannotBeBuiltHoldsNothingUp) {
-  memory_is_short_ = true;
-  queue_.add(mesh("liver", 1, kFaces));
-  queue_.add(vertices("liver", 1));
-  let(1);
-  take_until(2);
-  EXPECT_EQ(taken_, (Texts{"liver mesh 1, no memory", "liver vertices 1"}));
-  queue_.add(vertices("liver", 2));
-  take_all();
-  EXPECT_EQ(taken_.back(), "liver vertices 2");
-}
-
-TEST_F(OrganMessageQueueTest, SaysOfWhichOrgansMessagesWait) {
-  EXPECT_FALSE(queue_.has("liver"));
-  queue_.add(mesh("liver", 1, kFaces));
-  queue_.add(vertices("spleen", 7));
-  EXPECT_TRUE(queue_.has("liver"));
-  EXPECT_TRUE(queue_.has("spleen"));
-  EXPECT_FALSE(queue_.has("kidney"));
-  let(1);
-  take_until(2);
-  EXPECT_FALSE(queue_.has("liver"));
-  EXPECT_FALSE(queue_.has("spleen"));
-}
-
-TEST_F(OrganMessageQueueTest, TheOldestVerticesGoWhereTooManyWait) {
-  queue_.add(mesh("liver", 1, kFaces));
-  for (std::uint32_t i = 0; i < 250; ++i) queue_.add(vertices("liver", i));
-  EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
-  EXPECT_EQ(queue_.dropped(), 251U - OrganMessageQueue::kMostWaiting);
-  let(1);
-  wait_for_wakes(1);
-  take_all();
-  ASSERT_EQ(taken_.size(), OrganMessageQueue::kMostWaiting);
-  EXPECT_EQ(taken_[0], "liver mesh 1, 10001");
-  EXPECT_EQ(taken_[1], "liver vertices 241");
-  EXPECT_EQ(taken_.back(), "liver vertices 249");
-}
-
-TEST_F(OrganMessageQueueTest, AStreamOfEqualMeshesIsBuiltOnce) {
-  for (int i = 0; i < 5; ++i) queue_.add(mesh("liver", 1, kFaces));
-  let(1);
-  wait_for_wakes(1);
-  known_ = 1;  // The first one is applied before the others are asked about.
-  take_all();
-  EXPECT_EQ(taken_, (Texts{"liver mesh 1, 10001", "liver mesh 1", "liver mesh 1", "liver mesh 1",
-                           "liver mesh 1"}));
-}
-
-TEST_F(OrganMessageQueueTest, OfMeshesThatComeTooFastTheNewestStay) {
-  for (std::uint32_t i = 1; i <= 200; ++i) queue_.add(mesh("liver", i, kFaces));
-  EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
-  for (std::uint32_t i = 1; i <= 200; ++i) let(i);
-  take_until(OrganMessageQueue::kMostWaiting);
-  EXPECT_EQ(taken_.front(), "liver mesh 1, 10001");
-  EXPECT_EQ(taken_.back(), "liver mesh 200, 10001");
-}
-
-TEST_F(OrganMessageQueueTest, AMeshWithVerticesStaysAsLongAsItHasThem) {
-  queue_.add(mesh("liver", 1, kFaces));
-  queue_.add(mesh("liver", 2, 1));
-  for (int i = 0; i < 50; ++i) queue_.add(vertices("liver", 2));
-  let(1);
-  wait_for_wakes(1);
-  take_all();
-  EXPECT_EQ(taken_[1], "liver mesh 2");
-  EXPECT_EQ(taken_[2], "liver vertices 2");
-}
-
-TEST_F(OrganMessageQueueTest, TheRemovalBeforeAMeshStays) {
-  const auto removal = boost::make_shared<OrganMesh>();
-  removal->organ = "liver";
-  queue_.add(mesh("liver", 1, kFaces));
-  for (int i = 0; i < 50; ++i) {
-    queue_.add(removal);
-    queue_.add(mesh("liver", 2, 1));
-  }
-  EXPECT_EQ(queue_.waiting(), OrganMessageQueue::kMostWaiting);
-  let(1);
-  wait_for_wakes(1);
-  take_all();
-  ASSERT_GE(taken_.size(), 2U);
-  EXPECT_EQ(taken_[taken_.size() - 2], "liver mesh 0") << "the removal";
-  EXPECT_EQ(taken_.back(), "liver mesh 2");
-}
-
-TEST_F(OrganMessageQueueTest, EndsWhileMeshesAreStillToBeBuilt) {
-  queue_.add(mesh("liver", 1, kFaces));
-  queue_.add(mesh("liver", 2, kFaces));
-  let(1);
-  let(2);
-}
-
-}  // namespace
-
-using namespace organ_collision;
-
-namespace {
-
-class OrganTopicsTest : public testing::Test {
- protected:
-  OrganTopicsTest() {
+/// An intake whose threads work when the test says so.
+struct Intake {
+  Intake() {
     ros::Time::init();
     ros::Time::setNow(ros::Time(50.0));
   }
 
-  static boost::shared_ptr<OrganMesh> mesh(std::size_t faces = 1) {
-    const auto message = boost::make_shared<OrganMesh>();
-    message->header.frame_id = "liver_frame";
-    message->organ = "liver";
-    message->topology = 1;
-    message->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  static boost::shared_ptr<OrganMesh> message(const std::string& organ, std::uint32_t topology,
+                                              std::size_t faces) {
+    const auto mesh = boost::make_shared<OrganMesh>();
+    mesh->header.frame_id = "frame";
+    mesh->organ = organ;
+    mesh->topology = topology;
+    mesh->vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     for (std::size_t i = 0; i < faces; ++i) {
-      message->triangles.insert(message->triangles.end(), {0, 1, 2});
+      mesh->triangles.insert(mesh->triangles.end(), {0, 1, 2});
     }
-    return message;
+    return mesh;
+  }
+  void mesh(const std::string& organ, std::uint32_t topology, std::size_t faces = 1) {
+    intake.take_mesh(message(organ, topology, faces));
+  }
+  void vertices(const std::string& organ, std::uint32_t topology, float z = 1.0F) {
+    const auto vertices = boost::make_shared<OrganVertices>();
+    vertices->header.frame_id = "frame";
+    vertices->organ = organ;
+    vertices->topology = topology;
+    vertices->vertices = {0, 0, z, 1, 0, z, 0, 1, z};
+    intake.take_vertices(vertices);
+  }
+  void removal(const std::string& organ) {
+    const auto mesh = boost::make_shared<OrganMesh>();
+    mesh->organ = organ;
+    intake.take_mesh(mesh);
   }
 
-  static boost::shared_ptr<OrganVertices> vertices(std::uint32_t topology) {
-    const auto message = boost::make_shared<OrganVertices>();
-    message->header.frame_id = "liver_frame";
-    message->organ = "liver";
-    message->topology = topology;
-    message->vertices = {0, 0, 1, 1, 0, 1, 0, 1, 1};
-    return message;
+  /// Builds the next large mesh.
+  void build() { builder.callOne(); }
+
+  /// The messages that are applied now, for example "liver mesh 1". "liver vertices 1 refused":
+  /// they were not applied.
+  Texts next() {
+    Texts texts;
+    while (const auto update = intake.next()) {
+      const OrganMessage& message = update->message;
+      std::string text =
+          message.organ() + (message.mesh ? " mesh " : " vertices ") +
+          std::to_string(message.mesh ? message.mesh->topology : message.vertices->topology);
+      if (!update->change) text += " refused";
+      if (update->change == OrganChange::kRemoved) text = message.organ() + " removed";
+      EXPECT_EQ(update->why_not.empty(), update->status == ContactArray::OK);
+      texts.push_back(text);
+    }
+    return texts;
   }
 
-  OrganRegistry organs_{MeshLimits{}};
-  FailureLog rejected_;
-  ros::CallbackQueue callbacks_;
-  OrganTopics topics_{organs_, rejected_, callbacks_};
+  OrganRegistry organs{MeshLimits{}};
+  FailureLog rejected;
+  ros::CallbackQueue node, builder, inspector;
+  OrganIntake intake{organs, rejected, OrganIntake::Threads{node, builder, inspector}};
 };
 
+struct Case {
+  std::string name;
+  std::function<void(Intake&)> play;
+};
+
+const std::vector<Case> kCases = {
+    {"MessagesAreAppliedInTheirOrder",
+     [](Intake& in) {
+       in.mesh("liver", 1, OrganIntake::kLarge);
+       in.vertices("liver", 1);
+       EXPECT_TRUE(in.organs.organs().empty()) << "applied before next()";
+       EXPECT_EQ(in.next(), (Texts{"liver mesh 1", "liver vertices 1"}));
+       EXPECT_EQ(in.organs.at("liver").latest().mesh->vertex(0).z(), 1.0);
+     }},
+    {"LargeMeshesAreBuiltElsewhereAndOtherOrgansDoNotWait",
+     [](Intake& in) {
+       in.mesh("spleen", 7);
+       in.mesh("liver", 1, kFaces);
+       in.vertices("liver", 1);
+       in.vertices("spleen", 7);
+       EXPECT_EQ(in.next(), (Texts{"spleen mesh 7", "spleen vertices 7"}));
+       EXPECT_TRUE(in.node.isEmpty());
+       in.build();
+       EXPECT_FALSE(in.node.isEmpty()) << "it wakes the node's thread";
+       EXPECT_EQ(in.next(), (Texts{"liver mesh 1", "liver vertices 1"}));
+       EXPECT_EQ(in.organs.at("liver").latest().mesh->face_count(), kFaces);
+     }},
+    {"ManyVerticesMakeAMeshLargeToo",
+     [](Intake& in) {
+       const auto soup = Intake::message("liver", 1, 1);
+       soup->vertices.resize(3 * kFaces);
+       in.intake.take_mesh(soup);
+       EXPECT_EQ(in.next(), Texts{});
+       in.build();
+       EXPECT_EQ(in.next(), Texts{"liver mesh 1"});
+     }},
+    {"TheOrderOfEachOrganStays",
+     [](Intake& in) {
+       in.mesh("liver", 1, kFaces);
+       in.mesh("liver", 2);
+       in.vertices("liver", 2);
+       in.mesh("liver", 3, kFaces);
+       in.mesh("spleen", 4, kFaces);
+       in.build();
+       EXPECT_EQ(in.next(), (Texts{"liver mesh 1", "liver mesh 2", "liver vertices 2"}));
+       in.build();
+       EXPECT_EQ(in.next(), Texts{"spleen mesh 4"});
+       in.build();
+       EXPECT_EQ(in.next(), Texts{"liver mesh 3"});
+     }},
+    {"AKnownTopologyIsNotBuiltAgain",
+     [](Intake& in) {
+       for (int i = 0; i < 5; ++i) in.mesh("liver", 1, kFaces);
+       in.build();
+       EXPECT_EQ(in.next().size(), 5U);
+       EXPECT_TRUE(in.builder.isEmpty());
+     }},
+    {"AMeshIsAppliedWithItsConnection",
+     [](Intake& in) {
+       const auto header = boost::make_shared<const ros::M_string>();
+       in.intake.take_mesh(Intake::message("liver", 1, kFaces), header);
+       in.build();
+       in.next();
+       const auto other = Intake::message("liver", 1, 1);
+       EXPECT_FALSE(in.organs.is_new(*other, header));
+       EXPECT_TRUE(in.organs.is_new(*other, {}));
+     }},
+    {"AFaultOfALargeMeshRefusesIt",
+     [](Intake& in) {
+       const auto bad = Intake::message("liver", 1, kFaces);
+       bad->triangles.back() = 3;
+       in.intake.take_mesh(bad);
+       in.vertices("liver", 1);
+       in.build();
+       EXPECT_EQ(in.next(), (Texts{"liver mesh 1 refused", "liver vertices 1 refused"}));
+       EXPECT_EQ(in.rejected.by_reason().at("index out of range").count, 1U);
+     }},
+    {"TheOldestVerticesGoWhereTooManyWait",
+     [](Intake& in) {
+       in.mesh("liver", 1, kFaces);
+       for (int i = 0; i < 250; ++i) in.vertices("liver", 1, static_cast<float>(i));
+       EXPECT_EQ(in.intake.counts().waiting, kMost);
+       EXPECT_EQ(in.intake.counts().dropped, 251U - kMost);
+       in.build();
+       EXPECT_EQ(in.next().size(), kMost);
+       EXPECT_EQ(in.organs.at("liver").previous().mesh->vertex(0).z(), 248.0);
+       EXPECT_EQ(in.organs.at("liver").latest().mesh->vertex(0).z(), 249.0);
+     }},
+    {"OfMeshesThatComeTooFastTheNewestStay",
+     [](Intake& in) {
+       for (std::uint32_t i = 1; i <= 200; ++i) in.mesh("liver", i, kFaces);
+       EXPECT_EQ(in.intake.counts().waiting, kMost);
+       Texts applied;
+       while (in.intake.counts().waiting > 0) {
+         in.build();
+         for (const std::string& text : in.next()) applied.push_back(text);
+       }
+       EXPECT_EQ(applied.size(), kMost);
+       EXPECT_EQ(applied.front(), "liver mesh 1");
+       EXPECT_EQ(applied.back(), "liver mesh 200");
+     }},
+    {"AMeshWithVerticesStaysAsLongAsItHasThem",
+     [](Intake& in) {
+       in.mesh("liver", 1, kFaces);
+       in.mesh("liver", 2);
+       for (int i = 0; i < 50; ++i) in.vertices("liver", 2);
+       in.build();
+       const Texts applied = in.next();
+       EXPECT_EQ(applied.at(1), "liver mesh 2");
+       EXPECT_EQ(applied.at(2), "liver vertices 2");
+     }},
+    {"TheRemovalBeforeAMeshStays",
+     [](Intake& in) {
+       in.mesh("liver", 1, kFaces);
+       for (int i = 0; i < 50; ++i) {
+         in.removal("liver");
+         in.mesh("liver", 2);
+       }
+       EXPECT_EQ(in.intake.counts().waiting, kMost);
+       in.build();
+       const Texts applied = in.next();
+       ASSERT_GE(applied.size(), 2U);
+       EXPECT_EQ(applied[applied.size() - 2], "liver removed");
+       EXPECT_EQ(applied.back(), "liver mesh 2");
+     }},
+    {"EndsWhileMeshesAreStillToBeBuilt",
+     [](Intake& in) {
+       in.mesh("liver", 1, kFaces);
+       in.mesh("liver", 2, kFaces);
+     }},
+    {"ARefusedMessageIsCountedAndSaysWhy",
+     [](Intake& in) {
+       in.mesh("liver", 1);
+       in.next();
+       in.vertices("liver", 7);
+       const auto update = in.intake.next();
+       ASSERT_TRUE(update);
+       EXPECT_FALSE(update->change);
+       EXPECT_EQ(update->message.header().frame_id, "frame");
+       EXPECT_EQ(update->status, ContactArray::INVALID_REQUEST);
+       EXPECT_NE(update->why_not.find("topology is 7"), std::string::npos) << update->why_not;
+       EXPECT_EQ(in.rejected.by_reason().at("other topology").count, 1U);
+     }},
+    {"VerticesBeforeTheFirstMeshAreAnsweredButNotCountedAtTheStart",
+     [](Intake& in) {
+       in.vertices("liver", 1);
+       const auto update = in.intake.next();
+       ASSERT_TRUE(update);
+       EXPECT_EQ(update->status, ContactArray::UNKNOWN_ORGAN);
+       EXPECT_TRUE(in.rejected.by_reason().empty());
+     }},
+    {"RemoveDoesWhatAnEmptyMeshDoes",
+     [](Intake& in) {
+       EXPECT_THROW(in.intake.remove("liver"), Rejection);
+       in.mesh("liver", 1);
+       in.intake.remove("liver");  // It may still wait.
+       in.intake.next();
+       const auto update = in.intake.next();
+       ASSERT_TRUE(update);
+       EXPECT_EQ(update->change, OrganChange::kRemoved);
+       EXPECT_EQ(update->status, ContactArray::NO_MESH);
+       EXPECT_TRUE(in.rejected.by_reason().empty());
+       EXPECT_THROW(in.intake.remove("liver"), Rejection) << "it is removed already";
+       EXPECT_THROW(in.intake.remove("\n"), Rejection);
+     }},
+    {"TellsWhatBecameOfEachMessage",
+     [](Intake& in) {
+       in.vertices("liver", 1);
+       in.next();  // It is refused: there is no mesh.
+       in.mesh("liver", 1, kFaces);
+       in.vertices("liver", 1);
+       EXPECT_EQ(in.intake.counts().received, 3U);
+       EXPECT_EQ(in.intake.counts().refused, 1U);
+       EXPECT_EQ(in.intake.counts().waiting, 2U);
+       in.build();
+       in.next();
+       in.intake.remove("liver");
+       in.next();
+       EXPECT_EQ(in.intake.counts().received, 4U);
+       EXPECT_EQ(in.intake.counts().applied, 2U);
+       EXPECT_EQ(in.intake.counts().removals, 1U);
+       EXPECT_EQ(in.intake.counts().refused, 1U);
+       EXPECT_EQ(in.intake.counts().waiting, 0U);
+     }},
+    {"TheSurfaceOfNewTrianglesIsFoundElsewhereAndLoggedOnce",
+     [](Intake& in) {
+       CapturedLog log;
+       in.mesh("liver", 1);
+       in.mesh("liver", 1);
+       in.vertices("liver", 1);
+       in.next();
+       EXPECT_FALSE(in.organs.at("liver").surface()->is_found());
+       in.inspector.callAvailable();
+       EXPECT_TRUE(in.organs.at("liver").surface()->is_found());
+       EXPECT_EQ(log.take(), Texts{"INFO organ 'liver': 1 face, open (3 edges), 1 x 1 x 0 m"});
+     }},
+    {"ASurfaceThatNobodyNeedsAnyMoreIsLeftOut",
+     [](Intake& in) {
+       CapturedLog log;
+       in.mesh("liver", 1);
+       in.next();
+       in.removal("liver");
+       in.next();
+       in.inspector.callAvailable();
+       EXPECT_TRUE(log.take().empty());
+     }},
+    {"WithoutThreadsEverythingIsDoneAtOnce",
+     [](Intake& in) {
+       OrganIntake alone(in.organs, in.rejected);
+       alone.take_mesh(Intake::message("liver", 1, kFaces));
+       ASSERT_TRUE(alone.next());
+       EXPECT_TRUE(in.organs.at("liver").surface()->is_found());
+     }},
+};
+
+class OrganIntakeTest : public testing::TestWithParam<Case> {};
+
+TEST_P(OrganIntakeTest, Plays) {
+  Intake intake;
+  GetParam().play(intake);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, OrganIntakeTest, testing::ValuesIn(kCases),
+                         [](const auto& info) { return info.param.name; });
+
+TEST(LostMessages, AreMissingBetweenTwoOfTheSamePublisher) {
+  std::map<std::string, std::uint32_t> last;
+  struct Message {
+    const char* publisher;
+    std::uint32_t number, lost;
+  };
+  for (const Message& message :
+       {Message{"/left", 7, 0},  // What came before was not for us.
+        Message{"/left", 8, 0}, Message{"/right", 40, 0}, Message{"/left", 12, 3},
+        Message{"/right", 42, 1}, Message{"/left", 0, 0},  // It started again.
+        Message{"/left", 0, 0},                            // Within a process, there is no number.
+        Message{"/left", 1, 0}}) {
+    EXPECT_EQ(lost_before(last, message.publisher, message.number), message.lost)
+        << message.publisher << ' ' << message.number;
+  }
+}
+
 }  // namespace
-
-TEST_F(OrganTopicsTest, MessagesAreAppliedInTheirOrder) {
-  topics_.take_mesh(mesh());
-  topics_.take_vertices(vertices(1));
-  EXPECT_TRUE(organs_.organs().empty()) << "applied before next()";
-  const auto first = topics_.next();
-  ASSERT_TRUE(first && first->change);
-  EXPECT_EQ(*first->change, OrganChange::kShape);
-  EXPECT_EQ(first->status, ContactArray::OK);
-  EXPECT_EQ(organs_.at("liver").latest().mesh->vertex(0).z(), 0.0);
-  ASSERT_TRUE(topics_.next());
-  EXPECT_EQ(organs_.at("liver").latest().mesh->vertex(0).z(), 1.0);
-  EXPECT_FALSE(topics_.next());
-}
-
-TEST_F(OrganTopicsTest, ARefusedMessageIsCountedAndSaysWhy) {
-  topics_.take_mesh(mesh());
-  topics_.next();
-  topics_.take_vertices(vertices(7));
-  const auto update = topics_.next();
-  ASSERT_TRUE(update);
-  EXPECT_FALSE(update->change);
-  EXPECT_EQ(update->message.organ(), "liver");
-  EXPECT_EQ(update->message.header().frame_id, "liver_frame");
-  EXPECT_EQ(update->status, ContactArray::INVALID_REQUEST);
-  EXPECT_NE(update->why_not.find("topology is 7"), std::string::npos) << update->why_not;
-  EXPECT_EQ(rejected_.by_reason().at("other topology").count, 1U);
-  EXPECT_EQ(organs_.at("liver").latest().mesh->vertex(0).z(), 0.0);
-}
-
-TEST_F(OrganTopicsTest, VerticesBeforeTheFirstMeshAreAnsweredButNotCountedAtTheStart) {
-  topics_.take_vertices(vertices(1));
-  const auto update = topics_.next();
-  ASSERT_TRUE(update);
-  EXPECT_EQ(update->status, ContactArray::UNKNOWN_ORGAN);
-  EXPECT_TRUE(rejected_.by_reason().empty());
-}
-
-TEST_F(OrganTopicsTest, ARemovedOrganHasNoMesh) {
-  topics_.take_mesh(mesh());
-  topics_.next();
-  const auto removal = mesh();
-  removal->vertices.clear();
-  removal->triangles.clear();
-  topics_.take_mesh(removal);
-  const auto update = topics_.next();
-  ASSERT_TRUE(update && update->change);
-  EXPECT_EQ(*update->change, OrganChange::kRemoved);
-  EXPECT_EQ(update->status, ContactArray::NO_MESH);
-  EXPECT_TRUE(rejected_.by_reason().empty());
-}
-
-TEST_F(OrganTopicsTest, RemoveDoesWhatAnEmptyMeshDoes) {
-  EXPECT_THROW(topics_.remove("liver"), Rejection);
-  topics_.take_mesh(mesh());
-  topics_.remove("liver");  // It may still wait.
-  ASSERT_TRUE(topics_.next());
-  const auto update = topics_.next();
-  ASSERT_TRUE(update && update->change);
-  EXPECT_EQ(*update->change, OrganChange::kRemoved);
-  EXPECT_EQ(update->status, ContactArray::NO_MESH);
-  EXPECT_TRUE(organs_.organs().empty());
-  EXPECT_THROW(topics_.remove("liver"), Rejection) << "it is removed already";
-  EXPECT_THROW(topics_.remove("\n"), Rejection);
-  EXPECT_FALSE(topics_.next());
-}
-
-TEST_F(OrganTopicsTest, TellsWhatBecameOfEachMessage) {
-  topics_.take_vertices(vertices(1));
-  topics_.next();  // It is refused: there is no mesh.
-  topics_.take_mesh(mesh(OrganMessageQueue::kLarge + 1));
-  topics_.take_vertices(vertices(1));
-  EXPECT_EQ(topics_.counts().received, 3U);
-  EXPECT_EQ(topics_.counts().refused, 1U);
-  EXPECT_EQ(topics_.counts().waiting, 2U);
-  EXPECT_EQ(topics_.counts().applied, 0U);
-  while (topics_.counts().waiting > 0) {
-    callbacks_.callOne(ros::WallDuration(0.1));
-    topics_.next();
-  }
-  topics_.remove("liver");
-  topics_.next();
-  EXPECT_EQ(topics_.counts().received, 4U);
-  EXPECT_EQ(topics_.counts().applied, 2U);
-  EXPECT_EQ(topics_.counts().removals, 1U);
-  EXPECT_EQ(topics_.counts().dropped, 0U);
-}
-
-TEST_F(OrganTopicsTest, ALargeMeshWakesTheThreadThatWaitsForIt) {
-  topics_.take_mesh(mesh(OrganMessageQueue::kLarge + 1));
-  std::optional<OrganUpdate> update = topics_.next();
-  while (!update) {
-    callbacks_.callOne(ros::WallDuration(10.0));
-    update = topics_.next();
-  }
-  ASSERT_TRUE(update->change);
-  EXPECT_EQ(organs_.at("liver").latest().mesh->face_count(), OrganMessageQueue::kLarge + 1);
-}

@@ -1,13 +1,126 @@
 #include "ros/queries/query_services.hpp"
 
 #include <gtest/gtest.h>
+#include <ros/serialization.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <new>
+#include <random>
+#include <string>
+#include <vector>
 
 #include "query_fixtures.hpp"
+#include "ros/messages/conversions.hpp"
 
 using namespace organ_collision;
+using Eigen::Vector3d;
+using ros::serialization::serializationLength;
+using Batch = QueryCollisionBatch::Request;
+using Single = QueryCollision::Request;
+
+namespace {
+
+const Vector3d kAbove{0.1, 0.2, 0.3};
+const Vector3d kBelow{0.1, 0.2, -0.3};
+const double kNan = std::nan(""), kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::uint8_t kInvalid = ContactArray::INVALID_REQUEST;
+
+/// A motion that crosses the sheet at height 0, in the organ's frame.
+ToolMotion through() {
+  ToolMotion motion;
+  motion.previous_trocar = motion.trocar = tf2::toMsg(Vector3d(0.0, 0.0, 1.0));
+  motion.previous_tip = tf2::toMsg(kAbove);
+  motion.tip = tf2::toMsg(kBelow);
+  motion.radius = 0.01;
+  return motion;
+}
+
+/// A shaft that rests above the sheet, as the motion of a tool.
+ToolMotion resting_shaft() {
+  ToolMotion motion = through();
+  motion.tip = motion.previous_tip = tf2::toMsg(kAbove);
+  motion.radius = 0.0;
+  return motion;
+}
+
+geometry_msgs::Pose at(const Vector3d& position) {
+  geometry_msgs::Pose pose;
+  pose.position = tf2::toMsg(position);
+  pose.orientation.w = 1.0;
+  return pose;
+}
+
+/// The wrist rests above the sheet, and the jaw goes through it.
+LinkMotion jaw_goes_down() {
+  LinkMotion motion;
+  motion.previous = {at({-0.3, 0.2, 0.6}), at({0.1, 0.2, 0.3})};
+  motion.links = {at({-0.3, 0.2, 0.6}), at({0.1, 0.2, -0.3})};
+  return motion;
+}
+
+void expect_words(const std::string& message, const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
+  }
+}
+
+/// The services of a node with one organ, "liver", and a request of a swept query that touches it.
+class QueryServicesTest : public testing::Test, protected ServedNode {
+ protected:
+  explicit QueryServicesTest(const std::vector<Tool>& list = {shaft_tool("hook", 0.01)}) {
+    tools = list;
+    request.header.frame_id = "liver_frame";
+    request.organ = "liver";
+    request.motion = through();
+    request.mode = ContactArray::SWEPT;
+    send_mesh(1.0, 0.0);
+  }
+
+  void expect_refused(std::uint8_t status, const std::vector<std::string>& words) {
+    const ContactArray answer = services.query(request);
+    EXPECT_EQ(answer.status, status) << answer.message;
+    EXPECT_TRUE(answer.contacts.empty());
+    expect_words(answer.message, words);
+  }
+
+  /// A batch about the organ and the tool of the request.
+  Batch batch_of(const std::vector<ToolMotion>& motions) const {
+    Batch batch;
+    batch.header = request.header;
+    batch.organ = request.organ;
+    batch.tool = request.tool;
+    batch.mode = request.mode;
+    batch.motions = motions;
+    return batch;
+  }
+
+  void expect_refused(const Batch& batch, std::uint8_t status, const std::string& word) {
+    const QueryCollisionBatch::Response response = services.query_batch(batch);
+    EXPECT_EQ(response.status, status) << response.message;
+    expect_words(response.message, {word});
+    EXPECT_TRUE(response.results.empty());
+  }
+
+  Single request;
+};
+
+/// A node with a hook that has a shaft and two links, a grasper that has only the links, and a
+/// probe that has only a shaft. See with_links() and NodeParts.
+class LinkQueriesTest : public QueryServicesTest {
+ protected:
+  LinkQueriesTest()
+      : QueryServicesTest(
+            {with_links(shaft_tool("hook", 0.01)), grasper(), shaft_tool("probe", 0.02)}) {
+    request.tool = "grasper";
+    request.motion = {};
+    request.link_motion = jaw_goes_down();
+  }
+};
+
+}  // namespace
 
 TEST_F(QueryServicesTest, SweptAndStatic) {
   ContactArray answer = services.query(request);
@@ -16,6 +129,12 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_EQ(answer.contacts[0].face, 1u);
   EXPECT_EQ(answer.header.frame_id, "liver_frame");
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
+  EXPECT_TRUE(answer.regions.empty());
+  request.regions = request.placement = true;
+  answer = services.query(request);
+  EXPECT_EQ(answer.regions.size(), 1u);
+  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);  // The surface is never inspected.
+  EXPECT_EQ(answer.placement.crossings.size(), 1u);
   request.mode = ContactArray::STATIC;
   request.motion.tip = tf2::toMsg(kAbove);
   request.motion.previous_tip = tf2::toMsg(kBelow);
@@ -27,21 +146,25 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
 TEST_F(QueryServicesTest, MotionInAnotherFrame) {
   const Eigen::Isometry3d T_liver_table =
       Eigen::Translation3d(0.5, -0.3, 0.2) *
-      Eigen::AngleAxisd(0.9, Eigen::Vector3d(0.2, 1.0, -0.6).normalized());
+      Eigen::AngleAxisd(0.9, Vector3d(0.2, 1.0, -0.6).normalized());
   set_transform(transforms, "liver_frame", "table", 4.0, T_liver_table);
   const ContactArray here = services.query(request);
   for (geometry_msgs::Point* point : {&request.motion.previous_trocar, &request.motion.previous_tip,
                                       &request.motion.trocar, &request.motion.tip}) {
-    *point = tf2::toMsg(Eigen::Vector3d(T_liver_table.inverse() * to_eigen(*point)));
+    *point = tf2::toMsg(Vector3d(T_liver_table.inverse() * to_eigen(*point)));
   }
   request.header.frame_id = "/table";
   const ContactArray there = services.query(request);
   ASSERT_EQ(there.status, ContactArray::OK) << there.message;
   EXPECT_EQ(there.header.stamp, ros::Time(4.0));
+  EXPECT_EQ(there.step_start, ros::Time(4.0));
+  EXPECT_EQ(there.header.frame_id, "liver_frame");
   ASSERT_EQ(there.contacts.size(), 1u);
   EXPECT_EQ(there.contacts[0].face, here.contacts[0].face);
   EXPECT_NEAR(there.contacts[0].depth, here.contacts[0].depth, 1e-9);
   EXPECT_NEAR(there.contacts[0].point.x, here.contacts[0].point.x, 1e-9);
+  const QueryCollisionBatch::Response batch = services.query_batch(batch_of({request.motion}));
+  EXPECT_EQ(batch.results, std::vector<ContactArray>{there});
   request.header.stamp = ros::Time(5.0);
   expect_refused(ContactArray::NO_TRANSFORM, {"table", "liver_frame"});
 }
@@ -52,8 +175,6 @@ TEST_F(QueryServicesTest, OrganMovesOnRequest) {
   EXPECT_TRUE(services.query(request).contacts.empty());
   request.organ_motion = true;
   EXPECT_EQ(services.query(request).contacts.size(), 2u);
-  request.mode = ContactArray::STATIC;
-  EXPECT_TRUE(services.query(request).contacts.empty());
 }
 
 TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
@@ -69,6 +190,8 @@ TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
   EXPECT_EQ(answer.step_start, ros::Time(1.0));
   EXPECT_EQ(answer.header.stamp, ros::Time(1.2));
   EXPECT_EQ(answer.contacts.size(), 1u);
+  ASSERT_TRUE(steps.history().last("liver", 0));
+  EXPECT_EQ(steps.history().last("liver", 0)->stamp, ros::Time(1.0));  // It is left alone.
   request.header.stamp = ros::Time(1.05);
   EXPECT_EQ(services.query(request).header.stamp, ros::Time(1.05));
   request.mode = ContactArray::STATIC;
@@ -99,8 +222,7 @@ TEST_F(QueryServicesTest, AWayThatIsNotWhollyKnownIsSaid) {
   const ContactArray answer = services.query(request);
   EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
   EXPECT_TRUE(answer.path_incomplete);
-  EXPECT_NE(answer.message.find("longer ago than transforms are kept"), std::string::npos)
-      << answer.message;
+  expect_words(answer.message, {"longer ago than transforms are kept"});
 }
 
 TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
@@ -112,17 +234,6 @@ TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
   EXPECT_EQ(answer.contacts.size(), 1u);
   EXPECT_EQ(answer.contacts[0].fraction, 0.0);
   EXPECT_EQ(answer.step_start, answer.header.stamp);
-}
-
-TEST_F(QueryServicesTest, HistoryIsLeftAlone) {
-  request.tool = "hook";
-  request.motion = {};
-  send_tip(1.0, kAbove);
-  evaluate();
-  send_tip(1.1, kBelow);
-  EXPECT_EQ(services.query(request).contacts.size(), 1u);
-  ASSERT_TRUE(steps.history().last("liver", 0));
-  EXPECT_EQ(steps.history().last("liver", 0)->stamp, ros::Time(1.0));
 }
 
 TEST_F(QueryServicesTest, PaperModesGiveFacesAndDepthRanges) {
@@ -139,187 +250,93 @@ TEST_F(QueryServicesTest, PaperModesGiveFacesAndDepthRanges) {
   }
 }
 
-TEST_F(QueryServicesTest, RegionsOnRequest) {
-  EXPECT_TRUE(services.query(request).regions.empty());
-  request.regions = true;
-  EXPECT_EQ(services.query(request).regions.size(), 1u);
-}
-
-TEST_F(QueryServicesTest, ASurfaceThatIsNeverInspectedHasCrossingsButNoSides) {
-  request.placement = true;
-  const ContactArray answer = services.query(request);
-  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
-  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
-  EXPECT_EQ(answer.placement.crossings.size(), 1u);
-}
-
-using namespace organ_collision;
-
-TEST_F(QueryServicesTest, BatchAnswersEachMotionInOrder) {
-  QueryCollisionBatch::Request batch;
-  batch.header = request.header;
-  batch.organ = "liver";
-  batch.mode = ContactArray::SWEPT;
-  EXPECT_TRUE(services.query_batch(batch).results.empty());
-  ToolMotion aside = through();
-  aside.tip = aside.previous_tip;
-  ToolMotion bad = through();
-  bad.radius = 0.0;
-  batch.motions = {through(), aside, bad, through()};
-  const QueryCollisionBatch::Response response = services.query_batch(batch);
-  EXPECT_EQ(response.status, ContactArray::OK);
-  const std::vector<ContactArray>& results = response.results;
-  ASSERT_EQ(results.size(), 4u);
-  EXPECT_EQ(results[0].contacts.size(), 1u);
-  EXPECT_TRUE(results[1].contacts.empty());
-  EXPECT_EQ(results[1].status, ContactArray::OK);
-  EXPECT_EQ(results[2].status, ContactArray::INVALID_REQUEST);
-  EXPECT_EQ(results[3].contacts.size(), 1u);
-}
-
-TEST_F(QueryServicesTest, BatchThatFailsAsAWholeSaysWhy) {
-  QueryCollisionBatch::Request good;
-  good.header = request.header;
-  good.organ = "liver";
-  good.motions = {through(), through()};
-  const auto expect_fails = [&](std::uint8_t status, const char* word, auto set) {
-    QueryCollisionBatch::Request batch = good;
-    set(batch);
-    const QueryCollisionBatch::Response response = services.query_batch(batch);
-    EXPECT_EQ(response.status, status) << response.message;
-    EXPECT_NE(response.message.find(word), std::string::npos) << response.message;
-    EXPECT_TRUE(response.results.empty());
-  };
-  using Batch = QueryCollisionBatch::Request;
-  const std::uint8_t invalid = ContactArray::INVALID_REQUEST;
-  expect_fails(invalid, "organ is empty", [](Batch& b) { b.organ = ""; });
-  expect_fails(ContactArray::UNKNOWN_ORGAN, "'spleen'", [](Batch& b) { b.organ = "spleen"; });
-  expect_fails(invalid, "mode is 5", [](Batch& b) { b.mode = 5; });
-  expect_fails(invalid, "frame_id is empty", [](Batch& b) { b.header.frame_id = ""; });
-  expect_fails(ContactArray::NO_TRANSFORM, "nowhere",
-               [](Batch& b) { b.header.frame_id = "nowhere"; });
-  expect_fails(invalid, "frame_id", [](Batch& b) { b.header.frame_id = std::string(257, 'x'); });
-  parameters.mesh_timeout_sec = 2.0;
-  expect_fails(ContactArray::STALE_MESH, "'liver'", [](Batch&) {});
-}
-
-TEST_F(QueryServicesTest, BatchInAnotherFrameIsAsItsQueries) {
-  set_transform(transforms, "liver_frame", "table", 4.0,
-                Eigen::Isometry3d(Eigen::Translation3d(0.5, -0.3, 0.2)));
-  QueryCollisionBatch::Request batch;
-  batch.header.frame_id = request.header.frame_id = "table";
-  batch.organ = "liver";
-  batch.mode = ContactArray::SWEPT;
-  batch.motions = {through()};
-  const QueryCollisionBatch::Response response = services.query_batch(batch);
-  ASSERT_EQ(response.results.size(), 1u);
-  const ContactArray single = services.query(request), &of_batch = response.results[0];
-  EXPECT_EQ(of_batch.header.frame_id, single.header.frame_id);
-  EXPECT_EQ(of_batch.header.stamp, ros::Time(4.0));
-  EXPECT_EQ(of_batch.step_start, single.step_start);
-  EXPECT_EQ(of_batch.mesh_stamp, single.mesh_stamp);
-  EXPECT_EQ(of_batch.links, single.links);
-  ASSERT_EQ(of_batch.contacts.size(), 1u);
-  EXPECT_EQ(of_batch.contacts[0].point.x, single.contacts[0].point.x);
-}
-
-TEST_F(QueryServicesTest, BatchOfTooManyMotionsIsRefused) {
-  QueryCollisionBatch::Request batch;
-  batch.header = request.header;
-  batch.organ = "liver";
-  parameters.max_batch = 3;
-  batch.motions.assign(3, through());
-  EXPECT_EQ(services.query_batch(batch).results.size(), 3u);
-  batch.motions.assign(4, through());
-  const QueryCollisionBatch::Response response = services.query_batch(batch);
-  EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
-  EXPECT_EQ(response.message,
-            "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches");
-  EXPECT_TRUE(response.results.empty());
-}
-
-TEST_F(QueryServicesTest, BatchWhoseResultsGrowTooLargeIsRefused) {
-  QueryCollisionBatch::Request batch;
-  batch.header = request.header;
-  batch.organ = "liver";
-  batch.mode = ContactArray::SWEPT;
-  batch.motions.assign(5, through());
-  const std::uint32_t one = ros::serialization::serializationLength(services.query(request));
-  const std::uint32_t all =
-      5 * one + ros::serialization::serializationLength(QueryCollisionBatch::Response());
-  parameters.max_batch_bytes = static_cast<int>(all);
-  EXPECT_EQ(ros::serialization::serializationLength(services.query_batch(batch)), all);
-  parameters.max_batch_bytes -= 1;
-  EXPECT_EQ(services.query_batch(batch).message,
-            "the answers to the first 5 of 5 motions have " + std::to_string(all) +
-                " bytes; a batch's must have at most " + std::to_string(all - 1) +
-                " (max_batch_bytes): ask for fewer motions at once");
-  parameters.max_batch_bytes = static_cast<int>(all - 4 * one);
-  const QueryCollisionBatch::Response response = services.query_batch(batch);
-  EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
-  EXPECT_NE(response.message.find("first 2 of 5"), std::string::npos) << response.message;
-  EXPECT_TRUE(response.results.empty());
-}
-
-using namespace organ_collision;
-
 TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
-  const QueryCollision::Request good = request;
-  request.organ = "spleen";
-  expect_refused(ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"});
+  struct Refusal {
+    std::uint8_t status;
+    std::vector<std::string> words;
+    std::function<void(Single&)> edit;
+  };
+  const std::vector<Refusal> refusals = {
+      {ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"}, [](auto& r) { r.organ = "spleen"; }},
+      {kInvalid, {"organ", "empty"}, [](auto& r) { r.organ = ""; }},
+      {ContactArray::UNKNOWN_TOOL,
+       {"'saw'", "'hook'"},
+       [](auto& r) {
+         r.tool = "saw";
+         r.motion = {};
+       }},
+      {kInvalid, {"mode is 5", "0 (STATIC) to 4"}, [](auto& r) { r.mode = 5; }},
+      {kInvalid, {"frame_id", "empty"}, [](auto& r) { r.header.frame_id = ""; }},
+      {ContactArray::NO_TRANSFORM,
+       {"nowhere", "unknown to TF"},
+       [](auto& r) { r.header.frame_id = "nowhere"; }},
+      {kInvalid, {"radius", "-0.25", "positive"}, [](auto& r) { r.motion.radius = -0.25; }},
+      {kInvalid, {"radius", "nan", "finite"}, [](auto& r) { r.motion.radius = kNan; }},
+      {kInvalid,
+       {"previous_tip", "inf", "finite"},
+       [](auto& r) { r.motion.previous_tip.y = kInfinity; }},
+      {kInvalid,
+       {},
+       [](auto& r) {
+         r.mode = ContactArray::PAPER_STATIC;
+         r.motion.tip = r.motion.trocar;
+       }},
+      {kInvalid, {"motion is set", "'hook' moves as in TF"}, [](auto& r) { r.tool = "hook"; }},
+      {ContactArray::NO_TRANSFORM,
+       {"hook_tip"},
+       [](auto& r) {
+         r.tool = "hook";
+         r.motion = {};
+       }},
+      {kInvalid,
+       {"link_motion", "tool is empty"},
+       [](auto& r) { r.link_motion = jaw_goes_down(); }},
+      {kInvalid, {"margin is -0.25", "positive and finite"}, [](auto& r) { r.margin = -0.25; }},
+      {kInvalid, {"margin is nan", "positive and finite"}, [](auto& r) { r.margin = kNan; }},
+      {kInvalid, {"margin is inf", "positive and finite"}, [](auto& r) { r.margin = kInfinity; }},
+      {kInvalid, {"max_near is 7", "margin"}, [](auto& r) { r.max_near = 7; }},
+      {kInvalid,
+       {"mode is 2", "1 (SWEPT)"},
+       [](auto& r) {
+         r.mode = 2;
+         r.margin = 0.01;
+       }},
+      {kInvalid,
+       {"mode is 3", "1 (SWEPT)"},
+       [](auto& r) {
+         r.mode = 3;
+         r.clearance = true;
+       }},
+      {kInvalid, {"mode is 4", "1 (SWEPT)"}, [](auto& r) {
+         r.mode = 4;
+         r.placement = true;
+       }}};
+  const Single good = request;
+  for (const Refusal& refusal : refusals) {
+    request = good;
+    refusal.edit(request);
+    expect_refused(refusal.status, refusal.words);
+  }
   request = good;
-  request.organ = "";
-  expect_refused(ContactArray::INVALID_REQUEST, {"organ", "empty"});
-  request = good;
-  request.tool = "saw";
-  request.motion = {};
-  expect_refused(ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"});
-  request = good;
-  request.mode = 5;
-  expect_refused(ContactArray::INVALID_REQUEST, {"mode", "5", "0", "4"});
-  request = good;
-  request.header.frame_id = "";
-  expect_refused(ContactArray::INVALID_REQUEST, {"frame_id", "empty"});
-  request = good;
-  request.header.frame_id = "nowhere";
-  expect_refused(ContactArray::NO_TRANSFORM, {"nowhere", "unknown to TF"});
-  request = good;
-  request.motion.radius = -0.25;
-  expect_refused(ContactArray::INVALID_REQUEST, {"radius", "-0.25", "positive"});
-  request.motion.radius = std::nan("");
-  expect_refused(ContactArray::INVALID_REQUEST, {"radius", "nan", "finite"});
-  request = good;
-  request.motion.previous_tip.y = std::numeric_limits<double>::infinity();
-  expect_refused(ContactArray::INVALID_REQUEST, {"previous_tip", "inf", "finite"});
   request.mode = ContactArray::STATIC;
+  request.motion.previous_tip.y = kInfinity;
   EXPECT_EQ(services.query(request).status, ContactArray::OK);  // Unused when static.
-  request = good;
-  request.mode = ContactArray::PAPER_STATIC;
-  request.motion.tip = request.motion.trocar;
-  expect_refused(ContactArray::INVALID_REQUEST, {});
-  request = good;
-  request.tool = "hook";
-  expect_refused(ContactArray::INVALID_REQUEST, {"motion is set", "'hook' moves as in TF"});
-  request.motion = {};
-  expect_refused(ContactArray::NO_TRANSFORM, {"hook_tip"});
 }
 
 TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
-  const QueryCollision::Request good = request;
-  const auto refuses = [&](std::string QueryCollision::Request::*field, const char* word) {
-    for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
+  const Single good = request;
+  for (const std::string& name : {std::string(10'000'000, 'x'), std::string("a\nb")}) {
+    for (std::string Single::*field : {&Single::organ, &Single::tool}) {
       request = good;
       request.*field = name;
-      expect_refused(ContactArray::INVALID_REQUEST, {word, "256"});
-      EXPECT_LT(ros::serialization::serializationLength(services.query(request)), 4000u);
+      expect_refused(kInvalid, {field == &Single::organ ? "organ" : "tool", "256"});
+      EXPECT_LT(serializationLength(services.query(request)), 4000u);
     }
-  };
-  refuses(&QueryCollision::Request::organ, "organ");
-  refuses(&QueryCollision::Request::tool, "tool");
-  request = good;
-  request.header.frame_id = std::string(10'000'000, 'x');
-  expect_refused(ContactArray::INVALID_REQUEST, {"header.frame_id", "256"});
-  EXPECT_LT(ros::serialization::serializationLength(services.query(request)), 4000u);
+    request = good;
+    request.header.frame_id = name;
+    expect_refused(kInvalid, {"header.frame_id", "256"});
+    EXPECT_LT(serializationLength(services.query(request)), 4000u);
+  }
 }
 
 TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
@@ -330,11 +347,7 @@ TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
   send_vertices(1.125, 0.0);
   evaluate();
   request.header.stamp = ros::Time(1.0625);
-  for (const std::uint8_t mode :
-       {ContactArray::SWEPT, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
-    request.mode = mode;
-    expect_refused(ContactArray::INVALID_REQUEST, {"'hook'", "1.062500000", "1.125000000"});
-  }
+  expect_refused(kInvalid, {"'hook'", "1.062500000", "1.125000000"});
   request.mode = ContactArray::STATIC;
   EXPECT_EQ(services.query(request).status, ContactArray::OK);
   request.mode = ContactArray::SWEPT;
@@ -347,50 +360,256 @@ TEST_F(QueryServicesTest, SweepsBackwardsInTimeAreRefused) {
 TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
   parameters.mesh_timeout_sec = 2.0;
   expect_refused(ContactArray::STALE_MESH, {"'liver'", "49", "2"});
+  expect_refused(batch_of({through()}), ContactArray::STALE_MESH, "'liver'");
   OrganMesh nothing;
   nothing.organ = "liver";
   organs.apply(boost::make_shared<OrganMesh>(nothing), ros::Time(51));
   expect_refused(ContactArray::NO_MESH, {"'liver'"});
 }
 
-TEST_F(QueryServicesTest, IllegalMarginsAreRefusedWithTheirValue) {
-  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  for (const auto& [margin, word] :
-       {std::pair(-0.25, "-0.25"), std::pair(nan, "nan"), std::pair(infinity, "inf")}) {
-    request.margin = margin;
-    expect_refused(ContactArray::INVALID_REQUEST, {"margin", word, "positive and finite"});
-    QueryCollisionBatch::Request batch;
-    batch.header = request.header;
-    batch.organ = request.organ;
-    batch.motions = {request.motion};
-    batch.margin = margin;
-    const QueryCollisionBatch::Response response = services.query_batch(batch);
-    EXPECT_EQ(response.status, ContactArray::INVALID_REQUEST);
-    EXPECT_NE(response.message.find(word), std::string::npos) << response.message;
-    EXPECT_TRUE(response.results.empty());
+TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
+  QueryServices broken(
+      {parameters, tools, organs, transforms, poses, steps.history()},
+      [](const std::function<void()>&) { throw std::bad_alloc(); }, counters);
+  const ContactArray answer = broken.query(request);
+  EXPECT_EQ(answer.status, ContactArray::PICKER_FAILED);
+  EXPECT_EQ(answer.message, "the query failed: std::bad_alloc");
+  const QueryCollisionBatch::Response response = broken.query_batch(batch_of({through()}));
+  EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);
+  EXPECT_EQ(response.message, "the query failed: std::bad_alloc");
+}
+
+TEST_F(QueryServicesTest, BatchAnswersEachMotionInOrder) {
+  EXPECT_TRUE(services.query_batch(batch_of({})).results.empty());
+  ToolMotion aside = through();
+  aside.tip = aside.previous_tip;
+  ToolMotion bad = through();
+  bad.radius = 0.0;
+  const auto response = services.query_batch(batch_of({through(), aside, bad, through()}));
+  EXPECT_EQ(response.status, ContactArray::OK);
+  ASSERT_EQ(response.results.size(), 4u);
+  EXPECT_EQ(response.results[0].contacts.size(), 1u);
+  EXPECT_TRUE(response.results[1].contacts.empty());
+  EXPECT_EQ(response.results[1].status, ContactArray::OK);
+  EXPECT_EQ(response.results[2].status, kInvalid);
+  EXPECT_EQ(response.results[3].contacts.size(), 1u);
+}
+
+TEST_F(QueryServicesTest, BatchThatFailsAsAWholeSaysWhy) {
+  struct Refusal {
+    std::uint8_t status;
+    std::string word;
+    std::function<void(Batch&)> edit;
+  };
+  const std::vector<Refusal> refusals = {
+      {kInvalid, "organ is empty", [](auto& b) { b.organ = ""; }},
+      {ContactArray::UNKNOWN_ORGAN, "'spleen'", [](auto& b) { b.organ = "spleen"; }},
+      {kInvalid, "mode is 5", [](auto& b) { b.mode = 5; }},
+      {kInvalid, "margin is -1", [](auto& b) { b.margin = -1.0; }},
+      {kInvalid, "frame_id is empty", [](auto& b) { b.header.frame_id = ""; }},
+      {ContactArray::NO_TRANSFORM, "nowhere", [](auto& b) { b.header.frame_id = "nowhere"; }},
+      {kInvalid, "frame_id", [](auto& b) { b.header.frame_id = std::string(257, 'x'); }},
+      {kInvalid, "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches",
+       [](auto& b) { b.motions.assign(4, through()); }}};
+  parameters.max_batch = 3;
+  EXPECT_EQ(services.query_batch(batch_of({through(), through(), through()})).results.size(), 3u);
+  for (const Refusal& refusal : refusals) {
+    Batch batch = batch_of({through(), through()});
+    refusal.edit(batch);
+    expect_refused(batch, refusal.status, refusal.word);
   }
 }
 
-TEST_F(QueryServicesTest, NearFacesNeedAMargin) {
-  request.max_near = 7;
-  expect_refused(ContactArray::INVALID_REQUEST, {"max_near", "7", "margin"});
-  request.clearance = true;
-  expect_refused(ContactArray::INVALID_REQUEST, {"max_near", "7", "margin"});
+TEST_F(QueryServicesTest, BatchWhoseResultsGrowTooLargeIsRefused) {
+  const Batch batch = batch_of({through(), through(), through(), through(), through()});
+  const std::uint32_t one = serializationLength(services.query(request));
+  const std::uint32_t all = 5 * one + serializationLength(QueryCollisionBatch::Response());
+  parameters.max_batch_bytes = static_cast<int>(all);
+  EXPECT_EQ(serializationLength(services.query_batch(batch)), all);
+  parameters.max_batch_bytes -= 1;
+  expect_refused(batch, kInvalid,
+                 "the answers to the first 5 of 5 motions have " + std::to_string(all) +
+                     " bytes; a batch's must have at most " + std::to_string(all - 1) +
+                     " (max_batch_bytes): ask for fewer motions at once");
+  parameters.max_batch_bytes = static_cast<int>(all - 4 * one);
+  expect_refused(batch, kInvalid, "first 2 of 5");
 }
 
-TEST_F(QueryServicesTest, ThePapersModesHaveOnlyContacts) {
-  const QueryCollision::Request good = request;
-  const auto refuses = [&](auto set) {
-    for (const std::uint8_t mode :
-         {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
-      request = good;
-      request.mode = mode;
-      EXPECT_EQ(services.query(request).status, ContactArray::OK);
-      set(request);
-      expect_refused(ContactArray::INVALID_REQUEST, {"mode is " + std::to_string(mode), "1"});
-    }
+TEST_F(LinkQueriesTest, GiveWhatTheStepGave) {
+  std::mt19937 random(9);
+  std::uniform_real_distribution<double> side(-0.7, 0.7), height(-0.2, 0.2);
+  struct Places {
+    Vector3d wrist, jaw, tip;  // The tip is that of the hook's shaft.
   };
-  refuses([](auto& r) { r.margin = 0.01; });
-  refuses([](auto& r) { r.clearance = true; });
-  refuses([](auto& r) { r.placement = true; });
+  const auto place = [&] {
+    const double x = side(random), y = side(random), z = height(random);
+    return Vector3d(x, y, z);
+  };
+  const auto send = [&](double time, const Places& places) {
+    set_point(transforms, "liver_frame", "arm/wrist", time, places.wrist);
+    set_point(transforms, "liver_frame", "arm/jaw", time, places.jaw);
+    send_tip(time, places.tip);
+    set_point(transforms, "liver_frame", "probe_tip", time, places.tip);
+    set_point(transforms, "liver_frame", "probe_trocar", time, {0.0, 0.0, 1.0});
+  };
+  Places before{place(), place(), place()};
+  send(1.0, before);
+  EXPECT_EQ(evaluate().size(), 3u);
+  std::size_t touched = 0;
+  std::vector<ContactArray> published[2];
+  Batch batches[2];
+  for (int i = 1; i < 40; ++i) {
+    const Places now{place(), place(), place()};
+    const double time = 1.0 + i / 1024.0;  // A binary fraction, so that no time is rounded.
+    send(time, now);
+    send_vertices(time, 0.0);
+    for (const ContactArray& step : evaluate()) {
+      if (step.tool == "probe") continue;
+      ASSERT_EQ(step.status, ContactArray::OK) << step.message;
+      const bool has_shaft = step.tool == "hook";
+      request.tool = step.tool;
+      request.link_motion.previous = {at(before.wrist), at(before.jaw)};
+      request.link_motion.links = {at(now.wrist), at(now.jaw)};
+      request.motion = {};
+      if (has_shaft) {
+        request.motion = resting_shaft();
+        request.motion.previous_tip = tf2::toMsg(before.tip);
+        request.motion.tip = tf2::toMsg(now.tip);
+      }
+      const ContactArray answer = services.query(request);
+      EXPECT_EQ(answer.contacts, step.contacts) << answer.message << step.tool << ", " << i;
+      EXPECT_EQ(answer.links, step.links);
+      touched += step.contacts.size();
+      if (published[has_shaft].empty()) batches[has_shaft] = batch_of({});
+      if (has_shaft) batches[has_shaft].motions.push_back(request.motion);
+      batches[has_shaft].link_motions.push_back(request.link_motion);
+      published[has_shaft].push_back(step);
+    }
+    before = now;
+  }
+  EXPECT_GT(touched, 50u);
+  for (const bool has_shaft : {false, true}) {
+    const QueryCollisionBatch::Response response = services.query_batch(batches[has_shaft]);
+    ASSERT_EQ(response.results.size(), published[has_shaft].size()) << response.message;
+    for (std::size_t i = 0; i < response.results.size(); ++i) {
+      EXPECT_EQ(response.results[i].contacts, published[has_shaft][i].contacts) << i;
+      EXPECT_EQ(response.results[i].links, published[has_shaft][i].links);
+      EXPECT_EQ(response.results[i].tool, published[has_shaft][i].tool);
+    }
+  }
+}
+
+TEST_F(LinkQueriesTest, NeedNoPosesInTf) {
+  EXPECT_EQ(services.query(request).contacts.size(), 1u);
+  request.link_motion = {};
+  EXPECT_EQ(services.query(request).status, ContactArray::NO_TRANSFORM);
+}
+
+TEST_F(LinkQueriesTest, RefuseFaultyTools) {
+  tools[1].fault = "grasper: parameter 'robot_description' is not set";
+  expect_refused(ContactArray::INVALID_TOOL, {"grasper: parameter"});
+  Batch batch = batch_of({});
+  batch.link_motions = {request.link_motion};
+  expect_refused(batch, ContactArray::INVALID_TOOL, "grasper: parameter");
+  batch.tool = "saw";
+  expect_refused(batch, ContactArray::UNKNOWN_TOOL, "'grasper'");
+}
+
+TEST_F(LinkQueriesTest, RefuseIllegalMotionsWithTheirValue) {
+  struct Refusal {
+    std::vector<std::string> words;
+    std::function<void(Single&)> edit;
+  };
+  const auto of_shaft = [](const char* tool, auto edit) {
+    return [tool, edit](Single& r) {
+      r.tool = tool;
+      r.motion = resting_shaft();
+      edit(r.motion);
+    };
+  };
+  const std::vector<Refusal> refusals = {
+      {{"link_motion is set", "'probe' has no links"}, of_shaft("probe", [](auto&) {})},
+      {{"link_motion.links has 1 poses", "2", "'grasper'"},
+       [](auto& r) { r.link_motion.links.pop_back(); }},
+      {{"link_motion.previous has 0 poses", "2"}, [](auto& r) { r.link_motion.previous.clear(); }},
+      {{"link_motion.previous has 3 poses", "2"},
+       [](auto& r) { r.link_motion.previous.emplace_back(); }},
+      {{"link_motion.links[1]", "'jaw'", "(0, nan, 0)", "finite"},
+       [](auto& r) {
+         r.link_motion.links[1] = at({0.0, kNan, 0.0});
+       }},
+      {{"link_motion.previous[0]", "'wrist'", "(inf, 0, 0)", "finite"},
+       [](auto& r) {
+         r.link_motion.previous[0] = at({kInfinity, 0.0, 0.0});
+       }},
+      {{"link_motion.links[0]", "'wrist'", "(0, 0, 0, 0)", "length 1"},
+       [](auto& r) { r.link_motion.links[0].orientation = {}; }},
+      {{"link_motion.links[0]", "(0, 0, 0, 1.0011)", "length 1"},
+       [](auto& r) { r.link_motion.links[0].orientation.w = 1.0011; }},
+      {{"link_motion.previous[1]", "(nan, 0, 0, 1)", "length 1"},
+       [](auto& r) { r.link_motion.previous[1].orientation.x = kNan; }},
+      {{"motion is set", "'grasper' has no shaft"}, of_shaft("grasper", [](auto&) {})},
+      {{"motion is not set", "'hook' has a shaft"}, [](auto& r) { r.tool = "hook"; }},
+      {{"motion.radius is 0.02 m", "'hook'", "0.01 m"},
+       of_shaft("hook", [](auto& motion) { motion.radius = 0.02; })},
+      {{"motion.tip is (0.1, nan, 0.3)", "finite"},
+       of_shaft("hook", [](auto& motion) { motion.tip.y = kNan; })},
+      {{"mode is 3", "'grasper' has no shaft"},
+       [](auto& r) { r.mode = ContactArray::PAPER_SWEPT; }}};
+  const Single good = request;
+  for (const Refusal& refusal : refusals) {
+    request = good;
+    refusal.edit(request);
+    expect_refused(kInvalid, refusal.words);
+  }
+}
+
+TEST_F(LinkQueriesTest, ListsOfABatchMustFitTheTool) {
+  struct Row {
+    std::string tool;
+    std::size_t shafts, links;
+    std::string refusal;  // Empty: the batch is answered.
+  };
+  const std::vector<Row> rows = {{"", 2, 0, ""},
+                                 {"", 2, 2, "link_motions has 2 motions and tool is empty"},
+                                 {"grasper", 0, 3, ""},
+                                 {"grasper", 3, 3, "'grasper' has no shaft"},
+                                 {"probe", 3, 0, ""},
+                                 {"probe", 3, 3, "'probe' has no links"},
+                                 {"hook", 3, 3, ""},
+                                 {"hook", 3, 2, "motions has 3 motions and link_motions has 2"},
+                                 {"hook", 3, 0, "equally many"}};
+  for (const Row& row : rows) {
+    request.tool = row.tool;
+    Batch batch = batch_of(std::vector<ToolMotion>(row.shafts, resting_shaft()));
+    for (ToolMotion& motion : batch.motions) motion.radius = row.tool.empty() ? 0.01 : 0.0;
+    batch.link_motions.assign(row.links, jaw_goes_down());
+    if (!row.refusal.empty()) {
+      expect_refused(batch, kInvalid, row.refusal);
+      continue;
+    }
+    const QueryCollisionBatch::Response response = services.query_batch(batch);
+    EXPECT_EQ(response.results.size(), std::max(row.shafts, row.links)) << response.message;
+    for (const ContactArray& result : response.results) {
+      EXPECT_EQ(result.status, ContactArray::OK) << result.message;
+    }
+  }
+}
+
+TEST_F(LinkQueriesTest, ABatchOfAShaftHasTheToolsRadius) {
+  request.tool = "probe";
+  ToolMotion motion = resting_shaft();
+  motion.tip = motion.previous_tip = tf2::toMsg(Vector3d(0.1, 0.2, 0.015));
+  // The last one is a ball in the origin, which is on the sheet.
+  Batch batch = batch_of({motion, motion, motion, ToolMotion()});
+  batch.motions[1].radius = 0.02;
+  batch.motions[2].radius = 0.03;
+  const QueryCollisionBatch::Response response = services.query_batch(batch);
+  ASSERT_EQ(response.results.size(), 4u) << response.message;
+  ASSERT_EQ(response.results[0].contacts.size(), 1u) << response.results[0].message;
+  EXPECT_NEAR(response.results[0].contacts[0].depth, 0.005, 1e-9);
+  EXPECT_EQ(response.results[1].contacts, response.results[0].contacts);
+  EXPECT_EQ(response.results[2].status, kInvalid);
+  EXPECT_EQ(response.results[3].status, ContactArray::OK) << response.results[3].message;
+  EXPECT_FALSE(response.results[3].contacts.empty());
 }

@@ -23,7 +23,8 @@ class QuerySnapshotTest : public testing::Test, protected NodeParts {
   QuerySnapshot take(bool moves_as_in_tf, QueryMode mode = QueryMode::kSwept) {
     answer = {};
     answer.header.stamp = answer.step_start = ros::Time(7.0);
-    return taker.take({header, organ, tool, moves_as_in_tf, mode}, answer);
+    return take_snapshot({parameters, tools, organs, transforms, poses, steps.history()},
+                         {header, organ, tool, moves_as_in_tf, mode}, answer);
   }
 
   int status_of_refusal(bool moves_as_in_tf) {
@@ -38,7 +39,6 @@ class QuerySnapshotTest : public testing::Test, protected NodeParts {
   std_msgs::Header header;
   std::string organ = "liver", tool;
   ContactArray answer;
-  SnapshotTaker taker{{parameters, tools, organs, transforms, poses, steps.history()}};
 };
 
 }  // namespace
@@ -66,23 +66,6 @@ TEST_F(QuerySnapshotTest, KeepsTheTool) {
   EXPECT_TRUE(snapshot.path.empty());
 }
 
-TEST_F(QuerySnapshotTest, HasTheToolsPathSinceItsLastStep) {
-  tool = "hook";
-  send_tip(1.0, kAbove);
-  evaluate();
-  send_tip(1.1, kBelow);
-  const QuerySnapshot swept = take(true);
-  ASSERT_EQ(swept.path.size(), 2u);
-  EXPECT_EQ(swept.path[0].axis.tip, kAbove);
-  EXPECT_EQ(swept.path[1].axis.tip, kBelow);
-  EXPECT_EQ(answer.step_start, ros::Time(1.0));
-  EXPECT_EQ(answer.header.stamp, ros::Time(1.1));
-  const QuerySnapshot resting = take(true, QueryMode::kStatic);
-  ASSERT_EQ(resting.path.size(), 1u);
-  EXPECT_EQ(resting.path[0].axis.tip, kBelow);
-  EXPECT_EQ(answer.step_start, ros::Time(1.1));
-}
-
 TEST_F(QuerySnapshotTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater) {
   tool = "hook";
   set_point(transforms, "liver_frame", "hook_tip", 0.0, kAbove, true);
@@ -91,15 +74,6 @@ TEST_F(QuerySnapshotTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater)
   take(true);
   EXPECT_EQ(answer.header.stamp, ros::Time(50.0));
   EXPECT_EQ(answer.step_start, ros::Time(50.0));
-}
-
-TEST_F(QuerySnapshotTest, HasTheFrameOfAMotion) {
-  set_point(transforms, "liver_frame", "table", 4.0, {0.5, -0.3, 0.2});
-  header.frame_id = "table";
-  const Eigen::Vector3d origin = take(false).T_organ_motion.translation();
-  EXPECT_EQ(origin, Eigen::Vector3d(0.5, -0.3, 0.2));
-  EXPECT_EQ(answer.header.stamp, ros::Time(4.0));
-  EXPECT_EQ(answer.step_start, ros::Time(4.0));
 }
 
 TEST_F(QuerySnapshotTest, RefusalsLeaveWhatIsKnownInTheAnswer) {

@@ -4,8 +4,7 @@
 #include <optional>
 #include <random>
 
-#include "node_parts.hpp"
-#include "test/ros/queries/query_fixtures.hpp"
+#include "test/ros/steps/node_parts.hpp"
 
 using namespace organ_collision;
 using std::chrono::milliseconds;
@@ -19,7 +18,7 @@ const std::vector<std::string> kAllLinks = {"", "wrist", "jaw"};
 
 /// Two tools share two links; the first one has a shaft, too. Wrist and shaft rest above the sheet
 /// unless a test moves them.
-class LinkToolsTest : public testing::Test, protected ServedNode {
+class LinkToolsTest : public testing::Test, protected NodeParts {
  protected:
   LinkToolsTest() {
     tools = {with_links(shaft_tool("hook", 0.01)), grasper()};
@@ -40,15 +39,6 @@ class LinkToolsTest : public testing::Test, protected ServedNode {
     return {};
   }
 
-  ContactArray ask(const std::string& tool, std::uint8_t mode) {
-    QueryCollision::Request request;
-    request.header.frame_id = "liver_frame";
-    request.organ = "liver";
-    request.tool = tool;
-    request.mode = mode;
-    return services.query(request);
-  }
-
   void break_grasper() {
     tools[1].links.clear();
     tools[1].joints.clear();
@@ -67,17 +57,6 @@ class LinkToolsTest : public testing::Test, protected ServedNode {
 };
 
 }  // namespace
-
-TEST_F(LinkToolsTest, AnswersNameTheLinks) {
-  send_jaw(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  const auto published = evaluate();
-  ASSERT_EQ(published.size(), 2u);
-  const ContactArray answer = of("hook", published);
-  EXPECT_EQ(answer.status, ContactArray::OK) << answer.message;
-  EXPECT_EQ(answer.links, kAllLinks);
-  EXPECT_EQ(of("grasper", published).links, (std::vector<std::string>{"wrist", "jaw"}));
-}
 
 TEST_F(LinkToolsTest, StepsSweepTheLinksAcrossAGap) {
   watch = [this](const EvaluatedStep& step) {
@@ -106,14 +85,6 @@ TEST_F(LinkToolsTest, StepsSweepTheLinksAcrossAGap) {
   EXPECT_EQ(paths[2][1].links[0].translation(), Eigen::Vector3d(-0.3, 0.2, 0.6));
 }
 
-TEST_F(LinkToolsTest, AMissingLinkSaysWhichJoint) {
-  send_mesh(1.0, 0.0);
-  const ContactArray answer = of("hook", evaluate(milliseconds(20)));
-  EXPECT_EQ(answer.status, ContactArray::NO_TRANSFORM);
-  EXPECT_EQ(answer.links, kAllLinks);
-  EXPECT_NE(answer.message.find("jaw_joint"), std::string::npos) << answer.message;
-}
-
 TEST_F(LinkToolsTest, AToolWithAFaultIsNeverEvaluated) {
   break_grasper();
   send_mesh(1.0, 0.0);
@@ -129,43 +100,6 @@ TEST_F(LinkToolsTest, AToolWithAFaultIsNeverEvaluated) {
   EXPECT_EQ(of("hook", published).status, ContactArray::OK);
   EXPECT_EQ(steps.history().last("liver", 1), nullptr);
   EXPECT_NE(steps.history().last("liver", 0), nullptr);
-}
-
-TEST_F(LinkToolsTest, QueriesOfAToolWithAFault) {
-  break_grasper();
-  send_mesh(1.0, 0.0);
-  send_jaw(1.0, kAbove);
-  for (const std::uint8_t mode :
-       {ContactArray::STATIC, ContactArray::SWEPT, ContactArray::PAPER_NAIVE}) {
-    expect_fault(ask("grasper", mode));
-  }
-  EXPECT_EQ(ask("hook", ContactArray::STATIC).status, ContactArray::OK);
-}
-
-TEST_F(LinkToolsTest, QueriesAnswerFromTheHistory) {
-  send_jaw(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  send_jaw(1.1, kBelow);
-  const ContactArray swept = ask("hook", ContactArray::SWEPT);
-  EXPECT_EQ(swept.status, ContactArray::OK) << swept.message;
-  EXPECT_EQ(swept.links, kAllLinks);
-  EXPECT_EQ(swept.step_start, ros::Time(1.0));
-  EXPECT_EQ(swept.header.stamp, ros::Time(1.1));
-  EXPECT_EQ(ask("hook", ContactArray::STATIC).step_start, ros::Time(1.1));
-}
-
-TEST_F(LinkToolsTest, ThePapersModesNeedAShaft) {
-  send_jaw(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  for (const std::uint8_t mode :
-       {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
-    const ContactArray refused = ask("grasper", mode);
-    EXPECT_EQ(refused.status, ContactArray::INVALID_REQUEST);
-    EXPECT_NE(refused.message.find("tool 'grasper' has no shaft"), std::string::npos)
-        << refused.message;
-    EXPECT_EQ(ask("hook", mode).status, ContactArray::OK) << ask("hook", mode).message;
-  }
 }
 
 TEST_F(LinkToolsTest, ContactsSayWhichLink) {
@@ -199,23 +133,6 @@ TEST_F(LinkToolsTest, OneFaceMayBeTouchedByEachLink) {
   }
   EXPECT_NEAR(answer.contacts[2].depth, 0.004, 1e-7);
 }
-
-TEST_F(LinkToolsTest, QueriesTouchWithLinks) {
-  send_jaw(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  send_jaw(1.1, kBelow);
-  for (const char* tool : {"hook", "grasper"}) {
-    const ContactArray swept = ask(tool, ContactArray::SWEPT);
-    ASSERT_EQ(swept.contacts.size(), 1u) << swept.message;
-    EXPECT_EQ(swept.links.at(swept.contacts[0].link), "jaw");
-    const ContactArray resting = ask(tool, ContactArray::STATIC);
-    EXPECT_EQ(resting.status, ContactArray::OK) << resting.message;
-    EXPECT_TRUE(resting.contacts.empty());
-  }
-}
-
-using namespace organ_collision;
 
 namespace {
 

@@ -58,14 +58,14 @@ struct NodeParts {
   }
 
   void apply_organ_messages() {
-    while (const auto update = organ_topics.next()) steps.add(organs, *update, now);
+    while (const auto update = organ_topics.next()) steps.add(*update, now);
   }
 
   /// What is published when everything that is due is evaluated, `later` after the last call.
   std::vector<ContactArray> evaluate(std::chrono::milliseconds later = {}) {
     now += later;
     published.clear();
-    steps.evaluate(organs, now);
+    steps.evaluate(now);
     return published;
   }
 
@@ -92,14 +92,14 @@ struct NodeParts {
   OrganRegistry organs{MeshLimits{}};
   FailureLog rejected;
   ros::CallbackQueue callbacks;
-  OrganTopics organ_topics{organs, rejected, callbacks};
+  OrganIntake organ_topics{organs, rejected, OrganIntake::Threads{callbacks, callbacks, callbacks}};
   ToolPoses poses{transforms, {0.001, 100}};
   StepWorkers workers{parameters};
   std::vector<ContactArray> published;
   SteadyTime now{std::chrono::hours(1)};
   /// Also called with each step, if set.
   std::function<void(const EvaluatedStep&)> watch;
-  StepScheduler steps{parameters, tools, poses, workers, [this](const EvaluatedStep& step) {
+  StepScheduler steps{parameters, tools, organs, poses, workers, [this](const EvaluatedStep& step) {
                         published.push_back(*step.answer);
                         if (watch) watch(step);
                       }};

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <ros/callback_queue.h>
 
 #include <boost/make_shared.hpp>
 #include <functional>
@@ -39,7 +38,7 @@ struct Node {
     mesh->header.stamp = ros::Time(stamp);
     mesh->vertices = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
     mesh->triangles = {0, 1, 2};
-    pipeline.organ_topics().take_mesh(mesh);
+    pipeline.inbox.intake.take_mesh(mesh);
     pipeline.apply_organ_messages(now);
     evaluate();
   }
@@ -53,7 +52,7 @@ struct Node {
     transform.child_frame_id = frame;
     transform.transform.translation.z = z;
     transform.transform.rotation.w = 1.0;
-    pipeline.transform_topics().take(message, "test", resting);
+    pipeline.inbox.motion.take_transforms(message, "test", resting);
   }
   void tip(double stamp, double z) { transform("hook_tip", stamp, z); }
 
@@ -63,19 +62,19 @@ struct Node {
     pose.header.stamp = ros::Time(stamp);
     pose.pose.position.z = z;
     pose.pose.orientation.w = 1.0;
-    pipeline.pose_topics().take_tip(1, pose);
+    pipeline.inbox.motion.take_tip(1, pose);
     evaluate();
   }
 
   void tick() {
-    pipeline.add_tick();
+    pipeline.steps.add_tick();
     evaluate();
   }
 
   /// `later`: [s] since the last call, as a node that waits knows it.
   void evaluate(double later = 0.0) {
     now += std::chrono::nanoseconds(static_cast<std::int64_t>(later * 1e9));
-    pipeline.evaluate(now);
+    pipeline.steps.evaluate(now);
   }
 
   /// A second of the clock, with transforms of the hook's tip at 100 Hz, but no shape.
@@ -118,14 +117,14 @@ struct Node {
   std::vector<Tool> tools = two_tools();
   NodeParameters parameters = parameters_of(tools);
   FailureLog rejected;
-  ros::CallbackQueue callbacks;
   std::vector<ContactArray> answers;
   SteadyTime now{std::chrono::hours(1)};
   CollisionPipeline pipeline{
       parameters,
       tools,
+      rejected,
       {[this](const EvaluatedStep& step) { answers.push_back(*step.answer); },
-       [](const OrganUpdate&) {}, rejected, callbacks}};
+       [](const OrganUpdate&) {}}};
 };
 
 void expect(const ContactArray& answer, std::uint8_t mode, std::size_t contacts) {
@@ -306,6 +305,18 @@ const std::vector<Case> kCases = {
        node.tip(7.0, kBelow);
        node.shape(7.0);
        expect(node.hook(), kStatic, 1);
+     }},
+    {"AfterTheClockJumpedBackAShapeBecomesOldAgain",
+     [](Node& node) {
+       node.shape(49.0);
+       const auto age = [&](double now) {
+         return node.pipeline.inbox.organs.at("liver").latest().age(ros::Time(now));
+       };
+       node.clock(3.0);
+       EXPECT_EQ(age(5.0), 2.0);
+       node.clock(13.0);
+       node.clock(12.9);
+       EXPECT_EQ(age(13.0), 10.0) << "a small jump does not make it young";
      }},
     {"WhatWasOnItsWayWhileTheClockJumpedALittleIsForgotten",
      [](Node& node) {

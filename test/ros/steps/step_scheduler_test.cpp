@@ -4,109 +4,7 @@
 
 #include <new>
 
-#include "node_parts.hpp"
-#include "ros/steps/step_history.hpp"
-
-using namespace organ_collision;
-
-namespace {
-
-ShapeQueue::Entry entry(int second) {
-  return {{nullptr, ros::Time(second), ros::Time(second)},
-          SteadyTime(std::chrono::seconds(second))};
-}
-
-LastStep step(int second) {
-  return {{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}, ros::Time(second), nullptr};
-}
-
-int front(const ShapeQueue& queue) {
-  return queue.front() ? static_cast<int>(queue.front()->shape.stamp.sec) : -1;
-}
-
-}  // namespace
-
-TEST(ShapeQueue, NewestReplacesTheOnesBehindTheFirst) {
-  ShapeQueue queue;
-  EXPECT_EQ(front(queue), -1);
-  for (int i = 1; i < 5; ++i) queue.push(entry(i));
-  EXPECT_EQ(front(queue), 1);
-  queue.pop();
-  EXPECT_EQ(front(queue), 4);
-  EXPECT_EQ(queue.front()->arrival, SteadyTime(std::chrono::seconds(4)));
-  queue.pop();
-  EXPECT_EQ(front(queue), -1);
-  queue.push(entry(7));
-  EXPECT_EQ(front(queue), 7);
-}
-
-TEST(ShapeQueue, TellsWhetherAShapeWasReplaced) {
-  ShapeQueue queue;
-  std::vector<bool> replaced;
-  for (int i = 1; i < 5; ++i) replaced.push_back(queue.push(entry(i)));
-  EXPECT_EQ(replaced, (std::vector<bool>{false, false, true, true}));
-}
-
-TEST(ShapeQueue, KeepsAllIfToldSo) {
-  ShapeQueue queue;
-  for (int i = 1; i < 5; ++i) EXPECT_FALSE(queue.push(entry(i), true));
-  for (int i = 1; i < 5; ++i, queue.pop()) EXPECT_EQ(front(queue), i);
-  EXPECT_EQ(front(queue), -1);
-}
-
-TEST(ShapeQueue, PopsNothingFromNothing) {
-  ShapeQueue queue;
-  queue.pop();
-  EXPECT_EQ(front(queue), -1);
-}
-
-TEST(StepHistory, EachPairHasItsOwn) {
-  StepHistory history;
-  history.of("liver", 0).last = step(1);
-  history.of("liver", 1).last = step(2);
-  history.of("kidney", 0).last = step(3);
-  EXPECT_EQ(history.last("liver", 0)->stamp, ros::Time(1));
-  EXPECT_EQ(history.last("liver", 1)->stamp, ros::Time(2));
-  EXPECT_EQ(history.last("kidney", 0)->stamp, ros::Time(3));
-  EXPECT_EQ(history.last("kidney", 1), nullptr);
-}
-
-TEST(StepHistory, PairWithoutStepHasNoLast) {
-  StepHistory history;
-  history.of("liver", 0).queue.push(entry(1));
-  EXPECT_EQ(history.last("liver", 0), nullptr);
-}
-
-TEST(StepHistory, ForgetsOneOrganOrAll) {
-  StepHistory history;
-  for (const char* organ : {"kidney", "liver", "liver2", "spleen"}) {
-    for (std::size_t tool = 0; tool < 3; ++tool) history.of(organ, tool).last = step(1);
-  }
-  history.forget("liver");
-  EXPECT_EQ(history.pairs().size(), 9u);
-  EXPECT_EQ(history.last("liver", 2), nullptr);
-  EXPECT_NE(history.last("liver2", 0), nullptr);
-  EXPECT_NE(history.last("kidney", 2), nullptr);
-  history.forget("stomach");
-  EXPECT_EQ(history.pairs().size(), 9u);
-  history.clear();
-  EXPECT_TRUE(history.pairs().empty());
-}
-
-TEST(StepHistory, KeptToolsAreNumberedAnewAndOthersForgotten) {
-  StepHistory history;
-  for (const char* organ : {"kidney", "liver"}) {
-    for (int tool = 0; tool < 3; ++tool) history.of(organ, tool).last = step(10 + tool);
-  }
-  history.renumber({std::nullopt, 2, 0, std::nullopt});
-  EXPECT_EQ(history.pairs().size(), 4u);
-  for (const char* organ : {"kidney", "liver"}) {
-    EXPECT_EQ(history.last(organ, 0), nullptr);
-    EXPECT_EQ(history.last(organ, 1)->stamp, ros::Time(12));
-    EXPECT_EQ(history.last(organ, 2)->stamp, ros::Time(10));
-    EXPECT_EQ(history.last(organ, 3), nullptr);
-  }
-}
+#include "test/ros/steps/node_parts.hpp"
 
 using namespace organ_collision;
 using std::chrono::milliseconds;
@@ -242,12 +140,6 @@ TEST_F(StepSchedulerTest, WaitingShapeIsNotReplacedByNewerOnes) {
   EXPECT_EQ(published[1].mesh_stamp, ros::Time(1.2));
 }
 
-TEST_F(StepSchedulerTest, CountsTheShapesThatNewerOnesReplace) {
-  send_mesh(1.0, 0.0);
-  for (int i = 1; i < 5; ++i) send_vertices(1.0 + 0.1 * i, 0.1f);
-  EXPECT_EQ(steps.shapes().superseded, 3u);
-}
-
 /// Compares all counts, whose sum must always be right.
 void expect_shapes(const ShapeCounts& shapes, std::uint64_t answered, std::uint64_t superseded,
                    std::uint64_t forgotten, std::uint64_t waiting) {
@@ -272,22 +164,12 @@ TEST_F(StepSchedulerTest, TellsWhatBecameOfEachShape) {
   expect_shapes(steps.shapes(), 2, 0, 0, 0);
   for (const double time : {1.2, 1.3, 1.4}) send_vertices(time, 0.1f);
   expect_shapes(steps.shapes(), 2, 1, 0, 2);
-  steps.start_anew(organs);
+  steps.start_anew();
   expect_shapes(steps.shapes(), 2, 1, 2, 0);
   send_vertices(1.5, 0.1f);
   tools.clear();
-  steps.change_tools(organs, {});
+  steps.change_tools({});
   expect_shapes(steps.shapes(), 2, 1, 3, 0);
-}
-
-TEST_F(StepSchedulerTest, CountsTheWaitingShapesOfAnOrganThatIsGone) {
-  tools.push_back(shaft_tool("lost", 0.01));
-  send_mesh(1.0, 0.0);
-  OrganMesh removal;
-  removal.organ = "liver";
-  organ_topics.take_mesh(boost::make_shared<OrganMesh>(removal));
-  apply_organ_messages();
-  expect_shapes(steps.shapes(), 0, 0, 2, 0);
 }
 
 TEST_F(StepSchedulerTest, CountsTheShapesOfARoundThatAnExceptionEnds) {
@@ -299,16 +181,6 @@ TEST_F(StepSchedulerTest, CountsTheShapesOfARoundThatAnExceptionEnds) {
   watch = [](const EvaluatedStep&) { throw std::bad_alloc(); };
   EXPECT_THROW(evaluate(), std::bad_alloc);
   expect_shapes(steps.shapes(), 1, 0, 1, 0);
-}
-
-TEST_F(StepSchedulerTest, KeepsAllShapesIfToldSo) {
-  steps.keep_all_shapes();
-  send_mesh(1.0, 0.0);
-  for (int i = 1; i < 5; ++i) send_vertices(1.0 + 0.1 * i, 0.1f);
-  send_tip(1.0, kAbove);
-  send_tip(1.5, kAbove);
-  EXPECT_EQ(evaluate().size(), 5u);
-  EXPECT_EQ(steps.shapes().superseded, 0u);
 }
 
 TEST_F(StepSchedulerTest, SaysHowLateTransformsWereAndHowLongItWaited) {
@@ -370,15 +242,6 @@ TEST_F(StepSchedulerTest, LateMeshFindsTheToolHeld) {
   expect_step(evaluate(), kSwept, 1.5, 1.6, 1);
 }
 
-TEST_F(StepSchedulerTest, MeshWithoutStampTakesTheLatestTransforms) {
-  send_tip(1.0, kAbove);
-  send_mesh(0.0, 0.0);
-  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
-  send_tip(1.1, kBelow);
-  send_vertices(0.0, 0.0);
-  expect_step(evaluate(), kSwept, 1.0, 1.1, 1);
-}
-
 TEST_F(StepSchedulerTest, TicksSweepTheToolAndHoldTheOrgan) {
   EXPECT_TRUE(tick().empty());
   send_mesh(1.0, -2.0f);
@@ -395,18 +258,6 @@ TEST_F(StepSchedulerTest, TicksSweepTheToolAndHoldTheOrgan) {
   expect_step(tick(), kSwept, 1.2, 1.2, 1);  // The change of shape counts only once.
 }
 
-TEST_F(StepSchedulerTest, TickSweepsAcrossAGap) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, -2.0f);
-  evaluate();
-  send_vertices(1.1, 0.0f);
-  ASSERT_EQ(evaluate(milliseconds(20))[0].status, ContactArray::NO_TRANSFORM);
-  send_tip(1.2, kBelow);
-  const auto published = tick();
-  expect_step(published, kSwept, 1.0, 1.2, 1);
-  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
-}
-
 TEST_F(StepSchedulerTest, TicksSayWhenTheMeshIsStale) {
   parameters.mesh_timeout_sec = 2.0;
   send_tip(49.0, kAbove);
@@ -416,16 +267,6 @@ TEST_F(StepSchedulerTest, TicksSayWhenTheMeshIsStale) {
   ros::Time::setNow(ros::Time(51.5));
   EXPECT_EQ(tick().at(0).status, ContactArray::STALE_MESH);
   EXPECT_EQ(tick().at(0).step_start, ros::Time(49.0));
-}
-
-TEST_F(StepSchedulerTest, TheShapeThatIsEvaluatedIsStaleNotTheOneThatWaits) {
-  parameters.mesh_timeout_sec = 2.0;
-  send_tip(49.0, kAbove);
-  send_mesh(49.0, 0.0);
-  evaluate();
-  ros::Time::setNow(ros::Time(51.5));
-  send_mesh(51.4, 0.1);  // It waits for its transform.
-  EXPECT_EQ(tick().at(0).status, ContactArray::STALE_MESH);
 }
 
 TEST_F(StepSchedulerTest, ResetMakesTheNextStepStatic) {
@@ -446,7 +287,7 @@ TEST_F(StepSchedulerTest, StartingAnewDropsWaitingShapes) {
   send_mesh(1.0, 0.0);
   evaluate();
   send_vertices(1.1, 0.0);
-  steps.start_anew(organs);
+  steps.start_anew();
   EXPECT_TRUE(evaluate(milliseconds(50)).empty());
   EXPECT_FALSE(steps.next_deadline());
   send_tip(1.1, kBelow);
@@ -464,18 +305,6 @@ TEST_F(StepSchedulerTest, RestingTransformsAreOfNow) {
   expect_step(evaluate(), kSwept, 50.0, 51.0, 1);
 }
 
-TEST_F(StepSchedulerTest, SweepsThroughEverySampleOfTheWay) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  send_tip(1.05, kBelow);
-  send_tip(1.1, kAbove);
-  send_vertices(1.1, 0.0);
-  const auto published = evaluate();
-  expect_step(published, kSwept, 1.0, 1.1, 1);
-  EXPECT_NEAR(published[0].contacts[0].fraction, 0.5 * (0.3 - 0.01) / 0.6, 1e-3);
-}
-
 TEST_F(StepSchedulerTest, CountsTheSamplesThatWereCut) {
   send_tip(1.0, kAbove);
   send_mesh(1.0, 0.0);
@@ -486,16 +315,6 @@ TEST_F(StepSchedulerTest, CountsTheSamplesThatWereCut) {
   EXPECT_EQ(steps.samples_cut(), 200u);
 }
 
-TEST_F(StepSchedulerTest, RegionsOnRequest) {
-  parameters.publish_regions = true;
-  send_tip(1.0, kBelow);
-  send_mesh(1.0, 0.0);
-  const auto published = evaluate();
-  ASSERT_EQ(published[0].contacts.size(), 1u);
-  ASSERT_EQ(published[0].regions.size(), 1u);
-  EXPECT_GE(published[0].regions[0].points.size(), 3u);
-}
-
 TEST_F(StepSchedulerTest, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
   send_tip(1.0, kAbove);
   send_mesh(1.0, 0.0);
@@ -503,7 +322,7 @@ TEST_F(StepSchedulerTest, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic
   set_point(transforms, "liver_frame", "needle_trocar", 0.0, {0.0, 0.0, 1.0}, true);
   set_point(transforms, "liver_frame", "needle_tip", 1.0, kBelow);
   tools = {shaft_tool("needle", 0.01), tools[0]};
-  steps.change_tools(organs, {std::nullopt, 0});
+  steps.change_tools({std::nullopt, 0});
   const auto at_once = evaluate();
   expect_step(at_once, kStatic, 1.0, 1.0, 1);
   EXPECT_EQ(at_once[0].tool, "needle");
@@ -527,22 +346,10 @@ TEST_F(StepSchedulerTest, AfterAChangeOfToolsWhatWaitsIsStillEvaluated) {
   EXPECT_TRUE(evaluate().empty());  // It waits for its transform.
   tools.push_back(tools[0]);
   tools.erase(tools.begin());
-  steps.change_tools(organs, {0});
+  steps.change_tools({0});
   EXPECT_TRUE(evaluate().empty());
   send_tip(1.1, kBelow);
   expect_step(evaluate(), kSwept, 1.0, 1.1, 1);
-}
-
-TEST_F(StepSchedulerTest, ARemovedToolIsNotEvaluated) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  send_vertices(1.1, 0.0);
-  tools.clear();
-  steps.change_tools(organs, {});
-  EXPECT_TRUE(evaluate(milliseconds(1000)).empty());
-  EXPECT_TRUE(tick().empty());
-  EXPECT_EQ(steps.next_deadline(), std::nullopt);
 }
 
 /// The shape that waits is older than the organ's newest triangles, whose surface is known already.

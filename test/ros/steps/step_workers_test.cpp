@@ -28,7 +28,7 @@ class Node {
                 {0.3 * static_cast<double>(tool), 0.1, 1.0}, true);
     }
     parts_.tools.back().fault = "tool3: its robot is not known";
-    parts_.steps.change_tools(parts_.organs, KeptTools(kTools));
+    parts_.steps.change_tools(KeptTools(kTools));
   }
 
   /// What is published in so many rounds, as bytes. All nodes get the same messages.

@@ -40,6 +40,15 @@ class ScopedSignalAction {
   void (*former_)(int);
 };
 
+std::string robot_of(const std::string& mesh) {
+  return "<robot name='probe'><link name='tip'><collision><geometry><mesh filename='" + mesh +
+         "'/></geometry></collision></link></robot>";
+}
+
+std::string refusal(const std::string& urdf, const std::vector<std::string>& links = {"tip"}) {
+  return tool_error([&] { read_robot_text(urdf, links); });
+}
+
 }  // namespace
 
 TEST(ChildProcess, GivesInputAndArgumentsAndReturnsOutput) {
@@ -133,28 +142,13 @@ TEST(ChildProcess, NothingIsLeftOpenOrWaitedFor) {
   EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1);
 }
 
-using namespace organ_collision;
-
-namespace {
-
-std::string robot_of(const std::string& mesh) {
-  return "<robot name='probe'><link name='tip'><collision><geometry><mesh filename='" + mesh +
-         "'/></geometry></collision></link></robot>";
-}
-
-std::string refusal(const std::string& urdf, const std::vector<std::string>& links = {"tip"}) {
-  return tool_error([&] { read_robot_text(urdf, links); });
-}
-
-}  // namespace
-
 TEST(RobotReader, ReadsFilesAndTexts) {
   const std::vector<std::string> names = {"jaw", "shaft"};
   for (const auto& links : {read_robot_file(tool_file("gripper.urdf"), names),
                             read_robot_text(tool_text("gripper.urdf"), names)}) {
     ASSERT_EQ(links.size(), 2u);
     EXPECT_EQ(links[0].joint, "jaw_joint");
-    EXPECT_EQ(std::get<MeshDescription>(links[0].shapes.at(0)).triangles.size(), 4u);
+    EXPECT_EQ(links[0].shapes.at(0).mesh.triangles.size(), 4u);
     EXPECT_EQ(links[1].joint, "insertion");
     EXPECT_EQ(links[1].shapes.size(), 2u);
   }
