@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What the pages show is what the tested files say. The files, figures, sections and links that they name exist. They explain
-every name of the interface, every status, every reason of a refusal, and every line that a program logs.
+"""What the pages show is what the tested files say. The files, figures, sections and links that they name exist. They
+explain every name of the interface, every status, every reason of a refusal, and every line that a program logs.
 
 Usage: pages_test.py SOURCE_FOLDER
 """
@@ -13,7 +13,8 @@ import unittest
 
 SOURCE = sys.argv[1]
 CODE = ['include', 'src', 'test', 'benchmark', 'examples', 'msg', 'srv']
-FOLDERS = '(?:%s)/' % '|'.join(['benchmark', 'doc', 'examples', 'include', 'msg', 'scripts', 'src', 'srv', 'test', r'\.ci'])
+FOLDERS = '(?:%s)/' % '|'.join(['benchmark', 'doc', 'examples', 'include', 'msg', 'scripts', 'src', 'srv', 'test',
+                                r'\.ci'])
 SHOWN = {'cpp': '.cpp', 'python': '.py', 'xml': '.launch', 'yaml': '.yaml', 'cmake': '.txt'}
 SHOWN_FOLDERS = ('examples', 'config', 'launch', 'test/install/consumer')
 # The pages that explain the names of the interface.
@@ -160,7 +161,8 @@ class PagesTest(unittest.TestCase):
         statuses = re.findall(r'^uint8 (\w+)=', read('msg/ContactArray.msg'), re.M)
         self.assertGreater(min(len(names), len(statuses)), 10)
         shown = re.findall(r'`([^`]+)`', without_code_blocks('\n'.join(PAGES[page] for page in INTERFACE_PAGES)))
-        self.assertEqual([name for name in names + statuses if not any(re.fullmatch('/?' + name, span) for span in shown)], [])
+        self.assertEqual([name for name in names + statuses
+                          if not any(re.fullmatch('/?' + name, span) for span in shown)], [])
 
     def test_troubleshooting_has_every_status_every_reason_and_every_line_that_is_logged(self):
         statuses = re.findall(r'^uint8 (\w+)=', read('msg/ContactArray.msg').split('# modes')[0], re.M)

@@ -3,8 +3,8 @@
 
 Usage: fault_simulator.py ORGAN TOOL
 
-Publishes the mesh of ORGAN once, latched, and its vertices and TOOL's poses on TF 50 times a second. It never looks whether
-anybody listens.
+Publishes the mesh of ORGAN once, latched, and its vertices and TOOL's poses on TF 50 times a second. It never looks
+whether anybody listens.
 """
 
 import math

@@ -1,5 +1,6 @@
-"""What a peer may send to a node, most of it wrong: as legal messages, as bytes of messages and requests, as headers, and as
-XML. All comes from one random generator. Peers speak TCPROS and XML-RPC by hand, so that they can speak them wrongly."""
+"""What a peer may send to a node, most of it wrong: as legal messages, as bytes of messages and requests, as headers,
+and as XML. All comes from one random generator. Peers speak TCPROS and XML-RPC by hand, so that they can speak them
+wrongly."""
 
 import io
 import socket
@@ -81,16 +82,20 @@ def vertices(rng):
 
 
 def transforms(rng):
-    return serialized(TFMessage([headed(rng, TransformStamped(child_frame_id='spoiled')) for _ in range(rng.randrange(4))]))
+    return serialized(TFMessage([headed(rng, TransformStamped(child_frame_id='spoiled'))
+                                 for _ in range(rng.randrange(4))]))
 
 
 def motion(rng):
-    return ToolMotion(*[Point(*(number(rng) for _ in range(3))) for _ in range(4)], rng.choice([0.005, 0.05, number(rng)]))
+    return ToolMotion(*[Point(*(number(rng) for _ in range(3))) for _ in range(4)],
+                      rng.choice([0.005, 0.05, number(rng)]))
 
 
 def query(rng):
-    request = QueryCollisionRequest(organ=rng.choice(['good', 'good', 'a', '']), mode=rng.choice([0, 1, 2, 3, 4, 5, 255]),
-                                    tool=rng.choice(['', '', 'probe', 'saw']), motion=motion(rng), regions=rng.random() < 0.5)
+    request = QueryCollisionRequest(organ=rng.choice(['good', 'good', 'a', '']),
+                                    mode=rng.choice([0, 1, 2, 3, 4, 5, 255]),
+                                    tool=rng.choice(['', '', 'probe', 'saw']), motion=motion(rng),
+                                    regions=rng.random() < 0.5)
     return serialized(headed(rng, request))
 
 
@@ -201,7 +206,8 @@ class Publisher:
         self.listener = socket.create_server(('localhost', 0))
         self.slave = xmlrpc.server.SimpleXMLRPCServer(('localhost', 0), logRequests=False, allow_none=True)
         self.slave.register_function(
-            lambda caller, topic, protocols: [1, '', ['TCPROS', 'localhost', self.listener.getsockname()[1]]], 'requestTopic')
+            lambda caller, topic, protocols: [1, '', ['TCPROS', 'localhost', self.listener.getsockname()[1]]],
+            'requestTopic')
         self.slave.register_function(lambda caller: [1, '', 0], 'getPid')
         self.uri = 'http://localhost:%d/' % self.slave.server_address[1]
         for work in (self.slave.serve_forever, self.accept):

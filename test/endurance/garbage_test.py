@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Peers send a node and a nodelet what is no message, no request, no header and no XML, and legal messages with any content, on
-all ports, and leave connections half open. The process lives, answers a query all the time, needs little more memory, and its
-contacts keep their contract.
+"""Peers send a node and a nodelet what is no message, no request, no header and no XML, and legal messages with any
+content, on all ports, and leave connections half open. The process lives, answers a query all the time, needs little
+more memory, and its contacts keep their contract.
 
 Usage: garbage_test.py [--seconds N] [--seed S] [--within SECONDS] [--only node|nodelet]
 """
@@ -116,7 +116,8 @@ class GarbageTest(unittest.TestCase):
         elif kind == 5:
             self.connect(uri, garbage.xml(rng))
         else:
-            service, types, body = rng.choice(((0, QueryCollision, garbage.query), (1, QueryCollisionBatch, garbage.batch)))
+            service, types, body = rng.choice(((0, QueryCollision, garbage.query),
+                                               (1, QueryCollisionBatch, garbage.batch)))
             data = garbage.spoiled(rng, body(rng))
             garbage.request(self.ports[service], self.services[service], types,
                             rng.choice([garbage.framed(data), data, garbage.framed(data)[:-1]]))
@@ -125,7 +126,8 @@ class GarbageTest(unittest.TestCase):
         uri = garbage.address(self.master.ask('lookupNode', name))
         publishers = [(garbage.Publisher(self.master.uri, '/evil_%d' % number, topic, kind), body)
                       for number, (topic, kind, body) in enumerate(((NODE + '/organ_mesh', OrganMesh, garbage.mesh),
-                                                                    (NODE + '/organ_vertices', OrganVertices, garbage.vertices),
+                                                                    (NODE + '/organ_vertices', OrganVertices,
+                                                                     garbage.vertices),
                                                                     ('/tf', TFMessage, garbage.transforms)))]
         for publisher, _ in publishers:
             wait_until(lambda: publisher.subscribers, 'the node subscribes to ' + publisher.topic)
@@ -150,7 +152,8 @@ class GarbageTest(unittest.TestCase):
         self.send_all(name)
         # The node still answers the steps of the simulator.
         log = ContactLog(NODE + '/contacts')
-        wait_until(lambda: any(answer.contacts for answer in log.of('good', status=ContactArray.OK)), 'contacts after it')
+        wait_until(lambda: any(answer.contacts for answer in log.of('good', status=ContactArray.OK)),
+                   'contacts after it')
         log.subscriber.unregister()
         watch.is_ended.set()
         watch.join(self.options.within)
@@ -173,7 +176,8 @@ class GarbageTest(unittest.TestCase):
         prefix = shlex.split(os.environ.get('ORGAN_COLLISION_NODELET_PREFIX', ''))
         nodelet = program('nodelet', 'nodelet')
         self.process = self.start(*prefix, nodelet, 'manager', '__name:=manager')
-        self.start(nodelet, 'load', 'organ_collision/CollisionNodelet', 'manager', '--no-bond', '__name:=organ_collision')
+        self.start(nodelet, 'load', 'organ_collision/CollisionNodelet', 'manager', '--no-bond',
+                   '__name:=organ_collision')
         self.check('/manager')
 
 
@@ -181,7 +185,8 @@ if __name__ == '__main__':
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument('--seconds', type=float, default=10.0, help='in all')
     parser.add_argument('--seed', type=int, default=4711, help='of the garbage')
-    parser.add_argument('--within', type=float, default=20.0, help='each query must be answered [s]; long, on a busy machine')
+    parser.add_argument('--within', type=float, default=20.0,
+                        help='each query must be answered [s]; long, on a busy machine')
     parser.add_argument('--only', choices=['node', 'nodelet'], help='not both')
     GarbageTest.options = parser.parse_args()
     names = ['GarbageTest.test_' + GarbageTest.options.only] if GarbageTest.options.only else []

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A node with respawn="true" is killed at random times by SIGKILL, also while it starts. After each kill, contacts flow again by
-themselves. No step reaches back into the life before. The simulators know nothing of all this.
+"""A node with respawn="true" is killed at random times by SIGKILL, also while it starts. After each kill, contacts flow
+again by themselves. No step reaches back into the life before. The simulators know nothing of all this.
 
 Usage: kills_test.py [--seconds N] [--seed S]
 """

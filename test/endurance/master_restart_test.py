@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The ROS master is killed and started again. All nodes of the package say in the log and on /diagnostics that they must be
-restarted."""
+"""The ROS master is killed and started again. All nodes of the package say in the log and on /diagnostics that they
+must be restarted."""
 
 import os
 import shlex
@@ -13,7 +13,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'
 from support.node_client import wait_until  # noqa: E402
 from support.processes import OwnMaster, program  # noqa: E402
 
-PROGRAMS = {'/organ_collision': ('organ_collision_node', {'tools': []}), '/haptic_proxy': ('haptic_proxy', {'tools': []}),
+PROGRAMS = {'/organ_collision': ('organ_collision_node', {'tools': []}),
+            '/haptic_proxy': ('haptic_proxy', {'tools': []}),
             '/organ_mesh_adapter': ('organ_mesh_adapter', {'organs': []}), '/contact_adapter': ('contact_adapter', {})}
 FAULT = 'the ROS master does not list this node any more'
 

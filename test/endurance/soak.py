@@ -1,12 +1,13 @@
 #!/usr/bin/python3
-"""Runs the node, then the nodelet, with a fast simulator and users of all services, and disturbs them all the time. Then it
-kills nodes, and sends garbage to their ports.
+"""Runs the node, then the nodelet, with a fast simulator and users of all services, and disturbs them all the time.
+Then it kills nodes, and sends garbage to their ports.
 
 Usage: soak.py [--help] [--minutes N] [--seed S] [--out FOLDER] [--sanitizer KIND] DEVEL
 
-The run is a success if memory stays flat, no answer is wrong, and what was sent is all accounted for. DEVEL is the devel
-space of a build with tests. The script starts its own ROS masters. It writes into FOLDER: soak.md, soak.json, and what the
-node and the nodelet have printed. A build with a sanitizer needs memory for itself, which is then not judged."""
+The run is a success if memory stays flat, no answer is wrong, and what was sent is all accounted for. DEVEL is the
+devel space of a build with tests. The script starts its own ROS masters. It writes into FOLDER: soak.md, soak.json, and
+what the node and the nodelet have printed. A build with a sanitizer needs memory for itself, which is then not
+judged."""
 
 import argparse
 import collections
@@ -55,8 +56,8 @@ SILENT = {CONTACTS: ContactArray._type, '/organ_collision/markers': MarkerArray.
 
 
 class Subject:
-    """The node or the nodelet, with its simulator and its judge, until its `with` block ends. `log`: a file for what the node
-    prints."""
+    """The node or the nodelet, with its simulator and its judge, until its `with` block ends. `log`: a file for what
+    the node prints."""
 
     def __init__(self, master, devel, kind, seed, log):
         self.kind, self.master, self.devel, self.memory = kind, master, devel, []
@@ -69,10 +70,12 @@ class Subject:
         with contextlib.ExitStack() as stack:
             prefix = shlex.split(os.environ.get('ORGAN_COLLISION_NODELET_PREFIX', ''))
             command = {'node': [self._program('organ_collision_node')],
-                       'nodelet': [*prefix, program('nodelet', 'nodelet'), 'standalone', 'organ_collision/CollisionNodelet']}
+                       'nodelet': [*prefix, program('nodelet', 'nodelet'), 'standalone',
+                                   'organ_collision/CollisionNodelet']}
             self.node = stack.enter_context(
                 self._start(*command[kind], '__name:=organ_collision', stdout=log, stderr=log))
-            wait_until(lambda: ('publisher', CONTACTS, NODE) in master.record(), 'the %s at the ROS master' % kind, 60.0)
+            wait_until(lambda: ('publisher', CONTACTS, NODE) in master.record(), 'the %s at the ROS master' % kind,
+                       60.0)
             self.judge = stack.enter_context(self._start(self._program('soak'), 'judge', str(seed)))
             self._read(self.judge)
             subscriber = rospy.Subscriber('/diagnostics', DiagnosticArray, self._count)
@@ -107,7 +110,8 @@ class Subject:
 
     def end(self):
         """Returns all that was measured, for verdict.py."""
-        run = {'kind': self.kind, 'ended': self.ended(), 'memory': list(self.memory), 'tools': [t['name'] for t in TOOLS]}
+        run = {'kind': self.kind, 'ended': self.ended(), 'memory': list(self.memory),
+               'tools': [t['name'] for t in TOOLS]}
         if not run['ended']:
             run['sent'] = json.loads(self._ask(self.simulator, 'end'))
             give_up = time.monotonic() + SETTLED
@@ -124,7 +128,8 @@ class Subject:
 
     @contextlib.contextmanager
     def _start(self, *command, stdout=subprocess.PIPE, stderr=None):
-        process = subprocess.Popen([self.devel / 'env.sh', *command], stdin=subprocess.PIPE, stdout=stdout, stderr=stderr,
+        process = subprocess.Popen([self.devel / 'env.sh', *command], stdin=subprocess.PIPE, stdout=stdout,
+                                   stderr=stderr,
                                    text=True, env=self.master.environment)
         try:
             yield process
@@ -233,7 +238,8 @@ class Users:
                 self.findings.add('reload_tools: ' + answer.message)
         elif kind == 2:
             request = ReconfigureRequest()
-            request.config.bools = [BoolParameter(name, rng.random() < 0.5) for name in ('publish_regions', 'publish_placement')]
+            request.config.bools = [BoolParameter(name, rng.random() < 0.5)
+                                    for name in ('publish_regions', 'publish_placement')]
             rospy.ServiceProxy(NODE + '/set_parameters', Reconfigure)(request)
         else:
             rospy.ServiceProxy(NODE + '/list_organs', ListOrgans)()
@@ -259,8 +265,8 @@ def connect_silently(node_address, topic, kind):
 
 
 class Disturbances:
-    """What happens to the processes, in an order that depends only on the random numbers. The simulator itself disturbs the
-    node by its messages."""
+    """What happens to the processes, in an order that depends only on the random numbers. The simulator itself disturbs
+    the node by its messages."""
 
     def __init__(self, subject, rng):
         self.subject, self.rng, self.counts, self.silent = subject, rng, collections.Counter(), {}

@@ -7,8 +7,8 @@ from organ_collision.msg import ContactArray
 MEBIBYTE, HOUR = 2**20, 3600.0
 # Of a run, this share from the start is left out: the node's pools and queues grow to their size.
 WARM_UP = 0.3
-# Memory may grow by so much from the first third of the rest to the last one. The noise is that of queues that are full when
-# a program was stopped. In a run of less than two minutes, the pools may not have their size after the warm-up.
+# Memory may grow by so much from the first third of the rest to the last one. The noise is that of queues that are full
+# when a program was stopped. In a run of less than two minutes, the pools may not have their size after the warm-up.
 MOST_GROWTH, MOST_GROWTH_OF_SHORT_RUN = 24 * MEBIBYTE, 200 * MEBIBYTE
 SHORT_RUN = 120.0  # [s]
 # What a node may answer whose transforms have gaps, whose organs come and go, and some of whose shapes are illegal.
@@ -61,7 +61,8 @@ def open_accounts(run):
             wrong.append('%d %s at the end' % (counts[waiting], waiting))
     answers = judged['answers'] + judged['lost']
     if answers != counts['answers published']:
-        wrong.append('of %d published answers, %d were received or known as lost' % (counts['answers published'], answers))
+        wrong.append('of %d published answers, %d were received or known as lost' % (counts['answers published'],
+                                                                                     answers))
     return wrong
 
 
@@ -108,7 +109,8 @@ def column(run):
     median = statistics.median(size for time, size in memory if time >= WARM_UP * seconds)
     told = {'seconds': '%.0f' % seconds, 'shapes sent a second': '%.0f' % (sent['vertices'] / seconds),
             'memory, median': '%.1f MiB' % (median / MEBIBYTE),
-            'memory, growth after the warm-up': '%+.2f MiB (%+.1f MiB/h)' % (growth / MEBIBYTE, slope * HOUR / MEBIBYTE),
+            'memory, growth after the warm-up': '%+.2f MiB (%+.1f MiB/h)' % (growth / MEBIBYTE,
+                                                                             slope * HOUR / MEBIBYTE),
             'organ messages sent': sent['meshes'] + sent['vertices']}
     told.update({'node: ' + key: counts[key] for key in counts if key.startswith(('organ messages', 'shapes'))})
     told.update({'node: answers published': counts['answers published'], 'answers received': judged['answers'],
@@ -128,6 +130,7 @@ def markdown(result):
         names = list(dict.fromkeys(name for told in runs.values() for name in told))
         rows = [['', *runs]] + [[name, *(told.get(name, 0) for told in runs.values())] for name in names]
         allowed = ['%d MiB (%s)' % (most_growth(run) // MEBIBYTE, kind) for kind, run in result['runs'].items()]
-        lines += ['', table(rows), '', 'Memory is the lowest resident memory of a window. The first %d %% of a run are left '
+        lines += ['', table(rows), '',
+                  'Memory is the lowest resident memory of a window. The first %d %% of a run are left '
                   'out. It may grow by %s.' % (100 * WARM_UP, ' and '.join(allowed))]
     return '\n'.join(lines) + '\n'

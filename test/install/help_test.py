@@ -18,7 +18,8 @@ SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) 
     os.path.join(SOURCE, 'scripts', 'view.py')]
 # The programs of tests and benchmarks, besides the unit tests.
 NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'proxy_proof', 'paper_misses', 'stab_forces', 'collision_benchmark',
-               'force_benchmark', 'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches', 'motions_benchmark', 'soak', 'fuzz')
+               'force_benchmark', 'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches', 'motions_benchmark',
+               'soak', 'fuzz')
 # The page of each node. Its tables, in this order, are of topics, services and parameters.
 PAGES = {'organ_collision_node': 'doc/interface.md', 'contact_adapter': 'doc/forces.md',
          'organ_mesh_adapter': 'doc/meshes.md', 'haptic_proxy': 'doc/haptic_interface.md'}

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Installs the build into an empty folder, and uses the installed files as another package would. rosrun finds every program of
-the package, as built and as installed.
+"""Installs the build into an empty folder, and uses the installed files as another package would. rosrun finds every
+program of the package, as built and as installed.
 
 Usage: install_test.py BUILD_FOLDER DEVEL_SPACE INSTALL_PREFIX CXX_COMPILER
 """
@@ -18,9 +18,11 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCE = os.path.dirname(os.path.dirname(HERE))
 PYTHON_OF_ROS = glob.glob('/opt/ros/*/lib/python3*/*-packages')  # Debian has it in the system's folders.
 PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
-SCRIPTS = {'ask.py', 'ask_many.py', 'dvrk_hand.py', 'dvrk_organ.py', 'dvrk_robot.py', 'grasper.py', 'lower_until_touch.py',
+SCRIPTS = {'ask.py', 'ask_many.py', 'dvrk_hand.py', 'dvrk_organ.py', 'dvrk_robot.py', 'grasper.py',
+           'lower_until_touch.py',
            'own_mesh.py', 'plan_grasper.py', 'simulator.py', 'view.py'}
-PROGRAMS = {'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter', 'haptic_proxy', 'query_offline',
+PROGRAMS = {'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter', 'haptic_proxy',
+            'query_offline',
             'replay', 'snapshot', 'liver_simulator', 'demo_report', 'stylus_driver', 'plan_grasper'}
 SHIPPED = [folder + '/' + name for folder in ('launch', 'config', 'urdf', 'msg', 'srv')
            for name in os.listdir(os.path.join(SOURCE, folder)) if os.path.isfile(os.path.join(SOURCE, folder, name))]
@@ -87,7 +89,8 @@ class InstallTest(unittest.TestCase):
             self.assertNotIn('not found', run('ldd', path), path)
         # The program that reads robots is where the node looks for it.
         urdf = os.path.join(self.prefix, 'share/organ_collision/urdf/grasper.urdf')
-        self.assertIn("link 'no_such_link' is unknown", run(os.path.join(self.programs, 'robot_reader'), urdf, 'no_such_link'))
+        self.assertIn("link 'no_such_link' is unknown",
+                      run(os.path.join(self.programs, 'robot_reader'), urdf, 'no_such_link'))
 
     def test_the_python_module_and_the_messages_share_a_package(self):
         modules = glob.glob(os.path.join(self.prefix, 'lib/python3*/*-packages'))
@@ -98,8 +101,8 @@ class InstallTest(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which('rosrun'), 'rosbash is not installed')
     def test_rosrun_finds_each_program(self):
-        """In a shell that has loaded only one space. Modules that a script imports from its own folder are no programs: they may
-        not be executed."""
+        """In a shell that has loaded only one space. Modules that a script imports from its own folder are no programs:
+        they may not be executed."""
         sources = [os.path.join(SOURCE, 'scripts' if name == 'view.py' else 'examples', name) for name in SCRIPTS]
         for space, more in ((DEVEL, sources), (self.prefix, [])):
             paths = more + [path for path in glob.glob(os.path.join(space, 'lib/organ_collision/*'))

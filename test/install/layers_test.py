@@ -62,7 +62,8 @@ class LayersTest(unittest.TestCase):
     def test_what_is_included_only_in_some_folders(self):
         message = re.compile(r'organ_collision/\w+\.h$')
         adapters = ('ros/messages', 'forces', 'contact_adapter', 'mesh_adapter')
-        for pattern, rooms in ((ROS, LAYERS[:-1]), (message, LAYERS[:-1]), (GL, ['geometry', 'query', 'ros', 'snapshot']),
+        for pattern, rooms in ((ROS, LAYERS[:-1]), (message, LAYERS[:-1]),
+                               (GL, ['geometry', 'query', 'ros', 'snapshot']),
                                (NODE, adapters)):
             for room in rooms:
                 self.assertEqual(matching(room, pattern), [])

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The forces, forces on vertices and lists of faces that contact_adapter publishes behind the real collision node. What it
-does not publish, and its parameters."""
+"""The forces, forces on vertices and lists of faces that contact_adapter publishes behind the real collision node. What
+it does not publish, and its parameters."""
 
 import sys
 import time
@@ -68,8 +68,8 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         return self.step(shape, {'probe': axis}, vertices=True)['probe']
 
     def connect(self, shape=SHEET, pair=None, node='/contact_adapter'):
-        """Connects to the outputs of this test's organ. Their topics appear with the organ's first step, so this sends steps
-        until the outputs arrive."""
+        """Connects to the outputs of this test's organ. Their topics appear with the organ's first step, so this sends
+        steps until the outputs arrive."""
         outputs = Outputs(pair or self.organ + '/probe', node)
 
         def all_come():
@@ -106,8 +106,8 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         return list(found.vertices)
 
     def test_pressed_in_and_out_again(self):
-        """The force is stiffness * depth along the outward normal, at the place of the touch, and zero once the tool has left.
-        The faces are those of `contacts`."""
+        """The force is stiffness * depth along the outward normal, at the place of the touch, and zero once the tool
+        has left. The faces are those of `contacts`."""
         outputs, shape = self.connect(scenes.one_face()), scenes.one_face()
         contacts = self.move(shape, PRESSED)
         force, place = (0.0, 0.0, STIFFNESS * (RADIUS - 0.002)), (TROCAR[0], TROCAR[1], 0.0)
@@ -151,16 +151,18 @@ class ContactAdapterTest(ToolCase, NodeStarter):
             self.assert_wrench(outputs.wait_for(self.stamp), force, tolerance=STIFFNESS * 0.001)
 
     def test_the_way_out_of_a_closed_organ(self):
-        """A short shaft sinks into a block and is drawn out again. Wholly inside, the force is along the nearest way out, grows
-        with the depth, without jumps, and is divided among the vertices."""
+        """A short shaft sinks into a block and is drawn out again. Wholly inside, the force is along the nearest way
+        out, grows with the depth, without jumps, and is divided among the vertices."""
         short = lambda height: ((0.004, -0.003, height + 0.006), (0.004, -0.003, height))
-        rospy.set_param('/organ_collision/tools', [dict(tool, margin=0.05) for tool in rospy.get_param('/organ_collision/tools')])
+        rospy.set_param('/organ_collision/tools',
+                        [dict(tool, margin=0.05) for tool in rospy.get_param('/organ_collision/tools')])
         self.assertTrue(rospy.ServiceProxy('/organ_collision/reload_tools', Trigger)().success)
         limit = Client('/contact_adapter', timeout=LIMIT)
         limit.update_configuration({'max_force': float('inf')})
         self.addCleanup(limit.update_configuration, {'max_force': 3.0})
         outputs = self.connect(BLOCK)
-        wait_until(lambda: self.move(BLOCK, short(0.05)).placement.tip == ToolPlacement.OUTSIDE, 'the sides of the block')
+        wait_until(lambda: self.move(BLOCK, short(0.05)).placement.tip == ToolPlacement.OUTSIDE,
+                   'the sides of the block')
         outputs.wait_for(self.stamp)
         heights = [0.037 - 0.001 * i for i in range(26)]
         last, forces, before_last = (0.0, 0.0, 0.0), {}, time.monotonic()
@@ -205,9 +207,9 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         diagnostics.wait_for_count('unpublished, no transform')
 
     def test_answers_of_another_sender(self):
-        """Malformed contacts publish nothing; without barycentric coordinates, there are no vertex forces; the paper's modes
-        have faces alone. A tool that is wholly inside, beyond the margin of its clearance, has no force, because the way out is
-        unknown."""
+        """Malformed contacts publish nothing; without barycentric coordinates, there are no vertex forces; the paper's
+        modes have faces alone. A tool that is wholly inside, beyond the margin of its clearance, has no force, because
+        the way out is unknown."""
         outputs, diagnostics, sender = self.connect(), Diagnostics('contact_adapter'), self.sender()
 
         def send(reason, **fields):
@@ -248,8 +250,8 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         self.assertEqual(outputs.of(self.stamp), [])
 
     def test_parameters(self):
-        """A force larger than max_force is clipped to it at the same place, which log and /diagnostics report. Both parameters
-        may change. A misspelt name is reported, and an illegal value stops the node."""
+        """A force larger than max_force is clipped to it at the same place, which log and /diagnostics report. Both
+        parameters may change. A misspelt name is reported, and an illegal value stops the node."""
         name, diagnostics, shape = '/tested_adapter', Diagnostics('tested_adapter'), scenes.one_face()
         process = self.start(name, {'stiffness': STIFFNESS, 'max_force': 1.0, 'stifness': 7}, 'contact_adapter')
         outputs, client = self.connect(shape, node=name), Client(name, timeout=LIMIT)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The launch files of examples/ and their programs do what the pages say. Other tests run forces.launch and the robots."""
+"""The launch files of examples/ and their programs do what the pages say. Other tests run forces.launch and the
+robots."""
 
 import re
 import signal
@@ -47,18 +48,20 @@ class ExamplesTest(LaunchCase, NodeStarter):
         self.assertEqual({'examples/%s.launch' % name for name in TESTED | ELSEWHERE}, files('examples', '.launch'))
 
     def test_start(self):
-        """In both minimal simulators the probe presses the tissue by some millimetres, straight down. Both ask programs get an
-        answer."""
+        """In both minimal simulators the probe presses the tissue by some millimetres, straight down. Both ask programs
+        get an answer."""
         with self.launched('examples/start.launch'):
             for simulator, asker in (('simulator.py', 'ask.py'), ('example_simulator', 'example_ask')):
                 log, contacts = Log('/rosout', LogLine), ContactLog('/organ_collision/contacts')
                 simulation = subprocess.Popen([program(simulator)])
                 try:
                     wait_until(lambda: log.last(lambda line: line.name == '/simulator' and re.match(
-                        r'probe: .* mm deep in face \d+; faces touched: \d+$', line.msg) and 1.0 < depths(line.msg)[0] < 4.0),
-                        'an ordinary touch')
+                        r'probe: .* mm deep in face \d+; faces touched: \d+$', line.msg) and
+                        1.0 < depths(line.msg)[0] < 4.0),
+                               'an ordinary touch')
                     wait_until(lambda: contacts.last(lambda answer: any(
-                        0.001 < c.depth < 0.004 and c.normal.z < -0.95 and not c.behind for c in answer.contacts)), 'contacts')
+                        0.001 < c.depth < 0.004 and c.normal.z < -0.95 and not c.behind for c in answer.contacts)),
+                               'contacts')
                     said = subprocess.check_output([program(asker)], text=True, timeout=LIMIT)
                     self.assertEqual(said.splitlines()[0].strip(), 'status 0')
                     self.assertTrue(0.9 < max(depths(said)) < 3.1, said)
@@ -80,13 +83,15 @@ class ExamplesTest(LaunchCase, NodeStarter):
     def test_two_hosts(self):
         """Both on this one."""
         with self.launched('examples/two_hosts.launch'):
-            for node, organ, tool in (('/liver_collision', 'liver', 'stabber'), ('/sheet_collision', 'tissue', 'probe')):
+            for node, organ, tool in (('/liver_collision', 'liver', 'stabber'),
+                                      ('/sheet_collision', 'tissue', 'probe')):
                 log = ContactLog(node + '/contacts')
-                wait_until(lambda: any(answer.contacts for answer in log.of(organ, tool, status=0)), 'contacts of ' + organ)
+                wait_until(lambda: any(answer.contacts for answer in log.of(organ, tool, status=0)),
+                           'contacts of ' + organ)
 
     def test_haptics(self):
-        """The tissue holds the stylus back, and the driver passes the force on. When haptic_proxy ends, the driver switches the
-        force off."""
+        """The tissue holds the stylus back, and the driver passes the force on. When haptic_proxy ends, the driver
+        switches the force off."""
         def pushes(line):
             force = re.match(r'the force on the hand is \(\S+, \S+, (\S+)\) N', line.msg)
             return line.name == '/stylus_driver' and force and float(force.group(1)) > 0.3
@@ -100,12 +105,13 @@ class ExamplesTest(LaunchCase, NodeStarter):
             wait_until(lambda: log.last(pushes), 'a driver that pushes the hand up')
             del log.messages[:]
             rosnode.kill_nodes(['/haptic_proxy'])
-            wait_until(lambda: log.last(lambda line: line.msg.endswith('the force is off')), 'the force to be switched off')
+            wait_until(lambda: log.last(lambda line: line.msg.endswith('the force is off')),
+                       'the force to be switched off')
             launched.nodes.remove('/haptic_proxy')
 
     def test_dvrk(self):
-        """Both arms touch the organ with both jaws, and the hands feel forces out of it, within the limit of 2 N. A wrench is
-        turned, scaled, limited and ends."""
+        """Both arms touch the organ with both jaws, and the hands feel forces out of it, within the limit of 2 N. A
+        wrench is turned, scaled, limited and ends."""
         jaws = {arm + link for arm in ('PSM1', 'PSM2') for link in ('_left_jaw', '_right_jaw')}
         # The axes of the organ's frame in the camera's. The third one points out of the organ where the arms touch it.
         axes = np.array([[-1, 0, 0], [0, 0.8, 0.6], [0, 0.6, -0.8]]).T
@@ -138,8 +144,8 @@ class ExamplesTest(LaunchCase, NodeStarter):
             wait_until(lambda: not force_of(felt.last()).any(), lambda: felt.last())
 
     def test_fem_tissue(self):
-        """The vertex forces alone move the tissue: it yields under the probe, and comes back. What its nodes are given is minus
-        the wrench, times the duration of a step."""
+        """The vertex forces alone move the tissue: it yields under the probe, and comes back. What its nodes are given
+        is minus the wrench, times the duration of a step."""
         with self.launched('examples/fem_tissue.launch'):
             wrenches, forces, impulses, shapes = (Log(topic, kind) for topic, kind in (
                 ('/contact_adapter/tissue/probe/wrench', WrenchStamped),
@@ -152,7 +158,8 @@ class ExamplesTest(LaunchCase, NodeStarter):
             wait_until(lambda: max(dented(), default=0) > 0.002 > 0.0002 > dented()[-1], 'a dent that comes back', LONG)
             self.assertLess(max(dented()), 0.013)  # The probe's surface goes down to 13 mm below the tissue at rest.
 
-            by_stamp = [{m.header.stamp: m for m in log.select(lambda m: True)} for log in (wrenches, forces, impulses, shapes)]
+            by_stamp = [{m.header.stamp: m for m in log.select(lambda m: True)}
+                        for log in (wrenches, forces, impulses, shapes)]
             stamps = set(by_stamp[0]).intersection(*by_stamp[1:])
             self.assertGreater(len(stamps), 100)
             strongest = 0.0

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""haptic_proxy as its users see it, the node, and in short the nodelet. Each hand is moved in small steps at a few hundred
-poses a second. No test depends on how fast they are answered."""
+"""haptic_proxy as its users see it, the node, and in short the nodelet. Each hand is moved in small steps at a few
+hundred poses a second. No test depends on how fast they are answered."""
 
 import math
 import sys
@@ -43,7 +43,8 @@ class Hands:
     """The hands of all tools. Both nodes follow them."""
 
     def __init__(self):
-        self.poses = {tool: rospy.Publisher(tool + '/pose', PoseStamped, queue_size=1000) for tool in ('needle', 'stylus')}
+        self.poses = {tool: rospy.Publisher(tool + '/pose', PoseStamped, queue_size=1000)
+                      for tool in ('needle', 'stylus')}
         self.tf, self.tips = TfSender(), {}
         self.tf.send_resting(*((FRAME, frame, TROCAR) for frame in ('needle_trocar', 'probe_trocar', 'stylus_base')))
 
@@ -99,7 +100,8 @@ class ProxyCase(unittest.TestCase):
         wait_until(lambda: organ not in self.organs(), 'removal')
 
     def send_sheet(self, organ=None, frame=FRAME):
-        mesh = OrganMesh(organ=organ or self.organ, topology=1, vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces())
+        mesh = OrganMesh(organ=organ or self.organ, topology=1, vertices=SHEET.flat_vertices(),
+                         triangles=SHEET.flat_faces())
         mesh.header.frame_id = frame
         self.meshes.publish(mesh)
         wait_until(lambda: mesh.organ in self.organs(), 'the organ')
@@ -138,7 +140,8 @@ class ProxyCase(unittest.TestCase):
         return STIFFNESS * (RADIUS[tool] + CLEARANCE - height)
 
     def stab(self, tool='needle', depth=0.02):
-        """Moves a hand from the air to a depth below the sheet, and waits for the whole force there. Returns the state."""
+        """Moves a hand from the air to a depth below the sheet, and waits for the whole force there. Returns the
+        state."""
         self.hold_free(tool)
         self.hands.move(tool, (X, Y, -depth))
         expected = self.spring(tool, -depth)
@@ -199,7 +202,8 @@ class HapticProxyTest(ProxyCase):
         self.send_sheet()
         self.stab(depth=0.01)
         answer = self.hold_until('needle', (X, Y, -0.01), lambda answer: answer.organ == self.organ and answer.contacts
-                                 and (answer.tool, answer.status) == ('needle', ContactArray.OK), 'contacts', self.contacts)
+                                 and (answer.tool, answer.status) == ('needle', ContactArray.OK), 'contacts',
+                                 self.contacts)
         self.assertEqual((answer.header.frame_id, answer.topology), (FRAME, 1))
         self.assertAlmostEqual(answer.contacts[0].depth, -CLEARANCE, delta=1e-6)
         self.assertAlmostEqual(answer.contacts[0].normal.z, -1.0, delta=1e-6)
@@ -252,7 +256,8 @@ class HapticProxyTest(ProxyCase):
         send()
         self.send_sheet(frame=frame)
         for _ in range(2):  # After the silence, it goes on.
-            self.hold_until('needle', AIR, lambda state: send() or (state.state, state.header.frame_id) == (FREE, frame), 'free')
+            self.hold_until('needle', AIR, lambda state: send()
+                            or (state.state, state.header.frame_id) == (FREE, frame), 'free')
             self.hold_until('needle', AIR, lambda state: no_force(state) and "frame '%s' is " % frame in state.message
                             and '(frame_timeout_sec)' in state.message, 'the frame is too old')
 
@@ -284,7 +289,8 @@ class HapticProxyTest(ProxyCase):
                                  'contacts that say so', self.contacts)
         self.assertNotEqual(answer.status, ContactArray.OK)
         self.assertTrue(self.remove_service(self.organ).success)
-        self.hold_until('needle', DEEP, lambda state: no_force(state) and 'there is no organ' in state.message, 'no organ')
+        self.hold_until('needle', DEEP, lambda state: no_force(state) and 'there is no organ' in state.message,
+                        'no organ')
         state = wait_until(self.states['grasper'].last, 'the state of the grasper')
         self.assertEqual((state.state, state.hand.orientation.w, state.proxy.orientation.w), (NO_ANSWER, 1.0, 1.0))
         self.assertIn('no_such_robot', state.message)

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Every file in launch/ starts all its nodes and stops cleanly, every configuration file loads, and what RViz is to show
-exists. Other tests run the launch files of examples/."""
+"""Every file in launch/ starts all its nodes and stops cleanly, every configuration file loads, and what RViz is to
+show exists. Other tests run the launch files of examples/."""
 
 import os
 import re
@@ -75,8 +75,8 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
             self.assertIn('organ', state.message)
 
     def check_demo(self):
-        """The organ and the tools move and touch. The RViz configuration, as view.py fits it to the organs that are there,
-        shows only existing topics and frames."""
+        """The organ and the tools move and touch. The RViz configuration, as view.py fits it to the organs that are
+        there, shows only existing topics and frames."""
         node = NodeClient()
         touched = wait_until(lambda: node.contacts.select(lambda answer: answer.contacts), 'contacts in the scene')[0]
         self.assertEqual(touched.status, ContactArray.OK)
@@ -113,8 +113,8 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         self.assertEqual(classes - known, set())
 
     def test_every_configuration_file(self):
-        """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of them, and a
-        file with organs a mesh adapter that accepts their meshes. None reports an unknown name."""
+        """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of
+        them, and a file with organs a mesh adapter that accepts their meshes. None reports an unknown name."""
         started = set()
         for path in sorted(files('config', '.yaml') | files('examples', '.yaml')):
             with open(os.path.join(PACKAGE, path)) as text:

@@ -19,7 +19,8 @@ from support.tool_case import OUT_OF_REACH, ToolCase
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
 NODE = '/live'
-AT_START = {'rate': 0.0, 'publish_regions': False, 'publish_placement': True, 'tf_timeout_sec': 5.0, 'mesh_timeout_sec': 0.0}
+AT_START = {'rate': 0.0, 'publish_regions': False, 'publish_placement': True, 'tf_timeout_sec': 5.0,
+            'mesh_timeout_sec': 0.0}
 
 
 def shaft(name, radius=0.005, **more):
@@ -63,8 +64,8 @@ class LiveChangesTest(KeepsContract, ToolCase):
             self.assertEqual(later.step_start, earlier.header.stamp)
 
     def test_unchanged_tools_keep_their_history(self):
-        """The tools are reloaded several times while steps are made. The kept tool has another place in the list each time.
-        At the end, there is none."""
+        """The tools are reloaded several times while steps are made. The kept tool has another place in the list each
+        time. At the end, there is none."""
         self.reloaded(shaft('kept'), shaft('hook'))
         axes = {'kept': at_height(0.05), 'hook': at_height(0.0055)}
         self.step(SHEET, axes)

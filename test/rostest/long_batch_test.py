@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""While a long batch is answered, steps go on, and single queries are answered. The node ends in the middle of it. Nothing
-here is measured in time: a batch is going on as long as /diagnostics counts its motions, and it would take far longer than
-the test."""
+"""While a long batch is answered, steps go on, and single queries are answered. The node ends in the middle of it.
+Nothing here is measured in time: a batch is going on as long as /diagnostics counts its motions, and it would take far
+longer than the test."""
 
 import sys
 import threading
@@ -47,7 +47,8 @@ class LongBatchTest(ContactCase, NodeStarter):
         process = self.start(NODE, {'tools': [PROBE], 'diagnostic_period': 0.05})
         node, tf, small = NodeClient(NODE), TfSender(), scenes.sheet(0.1, 4)
         tf.wait_for(node)
-        tf.send_resting(('liver_frame', 'probe_trocar', (0.01, 0.02, 0.3)), ('liver_frame', 'probe_tip', (0.01, 0.02, 0.002)))
+        tf.send_resting(('liver_frame', 'probe_trocar', (0.01, 0.02, 0.3)),
+                        ('liver_frame', 'probe_tip', (0.01, 0.02, 0.002)))
         for organ, mesh in (('large', LARGE), ('small', small)):
             node.bring(organ, mesh, rospy.Time(1))
         both = [Batch('small', [FAR_AWAY] * count) for count in (700, 500)]

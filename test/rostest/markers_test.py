@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The markers show organs, tools and contacts, and of haptic_proxy hands, proxies and states, also to a viewer that comes
-late. They leave nothing of what is gone."""
+"""The markers show organs, tools and contacts, and of haptic_proxy hands, proxies and states, also to a viewer that
+comes late. They leave nothing of what is gone."""
 
 import math
 import sys
@@ -132,7 +132,8 @@ class MarkersTest(NodeStarter):
         meshes = rospy.Publisher('/hands/organ_mesh', OrganMesh, queue_size=1, latch=True)
         transforms = TfSender()
         transforms.send_resting((frame, 'hand_trocar', (0, 0, 0.3)))
-        process = self.start('/hands', {'tools': [tool], 'stiffness': stiffness, 'pose_timeout_sec': 0.3}, 'haptic_proxy')
+        process = self.start('/hands', {'tools': [tool], 'stiffness': stiffness, 'pose_timeout_sec': 0.3},
+                             'haptic_proxy')
         viewer = Viewer('/hands/markers')
         mesh = OrganMesh(organ='sheet', vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces())
         mesh.header.frame_id = frame

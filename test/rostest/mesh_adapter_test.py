@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Meshes in each message type that organ_mesh_adapter accepts: shapes and triangles change, and organs are removed. What it
-refuses. Adapters and collision nodes that start again, and illegal parameters."""
+"""Meshes in each message type that organ_mesh_adapter accepts: shapes and triangles change, and organs are removed.
+What it refuses. Adapters and collision nodes that start again, and illegal parameters."""
 
 import sys
 
@@ -88,8 +88,8 @@ class MeshAdapterTest(ContactCase, NodeStarter):
         wait_until(lambda: self.node.query(organ, FAR_AWAY).status == ContactArray.NO_MESH, 'removal of ' + organ)
 
     def test_meshes_of_each_type(self):
-        """They are published with their stamps, move with the same topology, and get the next one with other triangles. An
-        empty one removes the organ."""
+        """They are published with their stamps, move with the same topology, and get the next one with other triangles.
+        An empty one removes the organ."""
         for organ in LAYOUTS:
             begin = rospy.Time.now()
             self.send(organ, SHEET, begin)
@@ -132,7 +132,8 @@ class MeshAdapterTest(ContactCase, NodeStarter):
             self.assertEqual(self.wait_for_contacts('framed', mesh).header.frame_id, 'liver_frame')
 
     def test_refusals(self):
-        """The log names topic and reason, and the organ stays as it was. /diagnostics counts messages by organ and reason."""
+        """The log names topic and reason, and the organ stays as it was. /diagnostics counts messages by organ and
+        reason."""
         said = Diagnostics(ADAPTER)
         short, flat, text = polygon_mesh(SHEET), marker(SHEET), String('solid liver')
         short.polygons[5].vertices = [1, 2]
@@ -149,7 +150,8 @@ class MeshAdapterTest(ContactCase, NodeStarter):
             ('/sim/marker', flat, 'scale is 1 1 0', 'more than 0'),
             ('/sim/marker', marker(SHEET, name=('tools', 7)), "'tools/7'", "'organs/7'"),
             ('/sim/shape_points', cloud(SHEET.vertices[1:]), '24 vertices', "'shape'", '25'),
-            ('/sim/odd', text, 'std_msgs/String', 'shape_msgs/Mesh', 'pcl_msgs/PolygonMesh', 'visualization_msgs/Marker'),
+            ('/sim/odd', text, 'std_msgs/String', 'shape_msgs/Mesh', 'pcl_msgs/PolygonMesh',
+             'visualization_msgs/Marker'),
             ('/sim/odd_points', text, 'std_msgs/String', 'sensor_msgs/PointCloud2'),
             ('/sim/unframed', shape_mesh(SHEET), "'unframed'", "'frame'"),
             ('/sim/unmeshed_points', cloud(SHEET.vertices), "'unmeshed'", 'no mesh'),

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""A fatal error in a nodelet stops neither its manager nor the other nodelets. The nodelet reports the error for each tool,
-restarts, and answers again."""
+"""A fatal error in a nodelet stops neither its manager nor the other nodelets. The nodelet reports the error for each
+tool, restarts, and answers again."""
 
 import sys
 
@@ -19,8 +19,8 @@ LARGE = scenes.sheet(0.02, 70)
 
 class NodeletRestartTest(ContactCase):
     def send(self, client, topology):
-        """Sends a new shape until the needle answers, and checks that it touches all faces. It may answer only after the
-        restart."""
+        """Sends a new shape until the needle answers, and checks that it touches all faces. It may answer only after
+        the restart."""
 
         def answers():
             client.send_mesh('liver', SMALL, stamp, topology)

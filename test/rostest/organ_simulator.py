@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """A simulator that publishes one organ's mesh, latched, and runs until it is stopped.
 
-Usage: organ_simulator.py CELLS STAMP. The mesh is a sheet of CELLS x CELLS squares with topology 0 and the stamp STAMP [s].
+Usage: organ_simulator.py CELLS STAMP. The mesh is a sheet of CELLS x CELLS squares with topology 0 and the stamp STAMP
+[s].
 """
 
 from organ_collision.msg import OrganMesh

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What the node says about the organs that it has: in the log, on /diagnostics and by list_organs. What it refuses, and that
-the last good state stays. How an organ is removed, and when a mesh is a new organ."""
+"""What the node says about the organs that it has: in the log, on /diagnostics and by list_organs. What it refuses, and
+that the last good state stays. How an organ is removed, and when a mesh is a new organ."""
 
 import os
 import subprocess
@@ -69,8 +69,8 @@ class OrgansTest(KeepsContract, ContactCase):
         self.remove_service(self.organ)
 
     def logged(self, level, *words, meanwhile=lambda: None):
-        """Waits for a line of the log about this test's organ with all of these words. Calls `meanwhile` again and again:
-        the node logs failures of one kind at most once a second."""
+        """Waits for a line of the log about this test's organ with all of these words. Calls `meanwhile` again and
+        again: the node logs failures of one kind at most once a second."""
 
         def found():
             meanwhile()
@@ -102,14 +102,16 @@ class OrgansTest(KeepsContract, ContactCase):
         self.assert_near(xyz(organ.low), (0.24, -0.045, -0.23), 1e-7, 'low')
         self.assert_near(xyz(organ.high), (0.36, 0.045, -0.17), 1e-7, 'high')
         # The volume is that of the latest shape.
-        self.node.send_vertices(self.organ, KIDNEY.moved(lambda v: tuple(2.0 * c for c in v)), rospy.Time(8), topology=3)
+        self.node.send_vertices(self.organ, KIDNEY.moved(lambda v: tuple(2.0 * c for c in v)), rospy.Time(8),
+                                topology=3)
         self.node.wait_for_shape(self.organ, rospy.Time(8), topology=3)
         self.assertAlmostEqual(self.listed().volume, 8 * VOLUME, delta=1e-7)
 
     def test_doubtful_organs(self):
         """They are answered, and named in the log and on /diagnostics."""
         for name, mesh, level, said, orientation, volume in (
-            ('in_millimetres', IN_MILLIMETRES, LogLine.WARN, ('120 x 90 x 60 m', 'are these millimetres?'), 'outward', 1e9),
+            ('in_millimetres', IN_MILLIMETRES, LogLine.WARN, ('120 x 90 x 60 m', 'are these millimetres?'), 'outward',
+             1e9),
             ('inward', INWARD, LogLine.WARN, ('point inward', 'swap two vertices of each triangle'), 'inward', -1),
             ('open', OPEN, LogLine.INFO, ('11 faces, open (3 edges)',), 'none', 0),
         ):
@@ -150,8 +152,8 @@ class OrgansTest(KeepsContract, ContactCase):
         return (self.node.shapes if moved else self.node.meshes), message
 
     def test_refusals(self):
-        """`contacts` refuses each message with a text that names the value and what is legal, /diagnostics counts it, and
-        the good organ stays as it was."""
+        """`contacts` refuses each message with a text that names the value and what is legal, /diagnostics counts it,
+        and the good organ stays as it was."""
         vertices, triangles, big = SHEET.flat_vertices(), SHEET.flat_faces(), scenes.sheet(0.1, 8)
         changed = lambda values, at, value: values[:at] + [value] + values[at + 1:]
         cases = (
@@ -198,7 +200,8 @@ class OrgansTest(KeepsContract, ContactCase):
         publisher, message = self.message(organ='x' * 10**7)
         message.header.stamp = self.next_stamp()
         publisher.publish(message)
-        answer = wait_until(lambda: self.node.contacts.select(lambda a: a.header.stamp == message.header.stamp), 'refusal')[0]
+        answer = wait_until(lambda: self.node.contacts.select(lambda a: a.header.stamp == message.header.stamp),
+                            'refusal')[0]
         self.assertIn('organ', answer.message)
         texts = [answer.organ, answer.message, *[line.msg for line in self.log.messages], *self.said.values.values()]
         self.assertLess(max(map(len, texts)), 4000)
@@ -260,8 +263,8 @@ class OrgansTest(KeepsContract, ContactCase):
             process.wait()
 
     def test_a_restarted_simulator_brings_a_new_organ(self):
-        """Other triangles with the present topology number from a new connection are a new organ. The same mesh again is a
-        new shape, whose step begins at the last one."""
+        """Other triangles with the present topology number from a new connection are a new organ. The same mesh again
+        is a new shape, whose step begins at the last one."""
         self.simulate(3, STATIC)
         self.simulate(5, STATIC)
         self.simulate(5, SWEPT)

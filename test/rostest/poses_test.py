@@ -110,7 +110,8 @@ class PosesTest(ContactCase):
         self.assertEqual([answer.step_start for answer in answers], ends[:-1])
         touched = [oracle.swept_contacts(SHEET, (TROCAR, before), (TROCAR, after), RADIUS)
                    for before, after in zip([tip_at(-0.09, 0.05)] + tips, tips)]
-        self.assertEqual({face for answer in answers for face in faces_of(answer)}, {c.face for cs in touched for c in cs})
+        self.assertEqual({face for answer in answers for face in faces_of(answer)},
+                         {c.face for cs in touched for c in cs})
 
     def test_no_pose_is_no_answer_and_one_without_stamp_is_of_now(self):
         self.node.send_mesh(self.organ, SHEET)

@@ -8,7 +8,8 @@ import threading
 import unittest
 
 import numpy as np
-from organ_collision import (CollisionError, clearance_record, contact_table, crossing_table, near_table, Organ, organ_mesh,
+from organ_collision import (CollisionError, clearance_record, contact_table, crossing_table, near_table, Organ,
+                             organ_mesh,
                              Queries)
 from organ_collision.msg import ContactArray
 import roslib.packages

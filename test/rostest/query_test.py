@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The services query and query_batch: of motions and of the node's tools, with both pickers, in any frame, with clearance
-and placement. What they refuse."""
+"""The services query and query_batch: of motions and of the node's tools, with both pickers, in any frame, with
+clearance and placement. What they refuse."""
 
 import io
 import random
@@ -118,7 +118,8 @@ class QueryTest(KeepsContract, ToolCase):
     def test_stamp_says_when_to_transform(self):
         """A carrier sinks by 0.1 m in 0.1 s, and takes the tip to the sheet at a known time."""
         begin = rospy.Time.now() - rospy.Duration(1)
-        self.tf.send(*[('liver_frame', 'carrier', scenes.at((0, 0, 0.1 - 0.01 * i)), begin + rospy.Duration(0, 10**7 * i))
+        self.tf.send(*[('liver_frame', 'carrier', scenes.at((0, 0, 0.1 - 0.01 * i)),
+                        begin + rospy.Duration(0, 10**7 * i))
                        for i in range(11)])
         motion = shaft((0.01, 0.002, 0.3), (0.01, 0.002, 0.0), 0.004)
         end = begin + rospy.Duration(0, 10**8)
@@ -179,7 +180,8 @@ class QueryTest(KeepsContract, ToolCase):
             self.assertAlmostEqual(distances[found.face], min(distances), delta=1e-9)
             way = sub(xyz(found.on_organ), xyz(found.on_tool))
             self.assert_near(way, scaled(xyz(found.normal), found.distance), 1e-9, 'on_organ - on_tool')
-            self.assert_near(xyz(found.on_organ), oracle.weighted(SHEET.face(found.face), found.barycentric), 1e-9, 'place')
+            self.assert_near(xyz(found.on_organ), oracle.weighted(SHEET.face(found.face), found.barycentric), 1e-9,
+                             'place')
             self.assertEqual(result.near_left_out, max(0, len(near) - 7))
             for contact, right in zip(result.near, near):
                 self.assertAlmostEqual(-contact.depth, right, delta=1e-9)

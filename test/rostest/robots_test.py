@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""The grasper of the examples. Its jaws touch the faces that a naive check of their meshes finds. The planners of plan.launch
-take it to the liver's hilum: on its way it touches nothing, as the node and a naive search find at the poses of TF. The
-straight way would have touched the liver."""
+"""The grasper of the examples. Its jaws touch the faces that a naive check of their meshes finds. The planners of
+plan.launch take it to the liver's hilum: on its way it touches nothing, as the node and a naive search find at the
+poses of TF. The straight way would have touched the liver."""
 
 import os
 import sys
@@ -50,8 +50,8 @@ class RobotsTest(LaunchCase):
             ('mesh', OrganMesh), ('vertices', OrganVertices)))
 
         def is_recorded(answer):
-            """Whether this test has received the shapes and poses of the answer's step. The first ones may have been sent before
-            this test listened; the last ones may still be on their way."""
+            """Whether this test has received the shapes and poses of the answer's step. The first ones may have been
+            sent before this test listened; the last ones may still be on their way."""
             stamps = {m.header.stamp for m in meshes.messages} | {m.header.stamp for m in shapes.messages}
             return ({answer.step_start, answer.mesh_stamp} <= stamps
                     and self.robot.knows('liver', LINKS, answer.step_start, answer.header.stamp))
@@ -86,7 +86,8 @@ class RobotsTest(LaunchCase):
                     face = [lerp(a, b, contact.fraction) for a, b in corners]
                     self.assert_near(xyz(contact.point), oracle.weighted(face, contact.barycentric), 1e-7, contact)
                     touch = start + rospy.Duration((end - start).to_sec() * contact.fraction)
-                    self.assertLess(JAW_MESH.at(self.pose(jaw, touch)).distance(xyz(contact.point)), ON_SURFACE, contact)
+                    self.assertLess(JAW_MESH.at(self.pose(jaw, touch)).distance(xyz(contact.point)), ON_SURFACE,
+                                    contact)
                 pierced = JAW_MESH.at(self.pose(jaw, end)).faces_pierced(after)  # None of these is missed.
                 self.assertEqual(pierced - {c.face for c in contacts}, set())
                 pierced_faces += len(pierced)
@@ -119,7 +120,8 @@ class RobotsTest(LaunchCase):
             stamps = self.way()
             self.assertGreater(len(stamps), 300)
             # TF may lack single states: it interpolates between those around it, which are the same at rest.
-            rests = [next(stamp for stamp in (state.header.stamp for state in states) if self.robot.knows('liver', LINKS, stamp))
+            rests = [next(stamp for stamp in (state.header.stamp for state in states)
+                          if self.robot.knows('liver', LINKS, stamp))
                      for states in (self.robot.states, self.robot.states[-20:])]
             ends = [self.pose('grasper_wrist', stamp).apply(TIP) for stamp in rests]
             for found, expected in zip(ends, (START, TARGET)):
@@ -137,7 +139,8 @@ class RobotsTest(LaunchCase):
         for first in range(0, len(stamps), 500):
             part = stamps[first:first + 500]
             poses = [[self.pose(link, stamp) for link in LINKS] for stamp in part]
-            request.link_motions = [LinkMotion(links=[Pose(Point(*p.translation), Quaternion(*p.rotation)) for p in links])
+            request.link_motions = [LinkMotion(links=[Pose(Point(*p.translation), Quaternion(*p.rotation))
+                                                      for p in links])
                                     for links in poses]
             answer = service(request)
             self.assertEqual((answer.status, answer.message, len(answer.results)), (ContactArray.OK, '', len(part)))

@@ -104,7 +104,8 @@ class SnapshotTest(unittest.TestCase):
         self.tf.send_resting(('room', 'table', scenes.Pose((0.0, 0.0, 1.0, 1.0), (0.05, 0.0, 0.02))))  # a quarter turn
         gone = cube('room', (-0.02, 0.0, 0.02), id=1)
         self.publish('/right', cube('table', (0.03, 0.0, 0.0)))
-        self.publish('/left', cube('room', (-0.08, 0.0, 0.02)), gone, Marker(header=gone.header, id=1, action=Marker.DELETE))
+        self.publish('/left', cube('room', (-0.08, 0.0, 0.02)), gone,
+                     Marker(header=gone.header, id=1, action=Marker.DELETE))
         self.take('--topic=/left', '--topic=/right', '--frame=room', '--frames=2', '--rate=50', '--after=0')
         for number in (1, 2):
             image = self.picture(self.file.replace('.png', '_%04d.png' % number))

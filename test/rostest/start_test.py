@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""How programs start and end. Illegal parameters stop the node with a message, and misspelt ones are reported. Which OpenGL it
-takes. It accepts a latched mesh that is older than itself. What it says about real-time scheduling is what the system says.
-check_contacts ends with the right exit code."""
+"""How programs start and end. Illegal parameters stop the node with a message, and misspelt ones are reported. Which
+OpenGL it takes. It accepts a latched mesh that is older than itself. What it says about real-time scheduling is what
+the system says. check_contacts ends with the right exit code."""
 
 import os
 import sys
@@ -22,7 +22,8 @@ TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasp
 SHEET = scenes.sheet(0.1, 4)
 MISSING_GL = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl')
 PRIORITY = 7
-REALTIME = {'tools': [], 'diagnostic_period': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True, 'awake_cores': True}
+REALTIME = {'tools': [], 'diagnostic_period': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True,
+            'awake_cores': True}
 # Runs a command without the right to real-time scheduling and locked memory. Only root has the capabilities.
 WITHOUT_RIGHTS = ['prlimit', '--rtprio=0:0', '--memlock=65536:65536'] + (
     ['setpriv', '--bounding-set', '-sys_nice,-ipc_lock'] if os.geteuid() == 0 else [])
@@ -82,13 +83,14 @@ class StartTest(ContactCase, NodeStarter):
         self.assertIn(answer.status, (ContactArray.NO_MESH, ContactArray.UNKNOWN_ORGAN))
         self.assertIn('liver', answer.message)
         printed = self.stop(process)
-        for words in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour', "tool 'grasper' has a radius of 5 m",
+        for words in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour',
+                      "tool 'grasper' has a radius of 5 m",
                       'ready: 1 tool,'):
             self.assertIn(words, printed)
 
     def without(self, libraries):
-        """The words of a command that runs a node where these GL libraries are missing: files that are no libraries come
-        first."""
+        """The words of a command that runs a node where these GL libraries are missing: files that are no libraries
+        come first."""
         paths = os.path.join(MISSING_GL, libraries), os.environ.get('LD_LIBRARY_PATH', '')
         return ['env', 'LD_LIBRARY_PATH=%s:%s' % paths]
 
@@ -133,7 +135,8 @@ class StartTest(ContactCase, NodeStarter):
             self.assertEqual(values['scheduling'], 'SCHED_FIFO, priority %d' % PRIORITY if granted else 'ordinary')
             if granted:
                 self.assertIn(process.pid, granted)  # The main thread, which does the steps.
-                self.assertIn(len(granted), range(1 + THREADS_OF_ROSCPP, len(os.listdir('/proc/%d/task' % process.pid))))
+                self.assertIn(len(granted),
+                              range(1 + THREADS_OF_ROSCPP, len(os.listdir('/proc/%d/task' % process.pid))))
             has_locked = float(values['locked memory of the process [MiB]']) > 0.0
             self.assertEqual(has_locked, locked_kilobytes(process.pid) > 0)
             self.assertEqual(values.get('idle cores') == 'awake', is_awake)
@@ -175,7 +178,8 @@ class StartTest(ContactCase, NodeStarter):
 
         for topic, fractions, code, words in (
             ('/good', (0.5,), 0, ['1 answers came, 1 with status OK']),
-            ('/bad', (0.5, float('nan'), 1.5), 1, ["'liver'", "'probe'", 'fraction of contacts[0] (face 0) is nan', 'shares 2']),
+            ('/bad', (0.5, float('nan'), 1.5), 1,
+             ["'liver'", "'probe'", 'fraction of contacts[0] (face 0) is nan', 'shares 2']),
             ('/silent', (), 3, ['0 answers came']),
         ):
             publisher, name = rospy.Publisher(topic, ContactArray, queue_size=10), topic + '_watcher'

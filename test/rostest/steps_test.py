@@ -56,7 +56,8 @@ class StepsTest(KeepsContract, SimulatedCase):
         self.assert_contacts(self.move(SHEET, ABOVE), [])
 
     def test_static_steps(self):
-        """The first one, though the tool moved before; after a reset, also of a link; and of an organ that comes back."""
+        """The first one, though the tool moved before; after a reset, also of a link; and of an organ that comes
+        back."""
         self.place('grasper', (ABOVE, self.next_stamp()))
         solid = scenes.tetrahedron()
         for number in range(3):
@@ -87,7 +88,8 @@ class StepsTest(KeepsContract, SimulatedCase):
         self.assertEqual([len(self.node.contacts.of(organ, 'hook')) for organ in shapes], [3, 2])
 
     def test_tissue_swings_through_a_tool(self):
-        """Of a tool that rests, and then moves at the same time. One shape arrives as an OrganMesh with the same triangles."""
+        """Of a tool that rests, and then moves at the same time. One shape arrives as an OrganMesh with the same
+        triangles."""
         axis = ((-0.3, 0.02, 0.021), (0.013, 0.011, 0.014))
         shapes = [SHEET.moved(lambda v: (v[0], v[1], v[2] + h + h * v[1])) for h in (0.05, -0.03, 0.012, 0.06)]
         self.begin(shapes[0], axis)
@@ -104,7 +106,8 @@ class StepsTest(KeepsContract, SimulatedCase):
         self.assert_swept(result, cut, cut, (ABOVE, BELOW))
 
     def test_a_large_mesh_and_what_follows_at_once_come_in_order(self):
-        """The mesh is prepared in another thread. Later messages about the same organ wait for it; other organs do not."""
+        """The mesh is prepared in another thread. Later messages about the same organ wait for it; other organs do
+        not."""
         large, other = scenes.sheet(0.1, 80), self.organ + '_other'
         self.step_of_organs({other: SHEET}, dict(OTHERS, grasper=ABOVE))
         first, second = self.next_stamp(), self.next_stamp()
@@ -121,7 +124,8 @@ class StepsTest(KeepsContract, SimulatedCase):
             self.assertLessEqual(touched, set(faces_of(result)))
 
     def test_only_the_newest_of_many_shapes_counts(self):
-        """The first of the shapes waits for all tools, and the last one waits behind it. Those between them are counted."""
+        """The first of the shapes waits for all tools, and the last one waits behind it. Those between them are
+        counted."""
         said = self.node.diagnostics
         wait_until(lambda: 'shapes superseded by newer ones' in said.values, '/diagnostics')
         self.begin()
@@ -212,14 +216,16 @@ class StepsTest(KeepsContract, SimulatedCase):
                 self.assertAlmostEqual(found.fraction, touch, delta=1e-6)
 
     def test_a_long_step_is_not_cut_short(self):
-        """A second between two meshes has more samples than motion_samples_max. The stab in the middle is still found."""
+        """A second between two meshes has more samples than motion_samples_max. The stab in the middle is still
+        found."""
         upright = lambda height: ((0.013, 0.007, 0.4), (0.013, 0.007, height))
         self.begin(axis=upright(0.05))
         heights = [0.05 - 0.1 * max(0.0, 1 - abs(i - 50) / 10) for i in range(100)]
         self.place('grasper', *[(upright(height), self.stamp + rospy.Duration(0, i * 10**7))
                                 for i, height in enumerate(heights)])
         result = self.move(SHEET, upright(0.05), step=rospy.Duration(1))
-        wait_until(lambda: any(key.endswith(' cut') and int(value) > 0 for key, value in self.node.diagnostics.values.items()),
+        wait_until(lambda: any(key.endswith(' cut') and int(value) > 0 for key,
+                               value in self.node.diagnostics.values.items()),
                    'a count of what was cut in /diagnostics')
         expected = oracle.swept_contacts(SHEET, upright(0.05), upright(-0.05), GRASPER)
         self.assertEqual(faces_of(result), [c.face for c in expected])

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
-"""Transforms that lag, clocks that differ, stand still and jump, and evaluation at a fixed rate. What doc/hosts.md says of
-clocks that differ: the robot sends its poses with the stamps of its own clock, the simulator sends shapes with those of
-another one."""
+"""Transforms that lag, clocks that differ, stand still and jump, and evaluation at a fixed rate. What doc/hosts.md says
+of clocks that differ: the robot sends its poses with the stamps of its own clock, the simulator sends shapes with those
+of another one."""
 
 import sys
 
@@ -77,8 +77,8 @@ class TimesTest(KeepsContract, SimulatedCase):
         self.assert_no_transform(result, 'ms behind the stamp', 'waited 60 s')
 
     def test_a_clock_that_stands_still(self):
-        """A simulator may stop its clock until it has the answer. The node waits for transforms by this clock, but not for
-        ever."""
+        """A simulator may stop its clock until it has the answer. The node waits for transforms by this clock, but not
+        for ever."""
         node = self.connected('/ticking')
         self.move(ABOVE, vertices=False)
         with self.clock.lock:
@@ -91,8 +91,8 @@ class TimesTest(KeepsContract, SimulatedCase):
             self.assert_no_transform(self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp))
 
     def come_down(self, clock):
-        """The robot moves down until the present stamp, where it touches the sheet. `clock`: what its clock shows beyond the
-        simulator's. Returns where it is at the stamp of the next shape, as its poses say."""
+        """The robot moves down until the present stamp, where it touches the sheet. `clock`: what its clock shows
+        beyond the simulator's. Returns where it is at the stamp of the next shape, as its poses say."""
         self.next_stamp(rospy.Duration(1))
         way = [(at_height(0.001 + 0.001 * i), self.stamp - rospy.Duration(0, 5 * 10**6) * i + clock)
                for i in range(60, -1, -1)]
@@ -105,8 +105,8 @@ class TimesTest(KeepsContract, SimulatedCase):
         return self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp)
 
     def test_clocks_that_differ(self):
-        """With one clock, the touch is found. If the robot's clock is behind, the answer says by how much. If it is ahead,
-        the contacts are those of an old pose, and nothing tells of this."""
+        """With one clock, the touch is found. If the robot's clock is behind, the answer says by how much. If it is
+        ahead, the contacts are those of an old pose, and nothing tells of this."""
         for clock in (rospy.Duration(), DIFFERENCE):
             axis, result = self.come_down(clock), self.get()
             expected = oracle.static_contacts(SHEET, axis, RADIUS)
@@ -138,7 +138,8 @@ class TimesTest(KeepsContract, SimulatedCase):
         self.assertGreater(len(second.contacts), 0)
 
     def test_a_jump_back_forgets_the_history(self):
-        """Also while a transform is awaited: a shape of the old time is not evaluated with a transform of the new time."""
+        """Also while a transform is awaited: a shape of the old time is not evaluated with a transform of the new
+        time."""
         self.jump(9000)
         self.check_stab()
         self.jump(5000)
@@ -159,8 +160,8 @@ class TimesTest(KeepsContract, SimulatedCase):
         self.assert_contacts(second, oracle.swept_contacts(SHEET, ABOVE, BELOW, RADIUS), 1e-6)
 
     def test_ticks(self):
-        """As many as the rate says, in the simulator's time. The one in which the tip jumps across the sheet finds the faces,
-        and later ones do not. A change of shape counts once, too."""
+        """As many as the rate says, in the simulator's time. The one in which the tip jumps across the sheet finds the
+        faces, and later ones do not. A change of shape counts once, too."""
         node = self.connected('/ticking')
         level, sideways = (((0.4, 0.007, z), (0.013, 0.007, z)) for z in (0.05, -0.05))
 
@@ -198,8 +199,8 @@ class TimesTest(KeepsContract, SimulatedCase):
             self.assertEqual(len([a for a in answers if a.contacts]), 1)
 
     def test_a_mesh_that_stopped_coming_is_stale(self):
-        """Instead of an answer about old tissue, the status says so, until a new shape comes. The node has organ_motion off:
-        the swing of the tissue through the tool itself touches nothing."""
+        """Instead of an answer about old tissue, the status says so, until a new shape comes. The node has organ_motion
+        off: the swing of the tissue through the tool itself touches nothing."""
         node = self.connected('/impatient')
         aside = ((0.4, 0.007, 0.02), (0.013, 0.007, 0.02))
         with self.clock.lock:

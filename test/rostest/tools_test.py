@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Links that move between two shapes of the organ: along the arc of all poses in TF, with a tf_prefix, together with a shaft.
-Tools that cannot be loaded: every answer about them says so, and the other tools still work."""
+"""Links that move between two shapes of the organ: along the arc of all poses in TF, with a tf_prefix, together with a
+shaft. Tools that cannot be loaded: every answer about them says so, and the other tools still work."""
 
 import math
 import sys
@@ -44,8 +44,8 @@ FAULTS = {
 
 
 class Swing:
-    """The motion of a pendulum: its joint in the organ's frame, and its angle [deg] at shares of a step. The angle is 0 along
-    x and rises towards z."""
+    """The motion of a pendulum: its joint in the organ's frame, and its angle [deg] at shares of a step. The angle is 0
+    along x and rises towards z."""
 
     def __init__(self, joint, *way):
         self.joint, self.way = joint, way
@@ -124,8 +124,8 @@ class ToolsTest(KeepsContract, ToolCase):
             self.assertLess(swing.jaw(contact.fraction).distance(xyz(contact.point)), 1e-5, contact)
 
     def test_two_robots_of_one_description_swing(self):
-        """Each robot is where the frames with its prefix are. It touches what the straight way from start to end misses, and
-        nothing at either end."""
+        """Each robot is where the frames with its prefix are. It touches what the straight way from start to end
+        misses, and nothing at either end."""
         swings = {'left': OVER, 'right': UP}
         self.assertEqual(OVER.chord(), set())
         self.assertGreater(len(UP.chord()), 0)

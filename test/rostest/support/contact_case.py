@@ -47,8 +47,9 @@ class ContactCase(unittest.TestCase):
         self.assert_contacts_of_link(result, 0, expected, tolerance)
 
     def assert_contacts_of_link(self, result, link, expected, tolerance):
-        """Checks that the contacts with one link are `expected`: the same faces in the same order, lengths [m] and fractions
-        within `tolerance`, and directions, barycentric coordinates and places on the shaft within 100 times that."""
+        """Checks that the contacts with one link are `expected`: the same faces in the same order, lengths [m] and
+        fractions within `tolerance`, and directions, barycentric coordinates and places on the shaft within 100 times
+        that."""
         self.assert_ok(result)
         contacts = [c for c in result.contacts if c.link == link]
         self.assertEqual([c.face for c in contacts], [c.face for c in expected])
@@ -65,7 +66,8 @@ class ContactCase(unittest.TestCase):
                 self.assertEqual(found.behind, right.behind, what)
 
     def assert_regions_lie_on_faces(self, result, mesh, margin=1e-5):
-        """Checks that there is one region for each contact, with its corners on the contact's face to float precision."""
+        """Checks that there is one region for each contact, with its corners on the contact's face to float
+        precision."""
         self.assertEqual(len(result.regions), len(result.contacts))
         for contact, region in zip(result.contacts, result.regions):
             a, b, c = mesh.face(contact.face)

@@ -17,8 +17,8 @@ from .node_client import LIMIT, NodeClient, shaft, wait_until
 from .processes import Launched, nodes_online
 
 PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
-# What these nodes of Python send once all their topics are registered at the ROS master. None may be stopped before: rospy's
-# signal handler calls the ROS master, and waits forever if it interrupted such a call.
+# What these nodes of Python send once all their topics are registered at the ROS master. None may be stopped before:
+# rospy's signal handler calls the ROS master, and waits forever if it interrupted such a call.
 FIRST_MESSAGES = {
     '/simulator': ('/organ_collision/organ_vertices', OrganVertices),
     '/sheet': ('/sheet_collision/organ_vertices', OrganVertices),
@@ -69,7 +69,8 @@ class LaunchCase(ContactCase):
 
     def check_collision_node(self, name, process=None):
         """The collision node answers about an organ that only it has."""
-        node, sheet, axis = NodeClient(name, process=process), scenes.sheet(0.1, 4), ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+        node, sheet, axis = NodeClient(name, process=process), scenes.sheet(0.1, 4), ((0.01, 0.02, 0.3),
+                                                                                      (0.011, 0.017, 0.002))
         node.bring('sheet', sheet, rospy.Time(1))
         self.assert_contacts(node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(sheet, axis, 0.005))
         node.close()

@@ -31,8 +31,8 @@ def wait_until(condition, what, limit=LIMIT):
 
 
 def is_heard(topic, process):
-    """Whether the node `process` listens to this publisher. Counting the listeners is not enough, because other nodes may
-    listen, too."""
+    """Whether the node `process` listens to this publisher. Counting the listeners is not enough, because other nodes
+    may listen, too."""
     return process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
 
 
@@ -114,8 +114,8 @@ class ContactLog(Log):
 
 
 class Diagnostics:
-    """What a node says on /diagnostics: by the name of each of its tasks all summaries so far and the last level; and the
-    last value of each key."""
+    """What a node says on /diagnostics: by the name of each of its tasks all summaries so far and the last level; and
+    the last value of each key."""
 
     def __init__(self, node):
         self.node, self.values, self.summaries, self.levels = node.strip('/'), {}, {}, {}
@@ -155,8 +155,8 @@ FAR_AWAY = shaft((9.0, 9.0, 9.0), (9.0, 9.0, 9.1), 0.001)
 
 
 class NodeClient:
-    """Publishers, subscribers and services of one running node. `process`: the name of the ROS node that runs it, if it is
-    another one: the manager of a nodelet."""
+    """Publishers, subscribers and services of one running node. `process`: the name of the ROS node that runs it, if it
+    is another one: the manager of a nodelet."""
 
     def __init__(self, node='/organ_collision', frame='liver_frame', process=None):
         self.node, self.frame, self.process = node, frame, process or node

@@ -31,8 +31,8 @@ class NodeStarter(unittest.TestCase):
     """Starts and stops nodes within a test, as roslaunch does."""
 
     def start(self, name, parameters, node='organ_collision_node', through=(), arguments=()):
-        """Starts a node with these private parameters. It is killed at the end of the test at the latest. `through`: the
-        words of a command that runs the node's command."""
+        """Starts a node with these private parameters. It is killed at the end of the test at the latest. `through`:
+        the words of a command that runs the node's command."""
         if parameters:
             rospy.set_param(name, parameters)
         process = subprocess.Popen([*through, program(node), *arguments, '__name:=' + name.strip('/')],
@@ -63,8 +63,8 @@ def nodes_online():
 
 
 class Launched:
-    """Runs roslaunch with one file until the end of a `with` block. `printed` is then its output. `arguments`: the file's,
-    as NAME:=VALUE."""
+    """Runs roslaunch with one file until the end of a `with` block. `printed` is then its output. `arguments`: the
+    file's, as NAME:=VALUE."""
 
     def __init__(self, path, *arguments):
         self.words, self.output = [path, *arguments], tempfile.TemporaryFile(mode='w+')

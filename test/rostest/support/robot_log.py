@@ -9,7 +9,8 @@ from . import scenes
 
 
 class RobotLog:
-    """All transforms and joint states since the start. On a busy machine, a tf2_ros.TransformListener would drop some."""
+    """All transforms and joint states since the start. On a busy machine, a tf2_ros.TransformListener would drop
+    some."""
 
     def __init__(self):
         self.states = []

@@ -12,8 +12,8 @@ def float32(value):
 
 
 class Mesh:
-    """Any set of triangles: `vertices` as (x, y, z), `faces` as three vertex indices whose normal by the right-hand rule
-    points outward."""
+    """Any set of triangles: `vertices` as (x, y, z), `faces` as three vertex indices whose normal by the right-hand
+    rule points outward."""
 
     def __init__(self, vertices, faces):
         self.vertices = [tuple(float32(c) for c in v) for v in vertices]
@@ -62,7 +62,8 @@ def tetrahedron(size=0.1):
 
 def box(size=(0.06, 0.05, 0.04)):
     """A closed box of 12 faces around the origin."""
-    vertices = [(size[0] * (i & 1) - size[0] / 2, size[1] * (i >> 1 & 1) - size[1] / 2, size[2] * (i >> 2) - size[2] / 2)
+    vertices = [(size[0] * (i & 1) - size[0] / 2, size[1] * (i >> 1 & 1) - size[1] / 2,
+                 size[2] * (i >> 2) - size[2] / 2)
                 for i in range(8)]
     quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     return Mesh(vertices, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])

@@ -1,5 +1,5 @@
-"""A test case with tools that move by TF. Its points are in the organ's frame, which is rotated and shifted in the world.
-The tools' frames are sent in the world frame."""
+"""A test case with tools that move by TF. Its points are in the organ's frame, which is rotated and shifted in the
+world. The tools' frames are sent in the world frame."""
 
 from organ_collision.msg import ContactArray
 import rospy
@@ -14,8 +14,8 @@ OUT_OF_REACH = 'out_of_reach'  # an organ that no tool touches
 
 
 def ball_contacts(mesh, before, after, radius):
-    """The contacts of a ball whose centre moves on a straight line from `before` to `after`, each a tuple (centre,). For
-    the oracle, the ball is a shaft whose trocar is its tip."""
+    """The contacts of a ball whose centre moves on a straight line from `before` to `after`, each a tuple (centre,).
+    For the oracle, the ball is a shaft whose trocar is its tip."""
     found = oracle.swept_contacts(mesh, before * 2, after * 2, radius)
     return [contact._replace(shaft=0.0) for contact in found]
 
@@ -44,8 +44,8 @@ class ToolCase(ContactCase):
         return cls.stamp
 
     def place(self, tool, *way):
-        """Sends the tool's frames at each (axis, stamp) of `way`. The axis is (trocar, tip) in the organ's frame, or one
-        point for each of the tool's frames."""
+        """Sends the tool's frames at each (axis, stamp) of `way`. The axis is (trocar, tip) in the organ's frame, or
+        one point for each of the tool's frames."""
         frames = self.link_frames.get(tool) or (tool + '_trocar', tool + '_tip')
         turn = (0.1, 0.2, 0.3, 0.9)
         self.tf.send(*[('world', frame, scenes.Pose(turn, WORLD_LIVER.apply(point)), stamp)
@@ -64,8 +64,8 @@ class ToolCase(ContactCase):
         wait_until(is_there, lambda: 'the pose of %s at %s: %s' % (tool, stamp, seen))
 
     def step(self, shape, tools, topology=1, vertices=False, step=STEP):
-        """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns {name: the ContactArray
-        about this tool}. The poses are sent first, so that the node never has to wait for a transform."""
+        """One step: the tools are at `tools` ({name: axis}) when the organ has this shape. Returns {name: the
+        ContactArray about this tool}. The poses are sent first, so that the node never has to wait for a transform."""
         return self.step_of_organs({self.organ: shape}, tools, topology, vertices, step)[self.organ]
 
     def step_of_organs(self, shapes, tools, topology=1, vertices=False, step=STEP):
