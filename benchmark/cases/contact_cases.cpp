@@ -14,7 +14,10 @@ constexpr QueryMode kModes[] = {QueryMode::kStatic, QueryMode::kSwept};
 /// The contact of one face in a step with a single leg.
 std::optional<FaceContact> refine_whole(const VolumeQuery& tool, const Triangle& before,
                                         const Triangle& now) {
-  return refine({tool.motion, tool.radius, {tool.motion.end}}, {{before, now}, 0.0, 1.0, now});
+  const auto touch = first_touch(tool.motion, {before, now}, tool.radius);
+  if (!touch) return std::nullopt;
+  const PartLeg part{tool.motion, tool.radius, {tool.motion.end}};
+  return contact_of(*touch, part, {{before, now}, 0.0, 1.0, now});
 }
 
 }  // namespace

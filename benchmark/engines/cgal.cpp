@@ -81,8 +81,8 @@ std::unique_ptr<Engine> make_cgal() { return std::make_unique<Cgal>(); }
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using SideKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<SideKernel::Point_3>;
 
 class CgalSide : public Locator {
  public:
@@ -90,7 +90,7 @@ class CgalSide : public Locator {
     mesh_.clear();
     for (std::size_t i = 0; i < organ.vertices.size(); i += 3) {
       mesh_.add_vertex(
-          Kernel::Point_3(organ.vertices[i], organ.vertices[i + 1], organ.vertices[i + 2]));
+          SideKernel::Point_3(organ.vertices[i], organ.vertices[i + 1], organ.vertices[i + 2]));
     }
     for (std::size_t i = 0; i < organ.triangles.size(); i += 3) {
       mesh_.add_face(Mesh::Vertex_index(organ.triangles[i]),
@@ -102,7 +102,7 @@ class CgalSide : public Locator {
   void update(const SharedVertices& vertices) override {
     for (const Mesh::Vertex_index vertex : mesh_.vertices()) {
       const float* xyz = &(*vertices)[3 * static_cast<std::size_t>(vertex)];
-      mesh_.point(vertex) = Kernel::Point_3(xyz[0], xyz[1], xyz[2]);
+      mesh_.point(vertex) = SideKernel::Point_3(xyz[0], xyz[1], xyz[2]);
     }
     side_.emplace(mesh_);
   }
@@ -117,7 +117,7 @@ class CgalSide : public Locator {
 
  private:
   Mesh mesh_;
-  std::optional<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side_;
+  std::optional<CGAL::Side_of_triangle_mesh<Mesh, SideKernel>> side_;
 };
 
 }  // namespace

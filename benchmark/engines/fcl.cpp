@@ -90,15 +90,6 @@ namespace {
 using Boxes = fcl::AABB<double>;
 using Shaft = fcl::Capsule<double>;
 
-std::vector<fcl::Vector3<double>> points(const std::vector<float>& vertices) {
-  std::vector<fcl::Vector3<double>> points;
-  points.reserve(vertices.size() / 3);
-  for (std::size_t i = 0; i < vertices.size(); i += 3) {
-    points.emplace_back(vertices[i], vertices[i + 1], vertices[i + 2]);
-  }
-  return points;
-}
-
 /// Calls the parts of fcl::distance, which itself refuses trees of axis-aligned boxes. The other
 /// trees take ten times as long to refit, and the distances of refitted trees of RSS and OBBRSS are
 /// wrong by up to 0.16 m.

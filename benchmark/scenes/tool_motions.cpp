@@ -95,7 +95,7 @@ constexpr double kRadiusOfLap = 0.04;    // [m]
 constexpr double kShaftRadius = 0.0015;  // [m]
 constexpr double kShaftLength = 0.12;    // [m] of the free shaft
 constexpr double kBallRadius = 0.005;    // [m]
-constexpr double kReach = 0.024;         // [m] from the grasper's shaft to a point between its jaws
+constexpr double kJaws = 0.024;          // [m] from the grasper's shaft to a point between its jaws
 const Vector3d kTrocar(0.1, 0.06, 0.15);
 
 /// The height [m] at which a vertical line meets a face; -infinity if it does not.
@@ -126,7 +126,7 @@ ToolPose place(HandTool tool, const Vector3d& tip) {
     case HandTool::kGrasper: {
       constexpr double kOpening = 0.3;  // [rad]
       const ToolWaypoint grasper =
-          Grasper::place(0.0, {kTrocar, tip - kReach * direction}, kOpening);
+          Grasper::place(0.0, {kTrocar, tip - kJaws * direction}, kOpening);
       return {grasper.axis, grasper.links};
     }
     case HandTool::kTrocar:

@@ -13,12 +13,17 @@
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <deque>
 #include <map>
 #include <set>
 #include <sstream>
 
-#include "demo_tallies.hpp"
+#include "geometry/distance/closest_points.hpp"
+#include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/names.hpp"
+#include "ros/markers/tool_markers.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/motion/tool_poses.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/parameters/program_help.hpp"
 
@@ -28,6 +33,7 @@ namespace {
 constexpr double kFirstPatienceSec = 60.0;  // until the collision node answers for the first time
 constexpr double kPatienceSec = 10.0;       // between two answers
 constexpr std::size_t kFacesListed = 4;
+constexpr std::size_t kShapesKept = 500;
 constexpr double kMicroseconds = 1e6;
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kHapticNode[] = "/haptic_proxy";
@@ -71,6 +77,147 @@ std::string first_of(const std::set<std::uint32_t>& faces) {
   return text.str();
 }
 
+/// What a proxy did, for a line each second and a summary.
+class ProxyTally {
+ public:
+  void add(const ProxyState& state) {
+    state_ = state.state;
+    message_ = state.message;
+    if (state.state == ProxyState::NO_ANSWER) return;
+    const double force = to_eigen(state.wrench.force).norm();
+    ++poses_;
+    ++answered_;
+    held_ += state.state != ProxyState::FREE;
+    force_ = std::max(force_, force);
+    greatest_ = std::max(greatest_, force);
+    tick_sec_ += state.tick_sec;
+  }
+
+  /// "TOUCHING, up to 1.2 N, 998 poses/s", about the last `seconds`: the latest state, and the
+  /// greatest force. Begins to count anew.
+  void print_line(double seconds) {
+    std::printf("%s", name_of(static_cast<ProxyStatus>(state_)).c_str());
+    if (state_ == ProxyState::NO_ANSWER) {
+      std::printf(": %s\n", message_.c_str());
+    } else {
+      std::printf(", up to %.1f N, %.0f poses/s\n", force_, poses_ / seconds);
+    }
+    poses_ = 0;
+    force_ = 0.0;
+  }
+
+  void print_summary() const {
+    const double all = std::max<double>(1.0, answered_);
+    std::printf(
+        "%zu poses, tissue held the proxy in %.0f%% of them, with at most %.1f N; %.0f us "
+        "a tick on average",
+        answered_, 100.0 * held_ / all, greatest_, kMicroseconds * tick_sec_ / all);
+  }
+
+  /// The number of poses that had an answer.
+  std::size_t answered() const { return answered_; }
+
+ private:
+  std::uint8_t state_ = ProxyState::NO_ANSWER;
+  std::string message_;
+  // Since the last line.
+  std::size_t poses_ = 0;
+  double force_ = 0.0;  ///< [N]
+  // In all.
+  std::size_t answered_ = 0, held_ = 0;
+  double greatest_ = 0.0;  ///< [N]
+  double tick_sec_ = 0.0;  ///< [s] of all ticks
+};
+
+/// Counts the contacts that a static test at the same instants would have missed. These are the
+/// contacts whose face is farther from the axis than the radius when the step ends. Uses exact
+/// distances, from the shapes and transforms on the topics, without the collision node.
+class StaticComparison {
+ public:
+  struct Tally {
+    std::size_t contacts = 0;
+    std::size_t missed_by_static = 0;
+  };
+
+  /// `transforms` must outlive this object.
+  StaticComparison(std::vector<ToolParameters> tools, TransformBuffer& transforms)
+      : poses_(transforms, PathSampling{}) {
+    for (ToolParameters& tool : tools) {
+      tallies_[tool.name];
+      tools_.emplace_back().parameters = std::move(tool);
+    }
+  }
+
+  /// `triangles`: three vertex indices for each face.
+  void set_triangles(std::vector<std::uint32_t> triangles) { triangles_ = std::move(triangles); }
+
+  /// `vertices`: x y z x y z ... [m], of the shape at `stamp`. Keeps the shapes of a few seconds.
+  void add_shape(const ros::Time& stamp, std::vector<float> vertices) {
+    shapes_.push_back({stamp, std::move(vertices)});
+    if (shapes_.size() > kShapesKept) shapes_.pop_front();
+    compare_waiting();
+  }
+
+  /// Adds an answer with status OK. It waits until its shape and its tool's pose have arrived.
+  void add_answer(const ContactArrayConstPtr& answer) {
+    waiting_.push_back(answer);
+    compare_waiting();
+  }
+
+  /// By name of the tool, for the answers compared so far.
+  const std::map<std::string, Tally>& tallies() const { return tallies_; }
+  /// The number of answers whose shape or pose has not arrived yet.
+  std::size_t waiting() const { return waiting_.size(); }
+
+ private:
+  struct Shape {
+    ros::Time stamp;
+    std::vector<float> vertices;
+  };
+
+  void compare_waiting() {
+    const auto compared = std::remove_if(waiting_.begin(), waiting_.end(),
+                                         [this](const auto& answer) { return compare(*answer); });
+    waiting_.erase(compared, waiting_.end());
+  }
+
+  /// Returns false if the shape or the pose has not arrived yet.
+  bool compare(const ContactArray& answer) {
+    const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) {
+      return tool.parameters.name == answer.tool;
+    });
+    const auto shape = std::find_if(shapes_.rbegin(), shapes_.rend(), [&](const Shape& shape) {
+      return shape.stamp == answer.mesh_stamp;
+    });
+    if (tool == tools_.end() || shape == shapes_.rend() || triangles_.empty()) return false;
+    const auto pose = poses_.pose(*tool, answer.header.frame_id, answer.header.stamp);
+    if (!pose.found) return false;
+    Tally& tally = tallies_[answer.tool];
+    for (const auto& contact : answer.contacts) {
+      const auto nearest = closest_points(pose.found->value.axis, face(*shape, contact.face));
+      ++tally.contacts;
+      if (nearest.distance > tool->parameters.radius + tolerance::kTouch) ++tally.missed_by_static;
+    }
+    return true;
+  }
+
+  Triangle face(const Shape& shape, std::uint32_t number) const {
+    Triangle corners;
+    for (int k = 0; k < 3; ++k) {
+      const float* vertex = &shape.vertices.at(3 * triangles_.at(3 * number + k));
+      corners[k] = Eigen::Vector3d(vertex[0], vertex[1], vertex[2]);
+    }
+    return corners;
+  }
+
+  std::vector<Tool> tools_;
+  ToolPoses poses_;
+  std::vector<std::uint32_t> triangles_;
+  std::deque<Shape> shapes_;
+  std::deque<ContactArrayConstPtr> waiting_;
+  std::map<std::string, Tally> tallies_;
+};
+
 /// [us] The node's query times, as published on /diagnostics.
 struct QueryTime {
   double median = 0.0, percentile_99 = 0.0, worst = 0.0;
@@ -104,7 +251,8 @@ class DemoReport {
       faces.clear();
     }
     if (query_time_.median > 0.0) std::printf("  query %.0f us", query_time_.median);
-    std::printf("  palpator %s\n", proxy_.take_line(seconds).c_str());
+    std::printf("  palpator ");
+    proxy_.print_line(seconds);
     if (!failure_.empty()) std::printf("        %s\n", failure_.c_str());
     std::fflush(stdout);
     shapes_ = answers_ = 0;
@@ -136,7 +284,9 @@ class DemoReport {
     std::printf("From shape to answer, through ROS: median %.0f us, 99%% within %.0f us.\n",
                 kMicroseconds * percentile(delays_, 50.0),
                 kMicroseconds * percentile(delays_, 99.0));
-    std::printf("The palpator's hand: %s.\n", proxy_.summary().c_str());
+    std::printf("The palpator's hand: ");
+    proxy_.print_summary();
+    std::printf(".\n");
     std::fflush(stdout);
     return contacts > 0 && proxy_.answered() > 0;
   }

@@ -49,39 +49,41 @@ struct Grid {
   std::vector<Tetrahedron> tetrahedra;
 };
 
+/// [m^3] Negative if the corners are in the other order.
+double volume_of(const Tetrahedron& t, const std::vector<Vector3d>& nodes) {
+  const Vector3d a = nodes[t[0]];
+  return (nodes[t[1]] - a).cross(nodes[t[2]] - a).dot(nodes[t[3]] - a) / 6.0;
+}
+
+const Vector3i kNodes = kCells + Vector3i::Ones();
+
 std::uint32_t number_of(const Vector3i& at) {
-  return (at.z() * (kCells.y() + 1) + at.y()) * (kCells.x() + 1) + at.x();
+  return (at.z() * kNodes.y() + at.y()) * kNodes.x() + at.x();
 }
 
 /// Six tetrahedra for each cell, around its diagonal (Kuhn): one for each order of the axes. The
 /// diagonals of neighbouring cells fit together.
 Grid make_grid() {
   Grid grid;
-  for (int z = 0; z <= kCells.z(); ++z) {
-    for (int y = 0; y <= kCells.y(); ++y) {
-      for (int x = 0; x <= kCells.x(); ++x) {
-        const Vector3d share = Vector3d(x, y, z).cwiseQuotient(kCells.cast<double>());
-        grid.nodes.emplace_back(kSize.cwiseProduct(share - Vector3d(0.5, 0.5, 1.0)));
-      }
-    }
+  std::vector<Vector3i> lows;  // the lowest corners of the cells
+  for (int node = 0; node < kNodes.prod(); ++node) {
+    const int row = node / kNodes.x();
+    const Vector3i at(node % kNodes.x(), row % kNodes.y(), row / kNodes.y());
+    const Vector3d share = at.cast<double>().cwiseQuotient(kCells.cast<double>());
+    grid.nodes.emplace_back(kSize.cwiseProduct(share - Vector3d(0.5, 0.5, 1.0)));
+    if ((at.array() < kCells.array()).all()) lows.push_back(at);
   }
-  for (std::uint32_t node = 0; node < grid.nodes.size(); ++node) {
-    const int row = node / (kCells.x() + 1);
-    const Vector3i low(node % (kCells.x() + 1), row % (kCells.y() + 1), row / (kCells.y() + 1));
-    if ((low.array() >= kCells.array()).any()) continue;
+  for (const Vector3i& low : lows) {
     std::array<int, 3> axes = {0, 1, 2};
     do {
       Vector3i at = low;
-      Tetrahedron corners = {node};
+      Tetrahedron corners = {number_of(low)};
       for (int k = 0; k < 3; ++k) {
         ++at[axes[k]];
         corners[k + 1] = number_of(at);
       }
-      const Vector3d edges[] = {grid.nodes[corners[1]] - grid.nodes[node],
-                                grid.nodes[corners[2]] - grid.nodes[node],
-                                grid.nodes[corners[3]] - grid.nodes[node]};
       // Bullet needs tetrahedra of positive volume.
-      if (edges[0].cross(edges[1]).dot(edges[2]) < 0.0) std::swap(corners[2], corners[3]);
+      if (volume_of(corners, grid.nodes) < 0.0) std::swap(corners[2], corners[3]);
       grid.tetrahedra.push_back(corners);
     } while (std::next_permutation(axes.begin(), axes.end()));
   }
@@ -114,10 +116,8 @@ std::vector<FaceIndices> surface_of(const Grid& grid) {
 std::vector<double> masses_of(const Grid& grid) {
   std::vector<double> masses(grid.nodes.size(), 0.0);
   for (const Tetrahedron& t : grid.tetrahedra) {
-    const Vector3d a = grid.nodes[t[0]], b = grid.nodes[t[1]], c = grid.nodes[t[2]],
-                   d = grid.nodes[t[3]];
-    const double volume = (b - a).cross(c - a).dot(d - a) / 6.0;
-    for (const std::uint32_t corner : t) masses[corner] += 0.25 * kDensity * volume;
+    for (const std::uint32_t corner : t)
+      masses[corner] += 0.25 * kDensity * volume_of(t, grid.nodes);
   }
   return masses;
 }

@@ -2,6 +2,7 @@
 
 #include <BulletSoftBody/btSoftBody.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -10,6 +11,12 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
+
+constexpr double kMass = 1.5;              // [kg]
+constexpr double kLongestSubstep = 0.004;  // [s]
+constexpr double kBreathPeriod = 4.0;      // [s]
+/// [m] displacement when inhaled: towards the feet and the front
+const Vector3d kBreath{0.0, -0.006, 0.002};
 
 /// [m] Approximate signed distance to the surface of an ellipsoid. With f = |offset / radii|, it is
 /// (f - 1) / |grad f|.
@@ -24,7 +31,6 @@ double smooth_min(double a, double b, double blend) {
   return -blend * std::log(std::exp(-a / blend) + std::exp(-b / blend));
 }
 
-double join(double a, double b, double blend) { return smooth_min(a, b, blend); }
 double carve(double a, double b, double blend) { return -smooth_min(-a, b, blend); }
 
 /// Interpolates between the level functions of an ellipsoid (morph 0) and of the liver (morph 1).
@@ -111,6 +117,47 @@ void even_out(ClosedSurface& surface, int rounds) {
   }
 }
 
+btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
+
+/// Whether a ligament holds this place: on the upper part of the back of the right lobe.
+bool is_held(const Vector3d& rest) { return rest.x() < 0.03 && rest.y() > 0.015 && rest.z() < 0.0; }
+
+/// A sine with a period of `period` seconds.
+double wave(double seconds, double period) { return std::sin(2.0 * M_PI * seconds / period); }
+
+/// [m] The z coordinate of the front of the resting liver at (x, y), by bisection.
+double front_of_liver(double x, double y) {
+  double inside = 0.0, outside = 0.1;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = 0.5 * (inside + outside);
+    (liver_level({x, y, middle}) < 0.0 ? inside : outside) = middle;
+  }
+  return inside;
+}
+
+Vector3d palpator_tip(double seconds) {
+  constexpr double kLift = 0.003, kPress = 0.022;  // [m] from first touch upwards and downwards
+  const double x = -0.045 + 0.022 * wave(seconds, 11.0);
+  const double y = -0.004 + 0.020 * wave(seconds, 7.0);
+  const double press = 0.5 - 0.5 * wave(seconds + 0.75, 3.0);
+  return {x, y, front_of_liver(x, y) + kToolRadius + kLift - press * (kLift + kPress)};
+}
+
+/// 0 in front of the lobe, 1 behind it. The tool passes from one to the other at each full second.
+double stab_progress(double seconds) {
+  const double second = std::floor(seconds);
+  const double share = std::min((seconds - second) / kStabDuration, 1.0);
+  const bool forth = std::fmod(second, 2.0) == 1.0;
+  if (second < 1.0) return 0.0;
+  return forth ? share : 1.0 - share;
+}
+
+Vector3d stabber_tip(double seconds) {
+  const Vector3d in_front{0.068, 0.030, 0.052}, behind{0.068, 0.030, -0.056};
+  const Vector3d sway{0.010 * wave(seconds, 6.5), 0.0, 0.0};
+  return in_front + stab_progress(seconds) * (behind - in_front) + sway;
+}
+
 }  // namespace
 
 double liver_level(const Vector3d& point) {
@@ -120,7 +167,7 @@ double liver_level(const Vector3d& point) {
   const double hollow_underneath =
       ellipsoid(point, {-0.004, -0.012, -0.052}, {0.034, 0.050, 0.042});
   const double fissure = ellipsoid(point, {0.024, -0.052, 0.0}, {0.016, 0.040, 0.060});
-  double level = join(join(right_lobe, middle, 0.006), left_lobe, 0.007);
+  double level = smooth_min(smooth_min(right_lobe, middle, 0.006), left_lobe, 0.007);
   level = carve(level, hollow_underneath, 0.006);
   return carve(level, fissure, 0.006);
 }
@@ -131,21 +178,6 @@ ClosedSurface make_liver_surface() {
   even_out(surface, 80);
   return surface;
 }
-
-namespace {
-
-constexpr double kMass = 1.5;              // [kg]
-constexpr double kLongestSubstep = 0.004;  // [s]
-constexpr double kBreathPeriod = 4.0;      // [s]
-const Vector3d kBreath{0.0, -0.006,
-                       0.002};  // [m] displacement when inhaled: towards the feet and the front
-
-btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
-
-/// Whether a ligament holds this place: on the upper part of the back of the right lobe.
-bool is_held(const Vector3d& rest) { return rest.x() < 0.03 && rest.y() > 0.015 && rest.z() < 0.0; }
-
-}  // namespace
 
 LiverSoftBody::LiverSoftBody(const ClosedSurface& surface)
     : world_(std::make_unique<btSoftBodyWorldInfo>()) {
@@ -174,9 +206,8 @@ LiverSoftBody::LiverSoftBody(const ClosedSurface& surface)
 
 LiverSoftBody::~LiverSoftBody() = default;
 
-void LiverSoftBody::step(double seconds, const std::vector<TissuePush>& pushes,
-                         const std::vector<VertexPush>& vertex_pushes) {
-  give_way(pushes, vertex_pushes);
+void LiverSoftBody::step(double seconds, const std::vector<VertexPush>& pushes) {
+  give_way(pushes);
   const int substeps = std::ceil(seconds / kLongestSubstep - 1e-9);
   for (int i = 0; i < substeps; ++i) {
     time_ += seconds / substeps;
@@ -197,19 +228,10 @@ std::vector<float> LiverSoftBody::vertices() const {
   return result;
 }
 
-void LiverSoftBody::give_way(const std::vector<TissuePush>& pushes,
-                             const std::vector<VertexPush>& vertex_pushes) {
+void LiverSoftBody::give_way(const std::vector<VertexPush>& pushes) {
   std::vector<Vector3d> sum(body_->m_nodes.size(), Vector3d::Zero());
   std::vector<int> count(body_->m_nodes.size(), 0);
-  for (const TissuePush& push : pushes) {
-    const btSoftBody::Face& face = body_->m_faces[push.face];
-    for (int k = 0; k < 3; ++k) {  // with these weights, the pushed place moves by the displacement
-      const auto node = face.m_n[k] - &body_->m_nodes[0];
-      sum[node] += push.barycentric[k] / push.barycentric.squaredNorm() * push.displacement;
-      ++count[node];
-    }
-  }
-  for (const VertexPush& push : vertex_pushes) {
+  for (const VertexPush& push : pushes) {
     sum[push.vertex] += push.displacement;
     ++count[push.vertex];
   }
@@ -230,5 +252,8 @@ void LiverSoftBody::breathe() {
     body_->m_nodes[ligament.node].m_x = to_bullet(ligament.rest + inspired * kBreath);
   }
 }
+
+const ScriptedTool kPalpator{"palpator", {-0.075, -0.100, 0.150}, palpator_tip};
+const ScriptedTool kStabber{"stabber", {0.095, -0.130, 0.040}, stabber_tip};
 
 }  // namespace organ_collision

@@ -3,9 +3,14 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/shaft.hpp"
+
+class btSoftBody;
+struct btSoftBodyWorldInfo;
 
 namespace organ_collision {
 
@@ -29,20 +34,6 @@ double liver_level(const Eigen::Vector3d& point);
 /// onto liver_level = 0 and spread evenly there.
 ClosedSurface make_liver_surface();
 
-}  // namespace organ_collision
-
-class btSoftBody;
-struct btSoftBodyWorldInfo;
-
-namespace organ_collision {
-
-/// A place where a tool presses on a face, and how far the tissue yields there.
-struct TissuePush {
-  std::uint32_t face;
-  Eigen::Vector3d barycentric;   ///< of the place in the face
-  Eigen::Vector3d displacement;  ///< [m]
-};
-
 /// How far a vertex yields.
 struct VertexPush {
   std::uint32_t vertex;
@@ -59,15 +50,13 @@ class LiverSoftBody {
 
   /// Applies the pushes, then simulates `seconds` (> 0). A vertex that several pushes move is
   /// displaced by their mean.
-  void step(double seconds, const std::vector<TissuePush>& pushes,
-            const std::vector<VertexPush>& vertex_pushes = {});
+  void step(double seconds, const std::vector<VertexPush>& pushes);
 
   /// x y z x y z ... [m], in the order of the surface.
   std::vector<float> vertices() const;
 
  private:
-  void give_way(const std::vector<TissuePush>& pushes,
-                const std::vector<VertexPush>& vertex_pushes);
+  void give_way(const std::vector<VertexPush>& pushes);
   void breathe();
 
   struct Ligament {
@@ -79,5 +68,26 @@ class LiverSoftBody {
   std::vector<Ligament> ligaments_;
   double time_ = 0.0;  ///< [s]
 };
+
+/// A laparoscopic instrument with a scripted motion through a fixed trocar, in the liver's frame.
+struct ScriptedTool {
+  std::string name;
+  Eigen::Vector3d trocar;                  ///< [m]
+  Eigen::Vector3d (*tip)(double seconds);  ///< [m] at a time since the start
+
+  ShaftAxis at(double seconds) const { return {trocar, tip(seconds)}; }
+};
+
+/// [m] Radius of both tools.
+inline constexpr double kToolRadius = 0.005;
+
+/// [s] The stabber passes through the left lobe at each full second, within this time.
+inline constexpr double kStabDuration = 0.005;
+
+/// Held by a hand that moves slowly over the front of the right lobe, and presses into it and lifts
+/// in turn.
+extern const ScriptedTool kPalpator;
+/// Stabs through the left lobe, and rests in front of it and behind it in turn.
+extern const ScriptedTool kStabber;
 
 }  // namespace organ_collision

@@ -1,109 +1,24 @@
+/// The demo's simulator. Publishes a breathing liver and two instruments. The contacts of the
+/// collision node push the tissue, and so do the forces of the proxy of the instrument that a hand
+/// holds.
+
 #include <geometry_msgs/PoseStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/VertexForces.h>
-#include <ros/node_handle.h>
 #include <ros/ros.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/parameters/program_help.hpp"
-#include "scripted_tools.hpp"
-
-namespace organ_collision {
-
-/// Tells other nodes where the scripted tools are, in the liver's frame. The z axis of a tip points
-/// along the shaft.
-class ToolSender {
- public:
-  /// Sends the trocars on /tf_static. `frame`: the liver's.
-  ToolSender(ros::NodeHandle node, std::string frame);
-
-  /// Sends the tips of the tools without a hand on /tf, at `seconds` since the start.
-  void send_tips(double seconds, const ros::Time& stamp);
-  /// Sends the tip of each tool with a hand on NAME/hand, as the driver of a haptic device does.
-  void send_hands(double seconds, const ros::Time& stamp);
-
- private:
-  std::string frame_;
-  std::map<std::string, ros::Publisher> hands_;  ///< by tool
-  tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
-  tf2_ros::TransformBroadcaster tip_broadcaster_;
-};
-
-namespace {
-
-/// A pose whose z axis points along the shaft.
-Eigen::Isometry3d pose_at(const Eigen::Vector3d& place, const Eigen::Vector3d& shaft) {
-  Eigen::Isometry3d pose(Eigen::Translation3d{place});
-  pose.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), shaft));
-  return pose;
-}
-
-geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
-                                          const std::string& child,
-                                          const Eigen::Isometry3d& T_parent_child) {
-  geometry_msgs::TransformStamped result = tf2::eigenToTransform(T_parent_child);
-  result.header.stamp = stamp;
-  result.header.frame_id = parent;
-  result.child_frame_id = child;
-  return result;
-}
-
-}  // namespace
-
-ToolSender::ToolSender(ros::NodeHandle node, std::string frame) : frame_(std::move(frame)) {
-  std::vector<geometry_msgs::TransformStamped> trocars;
-  for (const ScriptedTool& tool : scripted_tools()) {
-    trocars.push_back(transform(ros::Time::now(), frame_, tool.name + "_trocar",
-                                Eigen::Isometry3d(Eigen::Translation3d(tool.trocar))));
-    if (!tool.has_proxy) continue;
-    hands_[tool.name] = node.advertise<geometry_msgs::PoseStamped>(tool.name + "/hand", 1);
-  }
-  trocar_broadcaster_.sendTransform(trocars);
-}
-
-void ToolSender::send_tips(double seconds, const ros::Time& stamp) {
-  std::vector<geometry_msgs::TransformStamped> tips;
-  for (const ScriptedTool& tool : scripted_tools()) {
-    if (tool.has_proxy) continue;
-    const Eigen::Vector3d shaft = tool.tip(seconds) - tool.trocar;
-    tips.push_back(
-        transform(stamp, tool.name + "_trocar", tool.name + "_tip", pose_at(shaft, shaft)));
-  }
-  tip_broadcaster_.sendTransform(tips);
-}
-
-void ToolSender::send_hands(double seconds, const ros::Time& stamp) {
-  for (const ScriptedTool& tool : scripted_tools()) {
-    if (!tool.has_proxy) continue;
-    const Eigen::Vector3d tip = tool.tip(seconds);
-    geometry_msgs::PoseStamped hand;
-    hand.header.stamp = stamp;
-    hand.header.frame_id = frame_;
-    hand.pose = tf2::toMsg(pose_at(tip, tip - tool.trocar));
-    hands_.at(tool.name).publish(hand);
-  }
-}
-
-}  // namespace organ_collision
-
-/// The demo's simulator. Publishes a breathing liver and two instruments. The contacts of the
-/// collision node push the tissue, and so do the forces of the proxy of the instrument that a hand
-/// holds.
 
 namespace organ_collision {
 namespace {
@@ -113,8 +28,8 @@ constexpr double kYield = 0.5;        // [1] share of the depth by which tissue 
 constexpr double kMostYield = 0.008;  // [m] in one step
 /// [m/N] by which a vertex yields in one step to the force of a proxy
 constexpr double kCompliance = 1e-3;
-constexpr double kTfLeadSec =
-    0.5;  // only TF is sent, so that listeners have it before the first shape
+/// [s] Only TF is sent so long, so that listeners have it before the first shape.
+constexpr double kTfLeadSec = 0.5;
 constexpr double kRate = 125.0;  // [Hz] of shapes, by default
 constexpr int kHandPoses = 8;    // for each shape: 1 kHz by default
 constexpr char kCollisionNode[] = "/organ_collision";
@@ -141,13 +56,17 @@ ProgramHelp help() {
   return help;
 }
 
-/// How a tool's contacts push the tissue.
-std::vector<TissuePush> pushes_of(const std::vector<Contact>& contacts) {
-  std::vector<TissuePush> pushes;
+/// How a tool's contacts push the tissue: each place yields along the contact's normal. With these
+/// weights, the vertices move the place by that way.
+std::vector<VertexPush> pushes_of(const std::vector<Contact>& contacts) {
+  std::vector<VertexPush> pushes;
   for (const Contact& contact : contacts) {
-    const Eigen::Vector3d normal(contact.normal.x, contact.normal.y, contact.normal.z);
     const double way = std::clamp(kYield * contact.depth, 0.0, kMostYield);
-    pushes.push_back({contact.face, Eigen::Vector3d(contact.barycentric.data()), way * normal});
+    const Eigen::Vector3d shares(contact.barycentric.data());
+    for (int k = 0; k < 3; ++k) {
+      pushes.push_back(
+          {contact.vertices[k], shares[k] / shares.squaredNorm() * way * to_eigen(contact.normal)});
+    }
   }
   return pushes;
 }
@@ -161,63 +80,91 @@ std::vector<VertexPush> pushes_of(const VertexForces& forces) {
   return pushes;
 }
 
-/// The pushes of all tools.
-template <typename Push>
-std::vector<Push> joined(const std::map<std::string, std::vector<Push>>& pushes) {
-  std::vector<Push> all;
-  for (const auto& [tool, its] : pushes) all.insert(all.end(), its.begin(), its.end());
-  return all;
+/// A pose whose z axis points along the shaft.
+Eigen::Isometry3d pose_at(const Eigen::Vector3d& place, const Eigen::Vector3d& shaft) {
+  Eigen::Isometry3d pose(Eigen::Translation3d{place});
+  pose.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), shaft));
+  return pose;
+}
+
+geometry_msgs::TransformStamped transform(const ros::Time& stamp, const std::string& parent,
+                                          const std::string& child,
+                                          const Eigen::Isometry3d& T_parent_child) {
+  geometry_msgs::TransformStamped result = tf2::eigenToTransform(T_parent_child);
+  result.header.stamp = stamp;
+  result.header.frame_id = parent;
+  result.child_frame_id = child;
+  return result;
 }
 
 class LiverSimulator {
  public:
   /// `rate` [Hz] of shapes.
-  LiverSimulator(ros::NodeHandle collision_node, ros::NodeHandle haptic_node, double rate)
+  LiverSimulator(ros::NodeHandle node, ros::NodeHandle collision_node, ros::NodeHandle haptic_node,
+                 double rate)
       : rate_(rate),
         surface_(make_liver_surface()),
         liver_(surface_),
-        tools_(ros::NodeHandle(), kOrgan),
-        mesh_publisher_(collision_node.advertise<OrganMesh>("organ_mesh", 1, true)),
-        vertices_publisher_(collision_node.advertise<OrganVertices>("organ_vertices", 1)),
+        mesh_publisher_(collision_node.advertise<OrganMesh>(names::kOrganMesh, 1, true)),
+        vertices_publisher_(collision_node.advertise<OrganVertices>(names::kOrganVertices, 1)),
+        hand_publisher_(node.advertise<geometry_msgs::PoseStamped>(kPalpator.name + "/hand", 1)),
         contacts_subscriber_(
-            collision_node.subscribe("contacts", 10, &LiverSimulator::on_contacts, this)) {
-    for (const ScriptedTool& tool : scripted_tools()) {
-      if (!tool.has_proxy) continue;
-      const std::string topic = std::string(kOrgan) + "/" + tool.name + "/vertex_forces";
-      const boost::function<void(const VertexForces&)> keep =
-          [this, name = tool.name](const VertexForces& forces) {
-            vertex_pushes_[name] = pushes_of(forces);
-          };
-      force_subscribers_.push_back(haptic_node.subscribe<VertexForces>(topic, 10, keep));
+            collision_node.subscribe(names::kContacts, 10, &LiverSimulator::on_contacts, this)),
+        forces_subscriber_(
+            haptic_node.subscribe(std::string(kOrgan) + "/" + kPalpator.name + "/vertex_forces", 10,
+                                  &LiverSimulator::on_forces, this)) {
+    std::vector<geometry_msgs::TransformStamped> trocars;
+    for (const ScriptedTool& tool : {kPalpator, kStabber}) {
+      trocars.push_back(transform(ros::Time::now(), kOrgan, tool.name + "_trocar",
+                                  Eigen::Isometry3d(Eigen::Translation3d(tool.trocar))));
     }
+    trocar_broadcaster_.sendTransform(trocars);
   }
 
-  /// To be called kHandPoses times for each shape: the hands move at each call. Begins with the
+  /// To be called kHandPoses times for each shape: the hand moves at each call. Begins with the
   /// tools alone, so that their frames are known before the first shape.
   void step() {
     const bool is_shape_due = calls_++ % kHandPoses == 0;
     if (is_shape_due && lead_steps_ < kTfLeadSec * rate_) {
       ++lead_steps_;
-      tools_.send_tips(0.0, ros::Time::now());
+      send_stabber(0.0, ros::Time::now());
     } else if (is_shape_due) {
       step_liver();
     }
     const double part = static_cast<double>((calls_ - 1) % kHandPoses) / kHandPoses;
-    tools_.send_hands(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
+    send_hand(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
   }
 
   /// Instead of all steps: the liver rests.
   void rest() { publish_mesh(ros::Time::now()); }
 
  private:
-  /// Simulates one period. Publishes the tools' poses before the shape, with the same stamp.
+  /// Simulates one period. Publishes the stabber's pose before the shape, with the same stamp.
   void step_liver() {
-    if (++steps_ > 1) liver_.step(1.0 / rate_, joined(pushes_), joined(vertex_pushes_));
+    std::vector<VertexPush> pushes;
+    for (const auto& [sender, its] : pushes_) pushes.insert(pushes.end(), its.begin(), its.end());
     pushes_.clear();
-    vertex_pushes_.clear();
+    if (++steps_ > 1) liver_.step(1.0 / rate_, pushes);
     const ros::Time stamp = ros::Time::now();
-    tools_.send_tips(steps_ / rate_, stamp);
+    send_stabber(steps_ / rate_, stamp);
     steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
+  }
+
+  /// On /tf, at `seconds` since the start. The z axis of a tip points along the shaft.
+  void send_stabber(double seconds, const ros::Time& stamp) {
+    const Eigen::Vector3d shaft = kStabber.tip(seconds) - kStabber.trocar;
+    tip_broadcaster_.sendTransform(
+        transform(stamp, kStabber.name + "_trocar", kStabber.name + "_tip", pose_at(shaft, shaft)));
+  }
+
+  /// As the driver of a haptic device does.
+  void send_hand(double seconds, const ros::Time& stamp) {
+    const Eigen::Vector3d tip = kPalpator.tip(seconds);
+    geometry_msgs::PoseStamped hand;
+    hand.header.stamp = stamp;
+    hand.header.frame_id = kOrgan;
+    hand.pose = tf2::toMsg(pose_at(tip, tip - kPalpator.trocar));
+    hand_publisher_.publish(hand);
   }
 
   void on_contacts(const ContactArray& array) {
@@ -226,12 +173,19 @@ class LiverSimulator {
     }
   }
 
+  void on_forces(const VertexForces& forces) { pushes_["the hand"] = pushes_of(forces); }
+
+  template <typename Message>
+  Message shape(const ros::Time& stamp) const {
+    Message message;
+    message.header.stamp = stamp;
+    message.header.frame_id = message.organ = kOrgan;
+    message.vertices = liver_.vertices();
+    return message;
+  }
+
   void publish_mesh(const ros::Time& stamp) {
-    OrganMesh mesh;
-    mesh.header.stamp = stamp;
-    mesh.header.frame_id = kOrgan;
-    mesh.organ = kOrgan;
-    mesh.vertices = liver_.vertices();
+    auto mesh = shape<OrganMesh>(stamp);
     for (const FaceIndices& face : surface_.faces) {
       mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
     }
@@ -239,31 +193,26 @@ class LiverSimulator {
   }
 
   void publish_vertices(const ros::Time& stamp) {
-    OrganVertices vertices;
-    vertices.header.stamp = stamp;
-    vertices.header.frame_id = kOrgan;
-    vertices.organ = kOrgan;
-    vertices.vertices = liver_.vertices();
-    vertices_publisher_.publish(vertices);
+    vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
   double rate_;
   ClosedSurface surface_;
   LiverSoftBody liver_;
-  ToolSender tools_;
-  std::map<std::string, std::vector<TissuePush>> pushes_;         ///< by tool, since the last shape
-  std::map<std::string, std::vector<VertexPush>> vertex_pushes_;  ///< the same, of proxies
+  std::map<std::string, std::vector<VertexPush>> pushes_;  ///< by sender, since the last shape
   long calls_ = 0;
   long lead_steps_ = 0;
   long steps_ = 0;
+  tf2_ros::StaticTransformBroadcaster trocar_broadcaster_;
+  tf2_ros::TransformBroadcaster tip_broadcaster_;
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
+  ros::Publisher hand_publisher_;
   ros::Subscriber contacts_subscriber_;
-  std::vector<ros::Subscriber> force_subscribers_;
+  ros::Subscriber forces_subscriber_;
 };
 
 }  // namespace
-
 }  // namespace organ_collision
 
 int main(int argc, char** argv) {
@@ -282,7 +231,8 @@ int main(int argc, char** argv) {
       private_node.param<std::string>("collision_node", kCollisionNode);
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
   const std::string haptic_node = private_node.param<std::string>("haptic_node", kHapticNode);
-  LiverSimulator simulator{ros::NodeHandle(collision_node), ros::NodeHandle(haptic_node), rate};
+  LiverSimulator simulator{ros::NodeHandle(), ros::NodeHandle(collision_node),
+                           ros::NodeHandle(haptic_node), rate};
   if (!private_node.param<bool>("moves", true)) {
     simulator.rest();
     ros::spin();

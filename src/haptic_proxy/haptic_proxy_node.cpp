@@ -47,13 +47,14 @@ SteadyClock::duration duration(double seconds) {
 
 HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
-      inbox_({core_.parameters().max_faces, core_.parameters().max_ahead_sec},
-             core_.parameters().tools, counters_.rejected,
-             [this](std::size_t tool) {
-               if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
-             },
-             OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
-                                  core_.background().queue()}),
+      inbox_(
+          {core_.parameters().max_faces, core_.parameters().max_ahead_sec},
+          core_.parameters().tools, counters_.rejected,
+          [this](std::size_t tool) {
+            if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
+          },
+          OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
+                               core_.background().queue()}),
       poses_(inbox_.transforms, kNoPaths),
       frame_(core_.parameters().frame),
       hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
@@ -99,9 +100,8 @@ void HapticProxyNode::start() {
   organ_services_.advertise(core_.private_node());
   core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
   add_diagnostics(core_.updater(),
-                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
-                                inbox_.organs, inbox_.intake, counters_.meshes,
-                                counters_.rejected});
+                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs,
+                                inbox_.intake, counters_.meshes, counters_.rejected});
   core_.start();
   ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
            core_.parameters().stiffness);
@@ -388,9 +388,7 @@ void HapticProxyNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept)
   for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
   core_.exchange_tools(
       loaded,
-      [this](const auto& parameters) {
-        inbox_.pose_topics().change_tools(parameters, core_.node());
-      },
+      [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
       [&] {
         publisher_.set_tools(core_.parameters().tools);
         hands_ = make_hands(core_.tools(), kept);

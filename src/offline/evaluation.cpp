@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "contacts_csv.hpp"
-#include "query/worker_threads.hpp"
 
 namespace organ_collision {
 namespace {
@@ -25,10 +24,7 @@ class Evaluation {
         added_{questions.margin > 0.0 || questions.clearance, questions.placement},
         source_(motions),
         shapes_(shapes),
-        queries_(questions.jobs),
-        threads_(WorkerThreads::Caller::kWorks,
-                 [this](std::size_t worker) { queries_[worker].emplace(questions_.picker); }) {
-    queries_[0].emplace(questions.picker);
+        threads_(questions.jobs, questions.picker) {
     const TriangleMesh& organ = shapes_.first();
     if (questions.placement) topology_.emplace(organ.faces(), organ.vertices());
   }
@@ -47,7 +43,7 @@ class Evaluation {
   bool next_round() {
     motions_.clear();
     if (is_last_) return false;
-    const std::size_t most = queries_.size() * shapes_.most_for_each_thread();
+    const std::size_t most = threads_.count() * shapes_.most_for_each_thread();
     try {
       while (motions_.size() < most && (motions_.empty() || source_.is_ready())) {
         std::optional<Motion> motion = source_.next();
@@ -60,7 +56,7 @@ class Evaluation {
     } catch (const InputError&) {
       error_ = std::current_exception();
     }
-    if (!motions_.empty()) threads_.start(std::min(motions_.size(), queries_.size()) - 1);
+    threads_.start_for(motions_.size());
     get_shapes();
     if (error_) is_last_ = true;
     return !motions_.empty();
@@ -78,12 +74,12 @@ class Evaluation {
   }
 
   void answer_round(const Print& print) {
-    const std::size_t size = block_size(motions_.size(), queries_.size());
+    const std::size_t size = block_size(motions_.size(), threads_.count());
     const auto begin = [&](std::size_t block) { return std::min(block * size, motions_.size()); };
     std::vector<std::string> answers((motions_.size() + size - 1) / size);
     const auto answer = [&](std::size_t worker, std::size_t block) {
       for (std::size_t motion = begin(block); motion < begin(block + 1); ++motion) {
-        append_answer(motion, *queries_[worker], answers[block]);
+        append_answer(motion, threads_.query(worker), answers[block]);
       }
     };
     const auto deliver = [&](std::size_t block) {
@@ -117,12 +113,11 @@ class Evaluation {
   const AddedColumns added_;
   MotionSource& source_;
   ShapeSource& shapes_;
-  std::optional<SurfaceTopology> topology_;             ///< only if the placement is asked for
-  std::vector<Motion> motions_;                         ///< of the present round
-  bool is_last_ = false;                                ///< whether no round follows
-  std::exception_ptr error_;                            ///< why not, if motions are left
-  std::vector<std::optional<CollisionQuery>> queries_;  ///< of each worker
-  WorkerThreads threads_;                               ///< the calling thread works, too
+  std::optional<SurfaceTopology> topology_;  ///< only if the placement is asked for
+  std::vector<Motion> motions_;              ///< of the present round
+  bool is_last_ = false;                     ///< whether no round follows
+  std::exception_ptr error_;                 ///< why not, if motions are left
+  QueryWorkers threads_;
 };
 
 }  // namespace

@@ -27,7 +27,7 @@ class FixedShapes : public ShapeSource {
   }
 
   std::size_t most_for_each_thread() const override { return 512; }
-  std::size_t get(std::size_t count, WorkerThreads&, std::exception_ptr&) override { return count; }
+  std::size_t get(std::size_t count, QueryWorkers&, std::exception_ptr&) override { return count; }
   OrganShapes shapes_of(std::size_t) const override {
     return {&now_, before_ ? &*before_ : nullptr};
   }
@@ -45,7 +45,7 @@ class RecordedShapes : public ShapeSource {
       : files_(std::move(files)), first_(mesh_of(read_obj(files_.at(0)))), shapes_{first_} {}
 
   std::size_t most_for_each_thread() const override { return 4; }
-  std::size_t get(std::size_t count, WorkerThreads& threads, std::exception_ptr& error) override {
+  std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error) override {
     std::swap(shapes_[0], shapes_[count_]);
     if (shapes_.size() <= count) shapes_.resize(count + 1, first_);
     count_ = 0;

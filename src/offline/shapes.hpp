@@ -6,9 +6,13 @@
 #include <string>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/query/collision_query.hpp"
 #include "query/worker_threads.hpp"
 
 namespace organ_collision {
+
+/// The threads that answer motions, and that read shapes for them.
+using QueryWorkers = QueryThreads<CollisionQuery>;
 
 /// The organ that a motion meets.
 struct OrganShapes {
@@ -27,7 +31,7 @@ class ShapeSource {
   /// Gets the shapes of a round of `count` motions, which follow those of the last round. Returns
   /// how many motions have their shapes. Further ones have none if there are no more shapes, or
   /// because the next shape is not legal; `error` is then set to its InputError.
-  virtual std::size_t get(std::size_t count, WorkerThreads& threads, std::exception_ptr& error) = 0;
+  virtual std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error) = 0;
   /// The shapes that a motion of the present round meets.
   virtual OrganShapes shapes_of(std::size_t motion) const = 0;
   /// How many shapes need motions after this round.

@@ -1,88 +1,18 @@
-#include "collision_query.hpp"
+#include "organ_collision/query/collision_query.hpp"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "clearance_finder.hpp"
 #include "contact_finder.hpp"
 #include "leg_span.hpp"
-#include "organ_collision/query/collision_query.hpp"
 #include "picking/volumes/conservative_volume.hpp"
 #include "placement_finder.hpp"
 #include "request_check.hpp"
+#include "step.hpp"
 
 namespace organ_collision {
 namespace {
-
-Region region_of(const TriangleMesh& organ, const FaceContact& contact,
-                 const ViewingVolume& volume) {
-  Region region = clipped(shifted(organ.triangle(contact.face), volume.origin()), volume);
-  for (Eigen::Vector3d& corner : region) corner += volume.origin();
-  return region;
-}
-
-}  // namespace
-
-void ContactRegions::find(const Step& step, const std::vector<FaceContact>& contacts,
-                          std::vector<Region>& regions) {
-  regions.assign(contacts.size(), {});
-  places_.clear();
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    places_.push_back({step.leg_at(contacts[i].fraction), contacts[i].link, i});
-  }
-  std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
-    return std::tie(a.leg, a.link, a.contact) < std::tie(b.leg, b.link, b.contact);
-  });
-  for (Places begin = places_.begin(); begin != places_.end();) {
-    const Places end = std::find_if_not(
-        begin, places_.cend(), [&](const Place& place) { return place.shares_volumes(*begin); });
-    clip(step, begin, end, contacts, regions);
-    begin = end;
-  }
-}
-
-/// Finds the regions of contacts that share leg and link.
-void ContactRegions::clip(const Step& step, Places begin, Places end,
-                          const std::vector<FaceContact>& contacts, std::vector<Region>& regions) {
-  if (step.has_shaft() && begin->link == 0) {
-    const ViewingVolume volume = tool_volume(step.shaft_motion(begin->leg), step.radius());
-    for (Places place = begin; place != end; ++place) {
-      regions[place->contact] = region_of(step.organ(), contacts[place->contact], volume);
-    }
-    return;
-  }
-  const std::size_t link = begin->link - step.link_number(0);
-  const RigidMotion motion = step.link_motion(begin->leg, link);
-  for (const LinkPart& part : step.link(link).parts) {
-    const SweptBox box(part.bounds, motion, part.radius);
-    const ViewingVolume volume = tool_volume(box);
-    for (Places place = begin; place != end; ++place) {
-      Region& region = regions[place->contact];
-      if (region.empty()) region = region_of(step.organ(), contacts[place->contact], volume);
-    }
-  }
-}
-
-namespace {
-
-/// Sorts the contacts by face, then link, and keeps one for each face and link: the first touch,
-/// and of several touches at that time the deepest. Parts that pierce a face together have the same
-/// depth. The point decides between them, so that the answer does not depend on the order of parts.
-void keep_first_touches(std::vector<FaceContact>& contacts) {
-  const auto precedes = [](const FaceContact& a, const FaceContact& b) {
-    return std::tie(a.face, a.link, a.fraction, b.depth, a.point.x(), a.point.y(), a.point.z()) <
-           std::tie(b.face, b.link, b.fraction, a.depth, b.point.x(), b.point.y(), b.point.z());
-  };
-  // The contacts of a shaft on one leg are sorted already.
-  if (!std::is_sorted(contacts.begin(), contacts.end(), precedes)) {
-    std::sort(contacts.begin(), contacts.end(), precedes);
-  }
-  const auto end = std::unique(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) {
-    return a.face == b.face && a.link == b.link;
-  });
-  contacts.erase(end, contacts.end());
-}
 
 void clear(CollisionResult& result) {
   result.contacts.clear();
@@ -96,46 +26,79 @@ void clear(CollisionResult& result) {
   result.placement = {{}, {}, std::move(result.placement.crossings), false, 0.0};
 }
 
-/// The faces in the paper's volumes, with their depth ranges and nothing else.
-void pick_unrefined(const CollisionRequest& request, Picker& picker,
-                    std::vector<Candidate>& candidates, std::vector<FaceContact>& contacts) {
-  picker.pick(paper_volume(request), *request.organ, candidates);
-  for (const Candidate& candidate : candidates) {
-    FaceContact contact;
-    contact.face = candidate.face;
-    contact.view_min = candidate.view_min;
-    contact.view_max = candidate.view_max;
-    contacts.push_back(contact);
+/// The volumes that the parts of a link, or the shaft, sweep on a leg. `number`: as in FaceContact.
+std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::uint32_t number) {
+  const LegSpan span = step.span_of(leg);
+  if (step.has_shaft() && number == 0) return {tool_volume(step.shaft_motion(span), step.radius())};
+  const std::size_t link = number - step.link_number(0);
+  const RigidMotion motion = step.link_motion(span, link);
+  std::vector<ViewingVolume> volumes;
+  for (const LinkPart& part : step.link(link).parts) {
+    volumes.push_back(tool_volume(SweptBox(part.bounds, motion, part.radius)));
+  }
+  return volumes;
+}
+
+Region region_of(const Triangle& face, const ViewingVolume& volume) {
+  Region region = clipped(shifted(face, volume.origin()), volume);
+  for (Eigen::Vector3d& corner : region) corner += volume.origin();
+  return region;
+}
+
+/// Finds the region of each contact: the polygon in which the contact's face, as it is at the end
+/// of the step, meets the tool's volume on the leg of the first touch. For a link, this is the
+/// volume of its first part whose volume the face meets.
+void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
+                  std::vector<Region>& regions) {
+  std::vector<ViewingVolume> volumes;
+  std::size_t leg = 0;
+  std::uint32_t link = 0;
+  for (const FaceContact& contact : contacts) {
+    const std::size_t its_leg = step.leg_at(contact.fraction);
+    if (volumes.empty() || its_leg != leg || contact.link != link) {
+      leg = its_leg;
+      link = contact.link;
+      volumes = volumes_of(step, leg, link);
+    }
+    Region& region = regions.emplace_back();
+    for (auto volume = volumes.begin(); region.empty() && volume != volumes.end(); ++volume) {
+      region = region_of(step.organ().triangle(contact.face), *volume);
+    }
   }
 }
 
-/// Releases the picker at the end of a query, so that any thread may ask the next one.
-class ScopedRelease {
+/// A query that runs. At its end the picker is released, so that any thread may ask the next one. A
+/// result that is not complete then, because of an exception, becomes empty.
+class ScopedQuery {
  public:
-  explicit ScopedRelease(Picker& picker) : picker_(picker) {}
-  ~ScopedRelease() { picker_.release(); }
-  ScopedRelease(const ScopedRelease&) = delete;
-  ScopedRelease& operator=(const ScopedRelease&) = delete;
+  ScopedQuery(Picker& picker, CollisionResult& result) : picker_(picker), result_(result) {}
+  ~ScopedQuery() {
+    picker_.release();
+    if (!is_complete_) clear(result_);
+  }
+  ScopedQuery(const ScopedQuery&) = delete;
+  ScopedQuery& operator=(const ScopedQuery&) = delete;
+
+  void complete() { is_complete_ = true; }
 
  private:
   Picker& picker_;
+  CollisionResult& result_;
+  bool is_complete_ = false;
 };
 
 }  // namespace
 
 struct CollisionQuery::State {
   explicit State(const PickerSettings& settings)
-      : picker(make_picker(settings)), finder(*picker), placement(*picker) {}
+      : picker(make_picker(settings)), contacts(*picker), placement(*picker) {}
 
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
   std::unique_ptr<Picker> picker;
-  ContactFinder finder;
-  ContactRegions regions;
+  ContactFinder contacts;
   ClearanceFinder clearance;
-  NearFinder near;
   PlacementFinder placement;
-  std::vector<Candidate> candidates;
   BlockBoxes boxes_before;
   ToolPath subdivided_path;
 };
@@ -151,33 +114,24 @@ const std::string& CollisionQuery::gl_version() const { return state_->picker->g
 void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& result) {
   clear(result);
   check(request);
-  try {
-    const ScopedRelease release(*state_->picker);
-    state_->evaluate(request, result);
-  } catch (...) {
-    clear(result);
-    throw;
-  }
+  ScopedQuery query(*state_->picker, result);
+  state_->evaluate(request, result);
+  query.complete();
 }
 
-/// The pipeline: contacts of all parts and legs, one for each face and link; then what else the
-/// request asks for.
+/// The pipeline: the contacts, then what else the request asks for.
 void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionResult& result) {
-  if (is_paper_mode(request.mode)) {
-    return pick_unrefined(request, *picker, candidates, result.contacts);
-  }
+  if (is_paper_mode(request.mode)) return contacts.find_in_paper_volume(request, result.contacts);
   const Step step(request, with_subdivided_rotations(request.path, subdivided_path), boxes_before);
-  finder.find(step, result.contacts);
-  keep_first_touches(result.contacts);
-  for (FaceContact& contact : result.contacts) {
-    contact.vertices = request.organ->faces()[contact.face];
-    if (!contact.is_resolved) ++result.unresolved;
-  }
-  if (request.regions) regions.find(step, result.contacts, result.regions);
+  contacts.find(step, result.contacts);
+  result.unresolved = static_cast<std::size_t>(
+      std::count_if(result.contacts.begin(), result.contacts.end(),
+                    [](const FaceContact& contact) { return !contact.is_resolved; }));
+  if (request.regions) find_regions(step, result.contacts, result.regions);
   if (asks_for_clearance(request)) {
     result.clearance = clearance.find(step, request, result.contacts);
   }
-  if (request.max_near > 0) near.find(step, request, result);
+  if (request.max_near > 0) clearance.find_near(step, request, result);
   if (request.placement) placement.find(request, result.placement);
 }
 

@@ -140,10 +140,4 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   return contact;
 }
 
-std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face) {
-  const std::optional<FirstTouch> touch = first_touch(part.core, face.motion, part.radius);
-  if (!touch) return std::nullopt;
-  return contact_of(*touch, part, face);
-}
-
 }  // namespace organ_collision

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <optional>
 
 #include "geometry/distance/first_touch.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
@@ -35,10 +34,5 @@ struct FaceLeg {
 /// The contact that follows from the first touch of a part and a face. The caller sets the face's
 /// number and vertices.
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face);
-
-/// The contact of one part and one face by exact distances, without picking and without a work
-/// limit. Returns nothing if the face stays farther from the part's core than the radius during the
-/// leg.
-std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face);
 
 }  // namespace organ_collision

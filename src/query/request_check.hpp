@@ -11,15 +11,14 @@ namespace organ_collision {
 /// [1] How far the linear part of a legal pose may be from a rotation.
 inline constexpr double kRotationTolerance = 1e-9;
 
-/// Throws std::invalid_argument, naming the value and what is legal, for a request that has no
-/// answer (see CollisionQuery::evaluate).
+// All checks throw std::invalid_argument, naming the value and what is legal.
+
+/// Refuses a request that has no answer (see CollisionQuery::evaluate).
 void check(const CollisionRequest& request);
 
-/// The viewing volume of a request in one of the paper's modes. `request` is otherwise legal (see
-/// request_check.hpp). Throws VolumeError if its shaft is too short or too thin for the volume.
+/// The viewing volume of a request in one of the paper's modes. `request` is otherwise legal.
+/// Throws VolumeError if its shaft is too short or too thin for the volume.
 ViewingVolume paper_volume(const CollisionRequest& request);
-
-// All throw std::invalid_argument, naming the value and what is legal.
 
 void check_tool(const ProxyTool& tool);
 void check_settings(const ProxyTool& tool, const ProxySettings& settings);

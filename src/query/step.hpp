@@ -50,12 +50,8 @@ class Step {
   LegSpan shaft_span(std::size_t leg) const;
   LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
 
-  /// The motion of the shaft or of a link on a leg, or along the chord of a span.
-  ShaftMotion shaft_motion(std::size_t leg) const { return shaft_motion(span_of(leg)); }
+  /// The motion of the shaft or of a link along the chord of a span.
   ShaftMotion shaft_motion(const LegSpan& span) const { return {from(span).axis, to(span).axis}; }
-  RigidMotion link_motion(std::size_t leg, std::size_t link) const {
-    return link_motion(span_of(leg), link);
-  }
   RigidMotion link_motion(const LegSpan& span, std::size_t link) const {
     return {from(span).links[link], to(span).links[link]};
   }

@@ -8,9 +8,10 @@
 #include <array>
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
-#include <cctype>
+#include <boost/algorithm/string/predicate.hpp>
 #include <chrono>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <new>
@@ -88,10 +89,10 @@ void check_scale(const Vector3d& scale) {
                               "; must be finite, and not 0 along any axis"));
 }
 
-/// The extension of a file name. assimp recognises the format by it.
+/// The extension of a file name, without its dot. assimp recognises the format by it.
 std::string extension(const std::string& file) {
-  const std::size_t dot = file.find_last_of("./");
-  return dot == std::string::npos || file[dot] == '/' ? "" : file.substr(dot + 1);
+  const std::string dotted = std::filesystem::path(file).extension();
+  return dotted.empty() ? dotted : dotted.substr(1);
 }
 
 /// Not all importers of assimp check the vertex indices, but its post-processing relies on them.
@@ -110,10 +111,9 @@ void check_indices(const aiScene& scene) {
   }
 }
 
-bool ends_line(char character) { return character == '\n' || character == '\r'; }
-
 /// Whether one line of the text, other than the first, is this word. Blanks may follow it.
 bool has_line(const std::string& text, const std::string& word) {
+  const auto ends_line = [](char character) { return character == '\n' || character == '\r'; };
   for (std::size_t at = text.find(word, 1); at != std::string::npos; at = text.find(word, at + 1)) {
     const std::size_t end = text.find_first_not_of(" \t", at + word.size());
     if (ends_line(text[at - 1]) && end != std::string::npos && ends_line(text[end])) return true;
@@ -125,21 +125,12 @@ bool has_line(const std::string& text, const std::string& word) {
 /// stays in an STL file, because the header of the binary form may be any bytes.
 void remove_byte_order_mark(const std::string& file, std::string& content) {
   constexpr std::string_view kMark = "\xEF\xBB\xBF";
-  if (content.compare(0, kMark.size(), kMark) != 0) return;
-  std::string format = extension(file);
-  std::transform(format.begin(), format.end(), format.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  if (format != "stl") content.erase(0, kMark.size());
+  if (boost::iequals(extension(file), "stl") || !boost::starts_with(content, kMark)) return;
+  content.erase(0, kMark.size());
 }
 
 /// assimp reads PLY files also if their first line is in capitals.
-bool is_ply(const std::string& content) {
-  const std::string magic = "ply";
-  return content.size() >= magic.size() &&
-         std::equal(magic.begin(), magic.end(), content.begin(), [](char expected, char found) {
-           return std::tolower(static_cast<unsigned char>(found)) == expected;
-         });
-}
+bool is_ply(const std::string& content) { return boost::istarts_with(content, "ply"); }
 
 /// If the header of a PLY file has no end, as in a truncated file, assimp never stops reading.
 void check_ply_header(const std::string& content) {

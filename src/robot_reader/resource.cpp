@@ -6,6 +6,7 @@
 #include <sys/time.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cctype>
 #include <cerrno>
 #include <cstring>
@@ -84,10 +85,6 @@ std::string read_file(const std::string& path) {
   return content;
 }
 
-bool begins_with(const std::string& text, const std::string& prefix) {
-  return text.compare(0, prefix.size(), prefix) == 0;
-}
-
 /// Replaces the escapes of a URL, such as %41 by A. A % that is not followed by two hexadecimal
 /// digits stays, and so does %00.
 std::string decoded(const std::string& url) {
@@ -136,9 +133,9 @@ void limit_process() {
 }
 
 std::string read_resource(const std::string& name) {
-  if (begins_with(name, "/")) return read_file(name);
-  if (begins_with(name, kPackage)) return read_file(path_in_package(name));
-  if (begins_with(name, kFile)) return read_file(path_of_url(name));
+  if (boost::starts_with(name, "/")) return read_file(name);
+  if (boost::starts_with(name, kPackage)) return read_file(path_in_package(name));
+  if (boost::starts_with(name, kFile)) return read_file(path_of_url(name));
   // URLs of servers are refused: a server that does not answer would delay the start of the node.
   refuse(name, "must be an absolute path, or begin with package:// or file://");
 }

@@ -12,6 +12,9 @@ namespace {
 
 using visualization_msgs::Marker;
 
+constexpr double kUpdateSec = 0.01;
+constexpr std::uint32_t kQueueSize = 4000;
+
 template <typename Map, typename Condition>
 void erase_if(Map& map, Condition condition) {
   for (auto entry = map.begin(); entry != map.end();) {
@@ -30,7 +33,7 @@ void MarkerStore::apply(const std::string& topic, const visualization_msgs::Mark
     } else if (marker.action == Marker::DELETE) {
       entries_.erase(key);
     } else if (marker.action == Marker::DELETEALL) {
-      clear(topic);
+      erase_if(entries_, [&](const auto& entry) { return entry.first.topic == topic; });
     }
   }
 }
@@ -51,17 +54,6 @@ void MarkerStore::place(const Lookup& lookup) {
     if (found) entry.T_fixed_header = found;
   }
 }
-
-void MarkerStore::clear(const std::string& topic) {
-  erase_if(entries_, [&](const auto& entry) { return entry.first.topic == topic; });
-}
-
-namespace {
-
-constexpr double kUpdateSec = 0.01;
-constexpr std::uint32_t kQueueSize = 4000;
-
-}  // namespace
 
 MarkerListener::MarkerListener(const std::vector<std::string>& topics, const std::string& frame)
     : frame_(tf_frame(frame)), listener_(buffer_) {

@@ -50,8 +50,6 @@ class MarkerStore {
   const std::map<Key, Entry>& entries() const { return entries_; }
 
  private:
-  void clear(const std::string& topic);
-
   std::map<Key, Entry> entries_;
 };
 

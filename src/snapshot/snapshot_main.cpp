@@ -263,15 +263,6 @@ class Snapshot {
     write_png(file, renderer_.render(triangles, camera_, options_.background));
   }
 
-  void warn_of_frame(const std::string& frame, const std::string& error) {
-    warn("the markers of frame '" + frame + "' are left out: " + error);
-  }
-
-  void warn_of_marker(const std::string& topic, const std::string& ns, int id,
-                      const std::string& error) {
-    warn("marker " + ns + "/" + std::to_string(id) + " of " + topic + " is left out: " + error);
-  }
-
   PictureTriangles scene() {
     PictureTriangles triangles;
     for (const auto& [key, entry] : markers_.markers().entries()) {
@@ -279,11 +270,12 @@ class Snapshot {
       try {
         picture_.add(entry.marker, *entry.T_fixed_header, triangles);
       } catch (const InputError& error) {
-        warn_of_marker(key.topic, key.ns, key.id, error.what());
+        warn(concatenate("marker ", key.ns, "/", key.id, " of ", key.topic,
+                         " is left out: ", error.what()));
       }
     }
     for (const auto& [frame, error] : markers_.missing_transforms()) {
-      warn_of_frame(frame, error);
+      warn("the markers of frame '" + frame + "' are left out: " + error);
     }
     return triangles;
   }

@@ -29,46 +29,31 @@ TEST(AnswerRulesTest, GoodAnswersBreakNone) {
   EXPECT_EQ(broken_rules(good_answer()), "");
   EXPECT_EQ(broken_rules(good_static_answer()), "");
   EXPECT_EQ(broken_rules(good_failure()), "");
-}
 
-TEST(AnswerRulesTest, AnAnswerWithNothingInItBreaksNone) {
-  ContactArray answer = good_answer();
-  answer.contacts.clear();
-  answer.regions.clear();
-  answer.near.clear();
-  answer.clearance = {};
-  answer.placement = {};
-  EXPECT_EQ(broken_rules(answer), "");
-  answer.clearance.state = Clearance::BEYOND_MARGIN;
-  answer.clearance.margin = 0.01;
-  EXPECT_EQ(broken_rules(answer), "");
-}
+  ContactArray nothing = good_answer();
+  nothing.contacts.clear();
+  nothing.regions.clear();
+  nothing.near.clear();
+  nothing.clearance = {};
+  nothing.placement = {};
+  EXPECT_EQ(broken_rules(nothing), "");
+  nothing.links = {"wrist", "jaw"};  // The first link may have a name.
+  nothing.clearance.state = Clearance::BEYOND_MARGIN;
+  nothing.clearance.margin = 0.01;
+  EXPECT_EQ(broken_rules(nothing), "");
+  nothing.links[0] = std::string(10000, 'w');
+  EXPECT_EQ(broken_rules(nothing), "names");
 
-TEST(AnswerRulesTest, TheFirstLinkMayHaveAName) {
-  ContactArray answer = good_answer();
-  answer.contacts.clear();
-  answer.regions.clear();
-  answer.near.clear();
-  answer.placement = {};
-  answer.links = {"wrist", "jaw"};
-  EXPECT_EQ(broken_rules(answer), "");
-  answer.links[0] = std::string(10000, 'w');
-  EXPECT_EQ(broken_rules(answer), "names");
-}
+  ContactArray unresolved = good_static_answer();  // An upper bound may be above a contact's.
+  unresolved.clearance.distance = unresolved.clearance.least = 0.01;
+  unresolved.clearance.on_organ.z = -0.01;
+  unresolved.clearance.unresolved = true;
+  EXPECT_EQ(broken_rules(unresolved), "");
 
-TEST(AnswerRulesTest, UpperBoundsOfADistanceMayBeAboveThatOfAContact) {
-  ContactArray answer = good_static_answer();
-  answer.clearance.distance = answer.clearance.least = 0.01;
-  answer.clearance.on_organ.z = -0.01;
-  answer.clearance.unresolved = true;
-  EXPECT_EQ(broken_rules(answer), "");
-}
-
-TEST(AnswerRulesTest, PaperModesHaveNoGeometry) {
-  ContactArray answer = good_answer();
-  answer.mode = ContactArray::PAPER_SWEPT;
-  answer.contacts[0].normal = {};
-  EXPECT_EQ(broken_rules(answer), "");
+  ContactArray paper = good_answer();  // Paper modes have no geometry.
+  paper.mode = ContactArray::PAPER_SWEPT;
+  paper.contacts[0].normal = {};
+  EXPECT_EQ(broken_rules(paper), "");
 }
 
 /// One thing that is wrong, and the rule that it breaks.

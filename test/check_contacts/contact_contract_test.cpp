@@ -28,30 +28,27 @@ class ContactContractTest : public testing::Test {
   std::uint32_t seq_ = 0;
 };
 
-TEST_F(ContactContractTest, StepsThatJoinAreGood) {
-  EXPECT_EQ(broken_rules(good_static_answer(), 3, 3), "");
-  EXPECT_EQ(broken_rules(good_answer(), 3, 4), "");
-  EXPECT_EQ(broken_rules(good_answer(), 4, 4), "");
-  EXPECT_EQ(broken_rules(good_answer(), 4, 9), "");
-}
-
-TEST_F(ContactContractTest, AStepMustBeginWhereTheLastOneEnded) {
-  EXPECT_EQ(broken_rules(good_answer(), 3, 4), "");
-  EXPECT_EQ(broken_rules(good_answer(), 5, 6), "steps that join");
-  EXPECT_EQ(broken_rules(good_answer(), 6, 7), "");
-  EXPECT_EQ(broken_rules(good_answer(), 3, 4), "steps that join");
-}
-
-TEST_F(ContactContractTest, AFailureDoesNotEndAStep) {
-  EXPECT_EQ(broken_rules(good_answer(), 3, 4), "");
-  EXPECT_EQ(broken_rules(good_failure(), 5, 5), "");
-  EXPECT_EQ(broken_rules(good_answer(), 4, 6), "");
-}
-
-TEST_F(ContactContractTest, HistoryMayBeForgotten) {
-  EXPECT_EQ(broken_rules(good_answer(), 3, 4), "");
-  EXPECT_EQ(broken_rules(good_static_answer(), 1, 1), "");
-  EXPECT_EQ(broken_rules(good_answer(), 1, 2), "");
+TEST_F(ContactContractTest, AStepMustBeginWhereTheLastSuccessfulOneEnded) {
+  const struct {
+    ContactArray answer;
+    int start, end;
+    const char* broken;
+  } rows[] = {
+      {good_static_answer(), 3, 3, ""},
+      {good_answer(), 3, 4, ""},
+      {good_answer(), 4, 4, ""},
+      {good_answer(), 4, 9, ""},
+      {good_answer(), 10, 11, "steps that join"},
+      {good_answer(), 11, 12, ""},
+      {good_answer(), 3, 4, "steps that join"},
+      {good_failure(), 5, 5, ""},  // It does not end a step.
+      {good_answer(), 4, 6, ""},
+      {good_static_answer(), 1, 1, ""},  // History was forgotten.
+      {good_answer(), 1, 2, ""},
+  };
+  for (const auto& row : rows) {
+    EXPECT_EQ(broken_rules(row.answer, row.start, row.end), row.broken) << row.start;
+  }
 }
 
 TEST_F(ContactContractTest, PairsOfOrganAndToolHaveTheirOwnSteps) {

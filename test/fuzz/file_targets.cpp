@@ -102,7 +102,7 @@ const FuzzTarget parameter_file_target("parameter_file", [](const std::uint8_t* 
   const std::string path = memory_file(FuzzInput(data, size).rest());
   try {
     const YamlParameters parameters(path, "/organ_collision");
-    for (const ToolParameters& tool : parameters.node_parameters().parameters.tools) {
+    for (const ToolParameters& tool : parameters.node_parameters().tools) {
       parameters.find_text(tool.robot_description);
     }
   } catch (const InputError&) {

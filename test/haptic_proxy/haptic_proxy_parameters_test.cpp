@@ -40,8 +40,9 @@ TEST(HapticProxyParameters, RefusalsSayWhatIsLegal) {
 }
 
 TEST(HapticProxyParameters, ToolsWhoseTopicsWouldHaveOneNameAreRefused) {
-  XmlRpcValue tools = legal_parameters<HapticProxyParameters>()["tools"];
-  tools[1] = tools[0];
+  const XmlRpcValue tool = legal_parameters<HapticProxyParameters>()["tools"][0];
+  XmlRpcValue tools;
+  tools[0] = tools[1] = tool;
   tools[1]["name"] = "left_hook";
   expect_contains(refusal_of<HapticProxyParameters>("tools", tools),
                   {"~tools has 'left hook' and 'left_hook'"});

@@ -17,8 +17,8 @@ SOURCE, DEVEL = sys.argv[1:3]
 SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) if os.access(path, os.X_OK)] + [
     os.path.join(SOURCE, 'scripts', 'view.py')]
 # The programs of tests and benchmarks, besides the unit tests.
-NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'proxy_proof', 'paper_misses', 'stab_forces', 'collision_benchmark',
-               'force_benchmark', 'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches', 'motions_benchmark',
+NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'proxy_proof', 'stab_forces', 'collision_benchmark', 'force_benchmark',
+               'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches', 'motions_benchmark',
                'soak', 'fuzz')
 # The page of each node. Its tables, in this order, are of topics, services and parameters.
 PAGES = {'organ_collision_node': 'doc/interface.md', 'contact_adapter': 'doc/forces.md',
@@ -74,7 +74,7 @@ class HelpTest(unittest.TestCase):
                     self.assertRegex(done.stdout.lower(), r'\A\s*usage')
 
     def test_an_unknown_option_is_refused(self):
-        for name in [*PAGES, 'liver_simulator', 'demo_report', 'robot_reader', 'check_contacts']:
+        for name in [*PAGES, 'liver_simulator', 'demo_report', 'robot_reader']:
             done = run(program(name), '--no-such-option')
             with self.subTest(program=name):
                 self.assertEqual((done.returncode, done.stdout), (2, ''))

@@ -41,7 +41,7 @@ class LimitedShapes : public ShapeSource {
   explicit LimitedShapes(std::size_t count) : remaining_(count) {}
 
   std::size_t most_for_each_thread() const override { return 40; }
-  std::size_t get(std::size_t count, WorkerThreads&, std::exception_ptr& error) override {
+  std::size_t get(std::size_t count, QueryWorkers&, std::exception_ptr& error) override {
     rounds.push_back(count);
     const std::size_t got = std::min(count, remaining_);
     remaining_ -= got;
@@ -160,7 +160,7 @@ TEST(FixedShapes, are_the_same_for_all_motions) {
   const TemporaryFolder folder;
   const std::string now = folder.write("now.obj", plate(0)),
                     before = folder.write("before.obj", plate(2));
-  WorkerThreads threads(WorkerThreads::Caller::kWorks, [](std::size_t) {});
+  QueryWorkers threads(1, {});
   const auto moving = fixed_shapes(now, before), resting = fixed_shapes(now, "");
   for (int round = 0; round < 2; ++round) {
     std::exception_ptr error;
@@ -199,8 +199,7 @@ TEST(RecordedShapes, go_from_shape_to_shape_in_rounds_of_any_size) {
   const TemporaryFolder folder;
   rising_plate(folder, 12);
   for (const std::size_t jobs : {1U, 3U}) {
-    WorkerThreads threads(WorkerThreads::Caller::kWorks, [](std::size_t) {});
-    threads.start(jobs - 1);
+    QueryWorkers threads(jobs, {});
     const auto shapes = recorded_shapes(folder.path());
     EXPECT_EQ(shapes->remaining(), 12U);
     EXPECT_EQ(height(&shapes->first()), 0.0);
@@ -232,8 +231,7 @@ TEST(RecordedShapes, give_the_shapes_before_an_illegal_one) {
     const TemporaryFolder folder;
     const std::vector<std::string> files = rising_plate(folder, 5);
     folder.write("step_2.obj", content);
-    WorkerThreads threads(WorkerThreads::Caller::kWorks, [](std::size_t) {});
-    threads.start(2);
+    QueryWorkers threads(3, {});
     const auto shapes = recorded_shapes(folder.path());
     std::exception_ptr error;
     ASSERT_EQ(shapes->get(4, threads, error), 2U);

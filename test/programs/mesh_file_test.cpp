@@ -135,18 +135,12 @@ std::string refusal(const std::string& name, const Vector3d& scale = kUnit) {
 
 }  // namespace
 
-TEST(MeshFile, StlInBothForms) {
-  for (const std::string name : {"jaw_ascii.stl", "jaw_binary.stl"}) {
+TEST(MeshFile, StlAndPlyInBothForms) {
+  for (const std::string name :
+       {"jaw_ascii.stl", "jaw_binary.stl", "jaw_ascii.ply", "jaw_binary.ply"}) {
     const ToolSurface surface = read(name, kMillimetres);
     expect_triangles(surface, kJaw, [](const Vector3d& v) { return Vector3d(0.001 * v); });
     EXPECT_EQ(surface.vertices().size(), 4u) << name;
-  }
-}
-
-TEST(MeshFile, PlyInBothForms) {
-  for (const std::string name : {"jaw_ascii.ply", "jaw_binary.ply"}) {
-    expect_triangles(read(name, kMillimetres), kJaw,
-                     [](const Vector3d& v) { return Vector3d(0.001 * v); });
   }
 }
 
@@ -171,38 +165,39 @@ TEST(MeshFile, DaeWithItsNodesAndUnitButNotItsUpAxis) {
   }
 }
 
-TEST(MeshFile, ScaledThenPlacedInTheLink) {
+TEST(MeshFile, ScaledOrMirroredThenPlacedInTheLink) {
   Eigen::Isometry3d T_link_mesh(Eigen::AngleAxisd(M_PI / 2, Vector3d::UnitX()));
   T_link_mesh.translation() << 0.1, 0.2, 0.3;
-  expect_triangles(read("jaw_ascii.stl", {0.001, 0.002, 0.003}, T_link_mesh), kJaw,
+  expect_triangles(read("jaw_ascii.stl", {0.001, -0.002, 0.003}, T_link_mesh), kJaw,
                    [](const Vector3d& v) {
-                     return Vector3d(0.1 + 0.001 * v.x(), 0.2 - 0.003 * v.z(), 0.3 + 0.002 * v.y());
+                     return Vector3d(0.1 + 0.001 * v.x(), 0.2 - 0.003 * v.z(), 0.3 - 0.002 * v.y());
                    });
 }
 
-TEST(MeshFile, NegativeScaleMirrors) {
-  expect_triangles(read("jaw_binary.stl", {1.0, -1.0, 1.0}), kJaw,
-                   [](const Vector3d& v) { return Vector3d(v.x(), -v.y(), v.z()); });
-}
-
-TEST(MeshFile, IllegalScalesAreNamed) {
-  expect_words(refusal("jaw.obj", {1.0, 0.0, 1.0}), {"jaw.obj", "scale", "1 0 1", "not 0"});
-  expect_words(refusal("jaw.obj", {1.0, 1.0, std::nan("")}), {"jaw.obj", "1   1 nan", "finite"});
+TEST(MeshFile, RefusalsNameTheFileAndWhy) {
+  struct Row {
+    std::string name;
+    Vector3d scale;
+    std::string words;
+  };
   const double infinity = std::numeric_limits<double>::infinity();
-  expect_words(refusal("jaw.obj", {-infinity, 1.0, 1.0}), {"jaw.obj", "-inf", "finite"});
-}
-
-TEST(MeshFile, UnreadableFilesAreNamed) {
-  expect_words(refusal("missing.stl"), {"missing.stl", "no such file"});
-  expect_words(refusal("broken.stl"), {tool_file("broken.stl")});
-  expect_words(refusal("broken_ascii.stl"), {tool_file("broken_ascii.stl")});
-  expect_words(refusal("broken.dae"), {tool_file("broken.dae")});
-  expect_words(refusal("notes.txt"), {tool_file("notes.txt"), "No suitable reader"});
-}
-
-// assimp accepts this file, and its post-processing would read beyond the vertices.
-TEST(MeshFile, WrongIndicesAreNamed) {
-  expect_words(refusal("wrong_index.ply"), {tool_file("wrong_index.ply"), "100000000", "of 3"});
+  const Row rows[] = {
+      {"jaw.obj", {1.0, 0.0, 1.0}, "its scale is 1 0 1; must be finite, and not 0 along any axis"},
+      {"jaw.obj", {1.0, 1.0, std::nan("")}, "1   1 nan; must be finite"},
+      {"jaw.obj", {-infinity, 1.0, 1.0}, "-inf"},
+      {"missing.stl", kUnit, "no such file"},
+      {"broken.stl", kUnit, ""},
+      {"broken_ascii.stl", kUnit, ""},
+      {"broken.dae", kUnit, ""},
+      {"notes.txt", kUnit, "No suitable reader"},
+      {"not_finite.stl", kUnit, "not finite"},
+      // assimp accepts these. Its post-processing would read beyond the vertices of the first one,
+      // and it would take ever longer for the triangles of the second one.
+      {"wrong_index.ply", kUnit, "100000000 of 3"},
+      {"long_face.ply", kUnit, "299999 triangles, but it has only 179 bytes"}};
+  for (const Row& row : rows) {
+    expect_words(refusal(row.name, row.scale), {"/test/data/tools/" + row.name, row.words});
+  }
 }
 
 TEST(MeshFile, BlanksMayFollowTheHeaderOfPly) {
@@ -249,17 +244,10 @@ TEST(MeshFile, CutOffPlyIsRefused) {
   std::remove(path.c_str());
 }
 
-// assimp believes them. To make triangles of them would take ever longer.
-TEST(MeshFile, FacesThatClaimTooManyCornersAreRefused) {
-  expect_words(refusal("long_face.ply"),
-               {tool_file("long_face.ply"), "299999 triangles", "only 179 bytes"});
-}
-
 TEST(MeshFile, NoSurfaceIsRefused) {
   for (const std::string name : {"points.obj", "nodes_only.dae"}) {
     EXPECT_TRUE(read_mesh_file(tool_file(name), kUnit, kAtOrigin).triangles.empty()) << name;
   }
-  expect_words(refusal("not_finite.stl"), {tool_file("not_finite.stl"), "not finite"});
 }
 
 TEST(MeshFile, OtherFilesThatItNamesAreNotRead) {

@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iomanip>
 #include <iostream>
 #include <vector>
 
-#include "exactness_proof.hpp"
 #include "link_trials.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "step_oracle.hpp"
@@ -84,112 +82,74 @@ bool least_is_right(const ToolStep& step, const CollisionResult& result, double&
          stays_above(step, found.least - kInMotion, closest);
 }
 
+/// Whether the contacts of a tool at rest are those of the oracle.
+bool contacts_are_right(const ToolStep& step, const CollisionResult& result) {
+  if (!step.at_rest()) return true;
+  const double band = kAtRest + rounding(step);
+  return result.contacts.empty() ? !is_within(step, 1.0, -band)
+                                 : is_within(step, 1.0, tolerance::kConvexMargin + band);
+}
+
 }  // namespace
 
-void ClearanceTally::add(const ClearanceTally& other) {
-  pairs += other.pairs;
-  known += other.known;
-  touched += other.touched;
-  wrong += other.wrong;
-  distance = std::max(distance, other.distance);
-  least = std::max(least, other.least);
-}
-
-void print_clearance_head(const std::string& what) {
-  std::cout << "\n| " << std::left << std::setw(18) << what
-            << " |     pairs |     known |   touched |     wrong | distance off by at most [m] | "
-               "least above the closest seen by at most [m] |\n"
-            << "|---|---|---|---|---|---|---|\n";
-}
-
-void print(const std::string& name, const ClearanceTally& tally) {
-  std::cout << "| " << std::left << std::setw(18) << name << std::right;
-  for (const long count : {tally.pairs, tally.known, tally.touched, tally.wrong}) {
-    std::cout << " | " << std::setw(9) << count;
-  }
-  for (const double error : {tally.distance, tally.least}) {
-    std::cout << " | " << std::setw(9) << std::setprecision(2) << error;
-  }
-  std::cout << " |" << std::endl;
-}
-
-ClearanceTally ClearanceComparison::compare(const ClearanceTrial& trial) {
+Tally ClearanceComparison::compare(const ClearanceTrial& trial) {
   const ToolStep& step = trial.step;
   query_.evaluate(request_for(trial), result_);
   const ToolClearance& found = result_.clearance;
-  ClearanceTally tally;
-  tally.pairs = 1;
-  tally.touched = !result_.contacts.empty();
-  bool right = found.is_resolved && margin_is_right(trial, found);
-  if (right && found.state == ClearanceState::kKnown) {
-    tally.known = 1;
-    tally.distance = std::abs(found.distance - rounded_distance(step, 1.0));
-    double closest = found.least;
-    right = end_is_right(step, found) && pair_is_consistent(step, found) &&
+  const bool is_known = found.state == ClearanceState::kKnown;
+  bool right =
+      found.is_resolved && margin_is_right(trial, found) && contacts_are_right(step, result_);
+  double closest = found.least;
+  if (is_known) {
+    right = right && end_is_right(step, found) && pair_is_consistent(step, found) &&
             least_is_right(step, result_, closest);
-    tally.least = std::max(0.0, found.least - closest);
   }
+  Tally tally;
+  tally.count("pairs", 1);
+  tally.count("known", is_known);
+  tally.count("touched", !result_.contacts.empty());
+  tally.count("wrong", !right);
+  tally.keep_most("distance off by at most [m]",
+                  is_known ? std::abs(found.distance - rounded_distance(step, 1.0)) : 0.0);
+  tally.keep_most("least above the closest seen by at most [m]", found.least - closest);
   if (!right) {
-    tally.wrong = 1;
     std::cout << "clearance differs: state " << static_cast<int>(found.state) << " distance "
               << std::setprecision(17) << found.distance << " least " << found.least << " at "
-              << found.least_fraction << " margin " << trial.margin << '\n'
+              << found.least_fraction << " margin " << trial.margin << ", "
+              << result_.contacts.size() << " contacts\n"
               << step << std::endl;
   }
   return tally;
 }
 
-namespace {
-
-using MakeTrial = std::function<ClearanceTrial(std::size_t kind, Random& random)>;
-
-/// Prints a table with a line for each kind. Returns whether all answers were right.
-bool prove_kinds(const std::string& what, const std::vector<std::string>& kinds, long pairs,
-                 std::uint64_t seed, const MakeTrial& make, Progress& progress) {
-  const long each = pairs / static_cast<long>(kinds.size()) + 1;
-  ClearanceComparison comparison;
-  ClearanceTally all;
-  print_clearance_head(what);
-  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    Random random(1000 * seed + kind);
-    ClearanceTally tally;
-    for (long i = 0; i < each; ++i) {
-      progress.show(what + ", " + kinds[kind], i, each);
-      tally.add(comparison.compare(make(kind, random)));
+bool prove_clearance(const ProofSize& size, Progress& progress) {
+  ClearanceComparison comparison(size.pickers.front());
+  bool all_right = true;
+  const auto prove = [&](const std::string& what, const std::vector<std::string>& kinds, long pairs,
+                         const auto& make_trial_of) {
+    const long each = pairs / static_cast<long>(kinds.size()) + 1;
+    std::vector<Tally> tallies(kinds.size());
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      Random random(1000 * size.seed + kind);
+      for (long i = 0; i < each; ++i) {
+        progress.show(what + ", " + kinds[kind], i, each);
+        tallies[kind].add(comparison.compare(make_trial_of(kind, random)));
+      }
     }
-    print(kinds[kind], tally);
-    all.add(tally);
-  }
-  print("all", all);
-  return all.wrong == 0;
-}
-
-}  // namespace
-
-bool prove_clearance(long pairs, unsigned long seed, Progress& progress) {
+    print_table(what, kinds, tallies);
+    all_right = sum_of(tallies).get("wrong") == 0.0 && all_right;
+  };
   const std::vector<std::string>& parts = link_part_kinds();
-  const long moving = pairs / 10;
-  const long each_part = static_cast<long>(parts.size());
-  bool right =
-      prove_kinds("shaft at rest", trial_kinds(), pairs, seed, make_resting_shaft, progress);
-  right =
-      prove_kinds("moving shaft", trial_kinds(), moving / 2, seed, make_moving_shaft, progress) &&
-      right;
+  const long moving = size.pairs / 10, of_part = moving / static_cast<long>(parts.size());
+  prove("shaft at rest", trial_kinds(), size.pairs, make_resting_shaft);
+  prove("moving shaft", trial_kinds(), moving / 2, make_moving_shaft);
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    const auto resting = [part](std::size_t kind, Random& random) {
-      return make_resting_link(kind, part, random);
-    };
-    const auto in_motion = [part](std::size_t kind, Random& random) {
-      return make_moving_link(kind, part, random);
-    };
-    right = prove_kinds(parts[part] + " at rest", link_trial_kinds(), moving / each_part, seed,
-                        resting, progress) &&
-            right;
-    right = prove_kinds("moving " + parts[part], link_trial_kinds(), moving / 2 / each_part, seed,
-                        in_motion, progress) &&
-            right;
+    prove(parts[part] + " at rest", link_trial_kinds(), of_part,
+          [&](std::size_t kind, Random& random) { return make_resting_link(kind, part, random); });
+    prove("moving " + parts[part], link_trial_kinds(), of_part / 2,
+          [&](std::size_t kind, Random& random) { return make_moving_link(kind, part, random); });
   }
-  return right;
+  return all_right;
 }
 
 }  // namespace organ_collision::oracle

@@ -14,35 +14,14 @@ namespace {
 
 using Eigen::Vector3d;
 
-Vector3d between(const Vector3d& from, const Vector3d& to, double time) {
-  return (1.0 - time) * from + time * to;
-}
-
-Eigen::Isometry3d between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double time) {
-  const Eigen::Quaterniond first(from.linear()), last(to.linear());
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = first.slerp(time, last).toRotationMatrix();
-  pose.translation() = between(from.translation(), to.translation(), time);
-  return pose;
-}
-
-const Eigen::IOFormat kRow(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", "; ", "", "", "{",
-                           "}");
-
 void print_part(const LinkPart& part, std::ostream& out) {
   if (part.surface) {
     out << "\n  surface";
     for (std::size_t i = 0; i < part.surface->faces().size(); ++i) {
-      for (const Vector3d& corner : part.surface->triangle(i)) {
-        out << ' ' << corner.transpose().format(kRow);
-      }
+      out << text_of_all(part.surface->triangle(i));
     }
   } else {
-    out << "\n  core";
-    for (std::size_t i = 0; i < part.core.count; ++i) {
-      out << ' ' << part.core.points[i].transpose().format(kRow);
-    }
-    out << " rim " << part.core.rim.transpose().format(kRow);
+    out << "\n  core" << part.core;
   }
   out << " radius " << part.radius;
 }
@@ -77,25 +56,19 @@ std::ostream& operator<<(std::ostream& out, const ToolStep& step) {
   for (const ToolWaypoint& waypoint : step.path) {
     out << "\nat " << waypoint.fraction;
     if (step.radius > 0.0) {
-      out << " axis " << waypoint.axis.trocar.transpose().format(kRow) << ' '
-          << waypoint.axis.tip.transpose().format(kRow);
+      out << " axis" << text_of(waypoint.axis.trocar.transpose())
+          << text_of(waypoint.axis.tip.transpose());
     }
     for (const Eigen::Isometry3d& pose : waypoint.links) {
-      out << " link " << pose.matrix().topRows<3>().format(kRow);
+      out << " link" << text_of(pose.matrix().topRows<3>());
     }
   }
   for (const Link& link : step.links) {
     for (const LinkPart& part : link.parts) print_part(part, out);
   }
   for (std::size_t face = 0; face < step.now.face_count(); ++face) {
-    out << "\nface";
-    for (const Vector3d& corner : step.before.triangle(face)) {
-      out << ' ' << corner.transpose().format(kRow);
-    }
-    out << " to";
-    for (const Vector3d& corner : step.now.triangle(face)) {
-      out << ' ' << corner.transpose().format(kRow);
-    }
+    out << "\nface" << text_of_all(step.before.triangle(face)) << " to"
+        << text_of_all(step.now.triangle(face));
   }
   return out;
 }

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <iostream>
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "exact_distance.hpp"
@@ -14,42 +14,18 @@
 #include "organ_collision/query/collision_query.hpp"
 #include "picking/pickers/picker.hpp"
 #include "picking/volumes/paper_volumes.hpp"
-#include "picking/volumes/viewing_volume.hpp"
 #include "step_oracle.hpp"
-#include "trials.hpp"
 
 namespace organ_collision::oracle {
-
-/// The largest difference between an answer and the exact one that rounding may explain [m].
-inline constexpr double kBand = 1e-9;
-
-/// Asks the library and the oracles the same questions. Prints every trial in which they differ by
-/// more than the tolerance.
-class Comparison {
- public:
-  Comparison();
-
-  /// Compares with exact distances: the tool at rest at the end of its motion, or swept. If the
-  /// library or the oracle says that the face touches, all pickers must find it.
-  Tally at_rest(const Trial& trial);
-  Tally swept(const Trial& trial);
-
-  /// Compares what all pickers find with the exact half-spaces of a volume.
-  Tally volume(const ViewingVolume& volume, const Trial& trial);
-
-  /// Compares the whole query with a search, while the face and the trocar move, too.
-  Tally moving(const Trial& trial, Random& random);
-
- private:
-  Tally capsule(const ShaftMotion& motion, const Trial& trial);
-
-  std::vector<std::unique_ptr<Picker>> pickers_;  ///< one of each kind
-  CollisionQuery query_;
-};
-
 namespace {
 
 using Eigen::Vector3d;
+
+/// [m] The largest difference between an answer and the exact one that rounding may explain.
+constexpr double kBand = 1e-9;
+
+constexpr char kWrong[] = "differ by more";
+constexpr char kMissed[] = "missed";
 
 TriangleMesh mesh_of(const Triangle& face) {
   std::vector<float> vertices;
@@ -62,8 +38,9 @@ TriangleMesh mesh_of(const Triangle& face) {
 /// The largest coordinate of the face relative to `origin` [m].
 double extent(const Triangle& face, const Vector3d& origin) {
   double largest = 0.0;
-  for (const Vector3d& corner : face)
+  for (const Vector3d& corner : face) {
     largest = std::max(largest, (corner - origin).cwiseAbs().maxCoeff());
+  }
   return largest;
 }
 
@@ -74,103 +51,104 @@ bool picks(Picker& picker, const ViewingVolume& volume, const TriangleMesh& mesh
   return !candidates.empty();
 }
 
-void report(const char* what, const Trial& trial) {
-  std::cout << what << ": " << to_line(trial) << std::endl;
-}
-
-}  // namespace
-
-Comparison::Comparison() {
-  for (const PickerKind kind : {PickerKind::kFeedback, PickerKind::kSelect, PickerKind::kCpu}) {
-    pickers_.push_back(make_picker(kind));
-  }
-}
-
-Tally Comparison::at_rest(const Trial& trial) {
-  return capsule({trial.motion.end, trial.motion.end}, trial);
-}
-
-Tally Comparison::swept(const Trial& trial) { return capsule(trial.motion, trial); }
-
-Tally Comparison::capsule(const ShaftMotion& motion, const Trial& trial) {
-  const bool touching = within(core(motion), trial.face, trial.radius);
-  const bool found = first_touch(motion, {trial.face, trial.face}, trial.radius).has_value();
+Tally new_tally(bool touching) {
   Tally tally;
-  tally.pairs = 1;
-  tally.touching = touching;
-  if (touching != found) {
-    tally.farthest = std::abs(distance(core(motion), trial.face) - trial.radius);
-    const bool outside = tally.farthest > kBand;
-    ++(outside ? tally.outside_band : tally.inside_band);
-    if (outside) report("differs from exact distance", trial);
-  }
-  if (!touching && !found) return tally;
-  const double largest = extent(trial.face, motion.start.trocar);
-  const ViewingVolume volume = conservative_volume(motion, trial.radius, {0.0, largest});
-  const TriangleMesh mesh = mesh_of(trial.face);
-  for (const std::unique_ptr<Picker>& picker : pickers_) {
-    if (picks(*picker, volume, mesh)) continue;
-    ++tally.missed;
-    report("missed by a picker", trial);
-  }
+  tally.count("pairs", 1);
+  tally.count("touching", touching);
   return tally;
 }
 
-Tally Comparison::volume(const ViewingVolume& volume, const Trial& trial) {
-  const double largest = extent(trial.face, volume.origin());
-  const auto inside = [&](double share) {
-    return meets(trial.face, volume.origin(), half_spaces(volume, largest, share));
-  };
-  const bool exact = inside(0.0), surely = inside(-1.0), maybe = inside(1.0);
-  const TriangleMesh mesh = mesh_of(trial.face);
-  Tally tally;
-  tally.pairs = 1;
-  tally.touching = exact;
-  for (const std::unique_ptr<Picker>& picker : pickers_) {
-    const bool picked = picks(*picker, volume, mesh);
-    if (picked == exact) continue;
-    const bool outside = picked ? !maybe : surely;
-    ++(outside ? tally.outside_band : tally.inside_band);
-    if (outside) report("differs from exact half-spaces", trial);
-  }
-  return tally;
+/// Counts a difference that rounding explains, or prints the trial.
+void count_difference(const char* what, bool explained, const Trial& trial, Tally& tally) {
+  tally.count("differ by rounding", explained);
+  tally.count(kWrong, !explained);
+  if (!explained) std::cout << what << ": " << to_line(trial) << std::endl;
 }
 
-Tally Comparison::moving(const Trial& trial, Random& random) {
-  constexpr double kSlack = 1e-6;  // [m]
-  ShaftMotion motion = trial.motion;
-  motion.start.trocar += random.scale(1e-4, 0.05) * random.direction();
-  FaceMotion face{trial.face, trial.face};
-  for (Vector3d& corner : face.start) corner += random.scale(1e-4, 0.05) * random.direction();
-  face.start = rounded(face.start);
-
-  const TriangleMesh organ = mesh_of(face.end), before = mesh_of(face.start);
-  CollisionRequest request;
-  request.organ = &organ;
-  request.organ_before = &before;
-  request.path = {{0.0, motion.start}, {1.0, motion.end}};
-  request.radius = trial.radius;
-  request.mode = QueryMode::kSwept;
-  CollisionResult result;
-  query_.evaluate(request, result);
-
-  const FirstTime first = first_time_within(motion, face, trial.radius, kSlack);
-  const bool found = !result.contacts.empty();
-  Tally tally;
-  tally.pairs = 1;
-  tally.touching = first.certainly.has_value();
-  tally.missed = !found && first.certainly;
-  bool wrong = tally.missed || (found && !first.possibly);
-  if (found && first.possibly) {
-    const double time = result.contacts[0].fraction;
-    wrong = time < *first.possibly - kBand || time > first.certainly.value_or(1.0) + kBand;
+/// Asks the library and the oracles the same questions.
+class Comparison {
+ public:
+  explicit Comparison(const std::vector<PickerKind>& kinds) : query_(kinds.front()) {
+    for (const PickerKind kind : kinds) pickers_.push_back(make_picker(kind));
   }
-  tally.outside_band = wrong;
-  if (wrong) report("differs from search", trial);
-  return tally;
-}
 
-namespace {
+  /// Compares with exact distances. If the library or the oracle says that the face touches, all
+  /// pickers must find it.
+  Tally capsule(const ShaftMotion& motion, const Trial& trial) {
+    const bool touching = within(core(motion), trial.face, trial.radius);
+    const bool found = first_touch(motion, {trial.face, trial.face}, trial.radius).has_value();
+    Tally tally = new_tally(touching);
+    if (touching != found) {
+      const double off = std::abs(distance(core(motion), trial.face) - trial.radius);
+      count_difference("differs from exact distance", off <= kBand, trial, tally);
+      tally.keep_most("by at most [m]", off);
+    }
+    if (!touching && !found) return tally;
+    const double largest = extent(trial.face, motion.start.trocar);
+    const ViewingVolume volume = conservative_volume(motion, trial.radius, {0.0, largest});
+    const TriangleMesh mesh = mesh_of(trial.face);
+    for (const std::unique_ptr<Picker>& picker : pickers_) {
+      if (picks(*picker, volume, mesh)) continue;
+      tally.count(kMissed, 1);
+      std::cout << "missed by a picker: " << to_line(trial) << std::endl;
+    }
+    return tally;
+  }
+
+  /// Compares what all pickers find with the exact half-spaces of a volume.
+  Tally volume(const ViewingVolume& volume, const Trial& trial) {
+    const double largest = extent(trial.face, volume.origin());
+    const auto inside = [&](double share) {
+      return meets(trial.face, volume.origin(), half_spaces(volume, largest, share));
+    };
+    const bool exact = inside(0.0), surely = inside(-1.0), maybe = inside(1.0);
+    const TriangleMesh mesh = mesh_of(trial.face);
+    Tally tally = new_tally(exact);
+    for (const std::unique_ptr<Picker>& picker : pickers_) {
+      const bool picked = picks(*picker, volume, mesh);
+      if (picked == exact) continue;
+      count_difference("differs from exact half-spaces", picked ? maybe : !surely, trial, tally);
+    }
+    return tally;
+  }
+
+  /// Compares the whole query with a search, while the face and the trocar move, too.
+  Tally moving(const Trial& trial, Random& random) {
+    constexpr double kSlack = 1e-6;  // [m]
+    ShaftMotion motion = trial.motion;
+    motion.start.trocar += random.scale(1e-4, 0.05) * random.direction();
+    FaceMotion face{trial.face, trial.face};
+    for (Vector3d& corner : face.start) corner += random.scale(1e-4, 0.05) * random.direction();
+    face.start = rounded(face.start);
+
+    const TriangleMesh organ = mesh_of(face.end), before = mesh_of(face.start);
+    CollisionRequest request;
+    request.organ = &organ;
+    request.organ_before = &before;
+    request.path = {{0.0, motion.start}, {1.0, motion.end}};
+    request.radius = trial.radius;
+    request.mode = QueryMode::kSwept;
+    query_.evaluate(request, result_);
+
+    const FirstTime first = first_time_within(motion, face, trial.radius, kSlack);
+    const bool found = !result_.contacts.empty();
+    Tally tally = new_tally(first.certainly.has_value());
+    const bool is_missed = !found && first.certainly;
+    tally.count(kMissed, is_missed);
+    bool wrong = is_missed || (found && !first.possibly);
+    if (found && first.possibly) {
+      const double time = result_.contacts[0].fraction;
+      wrong = time < *first.possibly - kBand || time > first.certainly.value_or(1.0) + kBand;
+    }
+    if (wrong) count_difference("differs from search", false, trial, tally);
+    return tally;
+  }
+
+ private:
+  std::vector<std::unique_ptr<Picker>> pickers_;
+  CollisionQuery query_;
+  CollisionResult result_;
+};
 
 using Tallies = std::map<std::string, Tally>;
 
@@ -190,45 +168,123 @@ void compare_volumes(const Trial& trial, Comparison& comparison, Tallies& tallie
 
 }  // namespace
 
-bool prove_contacts(long pairs, unsigned long seed, Progress& progress) {
+bool prove_contacts(const ProofSize& size, Progress& progress) {
   const std::vector<std::string>& kinds = trial_kinds();
-  const long each = (pairs + static_cast<long>(kinds.size()) - 1) / static_cast<long>(kinds.size());
-  Comparison comparison;
+  const long each = (size.pairs - 1) / static_cast<long>(kinds.size()) + 1;
+  Comparison comparison(size.pickers);
   std::vector<Tally> at_rest(kinds.size()), swept(kinds.size()), moving(kinds.size());
   Tallies volumes;
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-    Random random(1000 * seed + kind);
+    Random random(1000 * size.seed + kind);
     for (long i = 0; i < each; ++i) {
       progress.show(kinds[kind], i, each);
       const Trial trial = make_trial(kind, random);
-      at_rest[kind].add(comparison.at_rest(trial));
-      swept[kind].add(comparison.swept(trial));
+      at_rest[kind].add(comparison.capsule({trial.motion.end, trial.motion.end}, trial));
+      swept[kind].add(comparison.capsule(trial.motion, trial));
       if (i % 20 == 0) compare_volumes(trial, comparison, volumes);
       if (i % 200 == 0) moving[kind].add(comparison.moving(trial, random));
     }
   }
-
-  Tally all;
-  const auto print_all = [&](const std::string& what, const std::string& band,
-                             const std::vector<Tally>& tallies) {
-    print_head(what, band);
-    Tally sum;
-    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
-      print(kinds[kind], tallies[kind]);
-      sum.add(tallies[kind]);
-    }
-    print("all", sum);
-    all.add(sum);
-  };
-  print_all("capsule at rest", "1e-9 m", at_rest);
-  print_all("capsule swept", "1e-9 m", swept);
-  print_all("everything moves", "1e-6 m", moving);
-  print_head("volume", "32 bits");
+  std::vector<std::string> volume_names;
+  std::vector<Tally> of_volumes;
   for (const auto& [name, tally] : volumes) {
-    print(name, tally);
-    all.add(tally);
+    volume_names.push_back(name);
+    of_volumes.push_back(tally);
   }
-  return all.outside_band == 0 && all.missed == 0;
+  Tally all = sum_of(of_volumes);
+  for (const std::vector<Tally>* const tallies : {&at_rest, &swept, &moving}) {
+    all.add(sum_of(*tallies));
+  }
+  print_table("capsule at rest", kinds, at_rest);
+  print_table("capsule swept", kinds, swept);
+  print_table("everything moves", kinds, moving);
+  print_table("volume", volume_names, of_volumes);
+  return all.get(kWrong) == 0.0 && all.get(kMissed) == 0.0;
+}
+
+namespace {
+
+constexpr double kRadius = 5e-3;  // [m]
+
+/// A unit vector: the direction of the tip's motion, for a tool along `axis`.
+Vector3d step_direction(const std::string& name, const Vector3d& axis, Random& random) {
+  const Vector3d along = axis.normalized();
+  const Vector3d any = random.direction();
+  const Vector3d across = (any - any.dot(along) * along).normalized();
+  if (name == "sideways") return across;
+  if (name == "oblique") return (across + random.sign() * along).normalized();
+  if (name == "along the axis") return random.sign() * along;
+  return any;
+}
+
+/// Small faces, within two radii of the axis.
+TriangleMesh faces_near(const ShaftMotion& motion, Random& random) {
+  constexpr int kFaces = 500;
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  for (int i = 0; i < kFaces; ++i) {
+    const Vector3d center = motion.at(random.uniform(0.0, 1.0)).at(random.uniform(0.0, 1.0)) +
+                            random.uniform(0.0, 2.0 * kRadius) * random.direction();
+    for (int corner = 0; corner < 3; ++corner) {
+      const Vector3d vertex = center + 2e-3 * random.direction();
+      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(vertex[k]));
+      triangles.push_back(static_cast<std::uint32_t>(triangles.size()));
+    }
+  }
+  return {vertices, triangles};
+}
+
+std::vector<bool> found_by(CollisionQuery& query, const TriangleMesh& organ,
+                           const ShaftMotion& motion, QueryMode mode) {
+  CollisionRequest request;
+  request.organ = &organ;
+  request.path = {{0.0, motion.start}, {1.0, motion.end}};
+  request.radius = kRadius;
+  request.mode = mode;
+  CollisionResult result;
+  query.evaluate(request, result);
+  std::vector<bool> faces(organ.face_count());
+  for (const FaceContact& contact : result.contacts) faces[contact.face] = true;
+  return faces;
+}
+
+}  // namespace
+
+bool count_paper_misses(const ProofSize& size, Progress& progress) {
+  constexpr int kMotions = 40;
+  CollisionQuery query(size.pickers.front());
+  Random random(size.seed);
+  std::vector<std::string> names;
+  std::vector<Tally> tallies;
+  for (const char* const name : {"sideways", "random", "along the axis", "oblique"}) {
+    for (const int step : {0, 1, 5, 20, 50, 100, 200}) {  // [mm]
+      Tally tally;
+      for (int i = 0; i < kMotions; ++i) {
+        progress.show(name, i, kMotions);
+        const Vector3d trocar = random.point(0.05);
+        const Vector3d previous = trocar + random.uniform(0.1, 0.2) * random.direction();
+        const Vector3d along = step_direction(name, previous - trocar, random);
+        const ShaftMotion motion{{trocar, previous}, {trocar, previous + 1e-3 * step * along}};
+        const TriangleMesh organ = faces_near(motion, random);
+        const std::vector<bool> by_paper = found_by(query, organ, motion, QueryMode::kPaperSwept);
+        const std::vector<bool> by_us = found_by(query, organ, motion, QueryMode::kSwept);
+        for (std::size_t face = 0; face < organ.face_count(); ++face) {
+          const Triangle triangle = organ.triangle(face);
+          if (!within(core(motion), triangle, kRadius)) continue;
+          tally.count("touched faces", 1);
+          tally.count("missed by the paper's volume", !by_paper[face]);
+          tally.keep_most(
+              "of it, deepest [mm]",
+              by_paper[face] ? 0.0 : 1e3 * (kRadius - distance(core(motion), triangle)));
+          tally.count("missed by ours", !by_us[face]);
+        }
+      }
+      names.push_back(name + (", " + std::to_string(step)) + " mm");
+      tallies.push_back(tally);
+    }
+  }
+  print_table("motion, step", names, tallies);
+  return sum_of(tallies).get("missed by ours") == 0.0;
 }
 
 }  // namespace organ_collision::oracle

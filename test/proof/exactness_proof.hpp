@@ -1,52 +1,80 @@
 #pragma once
 
 #include <chrono>
-#include <iostream>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include "organ_collision/picking/picker_kind.hpp"
+
+/// Each proof compares random trials of one kind of answer with the oracles.
 namespace organ_collision::oracle {
 
 /// Prints a line on stderr about once a second.
 class Progress {
  public:
-  void show(const std::string& what, long done, long all) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::seconds(1)) return;
-    last_ = now;
-    std::cerr << what << ": " << done << " of " << all << "\n";
-  }
+  void show(const std::string& what, long done, long all);
 
  private:
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-/// Counts how often the library and an oracle agreed.
-struct Tally {
-  long pairs = 0;         ///< trials: pairs of a face and a motion
-  long touching = 0;      ///< according to the oracle
-  long inside_band = 0;   ///< disagreements within the stated tolerance, explained by rounding
-  long outside_band = 0;  ///< other disagreements
-  long missed = 0;        ///< faces that a picker or the whole query did not find
-  double farthest = 0.0;  ///< [m] largest | exact distance - radius | of a disagreement
-
+/// How often the library and an oracle agreed: counts, and largest errors, by the names of their
+/// columns.
+class Tally {
+ public:
+  void count(const char* column, long number) { at(column, true) += static_cast<double>(number); }
+  void keep_most(const char* column, double value);
   void add(const Tally& other);
+  /// Zero if there is no such column.
+  double get(const std::string& column) const;
+
+ private:
+  struct Column {
+    std::string name;
+    bool is_count;
+    double value;
+  };
+  double& at(const std::string& column, bool is_count);
+
+  std::vector<Column> columns_;  ///< in the order in which they were first used
+
+  friend void print_table(const std::string&, const std::vector<std::string>&,
+                          const std::vector<Tally>&);
 };
 
-/// Prints the head of a table, and one line of it, in Markdown.
-void print_head(const std::string& what, const std::string& band);
-void print(const std::string& name, const Tally& tally);
+/// Prints a table in Markdown with a line for each name, and one for their sum.
+void print_table(const std::string& what, const std::vector<std::string>& names,
+                 const std::vector<Tally>& tallies);
 
-}  // namespace organ_collision::oracle
+/// The sum of the lines of a table.
+Tally sum_of(const std::vector<Tally>& tallies);
 
-/// Each proof compares about `pairs` random trials of one kind of answer with the oracles and
-/// prints tables. It returns whether they agreed on everything.
+/// How much a proof compares.
+struct ProofSize {
+  long pairs = 1000000;    ///< trials: pairs of a face and a motion
+  unsigned long seed = 1;  ///< The same seed gives the same trials.
+  /// Contacts are compared with all of these, and other answers with the first one.
+  std::vector<PickerKind> pickers = {PickerKind::kFeedback, PickerKind::kSelect, PickerKind::kCpu};
+};
 
-namespace organ_collision::oracle {
+// Each prints tables, and the trials in which library and oracle differ by more than the stated
+// tolerance. It returns whether there are none.
 
-bool prove_contacts(long pairs, unsigned long seed, Progress& progress);
+bool prove_contacts(const ProofSize& size, Progress& progress);
 /// A tenth of the trials have a tool that moves.
-bool prove_clearance(long pairs, unsigned long seed, Progress& progress);
+bool prove_clearance(const ProofSize& size, Progress& progress);
 /// Sides and crossings; and the clearance of the same tools.
-bool prove_placement(long pairs, unsigned long seed, Progress& progress);
+bool prove_placement(const ProofSize& size, Progress& progress);
+/// Prints how many of the faces that a swept capsule touches are missed by the paper's volume.
+/// Returns whether ours misses none.
+bool count_paper_misses(const ProofSize& size, Progress& progress);
+
+struct Proof {
+  const char* name;
+  bool (*prove)(const ProofSize& size, Progress& progress);
+};
+inline constexpr Proof kProofs[] = {
+    {"contacts", prove_contacts}, {"clearance", prove_clearance}, {"placement", prove_placement}};
 
 }  // namespace organ_collision::oracle

@@ -216,18 +216,24 @@ double rounding(const LinkTrial& trial) {
   return 1e-15 * largest;
 }
 
+Isometry3d between(const Isometry3d& from, const Isometry3d& to, double time) {
+  const Eigen::Quaterniond first(from.linear()), last(to.linear());
+  Isometry3d pose = Isometry3d::Identity();
+  pose.linear() = first.slerp(time, last).toRotationMatrix();
+  pose.translation() = between(from.translation(), to.translation(), time);
+  return pose;
+}
+
+std::ostream& operator<<(std::ostream& out, const ConvexCore& core) {
+  for (std::size_t i = 0; i < core.count; ++i) out << text_of(core.points[i].transpose());
+  return out << " rim" << text_of(core.rim.transpose());
+}
+
 std::ostream& operator<<(std::ostream& out, const LinkTrial& trial) {
-  const Eigen::IOFormat row(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", "; ", "", "", "{",
-                            "}");
-  out << std::setprecision(17) << "core";
-  for (std::size_t i = 0; i < trial.core.count; ++i) {
-    out << ' ' << trial.core.points[i].transpose().format(row);
-  }
-  out << " rim " << trial.core.rim.transpose().format(row) << "\nstart "
-      << trial.start.matrix().topRows<3>().format(row) << "\nend "
-      << trial.end.matrix().topRows<3>().format(row) << "\nface";
-  for (const Vector3d& corner : trial.face) out << ' ' << corner.transpose().format(row);
-  return out << " radius " << trial.radius;
+  return out << std::setprecision(17) << "core" << trial.core << "\nstart"
+             << text_of(trial.start.matrix().topRows<3>()) << "\nend"
+             << text_of(trial.end.matrix().topRows<3>()) << "\nface" << text_of_all(trial.face)
+             << " radius " << trial.radius;
 }
 
 }  // namespace organ_collision::oracle

@@ -40,10 +40,15 @@ Eigen::Isometry3d random_pose(double away, Random& random);
 /// A rotation by `angle` [rad] about a random axis.
 Eigen::Matrix3d random_turn(double angle, Random& random);
 
+/// The pose at a time in [0, 1]: the origin moves linearly, and the orientation is interpolated by
+/// quaternions.
+Eigen::Isometry3d between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double time);
+
 /// The rounding error of doubles [m]: a few roundings of the largest coordinate.
 double rounding(const LinkTrial& trial);
 
-/// Prints the whole trial with 17 digits.
+// Both print with 17 digits.
+std::ostream& operator<<(std::ostream& out, const ConvexCore& core);
 std::ostream& operator<<(std::ostream& out, const LinkTrial& trial);
 
 }  // namespace organ_collision::oracle

@@ -50,7 +50,7 @@ TEST(ExactSides, crosses_as_often_as_the_winding_numbers_say) {
   for (std::size_t kind = 0; kind < placement_trial_kinds().size(); ++kind) {
     Random random(kind);
     std::size_t crossings = 0;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 300; ++i) {
       const PlacementTrial trial = make_placement_trial(kind, random);
       const auto winding = [&](const Vector3d& point) { return exact_winding(trial.faces, point); };
       int sum = 0;
@@ -62,49 +62,14 @@ TEST(ExactSides, crosses_as_often_as_the_winding_numbers_say) {
       }
       EXPECT_EQ(winding(trial.axis.tip) - winding(trial.axis.trocar), sum) << trial;
     }
-    EXPECT_GT(crossings, 300U) << placement_trial_kinds()[kind];
-  }
-}
-
-/// An axis through the corner that four faces share, and the same axis moved by hand.
-TEST(ExactSides, decides_a_corner_like_an_axis_beside_it) {
-  const Vector3d top(0, 0, 1);
-  const Vector3d rim[] = {{1, 1, 0}, {-1, 1, 0}, {-1, -1, 0}, {1, -1, 0}};
-  std::vector<Triangle> roof;
-  for (int i = 0; i < 4; ++i) roof.push_back({rim[i], rim[(i + 1) % 4], top});
-  const auto crossed = [&](const Vector3d& beside) {
-    return exact_crossings(roof, {Vector3d(0, 0, 3) + beside, beside});
-  };
-  const auto exact = crossed(Vector3d::Zero());
-  ASSERT_EQ(exact.size(), 1U);
-  const auto moved = crossed({1e-3, 1e-6, 1e-9});
-  ASSERT_EQ(moved.size(), 1U);
-  EXPECT_EQ(exact[0].face, moved[0].face);
-  EXPECT_EQ(exact[0].direction, 1);
-  EXPECT_EQ(moved[0].direction, 1);
-  EXPECT_EQ(exact[0].shaft, 2.0 / 3.0);
-}
-
-TEST(ExactSides, tells_points_on_faces_from_points_beside_them) {
-  for (std::size_t kind = 1; kind <= 3; ++kind) {
-    Random random(kind);
-    int on = 0, beside = 0;
-    for (int i = 0; i < 1000; ++i) {
-      const PlacementTrial trial = make_placement_trial(kind, random);
-      const bool is_on = std::any_of(trial.faces.begin(), trial.faces.end(), [&](const auto& face) {
-        return is_exactly_on(face, trial.axis.tip);
-      });
-      ++(is_on ? on : beside);
-    }
-    EXPECT_GT(on, 50) << placement_trial_kinds()[kind];
-    EXPECT_GT(beside, 300) << placement_trial_kinds()[kind];
+    EXPECT_GT(crossings, 100U) << placement_trial_kinds()[kind];
   }
 }
 
 TEST(RoundedDistance, agrees_with_exact_arithmetic) {
   for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
     Random random(kind);
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 200; ++i) {
       const Trial trial = make_trial(kind, random);
       for (const Triangle& tool : {core(trial.motion), core(trial.motion.end)}) {
         EXPECT_NEAR(rounded_distance(tool, trial.face), distance(tool, trial.face), 1e-11)
@@ -121,7 +86,7 @@ std::vector<ToolStep> make_steps() {
   std::vector<ToolStep> steps;
   for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
     Random random(kind);
-    for (int i = 0; i < 10; ++i) {
+    for (int i = 0; i < 3; ++i) {
       steps.push_back(make_resting_shaft(kind, random).step);
       steps.push_back(make_moving_shaft(kind, random).step);
     }
@@ -136,21 +101,16 @@ std::vector<ToolStep> make_steps() {
   return steps;
 }
 
-TEST(StepOracle, rounds_what_it_decides_exactly) {
+/// What exact arithmetic decides, and a search that samples distances on the way.
+TEST(StepOracle, agrees_with_exact_arithmetic_and_finds_the_closest_approach) {
   Random random(1);
   for (const ToolStep& step : make_steps()) {
     const double fraction = random.chance(0.2) ? 1.0 : random.uniform(0.0, 1.0);
     const double distance = rounded_distance(step, fraction);
     EXPECT_TRUE(is_within(step, fraction, distance + 2e-9)) << step;
-    EXPECT_FALSE(is_within(step, fraction, distance - 2e-9) &&
-                 distance + surface_radius(step) > 3e-9)
-        << step;
-  }
-}
-
-/// The search agrees with many distances on the way, and its bound is sharp.
-TEST(StepOracle, finds_the_closest_approach) {
-  for (const ToolStep& step : make_steps()) {
+    if (distance + surface_radius(step) > 3e-9) {
+      EXPECT_FALSE(is_within(step, fraction, distance - 2e-9)) << step;
+    }
     double sampled = rounded_distance(step, 1.0);
     for (int i = 0; i < 200; ++i) sampled = std::min(sampled, rounded_distance(step, i / 200.0));
     double closest = 0.0;
@@ -165,44 +125,28 @@ TEST(StepOracle, finds_the_closest_approach) {
   }
 }
 
-Triangle random_face(Random& random) {
-  return {random.point(0.05), random.point(0.05), random.point(0.05)};
-}
-
-ShaftAxis random_axis(Random& random) { return {random.point(0.1), random.point(0.1)}; }
-
 /// The library's first touch is a different search. Both have a tolerance, so motions that come
 /// within a micrometre of the distance are left to either.
 TEST(PassageOracle, AgreesWithFirstTouch) {
   Random random(1);
   long passed = 0;
+  const auto triangle = [&] {
+    return Triangle{random.point(0.05), random.point(0.05), random.point(0.05)};
+  };
   for (int trial = 0; trial < 3000; ++trial) {
-    const ShaftMotion segment{random_axis(random), random_axis(random)};
-    const Triangle before = random_face(random), now = random_face(random);
+    const ShaftMotion segment{{random.point(0.1), random.point(0.1)},
+                              {random.point(0.1), random.point(0.1)}};
+    const FaceMotion face{triangle(), triangle()};
     const double distance = random.scale(1e-5, 0.05);
-    const bool passes = oracle::passes(segment, before, now, distance);
-    const CoreMotion core(segment);
-    if (passes) {
-      ++passed;
-      EXPECT_TRUE(first_touch(core, {before, now}, distance + 1e-6)) << "trial " << trial;
-    } else {
-      EXPECT_FALSE(first_touch(core, {before, now}, distance - 1e-6)) << "trial " << trial;
-    }
+    const bool is_passed = passes(segment, face, distance);
+    const auto touch = first_touch(segment, face, distance + (is_passed ? 1e-6 : -1e-6));
+    EXPECT_EQ(touch.has_value(), is_passed) << "trial " << trial;
+    passed += is_passed;
   }
   EXPECT_GT(passed, 300);
-  EXPECT_LT(passed, 2700);
 }
 
-}  // namespace
-
-}  // namespace organ_collision::oracle
-
 // The referee notices each kind of broken promise.
-
-namespace organ_collision::oracle {
-namespace {
-
-using Eigen::Vector3d;
 
 const ProxyTool kShaft{3e-3, {}, ProxyFreedom::kTrocar};
 const ProxySettings kSettings;
@@ -242,14 +186,6 @@ class RefereeTest : public testing::Test {
     for (int tick = 0; tick < 600; ++tick) show(hand, answer_at(tip, hand));
   }
 
-  /// A sheet at z = 0.05 m, from -0.1 to 0.1 m, instead of the cube.
-  void put_sheet() {
-    GridSurface sheet = grid_surface(9);
-    for (std::size_t i = 2; i < sheet.vertices.size(); i += 3) sheet.vertices[i] = 0.05F;
-    organs_ = {organ_of(sheet)};
-    is_closed_ = false;
-  }
-
   std::vector<ProxyOrgan> organs_ = {organ_of(turned_over(grid_cube(4, 0.025F)))};
   bool is_closed_ = true;
   std::vector<std::string> blamed_;
@@ -267,7 +203,7 @@ TEST_F(RefereeTest, HasNothingToSayAboutAProxyThatStops) {
   EXPECT_NEAR(referee_.tally().least, kSettings.clearance, 1e-8);
 }
 
-TEST_F(RefereeTest, NoticesAProxyThatIsTooNear) {
+TEST_F(RefereeTest, NoticesAProxyThatIsTooNearOrSqueezedWithoutNeed) {
   begin(above_);
   const Vector3d near = above_ - 0.51 * kSettings.clearance * Vector3d::UnitZ();
   show(deep_, answer_at(near, deep_));
@@ -276,34 +212,28 @@ TEST_F(RefereeTest, NoticesAProxyThatIsTooNear) {
   squeezed.state = ProxyStatus::kSqueezed;
   organs_ = {organ_of(turned_over(grid_cube(4, 0.025F)))};
   show(deep_, squeezed);
-  EXPECT_EQ(referee_.tally().broken(), 1);
-}
-
-TEST_F(RefereeTest, NoticesAProxyThatSaysSqueezedWithoutNeed) {
-  begin(above_);
-  ProxyAnswer answer = answer_at(above_, deep_);
-  answer.state = ProxyStatus::kSqueezed;
-  show(deep_, answer);
+  EXPECT_EQ(referee_.tally().broken(), 1) << "the organ may have moved";
+  show(deep_, answer_at(above_, deep_));
+  squeezed = answer_at(above_, deep_);
+  squeezed.state = ProxyStatus::kSqueezed;
+  show(deep_, squeezed);
   EXPECT_EQ(referee_.tally().inconsistent, 1);
 }
 
-TEST_F(RefereeTest, NoticesAProxyThatPassedThroughASheet) {
-  put_sheet();
-  begin({0.01, 0.0, 0.06});
-  const Vector3d below(0.01, 0.0, 0.04);
+TEST_F(RefereeTest, NoticesAProxyThatPassedThroughASheetButNotAroundIt) {
+  GridSurface sheet = grid_surface(9);  // at z = 0.05 m, from -0.1 to 0.1 m
+  for (std::size_t i = 2; i < sheet.vertices.size(); i += 3) sheet.vertices[i] = 0.05F;
+  organs_ = {organ_of(sheet)};
+  is_closed_ = false;
+  begin({0.12, 0.0, 0.04});
+  const Vector3d above(0.06, 0.0, 0.06), below(0.01, 0.0, 0.04);
+  show(above, answer_at(above, above));
+  EXPECT_EQ(referee_.tally().through, 0);
   ProxyAnswer answer = answer_at(below, below);
   // The whole tool is below, so that only the way can tell.
   answer.proxy.axis.trocar = Vector3d(0.01, 0.0, 0.01);
   show(below, answer);
   EXPECT_EQ(referee_.tally().through, 1);
-}
-
-TEST_F(RefereeTest, AcceptsAWayAroundASheet) {
-  put_sheet();
-  begin({0.12, 0.0, 0.04});
-  const Vector3d above(0.06, 0.0, 0.06);
-  show(above, answer_at(above, above));
-  EXPECT_EQ(referee_.tally().through, 0);
 }
 
 TEST_F(RefereeTest, NoticesTissueThatMovedThroughTheProxy) {

@@ -325,14 +325,8 @@ PlacementTrial make_placement_trial(std::size_t kind, Random& random) {
 }
 
 std::ostream& operator<<(std::ostream& out, const PlacementTrial& trial) {
-  const Eigen::IOFormat row(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", "; ", "", "", "{",
-                            "}");
-  out << std::setprecision(17) << "axis " << trial.axis.trocar.transpose().format(row) << ' '
-      << trial.axis.tip.transpose().format(row);
-  for (const Triangle& face : trial.faces) {
-    out << "\nface";
-    for (const Vector3d& corner : face) out << ' ' << corner.transpose().format(row);
-  }
+  out << "axis" << text_of(trial.axis.trocar.transpose()) << text_of(trial.axis.tip.transpose());
+  for (const Triangle& face : trial.faces) out << "\nface" << text_of_all(face);
   return out;
 }
 

@@ -11,29 +11,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The radius of a sphere [m]; 0 for other parts, whose radius is a tolerance of contacts.
-double surface_radius(const LinkPart& part) { return part.core.count == 1 ? part.radius : 0.0; }
-
-/// Calls `visit(core, radius)` for the shaft and each part of each link, where they are in `pose`,
-/// until it returns true. Returns whether it did.
-template <typename Visit>
-bool any_core(const ToolStep& step, const ToolPose& pose, const Visit& visit) {
-  if (step.radius > 0.0 && visit(ConvexCore(pose.axis), step.radius)) return true;
-  for (std::size_t link = 0; link < step.links.size(); ++link) {
-    for (const LinkPart& part : step.links[link].parts) {
-      if (!part.surface) {
-        if (visit(pose.links[link] * part.core, surface_radius(part))) return true;
-        continue;
-      }
-      for (std::size_t i = 0; i < part.surface->faces().size(); ++i) {
-        const ConvexCore triangle(part.surface->triangle(i));
-        if (visit(pose.links[link] * triangle, 0.0)) return true;
-      }
-    }
-  }
-  return false;
-}
-
 /// How far the fastest vertex moves in the whole step [m].
 double organ_speed(const ToolStep& step) {
   double fastest = 0.0;
@@ -76,36 +53,78 @@ double tool_displacement(const ToolStep& step, const ToolWaypoint& from, const T
   return farthest;
 }
 
-/// The search of one leg.
-class Search {
- public:
-  /// `speed`: an upper bound on how fast the distance changes [m / fraction].
-  Search(const ToolStep& step, double speed, double bound, double& closest)
-      : step_(step), speed_(speed), bound_(bound), closest_(closest) {}
+/// What to do with an interval of time.
+enum class Next { kLeave, kHalve, kStop };
 
-  bool stays_above(double from, double to) {
-    const double half = 0.5 * (to - from), middle = from + half;
-    const double distance = rounded_distance(step_, middle);
-    closest_ = std::min(closest_, distance);
-    if (distance - half * speed_ >= bound_) return true;
-    if (half * speed_ < kFinest) return false;
-    return stays_above(from, middle) && stays_above(middle, to);
+/// Calls look(from, middle, half of the duration), and halves the interval if that says so, the
+/// earlier half first. Returns whether nothing stopped the search.
+template <typename Look>
+bool search(double from, double to, const Look& look) {
+  const double half = 0.5 * (to - from), middle = from + half;
+  const Next next = look(from, middle, half);
+  if (next != Next::kHalve) return next == Next::kLeave;
+  return search(from, middle, look) && search(middle, to, look);
+}
+
+/// How far the fastest corner moves in the whole leg [m], for an observer who moves by `observer`.
+double speed(const FaceMotion& face, const Vector3d& observer = Vector3d::Zero()) {
+  double corner = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    corner = std::max(corner, (observer - (face.end[i] - face.start[i])).norm());
   }
+  return corner;
+}
 
- private:
-  static constexpr double kFinest = 1e-9;  // [m]
+Triangle at(const FaceMotion& face, double time) {
+  return {between(face.start[0], face.end[0], time), between(face.start[1], face.end[1], time),
+          between(face.start[2], face.end[2], time)};
+}
 
-  const ToolStep& step_;
-  double speed_, bound_;
-  double& closest_;
-};
+/// `distance_at(time)` [m] changes by at most `speed` [m] in the whole leg.
+template <typename Distance>
+FirstTime first_time(const Distance& distance_at, double speed, double radius, double slack) {
+  /// Ends the search when face and core slide along each other. `certainly` may then be missing.
+  constexpr int kMostLooks = 200'000;
+  int looks = 0;
+  FirstTime found;
+  search(0.0, 1.0, [&](double from, double middle, double half) {
+    const double gap = distance_at(middle) - radius;
+    if (gap > half * speed + slack) return Next::kLeave;
+    if (half * speed >= slack && ++looks <= kMostLooks) return Next::kHalve;
+    if (!found.possibly) found.possibly = from;
+    if (gap > -slack) return Next::kLeave;
+    found.certainly = middle;
+    return Next::kStop;
+  });
+  return found;
+}
 
 }  // namespace
 
+std::vector<PlacedCore> placed_cores(double shaft_radius, const std::vector<Link>& links,
+                                     const ToolPose& pose) {
+  std::vector<PlacedCore> cores;
+  if (shaft_radius > 0.0) cores.push_back({pose.axis, shaft_radius});
+  for (std::size_t link = 0; link < links.size(); ++link) {
+    for (const LinkPart& part : links[link].parts) {
+      if (!part.surface) {
+        cores.push_back({pose.links[link] * part.core, part.ball_radius()});
+        continue;
+      }
+      for (std::size_t i = 0; i < part.surface->faces().size(); ++i) {
+        cores.push_back({pose.links[link] * ConvexCore(part.surface->triangle(i)), 0.0});
+      }
+    }
+  }
+  return cores;
+}
+
 bool is_within(const ToolStep& step, std::size_t face, double fraction, double distance) {
   const Triangle corners = face_at(step, face, fraction);
-  return any_core(step, pose_at(step, fraction), [&](const ConvexCore& core, double radius) {
-    return distance + radius >= 0.0 && within(core, corners, distance + radius);
+  const auto cores = placed_cores(step.radius, step.links, pose_at(step, fraction));
+  return std::any_of(cores.begin(), cores.end(), [&](const PlacedCore& part) {
+    const double reach = distance + part.radius;
+    return reach >= 0.0 && within(part.core, corners, reach);
   });
 }
 
@@ -117,107 +136,46 @@ bool is_within(const ToolStep& step, double fraction, double distance) {
 }
 
 double surface_radius(const ToolStep& step) {
-  return step.radius > 0.0 ? step.radius : surface_radius(step.links.front().parts.front());
+  return step.radius > 0.0 ? step.radius : step.links.front().parts.front().ball_radius();
 }
 
 bool is_near_core(const ToolStep& step, const Vector3d& point, double distance) {
-  return any_core(step, pose_at(step, 1.0), [&](const ConvexCore& core, double /*radius*/) {
-    return within(core, {point, point, point}, distance);
+  const auto cores = placed_cores(step.radius, step.links, pose_at(step, 1.0));
+  return std::any_of(cores.begin(), cores.end(), [&](const PlacedCore& part) {
+    return within(part.core, {point, point, point}, distance);
   });
 }
 
 double rounded_distance(const ToolStep& step, double fraction) {
-  const ToolPose pose = pose_at(step, fraction);
+  const auto cores = placed_cores(step.radius, step.links, pose_at(step, fraction));
   double least = INFINITY;
   for (std::size_t face = 0; face < step.now.face_count(); ++face) {
     const Triangle corners = face_at(step, face, fraction);
-    any_core(step, pose, [&](const ConvexCore& core, double radius) {
-      least = std::min(least, rounded_distance(core, corners) - radius);
-      return false;
-    });
+    for (const PlacedCore& part : cores) {
+      least = std::min(least, rounded_distance(part.core, corners) - part.radius);
+    }
   }
   return least;
 }
 
 bool stays_above(const ToolStep& step, double bound, double& closest) {
+  constexpr double kFinest = 1e-9;  // [m]
   closest = rounded_distance(step, 1.0);
   if (step.at_rest()) return closest >= bound;
   for (std::size_t i = 1; i < step.path.size(); ++i) {
     const ToolWaypoint &from = step.path[i - 1], &to = step.path[i];
     const double duration = to.fraction - from.fraction;
     const double speed = tool_displacement(step, from, to) / duration + organ_speed(step);
-    if (!Search(step, speed, bound, closest).stays_above(from.fraction, to.fraction)) return false;
+    const auto look = [&](double /*from*/, double middle, double half) {
+      const double distance = rounded_distance(step, middle);
+      closest = std::min(closest, distance);
+      if (distance - half * speed >= bound) return Next::kLeave;
+      return half * speed < kFinest ? Next::kStop : Next::kHalve;
+    };
+    if (!search(from.fraction, to.fraction, look)) return false;
   }
   return true;
 }
-
-namespace {
-
-class Search {
- public:
-  /// `distance`: the distance at a time of the leg [m]. `speed`: an upper bound of its change in
-  /// the whole leg [m].
-  Search(std::function<double(double)> distance, double speed, double radius, double slack)
-      : distance_(std::move(distance)), speed_(speed), radius_(radius), slack_(slack) {}
-
-  /// Searches the interval, its earlier half first, until a time is found at which core and face
-  /// certainly meet.
-  void look(double from, double to) {
-    const double half = 0.5 * (to - from), middle = from + half;
-    const double gap = distance_(middle) - radius_;
-    if (gap > half * speed_ + slack_) return;
-    if (half * speed_ < slack_ || ++looks_ > kMostLooks) {
-      if (!found_.possibly) found_.possibly = from;
-      if (gap <= -slack_) found_.certainly = middle;
-      return;
-    }
-    look(from, middle);
-    if (!found_.certainly) look(middle, to);
-  }
-
-  FirstTime in_the_leg() {
-    look(0.0, 1.0);
-    return found_;
-  }
-
- private:
-  /// Ends the search when face and core slide along each other. `certainly` may then be missing.
-  static constexpr int kMostLooks = 200'000;
-
-  const std::function<double(double)> distance_;
-  const double speed_, radius_, slack_;
-  int looks_ = 0;
-  FirstTime found_;
-};
-
-Vector3d between(const Vector3d& from, const Vector3d& to, double time) {
-  return (1.0 - time) * from + time * to;
-}
-
-Triangle at(const FaceMotion& face, double time) {
-  return {between(face.start[0], face.end[0], time), between(face.start[1], face.end[1], time),
-          between(face.start[2], face.end[2], time)};
-}
-
-/// How far the fastest corner moves in the whole leg [m].
-double speed(const FaceMotion& face) {
-  double corner = 0.0;
-  for (int i = 0; i < 3; ++i) corner = std::max(corner, (face.end[i] - face.start[i]).norm());
-  return corner;
-}
-
-/// An upper bound on how far any point of the core moves in the whole leg [m].
-double speed(const LinkTrial& trial) {
-  double reach = 0.0;
-  for (std::size_t i = 0; i < trial.core.count; ++i) {
-    reach = std::max(reach, trial.core.points[i].norm());
-  }
-  const Eigen::Quaterniond from(trial.start.linear()), to(trial.end.linear());
-  return (trial.end.translation() - trial.start.translation()).norm() +
-         (reach + trial.core.rim.norm()) * from.angularDistance(to);
-}
-
-}  // namespace
 
 FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, double radius,
                             double slack) {
@@ -228,22 +186,35 @@ FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, do
   };
   const double axis = std::max((shaft.end.trocar - shaft.start.trocar).norm(),
                                (shaft.end.tip - shaft.start.tip).norm());
-  return Search(distance_at, axis + speed(face), radius, slack).in_the_leg();
+  return first_time(distance_at, axis + speed(face), radius, slack);
 }
 
 FirstTime first_time_within(const LinkTrial& trial, const FaceMotion& face, double slack) {
   const auto distance_at = [&](double time) {
     return closest_points(pose_at(trial, time) * trial.core, at(face, time)).distance;
   };
-  return Search(distance_at, speed(trial) + speed(face), trial.radius, slack).in_the_leg();
+  double reach = 0.0;
+  for (std::size_t i = 0; i < trial.core.count; ++i) {
+    reach = std::max(reach, trial.core.points[i].norm());
+  }
+  const Eigen::Quaterniond from(trial.start.linear()), to(trial.end.linear());
+  const double core = (trial.end.translation() - trial.start.translation()).norm() +
+                      (reach + trial.core.rim.norm()) * from.angularDistance(to);
+  return first_time(distance_at, core + speed(face), trial.radius, slack);
 }
 
 Eigen::Isometry3d pose_at(const LinkTrial& trial, double time) {
-  const Eigen::Quaterniond from(trial.start.linear()), to(trial.end.linear());
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = from.slerp(time, to).toRotationMatrix();
-  pose.translation() = between(trial.start.translation(), trial.end.translation(), time);
-  return pose;
+  return between(trial.start, trial.end, time);
+}
+
+bool passes(const ShaftMotion& segment, const FaceMotion& face, double distance) {
+  const double motion = std::max(speed(face, segment.end.trocar - segment.start.trocar),
+                                 speed(face, segment.end.tip - segment.start.tip));
+  return !search(0.0, 1.0, [&](double /*from*/, double middle, double half) {
+    const double here = rounded_distance(core(segment.at(middle)), at(face, middle));
+    if (here <= distance) return Next::kStop;
+    return here - half * motion > distance ? Next::kLeave : Next::kHalve;
+  });
 }
 
 }  // namespace organ_collision::oracle

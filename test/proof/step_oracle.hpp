@@ -1,14 +1,25 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
+#include <vector>
 
 #include "clearance_trials.hpp"
 #include "geometry/distance/first_touch.hpp"
 #include "link_trials.hpp"
 
 namespace organ_collision::oracle {
+
+/// A convex part of a tool where it is: all points within `radius` [m] of the core.
+struct PlacedCore {
+  ConvexCore core;
+  double radius;
+};
+
+/// The parts of a tool in this pose; a mesh has one for each of its triangles. As for the
+/// clearance, only shafts and balls have a radius. `shaft_radius`: 0 for a tool without a shaft.
+std::vector<PlacedCore> placed_cores(double shaft_radius, const std::vector<Link>& links,
+                                     const ToolPose& pose);
 
 /// Whether a face is within `distance` [m] of the tool's surface at `fraction` of the step: its
 /// distance from a core is at most `distance` plus the radius of this shaft or sphere. The surfaces
@@ -48,6 +59,9 @@ FirstTime first_time_within(const ShaftMotion& shaft, const FaceMotion& face, do
 /// The same for the core of a trial. It uses the library's distances, which have their own test,
 /// and interpolates poses by quaternions.
 FirstTime first_time_within(const LinkTrial& trial, const FaceMotion& face, double slack);
+
+/// Whether a segment comes within `distance` [m] of a face while the ends of both move linearly.
+bool passes(const ShaftMotion& segment, const FaceMotion& face, double distance);
 
 /// T_organ_link of a trial at a time of the leg in [0, 1], interpolated by quaternions.
 Eigen::Isometry3d pose_at(const LinkTrial& trial, double time);

@@ -250,6 +250,18 @@ Triangle rounded(const Triangle& face) {
   return {rounded(face[0]), rounded(face[1]), rounded(face[2])};
 }
 
+Vector3d between(const Vector3d& from, const Vector3d& to, double time) {
+  return (1.0 - time) * from + time * to;
+}
+
+std::string text_of(const Eigen::MatrixXd& values) {
+  std::ostringstream text;
+  text << std::setprecision(17) << ' '
+       << values.format(Eigen::IOFormat(Eigen::FullPrecision, Eigen::DontAlignCols, ", ", "; ", "",
+                                        "", "{", "}"));
+  return text.str();
+}
+
 double largest_coordinate(const TriangleMesh& mesh) {
   const Eigen::AlignedBox3f& box = mesh.box();
   return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());

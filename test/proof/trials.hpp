@@ -52,6 +52,19 @@ Eigen::Vector3d rounded(const Eigen::Vector3d& point);
 /// The face with its corners rounded to 32-bit floats, as in a mesh.
 Triangle rounded(const Triangle& face);
 
+/// The point at a time in [0, 1] of a linear motion.
+Eigen::Vector3d between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double time);
+
+/// A point or a matrix with 17 digits, after a space.
+std::string text_of(const Eigen::MatrixXd& values);
+/// Points in turn.
+template <typename Points>
+std::string text_of_all(const Points& points) {
+  std::string text;
+  for (const Eigen::Vector3d& point : points) text += text_of(point.transpose());
+  return text;
+}
+
 /// [m] The largest coordinate of a mesh.
 double largest_coordinate(const TriangleMesh& mesh);
 

@@ -3,21 +3,26 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "geometry/distance/closest_approach.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "query/contact_refiner.hpp"
+#include "test/closed_surfaces.hpp"
 #include "test/geometry/tool/tool_meshes.hpp"
-#include "test/proof/trials.hpp"
 
+/// Organs and tools for the tests of queries, and answers by brute force: of every face with every
+/// part on every leg, without picking, boxes or bounds.
 namespace organ_collision {
 
 struct Soup {
@@ -49,39 +54,43 @@ inline Soup shaken(const Soup& soup, double by, oracle::Random& random) {
   return moved;
 }
 
+/// How an organ changes during a step.
+enum class Change { kNone, kShakes, kGlitches, kJumps };
+
+/// The organ's shape at the start of the step.
+inline Soup changed(const Soup& soup, Change change, oracle::Random& random) {
+  if (change == Change::kShakes) return shaken(soup, random.scale(1e-5, 0.02), random);
+  Soup before = soup;
+  const double size = random.scale(0.02, 0.2);
+  if (change == Change::kGlitches) {
+    for (int i = 0; i < 3; ++i) {
+      const auto last = static_cast<int>(soup.vertices.size()) - 1;
+      before.vertices[static_cast<std::size_t>(random.integer(0, last))] +=
+          static_cast<float>(random.chance(0.3) ? 1e5 : size);
+    }
+  }
+  if (change == Change::kJumps) {
+    const Eigen::Vector3d jump = size * random.direction();
+    for (std::size_t i = 0; i < before.vertices.size(); ++i) {
+      before.vertices[i] += static_cast<float>(jump[static_cast<Eigen::Index>(i % 3)]);
+    }
+  }
+  return before;
+}
+
 /// A closed bumpy surface, about 0.2 m long, with as many faces as the paper's liver: 1224.
 inline Soup liver() {
-  constexpr int kRings = 17, kSectors = 36;
-  Soup soup;
-  const auto add = [&](double polar, double around) {
-    const double bump =
-        1.0 + 0.2 * std::sin(3 * around) * std::sin(polar) + 0.1 * std::cos(4 * polar);
-    const Eigen::Vector3d p(0.1 * std::sin(polar) * std::cos(around),
-                            0.06 * std::sin(polar) * std::sin(around), 0.04 * std::cos(polar));
-    for (int k = 0; k < 3; ++k) soup.vertices.push_back(static_cast<float>(bump * p[k]));
-  };
-  add(0.0, 0.0);
-  for (int ring = 1; ring <= kRings; ++ring)
-    for (int sector = 0; sector < kSectors; ++sector)
-      add(M_PI * ring / (kRings + 1), 2 * M_PI * sector / kSectors);
-  add(M_PI, 0.0);
-  const auto vertex = [](int ring, int sector) {
-    return static_cast<std::uint32_t>(1 + ring * kSectors + sector % kSectors);
-  };
-  const std::uint32_t last = 1 + kRings * kSectors;
-  for (int sector = 0; sector < kSectors; ++sector) {
-    const auto add_face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-      soup.triangles.insert(soup.triangles.end(), {a, b, c});
-    };
-    add_face(0, vertex(0, sector), vertex(0, sector + 1));
-    for (int ring = 0; ring + 1 < kRings; ++ring) {
-      add_face(vertex(ring, sector), vertex(ring + 1, sector), vertex(ring + 1, sector + 1));
-      add_face(vertex(ring, sector), vertex(ring + 1, sector + 1), vertex(ring, sector + 1));
-    }
-    add_face(vertex(kRings - 1, sector), last, vertex(kRings - 1, sector + 1));
+  GridSurface ball = sphere(17, 36, 1.0);
+  for (std::size_t i = 0; i < ball.vertices.size(); i += 3) {
+    Eigen::Map<Eigen::Array3f> at(&ball.vertices[i]);
+    const float bump = 1.0F + 0.2F * std::sin(5.0F * at[0]) + 0.1F * std::cos(7.0F * at[2]);
+    at *= bump * Eigen::Array3f(0.1F, 0.06F, 0.04F);
   }
-  return soup;
+  return {ball.vertices, ball.triangles()};
 }
+
+/// The axis of a tool that has none.
+const ShaftAxis kNoShaft{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
 
 inline ShaftAxis random_axis(oracle::Random& random) {
   return {Eigen::Vector3d(0.0, 0.0, 0.25) + random.point(0.05), random.point(0.1)};
@@ -100,6 +109,41 @@ inline ToolPath random_path(bool trocar_moves, oracle::Random& random) {
   return path;
 }
 
+/// The same for a shaft and links, which rotate by at most `rotation` [rad] on each leg.
+inline ToolPath random_link_path(std::size_t links, double rotation, oracle::Random& random) {
+  ToolPath path = random_path(true, random);
+  for (std::size_t link = 0; link < links; ++link) {
+    Eigen::Isometry3d pose = oracle::random_pose(0.1, random);
+    for (ToolWaypoint& waypoint : path) {
+      waypoint.links.push_back(pose);
+      pose.linear() *= oracle::random_turn(random.scale(1e-5, rotation), random);
+      pose.translation() += random.scale(1e-5, 0.05) * random.direction();
+    }
+  }
+  return path;
+}
+
+/// A path of `legs` legs from the start of `smooth` to its end. Each waypoint is displaced by up to
+/// `tremor` [m], and each link also rotated by up to as many radians.
+inline ToolPath trembling(const ToolPath& smooth, int legs, double tremor, oracle::Random& random) {
+  ToolPath path;
+  const ToolWaypoint &from = smooth.front(), &to = smooth.back();
+  for (int i = 0; i <= legs; ++i) {
+    const double time = static_cast<double>(i) / legs;
+    ToolWaypoint waypoint{time, ShaftMotion{from.axis, to.axis}.at(time)};
+    waypoint.axis.tip += tremor * random.direction();
+    if (random.chance(0.5)) waypoint.axis.trocar += tremor * random.direction();
+    for (std::size_t link = 0; link < from.links.size(); ++link) {
+      Eigen::Isometry3d pose = RigidMotion(from.links[link], to.links[link]).at(time);
+      pose.translation() += tremor * random.direction();
+      pose.linear() *= oracle::random_turn(tremor, random);
+      waypoint.links.push_back(pose);
+    }
+    path.push_back(waypoint);
+  }
+  return path;
+}
+
 inline CollisionRequest swept(const TriangleMesh& organ, const ToolPath& path, double radius) {
   CollisionRequest request;
   request.organ = &organ;
@@ -108,37 +152,6 @@ inline CollisionRequest swept(const TriangleMesh& organ, const ToolPath& path, d
   request.mode = QueryMode::kSwept;
   return request;
 }
-
-inline void expect_same(const FaceContact& a, const FaceContact& b, double slack) {
-  EXPECT_EQ(a.face, b.face);
-  EXPECT_NEAR(a.fraction, b.fraction, slack);
-  EXPECT_LE((a.point - b.point).norm(), slack) << "face " << a.face;
-  EXPECT_LE((a.normal - b.normal).norm(), slack) << "face " << a.face;
-  EXPECT_LE((a.barycentric - b.barycentric).norm(), slack) << "face " << a.face;
-  EXPECT_NEAR(a.shaft, b.shaft, slack);
-  EXPECT_NEAR(a.depth, b.depth, slack);
-  EXPECT_EQ(a.behind, b.behind);
-  EXPECT_LE((a.end_point - b.end_point).norm(), slack) << "face " << a.face;
-}
-
-inline void expect_same(const std::vector<FaceContact>& a, const std::vector<FaceContact>& b,
-                        double slack) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i], slack);
-}
-
-/// A query with one of the pickers.
-class CollisionQueryWith : public testing::TestWithParam<PickerKind> {
- protected:
-  std::vector<FaceContact> contacts(const CollisionRequest& request) {
-    query_.evaluate(request, result_);
-    EXPECT_EQ(result_.unresolved, 0U) << "the work that a query may cost was used up";
-    return result_.contacts;
-  }
-
-  CollisionQuery query_{GetParam()};
-  CollisionResult result_;
-};
 
 inline LinkPart random_part(bool may_be_mesh, oracle::Random& random) {
   const Eigen::Isometry3d pose = oracle::random_pose(0.03, random);
@@ -166,21 +179,6 @@ inline std::vector<Link> random_links(bool may_be_meshes, oracle::Random& random
   return links;
 }
 
-/// A path of shaft and links, of one to three legs. On each leg, links rotate by at most `rotation`
-/// [rad].
-inline ToolPath random_link_path(std::size_t links, double rotation, oracle::Random& random) {
-  ToolPath path = random_path(true, random);
-  for (std::size_t link = 0; link < links; ++link) {
-    Eigen::Isometry3d pose = oracle::random_pose(0.1, random);
-    for (ToolWaypoint& waypoint : path) {
-      waypoint.links.push_back(pose);
-      pose.linear() *= oracle::random_turn(random.scale(1e-5, rotation), random);
-      pose.translation() += random.scale(1e-5, 0.05) * random.direction();
-    }
-  }
-  return path;
-}
-
 /// An organ that rests or moves, and a tool that has links, with or without a shaft.
 struct LinkScene {
   LinkScene(bool may_be_meshes, oracle::Random& random, double rotation = 0.19)
@@ -196,11 +194,64 @@ struct LinkScene {
   LinkScene(const LinkScene&) = delete;
   LinkScene& operator=(const LinkScene&) = delete;
 
+  /// The tool has no shaft.
+  void remove_shaft() { request.radius = 0.0; }
+  /// The tool has no links.
+  void remove_links(oracle::Random& random) {
+    request.links = nullptr;
+    for (ToolWaypoint& waypoint : request.path) waypoint.links.clear();
+    request.radius = random.scale(0.5e-3, 0.01);
+  }
+
   Soup soup;
   TriangleMesh organ, before;
   std::vector<Link> links;
   CollisionRequest request;
 };
+
+/// Calls use(face, shape, part, face_leg) for each face, each part of the tool and each leg.
+/// `shape` is null for the shaft.
+template <typename Use>
+void for_each_pair(const CollisionRequest& request, const Use& use) {
+  const bool is_static = request.mode == QueryMode::kStatic;
+  const ToolPath path = is_static ? ToolPath{request.path.back()} : request.path;
+  const auto on_faces = [&](const LinkPart* shape, const PartLeg& part, double begin,
+                            double finish) {
+    for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
+      const Triangle after = request.organ->triangle(face);
+      const bool rests = is_static || !request.organ_before;
+      const FaceMotion whole{rests ? after : request.organ_before->triangle(face), after};
+      const FaceLeg leg{{whole.at(begin), whole.at(finish)}, begin, finish, after};
+      use(face, shape, part, leg);
+    }
+  };
+  for (std::size_t leg = 0; leg < std::max<std::size_t>(path.size() - 1, 1); ++leg) {
+    const bool rests = path.size() == 1;
+    const ToolWaypoint &from = path[leg], &to = path[rests ? leg : leg + 1], &last = path.back();
+    const double begin = rests ? 0.0 : from.fraction, finish = rests ? 1.0 : to.fraction;
+    const bool has_shaft = request.radius > 0.0;
+    if (has_shaft) {
+      const ShaftMotion shaft{from.axis, to.axis};
+      on_faces(nullptr, {shaft, request.radius, {last.axis}, 0}, begin, finish);
+    }
+    for (std::uint32_t i = 0; request.links && i < request.links->size(); ++i) {
+      const Link& link = (*request.links)[i];
+      const RigidMotion motion(from.links[i], to.links[i]);
+      for (const LinkPart& part : link.parts) {
+        const std::uint32_t number = has_shaft ? i + 1 : i;
+        const PartEnd end{kNoShaft, &link, last.links[i]};
+        on_faces(&part, {{part.core, motion}, part.radius, end, number}, begin, finish);
+      }
+    }
+  }
+}
+
+/// The contact of one part and one face by exact distances, without a work limit.
+inline std::optional<FaceContact> refine(const PartLeg& part, const FaceLeg& face) {
+  const std::optional<FirstTouch> touch = first_touch(part.core, face.motion, part.radius);
+  if (!touch) return std::nullopt;
+  return contact_of(*touch, part, face);
+}
 
 /// The contact of a face with the triangle of a part's surface that touches it first.
 inline std::optional<FaceContact> refine_surface(const PartLeg& part, const ToolSurface& surface,
@@ -215,84 +266,25 @@ inline std::optional<FaceContact> refine_surface(const PartLeg& part, const Tool
   return contact_of(*first, part, face);
 }
 
-/// The contacts of every face with every part on every leg, without picking or boxes.
-class BruteForce {
- public:
-  explicit BruteForce(const CollisionRequest& request) : request_(request) {
-    const bool has_shaft = request.radius > 0.0;
-    for (std::uint32_t face = 0; face < request.organ->face_count(); ++face) {
-      if (has_shaft) touch_shaft(face);
-      for (std::uint32_t link = 0; request.links && link < request.links->size(); ++link) {
-        touch_link(face, link, has_shaft ? link + 1 : link);
-      }
-    }
-  }
-
-  const std::vector<FaceContact>& contacts() const { return contacts_; }
-
- private:
-  FaceLeg leg(std::uint32_t face, std::size_t i) const {
-    const Triangle after = request_.organ->triangle(face);
-    const FaceMotion whole{request_.organ_before ? request_.organ_before->triangle(face) : after,
-                           after};
-    const double begin = request_.path[i - 1].fraction, finish = request_.path[i].fraction;
-    return {{whole.at(begin), whole.at(finish)}, begin, finish, after};
-  }
-
-  void touch_shaft(std::uint32_t face) {
-    std::optional<FaceContact> best;
-    for (std::size_t i = 1; i < request_.path.size(); ++i) {
-      const ShaftMotion shaft{request_.path[i - 1].axis, request_.path[i].axis};
-      keep_first(refine({shaft, request_.radius, {request_.path.back().axis}}, leg(face, i)), best);
-    }
-    keep(best, face);
-  }
-
-  void touch_link(std::uint32_t face, std::uint32_t index, std::uint32_t number) {
-    const Link& link = (*request_.links)[index];
-    std::optional<FaceContact> best;
-    for (std::size_t i = 1; i < request_.path.size(); ++i) {
-      const RigidMotion motion(request_.path[i - 1].links[index], request_.path[i].links[index]);
-      for (const LinkPart& part : link.parts) {
-        const PartLeg on_leg{{part.core, motion},
-                             part.radius,
-                             {{}, &link, request_.path.back().links[index]},
-                             number};
-        keep_first(part.surface ? refine_surface(on_leg, *part.surface, leg(face, i))
-                                : refine(on_leg, leg(face, i)),
-                   best);
-      }
-    }
-    keep(best, face);
-  }
-
-  static void keep_first(const std::optional<FaceContact>& contact,
-                         std::optional<FaceContact>& best) {
-    if (contact && (!best || is_before(*contact, *best))) best = contact;
-  }
-
-  /// Whether `a` is the contact to keep. The earlier contact is kept, then the deeper one, then the
-  /// one whose point comes first.
-  static bool is_before(const FaceContact& a, const FaceContact& b) {
-    const Eigen::Vector3d &p = a.point, &q = b.point;
-    return std::make_tuple(a.fraction, -a.depth, p.x(), p.y(), p.z()) <
-           std::make_tuple(b.fraction, -b.depth, q.x(), q.y(), q.z());
-  }
-
-  void keep(const std::optional<FaceContact>& best, std::uint32_t face) {
-    if (!best) return;
-    contacts_.push_back(*best);
-    contacts_.back().face = face;
-  }
-
-  const CollisionRequest& request_;
-  std::vector<FaceContact> contacts_;
-};
-
-inline void expect_same_links(const std::vector<FaceContact>& a,
-                              const std::vector<FaceContact>& b) {
-  ASSERT_EQ(a.size(), b.size());
-  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].link, b[i].link);
+/// The contacts by brute force, sorted by face, then link. The earlier contact is kept, then the
+/// deeper one, then the one whose point comes first.
+inline std::vector<FaceContact> contacts_by_brute_force(const CollisionRequest& request) {
+  const auto order = [](const FaceContact& c) {
+    return std::make_tuple(c.fraction, -c.depth, c.point.x(), c.point.y(), c.point.z());
+  };
+  std::map<std::pair<std::uint32_t, std::uint32_t>, FaceContact> best;
+  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const PartLeg& part,
+                             const FaceLeg& leg) {
+    auto contact =
+        shape && shape->surface ? refine_surface(part, *shape->surface, leg) : refine(part, leg);
+    if (!contact) return;
+    contact->face = face;
+    const auto [known, is_new] = best.emplace(std::make_pair(face, part.link), *contact);
+    if (!is_new && order(*contact) < order(known->second)) known->second = *contact;
+  });
+  std::vector<FaceContact> contacts;
+  for (const auto& [key, contact] : best) contacts.push_back(contact);
+  return contacts;
 }
 
 /// [m] At rest, distances agree to this.
@@ -300,85 +292,76 @@ constexpr double kExact = 1e-9;
 /// [m] While something moves, both the search and the measurement may be this much too large.
 constexpr double kMoving = 2.0 * tolerance::kApproach;
 
-/// How near each face comes to a tool, by measuring every face with every convex part on every leg,
-/// without boxes and bounds.
-class MeasuredApproaches {
- public:
-  /// [m] The distance of a face from one link, and where and when it occurs.
-  struct Least {
-    double distance = std::numeric_limits<double>::infinity();
-    std::uint32_t link = 0;
-    double fraction = 0.0;
-  };
-
-  /// `at_end`: the distances at the end of the step, not the smallest ones during it.
-  MeasuredApproaches(const CollisionRequest& request, bool at_end)
-      : request_(request), at_end_(at_end), least_(request.organ->face_count()) {
-    const bool has_shaft = request.radius > 0.0;
-    for (std::uint32_t face = 0; face < least_.size(); ++face) {
-      const std::size_t legs = at_end ? 1 : std::max<std::size_t>(request.path.size() - 1, 1);
-      for (std::size_t leg = 0; leg < legs; ++leg) {
-        if (has_shaft) measure_shaft(face, leg);
-        for (std::uint32_t link = 0; request.links && link < request.links->size(); ++link) {
-          for (const LinkPart& part : (*request.links)[link].parts) {
-            measure_part(face, leg, link, part, has_shaft ? link + 1 : link);
-          }
-        }
-      }
+/// The distance of each face from the tool [m] by brute force: the smallest one during the step.
+inline std::vector<double> distances_by_brute_force(const CollisionRequest& request) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<double> least(request.organ->face_count(), kInfinity);
+  for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const PartLeg& part,
+                             const FaceLeg& leg) {
+    const double radius = shape ? shape->ball_radius() : part.radius;
+    const auto measure = [&](const CoreMotion& core) {
+      WorkBudget unlimited = WorkBudget::unlimited();
+      const auto found = closest_approach(core, leg.motion, kInfinity, unlimited);
+      least[face] = std::min(least[face], found->closest.distance - radius);
+    };
+    if (!shape || !shape->surface) return measure(part.core);
+    for (std::size_t i = 0; i < shape->surface->faces().size(); ++i) {
+      measure(CoreMotion(ConvexCore(shape->surface->triangle(i)), *part.core.link()));
     }
+  });
+  return least;
+}
+
+inline std::vector<double> distances_at_end(CollisionRequest request) {
+  request.mode = QueryMode::kStatic;
+  return distances_by_brute_force(request);
+}
+
+inline void expect_same(const FaceContact& a, const FaceContact& b, double slack) {
+  EXPECT_EQ(a.face, b.face);
+  EXPECT_EQ(a.link, b.link);
+  EXPECT_NEAR(a.fraction, b.fraction, slack);
+  EXPECT_LE((a.point - b.point).norm(), slack) << "face " << a.face;
+  EXPECT_LE((a.normal - b.normal).norm(), slack) << "face " << a.face;
+  EXPECT_LE((a.barycentric - b.barycentric).norm(), slack) << "face " << a.face;
+  EXPECT_NEAR(a.shaft, b.shaft, slack);
+  EXPECT_NEAR(a.depth, b.depth, slack);
+  EXPECT_EQ(a.behind, b.behind);
+  EXPECT_LE((a.end_point - b.end_point).norm(), slack) << "face " << a.face;
+}
+
+inline void expect_same(const std::vector<FaceContact>& a, const std::vector<FaceContact>& b,
+                        double slack) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) expect_same(a[i], b[i], slack);
+}
+
+/// The same faces and links at the same times, where rounding decides which of several touches at
+/// the same time is the first.
+inline void expect_same_touches(const std::vector<FaceContact>& a,
+                                const std::vector<FaceContact>& b, double slack) {
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].face, b[i].face);
+    EXPECT_EQ(a[i].link, b[i].link);
+    EXPECT_NEAR(a[i].fraction, b[i].fraction, slack);
+  }
+}
+
+constexpr std::array<PickerKind, 3> kPickers = {PickerKind::kFeedback, PickerKind::kSelect,
+                                                PickerKind::kCpu};
+
+/// A query with one of the pickers.
+class CollisionQueryWith : public testing::TestWithParam<PickerKind> {
+ protected:
+  std::vector<FaceContact> contacts(const CollisionRequest& request) {
+    query_.evaluate(request, result_);
+    EXPECT_EQ(result_.unresolved, 0U) << "the work that a query may cost was used up";
+    return result_.contacts;
   }
 
-  /// By face.
-  const std::vector<Least>& least() const { return least_; }
-  Least nearest() const {
-    return *std::min_element(least_.begin(), least_.end(), [](const Least& a, const Least& b) {
-      return a.distance < b.distance;
-    });
-  }
-
- private:
-  const ToolWaypoint& from(std::size_t leg) const {
-    return at_end_ ? request_.path.back() : request_.path[leg];
-  }
-  const ToolWaypoint& to(std::size_t leg) const {
-    return at_end_ ? request_.path.back()
-                   : request_.path[std::min(leg + 1, request_.path.size() - 1)];
-  }
-  FaceMotion face_motion(std::uint32_t face, std::size_t leg) const {
-    const Triangle after = request_.organ->triangle(face);
-    if (at_end_ || !request_.organ_before) return {after, after};
-    const FaceMotion whole{request_.organ_before->triangle(face), after};
-    if (request_.path.size() == 1) return whole;
-    return {whole.at(from(leg).fraction), whole.at(to(leg).fraction)};
-  }
-
-  void measure_shaft(std::uint32_t face, std::size_t leg) {
-    measure(face, leg, CoreMotion(ShaftMotion{from(leg).axis, to(leg).axis}), request_.radius, 0);
-  }
-  void measure_part(std::uint32_t face, std::size_t leg, std::uint32_t link, const LinkPart& part,
-                    std::uint32_t number) {
-    const RigidMotion motion(from(leg).links[link], to(leg).links[link]);
-    if (!part.surface) {
-      return measure(face, leg, CoreMotion(part.core, motion), part.ball_radius(), number);
-    }
-    for (std::size_t i = 0; i < part.surface->faces().size(); ++i) {
-      measure(face, leg, CoreMotion(ConvexCore(part.surface->triangle(i)), motion), 0.0, number);
-    }
-  }
-  void measure(std::uint32_t face, std::size_t leg, const CoreMotion& core, double radius,
-               std::uint32_t link) {
-    WorkBudget unlimited = WorkBudget::unlimited();
-    const auto found = closest_approach(core, face_motion(face, leg),
-                                        std::numeric_limits<double>::infinity(), unlimited);
-    const double distance = found->closest.distance - radius;
-    if (distance >= least_[face].distance) return;
-    const double begin = from(leg).fraction, finish = to(leg).fraction;
-    least_[face] = {distance, link, begin + found->time * (finish - begin)};
-  }
-
-  const CollisionRequest& request_;
-  bool at_end_;
-  std::vector<Least> least_;
+  CollisionQuery query_{GetParam()};
+  CollisionResult result_;
 };
 
 }  // namespace organ_collision

@@ -123,7 +123,7 @@ class SnapshotTest(unittest.TestCase):
             ('no node publishes /nothing', ['--topic=/nothing'], {}),
             ('no marker came within the timeout on /empty', ['--topic=/empty'], {}),
             ("frame 'table' have no transform", ['--topic=/cubes', '--frame=moon'], {}),
-            ("--size is 'big'", ['--size=big'], {}),
+            ('--size is "big"', ['--size=big'], {}),
             ("cannot write '/no/folder/x.png'", ['--topic=/cubes', '--output=/no/folder/x.png'], {}),
             ('there is no ROS master at http://localhost:1', [], nowhere),
         ):

@@ -2,6 +2,9 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
 
 #include "geometry/distance/swept_box.hpp"
 #include "organ_collision/geometry/tool/shaft.hpp"
@@ -34,16 +37,15 @@ ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margi
 ViewingVolume tool_volume(const SweptBox& box);
 
 /// The space that a part of a tool sweeps on one leg, or on the chord of a span of legs. It builds
-/// the conservative volumes around that space once the margins are known. It refers to the motion
-/// or the box, which must outlive it.
+/// the conservative volumes around that space once the margins are known.
 class PartSweep {
  public:
   /// A shaft with its radius [m].
-  PartSweep(const ShaftMotion& shaft, double radius) : shaft_(&shaft), radius_(radius) {}
-  explicit PartSweep(const SweptBox& box) : box_(&box) {}
+  PartSweep(const ShaftMotion& shaft, double radius) : shaft_(shaft), radius_(radius) {}
+  explicit PartSweep(const SweptBox& box) : box_(box) {}
 
   /// [m] The origin of the volumes' shifted coordinates, in the organ's frame.
-  const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_->start.trocar; }
+  const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_.start.trocar; }
   /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths: the
   /// shortest edge of a flat box says nothing about its size.
   double thickness() const {
@@ -54,12 +56,12 @@ class PartSweep {
   }
   ViewingVolume volume(const VolumeMargin& margin) const {
     return box_ ? conservative_volume(*box_, margin)
-                : conservative_volume(*shaft_, radius_, margin);
+                : conservative_volume(shaft_, radius_, margin);
   }
 
  private:
-  const SweptBox* box_ = nullptr;
-  const ShaftMotion* shaft_ = nullptr;
+  std::optional<SweptBox> box_;
+  ShaftMotion shaft_;
   double radius_ = 0.0;
 };
 

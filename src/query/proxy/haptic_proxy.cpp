@@ -66,7 +66,6 @@ struct HapticProxy::State {
   void hold(Tick& tick, Needle&& held) const;
   void pierce(Tick& tick);
   void move_proxy(Tick& tick);
-  Needle::Settings needle_settings() const;
   std::vector<OrganTick> match(const std::vector<ProxyOrgan>& organs) const;
   bool is_in_new_tissue(Tick& tick);
   HandWay way_of(const ToolPose& hand) const;
@@ -145,7 +144,7 @@ bool HapticProxy::State::move_needle(Tick& tick) {
   tick.place = place;
   if (!needle || tick.hand_way.jump > settings.jump) return false;
   Needle moved = *needle;
-  const Needle::Fate fate = moved.follow(tick.hand.axis, tick.organs, needle_settings(), tissue);
+  const Needle::Fate fate = moved.follow(tick.hand.axis, tick.organs, settings, tissue);
   if (fate == Needle::Fate::kHeld) {
     hold(tick, std::move(moved));
     return true;
@@ -177,7 +176,7 @@ void HapticProxy::State::hold(Tick& tick, Needle&& held) const {
 void HapticProxy::State::pierce(Tick& tick) {
   if (!settings.puncture || tick.answer.state != ProxyStatus::kTouching) return;
   auto pierced = Needle::pierce(tick.answer.proxy.axis, tick.hand.axis, tick.answer.contacts,
-                                tick.organs, needle_settings(), tissue);
+                                tick.organs, settings, tissue);
   if (pierced) hold(tick, std::move(*pierced));
 }
 
@@ -213,11 +212,6 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   if (!tick.answer.is_placed_anew) {
     tick.way = mobility->longest_way(hand, mobility->between(start, now.pose));
   }
-}
-
-Needle::Settings HapticProxy::State::needle_settings() const {
-  const double never = std::numeric_limits<double>::infinity();
-  return {settings.puncture.value_or(never), settings.friction, settings.clearance};
 }
 
 /// How each organ moved since the last tick.

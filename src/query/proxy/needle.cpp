@@ -1,6 +1,7 @@
 #include "needle.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace organ_collision {
 namespace {
@@ -16,6 +17,11 @@ constexpr double kShortestLever = 0.02;
 
 Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
 
+/// [m] How far the hand's tip is beyond the needle's, along the axis, when it pierces a face.
+double threshold(const ProxySettings& settings) {
+  return settings.puncture.value_or(std::numeric_limits<double>::infinity());
+}
+
 bool presses(const ProxyContact& held, const Vector3d& direction) {
   return held.load > 0.0 && held.contact.link == 0 && held.contact.shaft == 1.0 &&
          held.contact.normal.dot(direction) > kPressing;
@@ -26,13 +32,13 @@ bool presses(const ProxyContact& held, const Vector3d& direction) {
 std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
                                      const std::vector<ProxyContact>& contacts,
                                      const std::vector<ProxyOrgan>& organs,
-                                     const Settings& settings, Tissue& tissue) {
+                                     const ProxySettings& settings, Tissue& tissue) {
   const Vector3d direction = along(proxy).normalized();
   const double excess = direction.dot(hand.tip - proxy.tip);
   const bool is_pressing = std::any_of(contacts.begin(), contacts.end(), [&](const auto& contact) {
     return presses(contact, direction);
   });
-  if (!is_pressing || !(excess >= settings.puncture)) return std::nullopt;
+  if (!is_pressing || !(excess >= threshold(settings))) return std::nullopt;
   const ShaftAxis ahead{proxy.trocar, proxy.tip + excess * direction};
   std::vector<TissueCrossing> crossings;
   tissue.cross(ahead, crossings);
@@ -51,7 +57,7 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
 }
 
 Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>& organs,
-                            const Settings& settings, Tissue& tissue) {
+                            const ProxySettings& settings, Tissue& tissue) {
   if (!find_entry(organs)) return Fate::kLost;
   const Vector3d to_entry = entry_.point - hand.trocar;
   const Vector3d direction = to_entry.normalized();
@@ -85,7 +91,7 @@ bool Needle::find_entry(const std::vector<ProxyOrgan>& organs) {
 
 /// [m] From the trocar to the tip, if the tip moves from `from` to that of axis_, and stops at each
 /// face on its way that it does not pierce.
-double Needle::stop_at_faces(double from, double hand_tip, const Settings& settings,
+double Needle::stop_at_faces(double from, double hand_tip, const ProxySettings& settings,
                              Tissue& tissue) const {
   const double to = along(axis_).norm();
   if (!(to > from)) return to;
@@ -99,7 +105,7 @@ double Needle::stop_at_faces(double from, double hand_tip, const Settings& setti
     const double stop = face - settings.clearance;
     const bool is_entry =
         found.organ == entry_.organ && found.crossing.face == entry_.face && inserted_ == 0.0;
-    if (face <= from || is_entry || hand_tip - stop >= settings.puncture) continue;
+    if (face <= from || is_entry || hand_tip - stop >= threshold(settings)) continue;
     return std::clamp(stop, from, to);
   }
   return to;

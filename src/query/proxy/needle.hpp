@@ -16,18 +16,12 @@ namespace organ_collision {
 /// stops at the next face, until it pierces that as well. Faces beside the needle do not touch it.
 class Needle {
  public:
-  /// [m] The needle pierces a face if the hand's tip is `puncture` beyond the needle's along the
-  /// axis, slides if it is `friction` away, and stops `clearance` before a face.
-  struct Settings {
-    double puncture, friction, clearance;
-  };
-
   /// A needle if the proxy's tip presses on tissue hard enough to pierce it. `contacts`: what holds
   /// the proxy.
   static std::optional<Needle> pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
                                       const std::vector<ProxyContact>& contacts,
                                       const std::vector<ProxyOrgan>& organs,
-                                      const Settings& settings, Tissue& tissue);
+                                      const ProxySettings& settings, Tissue& tissue);
 
   /// What became of the needle.
   enum class Fate {
@@ -37,7 +31,7 @@ class Needle {
   };
   /// Moves the needle with the hand and the tissue.
   Fate follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>& organs,
-              const Settings& settings, Tissue& tissue);
+              const ProxySettings& settings, Tissue& tissue);
 
   const ShaftAxis& axis() const { return axis_; }
   /// From the entry to the tip. The whole load is at the entry.
@@ -48,7 +42,7 @@ class Needle {
       : organ_(std::move(organ)), entry_(entry), corners_(corners) {}
 
   bool find_entry(const std::vector<ProxyOrgan>& organs);
-  double stop_at_faces(double from, double hand_tip, const Settings& settings,
+  double stop_at_faces(double from, double hand_tip, const ProxySettings& settings,
                        Tissue& tissue) const;
   void describe(const ShaftAxis& hand, Tissue& tissue);
 

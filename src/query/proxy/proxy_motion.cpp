@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <utility>
+
+#include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
 namespace {
@@ -45,6 +49,19 @@ ToolPose pose_at(const std::vector<ToolPose>& way, double fraction) {
   return interpolate(way[leg], way[leg + 1], along - static_cast<double>(leg));
 }
 
+/// The shape at a time in [0, 1] between two shapes.
+std::unique_ptr<const TriangleMesh> shape_between(const TriangleMesh& before,
+                                                  const TriangleMesh& now, double time) {
+  std::vector<float> vertices(now.vertices().size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double from = before.vertices()[i], to = now.vertices()[i];
+    vertices[i] = static_cast<float>(from + time * (to - from));
+  }
+  auto shape = std::make_unique<TriangleMesh>(now);
+  shape->move_vertices(std::move(vertices));
+  return shape;
+}
+
 }  // namespace
 
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
@@ -67,17 +84,32 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   return std::nullopt;
 }
 
+/// Cuts the motion of the organs into pieces of equal duration, in which they move linearly.
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
                                                 const std::vector<OrganTick>& organs, Level level,
                                                 int pieces) {
-  const OrganPieces motion(organs, pieces);
   const ToolPose given = mobility_.combine(start.pose, hand);
+  std::vector<std::unique_ptr<const TriangleMesh>> shapes;  // at the ends of the pieces
+  std::vector<OrganTick> piece = organs;
   std::optional<ProxyPlace> place = start;
   for (int i = 0; i < pieces && place; ++i) {
-    const std::vector<OrganTick> piece = motion.piece(i);
-    tissue_.set_organs(piece);
+    const bool is_last = i + 1 == pieces;
     const double end = static_cast<double>(i + 1) / pieces;
-    place = give_way(*place, i + 1 < pieces ? interpolate(start.pose, given, end) : hand, level);
+    for (std::size_t organ = 0; organ < organs.size(); ++organ) {
+      const OrganTick& whole = organs[organ];
+      OrganTick& tick = piece[organ];
+      if (i > 0) {
+        tick.before = tick.now;
+        tick.T_before = tick.T_now;
+      }
+      tick.now = whole.now;
+      tick.T_now = is_last ? whole.T_now : RigidMotion(whole.T_before, whole.T_now).at(end);
+      if (is_last || !whole.before || whole.before == whole.now) continue;
+      shapes.push_back(shape_between(*whole.before, *whole.now, end));
+      tick.now = shapes.back().get();
+    }
+    tissue_.set_organs(piece);
+    place = give_way(*place, is_last ? hand : interpolate(start.pose, given, end), level);
   }
   return place;
 }

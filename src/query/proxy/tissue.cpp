@@ -1,9 +1,7 @@
 #include "tissue.hpp"
 
 #include <algorithm>
-#include <utility>
 
-#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 
 namespace organ_collision {
@@ -49,8 +47,7 @@ void Tissue::touch(const ToolPose& pose, double growth, std::vector<TissueContac
     const OrganTick& tick = (*organs_)[organ];
     CollisionRequest question = request(tick, QueryMode::kStatic);
     question.path = {waypoint(0.0, tick.T_now, pose)};
-    query_.evaluate(question, result_);
-    collect(organ, contacts);
+    ask(organ, question, contacts);
   }
 }
 
@@ -65,8 +62,7 @@ void Tissue::sweep(const std::vector<ToolPose>& way, double growth,
     for (std::size_t i = 0; i < way.size(); ++i) {
       question.path.push_back(waypoint(static_cast<double>(i) / legs, tick.T_now, way[i]));
     }
-    query_.evaluate(question, result_);
-    collect(organ, contacts);
+    ask(organ, question, contacts);
   }
 }
 
@@ -79,8 +75,7 @@ void Tissue::sweep_with_organs(const ToolPose& from, const ToolPose& to, double 
     CollisionRequest question = request(tick, QueryMode::kSwept);
     if (tick.before != tick.now) question.organ_before = tick.before;
     question.path = {waypoint(0.0, tick.T_before, from), waypoint(1.0, tick.T_now, to)};
-    query_.evaluate(question, result_);
-    collect(organ, contacts);
+    ask(organ, question, contacts);
   }
 }
 
@@ -147,8 +142,10 @@ CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
   return request;
 }
 
-/// Adds the contacts of the last answer, in the proxy's frame.
-void Tissue::collect(std::size_t organ, std::vector<TissueContact>& contacts) {
+/// Adds the contacts that answer a question about an organ, in the proxy's frame.
+void Tissue::ask(std::size_t organ, const CollisionRequest& question,
+                 std::vector<TissueContact>& contacts) {
+  query_.evaluate(question, result_);
   const Eigen::Isometry3d T_proxy_organ = (*organs_)[organ].T_now.inverse();
   for (const FaceContact& found : result_.contacts) {
     TissueContact contact{organ, found, growth_of(found.link) - found.depth};
@@ -157,52 +154,6 @@ void Tissue::collect(std::size_t organ, std::vector<TissueContact>& contacts) {
     contact.contact.normal = T_proxy_organ.linear() * found.normal;
     contacts.push_back(contact);
   }
-}
-
-namespace {
-
-/// The shape at a time in [0, 1] between two shapes.
-std::unique_ptr<const TriangleMesh> between(const TriangleMesh& before, const TriangleMesh& now,
-                                            double time) {
-  std::vector<float> vertices(now.vertices().size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const double from = before.vertices()[i], to = now.vertices()[i];
-    vertices[i] = static_cast<float>(from + time * (to - from));
-  }
-  auto result = std::make_unique<TriangleMesh>(now);
-  result->move_vertices(std::move(vertices));
-  return result;
-}
-
-}  // namespace
-
-OrganPieces::OrganPieces(const std::vector<OrganTick>& organs, int pieces)
-    : organs_(organs), pieces_(pieces), between_(organs.size()) {
-  for (std::size_t organ = 0; organ < organs.size(); ++organ) {
-    const OrganTick& tick = organs[organ];
-    if (!tick.before || tick.before == tick.now) continue;
-    for (int end = 1; end < pieces; ++end) {
-      between_[organ].push_back(
-          between(*tick.before, *tick.now, static_cast<double>(end) / pieces));
-    }
-  }
-}
-
-std::vector<OrganTick> OrganPieces::piece(int piece) const {
-  std::vector<OrganTick> result = organs_;
-  for (std::size_t organ = 0; organ < result.size(); ++organ) {
-    OrganTick& tick = result[organ];
-    const RigidMotion frame(organs_[organ].T_before, organs_[organ].T_now);
-    if (piece > 0) {
-      tick.T_before = frame.at(static_cast<double>(piece) / pieces_);
-      tick.before = between_[organ].empty() ? tick.now : between_[organ][piece - 1].get();
-    }
-    if (piece + 1 < pieces_) {
-      tick.T_now = frame.at(static_cast<double>(piece + 1) / pieces_);
-      if (!between_[organ].empty()) tick.now = between_[organ][piece].get();
-    }
-  }
-  return result;
 }
 
 }  // namespace organ_collision

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
@@ -70,7 +69,8 @@ class Tissue {
   void grow(double growth);
   double growth_of(std::uint32_t link) const;
   CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
-  void collect(std::size_t organ, std::vector<TissueContact>& contacts);
+  void ask(std::size_t organ, const CollisionRequest& question,
+           std::vector<TissueContact>& contacts);
 
   const ProxyTool& tool_;
   double growth_ = 0.0;  ///< [m]
@@ -80,23 +80,6 @@ class Tissue {
   const std::vector<OrganTick>* organs_ = nullptr;
   CollisionQuery query_;
   CollisionResult result_;
-};
-
-/// The motion of organs in one tick, cut into pieces of equal duration. In each, the organs move
-/// linearly from the last piece's end.
-class OrganPieces {
- public:
-  OrganPieces(const std::vector<OrganTick>& organs, int pieces);
-
-  /// The organs in a piece. They refer to this object and to the shapes that it was made of.
-  std::vector<OrganTick> piece(int piece) const;
-
- private:
-  std::vector<OrganTick> organs_;
-  int pieces_;
-  /// By organ and end of piece: the shapes between before and now. Empty for an organ whose shape
-  /// does not change.
-  std::vector<std::vector<std::unique_ptr<const TriangleMesh>>> between_;
 };
 
 }  // namespace organ_collision

@@ -61,16 +61,6 @@ TransformStamped to_transform(const PoseStamped& pose, const std::string& frame)
   return transform;
 }
 
-bool has_same_topics(const ToolParameters& a, const ToolParameters& b) {
-  return a.name == b.name && a.tip_frame == b.tip_frame && a.tip_pose_topic == b.tip_pose_topic &&
-         a.base_pose_topic == b.base_pose_topic;
-}
-
-ros::Time after(ros::Time time) {
-  ros::Time next;
-  return time.isZero() ? time : next.fromNSec(time.toNSec() + 1);
-}
-
 }  // namespace
 
 MotionTopics::MotionTopics(const std::vector<ToolParameters>& tools, TransformBuffer& transforms,
@@ -134,10 +124,15 @@ void MotionTopics::change_tools(const std::vector<ToolParameters>& tools,
 /// The stream whose subscriptions also serve this tool; null if there is none. Names of tools are
 /// unique, so no two tools have the same.
 std::shared_ptr<MotionTopics::Stream> MotionTopics::find_stream(const ToolParameters& tool) const {
-  const auto found = std::find_if(streams_.begin(), streams_.end(), [&](const auto& stream) {
-    return has_same_topics(stream->tool, tool);
-  });
-  return found == streams_.end() ? nullptr : *found;
+  for (const std::shared_ptr<Stream>& stream : streams_) {
+    const ToolParameters& known = stream->tool;
+    if (known.name == tool.name && known.tip_frame == tool.tip_frame &&
+        known.tip_pose_topic == tool.tip_pose_topic &&
+        known.base_pose_topic == tool.base_pose_topic) {
+      return stream;
+    }
+  }
+  return nullptr;
 }
 
 void MotionTopics::take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
@@ -185,7 +180,9 @@ void MotionTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
 ros::Time MotionTopics::arrival(const Stream& stream) {
   const ros::Time now = ros::Time::now();
   const bool is_ahead = stream.latest.toSec() > now.toSec() + kClockTolerance;
-  return is_ahead ? now : std::max(now, after(stream.latest));
+  if (stream.latest.isZero() || is_ahead) return now;
+  ros::Time next;
+  return std::max(now, next.fromNSec(stream.latest.toNSec() + 1));
 }
 
 /// Whether a tool with the same topic and tip frame has already taken the pose with this stamp, and

@@ -17,17 +17,6 @@ namespace {
 /// many seconds would take up to a second.
 constexpr std::size_t kMostRead = 1000;
 
-/// The range of the stamps of some transforms. Static transforms have none and do not count.
-struct StampRange {
-  ros::Time earliest, latest;  ///< zero: all transforms are static
-
-  void add(ros::Time stamp) {
-    if (stamp.isZero()) return;
-    earliest = earliest.isZero() ? stamp : std::min(earliest, stamp);
-    latest = std::max(latest, stamp);
-  }
-};
-
 std::string without_link(const Tool& tool, std::size_t link,
                          const Lookup<Eigen::Isometry3d>& lookup) {
   const std::string joint = lookup.is_late ? "" : tool.joints[link];
@@ -130,7 +119,7 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
 
 Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame,
                                  ros::Time time) const {
-  return look_up_pose(tool, organ_frame, time, TipOfLinks::kNeeded);
+  return look_up_pose(tool, organ_frame, time, true);
 }
 
 bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
@@ -142,13 +131,15 @@ bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::
 }
 
 Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& organ_frame,
-                                         ros::Time time, TipOfLinks tip_of_links) const {
+                                         ros::Time time, bool with_tip_of_links) const {
   const ToolParameters& parameters = tool.parameters;
   ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
-  StampRange stamps;
+  ros::Time earliest, latest;  // Zero: all transforms are static.
   const auto look_up_frame = [&](const std::string& frame) {
     auto lookup = look_up(buffer_, organ_frame, frame, time);
-    if (lookup.found) stamps.add(lookup.found->stamp);
+    if (!lookup.found || lookup.found->stamp.isZero()) return lookup;
+    earliest = earliest.isZero() ? lookup.found->stamp : std::min(earliest, lookup.found->stamp);
+    latest = std::max(latest, lookup.found->stamp);
     return lookup;
   };
   if (parameters.has_shaft()) {
@@ -166,7 +157,7 @@ Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& or
     }
     pose.links.push_back(link.found->value);
   }
-  if (tip_of_links == TipOfLinks::kNeeded && parameters.has_tip_of_links()) {
+  if (with_tip_of_links && parameters.has_tip_of_links()) {
     const auto tip = look_up_frame(parameters.tip_frame);
     if (!tip.found) {
       return {std::nullopt,
@@ -176,10 +167,8 @@ Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& or
   }
   // For time zero, each frame was looked up at its own latest time, but all poses must be of the
   // same time.
-  if (stamps.earliest != stamps.latest) {
-    return look_up_pose(tool, organ_frame, stamps.earliest, tip_of_links);
-  }
-  return {{{std::move(pose), stamps.earliest}}, ""};
+  if (earliest != latest) return look_up_pose(tool, organ_frame, earliest, with_tip_of_links);
+  return {{{std::move(pose), earliest}}, ""};
 }
 
 bool ToolPoses::is_nearly_forgotten(const Tool& tool, const std::string& organ_frame,
@@ -207,7 +196,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   SampledPath sampled;
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
-    const auto between = look_up_pose(tool, organ_frame, time, TipOfLinks::kUnused);
+    const auto between = look_up_pose(tool, organ_frame, time, false);
     if (between.found && is_near(between.found->value)) {
       path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
     } else if (sampled.unknown.empty()) {

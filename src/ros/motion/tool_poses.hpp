@@ -44,9 +44,9 @@ class ToolPoses {
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
   /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
-  /// Samples that TF cannot give are dropped. PathBuilder drops redundant ones, and reduces the rest
-  /// to samples_max. At most max(1000, samples_max) of the stamps are read, evenly
-  /// spread; if there are more, or if TF has forgotten some, the path is not wholly known.
+  /// Samples that TF cannot give are dropped. PathBuilder drops redundant ones, and reduces the
+  /// rest to samples_max. At most max(1000, samples_max) of the stamps are read, evenly spread; if
+  /// there are more, or if TF has forgotten some, the path is not wholly known.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
@@ -66,9 +66,8 @@ class ToolPoses {
 
  private:
   /// The tip of links is not swept: a sample of their motion does not need it.
-  enum class TipOfLinks { kNeeded, kUnused };
   Lookup<ToolPose> look_up_pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
-                                TipOfLinks tip) const;
+                                bool with_tip_of_links) const;
   /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,

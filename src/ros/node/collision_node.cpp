@@ -6,7 +6,6 @@
 
 namespace organ_collision {
 
-
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
       publisher_(core_.private_node(), core_.tools(), counters_),
@@ -19,10 +18,10 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                  [this](const OrganUpdate& update) { publisher_.report(update); }},
                 OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
                                      core_.background().queue()}),
-      services_({{core_.parameters(), core_.tools(), pipeline_.inbox.organs, pipeline_.inbox.transforms,
-                  pipeline_.poses, pipeline_.steps.history()},
-                 [this](const std::function<void()>& action) { core_.in_node_thread(action); },
-                 counters_),
+      services_(
+          {core_.parameters(), core_.tools(), pipeline_.inbox.organs, pipeline_.inbox.transforms,
+           pipeline_.poses, pipeline_.steps.history()},
+          [this](const std::function<void()>& action) { core_.in_node_thread(action); }, counters_),
       organ_services_(pipeline_.inbox.organs, pipeline_.inbox.intake, core_.loop().queue(),
                       core_.background().queue()) {
   try {
@@ -61,10 +60,9 @@ void CollisionNode::start() {
   add_diagnostics(core_.updater(),
                   AnsweredParts{core_.parameters().misspelt, pipeline_.workers.gl_version(),
                                 pipeline_.steps, pipeline_.inbox.transforms, counters_});
-  add_diagnostics(core_.updater(),
-                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
-                                pipeline_.inbox.organs, pipeline_.inbox.intake, counters_.meshes,
-                                counters_.rejected});
+  add_diagnostics(core_.updater(), ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
+                                                 pipeline_.inbox.organs, pipeline_.inbox.intake,
+                                                 counters_.meshes, counters_.rejected});
   core_.start();
   ROS_INFO("ready: %s, GL %s", counted(core_.tools().size(), "tool").c_str(),
            pipeline_.workers.gl_version().c_str());
@@ -95,7 +93,9 @@ void CollisionNode::start_ticks() {
 void CollisionNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
   core_.exchange_tools(
       loaded,
-      [this](const auto& parameters) { pipeline_.inbox.motion.change_tools(parameters, core_.node()); },
+      [this](const auto& parameters) {
+        pipeline_.inbox.motion.change_tools(parameters, core_.node());
+      },
       [&] {
         pipeline_.steps.change_tools(kept);
         markers_.set_tools(core_.tools());

@@ -16,25 +16,10 @@ std::string quoted(const std::string& name) { return "'" + name + "'"; }
   throw Rejection(ContactArray::INVALID_REQUEST, reason, message);
 }
 
-std::string reason_of(const MeshError& error) {
-  switch (error.reason()) {
-    case MeshError::Reason::kSize:
-      return "wrong size";
-    case MeshError::Reason::kIndex:
-      return "index out of range";
-    case MeshError::Reason::kNotFinite:
-      return "not finite";
-    case MeshError::Reason::kTooFar:
-      return "too far";
-    case MeshError::Reason::kNoTriangles:
-      return "no triangles";
-    case MeshError::Reason::kTooManyFaces:
-      return "too many faces";
-    case MeshError::Reason::kTooManyVertices:
-      return "too many vertices";
-  }
-  return "invalid mesh";
-}
+/// By MeshError::Reason.
+constexpr const char* kReasons[] = {"wrong size",       "index out of range", "not finite",
+                                    "too far",          "no triangles",       "too many faces",
+                                    "too many vertices"};
 
 /// Throws a Rejection for the exception that is being handled. `named`: the message in words.
 [[noreturn]] void reject_thrown(const std::string& named) {
@@ -43,7 +28,7 @@ std::string reason_of(const MeshError& error) {
   } catch (const Rejection&) {
     throw;
   } catch (const MeshError& error) {
-    refuse(reason_of(error), named + ": " + error.what());
+    refuse(kReasons[static_cast<int>(error.reason())], named + ": " + error.what());
   } catch (const std::exception& error) {  // Usually std::bad_alloc.
     refuse("not made", named + " could not be made: " + error.what());
   }

@@ -3,6 +3,14 @@
 #include <ros/console.h>
 
 namespace organ_collision {
+namespace {
+
+/// [s] of ROS time: what was on its way during a jump has arrived by then.
+constexpr double kArrival = 2.0;
+/// No more often after a jump: a frame with two senders may step back again and again.
+constexpr int kMostForgotten = 3;
+
+}  // namespace
 
 void Inbox::subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
   intake.subscribe(private_node);

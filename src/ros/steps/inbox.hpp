@@ -52,14 +52,9 @@ class Inbox {
   MotionTopics motion;  ///< into transforms
 
  private:
-  /// [s] of ROS time: what was on its way during a jump has arrived by then.
-  static constexpr double kArrival = 2.0;
-  /// No more often after a jump: a frame with two senders may step back again and again.
-  static constexpr int kMostForgotten = 3;
-
   double max_ahead_sec_;
-  double jumped_ = -kArrival;  ///< [s] when the clock jumped back last
-  int may_forget_ = 0;  ///< how often transforms that were on their way may still be forgotten
+  double jumped_ = 0.0;  ///< [s] when the clock jumped back last
+  int may_forget_ = 0;   ///< how often transforms that were on their way may still be forgotten
   ClockWatch clock_;
 };
 

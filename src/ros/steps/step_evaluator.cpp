@@ -47,7 +47,7 @@ ContactArrayPtr StepEvaluator::answer_about(const DueStep& step, ros::Time end) 
 
 /// The path from the last pose to the end of the step. Notes what it lost.
 ToolPath StepEvaluator::take_path(DueStep& step, std::string& unknown) const {
-  if (step.motion == DueStep::Motion::kNone) return resting_path(step.end->value);
+  if (!step.moves) return resting_path(step.end->value);
   const LastStep& last = *step.pair->last;
   SampledPath sampled =
       poses_.path(tools_[step.tool], step.organ->frame(), {last.pose, last.stamp}, *step.end);

@@ -24,16 +24,12 @@ namespace organ_collision {
 /// goes, StepEvaluator finds the answer, and the scheduler publishes it. A step that failed has an
 /// answer from the beginning.
 struct DueStep {
-  /// How the tool gets from its last pose to `end`.
-  enum class Motion {
-    kNone,     ///< there is no last pose, or the tool is held at it: it rests at `end`
-    kFromLast  ///< on the way that TF tells
-  };
-
   const DeformableOrgan* organ;
   std::size_t tool;
   OrganToolPair* pair;
-  Motion motion = Motion::kNone;
+  /// From its last pose to `end`, on the way that TF tells. Else there is no last pose, or the tool
+  /// is held at it: it rests at `end`.
+  bool moves = false;
   std::optional<Timed<ToolPose>> end = {};  ///< not set: the step has failed
   /// Of the organ's triangles, if they were inspected when the step was planned; else null. Another
   /// thread inspects them, so that workers must not look for themselves.

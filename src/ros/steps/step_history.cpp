@@ -26,20 +26,6 @@ SteadyTime WaitClock::now(std::optional<ros::Time> simulated, SteadyTime wall) {
   return time_;
 }
 
-bool ShapeQueue::push(Entry entry, bool keeps_all) {
-  const bool replaces = !keeps_all && waiting_.size() > 1;
-  if (replaces) {
-    waiting_.back() = std::move(entry);
-  } else {
-    waiting_.push_back(std::move(entry));
-  }
-  return replaces;
-}
-
-void ShapeQueue::pop() {
-  if (!waiting_.empty()) waiting_.erase(waiting_.begin());
-}
-
 const LastStep* StepHistory::last(const std::string& organ, std::size_t tool) const {
   const auto pair = pairs_.find({organ, tool});
   return pair != pairs_.end() && pair->second.last ? &*pair->second.last : nullptr;
@@ -47,7 +33,7 @@ const LastStep* StepHistory::last(const std::string& organ, std::size_t tool) co
 
 std::size_t StepHistory::waiting() const {
   std::size_t waiting = 0;
-  for (const auto& [key, pair] : pairs_) waiting += pair.queue.size();
+  for (const auto& [key, pair] : pairs_) waiting += pair.waiting.size();
   return waiting;
 }
 

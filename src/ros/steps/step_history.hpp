@@ -49,30 +49,11 @@ struct LastStep {
   SteadyTime taken = {};  ///< when the step was evaluated
 };
 
-/// The shapes of an organ against which one tool is still to be evaluated: the shape that waits for
-/// its transform, and the newest one behind it, or all of them. A newer shape does not replace the
-/// one that waits. Otherwise no shape would ever be evaluated if transforms lag by more than the
-/// time between two shapes.
-class ShapeQueue {
- public:
-  struct Entry {
-    OrganShape shape;
-    SteadyTime arrival;
-    bool waits = false;  ///< for its transforms, which were missing when it was due
-  };
-
-  /// Adds a shape behind those that wait. Returns true if it replaced another one: the last but the
-  /// first, unless all are kept.
-  bool push(Entry entry, bool keeps_all = false);
-  /// The shape to evaluate next; null if there is none.
-  const Entry* front() const { return waiting_.empty() ? nullptr : &waiting_.front(); }
-  /// Notes that the shape to evaluate next waits. There must be one.
-  void set_waiting() { waiting_.front().waits = true; }
-  void pop();
-  std::size_t size() const { return waiting_.size(); }
-
- private:
-  std::vector<Entry> waiting_;  ///< few: a vector needs no memory for each step, as a deque does
+/// A shape of an organ against which one tool is still to be evaluated.
+struct WaitingShape {
+  OrganShape shape;
+  SteadyTime arrival;
+  bool waits = false;  ///< for its transforms, which were missing when it was due
 };
 
 /// The state of one pair of organ and tool.
@@ -82,7 +63,11 @@ struct OrganToolPair {
   OrganShape current;
   /// To the last step, whether it succeeded or failed; null if there was none.
   ContactArrayConstPtr answer;
-  ShapeQueue queue;
+  /// The shape that waits for its transform, and the newest one behind it, or all of them. A newer
+  /// shape does not replace the one that waits. Otherwise no shape would ever be evaluated if
+  /// transforms lag by more than the time between two shapes. (There are few. A vector needs no
+  /// memory for each step, as a deque does.)
+  std::vector<WaitingShape> waiting;
   /// When a step was tried because the last one was long ago; empty once it succeeded.
   std::optional<SteadyTime> tried;
   /// When a step first had no transform; empty before that.

@@ -33,8 +33,12 @@ void StepScheduler::add(const OrganUpdate& update, SteadyTime now) {
   if (update.change != OrganChange::kShape) history_.forget(organ);
   if (update.change == OrganChange::kRemoved) return;
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-    ShapeQueue& queue = history_.of(organ, tool).queue;
-    if (queue.push({organs_.at(organ).latest(), now}, keeps_all_shapes_)) ++shapes_.superseded;
+    std::vector<WaitingShape>& waiting = history_.of(organ, tool).waiting;
+    if (!keeps_all_shapes_ && waiting.size() > 1) {
+      waiting.pop_back();
+      ++shapes_.superseded;
+    }
+    waiting.push_back({organs_.at(organ).latest(), now});
     ++shapes_.due;
   }
 }
@@ -48,7 +52,7 @@ void StepScheduler::evaluate(SteadyTime now) {
   due_.clear();  // An exception may have ended the last round.
   do {
     for (auto& [key, pair] : history_.pairs()) {
-      if (pair.queue.front()) plan_front(organs_.at(key.first), key.second, pair);
+      if (!pair.waiting.empty()) plan_front(organs_.at(key.first), key.second, pair);
     }
   } while (evaluate_due());  // Behind each shape, another one may wait.
   for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
@@ -87,20 +91,21 @@ ShapeCounts StepScheduler::shapes() const {
 /// Plans nothing if the shape still waits for its transform.
 void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
                                OrganToolPair& pair) {
-  const ShapeQueue::Entry& entry = *pair.queue.front();
-  const ros::Time stamp = entry.shape.stamp;
-  const bool may_wait = now_ < deadline(entry);
+  WaitingShape& front = pair.waiting.front();
+  const ros::Time stamp = front.shape.stamp;
+  const bool may_wait = now_ < deadline(front);
   forget_if_disproved(organ, tool, pair);
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
   if (!late && !faulty) {
-    if (may_wait && entry.waits && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
+    if (may_wait && front.waits && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
     end = poses_.pose(tools_[tool], organ.frame(), stamp);
-    if (!end.found && may_wait) return pair.queue.set_waiting();
+    front.waits = !end.found && may_wait;
+    if (front.waits) return;
   }
-  pair.current = entry.shape;
-  pair.queue.pop();
+  pair.current = std::move(front.shape);
+  pair.waiting.erase(pair.waiting.begin());
   DueStep step{&organ, tool, &pair};
   step.is_of_shape = true;
   const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
@@ -211,8 +216,8 @@ void StepScheduler::start_anew() {
 std::optional<SteadyTime> StepScheduler::next_deadline() const {
   std::optional<SteadyTime> next;
   for (const auto& [key, pair] : history_.pairs()) {
-    if (!pair.queue.front()) continue;
-    const SteadyTime time = deadline(*pair.queue.front());
+    if (pair.waiting.empty()) continue;
+    const SteadyTime time = deadline(pair.waiting.front());
     if (!next || time < *next) next = time;
   }
   return next;
@@ -226,7 +231,7 @@ void StepScheduler::plan_step(DueStep step, Timed<ToolPose> end) {
   } else if (last && end.stamp <= last->stamp) {
     return plan_held(std::move(step));
   }
-  if (last) step.motion = DueStep::Motion::kFromLast;
+  step.moves = last.has_value();
   step.end = std::move(end);
   step.topology = step.pair->current.topology();
   due_.push_back(std::move(step));
@@ -269,8 +274,8 @@ void StepScheduler::deliver(DueStep& step) {
   publish_({step.answer, *pair.current.mesh, step.request.path, step.query_sec, step.is_starting});
 }
 
-SteadyTime StepScheduler::deadline(const ShapeQueue::Entry& entry) const {
-  return entry.arrival + std::chrono::duration_cast<SteadyTime::duration>(
+SteadyTime StepScheduler::deadline(const WaitingShape& shape) const {
+  return shape.arrival + std::chrono::duration_cast<SteadyTime::duration>(
                              std::chrono::duration<double>(parameters_.tf_timeout_sec));
 }
 

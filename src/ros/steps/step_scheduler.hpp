@@ -129,7 +129,7 @@ class StepScheduler {
 
   bool evaluate_due();
   void deliver(DueStep& step);
-  SteadyTime deadline(const ShapeQueue::Entry& entry) const;
+  SteadyTime deadline(const WaitingShape& shape) const;
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;

@@ -42,20 +42,6 @@ void expect_least(double least, LinkTrial trial, const FaceMotion& face) {
   EXPECT_FALSE(oracle::first_time_within(trial, face, slack).certainly) << trial;
 }
 
-/// Whether the distance of a shaft's axis and a face certainly stays above `bound` [m] between two
-/// times. Halves the interval until the speed of the fastest corner decides. Uses the closest
-/// points at one time, which have their own test.
-bool stays_above(double bound, const CoreMotion& shaft, const FaceMotion& face, double from,
-                 double to) {
-  const double middle = 0.5 * (from + to);
-  const double distance = closest_points(shaft.at(middle), face.at(middle)).distance;
-  const double move = (middle - from) * (shaft.farthest_move() + face.farthest_move());
-  if (distance - move > bound) return true;
-  if (distance <= bound || move < 1e-9) return false;
-  return stays_above(bound, shaft, face, from, middle) &&
-         stays_above(bound, shaft, face, middle, to);
-}
-
 TEST(ClosestApproach, OfLinksIsTheLeastDistance) {
   Random random(1);
   for (int i = 0; i < 4000; ++i) {
@@ -75,26 +61,6 @@ TEST(ClosestApproach, OfLinksIsTheLeastDistance) {
             .distance;
     EXPECT_NEAR(found->closest.distance, there, 1e-9 + 1000.0 * oracle::rounding(trial));
     expect_least(found->closest.distance, trial, face);
-  }
-}
-
-TEST(ClosestApproach, OfShaftsIsTheLeastDistance) {
-  Random random(2);
-  for (int i = 0; i < 1000; ++i) {
-    const oracle::Trial trial =
-        oracle::make_trial(static_cast<std::size_t>(i) % oracle::trial_kinds().size(), random);
-    SCOPED_TRACE(oracle::to_line(trial));
-    const FaceMotion face = some_motion(trial.face, random);
-    const auto found = approach(trial.motion, face);
-    ASSERT_TRUE(found);
-    const double least = found->closest.distance;
-    EXPECT_NEAR(
-        least,
-        closest_points(ConvexCore(trial.motion.at(found->time)), face.at(found->time)).distance,
-        1e-12 * (1.0 + face.largest_coordinate()));
-    if (least > 1e-6) {
-      EXPECT_TRUE(stays_above(least - 1e-6, trial.motion, face, 0.0, 1.0));
-    }
   }
 }
 

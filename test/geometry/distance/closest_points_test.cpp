@@ -205,22 +205,6 @@ TEST_P(CoreTrials, AreAsNearAsTheOracleSays) {
   });
 }
 
-// If core and face are clearly separated, the plane at right angles to the separation separates
-// them by the whole distance.
-TEST_P(CoreTrials, NothingIsNearerThanThePlaneBetweenThem) {
-  for_each_core(300, [](const LinkTrial& trial, const ConvexCore& core, Random& /*random*/) {
-    const ClosestPoints found = closest_points(core, trial.face);
-    if (found.distance < 1e-2) return;
-    const Vector3d normal = (found.on_face - found.on_core) / found.distance;
-    double nearest = INFINITY, size = 0.0;
-    for (const Vector3d& corner : trial.face) {
-      nearest = std::min(nearest, normal.dot(corner));
-      size = std::max(size, (corner - trial.face[0]).norm());
-    }
-    EXPECT_GE(nearest - core.support_value(normal), found.distance - kSlack * (1.0 + 10.0 * size));
-  });
-}
-
 TEST_P(CoreTrials, OrderOfCornersOnlyPermutesBarycentrics) {
   for_each_core(100, [](const LinkTrial& trial, const ConvexCore& core, Random& /*random*/) {
     const double distance = closest_points(core, trial.face).distance;

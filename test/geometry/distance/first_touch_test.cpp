@@ -69,16 +69,6 @@ void expect_true_crossing(const Triangle& core, const Triangle& face, int& cross
   EXPECT_LE(oracle::distance(ConvexCore(core), crossing->on_core), 1e-14 * (1.0 + size));
 }
 
-TEST(TriangleCrossing, IsOpenForTrianglesInOnePlaneOrOnOneSide) {
-  const Triangle core = {Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, 1, 0)};
-  const Triangle above = {Vector3d(0, 0, 1e-3), Vector3d(1, 0, 1e-3), Vector3d(0, 1, 2.0)};
-  const Triangle point = {Vector3d(0.2, 0.2, 0), Vector3d(0.2, 0.2, 0), Vector3d(0.2, 0.2, 0)};
-  for (const Triangle& face : {core, above, point}) {
-    EXPECT_FALSE(triangle_crossing(core, face));
-    EXPECT_FALSE(triangle_crossing(face, core));
-  }
-}
-
 // The core is pierced by an edge of the face, from (0.2, 0.2, 0) on. The common segment ends where
 // the core does.
 TEST(TriangleCrossing, IsInTheMiddleOfTheCommonSegment) {
@@ -192,19 +182,6 @@ TEST_P(FirstTouchTrials, AgreesWithSearchWhereEverythingMoves) {
   EXPECT_GT(touches, 0);
 }
 
-TEST_P(FirstTouchTrials, WithoutMotionIsTheDistance) {
-  Random random(400 + GetParam());
-  for (int i = 0; i < 300; ++i) {
-    const Trial trial = oracle::make_trial(GetParam(), random);
-    const ShaftAxis& axis = trial.motion.end;
-    const auto touch = first_touch(ShaftMotion{axis, axis}, resting(trial.face), trial.radius);
-    EXPECT_EQ(touch.has_value(), closest_points(axis, trial.face).distance <= trial.radius);
-    if (touch) {
-      EXPECT_EQ(touch->time, 0.0);
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Kinds, FirstTouchTrials,
                          testing::Range<std::size_t>(0, oracle::trial_kinds().size()));
 
@@ -247,31 +224,6 @@ TEST(FirstTouch, TrialsThatOnceFailed) {
   for (const Trial& trial :
        oracle::read_trials(ORGAN_COLLISION_TEST_DATA "/first_touch_trials.txt"))
     expect_exact(trial);
-}
-
-// The tip passes a corner at a least distance slightly more or less than the radius.
-TEST(FirstTouch, GrazingIsDecidedByTheRadius) {
-  const Vector3d corner(0.05, 0.02, -0.1);
-  const Triangle face = {corner, corner + Vector3d(0.01, 0.003, 0.02),
-                         corner + Vector3d(0.01, -0.004, 0.015)};
-  for (const double radius : {0.5e-3, 5e-3}) {
-    for (int digits = 3; digits <= 12; ++digits) {
-      for (const double sign : {-1.0, 1.0}) {
-        const double gap = radius * (1.0 + sign * std::pow(10.0, -digits));
-        const Vector3d middle = corner - gap * Vector3d(1.0, 0.0, 0.0);
-        const Vector3d half(0.0, 0.03, 0.07);
-        const ShaftAxis start{middle - half - Vector3d(0.2, 0.0, 0.0), middle - half};
-        const ShaftAxis end{start.trocar + 2.0 * half, middle + half};
-        const auto touch = first_touch(ShaftMotion{start, end}, resting(face), radius);
-        if (std::abs(gap - radius) > kBand) {
-          EXPECT_EQ(touch.has_value(), gap < radius) << radius << " " << sign * digits;
-        }
-        if (touch) {
-          EXPECT_NEAR(touch->time, 0.5, 0.01 + std::sqrt(std::pow(10.0, -digits)));
-        }
-      }
-    }
-  }
 }
 
 // For the cores of links, which rotate.

@@ -101,39 +101,6 @@ TEST(SurfaceTouch, IsTheFirstOfAllPairs) {
   EXPECT_GT(touched, 1000);
 }
 
-// Many small faces beside large triangles.
-TEST(SurfaceTouch, OfManySmallFacesAtRestIsThatOfAllPairs) {
-  Random random(5);
-  int touched = 0;
-  for (int i = 0; i < 100 && !testing::Test::HasFailure(); ++i) {
-    const ToolMesh mesh =
-        i % 2 == 0 ? wavy_mesh(random.integer(1, 4), random.uniform(0.1, 0.5))
-                   : scattered_mesh(static_cast<std::size_t>(random.integer(1, 30)), random);
-    const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
-    const ToolSurface surface = mesh.surface();
-    std::vector<FaceTouch> faces;
-    for (std::uint32_t face = 0; face < 100; ++face) {
-      // Some are a single point, and all are near a few triangles of the mesh.
-      const auto near = static_cast<std::size_t>(
-          random.integer(0, std::min(3, static_cast<int>(surface.faces().size()) - 1)));
-      const double place = random.uniform(0.0, 1.0);
-      const Triangle triangle = surface.triangle(near);
-      const Vector3d center = (1.0 - place) * triangle[0] + place * triangle[1];
-      const double size = random.chance(0.1) ? 0.0 : random.scale(1e-5, 3e-3);
-      FaceTouch small{face, {}, {}};
-      const Vector3d away = random.scale(1e-5, 3e-3) * random.direction();
-      for (Vector3d& corner : small.motion.end) {
-        corner = pose * Vector3d(center + away + size * random.direction());
-      }
-      small.motion.start = small.motion.end;
-      faces.push_back(small);
-    }
-    const double radius = random.chance(0.5) ? tolerance::kConvexMargin : random.scale(1e-5, 3e-3);
-    expect_as_all_pairs(surface, {pose, pose}, radius, faces, touched);
-  }
-  EXPECT_GT(touched, 1000);
-}
-
 // A mesh is a surface, so it does not touch the faces that it encloses.
 TEST(SurfaceTouch, IsNoneInsideAClosedMesh) {
   Random random(2);

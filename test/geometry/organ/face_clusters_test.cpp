@@ -90,20 +90,6 @@ TEST(FaceClusters, TakeBlocksOfACoherentSurface) {
   }
 }
 
-TEST(FaceClusters, HaveLevelsUpToAFewGroups) {
-  for (const int side : {1, 30, 150, 300}) {
-    const GridSurface grid = grid_surface(side);
-    const FaceClusters clusters(grid.faces, grid.vertices);
-    std::size_t count = clusters.block_count();
-    for (std::size_t level = 0; level < clusters.level_count(); ++level) {
-      EXPECT_TRUE(level == 0 || count > kGroup) << "a level above few groups";
-      EXPECT_EQ(clusters.group_count(level), (count + kGroup - 1) / kGroup);
-      count = clusters.group_count(level);
-    }
-    EXPECT_LE(count, kGroup);
-  }
-}
-
 TEST(FaceClusters, ReorderAShuffledSurfaceIntoCompactBlocks) {
   const GridSurface grid = shuffled(grid_surface(101), 5);
   const FaceClusters clusters(grid.faces, grid.vertices);

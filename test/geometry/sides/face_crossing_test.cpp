@@ -78,30 +78,6 @@ TEST(FaceCrossing, TheOrderOfCornersChangesNothing) {
   }
 }
 
-/// A scale by a power of two changes no digit, down to the smallest numbers. Only the infinitesimal
-/// displacement does not scale, which does not matter to it.
-TEST(FaceCrossing, AllScalesAreTheSame) {
-  Random random(73);
-  int crossed = 0;
-  for (int trial = 0; trial < 3000; ++trial) {
-    Triangle face;
-    for (Vector3d& corner : face) corner = grid_point(9, random);
-    const ShaftAxis axis{grid_point(9, random), grid_point(9, random)};
-    const int direction = crossing_direction(face, axis);
-    const double scale = std::ldexp(1.0, random.integer(-1074, 15));
-    const Triangle scaled = {scale * face[0], scale * face[1], scale * face[2]};
-    const ShaftAxis scaled_axis{scale * axis.trocar, scale * axis.tip};
-    ASSERT_EQ(crossing_direction(scaled, scaled_axis), direction);
-    if (direction == 0) continue;
-    ++crossed;
-    const FaceCrossing one = face_crossing(face, axis), other = face_crossing(scaled, scaled_axis);
-    ASSERT_EQ(other.shaft, one.shaft);
-    ASSERT_EQ(other.barycentric, one.barycentric);
-    ASSERT_EQ(crossing_shift(scaled, scaled_axis), crossing_shift(face, axis));
-  }
-  EXPECT_GT(crossed, 200);
-}
-
 /// One axis through a common edge of two faces, and through a common corner of a fan.
 TEST(FaceCrossing, NeighboursShareTheirEdgesAndCorners) {
   Random random(74);

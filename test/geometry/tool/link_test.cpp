@@ -10,7 +10,6 @@
 #include "organ_collision/geometry/tolerances.hpp"
 #include "test/proof/exact_distance.hpp"
 #include "test/proof/link_trials.hpp"
-#include "tool_meshes.hpp"
 
 namespace organ_collision {
 namespace {
@@ -176,27 +175,6 @@ TEST(LinkPart, BoxIsCentredWithItsSizesAlongItsAxes) {
       const Vector3d point = around(size, random);
       EXPECT_NEAR(distance(part, pose * point), box_distance(size, point), 1e-12);
     }
-  }
-}
-
-TEST(LinkPart, IsProjectedAsItsSurfaceOrCore) {
-  Random random(4);
-  for (int i = 0; i < 100; ++i) {
-    const ToolMesh mesh =
-        box_mesh(oracle::random_pose(0.1, random), {0.02, random.scale(1e-3, 0.1), 0.05});
-    const LinkPart part = LinkPart::mesh(mesh.surface());
-    const Vector3d direction = random.direction();
-    double lowest = INFINITY, highest = -INFINITY;
-    for (const Vector3d& vertex : mesh.vertices) {
-      lowest = std::min(lowest, direction.dot(vertex));
-      highest = std::max(highest, direction.dot(vertex));
-    }
-    EXPECT_NEAR(part.project_onto(direction).low, lowest, 1e-15);
-    EXPECT_NEAR(part.project_onto(direction).high, highest, 1e-15);
-    ConvexCore core = oracle::make_core(3, random);
-    const LinkPart convex{core, nullptr, 0.01, {}};
-    EXPECT_EQ(convex.project_onto(direction).low, -core.support_value(-direction));
-    EXPECT_EQ(convex.project_onto(direction).high, core.support_value(direction));
   }
 }
 

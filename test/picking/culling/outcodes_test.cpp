@@ -113,33 +113,6 @@ TEST(Outcodes, KnowFacesWithACornerInside) {
   EXPECT_GT(crossing, 100U);
 }
 
-// GL draws a moving face half way, in a volume that has grown by half of the face's motion.
-TEST(Outcodes, ACornerInsideIsInTheGrownVolumeHalfWay) {
-  std::mt19937 random(20);
-  Outcodes outcodes;
-  const GridSurface rest = grid_surface(9), moved = grid_surface(9, 0.9);
-  const TriangleMesh before(rest.vertices, rest.triangles());
-  TriangleMesh after = before;
-  after.move_vertices(moved.vertices);
-  const OrganMotion motion(before, before.block_boxes(), after, 0.0, 1.0);
-  std::size_t inside = 0;
-  for (std::size_t trial = 0; trial < 200; ++trial) {
-    const ViewingVolume volume = random_volume(random, Vector3d::Zero(), trial % 9);
-    outcodes.assign(volume, motion);
-    for (const std::uint32_t i : kept(outcodes)) {
-      const FaceMotion face = motion.face(after.faces()[i]);
-      if (!outcodes.has_corner_inside(after.faces()[i])) continue;
-      ++inside;
-      double least = 1e9;
-      for (const Vector3d& corner : face.at(0.5)) {
-        least = std::min(least, farthest_outside({corner, corner, corner}, volume));
-      }
-      EXPECT_LE(least, 0.5 * face.farthest_move() + 4e-6);
-    }
-  }
-  EXPECT_GT(inside, 1000U);
-}
-
 TEST(Outcodes, NeverRejectAFaceThatTouchesTheVolumeInOnePoint) {
   std::mt19937 random(18);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);

@@ -81,32 +81,19 @@ double depth_of_middle(const ViewingVolume& volume) {
   return depth / largest_coordinate(face);
 }
 
-TEST(MiddleFace, MeetsEachVolumeOfShafts) {
+// Of the paper's volumes not the naive one, whose planes may cut off the middle of its box, and not
+// those of a tool that moves along itself, which are slivers.
+TEST(MiddleFace, MeetsEachVolume) {
   Random random(61);
   for (int i = 0; i < 60'000; ++i) {
     const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
-    const ShaftMotion motion = random_motion(kind, i % 2 == 0 ? 0.3 : 200, random);
+    ShaftMotion motion = random_motion(kind, i % 2 == 0 ? 0.3 : 200, random);
     const double radius = random.magnitude(1e-4, 0.02);
     ASSERT_GT(depth_of_middle(conservative_volume(motion, radius, {0.0, 1.0})), 1e-6) << motion;
-  }
-}
-
-// Not the naive one, whose planes may cut off the middle of its box, and not those of a tool that
-// moves along itself, which are slivers.
-TEST(MiddleFace, MeetsThePapersVolumes) {
-  Random random(62);
-  for (int i = 0; i < 20'000; ++i) {
-    ShaftMotion motion = random_motion(MotionKind::kSideways, 0.3, random);
-    motion.end.trocar = motion.start.trocar;
-    const double radius = random.magnitude(1e-4, 0.02);
+    if (i % 3 != 0) continue;
+    motion = random_motion(MotionKind::kSideways, 0.3, random);
     ASSERT_GT(depth_of_middle(paper_static_volume(motion.end, radius)), 1e-6) << motion << radius;
     ASSERT_GT(depth_of_middle(paper_swept_volume(motion, radius)), 1e-6) << motion << radius;
-  }
-}
-
-TEST(MiddleFace, MeetsEachVolumeOfBoxes) {
-  Random random(63);
-  for (int i = 0; i < 20'000; ++i) {
     const MovingBox moving = random_box(0.3, random);
     const SweptBox swept(moving.box, moving.motion(), moving.radius);
     ASSERT_GT(depth_of_middle(conservative_volume(swept, {0.0, 1.0})), 1e-6) << moving;

@@ -22,23 +22,6 @@ ShaftAxis moved(const Eigen::Isometry3d& T_to_from, const ShaftAxis& axis) {
 
 }  // namespace
 
-std::vector<PlacedCore> placed_cores(const ProxyTool& tool, const ToolPose& pose) {
-  std::vector<PlacedCore> cores;
-  if (tool.radius > 0.0) cores.push_back({pose.axis, tool.radius});
-  for (std::size_t link = 0; link < tool.links.size(); ++link) {
-    for (const LinkPart& part : tool.links[link].parts) {
-      if (!part.surface) {
-        cores.push_back({pose.links[link] * part.core, part.ball_radius()});
-        continue;
-      }
-      for (std::size_t i = 0; i < part.surface->faces().size(); ++i) {
-        cores.push_back({pose.links[link] * ConvexCore(part.surface->triangle(i)), 0.0});
-      }
-    }
-  }
-  return cores;
-}
-
 std::vector<ShaftAxis> skeleton(const ProxyTool& tool, const ToolPose& pose) {
   std::vector<ShaftAxis> lines;
   if (tool.radius > 0.0) lines.push_back(pose.axis);
@@ -60,47 +43,6 @@ ToolPose operator*(const Eigen::Isometry3d& T_to_from, const ToolPose& pose) {
 namespace {
 
 using Eigen::Vector3d;
-
-struct Pair {
-  const ShaftMotion& segment;
-  const Triangle& before;
-  const Triangle& now;
-  double bound;  ///< [m]
-
-  double distance(double time) const {
-    Triangle face;
-    for (int i = 0; i < 3; ++i) face[i] = (1.0 - time) * before[i] + time * now[i];
-    return rounded_distance(core(segment.at(time)), face);
-  }
-
-  /// How far a point of the segment moves relative to one of the face, at most [m].
-  double relative_motion() const {
-    double most = 0.0;
-    for (const Vector3d& end : {Vector3d(segment.end.trocar - segment.start.trocar),
-                                Vector3d(segment.end.tip - segment.start.tip)}) {
-      for (int i = 0; i < 3; ++i) most = std::max(most, (end - (now[i] - before[i])).norm());
-    }
-    return most;
-  }
-};
-
-bool meets(const Pair& pair, double motion, double from, double to) {
-  const double middle = 0.5 * (from + to), reach = 0.5 * (to - from) * motion;
-  const double distance = pair.distance(middle);
-  if (distance <= pair.bound) return true;
-  if (distance - reach > pair.bound) return false;
-  return meets(pair, motion, from, middle) || meets(pair, motion, middle, to);
-}
-
-}  // namespace
-
-bool passes(const ShaftMotion& segment, const Triangle& before, const Triangle& now,
-            double distance) {
-  const Pair pair{segment, before, now, distance};
-  return meets(pair, pair.relative_motion(), 0.0, 1.0);
-}
-
-namespace {
 
 double distance_to(const ShaftAxis& segment, const Vector3d& point) {
   const Vector3d along = segment.tip - segment.trocar, from = point - segment.trocar;
@@ -185,7 +127,7 @@ bool OrganOracle::is_passed(const std::vector<ShaftMotion>& segments, double beg
                                   (segment.end.tip - segment.start.tip).norm());
     for (std::size_t face = 0; face < balls_.size(); ++face) {
       if (distance_to(segment.end, balls_[face].center) - balls_[face].radius > reach) continue;
-      if (passes(segment, at(face, begin), at(face, end), distance)) return true;
+      if (passes(segment, {at(face, begin), at(face, end)}, distance)) return true;
     }
   }
   return false;

@@ -4,23 +4,10 @@
 #include <memory>
 #include <vector>
 
-#include "organ_collision/geometry/organ/triangle_mesh.hpp"
-#include "organ_collision/geometry/tool/convex_core.hpp"
-#include "organ_collision/geometry/tool/shaft.hpp"
-#include "organ_collision/geometry/triangle.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "test/proof/step_oracle.hpp"
 
 namespace organ_collision::oracle {
-
-/// A convex part of a tool where it is now: all points within `radius` [m] of the core. A mesh has
-/// one for each of its triangles.
-struct PlacedCore {
-  ConvexCore core;
-  double radius;
-};
-
-/// The parts of a tool in this pose. As for the clearance, only shafts and balls have a radius.
-std::vector<PlacedCore> placed_cores(const ProxyTool& tool, const ToolPose& pose);
 
 /// The middle line of the shaft and of each part of each link, in this pose: what must not pass
 /// through tissue. That of a link's part is a segment along the longest side of the box around it,
@@ -29,13 +16,6 @@ std::vector<ShaftAxis> skeleton(const ProxyTool& tool, const ToolPose& pose);
 
 /// The pose in another frame.
 ToolPose operator*(const Eigen::Isometry3d& T_to_from, const ToolPose& pose);
-
-/// Whether a segment comes within `distance` [m] of a face while its ends move linearly, and the
-/// face's corners move linearly from `before` to `now`. A search halves the time: no point of the
-/// segment moves faster relative to a point of the face than the fastest of their corners do, so
-/// the distance in the middle of an interval bounds the distances in the whole interval.
-bool passes(const ShaftMotion& segment, const Triangle& before, const Triangle& now,
-            double distance);
 
 /// Asks all faces of an organ, one by one. Spheres around the faces tell which of them are too far
 /// away to matter. Poses are in the organ's frame.

@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <atomic>
 #include <cstdlib>
-#include <exception>
+#include <future>
 #include <iostream>
 #include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "episode.hpp"
@@ -66,57 +65,39 @@ Options read(int argc, char** argv) {
   return options;
 }
 
-/// The episodes of one scene, which several threads share.
-class SceneProof {
- public:
-  SceneProof(const Options& options, std::string kind, Progress& progress)
-      : options_(options), kind_(std::move(kind)), progress_(progress) {}
-
-  ProxyTally run() {
-    std::vector<std::thread> threads;
-    for (long i = 0; i < options_.threads; ++i) threads.emplace_back([this] { work(); });
-    for (std::thread& thread : threads) thread.join();
-    if (failure_) std::rethrow_exception(failure_);
-    return tally_;
-  }
-
- private:
-  void work() {
-    try {
-      const long first = std::max(0L, options_.episode);
-      for (long next = next_++; next * kEpisodeTicks < options_.ticks; next = next_++) {
-        const long ticks = std::min(kEpisodeTicks, options_.ticks - next * kEpisodeTicks);
-        const ProxyTally tally =
-            follow({kind_, static_cast<unsigned long>(options_.seed), first + next}, ticks);
-        const std::lock_guard<std::mutex> lock(mutex_);
-        tally_.add(tally);
-        progress_.show(kind_, tally_.ticks, options_.ticks);
-        if (options_.episode >= 0) return;
-      }
-    } catch (...) {
-      const std::lock_guard<std::mutex> lock(mutex_);
-      failure_ = std::current_exception();
-    }
-  }
-
-  ProxyTally follow(const Episode& episode, long ticks) {
+/// Follows the hands of all episodes of one scene, which several threads share.
+ProxyTally prove(const Options& options, const std::string& kind, Progress& progress) {
+  std::mutex mutex;
+  ProxyTally all;
+  std::atomic<long> next_episode = 0;
+  const auto follow = [&](const Episode& episode, long ticks) {
     int reports = 0;
     return follow_hand(episode, ticks, [&](long tick, const std::string& what) {
       if (++reports > kMostReports) return;
-      const std::lock_guard<std::mutex> lock(mutex_);
+      const std::lock_guard<std::mutex> lock(mutex);
       std::cerr << "--scene '" << episode.kind << "' --seed " << episode.seed << " --episode "
                 << episode.number << ": tick " << tick << ": " << what << std::endl;
     });
+  };
+  const auto work = [&] {
+    const long first = std::max(0L, options.episode);
+    for (long next = next_episode++; next * kEpisodeTicks < options.ticks; next = next_episode++) {
+      const long ticks = std::min(kEpisodeTicks, options.ticks - next * kEpisodeTicks);
+      const ProxyTally tally =
+          follow({kind, static_cast<unsigned long>(options.seed), first + next}, ticks);
+      const std::lock_guard<std::mutex> lock(mutex);
+      all.add(tally);
+      progress.show(kind, all.ticks, options.ticks);
+      if (options.episode >= 0) return;
+    }
+  };
+  std::vector<std::future<void>> threads;
+  for (long i = 0; i < options.threads; ++i) {
+    threads.push_back(std::async(std::launch::async, work));
   }
-
-  const Options& options_;
-  std::string kind_;
-  Progress& progress_;
-  std::atomic<long> next_ = 0;
-  std::mutex mutex_;
-  ProxyTally tally_;
-  std::exception_ptr failure_;
-};
+  for (std::future<void>& thread : threads) thread.get();
+  return all;
+}
 
 }  // namespace
 
@@ -127,7 +108,7 @@ int main(int argc, char** argv) {
   print_proxy_head(std::cout);
   for (const std::string& kind : proxy_scene_kinds()) {
     if (!options.scene.empty() && options.scene != kind) continue;
-    const ProxyTally tally = SceneProof(options, kind, progress).run();
+    const ProxyTally tally = prove(options, kind, progress);
     print(kind, tally, std::cout);
     all.add(tally);
   }

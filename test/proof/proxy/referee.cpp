@@ -234,7 +234,7 @@ void Referee::check(const ToolPose& hand, bool jumped, const std::vector<ProxyOr
   for (std::size_t i = 0; i < organs.size(); ++i) {
     const ToolPose pose = organs[i].T_organ_proxy * answer.proxy;
     const std::vector<ShaftAxis> lines = skeleton(tool_, pose);
-    check_distance(placed_cores(tool_, pose), organs_[i], answer.state);
+    check_distance(placed_cores(tool_.radius, tool_.links, pose), organs_[i], answer.state);
     if (!answer.is_placed_anew && !organs_[i].lines.empty()) check_passage(lines, organs_[i]);
     if (is_closed[i] && (answer.is_placed_anew || tally_.ticks % kTicksPerSideCheck == 0)) {
       check_side(lines, organs_[i]);

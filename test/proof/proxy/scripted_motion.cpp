@@ -111,11 +111,7 @@ const ToolPose& ScriptedHand::next() {
   return pose_;
 }
 
-namespace {
-
-constexpr double kTick = 1e-3;  // [s]
-
-}  // namespace
+namespace {}  // namespace
 
 OrganMotion random_motion(double speed, double reach, Random& random) {
   OrganMotion motion;

@@ -1,14 +1,13 @@
-// needle.hpp, behind HapticProxy.
-#include "query/proxy/needle.hpp"
-
+// haptic_proxy.hpp: a needle that pierces tissue.
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "proxy_scenes.hpp"
 
 namespace organ_collision {
 namespace {
 
-using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 constexpr double kRadius = 0.001;
@@ -18,13 +17,10 @@ constexpr double kFriction = 0.001;
 /// A ball of tissue of 30 mm around the origin, and a needle that comes from above.
 class NeedleTest : public testing::Test {
  protected:
-  NeedleTest() { settings_.puncture = kPuncture, settings_.friction = kFriction; }
-
   /// A tick with the hand's tip there and the ball moved.
   const ProxyAnswer& tick(const Vector3d& tip, const Vector3d& ball = Vector3d::Zero()) {
-    const Isometry3d moved(Eigen::Translation3d{ball});
-    return proxy_.follow(shaft_pose(trocar_, tip),
-                         {{"ball", shape_of(surface_, moved), nullptr, Isometry3d::Identity()}});
+    const Eigen::Vector3f by = ball.cast<float>();
+    return proxy_.follow({{trocar_, tip}}, {organ_of(moved(surface_, {by[0], by[1], by[2]}))});
   }
   /// Moves the hand's tip along the trocar's vertical, by half a millimetre a tick.
   const ProxyAnswer& move_to(double height) {
@@ -38,7 +34,6 @@ class NeedleTest : public testing::Test {
   Vector3d above(double height) const { return {trocar_.x(), trocar_.y(), height}; }
 
   GridSurface surface_ = sphere(19, 24, 0.03);
-  ProxySettings settings_;
   Vector3d trocar_{0.001, 0.002, 0.1};
   double height_ = 0.05;
   HapticProxy proxy_ = make_proxy();

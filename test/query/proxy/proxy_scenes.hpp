@@ -3,68 +3,20 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <memory>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
-#include "query/proxy/tissue.hpp"
 #include "test/closed_surfaces.hpp"
-#include "test/grid_surface.hpp"
 #include "test/proof/trials.hpp"
-
-namespace organ_collision {
-
-using Shape = std::shared_ptr<const TriangleMesh>;
-
-inline Shape shape_of(const GridSurface& surface,
-                      const Eigen::Isometry3d& T_organ_surface = Eigen::Isometry3d::Identity()) {
-  std::vector<float> vertices = surface.vertices;
-  for (std::size_t i = 0; i < vertices.size(); i += 3) {
-    const Eigen::Vector3d moved =
-        T_organ_surface * Eigen::Map<Eigen::Vector3f>(&vertices[i]).cast<double>();
-    for (int k = 0; k < 3; ++k) vertices[i + k] = static_cast<float>(moved[k]);
-  }
-  return std::make_shared<TriangleMesh>(std::move(vertices), surface.triangles());
-}
-
-/// A flat square in the plane z = height, 0.2 m wide.
-inline Shape sheet(double height, int side = 7) {
-  GridSurface grid = grid_surface(side);
-  for (std::size_t i = 2; i < grid.vertices.size(); i += 3) {
-    grid.vertices[i] = static_cast<float>(height);
-  }
-  return shape_of(grid);
-}
-
-/// The organ at rest.
-inline OrganTick resting(const Shape& shape) {
-  OrganTick tick;
-  tick.before = tick.now = shape.get();
-  return tick;
-}
-
-inline OrganTick moving(const Shape& before, const Shape& now) {
-  OrganTick tick = resting(now);
-  tick.before = before.get();
-  return tick;
-}
-
-inline Eigen::Isometry3d translation(double x, double y, double z) {
-  return Eigen::Isometry3d(Eigen::Translation3d(x, y, z));
-}
-
-/// A tool without links.
-inline ToolPose shaft_pose(const Eigen::Vector3d& trocar, const Eigen::Vector3d& tip) {
-  return {{trocar, tip}, {}, {}};
-}
-
-}  // namespace organ_collision
 
 /// Tools, hands and surfaces for the tests of the haptic proxy. Organs rest around the origin, and
 /// tools come from above.
-
 namespace organ_collision {
 
-constexpr double kToolRadius = 3e-3;  // [m]
+constexpr double kToolRadius = 3e-3;                           // [m]
+const double kStop = kToolRadius + ProxySettings().clearance;  // [m] from the axis to the tissue
 
 inline ProxyTool shaft_tool() { return {kToolRadius, {}, ProxyFreedom::kTrocar}; }
 inline ProxyTool ball_tool() { return {kToolRadius, {}, ProxyFreedom::kFree}; }
@@ -83,7 +35,7 @@ inline ToolPose hand_of(const ProxyTool& tool, const Eigen::Vector3d& tip) {
 inline ProxyOrgan organ_of(const GridSurface& surface, const std::string& name = "organ") {
   ProxyOrgan organ;
   organ.name = name;
-  organ.shape = shape_of(surface);
+  organ.shape = std::make_shared<TriangleMesh>(surface.vertices, surface.triangles());
   return organ;
 }
 
@@ -126,5 +78,11 @@ inline const ProxyAnswer* move_hand(HapticProxy& proxy, const ProxyTool& tool, E
   return move_hand(proxy, tool, tip, to, speed, organs,
                    [](const Eigen::Vector3d&, const ProxyAnswer&) {});
 }
+
+/// A test of a shaft through a trocar and of a ball.
+class ProxyWith : public testing::TestWithParam<ProxyFreedom> {
+ protected:
+  const ProxyTool tool_ = GetParam() == ProxyFreedom::kTrocar ? shaft_tool() : ball_tool();
+};
 
 }  // namespace organ_collision

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "ros/motion/tool_poses.hpp"
 #include "tool_poses_fixture.hpp"
 
 using namespace organ_collision;
@@ -105,7 +104,6 @@ class PoseTopicsTest : public testing::Test {
   }
 
   TransformBuffer buffer_;
-  ToolPoses poses_{buffer_, {1.0, 100}};
   FailureLog rejected_;
   std::vector<std::size_t> arrived_;
   MotionTopics topics_{{streamed_tool("left"), streamed_tool("right")},
@@ -125,21 +123,6 @@ TEST_F(PoseTopicsTest, PosesPlaceTheTip) {
   EXPECT_TRUE(tip("base", 2.0, "right").isApprox(Vector3d(7.0, 8.0, 9.0)));
   EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 0, 1}));
   EXPECT_EQ(rejected(), 0u);
-}
-
-TEST_F(PoseTopicsTest, PosesAreSamplesOfTheToolsWay) {
-  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.0, 0.0}));
-  topics_.take_tip(0, pose("base", 1.25, {0.1, 0.3, 0.0}));
-  topics_.take_tip(0, pose("base", 1.5, {0.2, 0.0, 0.0}));
-  const Vector3d trocar(0.0, 0.0, 0.0);
-  Tool tool;
-  tool.parameters = streamed_tool("left");
-  const SampledPath sampled =
-      poses_.path(tool, "base", {{{trocar, {0.1, 0.0, 0.0}}}, ros::Time(1.0)},
-                  {{{trocar, {0.2, 0.0, 0.0}}}, ros::Time(1.5)});
-  ASSERT_EQ(sampled.path.size(), 3u);
-  EXPECT_DOUBLE_EQ(sampled.path[1].fraction, 0.5);
-  EXPECT_TRUE(sampled.path[1].axis.tip.isApprox(Vector3d(0.1, 0.3, 0.0)));
 }
 
 TEST_F(PoseTopicsTest, PosesWithoutAStampDoNotCollide) {
@@ -202,13 +185,4 @@ TEST_F(PoseTopicsTest, ToolsMayShareATipAndItsPoses) {
   topics.take_tip(0, pose("base", 1.05, {2.0, 0.0, 0.0}));
   topics.take_tip(1, pose("base", 1.05, {2.0, 0.0, 0.0}));
   EXPECT_EQ(rejected(), 2u) << "another pose with the same stamp";
-}
-
-TEST_F(PoseTopicsTest, OrientationsAreNormalised) {
-  auto nearly = pose("world", 1.0, {10.0, 0.0, 0.0});
-  nearly.pose.orientation.w = 0.9995;
-  topics_.take_base(0, nearly);
-  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
-  EXPECT_EQ(rejected(), 0u);
-  EXPECT_TRUE(tip("world", 1.0).isApprox(Vector3d(10.1, 0.2, 0.3)));
 }

@@ -118,15 +118,6 @@ TEST(PathBuilder, EveryLinkCounts) {
   }
 }
 
-TEST(PathBuilder, MoreThanHalfATurnIsNoStraightMotion) {
-  const auto turn = [](double time) { return pose({0.1, 0.0, 0.0}, time, {0.0, 0.5, 1.0}); };
-  const ToolPath path = path_of(one_ball(), 50, 6.0, turn);
-  ASSERT_GE(path.size(), 3u);
-  for (int i = 0; i <= 50; ++i) {
-    EXPECT_TRUE(at(path, i / 50.0).isApprox(turn(6.0 * i / 50.0), 1e-6)) << i;
-  }
-}
-
 TEST(PathBuilder, AShaftIsFollowedMoreCloselyThanLinks) {
   // 10 nm from the straight motion.
   const Isometry3d still = on_an_arm(0.0);

@@ -40,7 +40,6 @@ TEST_F(ToolPosesTest, AToolWhosePosesNeverCameNamesTheTopic) {
             std::string::npos);
 }
 
-
 TEST_F(ToolPosesTest, EveryPoseThatTfWasToldIsAWaypoint) {
   const double times[] = {1.0, 1.013, 1.0134, 1.02, 1.071, 1.1};
   for (const double time : times) send(time);
@@ -52,16 +51,6 @@ TEST_F(ToolPosesTest, EveryPoseThatTfWasToldIsAWaypoint) {
     EXPECT_NEAR(sampled.path[i].fraction, (times[i] - 1.0) / 0.1, 1e-7);
     expect_axis(sampled.path[i].axis, axis_in_liver(times[i]), 1e-7);
   }
-}
-
-TEST_F(ToolPosesTest, FramesNeedNotMoveAtTheSameTimes) {
-  for (int i = 0; i <= 20; ++i) send_trocar(1.0 + 0.005 * i);
-  for (int i = 0; i <= 7; ++i) send_tip(1.0 + 0.015 * i);
-  const SampledPath sampled =
-      ToolPoses(buffer_, {1.0, 100}).path(kTool, "liver", known_pose(1.0), known_pose(1.1));
-  // The trocar moves on a straight line, so the waypoints are those of the tip's path.
-  ASSERT_EQ(sampled.path.size(), 8u);
-  for (int i = 0; i <= 6; ++i) EXPECT_NEAR(sampled.path[i].fraction, 0.15 * i, 1e-7);
 }
 
 TEST_F(ToolPosesTest, OfTooManyPosesThoseThatMatterMostStay) {
@@ -102,23 +91,6 @@ TEST_F(ToolPosesTest, ASampleOutOfAllBoundsIsLeftOut) {
   EXPECT_DOUBLE_EQ(sampled.path[2].fraction, 0.75);
 }
 
-TEST_F(ToolPosesTest, CutSamplesAreCountedAndTheWayStaysWhole) {
-  for (int i = 0; i <= 100; ++i) send(1.0 + 0.01 * i);
-  const SampledPath sampled = path(1.0, 2.0, {0.01, 4});
-  ASSERT_EQ(sampled.path.size(), 5u);
-  EXPECT_EQ(sampled.samples_cut, 96u);
-  for (int leg = 1; leg <= 4; ++leg) {
-    const ToolWaypoint &a = sampled.path[leg - 1], &b = sampled.path[leg];
-    expect_axis(b.axis, axis_in_liver(1.0 + b.fraction), 1e-7);
-    for (const double time : {0.25, 0.5, 0.75}) {
-      expect_axis(ShaftMotion{a.axis, b.axis}.at(time),
-                  axis_in_liver(1.0 + a.fraction + time * (b.fraction - a.fraction)),
-                  sampled.deviation_cut + 2e-5);
-    }
-  }
-  EXPECT_LT(sampled.deviation_cut, 0.01);
-}
-
 TEST_F(ToolPosesTest, PathWithinOneSampleIsStraight) {
   for (int i = 0; i <= 10; ++i) send(1.0 + 0.001 * i);
   EXPECT_EQ(path(1.0, 1.001, {0.001, 100}).path.size(), 2u);
@@ -149,7 +121,6 @@ TEST_F(ToolPosesTest, AbsurdStampsAreSurvived) {
   EXPECT_EQ(sampled.path.size(), 2u);
   EXPECT_GT(sampled.samples_cut, 0u);
 }
-
 
 namespace {
 
@@ -236,21 +207,6 @@ TEST_F(LinkPosesTest, RestingLinksTakeTheTimeOfTheOthers) {
   ASSERT_TRUE(lookup.found) << lookup.why_not;
   EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
   expect_links(lookup.found->value.links, pose_at(1.5).links);
-}
-
-TEST_F(LinkPosesTest, LinksThatOnlyRestAreOfAnyTime) {
-  set_transform(buffer_, "world", "arm/wrist", 0.0, wrist(0.7), true);
-  set_transform(buffer_, "arm/wrist", "arm/jaw", 0.0, jaw_on_wrist(0.7), true);
-  const auto lookup = poses_.pose(grasper_, "liver", ros::Time(0));
-  ASSERT_TRUE(lookup.found) << lookup.why_not;
-  EXPECT_TRUE(lookup.found->stamp.isZero());
-  expect_links(lookup.found->value.links, pose_at(0.7).links);
-}
-
-TEST_F(LinkPosesTest, NoneIfTheLinksNeverShareATime) {
-  send_wrist(1.0);
-  set_transform(buffer_, "world", "arm/jaw", 2.0, wrist(2.0));
-  EXPECT_FALSE(poses_.pose(grasper_, "liver", ros::Time(0)).found);
 }
 
 TEST_F(LinkPosesTest, AMissingFrameIsNamedWithItsLinkAndItsJoint) {
@@ -346,15 +302,4 @@ TEST_F(TipOfLinksTest, TakesPartInTheLatestTime) {
   ASSERT_TRUE(lookup.found) << lookup.why_not;
   EXPECT_EQ(lookup.found->stamp, ros::Time(1.5));
   EXPECT_LT((*lookup.found->value.tip - kWorldLiver.inverse() * tip(1.5)).norm(), 1e-9);
-}
-
-TEST_F(TipOfLinksTest, PathsDoNotNeedIt) {
-  for (int i = 0; i <= 10; ++i) send(1.0 + 0.01 * i);
-  const auto path = [&](const Tool& tool) {
-    return poses_
-        .path(tool, "liver", {pose_at(1.0), ros::Time(1.0)}, {pose_at(1.1), ros::Time(1.1)})
-        .path;
-  };
-  EXPECT_EQ(path(tool_).size(), path(grasper_).size());
-  EXPECT_GT(path(tool_).size(), 2u);
 }

@@ -54,13 +54,6 @@ TEST_F(TransformBufferTest, StampsOfAllFramesInBetweenRiseEachOnce) {
   EXPECT_TRUE(stamps({"nowhere"}).empty());
 }
 
-TEST_F(TransformBufferTest, TheOrgansFramesCountAsWell) {
-  rest("world", "tip");
-  send("world", "body", 1.0);
-  send("body", "liver", 2.0);
-  EXPECT_EQ(stamps({"tip"}), (Seconds{1.0, 2.0}));
-}
-
 TEST_F(TransformBufferTest, WhatIsAboveBothDoesNotCount) {
   send("world", "table", 1.0);
   send("table", "liver", 2.0);
@@ -137,7 +130,6 @@ TEST_F(TransformBufferTest, CountsWhatComesAfterItsStep) {
   EXPECT_EQ(buffer_.late(), 2u);
 }
 
-using namespace organ_collision;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
@@ -166,22 +158,6 @@ TEST(LookUp, FollowsTheChain) {
   const Isometry3d expected = pose(0.1, 0.5).inverse() * pose(0.4, -1.1);
   EXPECT_TRUE(found->value.isApprox(expected, 1e-9));
   EXPECT_EQ(found->stamp, ros::Time(3.0));
-}
-
-TEST(LookUp, LatestSaysItsTime) {
-  TransformBuffer buffer;
-  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
-  const auto found = look_up(buffer, "a", "b", ros::Time(0)).found;
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->stamp, ros::Time(3.5));
-  EXPECT_NEAR(found->value.translation().x(), 3.5, 1e-12);
-}
-
-TEST(LookUp, RestingTransformsAreOfAnyTime) {
-  TransformBuffer buffer;
-  set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.2), true);
-  EXPECT_TRUE(look_up(buffer, "a", "b", ros::Time(0)).found->stamp.isZero());
-  EXPECT_EQ(look_up(buffer, "a", "b", ros::Time(99)).found->stamp, ros::Time(99));
 }
 
 TEST(LookUp, NothingWithoutTransformAndSaysWhy) {

@@ -1,13 +1,11 @@
 #include "ros/node/scheduling.hpp"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <thread>
 
 #include "test/resident_memory.hpp"
@@ -15,8 +13,8 @@
 namespace organ_collision {
 namespace {
 
-// The system may grant or refuse each request. The tests compare what the functions say with what
-// the system says. test/rostest/realtime_test.py does the same for the nodes.
+// The system may grant or refuse each request. test/rostest/realtime_test.py compares what the
+// nodes say of all their threads, locked memory and awake cores with what the system says.
 
 constexpr int kPriority = 7;
 constexpr char kDevice[] = "/dev/cpu_dma_latency";
@@ -56,17 +54,6 @@ TEST(Scheduling, AThreadIsRealtimeUnlessTheSystemRefusesAndThoseThatItStartsAreO
   EXPECT_EQ(scheduling_of_this_thread(), "ordinary");
 }
 
-TEST(Scheduling, AllThreadsOfTheProcessAreRealtimeUnlessTheSystemRefuses) {
-  expect_in_process([] {
-    std::thread([] { std::this_thread::sleep_for(std::chrono::minutes(1)); }).detach();
-    const auto threads = threads_of_this_process();
-    const bool is_granted = make_all_threads_realtime(kPriority).empty();
-    return threads.size() >= 2 && std::all_of(threads.begin(), threads.end(), [&](pid_t thread) {
-             return is_realtime(thread) == is_granted;
-           });
-  });
-}
-
 TEST(Scheduling, WithoutTheRightThereIsAReasonAndNothingChanges) {
   expect_in_process(
       [] {
@@ -91,17 +78,6 @@ TEST(Scheduling, TheCallingThreadAloneLowersItsPriority) {
 // A sanitizer reserves terabytes.
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 
-TEST(MemoryLock, HoldsAlsoWhatIsTakenLaterUnlessTheSystemRefuses) {
-  expect_in_process([] {
-    constexpr std::size_t kMore = 10'000'000;  // [bytes]
-    const bool is_granted = lock_memory().empty();
-    const long long locked = locked_memory();
-    const std::vector<char> more(kMore, 'x');
-    const bool has_grown = locked_memory() >= locked + static_cast<long long>(kMore);
-    return is_granted ? locked > 0 && has_grown : locked_memory() == 0;
-  });
-}
-
 /// A peer makes roscpp reserve a gigabyte with four bytes.
 TEST(MemoryLock, WhatIsReservedAndNotUsedTakesNoMemory) {
   expect_in_process([] {
@@ -124,27 +100,9 @@ TEST(MemoryLock, ALimitIsARefusal) {
   }
 }
 
-/// Whether this process may open the device and has opened it.
-bool asks_for_awake_cores() {
-  const std::filesystem::directory_iterator files("/proc/self/fd");
-  return std::any_of(begin(files), end(files), [](const auto& file) {
-    std::error_code has_closed;
-    return std::filesystem::read_symlink(file.path(), has_closed) == kDevice;
-  });
-}
-
-TEST(AwakeCores, TheRequestHoldsAsLongAsTheObjectUnlessTheSystemRefuses) {
-  const auto is_right = [] {
-    const bool is_permitted = access(kDevice, R_OK | W_OK) == 0;
-    bool holds = false;
-    {
-      const AwakeCores cores;
-      holds = cores.refusal().empty() == is_permitted && asks_for_awake_cores() == is_permitted;
-    }
-    return holds && !asks_for_awake_cores();
-  };
-  EXPECT_TRUE(is_right());
-  expect_in_process(is_right, 0);
+TEST(AwakeCores, WithoutTheRightThereIsAReason) {
+  expect_in_process(
+      [] { return AwakeCores().refusal().empty() == (access(kDevice, R_OK | W_OK) == 0); }, 0);
 }
 
 }  // namespace

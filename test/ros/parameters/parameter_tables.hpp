@@ -120,6 +120,7 @@ TYPED_TEST_P(ParameterTableTest, IllegalValuesAreNamed) {
 }
 
 TYPED_TEST_P(ParameterTableTest, OnlyLiveOnesCanBeChangedAndTheRestStays) {
+  if (live_parameters(this->defaults_).empty()) return;  // The node serves no changes.
   for (const ParameterTable::Row& row : this->table_.rows()) {
     XmlRpc::XmlRpcValue change;
     change[row.help.name] = row.value ? this->other_value(row) : XmlRpc::XmlRpcValue("text");

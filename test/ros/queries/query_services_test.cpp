@@ -236,6 +236,44 @@ TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
   EXPECT_EQ(answer.step_start, answer.header.stamp);
 }
 
+TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater) {
+  request.tool = "hook";
+  request.motion = {};
+  request.header.stamp = {};
+  set_point(transforms, "liver_frame", "hook_tip", 0.0, kAbove, true);
+  evaluate();
+  ros::Time::setNow(ros::Time(60));
+  tick();
+  ros::Time::setNow(ros::Time(55));
+  const ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.header.stamp, ros::Time(60)) << answer.message;
+  EXPECT_EQ(answer.step_start, ros::Time(60));
+}
+
+TEST_F(QueryServicesTest, ASnapshotStaysAsItIsWhileTheNodeGoesOn) {
+  send_vertices(1.1, 0.5);
+  ContactArray answer;
+  const QuerySnapshot snapshot =
+      take_snapshot({parameters, tools, organs, transforms, poses, steps.history()},
+                    {request.header, "liver", "hook", false, QueryMode::kSwept}, answer);
+  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.1));
+  EXPECT_EQ(answer.topology, 1u);
+  for (int i = 0; i < 5; ++i) send_vertices(2.0 + i, 9.0);
+  tools.clear();
+  EXPECT_EQ(snapshot.latest.mesh->vertices()[2], 0.5F);
+  EXPECT_EQ(snapshot.previous.mesh->vertices()[2], 0.0F);
+  EXPECT_EQ(snapshot.tool->parameters.radius, 0.01);
+}
+
+TEST_F(QueryServicesTest, ARefusalLeavesWhatIsKnownInTheAnswer) {
+  request.tool = "hook";
+  request.motion = {};
+  const ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.status, ContactArray::NO_TRANSFORM);
+  EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
+  EXPECT_EQ(answer.links, std::vector<std::string>{""});
+}
+
 TEST_F(QueryServicesTest, PaperModesGiveFacesAndDepthRanges) {
   for (const std::uint8_t mode :
        {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {

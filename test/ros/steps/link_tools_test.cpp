@@ -7,14 +7,12 @@
 #include "test/ros/steps/node_parts.hpp"
 
 using namespace organ_collision;
-using std::chrono::milliseconds;
 
 namespace {
 
 const Eigen::Vector3d kAbove{0.1, 0.2, 0.3};
 const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
 const std::string kFault = "grasper: parameter 'robot_description' is not set";
-const std::vector<std::string> kAllLinks = {"", "wrist", "jaw"};
 
 /// Two tools share two links; the first one has a shaft, too. Wrist and shaft rest above the sheet
 /// unless a test moves them.
@@ -51,39 +49,9 @@ class LinkToolsTest : public testing::Test, protected NodeParts {
     EXPECT_EQ(answer.links, (std::vector<std::string>{"wrist", "jaw"}));
     EXPECT_TRUE(answer.contacts.empty());
   }
-
-  /// The paths of the first tool.
-  std::vector<ToolPath> paths;
 };
 
 }  // namespace
-
-TEST_F(LinkToolsTest, StepsSweepTheLinksAcrossAGap) {
-  watch = [this](const EvaluatedStep& step) {
-    if (step.answer->tool == "hook") paths.push_back(step.path);
-  };
-  send_jaw(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  ASSERT_EQ(paths.size(), 1u);
-  ASSERT_EQ(paths[0].size(), 1u);
-  ASSERT_EQ(paths[0][0].links.size(), 2u);
-  EXPECT_EQ(paths[0][0].links[1].translation(), kAbove);
-
-  send_vertices(1.1, 0.0);
-  evaluate(milliseconds(20));  // The jaw has no transform.
-  ASSERT_EQ(paths.size(), 2u);
-  EXPECT_TRUE(paths[1].empty());
-
-  send_jaw(1.2, kBelow);
-  send_vertices(1.2, 0.0);
-  evaluate();
-  ASSERT_EQ(paths.size(), 3u);
-  ASSERT_EQ(paths[2].size(), 2u);
-  EXPECT_EQ(paths[2][0].links[1].translation(), kAbove);
-  EXPECT_EQ(paths[2][1].links[1].translation(), kBelow);
-  EXPECT_EQ(paths[2][1].links[0].translation(), Eigen::Vector3d(-0.3, 0.2, 0.6));
-}
 
 TEST_F(LinkToolsTest, AToolWithAFaultIsNeverEvaluated) {
   break_grasper();

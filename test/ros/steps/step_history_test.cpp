@@ -14,41 +14,11 @@ using std::chrono::seconds;
 
 namespace {
 
-ShapeQueue::Entry entry(int second) {
-  return {{nullptr, ros::Time(second), ros::Time(second)},
-          SteadyTime(std::chrono::seconds(second))};
-}
-
 LastStep step(int second) {
   return {{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}, ros::Time(second), nullptr};
 }
 
-int front(const ShapeQueue& queue) {
-  return queue.front() ? static_cast<int>(queue.front()->shape.stamp.sec) : -1;
-}
-
 }  // namespace
-
-TEST(ShapeQueue, NewestReplacesTheOnesBehindTheFirst) {
-  ShapeQueue queue;
-  EXPECT_EQ(front(queue), -1);
-  for (int i = 1; i < 5; ++i) queue.push(entry(i));
-  EXPECT_EQ(front(queue), 1);
-  queue.pop();
-  EXPECT_EQ(front(queue), 4);
-  EXPECT_EQ(queue.front()->arrival, SteadyTime(std::chrono::seconds(4)));
-  queue.pop();
-  EXPECT_EQ(front(queue), -1);
-  queue.push(entry(7));
-  EXPECT_EQ(front(queue), 7);
-}
-
-TEST(ShapeQueue, KeepsAllIfToldSo) {
-  ShapeQueue queue;
-  for (int i = 1; i < 5; ++i) EXPECT_FALSE(queue.push(entry(i), true));
-  for (int i = 1; i < 5; ++i, queue.pop()) EXPECT_EQ(front(queue), i);
-  EXPECT_EQ(front(queue), -1);
-}
 
 TEST(StepHistory, KeptToolsAreNumberedAnewAndOthersForgotten) {
   StepHistory history;

@@ -13,15 +13,8 @@ namespace {
 
 const Eigen::Vector3d kAbove{0.1, 0.2, 0.3};
 const Eigen::Vector3d kBelow{0.1, 0.2, -0.3};
-const Eigen::Vector3d kBelowToo{0.12, 0.2, -0.3};
 
 class StepSchedulerTest : public testing::Test, protected NodeParts {};
-
-std::vector<std::uint32_t> faces(const ContactArray& answer) {
-  std::vector<std::uint32_t> faces;
-  for (const Contact& contact : answer.contacts) faces.push_back(contact.face);
-  return faces;
-}
 
 void expect_step(const std::vector<ContactArray>& published, std::uint8_t mode, double begin,
                  double end, std::size_t contacts) {
@@ -37,19 +30,6 @@ constexpr auto kStatic = ContactArray::STATIC;
 constexpr auto kSwept = ContactArray::SWEPT;
 
 }  // namespace
-
-TEST_F(StepSchedulerTest, FirstIsStaticThenSwept) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  expect_step(evaluate(), kStatic, 1.0, 1.0, 0);
-  send_tip(1.1, kBelow);
-  send_vertices(1.1, 0.0);
-  const auto published = evaluate();
-  expect_step(published, kSwept, 1.0, 1.1, 1);
-  EXPECT_EQ(faces(published[0]), std::vector<std::uint32_t>{1});
-  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
-  EXPECT_TRUE(evaluate().empty());
-}
 
 TEST_F(StepSchedulerTest, APoseIsAnsweredOnce) {
   send_tip(1.0, kAbove);
@@ -204,30 +184,6 @@ TEST_F(StepSchedulerTest, TheFirstMomentsOfAPairAreTold) {
   EXPECT_EQ(starting, (std::vector<bool>{true, true, true, false}));
 }
 
-TEST_F(StepSchedulerTest, AfterTheFirstStepAMissingTransformIsNoStart) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  bool starting = true;
-  watch = [&](const EvaluatedStep& step) { starting = step.is_starting; };
-  send_vertices(1.1, 0.0);
-  ASSERT_EQ(evaluate(milliseconds(20)).size(), 1u);
-  EXPECT_FALSE(starting);
-}
-
-TEST_F(StepSchedulerTest, OneToolWithoutTransformDoesNotHoldUpTheOther) {
-  tools.push_back(shaft_tool("lost", 0.01));
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  auto published = evaluate();
-  ASSERT_EQ(published.size(), 1u);
-  EXPECT_EQ(published[0].tool, "hook");
-  published = evaluate(milliseconds(20));
-  ASSERT_EQ(published.size(), 1u);
-  EXPECT_EQ(published[0].tool, "lost");
-  EXPECT_EQ(published[0].status, ContactArray::NO_TRANSFORM);
-}
-
 TEST_F(StepSchedulerTest, LateMeshFindsTheToolHeld) {
   send_tip(1.0, kAbove);
   send_tip(1.5, kBelow);
@@ -282,20 +238,6 @@ TEST_F(StepSchedulerTest, ResetMakesTheNextStepStatic) {
   EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
 }
 
-TEST_F(StepSchedulerTest, StartingAnewDropsWaitingShapes) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  send_vertices(1.1, 0.0);
-  steps.start_anew();
-  EXPECT_TRUE(evaluate(milliseconds(50)).empty());
-  EXPECT_FALSE(steps.next_deadline());
-  send_tip(1.1, kBelow);
-  const auto published = tick();
-  expect_step(published, kStatic, 1.1, 1.1, 1);
-  EXPECT_EQ(published[0].mesh_stamp, ros::Time(1.1));
-}
-
 TEST_F(StepSchedulerTest, RestingTransformsAreOfNow) {
   set_point(transforms, "liver_frame", "hook_tip", 0.0, kBelow, true);
   send_mesh(0.0, 0.0);
@@ -303,16 +245,6 @@ TEST_F(StepSchedulerTest, RestingTransformsAreOfNow) {
   ros::Time::setNow(ros::Time(51.0));
   send_vertices(0.0, 0.0);
   expect_step(evaluate(), kSwept, 50.0, 51.0, 1);
-}
-
-TEST_F(StepSchedulerTest, CountsTheSamplesThatWereCut) {
-  send_tip(1.0, kAbove);
-  send_mesh(1.0, 0.0);
-  evaluate();
-  send_tip(1.3, kBelowToo);
-  send_vertices(1.3, 0.0);
-  evaluate();
-  EXPECT_EQ(steps.samples_cut(), 200u);
 }
 
 TEST_F(StepSchedulerTest, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
