@@ -3,17 +3,35 @@
 
 sanitizers=$repository/test/sanitizers
 
-# short_tests SANITIZER: prints the names of the few tests for .ci/run.
-short_tests() { awk -v sanitizer="$1" '$1 == sanitizer {print $2}' "$sanitizers/short.txt"; }
+# short_programs SANITIZER: prints the names of the few test programs for .ci/run.
+short_programs() { awk -v sanitizer="$1" '$1 == sanitizer {print $2}' "$sanitizers/short.txt"; }
+
+# short_tests SANITIZER FOLDER: runs the few tests for .ci/run of the programs in this folder.
+short_tests() {
+  local kind program filter
+  while read -r kind program filter; do
+    if [ "$kind" = "$1" ]; then under_sanitizer "$1" "$2/$program" --gtest_brief=1 --gtest_filter="$filter"; fi
+  done < "$sanitizers/short.txt"
+}
 
 # left_out_tests SANITIZER: prints a regular expression for the names of the tests that it leaves out.
 left_out_tests() {
   awk -v sanitizer="$1" '
-    $1 == sanitizer || $1 == "both" {
+    ($1 == sanitizer || $1 == "both") && $2 !~ /:/ {
       gsub(/\./, "[.]", $2)
       names = names (names ? "|" : "") "^" $2 "$|_" $2 "$"
     }
     END {print names}' "$sanitizers/left_out.txt"
+}
+
+# left_out_patterns SANITIZER: prints a filter for gtest of the tests in programs that it leaves out.
+left_out_patterns() {
+  awk -v sanitizer="$1" '
+    ($1 == sanitizer || $1 == "both") && $2 ~ /:/ {
+      sub(/.*:/, "", $2)
+      patterns = patterns ":" $2
+    }
+    END {print "-" substr(patterns, 2)}' "$sanitizers/left_out.txt"
 }
 
 # is_of_parser REPORT: whether it tells of a crash within the parsers of robot files. They run in robot_reader, and tests
@@ -28,6 +46,8 @@ is_of_parser() {
 under_sanitizer() {
   local sanitizer=$1 result=0 report log=$build/found
   shift
+  export GTEST_FILTER
+  GTEST_FILTER=$(left_out_patterns "$sanitizer")
   rm -rf "$log"
   mkdir -p "$log"
   # A node that is reported ends with an error, but its test may not notice. The files tell of all programs.

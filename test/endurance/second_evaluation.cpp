@@ -35,21 +35,21 @@ struct ToolShape {
 
 /// `smaller`: by how much its surface lies further inside [m].
 ToolShape shape_of(const std::string& tool, double smaller = 0.0) {
-  if (tool == "probe") return {2e-3 - smaller, stress::kProbeTrocar};
-  if (tool == "needle") return {1e-3 - smaller, stress::kNeedleTrocar};
-  if (tool == "stylus") return {1.5e-3 - smaller, stress::kStylusTrocar};
+  if (tool == "probe") return {2e-3 - smaller, kProbeTrocar};
+  if (tool == "needle") return {1e-3 - smaller, kNeedleTrocar};
+  if (tool == "stylus") return {1.5e-3 - smaller, kStylusTrocar};
   const Eigen::Vector3d size = Eigen::Vector3d(0.004, 0.003, 0.02).array() - 2.0 * smaller;
   return {0.0, {}, {{"jaw", {LinkPart::box(Eigen::Isometry3d::Identity(), size)}}}};
 }
 
-Eigen::Vector3d tip_of(const std::string& tool, const stress::ToolPlaces& places) {
+Eigen::Vector3d tip_of(const std::string& tool, const ToolPlaces& places) {
   if (tool == "probe") return places.probe_tip;
   if (tool == "needle") return places.needle_tip;
   return places.stylus_tip;
 }
 
 ToolWaypoint waypoint(const std::string& tool, const ToolShape& shape, double fraction,
-                      const stress::ToolPlaces& places) {
+                      const ToolPlaces& places) {
   if (shape.radius > 0.0) return {fraction, {shape.trocar, tip_of(tool, places)}, {}};
   return {fraction, {{0.0, 0.0, 0.0}, {0.0, 0.0, 0.0}}, {places.jaw}};
 }

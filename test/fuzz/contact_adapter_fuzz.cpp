@@ -33,7 +33,7 @@ void take(const ContactArray& answer, bool knows_radius, ForceLaw& law, PairName
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("contact_adapter", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   ForceLaw law;
   PairNames names;
@@ -45,5 +45,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     } catch (const Rejection&) {
     }
   }
-  return 0;
-}
+});

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -13,23 +14,20 @@
 
 namespace organ_collision {
 
+/// A parser that gets bytes of which nothing is known. What it must not do is crash, hang, take
+/// much memory or throw. Each source defines static ones, which the program `fuzz` knows by their
+/// names.
+struct FuzzTarget {
+  using Run = std::function<void(const std::uint8_t* data, std::size_t size)>;
+  FuzzTarget(const char* name, Run run);
+};
+
 /// Ends the program, as a crash does, if something does not hold that must hold for each input.
 inline void demand(bool holds, const char* what) {
   if (holds) return;
   std::fprintf(stderr, "This must hold, but does not: %s\n", what);
   std::abort();
 }
-
-}  // namespace organ_collision
-
-/// Called by libFuzzer, and by replay_main.cpp, with bytes of which nothing is known. Each target
-/// defines it. It returns 0. What it must not do is crash, hang, take much memory or throw.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-
-/// Called once before the first input. See setup.cpp.
-extern "C" int LLVMFuzzerInitialize(int* argc, char*** argv);
-
-namespace organ_collision {
 
 /// The bytes of an input, read from front to back. After the end, all bytes are 0.
 class FuzzInput {

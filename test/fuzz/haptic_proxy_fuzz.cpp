@@ -121,11 +121,10 @@ class Node {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("haptic_proxy", [](const std::uint8_t* data, std::size_t size) {
   ros::Time::setNow(ros::Time(50));
   FuzzInput input(data, size);
   static Hand through_trocar(false), free(true);
   Node node(input.byte() % 2 == 1 ? free : through_trocar);
   while (!input.empty()) node.take(input);
-  return 0;
-}
+});

@@ -44,7 +44,7 @@ void take(FuzzInput& input, OrganSource& source) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("mesh_adapter", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   const OrganSource::Callbacks callbacks{
       [](const OrganMeshPtr& mesh) { demand(mesh->organ == "liver", "a mesh names its organ"); },
@@ -59,5 +59,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   }
   const OrganMeshPtr mesh = source.mesh();
   demand(!mesh || !mesh->triangles.empty(), "the last legal mesh has faces");
-  return 0;
-}
+});

@@ -72,11 +72,10 @@ class Receivers {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("motion_messages", [](const std::uint8_t* data, std::size_t size) {
   ros::Time::setNow(ros::Time(50));
   FuzzInput input(data, size);
   Receivers receivers;
   while (!input.empty()) receivers.take(input);
   receivers.look_up();
-  return 0;
-}
+});

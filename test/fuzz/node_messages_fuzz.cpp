@@ -140,10 +140,9 @@ class Node {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("node_messages", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   Node node;
   while (!input.empty()) node.take(input);
   node.finish();
-  return 0;
-}
+});

@@ -51,7 +51,7 @@ void apply(FuzzInput& input, OrganRegistry& organs) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("organ_messages", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   OrganRegistry organs{MeshLimits{1000}};
   while (!input.empty()) {
@@ -62,5 +62,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     }
   }
   check_shapes(organs);
-  return 0;
-}
+});

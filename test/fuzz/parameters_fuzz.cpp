@@ -122,7 +122,7 @@ void check(const NodeParameters& parameters) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("parameters", [](const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   const XmlRpcValue all = group(input, 0);
   load([&] {
@@ -142,5 +142,4 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   });
   load([&] { parse_parameters<MeshAdapterParameters>(all); });
   if (all.hasMember("tools")) shaft_radius(all["tools"], "name");
-  return 0;
-}
+});

@@ -49,7 +49,7 @@ void check(const ContactArray& answer) {
 
 }  // namespace
 
-int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+static const FuzzTarget target("query_requests", [](const std::uint8_t* data, std::size_t size) {
   static Node node;
   FuzzInput input(data, size);
   if (input.byte() % 2 == 0) {
@@ -57,11 +57,10 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     if (request) check(node.services.query(*request));
   } else {
     const auto request = next_message<QueryCollisionBatch::Request>(input);
-    if (!request) return 0;
+    if (!request) return;
     const QueryCollisionBatch::Response response = node.services.query_batch(*request);
     check(response.status, response.message, !response.results.empty());
     demand(response.results.size() <= 50, "no batch is larger than its limit");
     for (const ContactArray& answer : response.results) check(answer);
   }
-  return 0;
-}
+});

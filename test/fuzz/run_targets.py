@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Runs fuzz targets that were built with libFuzzer, and prints what came of it as a table. run_fuzz calls it."""
+"""Runs the targets of the program fuzz, built with libFuzzer, and prints what came of it as a table. run_fuzz calls it."""
 
 import argparse
 import concurrent.futures
@@ -55,8 +55,8 @@ def last(log, pattern, otherwise):
 
 
 def processor_time(program, file):
-    """[s] What the program takes to start and to read one input."""
-    process = subprocess.Popen([str(program), str(file)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    """[s] What the program, with its target, takes to start and to read one input."""
+    process = subprocess.Popen([*program, str(file)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                env={**os.environ, **SANITIZERS})
     usage = os.wait4(process.pid, 0)[2]
     process.returncode = 0
@@ -81,8 +81,8 @@ def run(target, options):
     found, findings = options.build / 'found' / target, options.build / 'findings' / target
     for folder in (found, findings):
         folder.mkdir(parents=True, exist_ok=True)
-    program = options.devel / 'lib' / 'organ_collision' / (target + '_fuzz')
-    command = [str(program), '-runs=%d' % options.runs, '-max_total_time=%d' % options.seconds, '-seed=1',
+    program = [str(options.devel / 'lib' / 'organ_collision' / 'fuzz'), target]
+    command = [*program, '-runs=%d' % options.runs, '-max_total_time=%d' % options.seconds, '-seed=1',
                '-timeout=%d' % HANGS, '-report_slow_units=%d' % LONGEST, '-rss_limit_mb=%d' % MEMORY,
                '-malloc_limit_mb=%d' % ALLOCATION, '-max_len=%d' % LARGEST, '-print_final_stats=1',
                '-artifact_prefix=%s/' % findings, str(found), str(CORPORA / target)]

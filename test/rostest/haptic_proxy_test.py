@@ -1,13 +1,12 @@
 #!/usr/bin/python3
-"""haptic_proxy, the node and the nodelet, as its users see it. Each hand is moved in small steps
-at a few hundred poses a second. No test depends on how fast they are answered."""
+"""haptic_proxy as its users see it, the node, and in short the nodelet. Each hand is moved in small steps at a few
+hundred poses a second. No test depends on how fast they are answered."""
 
 import math
 import sys
 import time
 import unittest
 
-from diagnostic_msgs.msg import DiagnosticArray
 from dynamic_reconfigure.msg import DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure, ReconfigureRequest
 from geometry_msgs.msg import PoseStamped, WrenchStamped
@@ -19,9 +18,8 @@ from std_srvs.srv import Empty, Trigger
 from tf2_msgs.msg import TFMessage
 
 from support import scenes
-from support.node_client import LIMIT, TfSender, is_heard, wait_until
+from support.node_client import LIMIT, Diagnostics, Log, TfSender, is_heard, wait_until
 
-NODE = '/haptic_proxy'
 FRAME = 'liver_frame'
 STIFFNESS = 200.0  # [N/m]
 CLEARANCE = 1e-4  # [m]
@@ -29,112 +27,39 @@ RADIUS = {'needle': 0.003, 'pin': 0.003, 'probe': 0.005, 'stylus': 0.004}  # [m]
 SHEET = scenes.sheet(0.1, 4)
 X, Y = 0.013, 0.007  # [m] where the hands stab
 TROCAR = (0.02, -0.01, 0.3)
-
-
-class Log:
-    """All messages of a topic, in order."""
-
-    def __init__(self, topic, kind):
-        self.messages = []
-        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=1000)
-
-    def last(self, wanted=lambda message: True):
-        """The last such message; None if there is none."""
-        return next((message for message in self.messages[::-1] if wanted(message)), None)
+AIR, DEEP = (X, Y, 0.03), (X, Y, -0.02)
+FREE, TOUCHING, NO_ANSWER = ProxyState.FREE, ProxyState.TOUCHING, ProxyState.NO_ANSWER
 
 
 def vector(message):
     return (message.x, message.y, message.z)
 
 
-def tip_pose(tip):
-    message = PoseStamped()
-    message.header.frame_id, message.header.stamp = FRAME, rospy.Time.now()
-    p = message.pose.position
-    p.x, p.y, p.z = tip
-    message.pose.orientation.w = 1.0
-    return message
+def no_force(state):
+    return state.state == NO_ANSWER and state.wrench.force.z == 0.0
 
 
-class HapticProxyTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.process = rospy.get_param('~process', NODE)
-        rospy.wait_for_service(NODE + '/reload_tools', LIMIT)
-        cls.meshes = rospy.Publisher(NODE + '/organ_mesh', OrganMesh, queue_size=10)
-        cls.hands = {
-            tool: rospy.Publisher(tool + '/pose', PoseStamped, queue_size=1000)
-            for tool in ('needle', 'stylus')
-        }
-        cls.tf = TfSender()
-        cls.states = {
-            tool: Log('%s/%s/state' % (NODE, tool), ProxyState)
-            for tool in ('needle', 'pin', 'probe', 'stylus', 'grasper')
-        }
-        cls.proxies = Log(NODE + '/needle/proxy', PoseStamped)
-        cls.contacts = Log(NODE + '/contacts', ContactArray)
-        cls.frames = Log('/tf', TFMessage)
-        cls.diagnostics = Log('/diagnostics', DiagnosticArray)
-        wait_until(
-            lambda: all(is_heard(topic, cls.process) for topic in [cls.meshes, *cls.hands.values()]),
-            'connections',
-        )
-        cls.tf.wait_for(cls)
-        base = scenes.Pose((0, 0, 0, 1), TROCAR)
-        cls.tf.send_resting(
-            *((FRAME, frame, base) for frame in ('needle_trocar', 'probe_trocar', 'stylus_base'))
-        )
+class Hands:
+    """The hands of all tools. Both nodes follow them."""
 
-    def setUp(self):
-        self.organ = self.id().split('.')[-1]
-        self.tips = {}
-
-    def tearDown(self):
-        rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(self.organ)
-        wait_until(lambda: self.organ not in self.organs(), 'removal')
-
-    @staticmethod
-    def organs():
-        return [organ.name for organ in rospy.ServiceProxy(NODE + '/list_organs', ListOrgans)().organs]
-
-    def send_sheet(self, organ=None, frame=FRAME):
-        organ = organ or self.organ
-        mesh = OrganMesh(
-            organ=organ,
-            topology=1,
-            vertices=SHEET.flat_vertices(),
-            triangles=SHEET.flat_faces(),
-        )
-        mesh.header.frame_id = frame
-        self.meshes.publish(mesh)
-        wait_until(lambda: organ in self.organs(), 'the organ')
-
-    @staticmethod
-    def set_number(name, value):
-        """Sets a parameter of the running node. Returns its value then."""
-        request = ReconfigureRequest()
-        request.config.doubles = [DoubleParameter(name, value)]
-        answer = rospy.ServiceProxy(NODE + '/set_parameters', Reconfigure)(request)
-        return next(number.value for number in answer.config.doubles if number.name == name)
+    def __init__(self):
+        self.poses = {tool: rospy.Publisher(tool + '/pose', PoseStamped, queue_size=1000)
+                      for tool in ('needle', 'stylus')}
+        self.tf, self.tips = TfSender(), {}
+        self.tf.send_resting(*((FRAME, frame, TROCAR) for frame in ('needle_trocar', 'probe_trocar', 'stylus_base')))
 
     def hold(self, tool, tip):
         """Sends one pose of a hand."""
         self.tips[tool] = tip
-        if tool in self.hands:
-            self.hands[tool].publish(tip_pose(tip))
+        if tool in self.poses:
+            message = PoseStamped()
+            message.header.frame_id, message.header.stamp = FRAME, rospy.Time.now()
+            message.pose.position.x, message.pose.position.y, message.pose.position.z = tip
+            message.pose.orientation.w = 1.0
+            self.poses[tool].publish(message)
         else:
-            self.tf.send((FRAME, tool + '_tip', scenes.Pose((0, 0, 0, 1), tip), rospy.Time.now()))
-
-    def hold_until(self, tool, tip, condition, what):
-        """Holds the hand there until the condition holds for the tool's last state. Returns it."""
-
-        def holds():
-            self.hold(tool, tip)
-            time.sleep(0.002)
-            state = self.states[tool].last()
-            return state if state and condition(state) else None
-
-        return wait_until(holds, lambda: '%s; the last state is %s' % (what, self.states[tool].last()))
+            self.tf.send((FRAME, tool + '_tip', tip, rospy.Time.now()))
+        time.sleep(0.002)
 
     def move(self, tool, tip):
         """Moves a hand straight to a tip position, in steps of at most 1 mm."""
@@ -142,432 +67,302 @@ class HapticProxyTest(unittest.TestCase):
         steps = max(1, math.ceil(math.dist(start, tip) / 1e-3))
         for i in range(1, steps + 1):
             self.hold(tool, tuple(a + (b - a) * i / steps for a, b in zip(start, tip)))
-            time.sleep(0.001)
 
-    def stab(self, tool, depth):
-        """Moves a hand from the air to a depth below the sheet, and waits for the whole force there.
-        Returns the state."""
-        self.hold_until(
-            tool, (X, Y, 0.03), lambda state: state.state == ProxyState.FREE, tool + ' in the air'
-        )
-        self.move(tool, (X, Y, -depth))
-        expected = self.spring(tool, -depth)
-        tolerance = 0.1 if tool == 'stylus' else 1e-3  # [N] A free shaft also turns.
-        return self.hold_until(
-            tool,
-            (X, Y, -depth),
-            lambda state: abs(state.wrench.force.z - expected) < tolerance,
-            '%g N of %s' % (expected, tool),
-        )
+
+class ProxyCase(unittest.TestCase):
+    node, process = '/haptic_proxy', '/haptic_proxy'
+    hands = None
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.wait_for_service(cls.node + '/reload_tools', LIMIT)
+        cls.reload, cls.remove_service, cls.list_service = (
+            rospy.ServiceProxy(cls.node + name, kind) for name, kind in (
+                ('/reload_tools', Trigger), ('/remove_organ', RemoveOrgan), ('/list_organs', ListOrgans)))
+        cls.meshes = rospy.Publisher(cls.node + '/organ_mesh', OrganMesh, queue_size=10)
+        cls.states = {tool: Log('%s/%s/state' % (cls.node, tool), ProxyState)
+                      for tool in ('needle', 'pin', 'probe', 'stylus', 'grasper')}
+        cls.contacts, cls.diagnostics = Log(cls.node + '/contacts', ContactArray), Diagnostics(cls.node)
+        ProxyCase.hands = ProxyCase.hands or Hands()
+        wait_until(lambda: all(is_heard(topic, cls.process) for topic in [cls.meshes, *cls.hands.poses.values()]),
+                   'connections')
+        cls.hands.tf.wait_for(cls)
+
+    def setUp(self):
+        self.organ = self.id().split('.')[-1]
+        self.addCleanup(self.remove, self.organ)
+
+    def organs(self):
+        return [organ.name for organ in self.list_service().organs]
+
+    def remove(self, organ):
+        self.remove_service(organ)
+        wait_until(lambda: organ not in self.organs(), 'removal')
+
+    def send_sheet(self, organ=None, frame=FRAME):
+        mesh = OrganMesh(organ=organ or self.organ, topology=1, vertices=SHEET.flat_vertices(),
+                         triangles=SHEET.flat_faces())
+        mesh.header.frame_id = frame
+        self.meshes.publish(mesh)
+        wait_until(lambda: mesh.organ in self.organs(), 'the organ')
+
+    def change(self, name, value):
+        """Sets a parameter of the running node. Returns its value then."""
+        request = ReconfigureRequest()
+        request.config.doubles = [DoubleParameter(name, value)]
+        answer = rospy.ServiceProxy(self.node + '/set_parameters', Reconfigure)(request)
+        return next(number.value for number in answer.config.doubles if number.name == name)
+
+    def reload_with(self, tools):
+        """The answer to other tools, which the node has until the test ends."""
+        name, before = self.node + '/tools', rospy.get_param(self.node + '/tools')
+        self.addCleanup(self.reload)
+        self.addCleanup(rospy.set_param, name, before)
+        rospy.set_param(name, tools(before))
+        return self.reload()
+
+    def hold_until(self, tool, tip, condition, what, log=None):
+        """Holds the hand there until the last state of the tool, or another log, fulfils the condition. Returns it."""
+        log = log or self.states[tool]
+
+        def holds():
+            self.hands.hold(tool, tip)
+            message = log.last()
+            return message if message and condition(message) else None
+
+        return wait_until(holds, lambda: '%s; the last message is %s' % (what, log.last()))
+
+    def hold_free(self, tool='needle', tip=AIR):
+        return self.hold_until(tool, tip, lambda state: state.state == FREE, tool + ' in the air')
 
     def spring(self, tool, height):
         """[N] on a hand that would have its tip there, while the proxy stays above the sheet."""
         return STIFFNESS * (RADIUS[tool] + CLEARANCE - height)
 
-    def check_stab(self, tool):
-        wrenches = Log('%s/%s/%s/wrench' % (NODE, self.organ, tool), WrenchStamped)
-        state = self.stab(tool, 0.02)
-        self.assertEqual((state.state, state.header.frame_id), (ProxyState.TOUCHING, FRAME))
-        self.assertGreater(state.proxy.position.z, RADIUS[tool])
-        self.assertAlmostEqual(state.hand.position.z, -0.02, delta=1e-9)
-        self.assertAlmostEqual(state.pull.z, self.spring(tool, -0.02) / STIFFNESS, delta=1e-6)
-        self.assertFalse(state.clipped)
+    def stab(self, tool='needle', depth=0.02):
+        """Moves a hand from the air to a depth below the sheet, and waits for the whole force there. Returns the
+        state."""
+        self.hold_free(tool)
+        self.hands.move(tool, (X, Y, -depth))
+        expected = self.spring(tool, -depth)
+        tolerance = 0.1 if tool == 'stylus' else 1e-3  # [N] A free shaft also turns.
+        return self.hold_until(tool, (X, Y, -depth), lambda state: abs(state.wrench.force.z - expected) < tolerance,
+                               '%g N of %s' % (expected, tool))
 
-        def last_wrench():
-            self.hold(tool, self.tips[tool])
-            time.sleep(0.002)
-            return wrenches.last(lambda wrench: abs(wrench.wrench.force.z - state.wrench.force.z) < 1e-3)
 
-        wrench = wait_until(last_wrench, 'the wrench of ' + tool)
-        self.assertEqual(wrench.header.frame_id, FRAME)
-        force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
-        if tool != 'stylus':  # The force acts at the tip.
-            self.assertAlmostEqual(torque[0], Y * force[2], delta=1e-3)
+class HapticProxyTest(ProxyCase):
+    def test_hands_that_stab_are_held(self):
+        """On a topic of poses, and on TF."""
+        self.send_sheet()
+        for tool in ('needle', 'probe'):
+            wrenches = Log('%s/%s/%s/wrench' % (self.node, self.organ, tool), WrenchStamped)
+            state = self.stab(tool)
+            self.assertEqual((state.state, state.header.frame_id, state.clipped), (TOUCHING, FRAME, False))
+            self.assertGreater(state.proxy.position.z, RADIUS[tool])
+            self.assertAlmostEqual(state.hand.position.z, -0.02, delta=1e-9)
+            self.assertAlmostEqual(state.pull.z, self.spring(tool, -0.02) / STIFFNESS, delta=1e-6)
+            wrench = self.hold_until(tool, DEEP, lambda w: abs(w.wrench.force.z - state.wrench.force.z) < 1e-3,
+                                     'the wrench', wrenches)
+            self.assertEqual(wrench.header.frame_id, FRAME)
+            force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
+            self.assertAlmostEqual(torque[0], Y * force[2], delta=1e-3)  # The force acts at the tip.
             self.assertAlmostEqual(torque[1], -X * force[2], delta=1e-3)
-
-    def test_a_hand_on_a_pose_topic_that_stabs_is_held(self):
-        self.send_sheet()
-        self.check_stab('needle')
-
-    def test_a_hand_on_tf_that_stabs_is_held(self):
-        self.send_sheet()
-        self.check_stab('probe')
 
     def test_a_hand_in_the_air_is_free_and_feels_nothing(self):
         self.send_sheet()
-        state = self.hold_until(
-            'needle', (X, Y, 0.04), lambda state: state.state == ProxyState.FREE, 'free'
-        )
+        proxies, frames = Log(self.node + '/needle/proxy', PoseStamped), Log('/tf', TFMessage)
+        state = self.hold_free()
         self.assertEqual(vector(state.wrench.force), (0.0, 0.0, 0.0))
         self.assertEqual(vector(state.hand.position), vector(state.proxy.position))
-        proxy = wait_until(
-            lambda: self.proxies.last(lambda pose: abs(pose.pose.position.z - 0.04) < 1e-9), 'proxy'
-        )
+        proxy = self.hold_until('needle', AIR, lambda pose: abs(pose.pose.position.z - AIR[2]) < 1e-9, 'proxy', proxies)
         self.assertEqual(proxy.header.frame_id, FRAME)
-        self.hold_until(
-            'needle',
-            (X, Y, 0.04),
-            lambda _: self.frames.last(
-                lambda message: message.transforms[0].child_frame_id == 'needle_proxy'
-                and message.transforms[0].header.frame_id == FRAME
-            ),
-            'frame needle_proxy',
-        )
+        wait_until(lambda: self.hands.hold('needle', AIR) or frames.select(
+            lambda message: message.transforms[0].child_frame_id == 'needle_proxy'
+            and message.transforms[0].header.frame_id == FRAME), 'frame needle_proxy')
 
     def test_of_a_free_tool_the_forces_on_vertices_are_minus_the_wrench(self):
         self.send_sheet()
-        pair = '%s/%s/stylus' % (NODE, self.organ)
-        wrenches = Log(pair + '/wrench', WrenchStamped)
-        forces = Log(pair + '/vertex_forces', VertexForces)
+        pair = '%s/%s/stylus' % (self.node, self.organ)
+        wrenches, forces = Log(pair + '/wrench', WrenchStamped), Log(pair + '/vertex_forces', VertexForces)
         self.stab('stylus', 0.004)
 
         def both():
-            self.hold('stylus', self.tips['stylus'])
-            time.sleep(0.002)
+            self.hands.hold('stylus', self.hands.tips['stylus'])
             wrench = wrenches.last(lambda wrench: wrench.wrench.force.z > 0.5)
             same = wrench and forces.last(lambda on: on.header.stamp == wrench.header.stamp)
             return (wrench, same) if same else None
 
         wrench, on_tissue = wait_until(both, 'wrench and vertex forces of one stamp')
-        self.assertEqual((on_tissue.organ, on_tissue.tool), (self.organ, 'stylus'))
-        self.assertEqual((on_tissue.topology, on_tissue.header.frame_id), (1, FRAME))
+        self.assertEqual((on_tissue.organ, on_tissue.tool, on_tissue.topology), (self.organ, 'stylus', 1))
         for axis in 'xyz':
             total = sum(getattr(force, axis) for force in on_tissue.forces)
             self.assertAlmostEqual(total, -getattr(wrench.wrench.force, axis), delta=1e-6)
 
     def test_the_proxys_contacts_are_published(self):
         self.send_sheet()
-        self.stab('needle', 0.01)
-
-        def touched():
-            self.hold('needle', self.tips['needle'])
-            time.sleep(0.002)
-            return self.contacts.last(
-                lambda answer: answer.organ == self.organ
-                and answer.tool == 'needle'
-                and answer.status == ContactArray.OK
-                and answer.contacts
-            )
-
-        answer = wait_until(touched, 'contacts')
+        self.stab(depth=0.01)
+        answer = self.hold_until('needle', (X, Y, -0.01), lambda answer: answer.organ == self.organ and answer.contacts
+                                 and (answer.tool, answer.status) == ('needle', ContactArray.OK), 'contacts',
+                                 self.contacts)
         self.assertEqual((answer.header.frame_id, answer.topology), (FRAME, 1))
-        contact = answer.contacts[0]
-        self.assertAlmostEqual(contact.depth, -CLEARANCE, delta=1e-6)
-        self.assertAlmostEqual(contact.normal.z, -1.0, delta=1e-6)
+        self.assertAlmostEqual(answer.contacts[0].depth, -CLEARANCE, delta=1e-6)
+        self.assertAlmostEqual(answer.contacts[0].normal.z, -1.0, delta=1e-6)
 
-    def test_when_poses_stop_the_force_fades(self):
-        self.send_sheet()
-        self.stab('needle', 0.02)
-        del self.states['needle'].messages[:]
-        state = wait_until(
-            lambda: self.states['needle'].last(
-                lambda state: state.state == ProxyState.NO_ANSWER
-                and 'pose_timeout_sec' in state.message
-                and state.wrench.force.z == 0.0
-            ),
-            'the force is gone',
-        )
-        fading = [
-            other.wrench.force.z
-            for other in self.states['needle'].messages
-            if other.state == ProxyState.NO_ANSWER and other.message == state.message
-        ]
-        self.assertEqual(fading, sorted(fading, reverse=True), 'the force must only fall')
-        wait_until(
-            lambda: self.diagnostics.last(
-                lambda message: any(
-                    'pose_timeout_sec' in status.message for status in message.status
-                )
-            ),
-            'the reason on /diagnostics',
-        )
-        # The force comes back.
-        self.stab('needle', 0.02)
+    def assert_force_falls(self, log, expected, words):
+        """Waits until the force is gone. From its last whole value, it must only fall, and the reason is told."""
+        wait_until(lambda: log.messages and no_force(log.messages[-1]), lambda: 'no force; there is %s' % log.last())
+        states = log.select(lambda state: True)
+        answered = max([i for i, state in enumerate(states) if state.state != NO_ANSWER], default=-1)
+        lost = states[answered + 1:]
+        for word in words:
+            self.assertIn(word, lost[0].message)
+        forces = [state.wrench.force.z for state in lost]
+        self.assertAlmostEqual(forces[0], expected, delta=0.01 * expected + 1e-3, msg='it fades from where it was')
+        self.assertEqual(forces, sorted(forces, reverse=True))
+        wait_until(lambda: any(words[0] in text for texts in self.diagnostics.summaries.values() for text in texts),
+                   'the reason on /diagnostics')
 
-    def test_without_an_organ_there_is_no_answer(self):
+    def test_when_poses_stop_the_force_fades_and_comes_back(self):
         self.send_sheet()
-        self.stab('needle', 0.02)
-        self.assertTrue(rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(self.organ).success)
-        state = self.hold_until(
-            'needle',
-            (X, Y, -0.02),
-            lambda state: state.state == ProxyState.NO_ANSWER and state.wrench.force.z == 0.0,
-            'no answer',
-        )
-        self.assertIn('there is no organ', state.message)
+        for _ in range(2):
+            state = self.stab()
+            self.assert_force_falls(self.states['needle'], state.wrench.force.z, ['pose_timeout_sec'])
+
+    def test_an_organ_that_rises_into_a_hand_pushes_it_until_its_frame_is_too_old(self):
+        name, tip, log = self.organ + '_rising', (X, Y, 0.05), self.states['pin']
+        self.send_sheet()
+        self.hands.tf.send_resting((FRAME, 'pin_trocar', TROCAR), (FRAME, 'pin_tip', tip))
+
+        def raise_to(height, condition=lambda state: True):
+            self.hands.tf.send((FRAME, 'rising_frame', (0.0, 0.0, height), rospy.Time.now()))
+            time.sleep(0.002)
+            return log.last() and condition(log.last())
+
+        raise_to(0.03)
+        self.addCleanup(self.remove, name)
+        self.send_sheet(name, 'rising_frame')
+        expected = self.spring('pin', 0.0)
+        for _ in range(2):  # After the silence, it goes on.
+            wait_until(lambda: raise_to(0.03, lambda state: state.state == FREE), 'the organ below the pin')
+            for i in range(1, 20):
+                raise_to(0.03 + 1e-3 * i)
+            wait_until(lambda: raise_to(tip[2], lambda state: state.state == TOUCHING
+                                        and abs(state.wrench.force.z - expected) < 1e-3), 'the force on the pin')
+            self.assert_force_falls(log, expected, ["frame 'rising_frame' is ", '(frame_timeout_sec)'])
+
+    def test_an_organ_in_another_frame_is_where_tf_says(self):
+        name = self.organ + '_raised'
+        self.send_sheet()
+        self.hands.tf.send_resting((FRAME, 'raised_frame', (0.0, 0.0, 0.01)))
+        self.addCleanup(self.remove, name)
+        self.send_sheet(name, 'raised_frame')
+        wrenches = Log('%s/%s/needle/wrench' % (self.node, name), WrenchStamped)
+        self.hold_free(tip=(X, Y, 0.04))
+        self.hands.move('needle', (X, Y, -0.01))
+        expected = self.spring('needle', -0.01) + STIFFNESS * 0.01
+        for log in (self.states['needle'], wrenches):
+            self.hold_until('needle', (X, Y, -0.01), lambda message: message.header.frame_id == FRAME
+                            and abs(message.wrench.force.z - expected) < 1e-3, 'the force of the raised organ', log)
+
+    def test_reasons_for_no_answer(self):
+        """A trocar in tissue, an organ that is removed, and a tool without links."""
+        self.send_sheet()
+        self.stab()
+        trocar = [(FRAME, 'needle_trocar', at) for at in (TROCAR, (0.02, -0.01, 0.0))]
+        self.hands.tf.send_resting(trocar[1])
+        self.addCleanup(self.hands.tf.send_resting, trocar[0])
+        state = self.hold_until('needle', DEEP, no_force, 'no answer')
+        self.assertIn('the trocar is in tissue', state.message)
+        self.assertFalse(state.placed_anew)
+        answer = self.hold_until('needle', DEEP, lambda answer: answer.tool == 'needle' and 'tissue' in answer.message,
+                                 'contacts that say so', self.contacts)
+        self.assertNotEqual(answer.status, ContactArray.OK)
+        self.assertTrue(self.remove_service(self.organ).success)
+        self.hold_until('needle', DEEP, lambda state: no_force(state) and 'there is no organ' in state.message,
+                        'no organ')
+        state = wait_until(self.states['grasper'].last, 'the state of the grasper')
+        self.assertEqual((state.state, state.hand.orientation.w, state.proxy.orientation.w), (NO_ANSWER, 1.0, 1.0))
+        self.assertIn('no_such_robot', state.message)
 
     def test_a_hand_that_jumps_has_its_proxy_placed_anew(self):
+        """Also after a reset."""
         self.send_sheet()
-        self.stab('needle', 0.02)
+        self.stab()
         del self.states['needle'].messages[:]
-        self.hold_until(
-            'needle',
-            (X + 0.03, Y, 0.15),
-            lambda state: state.state == ProxyState.FREE and state.wrench.force.z == 0.0,
-            'free after the jump',
-        )
-        placed = [state for state in self.states['needle'].messages if state.placed_anew]
+        self.hold_free(tip=(X + 0.03, Y, 0.15))
+        placed = self.states['needle'].select(lambda state: state.placed_anew)
         self.assertEqual(len(placed), 1)
         self.assertNotEqual(placed[0].message, '')
-
-    def test_reset_places_proxies_anew(self):
-        self.send_sheet()
-        self.stab('needle', 0.001)
-        del self.states['needle'].messages[:]
-        rospy.ServiceProxy(NODE + '/reset', Empty)()
-        self.hold_until(
-            'needle',
-            (X, Y, 0.03),
-            lambda _: any(state.placed_anew for state in self.states['needle'].messages),
-            'placed anew',
-        )
-
-    def test_a_tool_without_links_says_so(self):
-        state = wait_until(self.states['grasper'].last, 'the state of the grasper')
-        self.assertEqual(state.state, ProxyState.NO_ANSWER)
-        self.assertIn('no_such_robot', state.message)
-        self.assertEqual((state.hand.orientation.w, state.proxy.orientation.w), (1.0, 1.0))
+        rospy.ServiceProxy(self.node + '/reset', Empty)()
+        self.hold_until('needle', AIR, lambda _: len(self.states['needle'].select(lambda s: s.placed_anew)) > 1, 'anew')
 
     def test_parameters_can_be_changed(self):
         self.send_sheet()
-        self.stab('needle', 0.02)
-        self.assertEqual(self.set_number('max_force', 1.5), 1.5)
-        state = self.hold_until(
-            'needle', (X, Y, -0.02), lambda state: state.clipped, 'the force is clipped'
-        )
+        self.stab()
+        self.addCleanup(self.change, 'max_force', math.inf)
+        self.assertEqual(self.change('max_force', 1.5), 1.5)
+        state = self.hold_until('needle', DEEP, lambda state: state.clipped, 'the force is clipped')
         self.assertAlmostEqual(state.wrench.force.z, 1.5, delta=1e-6)
-        self.assertEqual(self.set_number('max_force', -1.0), 1.5, 'an illegal value is refused')
-        self.set_number('max_force', math.inf)
+        self.assertEqual(self.change('max_force', -1.0), 1.5, 'an illegal value is refused')
 
     def test_a_needle_pierces_at_the_puncture_force(self):
         self.send_sheet()
-        self.set_number('puncture_force', 3.0)
-        self.set_number('friction', 0.5)
-        try:
-            depth = 2.9 / STIFFNESS - RADIUS['needle'] - CLEARANCE
-            self.assertEqual(self.stab('needle', depth).state, ProxyState.TOUCHING)
-            self.move('needle', (X, Y, -0.03))
-            state = self.hold_until(
-                'needle',
-                (X, Y, -0.03),
-                lambda state: state.state == ProxyState.PUNCTURED,
-                'punctured',
-            )
-            self.assertAlmostEqual(state.wrench.force.z, 0.5, delta=0.05)
-            self.assertLess(state.proxy.position.z, -0.02)
-            self.move('needle', (X, Y, 0.03))
-            self.hold_until(
-                'needle', (X, Y, 0.03), lambda state: state.state == ProxyState.FREE, 'pulled out'
-            )
-        finally:
-            self.set_number('puncture_force', 0.0)
-            self.set_number('friction', 0.0)
-
-    def test_an_organ_in_another_frame_is_where_tf_says(self):
-        self.send_sheet()
-        raised = 'raised_frame'
-        self.tf.send_resting((FRAME, raised, scenes.Pose((0, 0, 0, 1), (0.0, 0.0, 0.01))))
-        name = self.organ + '_raised'
-        self.send_sheet(name, raised)
-        try:
-            wrenches = Log('%s/%s/needle/wrench' % (NODE, name), WrenchStamped)
-            self.hold_until(
-                'needle', (X, Y, 0.04), lambda state: state.state == ProxyState.FREE, 'in the air'
-            )
-            self.move('needle', (X, Y, -0.01))
-            expected = self.spring('needle', -0.01) + STIFFNESS * 0.01
-            self.hold_until(
-                'needle',
-                (X, Y, -0.01),
-                lambda state: abs(state.wrench.force.z - expected) < 1e-3
-                and state.header.frame_id == FRAME,
-                'the force of the raised organ',
-            )
-            wait_until(
-                lambda: wrenches.last(lambda wrench: abs(wrench.wrench.force.z - expected) < 1e-3),
-                'its wrench',
-            )
-        finally:
-            rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(name)
-            wait_until(lambda: name not in self.organs(), 'removal')
-
-    def check_age_is_told(self, frame, tip):
-        """Of a hand whose poses come, the frame of an organ is too old."""
-        state = self.hold_until(
-            'needle',
-            tip,
-            lambda state: state.state == ProxyState.NO_ANSWER
-            and "frame '%s' is " % frame in state.message
-            and state.wrench.force.z == 0.0,
-            'the frame is too old',
-        )
-        self.assertIn('(frame_timeout_sec)', state.message)
-
-    def test_the_frame_of_the_proxies_may_be_the_one_that_is_too_old(self):
-        frame = 'own_frame'
-        pose = scenes.Pose((0, 0, 0, 1), (0.0, 0.0, -0.01))
-        self.tf.send((FRAME, frame, pose, rospy.Time.now()))
-        self.send_sheet(frame=frame)
-
-        def is_followed(state):
-            self.tf.send((FRAME, frame, pose, rospy.Time.now()))
-            return state.state == ProxyState.FREE and state.header.frame_id == frame
-
-        for _ in range(2):  # After the silence, it goes on.
-            self.hold_until('needle', (X, Y, 0.03), is_followed, 'the needle in the air')
-            self.check_age_is_told(frame, (X, Y, 0.03))
-
-    def test_an_organ_that_rises_into_a_hand_pushes_it_until_its_frame_is_too_old(self):
-        self.send_sheet()
-        name = self.organ + '_rising'
-        tip = (X, Y, 0.05)
-        self.tf.send_resting(
-            *((FRAME, 'pin_' + end, scenes.Pose((0, 0, 0, 1), at)) for end, at in (('trocar', TROCAR), ('tip', tip)))
-        )
-
-        def raise_to(height):
-            pose = scenes.Pose((0, 0, 0, 1), (0.0, 0.0, height))
-            self.tf.send((FRAME, 'rising_frame', pose, rospy.Time.now()))
-            time.sleep(0.002)
-
-        def reaches(height, condition, what):
-            """Keeps the organ there until the condition holds for the last state of the pin."""
-
-            def holds():
-                raise_to(height)
-                state = self.states['pin'].last()
-                return state and condition(state)
-
-            wait_until(holds, lambda: '%s; the last state is %s' % (what, self.states['pin'].last()))
-
-        raise_to(0.03)
-        self.send_sheet(name, 'rising_frame')
-        expected = self.spring('pin', 0.0)
-        try:
-            for _ in range(2):  # After the silence, it goes on.
-                reaches(0.03, lambda state: state.state == ProxyState.FREE, 'the organ below the pin')
-                for i in range(1, 20):
-                    raise_to(0.03 + 1e-3 * i)
-                reaches(
-                    tip[2],
-                    lambda state: state.state == ProxyState.TOUCHING
-                    and abs(state.wrench.force.z - expected) < 1e-3,
-                    'the force of the organ on the pin',
-                )
-                states = self.states['pin'].messages
-                wait_until(
-                    lambda: states[-1].state == ProxyState.NO_ANSWER and states[-1].wrench.force.z == 0.0,
-                    'the force is gone, because the organ is silent',
-                )
-                answered = max(i for i, s in enumerate(states) if s.state != ProxyState.NO_ANSWER)
-                lost = states[answered + 1 :]
-                self.assertIn("frame 'rising_frame' is ", lost[0].message)
-                self.assertIn('(frame_timeout_sec)', lost[0].message)
-                forces = [state.wrench.force.z for state in lost]
-                self.assertAlmostEqual(forces[0], expected, delta=1e-3, msg='it fades from where it was')
-                self.assertEqual(forces, sorted(forces, reverse=True), 'the force must only fall')
-                self.check_age_is_told('rising_frame', tip)
-                wait_until(
-                    lambda: self.diagnostics.last(
-                        lambda message: any(
-                            "frame 'rising_frame'" in status.message for status in message.status
-                        )
-                    ),
-                    'the reason on /diagnostics',
-                )
-        finally:
-            rospy.ServiceProxy(NODE + '/remove_organ', RemoveOrgan)(name)
-            wait_until(lambda: name not in self.organs(), 'removal')
-
-    def test_a_trocar_in_tissue_is_no_answer(self):
-        self.send_sheet()
-        self.stab('needle', 0.02)
-        trocar = [(FRAME, 'needle_trocar', scenes.Pose((0, 0, 0, 1), at)) for at in (TROCAR, (0.02, -0.01, 0.0))]
-        self.tf.send_resting(trocar[1])
-        try:
-            state = self.hold_until(
-                'needle',
-                (X, Y, -0.02),
-                lambda state: state.state == ProxyState.NO_ANSWER and state.wrench.force.z == 0.0,
-                'no answer',
-            )
-            self.assertIn('the trocar is in tissue', state.message)
-            self.assertFalse(state.placed_anew)
-            answer = wait_until(
-                lambda: self.contacts.last(
-                    lambda answer: answer.tool == 'needle' and 'the trocar is in tissue' in answer.message
-                ),
-                'contacts that say so',
-            )
-            self.assertNotEqual(answer.status, ContactArray.OK)
-            del self.proxies.messages[:]
-            self.hold_until(
-                'needle',
-                (X, Y, -0.021),
-                lambda state: state.header.stamp > answer.header.stamp,
-                'a later state',
-            )
-            self.assertEqual(self.proxies.messages, [])
-        finally:
-            self.tf.send_resting(trocar[0])
+        for name, value in (('puncture_force', 3.0), ('friction', 0.5)):
+            self.change(name, value)
+            self.addCleanup(self.change, name, 0.0)
+        depth = 2.9 / STIFFNESS - RADIUS['needle'] - CLEARANCE
+        self.assertEqual(self.stab(depth=depth).state, TOUCHING)
+        self.hands.move('needle', (X, Y, -0.03))
+        state = self.hold_until('needle', (X, Y, -0.03), lambda state: state.state == ProxyState.PUNCTURED, 'punctured')
+        self.assertAlmostEqual(state.wrench.force.z, 0.5, delta=0.05)
+        self.assertLess(state.proxy.position.z, -0.02)
+        self.hands.move('needle', AIR)
+        self.hold_free()
 
     def test_a_tool_that_is_removed_lets_go(self):
         self.send_sheet()
-        wrenches = Log('%s/%s/needle/wrench' % (NODE, self.organ), WrenchStamped)
-        self.stab('needle', 0.02)
-        self.hold_until(
-            'needle',
-            (X, Y, -0.02),
-            lambda _: wrenches.last(lambda wrench: wrench.wrench.force.z > 1.0),
-            'the wrench',
-        )
-        tools = rospy.get_param(NODE + '/tools')
-        rospy.set_param(NODE + '/tools', [tool for tool in tools if tool['name'] != 'needle'])
-        try:
-            self.assertTrue(rospy.ServiceProxy(NODE + '/reload_tools', Trigger)().success)
-            wait_until(lambda: wrenches.messages[-1].wrench.force.z == 0.0, 'the last wrench')
-            last = self.states['needle'].last()
-            self.assertEqual((last.state, last.wrench.force.z), (ProxyState.NO_ANSWER, 0.0))
-            self.assertIn('removed', last.message)
-        finally:
-            rospy.set_param(NODE + '/tools', tools)
-            rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+        wrenches = Log('%s/%s/needle/wrench' % (self.node, self.organ), WrenchStamped)
+        self.stab()
+        self.hold_until('needle', DEEP, lambda wrench: wrench.wrench.force.z > 1.0, 'the wrench', wrenches)
+        answer = self.reload_with(lambda tools: [tool for tool in tools if tool['name'] != 'needle'])
+        self.assertTrue(answer.success, answer.message)
+        wait_until(lambda: wrenches.last().wrench.force.z == 0.0, 'the last wrench')
+        last = self.states['needle'].last()
+        self.assertEqual((last.state, last.wrench.force.z), (NO_ANSWER, 0.0))
+        self.assertIn('removed', last.message)
 
     def test_a_reload_that_fails_leaves_the_hands_as_they_were(self):
+        """On this topic the node already hears messages of another type."""
         self.send_sheet()
-        self.stab('needle', 0.02)
-        tools = rospy.get_param(NODE + '/tools')
-        # On this topic the node already hears messages of another type.
-        broken = [dict(tool) for tool in tools]
-        broken[0]['tip_pose_topic'] = NODE + '/organ_mesh'
-        rospy.set_param(NODE + '/tools', broken)
-        try:
-            answer = rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
-            self.assertFalse(answer.success, answer.message)
-            self.stab('needle', 0.01)
-        finally:
-            rospy.set_param(NODE + '/tools', tools)
-            rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+        self.stab()
+        answer = self.reload_with(lambda tools: [dict(tools[0], tip_pose_topic=self.node + '/organ_mesh'), *tools[1:]])
+        self.assertFalse(answer.success, answer.message)
+        self.stab(depth=0.01)
 
+
+class ReloadTest(ProxyCase):
     def test_reloaded_tools_keep_their_proxies(self):
+        """In another order."""
         self.send_sheet()
-        self.stab('needle', 0.02)
-        tools = rospy.get_param(NODE + '/tools')
-        others = [tool for tool in tools[::-1] if tool['name'] != 'probe']  # In another order.
-        rospy.set_param(NODE + '/tools', others)
-        try:
-            answer = rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
-            self.assertTrue(answer.success, answer.message)
-            self.assertIn("removed: 'probe'", answer.message)
-            del self.states['needle'].messages[:]
-            state = self.hold_until('needle', (X, Y, -0.02), lambda state: True, 'a state')
-            self.assertFalse(state.placed_anew)
-            self.stab('needle', 0.01)
-        finally:
-            rospy.set_param(NODE + '/tools', tools)
-            rospy.ServiceProxy(NODE + '/reload_tools', Trigger)()
+        self.stab()
+        answer = self.reload_with(lambda tools: [tool for tool in tools[::-1] if tool['name'] != 'probe'])
+        self.assertTrue(answer.success, answer.message)
+        self.assertIn("removed: 'probe'", answer.message)
+        del self.states['needle'].messages[:]
+        self.assertFalse(self.hold_until('needle', DEEP, lambda state: True, 'a state').placed_anew)
+        self.stab(depth=0.01)
+
+
+class NodeletTest(ReloadTest):
+    node, process = '/proxy_nodelet', '/manager'
+
+
+class AllTests(unittest.TestSuite):
+    def __init__(self):
+        super().__init__(unittest.defaultTestLoader.loadTestsFromTestCase(case)
+                         for case in (HapticProxyTest, ReloadTest, NodeletTest))
 
 
 if __name__ == '__main__':
     rospy.init_node('haptic_proxy_test')
-    rostest.rosrun('organ_collision', 'haptic_proxy', HapticProxyTest, sys.argv)
+    rostest.rosrun('organ_collision', 'haptic_proxy', 'haptic_proxy_test.AllTests', sys.argv)

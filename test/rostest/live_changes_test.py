@@ -5,36 +5,26 @@ import sys
 import threading
 
 from dynamic_reconfigure.client import Client
-from geometry_msgs.msg import PoseStamped, WrenchStamped
+from geometry_msgs.msg import PoseStamped
 from organ_collision.msg import ContactArray
 import rospy
 import rostest
 from std_srvs.srv import Trigger
 
 from support import scenes
-from support.contract import KeepsContract
-from support.node_client import LIMIT, TfSender, is_heard, wait_until
-from support.tool_case import ToolCase
+from support.contact_case import KeepsContract
+from support.node_client import LIMIT, NodeClient, is_heard, wait_until
+from support.tool_case import OUT_OF_REACH, ToolCase
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4)
-NODE = '/organ_collision'
-AT_START = {
-    'rate': 0.0,
-    'publish_regions': False,
-    'publish_placement': True,
-    'tf_timeout_sec': 5.0,
-    'mesh_timeout_sec': 0.0,
-}
+NODE = '/live'
+AT_START = {'rate': 0.0, 'publish_regions': False, 'publish_placement': True, 'tf_timeout_sec': 5.0,
+            'mesh_timeout_sec': 0.0}
 
 
-def shaft(name, radius=0.005):
-    return {
-        'name': name,
-        'trocar_frame': name + '_trocar',
-        'tip_frame': name + '_tip',
-        'radius': radius,
-    }
+def shaft(name, radius=0.005, **more):
+    return dict(name=name, trocar_frame=name + '_trocar', tip_frame=name + '_tip', radius=radius, **more)
 
 
 def at_height(height):
@@ -45,7 +35,10 @@ class LiveChangesTest(KeepsContract, ToolCase):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        rospy.wait_for_service(NODE + '/reload_tools', LIMIT)
+        cls.node.close()
+        cls.node = NodeClient(NODE)
+        cls.tf.wait_for(cls.node)
+        cls.node.bring(OUT_OF_REACH, scenes.one_face().moved(lambda v: (v[0] + 100.0, v[1], v[2])))
         cls.reload_service = rospy.ServiceProxy(NODE + '/reload_tools', Trigger)
         cls.client = Client(NODE, timeout=LIMIT)
 
@@ -63,7 +56,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
         return self.node.contacts.of(self.organ, tool)
 
     def assert_no_gap(self, tool):
-        """Checks that each step of the tool begins where the one before it ended."""
+        """Each step of the tool begins where the one before it ended."""
         answers = self.answers(tool)
         self.assertEqual([a.mode for a in answers], [STATIC] + [SWEPT] * (len(answers) - 1))
         for earlier, later in zip(answers, answers[1:]):
@@ -71,41 +64,28 @@ class LiveChangesTest(KeepsContract, ToolCase):
             self.assertEqual(later.step_start, earlier.header.stamp)
 
     def test_unchanged_tools_keep_their_history(self):
-        """The tools are reloaded several times while steps are made. The kept tool has another
-        place in the list each time."""
+        """The tools are reloaded several times while steps are made. The kept tool has another place in the list each
+        time. At the end, there is none."""
         self.reloaded(shaft('kept'), shaft('hook'))
         axes = {'kept': at_height(0.05), 'hook': at_height(0.0055)}
         self.step(SHEET, axes)
         self.assertEqual(self.step(SHEET, axes, vertices=True)['hook'].contacts, [])
-
-        messages = []
-        thicker = shaft('hook', radius=0.006)
+        messages, thicker = [], shaft('hook', radius=0.006)
         lists = [[thicker, shaft('kept')], [shaft('saw'), thicker, shaft('kept')], [shaft('kept')]]
-
-        def reload_all():
-            for tools in lists:
-                messages.append(self.reload(*tools).message)
-
-        thread = threading.Thread(target=reload_all)
+        thread = threading.Thread(target=lambda: messages.extend(self.reload(*tools).message for tools in lists))
         thread.start()
         steps = 0
         while thread.is_alive() or steps == 0:
-            height = 0.05 if steps % 2 else -0.05
-            self.step(SHEET, {'kept': at_height(height)}, vertices=True)
+            self.step(SHEET, {'kept': at_height(0.05 if steps % 2 else -0.05)}, vertices=True)
             steps += 1
         thread.join()
-        self.assertEqual(
-            messages,
-            [
-                "unchanged: 'kept'; changed: 'hook'",
-                "unchanged: 'hook', 'kept'; new: 'saw'",
-                "unchanged: 'kept'; removed: 'saw', 'hook'",
-            ],
-        )
+        self.assertEqual(messages, ["unchanged: 'kept'; changed: 'hook'", "unchanged: 'hook', 'kept'; new: 'saw'",
+                                    "unchanged: 'kept'; removed: 'saw', 'hook'"])
         self.assert_no_gap('kept')
         self.assertGreater(max(len(a.contacts) for a in self.answers('kept')), 0)
-        gone = self.node.query(self.organ, tool='saw')
-        self.assertEqual(gone.status, ContactArray.UNKNOWN_TOOL)
+        self.assertEqual(self.node.query(self.organ, tool='saw').status, ContactArray.UNKNOWN_TOOL)
+        self.assertEqual(self.reloaded(), "removed: 'kept'")
+        self.node.diagnostics.wait_for_summary('tools', '~tools is empty')
 
     def test_a_changed_tool_begins_with_a_static_step(self):
         self.reloaded(shaft('kept'), shaft('hook'))
@@ -115,21 +95,23 @@ class LiveChangesTest(KeepsContract, ToolCase):
         changed = wait_until(lambda: self.answers('hook')[1:], 'the answer about the changed tool')
         self.assertEqual(changed[0].mode, STATIC)
         self.assertGreater(len(changed[0].contacts), 0)
-        answers = self.step(SHEET, axes, vertices=True)
-        self.assertEqual([answers[tool].mode for tool in axes], [SWEPT, SWEPT])
+        self.assertEqual([answer.mode for answer in self.step(SHEET, axes, vertices=True).values()], [SWEPT, SWEPT])
         self.assertEqual(len(self.answers('kept')), 2)
 
     def test_what_is_illegal_changes_nothing(self):
+        """Subscriptions are the last thing that can fail, and must not leave half of the new list."""
         self.reloaded(shaft('kept'))
         self.step(SHEET, {'kept': at_height(0.05)})
         robot = {'name': 'robot', 'links': ['jaw'], 'urdf': '/no/such/file.urdf'}
-        cases = [
+        posed = shaft('posed', tip_pose_topic='/tf')
+        del posed['tip_frame']
+        for tools, words in (
             ([shaft('kept', radius=-0.25)], ['~tools[0]/radius', '-0.25', 'more than 0']),
             ([shaft('kept'), shaft('kept')], ['~tools[1]/name', 'unique']),
             (['kept'], ['~tools[0]', 'group']),
             ([shaft('new'), robot], ["robot: urdf '/no/such/file.urdf'"]),
-        ]
-        for tools, words in cases:
+            ([posed], ['/tf']),
+        ):
             answer = self.reload(*tools)
             self.assertFalse(answer.success, tools)
             for word in words:
@@ -145,144 +127,60 @@ class LiveChangesTest(KeepsContract, ToolCase):
         urdf = rospy.get_param('/robot_description')
         self.assertEqual(urdf.count('"0.02 0.04 0.06"'), 1)
         rospy.set_param('/robot_description', urdf.replace('"0.02 0.04 0.06"', '"0.02 0.04 0.07"'))
-        try:
-            self.assertEqual(self.reloaded(robot), "changed: 'robot'")
-        finally:
-            rospy.set_param('/robot_description', urdf)
+        self.assertEqual(self.reloaded(robot), "changed: 'robot'")
 
     def test_no_pose_is_lost(self):
         """The tip's poses come on a topic while the tool changes its place in the list."""
-        probe = {'name': 'probe', 'trocar_frame': 'probe_trocar', 'radius': 0.005}
-        probe['tip_pose_topic'] = '/probe_pose'
+        probe = {'name': 'probe', 'trocar_frame': 'probe_trocar', 'radius': 0.005, 'tip_pose_topic': '/probe_pose'}
         self.reloaded(probe)
-        self.node.send_mesh(self.organ, SHEET)
-        self.node.wait_for_shape(self.organ, rospy.Time())
-        resting = scenes.Pose((0, 0, 0, 1), (0.013, 0.007, 0.4))
-        self.tf.send_resting((self.node.frame, 'probe_trocar', resting))
+        self.node.bring(self.organ, SHEET)
+        self.tf.send_resting((self.node.frame, 'probe_trocar', (0.013, 0.007, 0.4)))
         poses = rospy.Publisher('/probe_pose', PoseStamped, queue_size=10)
         wait_until(lambda: is_heard(poses, NODE), 'the node to listen to /probe_pose')
 
         def send(height):
             pose = PoseStamped()
-            pose.header.frame_id = self.node.frame
-            pose.header.stamp = rospy.Time.now()
-            pose.pose.position.x, pose.pose.position.y = 0.013, 0.007
-            pose.pose.position.z, pose.pose.orientation.w = height, 1.0
+            pose.header.frame_id, pose.header.stamp = self.node.frame, rospy.Time.now()
+            pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = 0.013, 0.007, height
+            pose.pose.orientation.w = 1.0
             poses.publish(pose)
-            return self.node.contacts.wait_for(
-                self.organ, 'probe', stamp=pose.header.stamp, status=ContactArray.OK
-            )
+            return self.node.contacts.wait_for(self.organ, 'probe', stamp=pose.header.stamp, status=ContactArray.OK)
 
         self.assertEqual(send(0.05).mode, STATIC)
         for i, height in enumerate((-0.05, 0.05, -0.05)):
-            others = [shaft('other_%d_%d' % (i, j)) for j in range(i + 1)]
-            self.reloaded(*(others + [probe]))
+            self.reloaded(*[shaft('other_%d_%d' % (i, j)) for j in range(i + 1)], probe)
             self.assertEqual(poses.get_num_connections(), 1)
             answer = send(height)
             self.assertEqual(answer.mode, SWEPT)
             self.assertGreater(len(answer.contacts), 0)
 
-    def test_an_empty_list_is_said(self):
-        self.reloaded(shaft('kept'))
-        self.assertEqual(self.reloaded(), "removed: 'kept'")
-        wait_until(
-            lambda: '~tools is empty' in self.node.summaries.get('tools', ''),
-            lambda: self.node.summaries,
-        )
-
-    def test_a_topic_of_another_type_changes_nothing(self):
-        """Subscriptions are the last thing that can fail, and must not leave half of the new list."""
-        self.reloaded(shaft('kept'), shaft('other'))
-        before = self.step(SHEET, {'kept': at_height(0.003), 'other': at_height(0.05)})
-        posed = shaft('posed')
-        del posed['tip_frame']
-        answer = self.reload(dict(posed, tip_pose_topic='/tf'))
-        self.assertFalse(answer.success)
-        self.assertIn('/tf', answer.message)
-        after = self.step(SHEET, {'kept': at_height(0.002), 'other': at_height(0.05)}, vertices=True)
-        for tool in ('kept', 'other'):
-            self.assertEqual((after[tool].status, after[tool].mode), (ContactArray.OK, SWEPT))
-            self.assertEqual(after[tool].step_start, before[tool].header.stamp)
-
     def test_parameters_are_described_with_their_limits(self):
         described = {p['name']: p for p in self.client.get_parameter_descriptions(LIMIT)}
-        self.assertEqual(
-            set(described),
-            set(AT_START) | {'markers_rate', 'surface_rate', 'markers_depth'},
-        )
+        self.assertEqual(set(described), set(AT_START) | {'markers_rate', 'surface_rate', 'markers_depth'})
         self.assertEqual((described['rate']['min'], described['rate']['max']), (0.0, 10000.0))
         self.assertEqual(described['tf_timeout_sec']['default'], 0.02)
-        self.assertEqual(self.client.get_configuration(LIMIT)['tf_timeout_sec'], 5.0)
-
-    def test_illegal_values_are_refused(self):
-        for changes in (
-            {'rate': 10001.0, 'publish_regions': True},
-            {'rate': -1.0},
-            {'tf_timeout_sec': float('nan')},
-            {'mesh_timeout_sec': float('inf')},
-        ):
+        for changes in ({'rate': 10001.0, 'publish_regions': True}, {'tf_timeout_sec': float('nan')}):
             now = self.client.update_configuration(changes)
             self.assertEqual({name: now[name] for name in AT_START}, AT_START, changes)
         self.assertEqual(rospy.get_param(NODE + '/rate', 0.0), 0.0)
 
-    def test_a_rate_makes_ticks(self):
-        """Also tests the adapter, which gets an answer with each tick."""
-        self.reloaded(shaft('hook'))
-        self.assertEqual(self.step(SHEET, {'hook': at_height(0.003)})['hook'].regions, [])
-        depth = max(contact.depth for contact in self.answers('hook')[0].contacts)
-        self.assertAlmostEqual(depth, 0.002, delta=1e-6)
-        try:
-            now = self.client.update_configuration({'rate': 50, 'publish_regions': True})
-            self.assertEqual((now['rate'], now['publish_regions']), (50.0, True))
-            self.assertEqual(rospy.get_param(NODE + '/rate'), 50.0)
-            wait_until(lambda: len(self.answers('hook')) > 5, 'ticks')
-            self.assertGreater(len(self.answers('hook')[-1].regions), 0)
-            self.check_force(depth)
-        finally:
-            self.client.update_configuration({'rate': 0.0, 'publish_regions': False})
-        self.client.update_configuration({'mesh_timeout_sec': 1e-3, 'rate': 50.0})
-        try:
-            self.node.contacts.wait_for(self.organ, 'hook', status=ContactArray.STALE_MESH)
-        finally:
-            self.client.update_configuration({'mesh_timeout_sec': 0.0, 'rate': 0.0})
-
-    def test_placement_is_switched_off_and_on(self):
+    def test_parameters_change(self):
+        """A rate, regions, the timeout of meshes, and placement."""
         self.reloaded(shaft('hook'))
         axis = {'hook': at_height(-0.003)}
-
-        def crossings(vertices=True):
-            return self.step(SHEET, axis, vertices=vertices)['hook'].placement.crossings
-
-        self.assertEqual(len(crossings(vertices=False)), 1)
+        first = self.step(SHEET, axis)['hook']
+        self.assertEqual((first.regions, len(first.placement.crossings)), ([], 1))
         try:
-            self.client.update_configuration({'publish_placement': False})
-            self.assertEqual(crossings(), [])
+            now = self.client.update_configuration({'rate': 50, 'publish_regions': True})
+            self.assertEqual((now['rate'], now['publish_regions'], rospy.get_param(NODE + '/rate')), (50.0, True, 50.0))
+            wait_until(lambda: len(self.answers('hook')) > 5 and self.answers('hook')[-1].regions, 'ticks with regions')
+            self.client.update_configuration({'mesh_timeout_sec': 1e-3})
+            self.node.contacts.wait_for(self.organ, 'hook', status=ContactArray.STALE_MESH)
+            self.client.update_configuration({'mesh_timeout_sec': 0.0, 'rate': 0.0, 'publish_placement': False})
+            self.assertEqual(self.step(SHEET, axis, vertices=True)['hook'].placement.crossings, [])
         finally:
-            self.client.update_configuration({'publish_placement': True})
-        self.assertEqual(len(crossings()), 1)
-
-    def check_force(self, depth):
-        """The force of a tool that rests at this depth follows the adapter's live parameters."""
-        adapter = Client('/contact_adapter', timeout=LIMIT)
-        forces = []
-        topic = '/contact_adapter/%s/hook/wrench' % self.organ
-        subscriber = rospy.Subscriber(
-            topic, WrenchStamped, lambda message: forces.append(message.wrench.force)
-        )
-        for changes, newtons in (
-            ({'stiffness': 600.0}, 600 * depth),
-            ({'max_force': 0.5}, 0.5),
-            ({'stiffness': -1.0}, 0.5),
-            ({'max_force': float('inf'), 'stiffness': 300.0}, 300 * depth),
-        ):
-            adapter.update_configuration(changes)
-            wait_until(
-                lambda: forces
-                and abs((forces[-1].x**2 + forces[-1].y**2 + forces[-1].z**2) ** 0.5 - newtons)
-                < 1e-6,
-                lambda: (changes, newtons, forces[-1:]),
-            )
-        subscriber.unregister()
+            self.client.update_configuration(AT_START)
+        self.assertEqual(len(self.step(SHEET, axis, vertices=True)['hook'].placement.crossings), 1)
 
 
 if __name__ == '__main__':

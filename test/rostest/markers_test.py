@@ -1,71 +1,97 @@
 #!/usr/bin/python3
-"""The markers show organs, tools and contacts, also to a viewer that comes late, and leave nothing
-of what is gone."""
+"""The markers show organs, tools and contacts, and of haptic_proxy hands, proxies and states, also to a viewer that
+comes late. They leave nothing of what is gone."""
 
+import math
 import sys
+import threading
+import time
 
+from geometry_msgs.msg import PoseStamped
+from organ_collision.msg import OrganMesh
 import rospy
 import rostest
-from visualization_msgs.msg import Marker
+from visualization_msgs.msg import Marker, MarkerArray
 
 from support import scenes
-from support.marker_viewer import Viewer
 from support.node_client import NodeClient, TfSender, wait_until
-from support.node_starter import NodeStarter
-from support.scenes import Pose
+from support.processes import NodeStarter
 
-TOOL = {
-    'name': 'probe',
-    'trocar_frame': 'probe_trocar',
-    'tip_frame': 'probe_tip',
-    'radius': 0.005,
-    'margin': 0.02,
-    'max_near': 50,
-}
+TOOL = {'name': 'probe', 'trocar_frame': 'probe_trocar', 'tip_frame': 'probe_tip', 'radius': 0.005, 'margin': 0.02,
+        'max_near': 50}
 SHEET = scenes.sheet(0.1, 4)
-NO_TURN = (0.0, 0.0, 0.0, 1.0)
-TROCAR = Pose(NO_TURN, (0.01, 0.02, 0.3))
+TROCAR = (0.01, 0.02, 0.3)
 TOUCHING, ABOVE = -0.302, -0.2  # [m] z coordinate of the tip, relative to the trocar
-FULL = {
-    'surface/sheet', 'tools', 'touched', 'normals', 'names', 'near', 'clearance', 'crossings', 'status'
-}
+FULL = {'surface/sheet', 'tools', 'touched', 'normals', 'names', 'near', 'clearance', 'crossings', 'status'}
+
+
+class Viewer:
+    """Keeps the markers of a topic as RViz does."""
+
+    def __init__(self, topic):
+        self.lock = threading.Lock()
+        self.markers, self.surfaces = {}, 0
+        self.subscriber = rospy.Subscriber(topic, MarkerArray, self._show, queue_size=4000)
+
+    def _show(self, array):
+        with self.lock:
+            for marker in array.markers:
+                assert marker.header.frame_id and marker.header.stamp.is_zero()
+                if marker.action == Marker.DELETEALL:
+                    self.markers.clear()
+                elif marker.action == Marker.DELETE:
+                    self.markers.pop((marker.ns, marker.id), None)
+                else:
+                    assert marker.lifetime > rospy.Duration(0)
+                    self.markers[marker.ns, marker.id] = marker
+                    self.surfaces += marker.ns.startswith('surface/')
+
+    def namespaces(self):
+        with self.lock:
+            return {name for name, _ in self.markers}
+
+    def of(self, namespace):
+        with self.lock:
+            return [m for (name, _), m in sorted(self.markers.items()) if name == namespace]
+
+    def text(self, namespace):
+        return ''.join(marker.text for marker in self.of(namespace))
+
+    def wait_for(self, namespaces):
+        wait_until(lambda: self.namespaces() == namespaces,
+                   lambda: 'the markers %s; there are %s' % (namespaces, self.namespaces()))
 
 
 class MarkersTest(NodeStarter):
     def start_node(self, name, **parameters):
-        """A node with one tool, its client, and a sender of its transforms."""
+        """A node with one tool, its client, a sender of its transforms, and a viewer."""
         process = self.start(name, dict(parameters, tools=[TOOL]))
-        client = NodeClient(name)
+        client, transforms = NodeClient(name), TfSender()
         self.addCleanup(client.close)
-        transforms = TfSender()
         transforms.wait_for(client)
         transforms.send_resting((client.frame, 'probe_trocar', TROCAR))
-        return process, client, transforms
+        return process, client, transforms, Viewer(name + '/markers')
 
-    def step(self, client, transforms, height, organ='sheet'):
+    def step(self, client, transforms, height):
         """Sends the sheet and a pose of the tip, and waits for the answer."""
         now = rospy.Time.now()
-        transforms.send(('probe_trocar', 'probe_tip', Pose(NO_TURN, (0.0, 0.0, height)), now))
-        client.send_mesh(organ, SHEET, now)
-        return client.contacts.wait_for(organ, 'probe', stamp=now)
+        transforms.send(('probe_trocar', 'probe_tip', (0.0, 0.0, height), now))
+        client.send_mesh('sheet', SHEET, now)
+        return client.contacts.wait_for('sheet', 'probe', stamp=now)
 
     def test_what_is_there_is_shown_and_what_is_gone_is_not(self):
-        process, client, transforms = self.start_node('/shown')
-        viewer = Viewer('/shown/markers')
+        """A viewer that comes while nothing moves gets everything."""
+        process, client, transforms, viewer = self.start_node('/shown')
         self.assertTrue(self.step(client, transforms, TOUCHING).contacts)
-        viewer.wait_for(FULL)
-
+        for shown in (viewer, Viewer('/shown/markers')):
+            shown.wait_for(FULL)
         surface = viewer.of('surface/sheet')[0]
         self.assertEqual(surface.header.frame_id, client.frame)
         corners = [(p.x, p.y, p.z) for p in surface.points]
         self.assertEqual(corners, [SHEET.vertices[i] for i in SHEET.flat_faces()])
-        self.assertEqual([m.text for m in viewer.of('names')], ['probe'])
-        self.assertIn('probe: ', viewer.of('status')[0].text)
-        self.assertEqual(
-            [m.type for m in viewer.of('tools')], [Marker.CYLINDER, Marker.SPHERE, Marker.SPHERE]
-        )
-
-        self.check_late_viewer()
+        self.assertEqual(viewer.text('names'), 'probe')
+        self.assertIn('probe: ', viewer.text('status'))
+        self.assertEqual([m.type for m in viewer.of('tools')], [Marker.CYLINDER, Marker.SPHERE, Marker.SPHERE])
 
         self.step(client, transforms, ABOVE)  # This step begins with the contacts.
         self.assertFalse(self.step(client, transforms, ABOVE).contacts)
@@ -74,44 +100,68 @@ class MarkersTest(NodeStarter):
         viewer.wait_for({'surface/sheet', 'status'})
         client.remove('sheet')
         viewer.wait_for(set())
-        viewer.close()
         self.stop(process)
-
-    def check_late_viewer(self):
-        """Checks that a viewer that comes while nothing moves gets everything."""
-        late = Viewer('/shown/markers')
-        late.wait_for(FULL)
-        late.close()
 
     def test_rates(self):
         """Surfaces are sent at their rate, and not at all if it is 0."""
-        process, client, transforms = self.start_node('/slow', surface_rate=5.0, markers_rate=100.0)
-        viewer = Viewer('/slow/markers')
-        start, steps = rospy.get_time(), 0
+        process, client, transforms, viewer = self.start_node('/slow', surface_rate=5.0, markers_rate=100.0)
+        start = rospy.get_time()
         while rospy.get_time() < start + 1.0 or viewer.surfaces < 3:
             self.step(client, transforms, ABOVE)
-            steps += 1
         self.assertLessEqual(viewer.surfaces, 2 + 5.0 * (rospy.get_time() - start))
-        viewer.close()
         self.stop(process)
-
-        process, client, transforms = self.start_node('/bare', surface_rate=0)
-        viewer = Viewer('/bare/markers')
+        process, client, transforms, viewer = self.start_node('/bare', surface_rate=0)
         self.step(client, transforms, TOUCHING)
         viewer.wait_for(FULL - {'surface/sheet'})
-        viewer.close()
         self.stop(process)
 
     def test_an_organ_is_shown_without_transforms(self):
         """The status says why nothing is answered about it."""
-        process = self.start('/lone', {'tools': [TOOL]})
-        client = NodeClient('/lone')
+        process = self.start('/lone', {'tools': [dict(TOOL, tip_frame='nowhere')]})
+        client, viewer = NodeClient('/lone'), Viewer('/lone/markers')
         self.addCleanup(client.close)
-        viewer = Viewer('/lone/markers')
         client.send_mesh('sheet', SHEET, rospy.Time.now())
         viewer.wait_for({'surface/sheet', 'status'})
-        wait_until(lambda: 'no transform' in viewer.of('status')[0].text, 'the reason')
-        viewer.close()
+        wait_until(lambda: 'no transform' in viewer.text('status'), 'the reason')
+        self.stop(process)
+
+    def test_hand_and_proxy(self):
+        frame, stiffness, height = 'organ', 200.0, 0.02
+        tool = {'name': 'probe', 'trocar_frame': 'hand_trocar', 'tip_pose_topic': '/probe/pose', 'radius': 0.005}
+        hand = rospy.Publisher('/probe/pose', PoseStamped, queue_size=100)
+        meshes = rospy.Publisher('/hands/organ_mesh', OrganMesh, queue_size=1, latch=True)
+        transforms = TfSender()
+        transforms.send_resting((frame, 'hand_trocar', (0, 0, 0.3)))
+        process = self.start('/hands', {'tools': [tool], 'stiffness': stiffness, 'pose_timeout_sec': 0.3},
+                             'haptic_proxy')
+        viewer = Viewer('/hands/markers')
+        mesh = OrganMesh(organ='sheet', vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces())
+        mesh.header.frame_id = frame
+        meshes.publish(mesh)
+
+        def holds(target, state):
+            """Moves the hand by a small step. Returns whether it is there and the state is shown."""
+            nonlocal height
+            height += math.copysign(min(abs(target - height), 1e-3), target - height)
+            pose = PoseStamped()
+            pose.header.frame_id, pose.header.stamp = frame, rospy.Time.now()
+            pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = 0.013, 0.007, height
+            pose.pose.orientation.w = 1.0
+            hand.publish(pose)
+            time.sleep(0.005)
+            return height == target and viewer.text('state') == state
+
+        shown = {'surface/sheet', 'status', 'state', 'proxy'}
+        wait_until(lambda: holds(0.02, 'probe: FREE, 0.0 N') and viewer.namespaces() == shown, viewer.namespaces)
+        self.assertEqual([m.type for m in viewer.of('proxy')], [Marker.CYLINDER, Marker.SPHERE, Marker.SPHERE])
+        more = shown | {'hand', 'spring', 'loads'}
+        wait_until(lambda: holds(-0.02, 'probe: TOUCHING, 5.0 N') and viewer.namespaces() == more, viewer.namespaces)
+        start, end = viewer.of('spring')[0].points
+        self.assertAlmostEqual(start.z, -0.02, delta=1e-9)
+        self.assertAlmostEqual(end.z, tool['radius'] + 1e-4, delta=1e-5)
+        # The hand is silent: there is no answer any more.
+        wait_until(lambda: viewer.text('state').startswith('probe: NO_ANSWER: '), lambda: viewer.text('state'))
+        viewer.wait_for({'surface/sheet', 'status', 'state', 'hand'})
         self.stop(process)
 
 

@@ -20,8 +20,6 @@
 #include <thread>
 #include <vector>
 
-#include "test/rostest/service_call.hpp"
-
 namespace organ_collision {
 namespace {
 
@@ -47,6 +45,23 @@ boost::shared_ptr<Message> sheet_message(float z) {
   message->organ = "sheet";
   message->vertices = sheet(z);
   return message;
+}
+
+/// Calls a service over a new connection, which must be advertised already. Returns false if it
+/// failed or did not answer.
+///
+/// The connection is persistent, which means that the client closes it. Otherwise roscpp drops the
+/// answer if its polling thread sees that the server closes the connection before the thread of the
+/// call waits for the answer. If the server closed it nevertheless, because roscpp took an earlier
+/// client's hanging up for this one's, the call is made once more.
+template <typename Service>
+bool call_service(const std::string& name, Service& service) {
+  for (int connection = 0; connection < 2; ++connection) {
+    ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true);
+    if (client.call(service)) return true;
+    if (client.isValid()) return false;
+  }
+  return false;
 }
 
 /// How many motions the node says it has answered; 0: it does not say.

@@ -29,19 +29,29 @@ double radius(const std::string& robot_description, const std::string& node) {
   return tool.fault.empty() ? tool.links.at(0).parts.at(0).radius : 0.0;
 }
 
-TEST(RobotDescription, IsTheNearestFromTheNodeUpwards) {
+class RobotDescription : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    ros::param::set("/robot_description", ball("1"));
+    ros::param::set("/left/robot_description", ball("2"));
+    ros::param::set("/own/organ_collision/robot_description", ball("3"));
+    ros::param::set("/number", 4);
+  }
+};
+
+TEST_F(RobotDescription, IsTheNearestFromTheNodeUpwards) {
   EXPECT_EQ(radius("robot_description", "/organ_collision"), 1.0);
   EXPECT_EQ(radius("robot_description", "/right/organ_collision"), 1.0);
   EXPECT_EQ(radius("robot_description", "/left/organ_collision"), 2.0);
   EXPECT_EQ(radius("robot_description", "/own/organ_collision"), 3.0);
 }
 
-TEST(RobotDescription, MayBeNamedAbsolutely) {
+TEST_F(RobotDescription, MayBeNamedAbsolutely) {
   EXPECT_EQ(radius("/left/robot_description", "/organ_collision"), 2.0);
   EXPECT_EQ(radius("left/robot_description", "/organ_collision"), 2.0);
 }
 
-TEST(RobotDescription, FaultsNameTheParameter) {
+TEST_F(RobotDescription, FaultsNameTheParameter) {
   expect_words(load("robot", "/left/organ_collision").fault,
                {"probe: parameter 'robot'", "neither in /left/organ_collision nor"});
   expect_words(load("left/robot", "/organ_collision").fault,
@@ -51,14 +61,3 @@ TEST(RobotDescription, FaultsNameTheParameter) {
 
 }  // namespace
 }  // namespace organ_collision
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "robot_description_test");
-  const ros::NodeHandle node;
-  ros::param::set("/robot_description", organ_collision::ball("1"));
-  ros::param::set("/left/robot_description", organ_collision::ball("2"));
-  ros::param::set("/own/organ_collision/robot_description", organ_collision::ball("3"));
-  ros::param::set("/number", 4);
-  return RUN_ALL_TESTS();
-}

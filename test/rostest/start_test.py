@@ -1,217 +1,199 @@
 #!/usr/bin/python3
-"""How the node starts. Illegal parameters stop it with a message, misspelt ones are reported, and
-it accepts a latched mesh that is older than itself."""
+"""How programs start and end. Illegal parameters stop the node with a message, and misspelt ones are reported. Which
+OpenGL it takes. It accepts a latched mesh that is older than itself. What it says about real-time scheduling is what
+the system says. check_contacts ends with the right exit code."""
 
-import copy
 import os
 import sys
 
-from organ_collision.msg import ContactArray, OrganMesh
+from diagnostic_msgs.msg import DiagnosticStatus
+from organ_collision.msg import Contact, ContactArray, OrganMesh
 import roslib.packages
 import rospy
 import rostest
+from std_srvs.srv import Trigger
 
 from support import oracle, scenes
 from support.contact_case import ContactCase
-from support.node_client import NodeClient, shaft, wait_until
-from support.node_starter import NodeStarter
+from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, shaft, wait_until
+from support.processes import NodeStarter, process_of
 
-TOOL = {
-    'name': 'grasper',
-    'trocar_frame': 'grasper_trocar',
-    'tip_frame': 'grasper_tip',
-    'radius': 0.005,
-}
+TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasper_tip', 'radius': 0.005}
 SHEET = scenes.sheet(0.1, 4)
+MISSING_GL = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl')
+PRIORITY = 7
+REALTIME = {'tools': [], 'diagnostic_period': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True,
+            'awake_cores': True}
+# Runs a command without the right to real-time scheduling and locked memory. Only root has the capabilities.
+WITHOUT_RIGHTS = ['prlimit', '--rtprio=0:0', '--memlock=65536:65536'] + (
+    ['setpriv', '--bounding-set', '-sys_nice,-ipc_lock'] if os.geteuid() == 0 else [])
+# What roscpp starts with a node: its sockets, its XML-RPC server, its log, its queue, its timers.
+THREADS_OF_ROSCPP = 5
 
-# Parameters that are set in addition to one good tool, and the words that the message must contain:
-# the parameter, the value, what is legal.
-ILLEGAL = [
-    ({'tools': 'grasper'}, ['tools', 'grasper', 'list']),
-    ({'tools': 3}, ['tools', '3', 'list']),
-    ({'tools': ['grasper']}, ['tools', 'grasper']),
-    ({'picker': 'raytrace'}, ['picker', 'raytrace', 'feedback', 'select']),
-    ({'picker': 7}, ['picker', '7', 'feedback', 'select', 'cpu']),
-    ({'gl': 'glx'}, ['gl', 'glx', 'auto', 'osmesa', 'egl']),
-    ({'rate': -1.5}, ['rate', '-1.5', '0']),
-    ({'rate': 'fast'}, ['rate', 'fast', 'number']),
-    ({'rate': float('nan')}, ['rate', 'nan', '0']),
-    ({'organ_motion': 'maybe'}, ['organ_motion', 'maybe', 'true', 'false']),
-    ({'motion_sample_sec': 0.0}, ['motion_sample_sec', '0']),
-    ({'motion_sample_sec': -0.125}, ['motion_sample_sec', '-0.125', '0']),
-    ({'motion_samples_max': 0}, ['motion_samples_max', '0', '1']),
-    ({'motion_samples_max': 2.5}, ['motion_samples_max', '2.5', '1']),
-    ({'tf_timeout_sec': -0.5}, ['tf_timeout_sec', '-0.5', '0']),
-    ({'tf_timeout_sec': float('inf')}, ['tf_timeout_sec', 'inf', '0']),
-    ({'mesh_timeout_sec': -2}, ['mesh_timeout_sec', '-2', '0']),
-    ({'max_faces': 0}, ['max_faces', '0', '1']),
-    ({'max_faces': -7}, ['max_faces', '-7', '1']),
-    ({'max_faces': 2147483647}, ['max_faces', '2147483647', '83333333']),
-    ({'max_batch': 0}, ['max_batch', '0', '1']),
-    ({'max_batch_bytes': 2147483647}, ['max_batch_bytes', '2147483647', '1000000000']),
-    ({'publish_regions': 'often'}, ['publish_regions', 'often', 'true', 'false']),
-]
-ILLEGAL_IN_TOOL = [
-    ({'radius': 0.0}, ['radius', '0']),
-    ({'radius': -0.25}, ['radius', '-0.25', '0']),
-    ({'radius': float('nan')}, ['radius', 'nan', '0']),
-    ({'radius': float('inf')}, ['radius', 'inf', '0']),
-    ({'radius': 'thin'}, ['radius', 'thin', 'number']),
-    ({'radius': None}, ['radius', 'missing']),
-    ({'name': None}, ['name', 'missing']),
-    ({'name': ''}, ['name']),
-    ({'trocar_frame': None}, ['trocar_frame', 'missing']),
-    ({'tip_frame': ''}, ['tip_frame']),
-    ({'tip_frame': 'grasper_trocar'}, ['tip_frame', 'grasper_trocar']),
-    ({'tip_frame': '/grasper_trocar'}, ['tip_frame', 'grasper_trocar']),
-]
+
+def realtime_threads(process):
+    def is_realtime(thread):
+        policy = os.sched_getscheduler(thread) & ~os.SCHED_RESET_ON_FORK
+        return policy == os.SCHED_FIFO and os.sched_getparam(thread).sched_priority == PRIORITY
+
+    return [int(name) for name in os.listdir('/proc/%d/task' % process) if is_realtime(int(name))]
+
+
+def locked_kilobytes(process):
+    with open('/proc/%d/status' % process, encoding='utf-8') as status:
+        return next(int(line.split()[1]) for line in status if line.startswith('VmLck:'))
+
+
+def keeps_cores_awake(process):
+    def target(name):
+        try:
+            return os.readlink('/proc/%d/fd/%s' % (process, name))
+        except FileNotFoundError:  # It was closed since the list was made.
+            return ''
+
+    return any(target(name) == '/dev/cpu_dma_latency' for name in os.listdir('/proc/%d/fd' % process))
 
 
 class StartTest(ContactCase, NodeStarter):
     def setUp(self):
         self.name = '/' + self.id().split('.')[-1]
 
-    def refused(self, cases):
-        """`cases`: [(parameters, words)]. Starts a node for each at once. Each must stop and print
-        its words."""
-        started = [
-            (self.start('%s_%d' % (self.name, i), parameters), words)
-            for i, (parameters, words) in enumerate(cases)
-        ]
+    def test_refusals(self):
+        """The parameter, its value, and what is legal. Mesa would end the process if it did not know the driver."""
+        driver, started = ('env', 'GALLIUM_DRIVER=nonsense'), []
+        for i, (parameters, through, *words) in enumerate((
+            ({}, (), 'tools', 'missing'),
+            ({'tool': [TOOL]}, (), 'tools', "'tools'", 'tool '),
+            ({'tools': [TOOL], 'picker': 'raytrace'}, (), 'picker', 'raytrace', 'feedback', 'select', 'cpu'),
+            ({'tools': [TOOL], 'rate': -1.5}, (), 'rate', '-1.5', '0'),
+            ({'tools': [TOOL, dict(TOOL, name='other', radius=float('nan'))]}, (), 'tools[1]/radius', 'nan', '0'),
+            ({'tools': [TOOL], 'gl': 'osmesa'}, driver, 'GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'),
+            ({'tools': [TOOL], 'gl': 'egl'}, driver, 'GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'),
+            ({'tools': [TOOL]}, self.without('osmesa_egl'), 'libOSMesa.so.8', 'libEGL.so.1', 'picker: cpu'),
+        )):
+            started.append((self.start('%s_%d' % (self.name, i), parameters, through=through), words))
         for process, words in started:
             self.assert_refused(process, words)
 
-    def test_illegal_parameters(self):
-        self.refused([(dict({'tools': [TOOL]}, **change), words) for change, words in ILLEGAL])
-
-    def test_illegal_tools(self):
-        cases = []
-        for change, words in ILLEGAL_IN_TOOL:
-            tool = {k: v for k, v in dict(TOOL, **change).items() if v is not None}
-            cases.append(({'tools': [dict(TOOL, name='other'), tool]}, ['tools'] + words))
-        cases.append(({'tools': [TOOL, copy.copy(TOOL)]}, ['tools', 'grasper', 'unique']))
-        self.refused(cases)
-
-    def test_drivers_of_opengl(self):
-        """Mesa ends the process if it does not know the driver."""
-        for platform in ('osmesa', 'egl'):
-            parameters = {'tools': [TOOL], 'gl': platform}
-            node = self.start(self.name + '_' + platform, parameters, through=('env', 'GALLIUM_DRIVER=nonsense'))
-            self.assert_refused(node, ['GALLIUM_DRIVER', 'nonsense', 'llvmpipe', 'softpipe'])
-
-    def test_tools_are_required(self):
-        self.refused(
-            [({}, ['tools', 'missing']), ({'tool': [TOOL]}, ['tools', "'tools'", 'tool '])]
-        )
-
     def test_misspelt_names_and_implausible_sizes_are_reported(self):
-        process = self.start(
-            self.name,
-            {
-                'tools': [dict(TOOL, colour='red', radius=5.0)],
-                'tf_timeout': 0.5,
-                'publish_region': True,
-            },
-        )
-        NodeClient(self.name)
+        parameters = {'tools': [dict(TOOL, colour='red', radius=5.0)], 'tf_timeout': 0.5, 'publish_region': True}
+        process = self.start(self.name, parameters)
+        node = NodeClient(self.name)
+        answer = node.query('liver', tool='grasper')  # There is no mesh yet.
+        self.assertIn(answer.status, (ContactArray.NO_MESH, ContactArray.UNKNOWN_ORGAN))
+        self.assertIn('liver', answer.message)
         printed = self.stop(process)
-        for word in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour'):
-            self.assertIn(word, printed)
-        self.assertIn("tool 'grasper' has a radius of 5 m", printed)
-        self.assertIn('ready: 1 tool,', printed)
-
-    def test_an_empty_list_of_tools_is_said(self):
-        """The node starts, says what follows, and answers queries that give a motion."""
-        process = self.start(self.name, {'tools': []})
-        node = NodeClient(self.name)
-        node.send_mesh('sheet', SHEET, rospy.Time(1))
-        node.wait_for_shape('sheet', rospy.Time(1))
-        wait_until(lambda: 'tools' in node.summaries, '/diagnostics')
-        self.assertIn('~tools is empty', node.summaries['tools'])
-        self.assertIn('~tools is empty', self.stop(process))
-
-    def test_legal_parameters_at_their_limits(self):
-        process = self.start(
-            self.name,
-            {
-                'tools': [dict(TOOL, radius=1)],
-                'picker': 'select',
-                'rate': 0,
-                'organ_motion': False,
-                'motion_sample_sec': 1,
-                'motion_samples_max': 1,
-                'tf_timeout_sec': 0,
-                'mesh_timeout_sec': 0,
-                'max_faces': 32,
-                'publish_regions': True,
-            },
-        )
-        node = NodeClient(self.name)
-        node.send_mesh('sheet', SHEET, rospy.Time(1))  # 32 faces
-        node.wait_for_shape('sheet', rospy.Time(1))
-        self.stop(process)
+        for words in ('tf_timeout ', 'tf_timeout_sec', 'publish_region ', 'colour',
+                      "tool 'grasper' has a radius of 5 m",
+                      'ready: 1 tool,'):
+            self.assertIn(words, printed)
 
     def without(self, libraries):
-        """The words of a command that runs a node where these GL libraries are missing: files that
-        are no libraries come first."""
-        return ['env', 'LD_LIBRARY_PATH=%s:%s' % (
-            os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl', libraries),
-            os.environ.get('LD_LIBRARY_PATH', ''))]
+        """The words of a command that runs a node where these GL libraries are missing: files that are no libraries
+        come first."""
+        paths = os.path.join(MISSING_GL, libraries), os.environ.get('LD_LIBRARY_PATH', '')
+        return ['env', 'LD_LIBRARY_PATH=%s:%s' % paths]
 
-    def assert_finds_contacts(self):
-        node = NodeClient(self.name)
-        node.send_mesh('sheet', SHEET, rospy.Time(1))
-        node.wait_for_shape('sheet', rospy.Time(1))
+    def assert_finds_contacts(self, node):
         axis = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
-        self.assert_contacts(
-            node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(SHEET, axis, 0.005)
-        )
+        self.assert_contacts(node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(SHEET, axis, 0.005))
 
-    def test_without_osmesa_there_is_egl(self):
-        process = self.start(self.name, {'tools': [TOOL]}, through=self.without('osmesa'))
-        self.assert_finds_contacts()
-        self.assertIn('on EGL', self.stop(process))
-
-    def test_without_any_opengl_it_stops_and_names_the_way_out(self):
-        process = self.start(self.name, {'tools': [TOOL]}, through=self.without('osmesa_egl'))
-        self.assert_refused(process, ['libOSMesa.so.8', 'libEGL.so.1', 'picker: cpu'])
-
-    def test_without_any_opengl_the_cpu_picks(self):
-        process = self.start(
-            self.name, {'tools': [TOOL], 'picker': 'cpu'}, through=self.without('osmesa_egl')
-        )
-        self.assert_finds_contacts()
-        self.assertIn('GL none', self.stop(process))
+    def test_without_osmesa_there_is_egl_and_without_both_the_cpu_picks(self):
+        for libraries, picker, said in (('osmesa', 'feedback', 'on EGL'), ('osmesa_egl', 'cpu', 'GL none')):
+            parameters = {'tools': [TOOL], 'picker': picker}
+            process = self.start(self.name + picker, parameters, through=self.without(libraries))
+            node = NodeClient(self.name + picker)
+            node.bring('sheet', SHEET, rospy.Time(1))
+            self.assert_finds_contacts(node)
+            self.assertIn(said, self.stop(process))
 
     def test_a_latched_mesh_waits_for_the_node(self):
-        """The organ is sent once, before the node starts. The node starts, is killed, and starts
-        again."""
+        """The organ is sent once, before the node starts. The node starts, ends, and starts again."""
         latched = rospy.Publisher(self.name + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
-        message = OrganMesh(
-            organ='sheet', topology=3, vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces()
-        )
-        message.header.frame_id = 'liver_frame'
-        message.header.stamp = rospy.Time(1)
+        message = OrganMesh(organ='sheet', topology=3, vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces())
+        message.header.frame_id, message.header.stamp = 'liver_frame', rospy.Time(1)
         latched.publish(message)
-        axis = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
         for _ in range(2):
             process = self.start(self.name, {'tools': [TOOL]})
             node = NodeClient(self.name)
             node.wait_for_shape('sheet', rospy.Time(1), topology=3)
-            self.assert_contacts(
-                node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(SHEET, axis, 0.005)
-            )
+            self.assert_finds_contacts(node)
             self.stop(process)
 
-    def test_a_node_without_any_mesh_says_so(self):
-        process = self.start(self.name, {'tools': [TOOL]})
-        node = NodeClient(self.name)
-        motion = shaft((0.0, 0.0, 0.1), (0.0, 0.0, 0.0), 0.005)
-        for result in [node.query('liver', motion), node.query('liver', tool='grasper')]:
-            self.assertIn(result.status, (ContactArray.NO_MESH, ContactArray.UNKNOWN_ORGAN))
-            self.assertEqual(result.contacts, [])
-            self.assertIn('liver', result.message)
-        self.stop(process)
+    @staticmethod
+    def scheduling(node):
+        """The level of the status about scheduling on /diagnostics, and all values."""
+        said = Diagnostics(node)
+        wait_until(lambda: 'scheduling' in said.levels and 'scheduling' in said.values, node)
+        return said.levels['scheduling'], said.values
+
+    def test_real_time_with_the_rights_of_this_test(self):
+        for name, program in (('/fast_node', 'organ_collision_node'), ('/fast_proxy', 'haptic_proxy')):
+            process = self.start(name, REALTIME, program)
+            level, values = self.scheduling(name)
+            granted, is_awake = realtime_threads(process.pid), keeps_cores_awake(process.pid)
+            self.assertEqual(values['scheduling'], 'SCHED_FIFO, priority %d' % PRIORITY if granted else 'ordinary')
+            if granted:
+                self.assertIn(process.pid, granted)  # The main thread, which does the steps.
+                self.assertIn(len(granted),
+                              range(1 + THREADS_OF_ROSCPP, len(os.listdir('/proc/%d/task' % process.pid))))
+            has_locked = float(values['locked memory of the process [MiB]']) > 0.0
+            self.assertEqual(has_locked, locked_kilobytes(process.pid) > 0)
+            self.assertEqual(values.get('idle cores') == 'awake', is_awake)
+            is_whole = bool(granted) and has_locked and is_awake
+            self.assertEqual(level, DiagnosticStatus.OK if is_whole else DiagnosticStatus.WARN)
+            printed = self.stop(process)
+            for refused, was_granted in (('realtime_priority 7', granted), ('lock_memory', has_locked),
+                                         ('awake_cores', is_awake)):
+                self.assertEqual(refused + ' is refused' in printed, not was_granted, printed)
+
+    def test_real_time_without_rights(self):
+        """The node goes on, and says what to do."""
+        process = self.start('/slow_node', REALTIME, through=WITHOUT_RIGHTS)
+        level, values = self.scheduling('/slow_node')
+        self.assertEqual((level, values['scheduling'], values['locked memory of the process [MiB]']),
+                         (DiagnosticStatus.WARN, 'ordinary', '0'))
+        self.assertEqual(realtime_threads(process.pid), [])
+        printed = self.stop(process)
+        for words in ('realtime_priority 7 is refused: Operation not permitted', 'limit rtprio to at least 7',
+                      'lock_memory is refused: locked memory is limited to 64 kB'):
+            self.assertIn(words, printed)
+
+    def test_real_time_in_a_nodelet_leaves_the_other_threads_of_its_manager_alone(self):
+        values, manager = self.scheduling('in_manager')[1], process_of('/manager')
+        granted = realtime_threads(manager)
+        self.assertEqual(bool(granted), values['scheduling'].startswith('SCHED_FIFO'))
+        self.assertNotIn(manager, granted)
+        self.assertEqual(locked_kilobytes(manager), 0)
+        self.assertFalse(keeps_cores_awake(manager))
+
+    def test_exit_codes_of_check_contacts(self):
+        """By the answers on its topics: good, bad, and none."""
+        def answer(fraction):
+            found = ContactArray(organ='liver', tool='probe', links=[''], mode=ContactArray.SWEPT)
+            found.header.frame_id, found.header.stamp, found.step_start = 'liver_frame', rospy.Time(2), rospy.Time(1)
+            found.contacts = [Contact(fraction=fraction, barycentric=[0.2, 0.3, 0.5])]
+            found.contacts[0].normal.z = 1.0
+            return found
+
+        for topic, fractions, code, words in (
+            ('/good', (0.5,), 0, ['1 answers came, 1 with status OK']),
+            ('/bad', (0.5, float('nan'), 1.5), 1,
+             ["'liver'", "'probe'", 'fraction of contacts[0] (face 0) is nan', 'shares 2']),
+            ('/silent', (), 3, ['0 answers came']),
+        ):
+            publisher, name = rospy.Publisher(topic, ContactArray, queue_size=10), topic + '_watcher'
+            process = self.start(name, {}, 'check_contacts', arguments=[topic])
+            wait_until(lambda: is_heard(publisher, name), 'connections')
+            for fraction in fractions:
+                publisher.publish(answer(fraction))
+            rospy.wait_for_service(name + '/summary', LIMIT)
+            ask = rospy.ServiceProxy(name + '/summary', Trigger)
+            wait_until(lambda: ask().message.startswith('%d answers' % len(fractions)), lambda: ask().message)
+            self.assertEqual(ask().success, code != 1)
+            printed = self.stop(process, code)
+            for word in words:
+                self.assertIn(word, printed)
 
 
 if __name__ == '__main__':

@@ -15,20 +15,11 @@ FORMATS = {PointField.FLOAT32: 'f', PointField.FLOAT64: 'd'}
 
 
 def shape_mesh(mesh):
-    return Mesh(
-        vertices=[Point(*v) for v in mesh.vertices],
-        triangles=[MeshTriangle(vertex_indices=f) for f in mesh.faces],
-    )
+    return Mesh(vertices=[Point(*v) for v in mesh.vertices],
+                triangles=[MeshTriangle(vertex_indices=f) for f in mesh.faces])
 
 
-def marker(
-    mesh,
-    frame='liver_frame',
-    stamp=rospy.Time(),
-    name=('organs', 7),
-    pose=scenes.IDENTITY,
-    scale=(1, 1, 1),
-):
+def marker(mesh, frame='liver_frame', stamp=rospy.Time(), name=('organs', 7), pose=scenes.IDENTITY, scale=(1, 1, 1)):
     """A TRIANGLE_LIST that shows `mesh` after its `pose` and `scale` are applied."""
     message = Marker(ns=name[0], id=name[1], type=Marker.TRIANGLE_LIST, action=Marker.ADD)
     message.header.frame_id, message.header.stamp = frame, stamp
@@ -45,15 +36,8 @@ def deletion(action, name=('organs', 7)):
     return Marker(ns=name[0], id=name[1], action=action)
 
 
-def cloud(
-    vertices,
-    frame='liver_frame',
-    stamp=rospy.Time(),
-    order='xyz',
-    datatype=PointField.FLOAT32,
-    padding=0,
-    big_endian=False,
-):
+def cloud(vertices, frame='liver_frame', stamp=rospy.Time(), order='xyz', datatype=PointField.FLOAT32, padding=0,
+          big_endian=False):
     """A cloud of one row. Each point has its coordinates in this order, then `padding` bytes."""
     number = ('>' if big_endian else '<') + FORMATS[datatype]
     size = struct.calcsize(number)
@@ -62,10 +46,8 @@ def cloud(
     message.fields = [PointField(name, i * size, datatype, 1) for i, name in enumerate(order)]
     message.point_step = 3 * size + padding
     message.row_step = message.point_step * message.width
-    message.data = b''.join(
-        b''.join(struct.pack(number, v['xyz'.index(name)]) for name in order) + b'\xa5' * padding
-        for v in vertices
-    )
+    message.data = b''.join(b''.join(struct.pack(number, v['xyz'.index(name)]) for name in order) + b'\xa5' * padding
+                            for v in vertices)
     return message
 
 

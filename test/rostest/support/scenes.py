@@ -1,7 +1,7 @@
 """Meshes and rigid poses for the tests. Lengths are in metres, and frames are right-handed.
 
-A mesh rounds its vertices to 32-bit floats, as in the messages, so that the node and the oracle
-work with the same numbers."""
+A mesh rounds its vertices to 32-bit floats, as in the messages, so that the node and the oracle work with the same
+numbers."""
 
 import math
 import struct
@@ -12,8 +12,8 @@ def float32(value):
 
 
 class Mesh:
-    """Any set of triangles: `vertices` as (x, y, z), `faces` as three vertex indices whose normal
-    by the right-hand rule points outward."""
+    """Any set of triangles: `vertices` as (x, y, z), `faces` as three vertex indices whose normal by the right-hand
+    rule points outward."""
 
     def __init__(self, vertices, faces):
         self.vertices = [tuple(float32(c) for c in v) for v in vertices]
@@ -37,9 +37,7 @@ class Mesh:
 def sheet(size=0.1, cells=4, z=0.0):
     """A square sheet around (0, 0, z) with 2 * cells * cells faces and its normal along +z."""
     n = cells + 1
-    vertices = [
-        (size * (i / cells - 0.5), size * (j / cells - 0.5), z) for j in range(n) for i in range(n)
-    ]
+    vertices = [(size * (i / cells - 0.5), size * (j / cells - 0.5), z) for j in range(n) for i in range(n)]
     faces = []
     for j in range(cells):
         for i in range(cells):
@@ -58,47 +56,32 @@ def tetrahedron(size=0.1):
     corners = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
     turn = Pose((0.1, 0.25, -0.15, 0.95), (0.0, 0.0, 0.0))
     scale = size / (2 * math.sqrt(2))
-    return Mesh(
-        [turn.apply([scale * c for c in corner]) for corner in corners],
-        [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)],
-    )
+    return Mesh([turn.apply([scale * c for c in corner]) for corner in corners],
+                [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])
 
 
 def box(size=(0.06, 0.05, 0.04)):
     """A closed box of 12 faces around the origin."""
-    vertices = [
-        (
-            size[0] * (i & 1) - size[0] / 2,
-            size[1] * (i >> 1 & 1) - size[1] / 2,
-            size[2] * (i >> 2) - size[2] / 2,
-        )
-        for i in range(8)
-    ]
+    vertices = [(size[0] * (i & 1) - size[0] / 2, size[1] * (i >> 1 & 1) - size[1] / 2,
+                 size[2] * (i >> 2) - size[2] / 2)
+                for i in range(8)]
     quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)]
     return Mesh(vertices, [f for a, b, c, d in quads for f in ((a, b, c), (a, c, d))])
 
 
 def liver():
-    """A closed, lobed surface of 1224 faces, about 0.2 m long: 36 meridians, 17 rings, two
-    poles."""
+    """A closed, lobed surface of 1224 faces, about 0.2 m long: 36 meridians, 17 rings, two poles."""
     meridians, rings = 36, 17
 
     def point(polar, azimuth):
-        lobe = (
-            1.0 + 0.25 * math.cos(azimuth) * math.sin(polar) + 0.08 * math.sin(3 * azimuth + polar)
-        )
-        return (
-            0.10 * lobe * math.sin(polar) * math.cos(azimuth),
-            0.06 * lobe * math.sin(polar) * math.sin(azimuth),
-            0.035 * lobe * math.cos(polar),
-        )
+        lobe = 1.0 + 0.25 * math.cos(azimuth) * math.sin(polar) + 0.08 * math.sin(3 * azimuth + polar)
+        return (0.10 * lobe * math.sin(polar) * math.cos(azimuth), 0.06 * lobe * math.sin(polar) * math.sin(azimuth),
+                0.035 * lobe * math.cos(polar))
 
     vertices = [point(0.0, 0.0)]
     for ring in range(rings):
         for meridian in range(meridians):
-            vertices.append(
-                point(math.pi * (ring + 1) / (rings + 1), 2 * math.pi * meridian / meridians)
-            )
+            vertices.append(point(math.pi * (ring + 1) / (rings + 1), 2 * math.pi * meridian / meridians))
     vertices.append(point(math.pi, 0.0))
 
     def at(ring, meridian):
@@ -115,8 +98,7 @@ def liver():
 
 
 class Pose:
-    """A rigid transform T_target_source, from a quaternion (x, y, z, w) of any length and a
-    translation."""
+    """A rigid transform T_target_source, from a quaternion (x, y, z, w) of any length and a translation."""
 
     def __init__(self, rotation, translation):
         length = math.sqrt(sum(c * c for c in rotation))
@@ -130,9 +112,7 @@ class Pose:
             (2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)),
             (2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)),
         )
-        return tuple(
-            sum(r * c for r, c in zip(row, p)) + t for row, t in zip(rows, self.translation)
-        )
+        return tuple(sum(r * c for r, c in zip(row, p)) + t for row, t in zip(rows, self.translation))
 
     def inverse(self):
         x, y, z, w = self.rotation
@@ -140,4 +120,9 @@ class Pose:
         return Pose(back.rotation, [-c for c in back.apply(self.translation)])
 
 
-IDENTITY = Pose((0.0, 0.0, 0.0, 1.0), (0.0, 0.0, 0.0))
+def at(translation):
+    """The pose of a frame that is not turned."""
+    return Pose((0.0, 0.0, 0.0, 1.0), translation)
+
+
+IDENTITY = at((0.0, 0.0, 0.0))

@@ -1,0 +1,136 @@
+"""What is wrong with a run of a soak, and the page about it."""
+
+import statistics
+
+from organ_collision.msg import ContactArray
+
+MEBIBYTE, HOUR = 2**20, 3600.0
+# Of a run, this share from the start is left out: the node's pools and queues grow to their size.
+WARM_UP = 0.3
+# Memory may grow by so much from the first third of the rest to the last one. The noise is that of queues that are full
+# when a program was stopped. In a run of less than two minutes, the pools may not have their size after the warm-up.
+MOST_GROWTH, MOST_GROWTH_OF_SHORT_RUN = 24 * MEBIBYTE, 200 * MEBIBYTE
+SHORT_RUN = 120.0  # [s]
+# What a node may answer whose transforms have gaps, whose organs come and go, and some of whose shapes are illegal.
+LEGAL = {ContactArray.OK, ContactArray.NO_MESH, ContactArray.NO_TRANSFORM, ContactArray.INVALID_REQUEST}
+
+
+def lowest(samples, begin, end):
+    """The lowest memory in a window [s]. Messages in queues only add to it."""
+    return min(size for time, size in samples if begin <= time <= end)
+
+
+def memory_trend(samples):
+    """(growth [bytes], slope [bytes/s]) of the lower envelope after the warm-up."""
+    end = samples[-1][0]
+    begin = WARM_UP * end
+    third = (end - begin) / 3.0
+    growth = lowest(samples, end - third, end) - lowest(samples, begin, begin + third)
+    return growth, growth / (2.0 * third)
+
+
+def is_short(run):
+    return run['memory'][-1][0] < SHORT_RUN
+
+
+def most_growth(run):
+    return MOST_GROWTH_OF_SHORT_RUN if is_short(run) else MOST_GROWTH
+
+
+def wrong_sums(counts, tools):
+    """What of the node's own counts does not add up, as sentences. `tools`: how many the node has."""
+    if counts['organ messages received'] != sum(counts['organ messages ' + fate] for fate in (
+            'applied', 'that remove', 'refused', 'dropped behind a large mesh', 'waiting')):
+        yield "the node's counts of organ messages do not add up"
+    if counts['shapes due'] != tools * counts['organ messages applied']:
+        yield 'not every accepted shape became due for each tool'
+    if counts['shapes due'] != sum(counts['shapes ' + fate] for fate in (
+            'answered', 'superseded by newer ones', 'forgotten before their step', 'waiting')):
+        yield "the node's counts of shapes do not add up"
+
+
+def open_accounts(run):
+    """What was sent and is not accounted for, as sentences."""
+    judged, sent, counts, wrong = run['judged'], run['sent'], run['counts'], []
+    messages = sent['meshes'] + sent['vertices']
+    known = counts['organ messages received'] + counts['organ messages lost before they came']
+    if messages != known:
+        wrong.append('of %d organ messages, the node knows of %d' % (messages, known))
+    for waiting in ('organ messages waiting', 'shapes waiting'):
+        if counts[waiting] != 0:
+            wrong.append('%d %s at the end' % (counts[waiting], waiting))
+    answers = judged['answers'] + judged['lost']
+    if answers != counts['answers published']:
+        wrong.append('of %d published answers, %d were received or known as lost' % (counts['answers published'],
+                                                                                     answers))
+    return wrong
+
+
+def missing(run):
+    """What must happen in a long run, and did not."""
+    wanted = {'answers of %s evaluated a second time' % tool: run['judged']['rechecked tools'].get('swept ' + tool, 0)
+              for tool in run['tools']}
+    wanted.update({'disturbances: ' + name: count for name, count in run['disturbances'].items()})
+    wanted.update({'simulator: ' + name: count for name, count in run['sent'].items()})
+    return ['there were no ' + what for what, count in wanted.items() if count == 0]
+
+
+def findings(run):
+    """Sentences; none: the run was good."""
+    if run['ended']:
+        return ['%s has ended with %d' % ended for ended in run['ended'].items()]
+    judged = run['judged']
+    wrong = judged['findings'] + run['users'] + run['wrong sums'] + open_accounts(run)
+    if run['exit code'] != 0:
+        wrong.append('at the end, %s shut down with exit code %d' % (run['kind'], run['exit code']))
+    growth, _ = memory_trend(run['memory'])
+    if run['with memory'] and growth > most_growth(run):
+        wrong.append('memory has grown by %.1f MiB' % (growth / MEBIBYTE))
+    wrong += ['%d answers have the status %s' % (count, status) for status, count in judged['statuses'].items()
+              if int(status) not in LEGAL]
+    if not is_short(run):
+        wrong += missing(run)
+    return wrong + ['nothing was judged: %s is 0' % what for what in ('ok', 'rechecked', 'rechecked contacts')
+                    if judged[what] == 0]
+
+
+def table(rows):
+    """Rows of cells; the first one is the head."""
+    lines = ['| ' + ' | '.join(map(str, row)) + ' |' for row in rows]
+    lines.insert(1, '|' + '---|' * len(rows[0]))
+    return '\n'.join(lines)
+
+
+def column(run):
+    """What is told of a run: {what: value}."""
+    judged, sent, counts, memory = run['judged'], run['sent'], run['counts'], run['memory']
+    growth, slope = memory_trend(memory)
+    seconds = memory[-1][0]
+    median = statistics.median(size for time, size in memory if time >= WARM_UP * seconds)
+    told = {'seconds': '%.0f' % seconds, 'shapes sent a second': '%.0f' % (sent['vertices'] / seconds),
+            'memory, median': '%.1f MiB' % (median / MEBIBYTE),
+            'memory, growth after the warm-up': '%+.2f MiB (%+.1f MiB/h)' % (growth / MEBIBYTE,
+                                                                             slope * HOUR / MEBIBYTE),
+            'organ messages sent': sent['meshes'] + sent['vertices']}
+    told.update({'node: ' + key: counts[key] for key in counts if key.startswith(('organ messages', 'shapes'))})
+    told.update({'node: answers published': counts['answers published'], 'answers received': judged['answers'],
+                 'answers known as lost on the way': judged['lost'], 'answers OK': judged['ok'],
+                 'answers evaluated a second time': judged['rechecked'], 'their contacts': judged['rechecked contacts'],
+                 'of them swept': sum(count for what, count in judged['rechecked tools'].items() if 'swept' in what)})
+    told.update({'disturbance: ' + name.replace('_', ' '): count for name, count in run['disturbances'].items()})
+    told.update({'simulator: ' + name: sent[name] for name in sent if name not in ('meshes', 'vertices')})
+    return told
+
+
+def markdown(result):
+    lines = ['# Soak of %g minutes, seed %d' % (result['minutes'], result['seed']), '']
+    lines += ['- **%s**' % finding for finding in result['findings']] or ['Nothing was found.']
+    runs = {kind: column(run) for kind, run in result['runs'].items() if 'judged' in run}
+    if runs:
+        names = list(dict.fromkeys(name for told in runs.values() for name in told))
+        rows = [['', *runs]] + [[name, *(told.get(name, 0) for told in runs.values())] for name in names]
+        allowed = ['%d MiB (%s)' % (most_growth(run) // MEBIBYTE, kind) for kind, run in result['runs'].items()]
+        lines += ['', table(rows), '',
+                  'Memory is the lowest resident memory of a window. The first %d %% of a run are left '
+                  'out. It may grow by %s.' % (100 * WARM_UP, ' and '.join(allowed))]
+    return '\n'.join(lines) + '\n'

@@ -1,0 +1,114 @@
+// Files and buffers: the OBJ files and the CSV files with motions of query_offline, the yaml files
+// with parameters of replay, and OpenGL's feedback buffer.
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fuzz_input.hpp"
+#include "offline/motions.hpp"
+#include "offline/obj_reader.hpp"
+#include "offline/user_input.hpp"
+#include "picking/gl/drawing.hpp"
+#include "replay/yaml_parameters.hpp"
+#include "ros/tools/robot_reply.hpp"
+
+using namespace organ_collision;
+
+namespace {
+
+/// [motions] Of an input that are answered.
+constexpr int kMost = 10;
+
+/// The path of a file with this content, which exists only in memory, and until the next call.
+std::string memory_file(const std::string& content) {
+  static const int descriptor = memfd_create("fuzz_input", MFD_CLOEXEC);
+  demand(ftruncate(descriptor, 0) == 0, "the file is empty");
+  demand(
+      pwrite(descriptor, content.data(), content.size(), 0) == static_cast<ssize_t>(content.size()),
+      "the file is written");
+  return "/proc/self/fd/" + std::to_string(descriptor);
+}
+
+void answer(const Motion& motion) {
+  static const TriangleMesh organ({-1, -1, 0, 1, -1, 0.1f, 1, 1, 0, -1, 1, 0.2f},
+                                  {0, 1, 2, 0, 2, 3});
+  static CollisionQuery query(PickerKind::kFeedback);
+  CollisionRequest request;
+  request.organ = &organ;
+  request.mode = motion.mode;
+  request.path = path_of(motion);
+  request.radius = motion.radius;
+  CollisionResult result;
+  query.evaluate(request, result);
+  for (const FaceContact& contact : result.contacts) {
+    demand(contact.face < 2, "a contact's face exists");
+  }
+}
+
+const FuzzTarget feedback_target("feedback", [](const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  // As GL: at most as many as the buffer has.
+  const std::size_t spare = input.byte() % 16;
+  std::vector<float> buffer;
+  while (!input.empty()) buffer.push_back(input.number<float>());
+  const std::size_t written = buffer.size() - std::min(spare, buffer.size());
+  buffer.shrink_to_fit();
+  std::size_t vertices = 0;
+  double sum = 0.0;
+  try {
+    for_each_vertex(buffer, written, [&](std::uint32_t face, double depth) {
+      sum += depth + face;
+      ++vertices;
+    });
+  } catch (const GlError&) {
+  }
+  demand(vertices * kVertexFloats <= written, "each vertex is within the buffer");
+});
+
+const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, std::size_t size) {
+  const std::string path = memory_file(FuzzInput(data, size).rest());
+  try {
+    MotionList(path, MotionList::Order::kAsInFile);
+    MotionList motions(path, MotionList::Order::kByQuery);
+    demand(motions.size() > 0, "a legal file has a motion");
+    for (int i = 0; i < kMost; ++i) {
+      const std::optional<Motion> motion = motions.next();
+      if (!motion) break;
+      answer(*motion);
+    }
+  } catch (const InputError&) {
+  }
+});
+
+const FuzzTarget obj_file_target("obj_file", [](const std::uint8_t* data, std::size_t size) {
+  static const TriangleMesh other({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
+  const std::string path = memory_file(FuzzInput(data, size).rest());
+  try {
+    const ObjFile obj = read_obj(path);
+    demand(obj.face_lines.size() * 3 == obj.triangles.size(), "each face has its line");
+    const TriangleMesh mesh = mesh_of(obj);
+    check_same_faces(obj, mesh, "itself");
+    check_same_faces(obj, other, "another file");
+  } catch (const InputError& error) {
+    demand(std::string(error.what()).find(':') != std::string::npos, "an error names the file");
+  }
+});
+
+const FuzzTarget parameter_file_target("parameter_file", [](const std::uint8_t* data,
+                                                            std::size_t size) {
+  const std::string path = memory_file(FuzzInput(data, size).rest());
+  try {
+    const YamlParameters parameters(path, "/organ_collision");
+    for (const ToolParameters& tool : parameters.node_parameters().tools) {
+      parameters.find_text(tool.robot_description);
+    }
+  } catch (const InputError&) {
+  } catch (const ParameterError&) {
+  } catch (const ToolError&) {
+  }
+});
+
+}  // namespace

@@ -1,0 +1,215 @@
+#!/usr/bin/python3
+"""The launch files of examples/ and their programs do what the pages say. Other tests run forces.launch and the
+robots."""
+
+import re
+import signal
+import subprocess
+import sys
+
+from geometry_msgs.msg import PoseStamped, Vector3, WrenchStamped
+import numpy as np
+from organ_collision import contact_table
+from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ProxyState, VertexForces
+import rosnode
+import rospy
+from rosgraph_msgs.msg import Log as LogLine
+import rostest
+from shape_msgs.msg import Mesh
+from std_msgs.msg import Bool
+
+from support import scenes
+from support.foreign_meshes import shape_mesh
+from support.launch_case import LaunchCase, files
+from support.node_client import LIMIT, ContactLog, Log, NodeClient, wait_until
+from support.processes import NodeStarter, program
+
+LONG = 90.0  # [s]
+TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue'}
+ELSEWHERE = {'forces', 'grasper', 'plan'}  # contact_adapter.test and robots.test
+FEM_STEP = 0.004  # [s] of fem_tissue
+
+
+def vector(v):
+    return np.array([v.x, v.y, v.z])
+
+
+def force_of(message):
+    return vector(message.wrench.force)
+
+
+def depths(said):
+    """The depths [mm] in what a program prints."""
+    return [float(depth) for depth in re.findall(r'(-?[\d.]+) mm', said)]
+
+
+class ExamplesTest(LaunchCase, NodeStarter):
+    def test_every_launch_file_is_tested(self):
+        self.assertEqual({'examples/%s.launch' % name for name in TESTED | ELSEWHERE}, files('examples', '.launch'))
+
+    def test_start(self):
+        """In both minimal simulators the probe presses the tissue by some millimetres, straight down. Both ask programs
+        get an answer."""
+        with self.launched('examples/start.launch'):
+            for simulator, asker in (('simulator.py', 'ask.py'), ('example_simulator', 'example_ask')):
+                log, contacts = Log('/rosout', LogLine), ContactLog('/organ_collision/contacts')
+                simulation = subprocess.Popen([program(simulator)])
+                try:
+                    wait_until(lambda: log.last(lambda line: line.name == '/simulator' and re.match(
+                        r'probe: .* mm deep in face \d+; faces touched: \d+$', line.msg) and
+                        1.0 < depths(line.msg)[0] < 4.0),
+                               'an ordinary touch')
+                    wait_until(lambda: contacts.last(lambda answer: any(
+                        0.001 < c.depth < 0.004 and c.normal.z < -0.95 and not c.behind for c in answer.contacts)),
+                               'contacts')
+                    said = subprocess.check_output([program(asker)], text=True, timeout=LIMIT)
+                    self.assertEqual(said.splitlines()[0].strip(), 'status 0')
+                    self.assertTrue(0.9 < max(depths(said)) < 3.1, said)
+                    self.assertRegex(said, r'\ndistance -\d\.\d mm\n')
+                finally:
+                    simulation.send_signal(signal.SIGINT)
+                    self.assertEqual(simulation.wait(LIMIT), 0)
+
+    def test_mesh_adapter(self):
+        with self.launched('examples/mesh_adapter.launch'):
+            node = NodeClient()
+            (organ,) = rospy.get_param('/organ_mesh_adapter/organs')[:1]
+            meshes = Log('/organ_collision/organ_mesh', OrganMesh).wait_for_publisher()
+            surface = rospy.Publisher(organ['topic'], Mesh, queue_size=1, latch=True)
+            surface.publish(shape_mesh(scenes.sheet(0.1, 4)))
+            wait_until(lambda: meshes.last(lambda mesh: mesh.organ == organ['name']), 'a mesh')
+            node.close()
+
+    def test_two_hosts(self):
+        """Both on this one."""
+        with self.launched('examples/two_hosts.launch'):
+            for node, organ, tool in (('/liver_collision', 'liver', 'stabber'),
+                                      ('/sheet_collision', 'tissue', 'probe')):
+                log = ContactLog(node + '/contacts')
+                wait_until(lambda: any(answer.contacts for answer in log.of(organ, tool, status=0)),
+                           'contacts of ' + organ)
+
+    def test_haptics(self):
+        """The tissue holds the stylus back, and the driver passes the force on. When haptic_proxy ends, the driver
+        switches the force off."""
+        def pushes(line):
+            force = re.match(r'the force on the hand is \(\S+, \S+, (\S+)\) N', line.msg)
+            return line.name == '/stylus_driver' and force and float(force.group(1)) > 0.3
+
+        with self.launched('examples/haptics.launch') as launched:
+            log, states = Log('/rosout', LogLine), Log('/haptic_proxy/stylus/state', ProxyState)
+            state = wait_until(lambda: states.last(lambda state: state.state == ProxyState.TOUCHING
+                                                   and state.wrench.force.z > 0.3), 'a proxy that tissue holds back')
+            self.assertEqual(state.header.frame_id, 'stylus_base')
+            self.assertGreater(state.proxy.position.z, state.hand.position.z + 0.001)
+            wait_until(lambda: log.last(pushes), 'a driver that pushes the hand up')
+            del log.messages[:]
+            rosnode.kill_nodes(['/haptic_proxy'])
+            wait_until(lambda: log.last(lambda line: line.msg.endswith('the force is off')),
+                       'the force to be switched off')
+            launched.nodes.remove('/haptic_proxy')
+
+    def test_dvrk(self):
+        """Both arms touch the organ with both jaws, and the hands feel forces out of it, within the limit of 2 N. A
+        wrench is turned, scaled, limited and ends."""
+        jaws = {arm + link for arm in ('PSM1', 'PSM2') for link in ('_left_jaw', '_right_jaw')}
+        # The axes of the organ's frame in the camera's. The third one points out of the organ where the arms touch it.
+        axes = np.array([[-1, 0, 0], [0, 0.8, 0.6], [0, 0.6, -0.8]]).T
+        with self.launched('examples/dvrk.launch'):
+            contacts = ContactLog('/organ_collision/contacts')
+            hands = [Log('/%s/body/servo_cf' % hand, WrenchStamped) for hand in ('MTMR', 'MTML')]
+            absolute = [Log('/%s/body/set_cf_orientation_absolute' % hand, Bool) for hand in ('MTMR', 'MTML')]
+            touched = lambda: {a.links[c.link] for a in contacts.select(lambda a: True) for c in a.contacts}
+            wait_until(lambda: jaws <= touched(), touched, LONG)
+            for answer in contacts.select(lambda answer: answer.contacts):
+                shape = np.linalg.norm(contact_table(answer).point / [0.09, 0.06, 0.035], axis=1)
+                self.assertLess(abs(shape - 1).max(), 0.03 + 0.01)  # The organ breathes.
+            for log in hands:
+                # The forces of the first moments may point inward, because the jaws may begin inside the organ.
+                wait_until(lambda: log.last(lambda m: force_of(m) @ axes[:, 2] > 0), 'forces out of the organ', LONG)
+                for message in log.select(lambda message: True):
+                    self.assertEqual((message.header.frame_id, message.wrench.torque), ('ECM', Vector3()))
+                    self.assertLessEqual(np.linalg.norm(force_of(message)), 2.0 + 1e-9)
+            for log in absolute:
+                self.assertTrue(wait_until(log.last, 'absolute axes').data)
+            self.check_robot('urdf/psm.urdf', ('PSM_', 'PSM1_'))
+
+            publisher = rospy.Publisher('/tested_hand/wrench', WrenchStamped, queue_size=1)
+            felt, wrench = Log('/tested_hand/servo_cf', WrenchStamped), WrenchStamped()
+            wrench.header.frame_id = 'liver'
+            for pushed, expected in (((0.3, -0.5, 1.2), (0.15, -0.25, 0.6)), ((3.0, 0.0, 4.0), (0.6, 0.0, 0.8))):
+                wrench.wrench.force = Vector3(*pushed)
+                wait_until(lambda: publisher.publish(wrench) or felt.last(
+                    lambda m: np.allclose(force_of(m), axes @ expected, atol=1e-3)), lambda: felt.messages[-3:])
+            wait_until(lambda: not force_of(felt.last()).any(), lambda: felt.last())
+
+    def test_fem_tissue(self):
+        """The vertex forces alone move the tissue: it yields under the probe, and comes back. What its nodes are given
+        is minus the wrench, times the duration of a step."""
+        with self.launched('examples/fem_tissue.launch'):
+            wrenches, forces, impulses, shapes = (Log(topic, kind) for topic, kind in (
+                ('/contact_adapter/tissue/probe/wrench', WrenchStamped),
+                ('/contact_adapter/tissue/probe/vertex_forces', VertexForces),
+                ('/fem_tissue/impulse', WrenchStamped), ('/organ_collision/organ_vertices', OrganVertices)))
+            rest = rospy.wait_for_message('/organ_collision/organ_mesh', OrganMesh, LIMIT)
+            heights = np.array(rest.vertices)[2::3]
+            depth = lambda shape: (heights - np.array(shape.vertices)[2::3]).max()
+            dented = lambda: [depth(shape) for shape in shapes.select(lambda shape: True)]
+            wait_until(lambda: max(dented(), default=0) > 0.002 > 0.0002 > dented()[-1], 'a dent that comes back', LONG)
+            self.assertLess(max(dented()), 0.013)  # The probe's surface goes down to 13 mm below the tissue at rest.
+
+            by_stamp = [{m.header.stamp: m for m in log.select(lambda m: True)}
+                        for log in (wrenches, forces, impulses, shapes)]
+            stamps = set(by_stamp[0]).intersection(*by_stamp[1:])
+            self.assertGreater(len(stamps), 100)
+            strongest = 0.0
+            for wrench, on_vertices, impulse, shape in ([log[stamp] for log in by_stamp] for stamp in stamps):
+                force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
+                strongest = max(strongest, np.linalg.norm(force))
+                # [N s], [N m s] Bullet computes with 32-bit floats.
+                rounding = FEM_STEP * (1e-8 + 1e-5 * np.linalg.norm(force))
+                self.assertLess(abs(vector(impulse.wrench.force) + FEM_STEP * force).max(), rounding)
+                self.assertLess(abs(vector(impulse.wrench.torque) + FEM_STEP * torque).max(), rounding)
+                self.assertEqual((on_vertices.organ, on_vertices.tool, on_vertices.topology), ('tissue', 'probe', 0))
+                places = np.array(shape.vertices).reshape(-1, 3)[list(on_vertices.vertices)]
+                each = np.array([vector(f) for f in on_vertices.forces]).reshape(-1, 3)
+                self.assertLess(abs(each.sum(axis=0) + force).max(), 1e-9)
+                self.assertLess(abs(np.cross(places, each).sum(axis=0) + torque).max(), 1e-9)
+            self.assertGreater(strongest, 0.3)
+
+    def test_repeat_pose(self):
+        """A tool sends one pose and then rests. Shapes get no transform, until repeat_pose.py repeats this pose."""
+        tool = {'name': 'stylus', 'trocar_frame': 'tissue', 'tip_frame': 'tip', 'radius': 0.005,
+                'tip_pose_topic': '/stylus/pose_repeated'}
+        node_process = self.start('/repeated', {'tools': [tool]})
+        node, sheet = NodeClient('/repeated', frame='tissue'), scenes.sheet(0.2, 1, 0.05)
+        poses = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1, latch=True)
+        repeated = Log('/stylus/pose_repeated', PoseStamped)
+        node.bring('sheet', sheet, rospy.Time.now())
+        pose = PoseStamped()
+        pose.header.frame_id, pose.header.stamp = 'tissue', rospy.Time.now()
+        pose.pose.position.x, pose.pose.position.z, pose.pose.orientation.w = 0.01, 0.047, 1.0
+        poses.publish(pose)
+
+        def answers(status):
+            rospy.sleep(0.02)
+            node.send_vertices('sheet', sheet, rospy.Time.now())
+            return node.contacts.of('sheet', 'stylus', status=status)
+
+        wait_until(lambda: answers(ContactArray.NO_TRANSFORM), 'an answer NO_TRANSFORM')
+        repeater = subprocess.Popen([program('repeat_pose.py'), '/stylus/pose', '/stylus/pose_repeated'])
+        try:
+            found = wait_until(lambda: len(answers(ContactArray.OK)) >= 20 and answers(ContactArray.OK), 'answers OK')
+        finally:
+            repeater.send_signal(signal.SIGINT)
+            self.assertEqual(repeater.wait(LIMIT), 0)
+        self.assertTrue(all(answer.contacts for answer in found))
+        stamps = [message.header.stamp for message in repeated.messages]
+        self.assertEqual(stamps, sorted(set(stamps)))
+        self.assertTrue(all(message.pose == pose.pose for message in repeated.messages))
+        self.stop(node_process)
+
+
+if __name__ == '__main__':
+    rospy.init_node('examples_test')
+    rostest.rosrun('organ_collision', 'examples', ExamplesTest, sys.argv)

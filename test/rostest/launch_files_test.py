@@ -1,0 +1,139 @@
+#!/usr/bin/python3
+"""Every file in launch/ starts all its nodes and stops cleanly, every configuration file loads, and what RViz is to
+show exists. Other tests run the launch files of examples/."""
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+from geometry_msgs.msg import WrenchStamped
+from organ_collision.msg import Contact, ContactArray, OrganMesh, ProxyState
+import roslib.packages
+import rospy
+import rostest
+from shape_msgs.msg import Mesh
+import yaml
+
+from support import scenes
+from support.foreign_meshes import shape_mesh
+from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
+from support.node_client import LIMIT, Log, NodeClient, wait_until
+from support.processes import NodeStarter, program
+
+HANDS = {'config/demo_hands.yaml', 'examples/haptics.yaml'}  # The tools of haptic_proxy.
+
+
+def shown_topics(displays):
+    """The topics of all displays, including those in groups."""
+    found = set()
+    for display in displays:
+        found |= shown_topics(display.get('Displays', []))
+        found |= {value for key, value in display.items() if key.endswith('Topic') and isinstance(value, str) and value}
+    return found
+
+
+class LaunchFilesTest(LaunchCase, NodeStarter):
+    def test_every_launch_file(self):
+        checks = {'organ_collision': lambda: self.check_collision_node('/organ_collision'),
+                  'nodelet': lambda: self.check_collision_node('/organ_collision', '/organ_collision_manager'),
+                  'contact_adapter': self.check_contact_adapter, 'demo': self.check_demo, 'view': lambda: None,
+                  'haptic_proxy': lambda: self.check_hands('/haptic_proxy', rospy.get_param('/haptic_proxy/tools')),
+                  'organ_mesh_adapter': lambda: self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))}
+        self.assertEqual({'launch/%s.launch' % name for name in checks}, files('launch', '.launch'))
+        for name, check in checks.items():
+            with self.launched('launch/%s.launch' % name):
+                check()
+
+    def check_contact_adapter(self):
+        """A contact of 1 mm depth gives 0.3 N, with the default stiffness."""
+        contacts = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
+        wrenches = Log('/contact_adapter/sheet/probe/wrench', WrenchStamped)
+        message = ContactArray(organ='sheet', tool='probe', contacts=[Contact(depth=0.001)])
+        message.header.frame_id, message.contacts[0].normal.z = 'world', -1.0
+        # The topic of the wrench appears only after the first contacts.
+        force = wait_until(lambda: contacts.publish(message) or wrenches.last(), 'a wrench').wrench.force
+        self.assert_near((force.x, force.y, force.z), (0.0, 0.0, 0.3), 1e-9, 'force')
+        contacts.unregister()
+
+    def check_mesh_adapter(self, organs, collision_node='/organ_collision'):
+        """A mesh on each organ's topic reaches the collision node."""
+        meshes = Log(collision_node + '/organ_mesh', OrganMesh).wait_for_publisher()
+        for organ in organs:
+            publisher = rospy.Publisher(organ['topic'], Mesh, queue_size=1)
+            wait_until(lambda: publisher.get_num_connections() > 0, organ['topic'])
+            publisher.publish(shape_mesh(scenes.sheet(0.1, 4)))
+            wait_until(lambda: meshes.last(lambda mesh: mesh.organ == organ['name']), 'a mesh of ' + organ['name'])
+            publisher.unregister()
+
+    def check_hands(self, name, tools):
+        """haptic_proxy knows the tools, and they have no organ."""
+        for tool in tools:
+            state = rospy.wait_for_message('%s/%s/state' % (name, tool['name']), ProxyState, timeout=LIMIT)
+            self.assertEqual(state.state, ProxyState.NO_ANSWER)
+            self.assertIn('organ', state.message)
+
+    def check_demo(self):
+        """The organ and the tools move and touch. The RViz configuration, as view.py fits it to the organs that are
+        there, shows only existing topics and frames."""
+        node = NodeClient()
+        touched = wait_until(lambda: node.contacts.select(lambda answer: answer.contacts), 'contacts in the scene')[0]
+        self.assertEqual(touched.status, ContactArray.OK)
+        path = os.path.join(tempfile.mkdtemp(), 'fitted.rviz')
+        subprocess.check_call([program('view.py'), '--save', path], timeout=60)
+        with open(path) as text:
+            manager = yaml.safe_load(text)['Visualization Manager']
+        shown = shown_topics(manager['Displays'])
+        self.assertEqual(shown, {'/organ_collision/markers', '/haptic_proxy/markers'})
+        self.assertEqual(shown - {topic for topic, _ in rospy.get_published_topics()}, set())
+        fixed, view = manager['Global Options']['Fixed Frame'], manager['Views']['Current']
+        FrameLog().wait_for({fixed})
+        self.assertEqual(fixed, touched.header.frame_id)
+        # The liver is about 0.2 m long, near the origin of its frame.
+        self.assertTrue(0.2 < view['Distance'] < 0.8, view)
+        self.assertTrue(all(abs(view['Focal Point'][axis]) < 0.1 for axis in 'XYZ'), view)
+        node.close()
+
+    def test_the_rviz_file_names_displays_that_rviz_has(self):
+        (path,) = files('config', '.rviz')
+        with open(os.path.join(PACKAGE, path)) as text:
+            configuration = yaml.safe_load(text)
+        manager = configuration['Visualization Manager']
+        named = configuration['Panels'] + manager['Displays'] + manager['Tools'] + [manager['Views']['Current']]
+        classes = {part['Class'] for part in named}
+        self.assertGreaterEqual(classes, {'rviz/MarkerArray', 'rviz/Displays', 'rviz/Orbit'})
+        self.assertEqual([name for name in classes if not re.fullmatch(r'rviz/\w+', name)], [])
+        try:
+            plugins = os.path.join(roslib.packages.get_pkg_dir('rviz'), 'plugin_description.xml')
+        except roslib.packages.InvalidROSPkgException:
+            return  # RViz is not installed.
+        with open(plugins) as text:
+            known = set(re.findall(r'class name="(rviz/\w+)"', text.read())) | {'rviz/Displays'}
+        self.assertEqual(classes - known, set())
+
+    def test_every_configuration_file(self):
+        """A file with tools starts a collision node that answers, or a haptic_proxy that tells the state of each of
+        them, and a file with organs a mesh adapter that accepts their meshes. None reports an unknown name."""
+        started = set()
+        for path in sorted(files('config', '.yaml') | files('examples', '.yaml')):
+            with open(os.path.join(PACKAGE, path)) as text:
+                parameters = yaml.safe_load(text)
+            name = '/from_' + re.sub(r'\W', '_', path)
+            if path in HANDS:
+                process = self.start(name, parameters, 'haptic_proxy')
+                self.check_hands(name, parameters['tools'])
+            elif 'tools' in parameters:
+                process = self.start(name, parameters)
+                self.check_collision_node(name)
+            else:
+                process = self.start(name, dict(parameters, collision_node=name + '_node'), 'organ_mesh_adapter')
+                self.check_mesh_adapter(parameters['organs'], name + '_node')
+            self.assertNotIn('is no parameter', self.stop(process), path)
+            started.add(path)
+        self.assertLessEqual({'config/tools.yaml', 'config/organs.yaml', *HANDS}, started)
+
+
+if __name__ == '__main__':
+    rospy.init_node('launch_files_test')
+    rostest.rosrun('organ_collision', 'launch_files', LaunchFilesTest, sys.argv)

@@ -1,0 +1,85 @@
+"""A test case that runs launch files of the package as a user would, and the checks that several of them need."""
+
+import contextlib
+import os
+from xml.etree import ElementTree
+
+from geometry_msgs.msg import WrenchStamped
+from organ_collision.msg import OrganVertices
+import roslib.packages
+import rospy
+from sensor_msgs.msg import JointState
+from tf2_msgs.msg import TFMessage
+
+from . import oracle, scenes
+from .contact_case import ContactCase
+from .node_client import LIMIT, NodeClient, shaft, wait_until
+from .processes import Launched, nodes_online
+
+PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
+# What these nodes of Python send once all their topics are registered at the ROS master. None may be stopped before:
+# rospy's signal handler calls the ROS master, and waits forever if it interrupted such a call.
+FIRST_MESSAGES = {
+    '/simulator': ('/organ_collision/organ_vertices', OrganVertices),
+    '/sheet': ('/sheet_collision/organ_vertices', OrganVertices),
+    '/dvrk_robot': ('/PSM2/jaw/measured_js', JointState),
+    '/dvrk_organ': ('/organ_collision/organ_vertices', OrganVertices),
+    '/MTML/force': ('/MTML/body/servo_cf', WrenchStamped),
+    '/MTMR/force': ('/MTMR/body/servo_cf', WrenchStamped),
+}
+
+
+def files(folder, ending):
+    """The names of a folder's files, with the folder."""
+    return {folder + '/' + name for name in os.listdir(os.path.join(PACKAGE, folder)) if name.endswith(ending)}
+
+
+class FrameLog:
+    """The names of all frames that TF knows."""
+
+    def __init__(self):
+        self.names = set()
+        self.subscribers = [rospy.Subscriber(topic, TFMessage, self._add) for topic in ('/tf', '/tf_static')]
+
+    def _add(self, message):
+        for transform in message.transforms:
+            self.names |= {transform.header.frame_id, transform.child_frame_id}
+
+    def wait_for(self, frames):
+        wait_until(lambda: frames <= self.names, lambda: 'frames %s of TF' % (frames - self.names))
+        for subscriber in self.subscribers:
+            subscriber.unregister()
+
+
+class LaunchCase(ContactCase):
+    @contextlib.contextmanager
+    def launched(self, path, *arguments, ends_itself=False):
+        """Runs a launch file of the package. All its nodes start, and at the end they stop cleanly."""
+        with Launched(os.path.join(PACKAGE, path), *arguments) as launched:
+            self.assertGreater(len(launched.nodes), 0, path)
+            if not ends_itself:
+                launched.wait_for_nodes()
+                for node in set(FIRST_MESSAGES) & set(launched.nodes):
+                    rospy.wait_for_message(*FIRST_MESSAGES[node], timeout=LIMIT)
+            yield launched
+        wait_until(lambda: not set(launched.nodes) & nodes_online(), 'the end of ' + path)
+        if not ends_itself:
+            self.assertNotIn('has died', launched.printed, path)
+        self.assertNotIn('escalating', launched.printed, path)
+
+    def check_collision_node(self, name, process=None):
+        """The collision node answers about an organ that only it has."""
+        node, sheet, axis = NodeClient(name, process=process), scenes.sheet(0.1, 4), ((0.01, 0.02, 0.3),
+                                                                                      (0.011, 0.017, 0.002))
+        node.bring('sheet', sheet, rospy.Time(1))
+        self.assert_contacts(node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(sheet, axis, 0.005))
+        node.close()
+
+    def check_robot(self, urdf_file, replaced=('', '')):
+        """TF knows all links of the robot, and its mesh files exist."""
+        with open(os.path.join(PACKAGE, urdf_file)) as text:
+            robot = ElementTree.fromstring(text.read().replace(*replaced) if replaced[0] else text.read())
+        FrameLog().wait_for({link.get('name') for link in robot.iter('link')})
+        for mesh in robot.iter('mesh'):
+            path = mesh.get('filename').replace('package://organ_collision', PACKAGE)
+            self.assertTrue(os.path.exists(path), path)
