@@ -13,7 +13,7 @@
 #include "organ_collision/ros/names.hpp"
 #include "proxy_scene.hpp"
 #include "ros/messages/text.hpp"
-#include "ros/node/queues.hpp"
+#include "ros/threads/queues.hpp"
 
 namespace organ_collision {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/node/scheduling.hpp"
+#include "ros/threads/realtime.hpp"
 
 namespace organ_collision {
 namespace {

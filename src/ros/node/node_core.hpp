@@ -14,11 +14,11 @@
 
 #include "organ_collision/ros/names.hpp"
 #include "program.hpp"
-#include "queues.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/step_history.hpp"
+#include "ros/threads/queues.hpp"
+#include "ros/threads/realtime.hpp"
 #include "ros/tools/tool.hpp"
-#include "scheduling.hpp"
 
 namespace organ_collision {
 

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "queues.hpp"
 #include "ros/parameters/parameter_table.hpp"
+#include "ros/threads/queues.hpp"
 
 namespace organ_collision {
 

@@ -12,7 +12,7 @@
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/checked_messages.hpp"
-#include "ros/node/queues.hpp"
+#include "ros/threads/queues.hpp"
 
 namespace organ_collision {
 namespace {

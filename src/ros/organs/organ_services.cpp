@@ -5,7 +5,7 @@
 #include <exception>
 
 #include "organ_collision/ros/names.hpp"
-#include "ros/node/queues.hpp"
+#include "ros/threads/queues.hpp"
 
 namespace organ_collision {
 namespace {

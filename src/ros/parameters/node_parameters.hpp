@@ -6,7 +6,7 @@
 #include "organ_collision/picking/picker_settings.hpp"
 #include "parameter_table.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/node/scheduling.hpp"
+#include "ros/threads/realtime.hpp"
 #include "tool_parameters.hpp"
 
 namespace organ_collision {

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "query_request.hpp"
-#include "ros/node/scheduling.hpp"
+#include "ros/threads/realtime.hpp"
 
 namespace organ_collision {
 namespace {

@@ -9,8 +9,8 @@
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
-#include "ros/node/scheduling.hpp"
 #include "ros/steps/contact_array.hpp"
+#include "ros/threads/realtime.hpp"
 
 namespace organ_collision {
 namespace {

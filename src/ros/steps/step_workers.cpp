@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "ros/node/scheduling.hpp"
+#include "ros/threads/realtime.hpp"
 
 namespace organ_collision {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/node/scheduling.hpp"
+#include "ros/threads/realtime.hpp"
 #include "test/ros/steps/node_parts.hpp"
 
 namespace organ_collision {

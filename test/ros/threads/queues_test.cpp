@@ -1,4 +1,4 @@
-#include "ros/node/queues.hpp"
+#include "ros/threads/queues.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "scheduling.hpp"
+#include "realtime.hpp"
 
 namespace organ_collision {
 namespace {

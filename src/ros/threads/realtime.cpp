@@ -1,4 +1,4 @@
-#include "scheduling.hpp"
+#include "realtime.hpp"
 
 #include <fcntl.h>
 #include <linux/capability.h>

@@ -1,4 +1,4 @@
-#include "ros/node/scheduling.hpp"
+#include "ros/threads/realtime.hpp"
 
 #include <gtest/gtest.h>
 #include <sched.h>
