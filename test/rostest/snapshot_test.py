@@ -106,7 +106,7 @@ class SnapshotTest(unittest.TestCase):
         self.publish('/right', cube('table', (0.03, 0.0, 0.0)))
         self.publish('/left', cube('room', (-0.08, 0.0, 0.02)), gone,
                      Marker(header=gone.header, id=1, action=Marker.DELETE))
-        self.take('--topic=/left', '--topic=/right', '--frame=room', '--frames=2', '--rate=50', '--after=0')
+        self.take('--topic=/left', '--topic=/right', '--frame=room', '--frames=2', '--rate=2', '--after=0')
         for number in (1, 2):
             image = self.picture(self.file.replace('.png', '_%04d.png' % number))
             for place in ((0.05, 0.03, 0.02), (-0.08, 0.0, 0.02)):
