@@ -101,9 +101,8 @@ class Judge {
  private:
   void take(const ContactArrayConstPtr& answer) {
     const std::lock_guard lock(mutex_);
-    for (const Fault& fault : contract_.check(*answer, "contacts").all()) {
-      findings_.insert(fault.sentence);
-    }
+    const Faults faults = contract_.check(*answer, "contacts");
+    for (const Fault& fault : faults.all()) findings_.insert(fault.sentence);
     ++answers_;
     ok_ += answer->status == ContactArray::OK;
     ++statuses_[answer->status];
