@@ -27,7 +27,7 @@ constexpr std::uint32_t kQueue = 20;
 class ContactAdapter {
  public:
   /// Throws ParameterError.
-  ContactAdapter(ros::NodeHandle node, const ros::NodeHandle& private_node)
+  ContactAdapter(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
       : private_node_(private_node),
         parameters_(load_parameters<ContactAdapterParameters>(private_node)),
         live_parameters_(private_node, live_parameters(parameters_),

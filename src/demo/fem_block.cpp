@@ -51,7 +51,7 @@ struct Grid {
 
 /// [m^3] Negative if the corners are in the other order.
 double volume_of(const Tetrahedron& t, const std::vector<Vector3d>& nodes) {
-  const Vector3d a = nodes[t[0]];
+  const Vector3d& a = nodes[t[0]];
   return (nodes[t[1]] - a).cross(nodes[t[2]] - a).dot(nodes[t[3]] - a) / 6.0;
 }
 

@@ -275,7 +275,7 @@ class Snapshot {
       }
     }
     for (const auto& [frame, error] : markers_.missing_transforms()) {
-      warn("the markers of frame '" + frame + "' are left out: " + error);
+      warn(concatenate("the markers of frame '", frame, "' are left out: ", error));
     }
     return triangles;
   }

@@ -45,7 +45,7 @@ class MasterRestartTest(unittest.TestCase):
         prefix = shlex.split(os.environ.get('ORGAN_COLLISION_NODELET_PREFIX', ''))
         logs['/nodelet'] = self.log_of(*prefix, nodelet, 'manager', '__name:=manager')
         self.master.run(nodelet, 'load', 'organ_collision/CollisionNodelet', 'manager', '__name:=nodelet')
-        diagnostics = self.log_of(program('rostopic', 'rostopic'), 'echo', '/diagnostics')
+        diagnostics = self.log_of(sys.executable, program('rostopic', 'rostopic'), 'echo', '/diagnostics')
         names = ['%s: master' % node.strip('/') for node in logs]
         wait_until(lambda: all(name in diagnostics() for name in names), 'all nodes on /diagnostics')
         self.assertNotIn(FAULT, diagnostics())

@@ -221,13 +221,12 @@ class NodeCore {
   }
 
   void say_last_words(const std::string& why) {
-    const ros::WallDuration kFarewell(1.0);  // Until the messages have left.
     try {
       callbacks_.break_down(why);
       updater().force_update();
     } catch (const std::exception&) {  // The exception that ends the node is more important.
     }
-    kFarewell.sleep();
+    ros::WallDuration(1.0).sleep();  // The last messages leave.
   }
 
   Callbacks callbacks_;
