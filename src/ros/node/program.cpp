@@ -150,7 +150,7 @@ void MasterWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) 
   }
 }
 
-Diagnostics::Diagnostics(const ros::NodeHandle& node, ros::NodeHandle private_node,
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                          double period_sec)
     : updater_(node, private_node, private_node.getNamespace()) {
   updater_.setHardwareID("none");

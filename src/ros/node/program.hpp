@@ -84,7 +84,7 @@ class MasterWatch {
 class Diagnostics {
  public:
   /// `period_sec`: of wall time. The thread that calls the callbacks of `private_node` publishes.
-  Diagnostics(const ros::NodeHandle& node, ros::NodeHandle private_node, double period_sec);
+  Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period_sec);
 
   diagnostic_updater::Updater& updater() { return updater_; }
 

@@ -101,7 +101,7 @@ int ParameterGroup::whole_number(const std::string& name, int fallback,
 
 std::string ParameterGroup::text(const std::string& name) const {
   const std::string legal = "must be a text that is not empty";
-  const std::string text = text_in(require(name, XmlRpcValue::TypeString, legal));
+  std::string text = text_in(require(name, XmlRpcValue::TypeString, legal));
   if (text.empty()) refuse(name, legal);
   return text;
 }

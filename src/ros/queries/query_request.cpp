@@ -119,10 +119,13 @@ void check_links_of(const Tool& tool, const LinkMotion* motion, QueryMode mode) 
   if (!is_static_mode(mode)) check_poses("previous", motion->previous, tool);
 }
 
-std::vector<Eigen::Isometry3d> link_poses(const Poses& poses, const Eigen::Isometry3d& T) {
+std::vector<Eigen::Isometry3d> link_poses(const Poses& poses,
+                                          const Eigen::Isometry3d& T_organ_motion) {
   std::vector<Eigen::Isometry3d> result;
   result.reserve(poses.size());
-  for (const geometry_msgs::Pose& pose : poses) result.push_back(T * to_eigen(pose));
+  for (const geometry_msgs::Pose& pose : poses) {
+    result.push_back(T_organ_motion * to_eigen(pose));
+  }
   return result;
 }
 

@@ -54,9 +54,9 @@ void QueueThread::stop() {
 }
 
 void QueueThread::work() {
-  const ros::WallDuration kStopPeriod(0.05);  // How soon it notices that it is to end.
+  const ros::WallDuration stop_period(0.05);  // How soon it notices that it is to end.
   lower_priority_of_this_thread();
-  while (!stop_) queue_.callOne(kStopPeriod);
+  while (!stop_) queue_.callOne(stop_period);
 }
 
 }  // namespace organ_collision
