@@ -42,7 +42,7 @@ struct ToolClearance {
   double least_fraction = 0.0;
   /// The face with the nearest point at the end of the step.
   std::uint32_t face = 0;
-  /// The face's corners in the organ's vertices, in the order of `barycentric`.
+  /// Which of the organ's vertices the face's corners are, in the order of `barycentric`.
   std::array<std::uint32_t, 3> vertices = {};
   /// Barycentric coordinates of `on_organ` in the face.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();

@@ -69,9 +69,10 @@ class NearestPair {
   }
 
  private:
-  /// Whether the whole face is clearly beside the axis. Without the two limits, rounding could hide
-  /// that an axis pierces a face close to an end, or a sliver that is much longer than the axis.
-  /// That end would be the only other point near the inside of the face.
+  /// Whether the whole face lies between the planes through the ends of the axis, so that the ends
+  /// need not be tried. Rounding can hide that the axis pierces a face close to an end, or a sliver
+  /// that is much longer than the axis. Only the pair with that end is then near the true distance.
+  /// The two limits keep the ends of such faces.
   bool is_beside() const {
     constexpr double kMargin = 1e-3;   // [axis lengths] from the planes through both ends
     constexpr double kFarthest = 1e3;  // [axis lengths] of a corner from the trocar

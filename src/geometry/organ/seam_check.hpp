@@ -19,13 +19,14 @@ class SeamCheck {
   bool seams_hold(const SurfaceTopology& topology, const TriangleMesh& mesh);
 
  private:
-  /// The last check of one topology. It owns nothing, but notices the end of what it names.
+  /// The last check of one topology. The weak pointers keep no organ alive, and match nothing when
+  /// it is gone.
   struct Checked {
     std::weak_ptr<const std::vector<SeamVertex>> seams;
     std::weak_ptr<const std::vector<float>> vertices;
     bool hold = true;
   };
-  /// The place of a topology. If all are taken, topologies replace each other in turn.
+  /// The entry of a topology in `checked_`. A new topology replaces the oldest one.
   Checked& checked(const std::shared_ptr<const std::vector<SeamVertex>>& seams);
 
   std::array<Checked, 32> checked_;

@@ -55,7 +55,7 @@ void DrawList::assign_all(const ViewingVolume& volume, const TriangleMesh& mesh)
   }
 }
 
-ViewingVolume DrawList::assign(const PartSweep& part, const OrganMotion& organ) {
+ViewingVolume DrawList::assign_sweep(const PartSweep& part, const OrganMotion& organ) {
   const Eigen::Vector3d& origin = part.origin();
   const double organ_extent = organ.extent(origin);
   const double most_extent = std::min(organ_extent, kMostExtent * part.thickness());

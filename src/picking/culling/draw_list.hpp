@@ -57,7 +57,7 @@ class DrawList {
   /// way, and for 32-bit clipping. Faces with a corner inside need not be drawn.
   /// Faces that move far, or that reach far from the part, would make the volume large. Both are
   /// listed in undrawn().
-  ViewingVolume assign(const PartSweep& part, const OrganMotion& organ);
+  ViewingVolume assign_sweep(const PartSweep& part, const OrganMotion& organ);
 
   /// Adds a face in the volume's shifted coordinates.
   void add(const Triangle& face, std::uint32_t number) { faces_.add(face, number); }

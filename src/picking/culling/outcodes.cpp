@@ -171,7 +171,8 @@ void Outcodes::find_block_codes(std::size_t section) {
                     &block_codes_[begin]);
 }
 
-/// Finds the outcodes of the kGroup boxes of a group's members.
+/// Finds the outcodes of a group's kGroup boxes, which begin at `after` in the organ's later shape
+/// and at `before` in the earlier one.
 void Outcodes::find_member_codes(const BlockBoxes::Box* after, const BlockBoxes::Box* before,
                                  Code* codes) const {
   for (std::size_t i = 0; i < kGroup; i += kRun) {
@@ -180,7 +181,8 @@ void Outcodes::find_member_codes(const BlockBoxes::Box* after, const BlockBoxes:
   }
 }
 
-/// Finds the outcodes of all vertices of the faces of the block's cluster.
+/// Finds the outcodes of the vertices that the faces of the block's cluster have. These vertices
+/// may be in other blocks. A block is looked at once in a query.
 void Outcodes::add_vertices(std::size_t block) {
   for (const std::uint32_t part : clusters().blocks(block)) {
     if (std::exchange(block_found_for_[part], query_) == query_) continue;

@@ -14,15 +14,12 @@
 #include "platform_context.hpp"
 
 // Every EGL function that we call, without its egl prefix.
-// clang-format off
-#define ORGAN_COLLISION_EGL_FUNCTIONS(F)                                                    \
-  F(BindAPI) F(ChooseConfig) F(CreateContext) F(CreatePbufferSurface) F(DestroyContext)     \
-  F(DestroySurface) F(GetCurrentContext) F(GetError) F(GetProcAddress) F(Initialize)        \
-  F(MakeCurrent)
-// clang-format on
+#define ORGAN_COLLISION_EGL_FUNCTIONS(F)                                                       \
+  F(BindAPI)                                                                                   \
+  F(ChooseConfig) F(CreateContext) F(CreatePbufferSurface) F(DestroyContext) F(DestroySurface) \
+      F(GetCurrentContext) F(GetError) F(GetProcAddress) F(Initialize) F(MakeCurrent)
 
 namespace organ_collision {
-
 namespace {
 
 /// Pointers to the functions of libEGL. Only their types come from the prototypes in egl.h; libEGL
@@ -127,24 +124,18 @@ class EglContext final : public PlatformContext {
 
   void create(const GlFramebuffer& framebuffer) {
     if (egl().BindAPI(EGL_OPENGL_API) != EGL_TRUE) throw egl_error("EGL has no OpenGL");
-    const EGLint wanted[] = {EGL_SURFACE_TYPE,
-                             EGL_PBUFFER_BIT,  //
-                             EGL_RENDERABLE_TYPE,
-                             EGL_OPENGL_BIT,  //
-                             EGL_RED_SIZE,
-                             8,  //
-                             EGL_GREEN_SIZE,
-                             8,  //
-                             EGL_BLUE_SIZE,
-                             8,  //
-                             EGL_ALPHA_SIZE,
-                             8,  //
-                             EGL_DEPTH_SIZE,
-                             framebuffer.depth_bits,  //
-                             EGL_NONE};
+    const std::array<std::array<EGLint, 2>, 8> wanted = {{{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT},
+                                                          {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT},
+                                                          {EGL_RED_SIZE, 8},
+                                                          {EGL_GREEN_SIZE, 8},
+                                                          {EGL_BLUE_SIZE, 8},
+                                                          {EGL_ALPHA_SIZE, 8},
+                                                          {EGL_DEPTH_SIZE, framebuffer.depth_bits},
+                                                          {EGL_NONE, 0}}};
     EGLConfig config = nullptr;
     EGLint count = 0;
-    if (egl().ChooseConfig(display_, wanted, &config, 1, &count) != EGL_TRUE || count == 0) {
+    if (egl().ChooseConfig(display_, wanted.front().data(), &config, 1, &count) != EGL_TRUE ||
+        count == 0) {
       throw egl_error("EGL has no OpenGL with a framebuffer in memory");
     }
     context_ = egl().CreateContext(display_, config, EGL_NO_CONTEXT, nullptr);

@@ -42,6 +42,8 @@ class GlPicker final : public Picker {
     add_witness(volume);
     if (!clip(volume, candidates)) {
       fail_if_blind(context_);
+      // A second loss of the witness is no failure: the volume is thin, and the paper's modes
+      // report what GL returns.
       clip(volume, candidates);
     }
     sort(mesh.face_count(), candidates);
@@ -49,11 +51,11 @@ class GlPicker final : public Picker {
 
   void pick(const PartSweep& part, const OrganMotion& organ,
             std::vector<Candidate>& candidates) override {
-    const ViewingVolume volume = draw_list_.assign(part, organ);
+    const ViewingVolume volume = draw_list_.assign_sweep(part, organ);
     add_witness(volume);
     if (!clip(volume, candidates)) {
       fail_if_blind(context_);
-      take_drawn(candidates);
+      take_drawn(candidates);  // No contact may be missed.
     }
     for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
     sort(organ.after().face_count(), candidates);
@@ -65,7 +67,7 @@ class GlPicker final : public Picker {
  private:
   const DrawnFaces& faces() const { return draw_list_.faces(); }
 
-  /// Lets GL draw the witness last, unless it has to draw nothing.
+  /// Lets GL draw the witness last, a face in view: if GL does not return it, GL may be blind.
   void add_witness(const ViewingVolume& volume) {
     if (!faces().empty()) draw_list_.add(middle_face(volume), kWitness);
   }
@@ -146,8 +148,7 @@ class GlPicker final : public Picker {
     }
   }
 
-  /// Sorts what GL returned, in which there must be no face of a number that the mesh does not
-  /// have.
+  /// Sorts what GL returned. Fails if the mesh has no face of a returned number.
   void sort(std::size_t face_count, std::vector<Candidate>& candidates) {
     sort_by_face(candidates);
     if (candidates.empty() || candidates.back().face < face_count) return;

@@ -59,5 +59,7 @@ std::unique_ptr<Picker> make_picker(const PickerSettings& settings);
 /// PickerKind::kSelect draws in GL_SELECT mode, as the 1999 paper does: each face under its own
 /// name, and for a given volume every face of the mesh.
 std::unique_ptr<Picker> new_gl_picker(const PickerSettings& settings);
+/// PickerKind::kCpu.
+std::unique_ptr<Picker> new_cpu_picker();
 
 }  // namespace organ_collision

@@ -53,8 +53,8 @@ class ViewingVolume {
   static ViewingVolume orthographic(const Camera& camera);
   static ViewingVolume perspective(const Camera& camera);
 
-  /// Adds { x : normal · x <= offset }, in shifted coordinates. Throws std::out_of_range if there
-  /// are kMaxUserPlanes already.
+  /// Clips at { x : normal · x <= offset } as well; x is relative to origin(). Throws
+  /// std::out_of_range if there are kMaxUserPlanes already.
   void add_user_plane(const HalfSpace& half_space);
 
  private:

@@ -67,7 +67,8 @@ class FaceClusters {
   /// The consecutive vertices that stay together: kBlock, or 1 if the sender's order does not
   /// follow space.
   std::uint32_t piece_size() const { return piece_size_; }
-  /// The block of each piece in the sender's order. The last piece may be incomplete.
+  /// The number of the block of each piece. A piece is piece_size() consecutive vertices in the
+  /// sender's order; the last one may be shorter.
   const std::vector<std::uint32_t>& block_of_piece() const { return block_of_piece_; }
 
  private:

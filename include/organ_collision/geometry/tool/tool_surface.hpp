@@ -53,9 +53,9 @@ class ToolSurface {
   std::vector<Eigen::Vector3d> vertices_;
   std::vector<FaceIndices> faces_;
   std::vector<Node> nodes_;
-  /// The corners of a node's faces: rows [begin, end) of corners_. Each corner is there once, only
-  /// the last one is repeated. Empty if the node has many faces, or if a node above it has such a
-  /// list.
+  /// The corners of a node's faces: rows [begin, end) of corners_. Each corner is there once; the
+  /// last one is repeated until the vector registers are full. Empty for a node with many faces,
+  /// and for all nodes below a node that has a list.
   struct CornerList {
     Eigen::Index begin = 0, end = 0;
   };
