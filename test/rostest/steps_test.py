@@ -199,11 +199,12 @@ class StepsTest(KeepsContract, SimulatedCase):
         """They come in the simulator's time, and not while it stands still. Of all ticks, only the one in which the tip
         goes through the sheet finds its faces."""
         node = self.connected('/ticking')
+        above, below = (((0.4, 0.007, height), (0.013, 0.007, height)) for height in (0.05, -0.05))
         with self.clock.lock:
-            self.place('grasper', (ABOVE, self.next_stamp()))
+            self.place('grasper', (above, self.next_stamp()))
             node.bring(self.organ, SHEET, self.stamp)
             node.contacts.wait_for(self.organ, 'grasper', status=ContactArray.OK)
-            self.place_and_wait('grasper', BELOW, self.next_stamp())
+            self.place_and_wait('grasper', below, self.next_stamp())
             before = len(node.contacts.of(self.organ))
             for _ in range(10):
                 count = len(node.contacts.of(self.organ))
@@ -212,7 +213,7 @@ class StepsTest(KeepsContract, SimulatedCase):
             answers = node.contacts.of(self.organ)
             self.assertLessEqual(len(answers) - before, 10 + 5)  # A few are from before.
             (hit,) = [answer for answer in answers if answer.contacts]
-            self.assertEqual(faces_of(hit), [c.face for c in oracle.swept_contacts(SHEET, ABOVE, BELOW, GRASPER)])
+            self.assertEqual(faces_of(hit), [c.face for c in oracle.swept_contacts(SHEET, above, below, GRASPER)])
 
     def posed(self):
         """Connects to the node whose tips come as poses. Returns its client and the publisher of the arm's poses."""

@@ -36,5 +36,5 @@ def cloud(vertices, **header):
 
 
 def polygon_mesh(mesh, **header):
-    message = PolygonMesh(cloud=cloud(mesh.vertices), polygons=[Vertices(vertices=f) for f in mesh.faces])
+    message = PolygonMesh(cloud=cloud(mesh.vertices, frame=''), polygons=[Vertices(vertices=f) for f in mesh.faces])
     return stamped(message, **header)
