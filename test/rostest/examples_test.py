@@ -19,7 +19,7 @@ from std_msgs.msg import Bool
 
 from support import scenes
 from support.launch_case import LaunchCase, files
-from support.node_client import LIMIT, ContactLog, Log, NodeClient, wait_until
+from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped, wait_until
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
@@ -172,9 +172,7 @@ class ExamplesTest(LaunchCase, NodeStarter):
         poses = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1, latch=True)
         repeated = Log('/stylus/pose_repeated', PoseStamped)
         node.bring('sheet', sheet, rospy.Time.now())
-        pose = PoseStamped()
-        pose.header.frame_id, pose.header.stamp = 'tissue', rospy.Time.now()
-        pose.pose.position.x, pose.pose.position.z, pose.pose.orientation.w = 0.01, 0.047, 1.0
+        pose = pose_stamped('tissue', (0.01, 0.0, 0.047), rospy.Time.now())
         poses.publish(pose)
 
         def answers(status):

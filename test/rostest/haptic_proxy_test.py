@@ -18,7 +18,8 @@ from std_srvs.srv import Empty, Trigger
 from tf2_msgs.msg import TFMessage
 
 from support import scenes
-from support.node_client import LIMIT, Diagnostics, Log, TfSender, is_heard, wait_until
+from support.node_client import (LIMIT, Diagnostics, Log, TfSender, is_heard, mesh_message, pose_stamped,
+                                 wait_until)
 
 FRAME = 'liver_frame'
 STIFFNESS = 200.0  # [N/m]
@@ -52,11 +53,7 @@ class Hands:
         """Sends one pose of a hand."""
         self.tips[tool] = tip
         if tool in self.poses:
-            message = PoseStamped()
-            message.header.frame_id, message.header.stamp = FRAME, rospy.Time.now()
-            message.pose.position.x, message.pose.position.y, message.pose.position.z = tip
-            message.pose.orientation.w = 1.0
-            self.poses[tool].publish(message)
+            self.poses[tool].publish(pose_stamped(FRAME, tip, rospy.Time.now()))
         else:
             self.tf.send((FRAME, tool + '_tip', tip, rospy.Time.now()))
         time.sleep(0.002)
@@ -99,12 +96,9 @@ class ProxyCase(unittest.TestCase):
         self.remove_service(organ)
         wait_until(lambda: organ not in self.organs(), 'removal')
 
-    def send_sheet(self, organ=None, frame=FRAME):
-        mesh = OrganMesh(organ=organ or self.organ, topology=1, vertices=SHEET.flat_vertices(),
-                         triangles=SHEET.flat_faces())
-        mesh.header.frame_id = frame
-        self.meshes.publish(mesh)
-        wait_until(lambda: mesh.organ in self.organs(), 'the organ')
+    def send_sheet(self):
+        self.meshes.publish(mesh_message(self.organ, SHEET, frame=FRAME))
+        wait_until(lambda: self.organ in self.organs(), 'the organ')
 
     def change(self, name, value):
         """Sets a parameter of the running node. Returns its value then."""
@@ -132,8 +126,8 @@ class ProxyCase(unittest.TestCase):
 
         return wait_until(holds, lambda: '%s; the last message is %s' % (what, log.last()))
 
-    def hold_free(self, tool='needle', tip=AIR):
-        return self.hold_until(tool, tip, lambda state: state.state == FREE, tool + ' in the air')
+    def hold_free(self, tool='needle'):
+        return self.hold_until(tool, AIR, lambda state: state.state == FREE, tool + ' in the air')
 
     def spring(self, tool, height):
         """[N] on a hand that would have its tip there, while the proxy stays above the sheet."""

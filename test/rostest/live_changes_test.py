@@ -12,7 +12,7 @@ import rostest
 from std_srvs.srv import Trigger
 
 from support.contact_case import KeepsContract
-from support.node_client import LIMIT, is_heard, wait_until
+from support.node_client import LIMIT, is_heard, pose_stamped, wait_until
 from support.tool_case import ToolCase
 from support.tool_over_sheet import SHEET, at_height
 
@@ -119,10 +119,7 @@ class LiveChangesTest(KeepsContract, ToolCase):
         wait_until(lambda: is_heard(poses, NODE), 'the node to listen to /probe_pose')
 
         def send(height):
-            pose = PoseStamped()
-            pose.header.frame_id, pose.header.stamp = self.node.frame, rospy.Time.now()
-            pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = 0.013, 0.007, height
-            pose.pose.orientation.w = 1.0
+            pose = pose_stamped(self.node.frame, (0.013, 0.007, height), rospy.Time.now())
             poses.publish(pose)
             return self.node.contacts.wait_for(self.organ, 'probe', stamp=pose.header.stamp, status=ContactArray.OK)
 

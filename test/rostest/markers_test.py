@@ -13,7 +13,7 @@ import rospy
 import rostest
 from visualization_msgs.msg import Marker, MarkerArray
 
-from support.node_client import NodeClient, TfSender, wait_until
+from support.node_client import NodeClient, TfSender, mesh_message, pose_stamped, wait_until
 from support.processes import NodeStarter
 from support.tool_over_sheet import SHEET
 
@@ -103,19 +103,13 @@ class MarkersTest(NodeStarter):
         transforms.send_resting((frame, 'hand_trocar', (0, 0, 0.3)))
         process = self.start('/hands', {'tools': [tool], 'stiffness': 200.0, 'pose_timeout_sec': 0.3}, 'haptic_proxy')
         viewer = Viewer('/hands/markers')
-        mesh = OrganMesh(organ='sheet', vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces())
-        mesh.header.frame_id = frame
-        meshes.publish(mesh)
+        meshes.publish(mesh_message('sheet', SHEET, frame=frame))
 
         def holds(target, state, shown):
             """Moves the hand by a small step. Returns whether it is there and what is shown."""
             nonlocal height
             height += math.copysign(min(abs(target - height), 1e-3), target - height)
-            pose = PoseStamped()
-            pose.header.frame_id, pose.header.stamp = frame, rospy.Time.now()
-            pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = 0.013, 0.007, height
-            pose.pose.orientation.w = 1.0
-            hand.publish(pose)
+            hand.publish(pose_stamped(frame, (0.013, 0.007, height), rospy.Time.now()))
             time.sleep(0.005)
             return height == target and viewer.text('state') == state and viewer.namespaces() == shown
 

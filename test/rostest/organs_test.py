@@ -13,7 +13,8 @@ import rostest
 
 from support import oracle, scenes
 from support.contact_case import ContactCase, KeepsContract, xyz
-from support.node_client import FAR_AWAY, Log, NodeClient, TfSender, shaft, wait_until
+from support.node_client import (FAR_AWAY, Log, NodeClient, TfSender, mesh_message, shaft, vertices_message,
+                                 wait_until)
 
 STATIC, SWEPT, INVALID = ContactArray.STATIC, ContactArray.SWEPT, ContactArray.INVALID_REQUEST
 NAN = float('nan')
@@ -107,8 +108,7 @@ class OrgansTest(KeepsContract, ContactCase):
 
     def message(self, moved=False, organ='good', topology=1, **fields):
         """A message about the good organ with other values of these fields."""
-        make = self.node.vertices_message if moved else self.node.mesh_message
-        message = make(organ, SHEET, self.next_stamp(), topology)
+        message = (vertices_message if moved else mesh_message)(organ, SHEET, self.next_stamp(), topology)
         for name, value in fields.items():
             setattr(message, name, value)
         return (self.node.shapes if moved else self.node.meshes), message

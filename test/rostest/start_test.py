@@ -15,7 +15,7 @@ from std_srvs.srv import Trigger
 
 from support import oracle, scenes
 from support.contact_case import ContactCase
-from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, shaft, wait_until
+from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, mesh_message, shaft, wait_until
 from support.processes import NodeStarter, process_of
 
 TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasper_tip', 'radius': 0.005}
@@ -107,9 +107,7 @@ class StartTest(ContactCase, NodeStarter):
     def test_a_latched_mesh_waits_for_the_node(self):
         """The organ is sent once, before the node starts. The node starts, ends, and starts again."""
         latched = rospy.Publisher(self.name + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
-        message = OrganMesh(organ='sheet', topology=3, vertices=SHEET.flat_vertices(), triangles=SHEET.flat_faces())
-        message.header.frame_id, message.header.stamp = 'liver_frame', rospy.Time(1)
-        latched.publish(message)
+        latched.publish(mesh_message('sheet', SHEET, rospy.Time(1), topology=3))
         for _ in range(2):
             process = self.start(self.name, {'tools': [TOOL]})
             node = NodeClient(self.name)

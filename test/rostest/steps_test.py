@@ -5,14 +5,14 @@ differ: the robot sends its poses with the stamps of its own clock, the simulato
 
 import sys
 
-from geometry_msgs.msg import Point, PoseStamped, Quaternion
+from geometry_msgs.msg import PoseStamped
 from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
 from support import oracle, scenes
 from support.contact_case import KeepsContract, faces_of
-from support.node_client import NodeClient, is_heard, wait_until
+from support.node_client import NodeClient, is_heard, pose_stamped, wait_until
 from support.tool_case import SimulatedCase, ball_contacts
 from support.tool_over_sheet import at_height
 
@@ -25,13 +25,6 @@ GRASPER, HOOK, BALL = 0.005, 0.003, 0.006  # [m] radii
 DIFFERENCE = rospy.Duration(0, 50_000_000)  # of the robot's clock
 BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), (0.013, 0.007, 0.4))  # of the arm PSM1 in the organ's frame
 ARM = 0.004  # [m] radius of PSM1 and of the stylus
-
-
-def pose(frame, point, stamp=rospy.Time(), rotation=(0, 0, 0, 1)):
-    message = PoseStamped()
-    message.header.frame_id, message.header.stamp = frame, stamp
-    message.pose.position, message.pose.orientation = Point(*point), Quaternion(*rotation)
-    return message
 
 
 class StepsTest(KeepsContract, SimulatedCase):
@@ -221,7 +214,7 @@ class StepsTest(KeepsContract, SimulatedCase):
         arm, base = (rospy.Publisher(topic, PoseStamped, queue_size=1000, latch=latch) for topic, latch in (
             ('/PSM1/local/measured_cp', False), ('/SUJ/PSM1/measured_cp', True)))
         wait_until(lambda: is_heard(arm, '/posed') and is_heard(base, '/posed'), 'the topics of PSM1')
-        base.publish(pose('liver_frame', BASE.translation, rotation=BASE.rotation))
+        base.publish(pose_stamped('liver_frame', BASE.translation, rotation=BASE.rotation))
         return node, arm
 
     def test_poses_faster_than_the_node_are_all_swept(self):
@@ -231,7 +224,7 @@ class StepsTest(KeepsContract, SimulatedCase):
         tips = [(-0.09 + 0.18 * i / 99, 0.007, 0.05 if i % 2 else -0.05) for i in range(100)]
         for tip in tips:
             last = self.next_stamp(rospy.Duration(0, 10**6))
-            arm.publish(pose('PSM1_base', BASE.inverse().apply(tip), last))
+            arm.publish(pose_stamped('PSM1_base', BASE.inverse().apply(tip), last))
             if tip is tips[0]:
                 node.send_mesh(self.organ, SHEET, last)
                 first = node.contacts.wait_for(self.organ, 'PSM1', mesh_stamp=last, status=ContactArray.OK)
@@ -252,7 +245,7 @@ class StepsTest(KeepsContract, SimulatedCase):
         self.tf.send_resting(('liver_frame', 'stylus_trocar', trocar))
         node.send_mesh(self.organ, SHEET)
         self.assert_no_transform(node.contacts.wait_for(self.organ, 'stylus'), 'stylus/pose')
-        stylus.publish(pose('liver_frame', tip))
+        stylus.publish(pose_stamped('liver_frame', tip))
         answer = node.contacts.wait_for(self.organ, 'stylus', status=ContactArray.OK)
         expected = oracle.static_contacts(SHEET, (trocar, tip), ARM)
         self.assertGreater(len(expected), 0)
