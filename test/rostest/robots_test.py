@@ -23,7 +23,7 @@ LINKS = ['grasper_shaft', 'grasper_wrist', 'grasper_left_jaw', 'grasper_right_ja
 SHAFT_RADIUS = 0.0025
 TIP = (0.0, 0.0, 0.029)  # of the closed jaws, in the frame of the wrist
 START, TARGET = (0.0, -0.01, 0.06), (0.004, -0.004, -0.017)
-LONG = 180.0  # [s] A plan takes a second or two on a machine that does nothing else.
+LONG = 250.0  # [s] A plan takes a second or two on a machine that does nothing else.
 
 
 class RobotLog:
