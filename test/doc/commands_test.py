@@ -12,16 +12,17 @@ import os
 import re
 import shlex
 import signal
-import socket
 import subprocess
 import sys
 import tempfile
 import time
 import unittest
 
-import rosgraph
-
 SOURCE, DEVEL = sys.argv[1:3]
+sys.path.append(os.path.join(SOURCE, 'test', 'rostest'))
+
+from support.processes import OwnMaster  # noqa: E402
+
 # Each page, and what the reader has already started.
 PAGES = {'README.md': [], 'doc/getting_started.md': [], 'doc/tools.md': [], 'doc/offline.md': [],
          'doc/troubleshooting.md': ['roslaunch organ_collision start.launch']}
@@ -50,25 +51,13 @@ def commands(page):
                 yield command.strip(), comment
 
 
-def free_port():
-    with socket.socket() as listener:
-        listener.bind(('', 0))
-        return listener.getsockname()[1]
-
-
 class Terminals:
     """Runs commands in a folder that has the user's files, with a ROS master of their own."""
 
     def __init__(self, folder):
-        self.folder = folder
-        port = free_port()
-        uri = 'http://localhost:%d' % port
-        self.environment = dict(os.environ, ROS_HOSTNAME='localhost', ROS_HOME=folder, ROS_MASTER_URI=uri)
-        self.master = rosgraph.Master('/commands_test', uri)
+        self.folder, self.master, self.running = folder, OwnMaster(), []
+        self.environment = dict(self.master.environment, ROS_HOME=folder)
         self.output = open(os.path.join(folder, 'output'), 'w+')
-        self.running = []
-        self.start('roscore -p %d' % port)
-        self.run('rostopic list')
 
     def start(self, command):
         shell = 'unset BASH_ENV; . %s/setup.bash; %s' % (shlex.quote(DEVEL), command)
@@ -93,11 +82,7 @@ class Terminals:
 
     def nodes(self):
         """The running nodes. A node that was started again is another one."""
-        try:
-            names = {node for topics in self.master.getSystemState() for _, nodes in topics for node in nodes}
-            return {(name, self.master.lookupNode(name)) for name in names}
-        except (OSError, rosgraph.MasterException):  # A node may end meanwhile.
-            return set()
+        return {(node, self.master.ask('lookupNode', node)) for _, _, node in self.master.record()}
 
     def start_node(self, command):
         """Whether the command starts a node."""
@@ -123,6 +108,7 @@ class Terminals:
             except subprocess.TimeoutExpired:
                 os.killpg(process.pid, signal.SIGKILL)
                 process.wait()
+        self.master.stop()
         self.output.close()
 
     def said(self):
@@ -131,7 +117,6 @@ class Terminals:
 
 
 class CommandsTest(unittest.TestCase):
-
     def check_script(self, command):
         words = command.split()
         usage = subprocess.check_output([os.path.join(SOURCE, words[0]), '--help'], text=True)
@@ -164,4 +149,4 @@ class CommandsTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
-    unittest.main(argv=sys.argv[:1], verbosity=2, warnings='ignore')  # rosgraph leaves sockets open
+    unittest.main(argv=sys.argv[:1], verbosity=2)

@@ -16,15 +16,9 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'
 from organ_collision.msg import OrganMesh, OrganVertices  # noqa: E402
 import rospy  # noqa: E402
 from support import scenes  # noqa: E402
-from support.node_client import TfSender  # noqa: E402
+from support.node_client import TfSender, mesh_message, vertices_message  # noqa: E402
 
 FRAME = 'liver_frame'
-
-
-def filled(message, organ, mesh, stamp):
-    message.organ, message.topology, message.vertices = organ, 1, mesh.flat_vertices()
-    message.header.frame_id, message.header.stamp = FRAME, stamp
-    return message
 
 
 def main():
@@ -33,7 +27,7 @@ def main():
     sheet, tf = scenes.sheet(0.1, 8), TfSender()
     meshes = rospy.Publisher('/organ_collision/organ_mesh', OrganMesh, queue_size=1, latch=True)
     shapes = rospy.Publisher('/organ_collision/organ_vertices', OrganVertices, queue_size=1)
-    meshes.publish(filled(OrganMesh(triangles=sheet.flat_faces()), organ, sheet, rospy.Time.now()))
+    meshes.publish(mesh_message(organ, sheet, rospy.Time.now()))
     tf.send_resting((FRAME, tool + '_trocar', (0.01, 0.02, 0.3)))
     rate = rospy.Rate(50.0)
     while not rospy.is_shutdown():
@@ -41,7 +35,7 @@ def main():
         phase = 2 * math.pi * now.to_sec()
         tf.send((FRAME, tool + '_tip', (0.012, 0.017, 0.01 * math.cos(phase)), now))
         waved = sheet.moved(lambda v: (v[0], v[1], 0.002 * math.sin(phase + 50 * v[0])))
-        shapes.publish(filled(OrganVertices(), organ, waved, now))
+        shapes.publish(vertices_message(organ, waved, now))
         rate.sleep()
 
 

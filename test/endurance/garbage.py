@@ -92,7 +92,7 @@ def motion(rng):
 
 
 def query(rng):
-    request = QueryCollisionRequest(organ=rng.choice(['good', 'good', 'a', '']),
+    request = QueryCollisionRequest(organ=rng.choice(['liver', 'liver', 'a', '']),
                                     mode=rng.choice([0, 1, 2, 3, 4, 5, 255]),
                                     tool=rng.choice(['', '', 'probe', 'saw']), motion=motion(rng),
                                     regions=rng.random() < 0.5)
@@ -100,7 +100,7 @@ def query(rng):
 
 
 def batch(rng):
-    request = QueryCollisionBatchRequest(organ='good', mode=rng.randrange(5), motions=[motion(rng)] * rng.randrange(4))
+    request = QueryCollisionBatchRequest(organ='liver', mode=rng.randrange(5), motions=[motion(rng)] * rng.randrange(4))
     return serialized(headed(rng, request))
 
 

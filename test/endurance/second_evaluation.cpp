@@ -1,10 +1,9 @@
-#include "second_evaluation.hpp"
-
 #include <cmath>
 #include <set>
 #include <utility>
 #include <vector>
 
+#include "soak.hpp"
 #include "test/proof/step_oracle.hpp"
 
 namespace organ_collision::soak {
@@ -24,7 +23,7 @@ constexpr double kShaftReach = 3e-3, kJawReach = 11e-3;
 
 bool is_swept(const ContactArray& answer) { return answer.mode == ContactArray::SWEPT; }
 
-/// The tools of tools.yaml.
+/// The tools of soak.py.
 struct ToolShape {
   double radius = 0.0;  ///< [m] of the shaft; 0: there is none
   Eigen::Vector3d trocar = Eigen::Vector3d::Zero();

@@ -1,5 +1,3 @@
-#include "second_evaluation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "organ_collision/query/collision_query.hpp"
 #include "ros/motion/path_builder.hpp"
+#include "soak.hpp"
 
 using namespace organ_collision;
 using namespace organ_collision::soak;

@@ -16,10 +16,7 @@ import json
 import os
 import pathlib
 import random
-import shlex
 import signal
-import socket
-import struct
 import subprocess
 import sys
 import threading
@@ -38,15 +35,22 @@ from organ_collision.srv import ListOrgans, QueryCollision, QueryCollisionBatch 
 import rospy  # noqa: E402
 from std_srvs.srv import Empty, Trigger  # noqa: E402
 from support.node_client import wait_until  # noqa: E402
-from support.processes import OwnMaster, program  # noqa: E402
+from support.processes import OwnMaster, nodelet  # noqa: E402
 from visualization_msgs.msg import MarkerArray  # noqa: E402
-import yaml  # noqa: E402
 
+import garbage  # noqa: E402
 import verdict  # noqa: E402
 
 NODE, CONTACTS = '/organ_collision', '/organ_collision/contacts'
 KINDS = ('node', 'nodelet')
-TOOLS = yaml.safe_load((FOLDER / 'tools.yaml').read_text(encoding='utf-8'))
+# soak.hpp and second_evaluation.cpp know them, too.
+TOOLS = [{'name': 'probe', 'trocar_frame': 'probe_trocar', 'tip_frame': 'probe_tip', 'radius': 0.002},
+         {'name': 'needle', 'trocar_frame': 'needle_trocar', 'tip_frame': 'needle_tip', 'radius': 0.001, 'margin': 0.01,
+          'max_near': 20},
+         {'name': 'jaw', 'links': ['jaw']},
+         {'name': 'stylus', 'trocar_frame': 'stylus_trocar', 'tip_pose_topic': '/stylus', 'radius': 0.0015}]
+URDF = """<robot name="jaw"><link name="jaw"><collision><geometry><box size="0.004 0.003 0.02"/></geometry></collision></link>
+</robot>"""
 SETTLED = 60.0  # [s] at most, for the last messages to arrive
 SHUT_DOWN = 30.0  # [s] at most, from Ctrl-C to the end of the node
 PAUSE = (1.0, 3.0)  # [s] between two disturbances
@@ -63,15 +67,12 @@ class Subject:
         self.kind, self.master, self.devel, self.memory = kind, master, devel, []
         self.counts, self.wrong_sums = {}, set()
         self._stack = contextlib.ExitStack()
-        urdf = (FOLDER / 'jaw.urdf').read_text(encoding='utf-8')
-        for name, value in (('/use_sim_time', True), ('/robot_description', urdf),
+        for name, value in (('/use_sim_time', True), ('/robot_description', URDF),
                             (NODE, {'tools': TOOLS, 'diagnostic_period': 0.1})):
             master.ask('setParam', name, value)
         with contextlib.ExitStack() as stack:
-            prefix = shlex.split(os.environ.get('ORGAN_COLLISION_NODELET_PREFIX', ''))
             command = {'node': [self._program('organ_collision_node')],
-                       'nodelet': [*prefix, program('nodelet', 'nodelet'), 'standalone',
-                                   'organ_collision/CollisionNodelet']}
+                       'nodelet': nodelet('standalone', 'organ_collision/CollisionNodelet')}
             self.node = stack.enter_context(
                 self._start(*command[kind], '__name:=organ_collision', stdout=log, stderr=log))
             wait_until(lambda: ('publisher', CONTACTS, NODE) in master.record(), 'the %s at the ROS master' % kind,
@@ -257,10 +258,8 @@ def connect_silently(node_address, topic, kind):
     code, message, parameters = xmlrpc.client.ServerProxy(node_address).requestTopic('/silent', topic, [['TCPROS']])
     if code != 1:
         raise RuntimeError('%s: %s' % (topic, message))
-    connection = socket.create_connection((parameters[1], parameters[2]), timeout=30)
-    fields = ['callerid=/silent', 'topic=' + topic, 'type=' + kind, 'md5sum=*']
-    header = b''.join(struct.pack('<I', len(field)) + field.encode() for field in fields)
-    connection.sendall(struct.pack('<I', len(header)) + header)
+    connection = garbage.connected((parameters[1], parameters[2]))
+    connection.sendall(garbage.header(callerid='/silent', topic=topic, type=kind, md5sum='*'))
     return connection
 
 
@@ -329,13 +328,12 @@ def run_kind(kind, master, options):
 
 def run_others(options):
     """Kills and garbage, each for a quarter of the minutes, and a restart of the master. Returns what has failed."""
-    names = ['kills_test.py', 'garbage_test.py']
+    names = ['kills', 'garbage_node', 'garbage_nodelet', 'master']
     if options.sanitizer == 'thread':
-        names.pop()  # roscpp reads beyond the end of headers, where the sanitizer has no memory: the node ends.
-    commands = [[options.devel / 'env.sh', FOLDER / name, '--seconds', str(15.0 * options.minutes),
-                 '--seed', str(options.seed)] for name in names]
-    commands.append([options.devel / 'env.sh', FOLDER / 'master_restart_test.py'])
-    return ['%s has failed' % command[1].name for command in commands if subprocess.call(command)]
+        names = ['kills', 'master']  # roscpp reads beyond the end of headers, where the sanitizer has no memory.
+    command = [options.devel / 'env.sh', FOLDER / 'faults_test.py', '--seconds', str(15.0 * options.minutes),
+               '--seed', str(options.seed), '--only']
+    return ['%s: faults_test.py has failed' % name for name in names if subprocess.call([*command, name])]
 
 
 def main():

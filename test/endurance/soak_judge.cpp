@@ -15,9 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "second_evaluation.hpp"
 #include "soak.hpp"
-#include "soak_script.hpp"
 #include "test/check_contacts/contact_contract.hpp"
 
 namespace organ_collision::soak {
@@ -36,17 +34,6 @@ std::string told(const AnsweredStep& step) {
        << ", shape of " << answer.mesh_stamp << ", topology " << answer.topology;
   if (step.before) text << ", before it the shape of " << step.before->mesh_stamp;
   return text.str();
-}
-
-template <typename Map>
-void print_map(std::ostream& out, const char* name, const Map& map) {
-  out << ", \"" << name << "\": {";
-  const char* separator = "";
-  for (const auto& [key, value] : map) {
-    out << separator << '"' << key << "\": " << value;
-    separator = ", ";
-  }
-  out << '}';
 }
 
 /// Reads all that a node answers. Each answer must keep its contract. As many as the processor has
@@ -86,9 +73,9 @@ class Judge {
     const std::lock_guard lock(mutex_);
     out << "{\"answers\": " << answers_ << ", \"ok\": " << ok_ << ", \"lost\": " << lost_
         << ", \"rechecked\": " << rechecked_ << ", \"rechecked contacts\": " << rechecked_contacts_;
-    print_map(out, "rechecked tools", rechecked_tools_);
-    print_map(out, "statuses", statuses_);
-    print_map(out, "not checkable", not_checkable_);
+    print_json(out << ", \"rechecked tools\": ", rechecked_tools_);
+    print_json(out << ", \"statuses\": ", statuses_);
+    print_json(out << ", \"not checkable\": ", not_checkable_);
     out << ", \"findings\": [";
     const char* separator = "\"";
     for (const std::string& sentence : findings_) {

@@ -1,7 +1,7 @@
-#include "soak_script.hpp"
-
 #include <cmath>
 #include <limits>
+
+#include "soak.hpp"
 
 namespace organ_collision::soak {
 namespace {

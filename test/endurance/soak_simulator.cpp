@@ -20,7 +20,6 @@
 #include <thread>
 
 #include "soak.hpp"
-#include "soak_script.hpp"
 
 namespace organ_collision::soak {
 namespace {
@@ -197,16 +196,8 @@ class Simulator {
   /// Waits until the node has answered the last tick.
   void wait_for_node() const { lag_.wait_for_node(0, kStart); }
 
-  /// What was sent, as JSON.
-  void print(std::ostream& out) const {
-    out << '{';
-    const char* separator = "";
-    for (const auto& [name, count] : sent_) {
-      out << separator << '"' << name << "\": " << count;
-      separator = ", ";
-    }
-    out << '}' << std::endl;
-  }
+  /// How many were sent, by what it is.
+  const std::map<std::string, std::uint64_t>& sent() const { return sent_; }
 
  private:
   void send_tick() {
@@ -299,7 +290,7 @@ class Simulator {
   Tick tick_ = 100'000;
   std::uint32_t topology_ = 0;
   std::uint64_t brief_ = 0;
-  std::map<std::string, std::uint64_t> sent_;  ///< by what it is
+  std::map<std::string, std::uint64_t> sent_;
   Lag lag_;
 };
 
@@ -341,7 +332,8 @@ int simulate(std::uint64_t seed) {
     simulator.calm_tick();
     std::this_thread::sleep_for(kCalmTick);
   }
-  simulator.print(std::cout);
+  print_json(std::cout, simulator.sent());
+  std::cout << std::endl;
   std::getline(std::cin, line);
   return 0;
 }

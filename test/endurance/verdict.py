@@ -94,31 +94,17 @@ def findings(run):
                     if judged[what] == 0]
 
 
-def table(rows):
-    """Rows of cells; the first one is the head."""
-    lines = ['| ' + ' | '.join(map(str, row)) + ' |' for row in rows]
-    lines.insert(1, '|' + '---|' * len(rows[0]))
-    return '\n'.join(lines)
-
-
 def column(run):
     """What is told of a run: {what: value}."""
-    judged, sent, counts, memory = run['judged'], run['sent'], run['counts'], run['memory']
-    growth, slope = memory_trend(memory)
-    seconds = memory[-1][0]
-    median = statistics.median(size for time, size in memory if time >= WARM_UP * seconds)
-    told = {'seconds': '%.0f' % seconds, 'shapes sent a second': '%.0f' % (sent['vertices'] / seconds),
+    growth, slope = memory_trend(run['memory'])
+    seconds = run['memory'][-1][0]
+    median = statistics.median(size for time, size in run['memory'] if time >= WARM_UP * seconds)
+    told = {'seconds': '%.0f' % seconds, 'shapes sent a second': '%.0f' % (run['sent']['vertices'] / seconds),
             'memory, median': '%.1f MiB' % (median / MEBIBYTE),
             'memory, growth after the warm-up': '%+.2f MiB (%+.1f MiB/h)' % (growth / MEBIBYTE,
-                                                                             slope * HOUR / MEBIBYTE),
-            'organ messages sent': sent['meshes'] + sent['vertices']}
-    told.update({'node: ' + key: counts[key] for key in counts if key.startswith(('organ messages', 'shapes'))})
-    told.update({'node: answers published': counts['answers published'], 'answers received': judged['answers'],
-                 'answers known as lost on the way': judged['lost'], 'answers OK': judged['ok'],
-                 'answers evaluated a second time': judged['rechecked'], 'their contacts': judged['rechecked contacts'],
-                 'of them swept': sum(count for what, count in judged['rechecked tools'].items() if 'swept' in what)})
-    told.update({'disturbance: ' + name.replace('_', ' '): count for name, count in run['disturbances'].items()})
-    told.update({'simulator: ' + name: sent[name] for name in sent if name not in ('meshes', 'vertices')})
+                                                                             slope * HOUR / MEBIBYTE)}
+    for who in ('sent', 'counts', 'judged', 'disturbances'):
+        told.update({'%s: %s' % (who, name): count for name, count in run[who].items() if isinstance(count, int)})
     return told
 
 
@@ -128,9 +114,10 @@ def markdown(result):
     runs = {kind: column(run) for kind, run in result['runs'].items() if 'judged' in run}
     if runs:
         names = list(dict.fromkeys(name for told in runs.values() for name in told))
-        rows = [['', *runs]] + [[name, *(told.get(name, 0) for told in runs.values())] for name in names]
+        rows = [['', *runs], ['---'] * (1 + len(runs))]
+        rows += [[name, *(told.get(name, 0) for told in runs.values())] for name in names]
         allowed = ['%d MiB (%s)' % (most_growth(run) // MEBIBYTE, kind) for kind, run in result['runs'].items()]
-        lines += ['', table(rows), '',
+        lines += ['', *('| %s |' % ' | '.join(map(str, row)) for row in rows), '',
                   'Memory is the lowest resident memory of a window. The first %d %% of a run are left '
                   'out. It may grow by %s.' % (100 * WARM_UP, ' and '.join(allowed))]
     return '\n'.join(lines) + '\n'

@@ -1,17 +1,104 @@
 #!/usr/bin/python3
 """Collision nodes on another host than the simulators: with the right addresses contacts arrive, and with wrong ones
-the signs are those of doc/hosts.md. Needs iproute2, and the right to make network namespaces."""
+the signs are those of doc/hosts.md. The hosts are two network namespaces of this machine, joined by a cable. Each has
+its own address and name. Needs iproute2, and the right to make network namespaces."""
 
 import os
+import signal
+import subprocess
 import sys
+import tempfile
 import unittest
 
-import network
+ADDRESSES = '10.77.0.1', '10.77.0.2'
+UNUSED_ADDRESS = '10.77.0.99'
+SKIPPED = 77  # exit status
+OWN_NAMESPACES = ['--net', '--uts', '--pid', '--mount-proc', '--fork', '--kill-child']
+CABLE = ['ip', 'link', 'add', 'left', 'type', 'veth', 'peer', 'name', 'right']
+INSIDE = '--inside'
 
-network.enter()  # Before ROS looks for the address of this host.
-SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-sys.path.append(os.path.join(SOURCE, 'test', 'rostest'))
-HOSTS = network.two_hosts()
+
+def enter():
+    """Runs this program again in namespaces of its own, which end with it. If the system does not permit them, ends
+    with SKIPPED."""
+    if INSIDE in sys.argv:
+        sys.argv.remove(INSIDE)
+        os.environ.pop('ROS_HOSTNAME', None)  # It would come before ROS_IP.
+        return
+    for rights in [], ['--user', '--map-root-user']:
+        command = ['unshare', *rights, *OWN_NAMESPACES]
+        tried = subprocess.run([*command, *CABLE], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if tried.returncode == 0:
+            os.execvp('unshare', [*command, sys.executable, *sys.argv, INSIDE])
+    print('skipped: this system permits no network namespaces: ' + tried.stdout)
+    sys.exit(SKIPPED)
+
+
+class Host:
+    """`words`: what a command begins with to run on this host."""
+
+    def __init__(self, address, words=()):
+        self.address, self.words = address, list(words)
+
+    def run(self, *command):
+        subprocess.run([*self.words, *command], check=True)
+
+    def configure(self, device, name):
+        self.run('ip', 'link', 'set', 'lo', 'up')
+        self.run('ip', 'address', 'add', self.address + '/24', 'dev', device)
+        self.run('ip', 'link', 'set', device, 'up')
+        self.run('hostname', name)
+
+    def environment(self):
+        """The variables that ROS needs on this host. The master is on the first one."""
+        return {'ROS_MASTER_URI': 'http://%s:11311' % ADDRESSES[0], 'ROS_IP': self.address}
+
+    def start(self, *command, **changes):
+        """Starts a program. `changes`: other values of environment variables; None: not set."""
+        variables = {**os.environ, **self.environment(), **changes}
+        return Program([*self.words, *command], {k: v for k, v in variables.items() if v is not None})
+
+
+class Program:
+    """A program whose output goes to a file."""
+
+    def __init__(self, command, environment):
+        self.file = tempfile.NamedTemporaryFile()
+        self.process = subprocess.Popen(command, env=environment, stdout=self.file, stderr=subprocess.STDOUT,
+                                        start_new_session=True)
+
+    def output(self):
+        """All that it has printed so far."""
+        with open(self.file.name, encoding='utf-8') as text:
+            return text.read()
+
+    def stop(self):
+        if self.process.poll() is None:
+            os.killpg(self.process.pid, signal.SIGINT)
+            try:
+                self.process.wait(timeout=20)
+            except subprocess.TimeoutExpired:
+                os.killpg(self.process.pid, signal.SIGKILL)
+                self.process.wait()
+
+
+def two_hosts():
+    """The first one is where this program runs."""
+    second = subprocess.Popen(['unshare', '--net', '--uts', 'sleep', 'infinity'])
+    enter_second = ['nsenter', '--target', str(second.pid), '--net', '--uts']
+    hosts = Host(ADDRESSES[0]), Host(ADDRESSES[1], enter_second)
+    subprocess.run(CABLE, check=True)
+    while os.readlink('/proc/self/ns/net') == os.readlink('/proc/%d/ns/net' % second.pid):
+        pass  # Until unshare has made the other namespace.
+    subprocess.run(['ip', 'link', 'set', 'right', 'netns', str(second.pid)], check=True)
+    for host, device, name in zip(hosts, ('left', 'right'), ('simulation', 'collision')):
+        host.configure(device, name)
+    return hosts
+
+
+enter()  # Before ROS looks for the address of this host.
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'rostest'))
+HOSTS = two_hosts()
 os.environ.update(HOSTS[0].environment())
 
 import rosgraph  # noqa: E402
@@ -26,7 +113,6 @@ LIMIT = 60.0  # [s]
 
 
 class TwoHostsTest(unittest.TestCase):
-
     @classmethod
     def setUpClass(cls):
         cls.simulation, cls.collision = HOSTS
@@ -80,7 +166,7 @@ class TwoHostsTest(unittest.TestCase):
 
     def test_a_node_with_a_wrong_address_or_without_one_is_out_of_reach(self):
         """Without an address, it gives the name of its host, which the other one does not know."""
-        for given, shown in ((network.UNUSED_ADDRESS, network.UNUSED_ADDRESS), (None, 'collision')):
+        for given, shown in ((UNUSED_ADDRESS, UNUSED_ADDRESS), (None, 'collision')):
             node = self.start_node(ROS_IP=given)
             self.service_address('/organ_collision/list_organs', shown)
             said = self.said('rosservice', 'call', '/organ_collision/list_organs')
@@ -94,7 +180,7 @@ class TwoHostsTest(unittest.TestCase):
     def test_organs_of_a_simulator_with_a_wrong_address_do_not_arrive(self):
         self.start_node()
         self.service_address('/organ_collision/list_organs', self.collision.address)
-        self.start(self.simulation, 'rosrun', 'organ_collision', 'simulator.py', ROS_IP=network.UNUSED_ADDRESS)
+        self.start(self.simulation, 'rosrun', 'organ_collision', 'simulator.py', ROS_IP=UNUSED_ADDRESS)
         wait_until(lambda: self.publishes('/simulator', '/organ_collision/organ_mesh'), 'the simulator', LIMIT)
         self.check_no_reply('/simulator')
         self.assertEqual(rospy.ServiceProxy('/organ_collision/list_organs', ListOrgans)().organs, [])
@@ -104,7 +190,7 @@ class TwoHostsTest(unittest.TestCase):
         return [topic, node] in [[name, one] for name, nodes in publishers for one in nodes]
 
     def test_roslaunch_refuses_an_address_that_is_not_the_hosts(self):
-        for address in (network.UNUSED_ADDRESS, None):
+        for address in (UNUSED_ADDRESS, None):
             launched = self.launch(self.collision, 'simulators:=false', ROS_IP=address)
             launched.process.wait(timeout=LIMIT)
             self.assertNotEqual(launched.process.returncode, 0)

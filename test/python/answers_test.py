@@ -1,12 +1,16 @@
 #!/usr/bin/python3
-"""Tables have all fields of their messages, with their values; other statuses than OK are exceptions."""
+"""Tables have all fields of their messages, with their values; other statuses than OK are exceptions. The module's names
+are there, and whoever wants only messages does not load rospy."""
 
 import re
+import subprocess
+import sys
 import unittest
 
 from geometry_msgs.msg import Point, Vector3
 import numpy as np
 
+import organ_collision
 from organ_collision import CollisionError, clearance_record, contact_table, contacts_of_all, crossing_table, near_table
 from organ_collision.msg import Clearance, Contact, ContactArray, Crossing, ToolPlacement
 
@@ -29,7 +33,6 @@ CLEARANCE = Clearance(state=Clearance.KNOWN, margin=0.02, unlimited=True, distan
 
 
 class AnswersTest(unittest.TestCase):
-
     def assert_is_row(self, row, given):
         self.assertEqual(list(row.dtype.names), type(given).__slots__)
         for field in row.dtype.names:
@@ -82,6 +85,25 @@ class AnswersTest(unittest.TestCase):
             for view in (near_table, crossing_table, clearance_record):
                 with self.assertRaisesRegex(CollisionError, name):
                     view(ContactArray(status=int(number)))
+
+
+class PackageTest(unittest.TestCase):
+    def test_all_names_are_there(self):
+        names = [name for name in dir(organ_collision) if not name.startswith('_')]
+        self.assertLessEqual({'Organ', 'Queries', 'contact_table', 'read_mesh', 'organ_mesh'}, set(names))
+        for name in names:
+            self.assertTrue(callable(getattr(organ_collision, name)) or name in sys.modules
+                            or 'organ_collision.' + name in sys.modules, name)
+
+    def test_an_unknown_name_is_an_attribute_error(self):
+        with self.assertRaisesRegex(AttributeError, "'organ_collision' has no attribute 'organ_mehs'"):
+            organ_collision.organ_mehs
+
+    def test_messages_load_without_rospy(self):
+        program = ('import sys; from organ_collision.msg import OrganMesh;'
+                   'from organ_collision.srv import QueryCollision;'
+                   'assert not {"rospy", "meshio"} & set(sys.modules)')
+        subprocess.check_call([sys.executable, '-c', program])
 
 
 if __name__ == '__main__':

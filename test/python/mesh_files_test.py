@@ -52,7 +52,6 @@ def volume(corners):
 
 
 class MeshFilesTest(unittest.TestCase):
-
     def setUp(self):
         self.folder = tempfile.TemporaryDirectory(prefix='organ_collision_meshes_')
         self.addCleanup(self.folder.cleanup)
@@ -107,25 +106,22 @@ class MeshFilesTest(unittest.TestCase):
         with self.assertRaisesRegex(MeshFileError, r'nowhere\.stl: there is no such file'):
             read_mesh(self.path('nowhere.stl'))
 
-    def write(self, name, text):
-        return self.path(name, text.encode())
-
     def test_obj_files_keep_vertices_and_faces_in_their_order(self):
         for text in FORMS, '\ufeff' + FORMS[FORMS.index('v 0 0 0'):]:
-            vertices, faces = read_obj(self.write('forms.obj', text))
+            vertices, faces = read_obj(self.path('forms.obj', text.encode()))
             np.testing.assert_array_equal(vertices[:, 0], [0, 1, 1, 0, 3, 4, 4, 3, 6, 7, 7])
             np.testing.assert_array_equal(vertices[2], [1, 1, 0])
             np.testing.assert_array_equal(faces, FORMS_FACES)
 
     def test_faces_of_obj_files_have_the_numbers_of_query_offline(self):
         """A ball at the centre of each face touches, of all faces, that one only."""
-        path = self.write('forms.obj', FORMS)
+        path = self.path('forms.obj', FORMS.encode())
         vertices, faces = read_obj(path)
         rows = []
         for face, corners in enumerate(faces):
             centre = '%r,%r,%r' % tuple(vertices[corners].mean(axis=0).tolist())
             rows.append('%d,static,%s,%s,%s,0.01' % (face, centre, centre, centre))
-        motions = self.write('motions.csv', '\n'.join(rows) + '\n')
+        motions = self.path('motions.csv', ('\n'.join(rows) + '\n').encode())
         answer = subprocess.check_output([os.environ['QUERY_OFFLINE'], '--mesh', path, '--motions', motions], text=True)
         self.assertEqual([(int(row['query']), int(row['face'])) for row in csv.DictReader(answer.splitlines())],
                          [(face, face) for face in range(len(faces))])
@@ -139,7 +135,7 @@ class MeshFilesTest(unittest.TestCase):
                 (':2', 'v 1 2 3\nf 0 1 1\n', 'refers to vertex 0'),
                 (':1', 'f a b c\n', 'invalid literal'),
                 ('', 'v 1 2 3\nv 4 5 6\nf 1 2 3\n', 'refers to vertex 3; the file has 2, counted from 1')):
-            path = self.write('wrong.obj', text)
+            path = self.path('wrong.obj', text.encode())
             with self.assertRaisesRegex(MeshFileError, r'wrong\.obj%s: .*%s' % (place, reason)):
                 read_obj(path)
 

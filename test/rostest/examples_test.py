@@ -15,13 +15,11 @@ import rosnode
 import rospy
 from rosgraph_msgs.msg import Log as LogLine
 import rostest
-from shape_msgs.msg import Mesh
 from std_msgs.msg import Bool
 
 from support import scenes
-from support.foreign_meshes import shape_mesh
 from support.launch_case import LaunchCase, files
-from support.node_client import LIMIT, ContactLog, Log, NodeClient, wait_until
+from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped, wait_until
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
@@ -72,13 +70,7 @@ class ExamplesTest(LaunchCase, NodeStarter):
 
     def test_mesh_adapter(self):
         with self.launched('examples/mesh_adapter.launch'):
-            node = NodeClient()
-            (organ,) = rospy.get_param('/organ_mesh_adapter/organs')[:1]
-            meshes = Log('/organ_collision/organ_mesh', OrganMesh).wait_for_publisher()
-            surface = rospy.Publisher(organ['topic'], Mesh, queue_size=1, latch=True)
-            surface.publish(shape_mesh(scenes.sheet(0.1, 4)))
-            wait_until(lambda: meshes.last(lambda mesh: mesh.organ == organ['name']), 'a mesh')
-            node.close()
+            self.check_mesh_adapter(rospy.get_param('/organ_mesh_adapter/organs'))
 
     def test_two_hosts(self):
         """Both on this one."""
@@ -158,12 +150,10 @@ class ExamplesTest(LaunchCase, NodeStarter):
             wait_until(lambda: max(dented(), default=0) > 0.002 > 0.0002 > dented()[-1], 'a dent that comes back', LONG)
             self.assertLess(max(dented()), 0.013)  # The probe's surface goes down to 13 mm below the tissue at rest.
 
-            by_stamp = [{m.header.stamp: m for m in log.select(lambda m: True)}
-                        for log in (wrenches, forces, impulses, shapes)]
-            stamps = set(by_stamp[0]).intersection(*by_stamp[1:])
+            by_stamp = [{m.header.stamp: m for m in log.select(lambda m: True)} for log in (wrenches, forces, impulses)]
+            stamps, strongest = set(by_stamp[0]).intersection(*by_stamp[1:]), 0.0
             self.assertGreater(len(stamps), 100)
-            strongest = 0.0
-            for wrench, on_vertices, impulse, shape in ([log[stamp] for log in by_stamp] for stamp in stamps):
+            for wrench, on_vertices, impulse in ([log[stamp] for log in by_stamp] for stamp in stamps):
                 force, torque = vector(wrench.wrench.force), vector(wrench.wrench.torque)
                 strongest = max(strongest, np.linalg.norm(force))
                 # [N s], [N m s] Bullet computes with 32-bit floats.
@@ -171,10 +161,6 @@ class ExamplesTest(LaunchCase, NodeStarter):
                 self.assertLess(abs(vector(impulse.wrench.force) + FEM_STEP * force).max(), rounding)
                 self.assertLess(abs(vector(impulse.wrench.torque) + FEM_STEP * torque).max(), rounding)
                 self.assertEqual((on_vertices.organ, on_vertices.tool, on_vertices.topology), ('tissue', 'probe', 0))
-                places = np.array(shape.vertices).reshape(-1, 3)[list(on_vertices.vertices)]
-                each = np.array([vector(f) for f in on_vertices.forces]).reshape(-1, 3)
-                self.assertLess(abs(each.sum(axis=0) + force).max(), 1e-9)
-                self.assertLess(abs(np.cross(places, each).sum(axis=0) + torque).max(), 1e-9)
             self.assertGreater(strongest, 0.3)
 
     def test_repeat_pose(self):
@@ -186,9 +172,7 @@ class ExamplesTest(LaunchCase, NodeStarter):
         poses = rospy.Publisher('/stylus/pose', PoseStamped, queue_size=1, latch=True)
         repeated = Log('/stylus/pose_repeated', PoseStamped)
         node.bring('sheet', sheet, rospy.Time.now())
-        pose = PoseStamped()
-        pose.header.frame_id, pose.header.stamp = 'tissue', rospy.Time.now()
-        pose.pose.position.x, pose.pose.position.z, pose.pose.orientation.w = 0.01, 0.047, 1.0
+        pose = pose_stamped('tissue', (0.01, 0.0, 0.047), rospy.Time.now())
         poses.publish(pose)
 
         def answers(status):

@@ -9,15 +9,12 @@ import sys
 import tempfile
 
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray, OrganMesh, ProxyState
+from organ_collision.msg import Contact, ContactArray, ProxyState
 import roslib.packages
 import rospy
 import rostest
-from shape_msgs.msg import Mesh
 import yaml
 
-from support import scenes
-from support.foreign_meshes import shape_mesh
 from support.launch_case import FrameLog, LaunchCase, PACKAGE, files
 from support.node_client import LIMIT, Log, NodeClient, wait_until
 from support.processes import NodeStarter, program
@@ -56,16 +53,6 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         force = wait_until(lambda: contacts.publish(message) or wrenches.last(), 'a wrench').wrench.force
         self.assert_near((force.x, force.y, force.z), (0.0, 0.0, 0.3), 1e-9, 'force')
         contacts.unregister()
-
-    def check_mesh_adapter(self, organs, collision_node='/organ_collision'):
-        """A mesh on each organ's topic reaches the collision node."""
-        meshes = Log(collision_node + '/organ_mesh', OrganMesh).wait_for_publisher()
-        for organ in organs:
-            publisher = rospy.Publisher(organ['topic'], Mesh, queue_size=1)
-            wait_until(lambda: publisher.get_num_connections() > 0, organ['topic'])
-            publisher.publish(shape_mesh(scenes.sheet(0.1, 4)))
-            wait_until(lambda: meshes.last(lambda mesh: mesh.organ == organ['name']), 'a mesh of ' + organ['name'])
-            publisher.unregister()
 
     def check_hands(self, name, tools):
         """haptic_proxy knows the tools, and they have no organ."""

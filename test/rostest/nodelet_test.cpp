@@ -1,6 +1,5 @@
 // The nodelet, in one process with the publisher of the organ.
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <organ_collision/ContactArray.h>
@@ -9,7 +8,6 @@
 #include <organ_collision/QueryCollisionBatch.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <algorithm>
@@ -45,23 +43,6 @@ boost::shared_ptr<Message> sheet_message(float z) {
   message->organ = "sheet";
   message->vertices = sheet(z);
   return message;
-}
-
-/// Calls a service over a new connection, which must be advertised already. Returns false if it
-/// failed or did not answer.
-///
-/// The connection is persistent, which means that the client closes it. Otherwise roscpp drops the
-/// answer if its polling thread sees that the server closes the connection before the thread of the
-/// call waits for the answer. If the server closed it nevertheless, because roscpp took an earlier
-/// client's hanging up for this one's, the call is made once more.
-template <typename Service>
-bool call_service(const std::string& name, Service& service) {
-  for (int connection = 0; connection < 2; ++connection) {
-    ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(name, /*persistent=*/true);
-    if (client.call(service)) return true;
-    if (client.isValid()) return false;
-  }
-  return false;
 }
 
 /// How many motions the node says it has answered; 0: it does not say.
@@ -154,28 +135,6 @@ TEST_F(NodeletTest, AMeshOfANewPublisherOfTheSameProcessIsAnotherOrgan) {
   send_mesh({0, 1, 2});
   EXPECT_EQ(received_->status, ContactArray::OK) << received_->message;
   EXPECT_EQ(received_->mode, ContactArray::STATIC);
-}
-
-TEST_F(NodeletTest, ToolsAndParametersChangeWhileItRuns) {
-  nodelet::Loader loader(false);
-  ASSERT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
-  send_mesh({0, 1, 2, 0, 2, 3});
-  std_srvs::Trigger reload;
-  ASSERT_TRUE(call_service("/organ_collision/reload_tools", reload));
-  EXPECT_TRUE(reload.response.success);
-  EXPECT_EQ(reload.response.message, "unchanged: 'probe'");
-
-  dynamic_reconfigure::Reconfigure change;
-  change.request.config.doubles.resize(1);
-  change.request.config.doubles[0].name = "rate";
-  change.request.config.doubles[0].value = 50.0;
-  ASSERT_TRUE(call_service("/organ_collision/set_parameters", change));
-  EXPECT_TRUE(ros::param::del("/organ_collision/rate"));
-  for (int tick = 0; tick < 3; ++tick) {
-    received_.reset();
-    ASSERT_TRUE(wait_for([&] { return received_ != nullptr; })) << tick;
-    EXPECT_EQ(received_->mode, ContactArray::SWEPT);
-  }
 }
 
 TEST_F(NodeletTest, IsLoadedAgainAfterUnloading) {

@@ -1,35 +1,36 @@
 #!/usr/bin/python3
-"""The services query and query_batch: of motions and of the node's tools, with both pickers, in any frame, with
-clearance and placement. What they refuse."""
+"""The services query and query_batch: of motions in any frame and of the node's tools, with both pickers. What they
+refuse. A long batch does not disturb the node, which may end in the middle of it."""
 
 import io
 import random
 import sys
+import threading
 
 import numpy as np
 from organ_collision import Queries, shaft_motions
 from organ_collision.msg import Clearance, ContactArray, ToolPlacement
+from organ_collision.srv import QueryCollisionBatch
 import rospy
 import rostest
 
 from support import oracle, scenes
-from support.contact_case import KeepsContract, faces_of, xyz
+from support.contact_case import KeepsContract, xyz
 from support.node_client import FAR_AWAY, NodeClient, shaft, wait_until
+from support.processes import NodeStarter
 from support.tool_case import ToolCase
-from support.vectors import length, lerp, scaled, sub
 
 STATIC, SWEPT, INVALID = ContactArray.STATIC, ContactArray.SWEPT, ContactArray.INVALID_REQUEST
-PAPER = (ContactArray.PAPER_STATIC, ContactArray.PAPER_SWEPT, ContactArray.PAPER_NAIVE)
-NAN, INFINITY = float('nan'), float('inf')
+PAPER_NAIVE = ContactArray.PAPER_NAIVE
+NAN = float('nan')
 SHEET = scenes.sheet(0.1, 5).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0] - 0.05 * v[1]))
-LIVER, SOLID = scenes.liver(), scenes.tetrahedron()
-OPEN = scenes.Mesh(SOLID.vertices, SOLID.faces[:3])
+LIVER = scenes.liver()
 CAMERA_IN_LIVER = scenes.Pose((0.3, -0.2, 0.5, 0.8), (0.4, -0.3, 0.9))
 AXIS = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
 NO_TURN = (0.0, 0.0, 0.0, 1.0)
-STAMP = rospy.Time(7, 5)
 HUGE = 'x' * 10**7
 SMALL = 4000  # [bytes] more than the longest names and the longest message together
+LONG = 100000  # motions of a batch that takes far longer than the test
 
 
 def size(message):
@@ -38,7 +39,25 @@ def size(message):
     return len(buffer.getvalue())
 
 
-class QueryTest(KeepsContract, ToolCase):
+class Batch(threading.Thread):
+    """A batch that is asked in a thread of its own. `outcome`: its answer, or the error."""
+
+    def __init__(self, node, organ, motions, **asked):
+        super().__init__(daemon=True)
+        self.service = rospy.ServiceProxy(node + '/query_batch', QueryCollisionBatch)
+        self.request = self.service.request_class(organ=organ, motions=motions, mode=SWEPT, **asked)
+        self.request.header.frame_id = 'liver_frame'
+        self.outcome = None
+        self.start()
+
+    def run(self):
+        try:
+            self.outcome = self.service(self.request)
+        except rospy.ServiceException as error:
+            self.outcome = error
+
+
+class QueryTest(KeepsContract, ToolCase, NodeStarter):
     link_frames = {'hook': ('hook_trocar', 'hook_tip', 'hook/ball'), 'ball': ('ball/ball',)}
 
     @classmethod
@@ -46,8 +65,8 @@ class QueryTest(KeepsContract, ToolCase):
         super().setUpClass()
         cls.select = NodeClient('/select')
         for node in (cls.node, cls.select):
-            for name, mesh in (('sheet', SHEET), ('liver', LIVER), ('solid', SOLID), ('open', OPEN)):
-                node.bring(name, mesh, STAMP)
+            for name, mesh in (('sheet', SHEET), ('liver', LIVER)):
+                node.bring(name, mesh)
         cls.tf.send_resting(('liver_frame', 'camera', CAMERA_IN_LIVER))
         wait_until(lambda: cls.node.query('sheet', FAR_AWAY, frame='camera').status == 0, 'the frame of the camera')
 
@@ -69,51 +88,28 @@ class QueryTest(KeepsContract, ToolCase):
         self.assertAlmostEqual(contact.depth, 0.001, delta=1e-9)
 
     def test_random_motions_with_both_pickers(self):
-        """Trocars rest or move, some tools are balls, and some motions are given in the frame of a camera."""
-        rng, touched = random.Random(21), 0
-
-        def point(low, high):
-            return (rng.uniform(-0.07, 0.07), rng.uniform(-0.07, 0.07), rng.uniform(low, high))
-
-        for organ, mesh in (('sheet', SHEET), ('liver', LIVER)):
-            motions = []
-            for i in range(12):
-                trocar, tip = point(0.1, 0.2), point(-0.03, 0.06)
-                now = (trocar if i % 2 else point(0.1, 0.2), point(-0.03, 0.06))
-                motions.append(((tip, tip), now[1:] * 2) if i % 6 == 0 else ((trocar, tip), now))
-            for mode, radius in ((SWEPT, 0.004), (STATIC, 0.005)):
-                expected = [oracle.contacts(mesh, mesh, m if mode == SWEPT else (m[1], m[1]), radius) for m in motions]
-                touched += sum(map(len, expected))
-                for node, frame in ((self.node, 'camera'), (self.select, 'liver_frame')):
-                    move = CAMERA_IN_LIVER.inverse().apply if frame == 'camera' else tuple
-                    given = [shaft(*map(move, now), radius, tuple(map(move, before))) for before, now in motions]
-                    results = node.query_batch(organ, given, mode, frame=frame)
-                    self.assertEqual(len(results), len(motions))
-                    for result, right in zip(results, expected):
-                        self.assert_contacts(result, right, 1e-6)
-                    self.assertEqual(node.query(organ, given[3], mode, frame=frame).contacts, results[3].contacts)
-        self.assertGreater(touched, 200)
-
-    def test_the_papers_modes_with_both_pickers(self):
-        rng, faces = random.Random(34), 0
-        for organ in ('liver', 'solid'):
-            for _ in range(8):
-                trocar, previous, tip = [(rng.uniform(-0.04, 0.08), rng.uniform(-0.03, 0.03), rng.uniform(*height))
-                                         for height in ((0.15, 0.25), (-0.01, 0.04), (-0.01, 0.04))]
-                motion = shaft(trocar, tip, 0.005, previous=(trocar, previous))
-                for mode in PAPER:
-                    found = [node.query(organ, motion, mode) for node in (self.node, self.select)]
-                    self.assertEqual(faces_of(found[0]), faces_of(found[1]))
-                    faces += len(found[0].contacts)
-                    for contact in found[0].contacts:
-                        self.assertEqual((contact.depth, contact.barycentric), (0, (0, 0, 0)))
-                        self.assertLessEqual(contact.view_min, contact.view_max)
-        self.assertGreater(faces, 200)
+        """Alone and in a batch, in the frame of a camera and in the organ's. A large tool touches every face."""
+        rng = random.Random(21)
+        point = lambda low, high: (rng.uniform(-0.07, 0.07), rng.uniform(-0.07, 0.07), rng.uniform(low, high))
+        axis = lambda: (point(0.1, 0.2), point(-0.03, 0.06))
+        motions, touched = [(axis(), axis()) for _ in range(12)], 0
+        for mode, radius in ((SWEPT, 0.004), (STATIC, 0.005)):
+            expected = [oracle.contacts(SHEET, SHEET, m if mode == SWEPT else (m[1], m[1]), radius) for m in motions]
+            touched += sum(map(len, expected))
+            for node, frame in ((self.node, 'camera'), (self.select, 'liver_frame')):
+                move = CAMERA_IN_LIVER.inverse().apply if frame == 'camera' else tuple
+                given = [shaft(*map(move, now), radius, tuple(map(move, before))) for before, now in motions]
+                results = node.query_batch('sheet', given, mode, frame=frame)
+                self.assertEqual(len(results), len(motions))
+                for result, right in zip(results, expected):
+                    self.assert_contacts(result, right, 1e-6)
+                self.assertEqual(node.query('sheet', given[3], mode, frame=frame).contacts, results[3].contacts)
+        self.assertGreater(touched, 30)
         every = shaft((0.05, 0.02, 0.3), (0.08, 0.01, -0.12), 2.0, previous=((0.05, 0.02, 0.3), (0.02, 0.0, -0.1)))
         for node in (self.node, self.select):
-            for mode in range(5):
+            for mode in range(PAPER_NAIVE + 1):
                 result = node.query('liver', every, mode, regions=mode == SWEPT)
-                self.assertEqual(faces_of(result), list(range(1224)))
+                self.assertEqual([contact.face for contact in result.contacts], list(range(len(LIVER.faces))))
 
     def test_stamp_says_when_to_transform(self):
         """A carrier sinks by 0.1 m in 0.1 s, and takes the tip to the sheet at a known time."""
@@ -131,24 +127,6 @@ class QueryTest(KeepsContract, ToolCase):
         early = self.node.query('sheet', motion, frame='carrier', stamp=begin - rospy.Duration(1))
         self.assertEqual(early.status, ContactArray.NO_TRANSFORM)
 
-    def test_tissue_swings_through_a_resting_tool(self):
-        """With organ_motion, the tissue moves during the step from its previous to its latest shape."""
-        high, low = scenes.sheet(0.1, 3, 0.031), scenes.sheet(0.1, 3, -0.02)
-        low = low.moved(lambda v: (v[0], v[1] + 0.004, v[2] + 0.2 * v[0]))
-        self.node.bring('swing', high, rospy.Time(1))
-        self.node.send_vertices('swing', low, rospy.Time(2))
-        self.node.wait_for_shape('swing', rospy.Time(2))
-        axis = ((-0.2, 0.004, 0.013), (0.012, 0.007, 0.015))
-        motion = shaft(*axis, 0.003, previous=axis)
-        self.assert_contacts(self.node.query('swing', motion, SWEPT), [])
-        expected = oracle.contacts(low, high, (axis, axis), 0.003)
-        self.assertGreater(len(expected), 2)
-        asked = self.node.query('swing', motion, SWEPT, organ_motion=True, regions=True)
-        self.assert_contacts(asked, expected)
-        self.assertEqual(len(asked.regions), len(expected))
-        (result,) = self.node.query_batch('swing', [motion], SWEPT, organ_motion=True)
-        self.assert_contacts(result, expected)
-
     def test_a_tool_of_the_node_by_name(self):
         """STATIC uses the tool's present pose in TF. SWEPT moves it there from its last published pose."""
         axes = [((0.1, 0.02, 0.3), tip) for tip in ((0.01, 0.003, 0.05), (0.013, 0.001, -0.05))]
@@ -165,57 +143,20 @@ class QueryTest(KeepsContract, ToolCase):
             self.assert_regions_lie_on_faces(swept, SHEET)
         self.assertEqual(len(self.node.contacts.of(self.organ, 'grasper')), 1)
 
-    def test_clearance(self):
-        """Alone and in a batch, within a margin and without limit."""
-        for axis in (((0.02, -0.03, 0.3), (0.011, 0.006, 0.02)), ((0.02, -0.03, 0.3), (0.011, 0.006, 0.0035))):
-            motion, distances = shaft(*axis, 0.004), []
-            for face in range(len(SHEET.faces)):
-                distances.append(oracle.nearest(axis, SHEET.face(face)).distance - 0.004)
-            near = sorted(d for d in distances if 0 < d <= 0.03)
-            result = self.node.query('sheet', motion, margin=0.03, max_near=7)
-            self.assert_ok(result)
-            found = result.clearance
-            self.assertEqual((found.state, found.margin, found.unlimited), (Clearance.KNOWN, 0.03, False))
-            self.assertAlmostEqual(found.distance, min(distances), delta=1e-9)
-            self.assertAlmostEqual(distances[found.face], min(distances), delta=1e-9)
-            way = sub(xyz(found.on_organ), xyz(found.on_tool))
-            self.assert_near(way, scaled(xyz(found.normal), found.distance), 1e-9, 'on_organ - on_tool')
-            self.assert_near(xyz(found.on_organ), oracle.weighted(SHEET.face(found.face), found.barycentric), 1e-9,
-                             'place')
-            self.assertEqual(result.near_left_out, max(0, len(near) - 7))
-            for contact, right in zip(result.near, near):
-                self.assertAlmostEqual(-contact.depth, right, delta=1e-9)
-            (unlimited,) = self.node.query_batch('sheet', [motion], clearance=True)
-            self.assertTrue(unlimited.clearance.unlimited)
-            self.assertEqual((unlimited.clearance.distance, unlimited.near), (found.distance, []))
-        beyond = self.node.query('sheet', FAR_AWAY, margin=0.03)
-        self.assertEqual((beyond.clearance, beyond.near), (Clearance(state=Clearance.BEYOND_MARGIN, margin=0.03), []))
-
-    def test_placement(self):
-        """Once the node knows whether the surface is closed. Queries wait for it, but not for ever."""
-        tip, trocar = (0.0013, -0.0021, 0.0017), (0.3, 0.31, 0.32)
-        motion = shaft(trocar, tip, 0.002, previous=(trocar, trocar))
-        for organ, mesh in (('solid', SOLID), ('liver', LIVER)):
-            ask = lambda: self.node.query(organ, motion, SWEPT, placement=True).placement
-            found = wait_until(lambda: ask() if ask().tip != ToolPlacement.UNKNOWN else None, 'sides of ' + organ)
-            self.assertEqual((found.tip, found.trocar), (ToolPlacement.INSIDE, ToolPlacement.OUTSIDE))
-            (crossing,) = found.crossings
-            self.assertEqual((crossing.direction, crossing.vertices), (1, mesh.faces[crossing.face]))
-            on_face = oracle.weighted(mesh.face(crossing.face), crossing.barycentric)
-            self.assert_near(xyz(crossing.point), on_face, 1e-9, 'the crossing on its face')
-            self.assert_near(xyz(crossing.point), lerp(trocar, tip, crossing.shaft), 1e-9, 'the crossing on the axis')
-            self.assertTrue(found.length_known)
-            self.assertAlmostEqual(found.length_inside, length(sub(tip, xyz(crossing.point))), delta=1e-9)
-            (of_batch,) = self.node.query_batch(organ, [motion], SWEPT, placement=True)
-            self.assertEqual(of_batch.placement, found)
-        opened = self.node.query('open', motion, placement=True).placement
-        self.assertEqual((opened.tip, opened.length_known), (ToolPlacement.UNKNOWN, False))
+    def test_placement_comes_once_the_node_knows_the_surface(self):
+        motion = shaft((0.3, 0.31, 0.32), (0.0013, -0.0021, 0.0017), 0.002)
+        ask = lambda: self.node.query('liver', motion, placement=True).placement
+        found = wait_until(lambda: ask() if ask().tip != ToolPlacement.UNKNOWN else None, 'sides of the liver')
+        self.assertEqual((found.tip, found.trocar, len(found.crossings), found.length_known),
+                         (ToolPlacement.INSIDE, ToolPlacement.OUTSIDE, 1, True))
+        (of_batch,) = self.node.query_batch('liver', [motion], placement=True)
+        self.assertEqual(of_batch.placement, found)
 
     def test_motions_of_links_are_those_of_steps(self):
         """A hook that has a shaft and a ball, and a ball alone."""
         rng, queries, touched = random.Random(23), Queries(timeout=20.0), 0
         near = lambda low, high: (rng.uniform(-0.04, 0.04), rng.uniform(-0.04, 0.04), rng.uniform(low, high))
-        way = [(near(0.2, 0.3), near(-0.04, 0.04), near(-0.04, 0.04)) for _ in range(10)]
+        way = [(near(0.2, 0.3), near(-0.04, 0.04), near(-0.04, 0.04)) for _ in range(6)]
         steps = [self.step(SHEET, {'hook': places, 'ball': places[2:]}, vertices=i > 0) for i, places in enumerate(way)]
         trocars, tips, balls = np.swapaxes(np.array(way), 0, 1)
         poses = [[(*ball, *NO_TURN)] for ball in balls]
@@ -227,19 +168,12 @@ class QueryTest(KeepsContract, ToolCase):
             for answer, step in zip(answers, [step[tool] for step in steps[1:]]):
                 self.assertEqual((answer.status, answer.tool, answer.links), (0, tool, step.links))
                 self.assertEqual([(c.face, c.link) for c in answer.contacts], [(c.face, c.link) for c in step.contacts])
-                for found, expected in zip(answer.contacts, step.contacts):
-                    self.assert_near(xyz(found.point), xyz(expected.point), 1e-6, 'point')
                 touched += len(step.contacts)
-        self.assertGreater(touched, 50)
+        self.assertGreater(touched, 20)
         heights = [[(0.011, 0.012, z, *NO_TURN)] for z in (0.05, 0.04, 0.03, -0.03, -0.04, 0.05)]
         answers = queries.answer_links(self.organ, 'ball', heights[1:], heights[:-1], frame='liver_frame',
                                        stop_at_first_contact=True)
         self.assertEqual([len(answer.contacts) > 0 for answer in answers], [False, False, True])
-        bad = [[(0.0, 0.0, 0.001, *NO_TURN)], [(0.0, 0.0, 0.001, 0.0, 0.0, 0.0, 0.0)], [(0.0, NAN, 0.001, *NO_TURN)]]
-        answers = queries.answer_links(self.organ, 'ball', bad, frame='liver_frame')
-        self.assertEqual([answer.status for answer in answers], [0, INVALID, INVALID])
-        self.assertIn('(0, 0, 0, 0)', answers[1].message)
-        self.assertIn('nan', answers[2].message)
 
     def assert_refused(self, answer, status, words):
         """A refusal names the value, and stays small."""
@@ -250,63 +184,69 @@ class QueryTest(KeepsContract, ToolCase):
             self.assertIn(word, answer.message)
 
     def test_refusals(self):
-        motion, bad = shaft(*AXIS, 0.005, AXIS), shaft((NAN, 0.0, 0.3), AXIS[1], 0.005, AXIS)
-        expected = oracle.static_contacts(SHEET, AXIS, 0.005)
-        self.assertGreater(len(expected), 0)
+        motion, expected = shaft(*AXIS, 0.005, AXIS), oracle.static_contacts(SHEET, AXIS, 0.005)
         for asked, status, *words in (
-            (dict(motion=shaft(*AXIS, 0.0)), INVALID, 'radius', '0'),
             (dict(motion=shaft(*AXIS, -0.25)), INVALID, 'radius', '-0.25'),
-            (dict(motion=shaft(*AXIS, INFINITY)), INVALID, 'radius', 'inf'),
-            (dict(motion=bad), INVALID, 'nan'),
+            (dict(motion=shaft((NAN, 0.0, 0.3), AXIS[1], 0.005)), INVALID, 'nan'),
             (dict(motion=motion, mode=5), INVALID, '5', '4'),
-            (dict(motion=motion, mode=PAPER[0], clearance=True), INVALID, 'mode is 2'),
-            (dict(motion=motion, margin=-1.0), INVALID, 'margin is -1', 'positive'),
-            (dict(motion=motion, max_near=3, clearance=True), INVALID, 'max_near is 3'),
             (dict(organ='kidney', motion=motion), ContactArray.UNKNOWN_ORGAN, 'kidney', 'sheet'),
-            (dict(organ='a\nb', motion=motion), INVALID, 'organ', '256'),
             (dict(organ=HUGE, motion=motion), INVALID, 'organ', '256'),
             (dict(tool='scalpel'), ContactArray.UNKNOWN_TOOL, 'scalpel', 'grasper'),
-            (dict(tool=HUGE), INVALID, 'tool', '256'),
             (dict(motion=motion, frame='nowhere'), ContactArray.NO_TRANSFORM, 'nowhere'),
-            (dict(motion=motion, frame=''), INVALID, 'frame'),
             (dict(motion=motion, frame=HUGE), INVALID, 'frame_id', '256'),
         ):
             self.assert_refused(self.node.query(asked.pop('organ', 'sheet'), **asked), status, words)
             self.assert_contacts(self.node.query('sheet', shaft(*AXIS, 0.005)), expected)
-        previous_is_unused = shaft(*AXIS, 0.005, ((NAN,) * 3, (NAN,) * 3))
-        self.assert_contacts(self.node.query('sheet', previous_is_unused), expected)
 
     def test_refusals_of_batches(self):
-        """max_batch is 30, and max_batch_bytes 100 000."""
+        """max_batch is 30, and max_batch_bytes 100 000. One bad motion leaves the rest of its batch alone."""
         motion, through_all = shaft(*AXIS, 0.005), shaft((0.0, 0.0, 0.1), (0.0, 0.0, -0.1), 0.2)
         fit = 100000 // size(self.node.query('sheet', through_all))
         self.assertIn(fit, range(5, 30))
         for asked, status, *words in (
             (dict(motions=[motion] * 31), INVALID, '31 motions', '30', 'max_batch'),
             (dict(motions=[through_all] * 30), INVALID, 'first %d of 30' % (fit + 1), '100000', 'max_batch_bytes'),
-            (dict(motions=[motion], mode=9), INVALID, '9'),
-            (dict(motions=[motion], margin=NAN), INVALID, 'margin is nan', 'finite'),
             (dict(motions=[motion], organ='kidney'), ContactArray.UNKNOWN_ORGAN, 'kidney', 'sheet'),
             (dict(motions=[motion] * 30, organ=HUGE), INVALID, '256'),
             (dict(motions=[motion] * 30, frame='nowhere'), ContactArray.NO_TRANSFORM, 'nowhere'),
         ):
             self.assert_refused(self.node.answer_batch(asked.pop('organ', 'sheet'), **asked), status, words)
         self.assertEqual(len(self.node.query_batch('sheet', [through_all] * fit)), fit)
-        self.assertEqual(self.node.query_batch('sheet', []), [])
-        # One bad motion leaves the rest of its batch alone.
         results = self.node.query_batch('sheet', [motion, shaft(*AXIS, -0.25), motion])
         self.assertEqual([result.status for result in results], [ContactArray.OK, INVALID, ContactArray.OK])
         self.assertIn('-0.25', results[1].message)
         self.assert_contacts(results[2], oracle.static_contacts(SHEET, AXIS, 0.005))
 
-    def test_a_loop_in_tf_with_long_names(self):
-        self.tf.send_resting(('loop_a', 'loop_b', (0, 0, 1)), ('loop_b', 'loop_a', (0, 0, 1)),
-                             *[('loop_b', 'x' * 1000 + str(i), (0, 0, 1)) for i in range(500)])
-        motion = shaft(*AXIS, 0.005)
-        wait_until(lambda: 'loop.' in self.node.query('sheet', motion, frame='loop_a').message, 'the loop')
-        for answer in (self.node.query('sheet', motion, frame='loop_a'),
-                       self.node.answer_batch('sheet', [motion] * 30, frame='loop_a')):
-            self.assert_refused(answer, ContactArray.NO_TRANSFORM, ['loop.'])
+    def test_a_long_batch_in_the_background(self):
+        """Steps go on, and single queries are answered. Nothing is measured in time: the batch is going on as long as
+        /diagnostics counts its motions."""
+        name, tip, small = '/served', (0.01, 0.02, 0.002), scenes.sheet(0.1, 4)
+        process = self.start(name, {'tools': [{'name': 'probe', 'trocar_frame': 'liver_frame', 'tip_frame': 'probe_tip',
+                                               'radius': 0.005}], 'diagnostic_period': 0.05})
+        node = NodeClient(name)
+        self.addCleanup(node.close)
+        self.tf.wait_for(node)
+        self.tf.send_resting(('liver_frame', 'probe_tip', tip))
+        # How far a motion is from each of many faces takes milliseconds.
+        for organ, mesh in (('large', scenes.sheet(0.1, 100)), ('small', small)):
+            node.bring(organ, mesh, rospy.Time(1))
+        answered = lambda: node.diagnostics.count('motions of batches')
+        slow = shaft((0.02, 0.01, 0.5), (0.03, 0.02, 0.3), 0.005, ((0.02, 0.01, 0.5), (-0.03, 0.02, 0.3)))
+        first = Batch(name, 'large', [slow] * LONG, clearance=True)
+        before = wait_until(answered, 'motions of the batch')
+        second = Batch(name, 'small', [FAR_AWAY])
+        for step in range(2, 32):
+            node.send_vertices('small', small, rospy.Time(step))
+            self.assert_ok(node.contacts.wait_for('small', 'probe', mesh_stamp=rospy.Time(step)))
+            self.assert_ok(node.query('small', FAR_AWAY))
+        wait_until(lambda: answered() > before, 'more motions of the batch')
+        self.assertLess(answered(), LONG)
+        self.assertIsNone(first.outcome)
+        self.stop(process)
+        for batch in (first, second):
+            batch.join(timeout=30)
+            if not isinstance(batch.outcome, rospy.ServiceException):
+                self.assertEqual((batch.outcome.status, batch.outcome.results), (ContactArray.PICKER_FAILED, []))
 
 
 if __name__ == '__main__':

@@ -5,15 +5,17 @@ import os
 from xml.etree import ElementTree
 
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import OrganVertices
+from organ_collision.msg import OrganMesh, OrganVertices
 import roslib.packages
 import rospy
 from sensor_msgs.msg import JointState
+from shape_msgs.msg import Mesh
 from tf2_msgs.msg import TFMessage
 
 from . import oracle, scenes
 from .contact_case import ContactCase
-from .node_client import LIMIT, NodeClient, shaft, wait_until
+from .foreign_meshes import shape_mesh
+from .node_client import LIMIT, Log, NodeClient, shaft, wait_until
 from .processes import Launched, nodes_online
 
 PACKAGE = roslib.packages.get_pkg_dir('organ_collision')
@@ -69,11 +71,21 @@ class LaunchCase(ContactCase):
 
     def check_collision_node(self, name, process=None):
         """The collision node answers about an organ that only it has."""
-        node, sheet, axis = NodeClient(name, process=process), scenes.sheet(0.1, 4), ((0.01, 0.02, 0.3),
-                                                                                      (0.011, 0.017, 0.002))
+        node, axis = NodeClient(name, process=process), ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+        sheet = scenes.sheet(0.1, 4)
         node.bring('sheet', sheet, rospy.Time(1))
         self.assert_contacts(node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(sheet, axis, 0.005))
         node.close()
+
+    def check_mesh_adapter(self, organs, collision_node='/organ_collision'):
+        """A mesh on each organ's topic reaches the collision node."""
+        meshes = Log(collision_node + '/organ_mesh', OrganMesh).wait_for_publisher()
+        for organ in organs:
+            publisher = rospy.Publisher(organ['topic'], Mesh, queue_size=1)
+            wait_until(lambda: publisher.get_num_connections() > 0, organ['topic'])
+            publisher.publish(shape_mesh(scenes.sheet(0.1, 4)))
+            wait_until(lambda: meshes.last(lambda mesh: mesh.organ == organ['name']), 'a mesh of ' + organ['name'])
+            publisher.unregister()
 
     def check_robot(self, urdf_file, replaced=('', '')):
         """TF knows all links of the robot, and its mesh files exist."""

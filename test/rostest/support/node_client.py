@@ -5,7 +5,7 @@ import threading
 import time
 
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import Point, Quaternion, TransformStamped, Vector3
+from geometry_msgs.msg import Point, PoseStamped, Quaternion, TransformStamped, Vector3
 from organ_collision.msg import ContactArray, OrganMesh, OrganVertices, ToolMotion
 from organ_collision.srv import QueryCollision, QueryCollisionBatch, QueryCollisionBatchRequest, QueryCollisionRequest
 import rospy
@@ -34,6 +34,25 @@ def is_heard(topic, process):
     """Whether the node `process` listens to this publisher. Counting the listeners is not enough, because other nodes
     may listen, too."""
     return process in [listener for _, listener, *_ in topic.impl.get_stats_info()]
+
+
+def pose_stamped(frame, point, stamp=rospy.Time(), rotation=(0, 0, 0, 1)):
+    message = PoseStamped()
+    message.header.frame_id, message.header.stamp = frame, stamp
+    message.pose.position, message.pose.orientation = Point(*point), Quaternion(*rotation)
+    return message
+
+
+def vertices_message(organ, mesh, stamp=rospy.Time(), topology=1, frame='liver_frame', kind=OrganVertices):
+    message = kind(organ=organ, topology=topology, vertices=mesh.flat_vertices())
+    message.header.frame_id, message.header.stamp = frame, stamp
+    return message
+
+
+def mesh_message(organ, mesh, *args, **named):
+    message = vertices_message(organ, mesh, *args, kind=OrganMesh, **named)
+    message.triangles = mesh.flat_faces()
+    return message
 
 
 class TfSender:
@@ -179,22 +198,11 @@ class NodeClient:
             end.unregister()
         self.query_service.close()
 
-    def _filled(self, message, organ, mesh, stamp, topology):
-        message.organ, message.topology, message.vertices = organ, topology, mesh.flat_vertices()
-        message.header.frame_id, message.header.stamp = self.frame, stamp
-        return message
-
-    def mesh_message(self, organ, mesh, stamp=rospy.Time(), topology=1):
-        return self._filled(OrganMesh(triangles=mesh.flat_faces()), organ, mesh, stamp, topology)
-
-    def vertices_message(self, organ, mesh, stamp=rospy.Time(), topology=1):
-        return self._filled(OrganVertices(), organ, mesh, stamp, topology)
-
     def send_mesh(self, *args, **named):
-        self.meshes.publish(self.mesh_message(*args, **named))
+        self.meshes.publish(mesh_message(*args, frame=self.frame, **named))
 
     def send_vertices(self, *args, **named):
-        self.shapes.publish(self.vertices_message(*args, **named))
+        self.shapes.publish(vertices_message(*args, frame=self.frame, **named))
 
     def bring(self, organ, mesh, stamp=rospy.Time(), topology=1):
         """Sends a mesh, and waits until the node has it."""

@@ -1,19 +1,17 @@
 """The definition of a contact, computed naively for each face in double precision.
 
-An axis is a pair (trocar, tip), a face has three corners, and lengths are in metres. First touch is
-found by conservative advancement: while the distance exceeds the radius by a gap, nothing can touch
-before the fastest corner and the fastest end together have covered that gap.
-"""
+An axis is a pair (trocar, tip), a face has three corners, and lengths are in metres. First touch is found by
+conservative advancement: while the distance exceeds the radius by a gap, nothing can touch before the fastest corner
+and the fastest end together have covered that gap."""
 
 from collections import namedtuple
 
 from .vectors import add, cross, dot, length, lerp, scaled, sub, unit
 
-# [m] Nearest pairs are tied if their distances differ by at most this; the one nearest the tip
-# counts.
-TIE = 1e-12
+TIE = 1e-12  # [m] Nearest pairs are tied if their distances differ by at most this; the one nearest the tip counts.
 PIERCED = 1e-9  # [m] up to this distance, the axis counts as piercing the face
 TOUCH = 1e-11  # [m] first touch stops at this gap
+EDGES = ((0, 1), (1, 2), (2, 0))
 
 # `behind` is None if the nearest point of the axis lies in the face: then either answer is right.
 Contact = namedtuple('Contact', 'face fraction point normal barycentric shaft depth behind')
@@ -22,19 +20,16 @@ Nearest = namedtuple('Nearest', 'distance shaft barycentric')
 
 def weighted(face, weights):
     """The point of the face with these barycentric coordinates."""
-    return add(
-        add(scaled(face[0], weights[0]), scaled(face[1], weights[1])), scaled(face[2], weights[2])
-    )
+    return add(add(scaled(face[0], weights[0]), scaled(face[1], weights[1])), scaled(face[2], weights[2]))
 
 
-def face_normal(face):
-    return unit(cross(sub(face[1], face[0]), sub(face[2], face[0])))
+def area_normal(face):
+    return cross(sub(face[1], face[0]), sub(face[2], face[0]))
 
 
 def barycentric(p, face):
-    """The barycentric coordinates of p's projection onto the face's plane. None for a degenerate
-    face."""
-    n = cross(sub(face[1], face[0]), sub(face[2], face[0]))
+    """The barycentric coordinates of p's projection onto the face's plane. None for a degenerate face."""
+    n = area_normal(face)
     if dot(n, n) == 0.0:
         return None
     b = dot(cross(sub(p, face[0]), sub(face[2], face[0])), n) / dot(n, n)
@@ -51,7 +46,6 @@ def place_on_segment(p, a, b):
 def nearest_pairs(axis, face):
     """Yields all candidates (shaft, barycentric) for the nearest points of axis and face."""
     trocar, tip = axis
-    edges = [(0, 1), (1, 2), (2, 0)]
 
     def on_edge(i, j, place):
         weights = [0.0, 0.0, 0.0]
@@ -62,12 +56,11 @@ def nearest_pairs(axis, face):
         weights = barycentric(end, face)
         if weights and min(weights) >= 0:
             yield shaft, weights
-        for i, j in edges:
+        for i, j in EDGES:
             yield shaft, on_edge(i, j, place_on_segment(end, face[i], face[j]))
-    d = sub(tip, trocar)
-    for i in range(3):
-        yield place_on_segment(face[i], trocar, tip), on_edge(i, (i + 1) % 3, 0.0)
-    for i, j in edges:
+    d, n = sub(tip, trocar), area_normal(face)
+    for i, j in EDGES:
+        yield place_on_segment(face[i], trocar, tip), on_edge(i, j, 0.0)
         e, r = sub(face[j], face[i]), sub(face[i], trocar)
         det = dot(d, d) * dot(e, e) - dot(d, e) ** 2
         if det > 0:
@@ -75,7 +68,6 @@ def nearest_pairs(axis, face):
             place = (dot(r, d) * dot(d, e) - dot(r, e) * dot(d, d)) / det
             if 0 <= shaft <= 1 and 0 <= place <= 1:
                 yield shaft, on_edge(i, j, place)
-    n = cross(sub(face[1], face[0]), sub(face[2], face[0]))
     if dot(n, d) != 0.0:
         shaft = dot(n, sub(face[0], trocar)) / dot(n, d)
         weights = barycentric(lerp(trocar, tip, shaft), face)
@@ -84,19 +76,15 @@ def nearest_pairs(axis, face):
 
 
 def nearest(axis, face):
-    found = [
-        Nearest(length(sub(weighted(face, w), lerp(axis[0], axis[1], s))), s, w)
-        for s, w in nearest_pairs(axis, face)
-    ]
+    found = [Nearest(length(sub(weighted(face, weights), lerp(*axis, shaft))), shaft, weights)
+             for shaft, weights in nearest_pairs(axis, face)]
     least = min(f.distance for f in found)
     return max((f for f in found if f.distance <= least + TIE), key=lambda f: f.shaft)
 
 
 def first_touch(axis_at, face_at, radius):
     """The earliest time in [0, 1] at which the face is within `radius` of the axis, or None."""
-    ends = list(zip(axis_at(0.0), axis_at(1.0))) + list(zip(face_at(0.0), face_at(1.0)))
-    axis_speed = max(length(sub(b, a)) for a, b in ends[:2])
-    speed = axis_speed + max(length(sub(b, a)) for a, b in ends[2:])
+    speed = sum(max(length(sub(b, a)) for a, b in zip(at(0.0), at(1.0))) for at in (axis_at, face_at))
     time = 0.0
     while True:
         gap = nearest(axis_at(time), face_at(time)).distance - radius
@@ -108,33 +96,31 @@ def first_touch(axis_at, face_at, radius):
 
 
 def contact_of_face(number, axis_at, face_at, radius):
-    """The contact of one face in a step, or None. `axis_at` and `face_at` map a time in [0, 1] to
-    the axis and to the face."""
+    """The contact of one face in a step, or None. `axis_at` and `face_at` map a time in [0, 1] to the axis and to the
+    face."""
     time = first_touch(axis_at, face_at, radius)
     if time is None:
         return None
-    axis, face = axis_at(time), face_at(time)
+    axis, face, axis_end, face_end = axis_at(time), face_at(time), axis_at(1.0), face_at(1.0)
     at = nearest(axis, face)
-    point = weighted(face, at.barycentric)
-    axis_end, face_end = axis_at(1.0), face_at(1.0)
-    point_end = weighted(face_end, at.barycentric)
-    place_end = lerp(axis_end[0], axis_end[1], at.shaft)
+    point, point_end = weighted(face, at.barycentric), weighted(face_end, at.barycentric)
+    place_end = lerp(*axis_end, at.shaft)
     if at.distance <= PIERCED:
-        normal = face_normal(face)
+        normal = unit(area_normal(face))
         if dot(normal, sub(axis[1], axis[0])) < 0:
             normal = scaled(normal, -1.0)
         depth = radius + dot(normal, sub(axis_end[1], point_end))
     else:
-        normal = unit(sub(point, lerp(axis[0], axis[1], at.shaft)))
+        normal = unit(sub(point, lerp(*axis, at.shaft)))
         depth = radius - dot(normal, sub(point_end, place_end))
-    height = dot(sub(place_end, face_end[0]), face_normal(face_end))
+    height = dot(sub(place_end, face_end[0]), unit(area_normal(face_end)))
     behind = height < 0 if abs(height) > PIERCED else None
     return Contact(number, time, point, normal, at.barycentric, at.shaft, depth, behind)
 
 
-def contacts(mesh, before, motion, radius, faces=None):
-    """All contacts of a step, sorted by face. The mesh moves from `before` to `mesh`, and the axis
-    from motion[0] to motion[1]. The step is static if both are equal."""
+def contacts(mesh, before, motion, radius):
+    """All contacts of a step, sorted by face. The mesh moves from `before` to `mesh`, and the axis from motion[0] to
+    motion[1]. The step is static if both are equal."""
 
     def axis_at(t):
         return tuple(lerp(a, b, t) for a, b in zip(*motion))
@@ -145,13 +131,11 @@ def contacts(mesh, before, motion, radius, faces=None):
     reach = radius + max(length(sub(e, centre)) for e in ends)
 
     found = []
-    for number in range(len(mesh.faces)) if faces is None else faces:
+    for number in range(len(mesh.faces)):
         start, end = before.face(number), mesh.face(number)
         if min(dot(sub(c, centre), unit(sub(start[0], centre))) for c in start + end) > reach:
             continue
-        contact = contact_of_face(
-            number, axis_at, lambda t: [lerp(a, b, t) for a, b in zip(start, end)], radius
-        )
+        contact = contact_of_face(number, axis_at, lambda t: [lerp(a, b, t) for a, b in zip(start, end)], radius)
         if contact:
             found.append(contact)
     return found

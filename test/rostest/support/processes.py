@@ -1,6 +1,7 @@
 """Nodes, launch files and ROS masters that a test starts and stops itself."""
 
 import os
+import shlex
 import signal
 import socket
 import subprocess
@@ -19,6 +20,12 @@ from .node_client import LIMIT, wait_until
 def program(name, package='organ_collision'):
     """The path of a program."""
     return roslib.packages.find_node(package, name)[0]
+
+
+def nodelet(*words):
+    """The words of a command that runs the program `nodelet`, under what ORGAN_COLLISION_NODELET_PREFIX says."""
+    prefix = os.environ.get('ORGAN_COLLISION_NODELET_PREFIX', '')
+    return [*(shlex.split(prefix) if words[0] != 'load' else ()), program('nodelet', 'nodelet'), *words]
 
 
 def process_of(node):

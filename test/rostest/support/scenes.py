@@ -123,6 +123,3 @@ class Pose:
 def at(translation):
     """The pose of a frame that is not turned."""
     return Pose((0.0, 0.0, 0.0, 1.0), translation)
-
-
-IDENTITY = at((0.0, 0.0, 0.0))

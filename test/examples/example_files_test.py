@@ -1,11 +1,15 @@
 #!/usr/bin/python3
-"""What stands in for the dVRK is consistent: its kinematics, the URDF of the instrument, and the organ's surface.
+"""What stands in for the dVRK is consistent: its kinematics, the URDF of the instrument, and the organ's surface. The
+grasper's files are up to date: jaw.stl with its script and, if xacro is installed, grasper.urdf with
+grasper.urdf.xacro. The surface of the jaw is closed.
 
-Usage: dvrk_files_test.py SOURCE_FOLDER
+Usage: example_files_test.py SOURCE_FOLDER XACRO
 """
 
 import importlib.util
 import os
+import struct
+import subprocess
 import sys
 import unittest
 from xml.etree import ElementTree
@@ -13,8 +17,9 @@ from xml.etree import ElementTree
 import numpy as np
 from PyKDL import Frame, Rotation, Vector
 
-SOURCE = sys.argv[1]
+SOURCE, XACRO = sys.argv[1:3]
 RANDOM = np.random.default_rng(5)
+JAW_BOX = ((0.0001, 0.0026), (-0.002, 0.002), (0.0, 0.02))  # [m]
 
 
 def example(name):
@@ -23,6 +28,16 @@ def example(name):
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+def read(*path):
+    with open(os.path.join(SOURCE, 'urdf', *path), 'rb') as file:
+        return file.read()
+
+
+def elements(urdf):
+    """The XML elements of a file, without comments and layout."""
+    return ElementTree.canonicalize(urdf, strip_text=True)
 
 
 ROBOT, ORGAN = example('dvrk_robot'), example('dvrk_organ')
@@ -63,8 +78,7 @@ def random_joints():
     return dict(zip(ROBOT.JOINTS, joints.tolist()))
 
 
-class DvrkFilesTest(unittest.TestCase):
-
+class ExampleFilesTest(unittest.TestCase):
     def test_the_shaft_passes_through_the_remote_centre(self):
         for _ in range(100):
             joints = random_joints()
@@ -102,15 +116,34 @@ class DvrkFilesTest(unittest.TestCase):
             np.testing.assert_allclose(list(tip.p), list(target), atol=1e-9)
             np.testing.assert_allclose(list(tip.M.UnitZ() * reach), list(target - remote_centre), atol=1e-9)
 
-    def test_the_organ_is_closed_and_outward(self):
-        vertices, faces = ORGAN.ellipsoid(ORGAN.RADII)
-        _, places = np.unique(vertices.round(9), axis=0, return_inverse=True)
-        edges = [(places.ravel()[f[i - 1]], places.ravel()[f[i]]) for f in faces for i in range(3)]
+    def assert_closed(self, corners, volume, tolerance):
+        """Checks that the faces of corners, m x 3 x 3 [m], are a closed surface, outward, around this volume."""
+        _, places = np.unique(corners.reshape(-1, 3).round(9), axis=0, return_inverse=True)
+        edges = [(f[i - 1], f[i]) for f in places.reshape(-1, 3).tolist() for i in range(3)]
         self.assertEqual(len(set(edges)), len(edges))
         self.assertEqual({(b, a) for a, b in edges}, set(edges))
-        a, b, c = vertices[faces].swapaxes(0, 1)
-        volume = np.einsum('ij,ij->', a, np.cross(b, c)) / 6
-        self.assertAlmostEqual(volume, 4 / 3 * np.pi * np.prod(ORGAN.RADII), delta=0.02 * volume)
+        a, b, c = corners.swapaxes(0, 1)
+        self.assertAlmostEqual(np.einsum('ij,ij->', a, np.cross(b, c)) / 6, volume, delta=tolerance * volume)
+
+    def test_the_organ_is_closed_and_outward(self):
+        vertices, faces = ORGAN.ellipsoid(ORGAN.RADII)
+        self.assert_closed(vertices[faces], 4 / 3 * np.pi * np.prod(ORGAN.RADII), 0.02)
+
+    def test_the_jaw_is_what_its_script_makes_closed_and_outward(self):
+        stl = read('meshes', 'jaw.stl')
+        self.assertEqual(subprocess.check_output([os.path.join(SOURCE, 'urdf', 'meshes', 'make_jaw.py')]), stl)
+        self.assertFalse(stl.startswith(b'solid'))  # that would be the start of an ASCII file
+        self.assertEqual(struct.unpack_from('<I', stl, 80)[0], 500)
+        corners = np.array([struct.unpack_from('<9f', stl, 84 + 50 * i + 12) for i in range(500)]).reshape(-1, 3, 3)
+        self.assert_closed(corners, 0.75 * 0.02 * 0.003 * 0.0015, 0.34)
+        for axis, (low, high) in enumerate(JAW_BOX):
+            self.assertAlmostEqual(corners[..., axis].min(), low, delta=1e-4)
+            self.assertAlmostEqual(corners[..., axis].max(), high, delta=1e-4)
+
+    @unittest.skipUnless(XACRO, 'xacro is not installed')
+    def test_urdf_is_the_expanded_xacro(self):
+        expanded = subprocess.check_output([XACRO, os.path.join(SOURCE, 'urdf', 'grasper.urdf.xacro')])
+        self.assertEqual(elements(expanded), elements(read('grasper.urdf')))
 
 
 if __name__ == '__main__':
