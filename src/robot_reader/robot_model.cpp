@@ -48,22 +48,6 @@ void check_complete(const std::string& link, const std::vector<std::string>& err
 
 using AboutToRead = std::function<void(const std::string&)>;
 
-void read_mesh(const urdf::Mesh& mesh, const urdf::Pose& origin, const AboutToRead& about_to_read,
-               RobotShape& shape) {
-  about_to_read("mesh '" + mesh.filename + "'");
-  const urdf::Rotation& q = origin.rotation;
-  const Eigen::Isometry3d T_link_mesh =
-      Eigen::Translation3d(to_eigen(origin.position)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
-  const MeshDescription read = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
-  shape.file = read.file;
-  for (const Vector3d& vertex : read.vertices) {
-    shape.vertices.insert(shape.vertices.end(), vertex.data(), vertex.data() + 3);
-  }
-  for (const FaceIndices& corners : read.triangles) {
-    shape.triangles.insert(shape.triangles.end(), corners.begin(), corners.end());
-  }
-}
-
 RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
                     const AboutToRead& about_to_read) {
   const urdf::Vector3& p = origin.position;
@@ -87,9 +71,15 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
       shape.size = {{sides.x, sides.y, sides.z}};
       break;
     }
-    case urdf::Geometry::MESH:
-      shape.kind = RobotShape::MESH;
-      read_mesh(static_cast<const urdf::Mesh&>(geometry), origin, about_to_read, shape);
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      about_to_read("mesh '" + mesh.filename + "'");
+      const Eigen::Isometry3d T_link_mesh =
+          Eigen::Translation3d(to_eigen(p)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+      const boost::array<double, 7> pose = shape.pose;
+      shape = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
+      shape.pose = pose;
+    }
   }
   return shape;
 }
@@ -102,17 +92,6 @@ std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& a
     shapes.push_back(shape_of(*element->geometry, element->origin, about_to_read));
   }
   return shapes;
-}
-
-std::string moving_joint(const urdf::Link& link) {
-  const urdf::JointSharedPtr& joint = link.parent_joint;
-  return joint && joint->type != urdf::Joint::FIXED ? joint->name : "";
-}
-
-std::vector<std::string> link_names(const urdf::ModelInterface& model) {
-  std::vector<std::string> names;
-  for (const auto& [name, link] : model.links_) names.push_back(name);
-  return names;
 }
 
 }  // namespace
@@ -128,7 +107,8 @@ RobotModel::RobotModel(const std::string& urdf) {
 RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_read) const {
   const urdf::LinkConstSharedPtr link = model_->getLink(name);
   if (!link) {
-    const std::vector<std::string> legal = link_names(*model_);
+    std::vector<std::string> legal;
+    for (const auto& [known, of_robot] : model_->links_) legal.push_back(known);
     throw ToolError("link '" + name + "' is unknown; nearest is '" + nearest_name(name, legal) +
                     "', legal are " + listed(legal));
   }
@@ -137,7 +117,8 @@ RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_
     check_complete(name, errors_);
     const auto about_to_read_mesh = [&](const std::string& mesh) { about_to_read(prefix + mesh); };
     RobotLink description;
-    description.joint = moving_joint(*link);
+    const urdf::JointSharedPtr& joint = link->parent_joint;
+    if (joint && joint->type != urdf::Joint::FIXED) description.joint = joint->name;
     description.shapes = link->collision_array.empty()
                              ? shapes_of(link->visual_array, about_to_read_mesh)
                              : shapes_of(link->collision_array, about_to_read_mesh);
@@ -147,26 +128,17 @@ RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_
   }
 }
 
-namespace {
-
-std::string read_links(const std::string& urdf, const std::vector<std::string>& names,
-                       const std::function<void(const std::string&)>& write) {
-  const RobotModel robot(urdf);
-  std::vector<RobotLink> links;
-  for (const std::string& name : names) {
-    links.push_back(
-        robot.link(name, [&](const std::string& what) { write(reading_record(what)); }));
-  }
-  return links_record(std::move(links));
-}
-
-}  // namespace
-
 void answer_with_links(const std::function<std::string()>& urdf,
                        const std::vector<std::string>& links,
                        const std::function<void(const std::string&)>& write) {
   try {
-    write(read_links(urdf(), links, write));
+    const RobotModel robot(urdf());
+    std::vector<RobotLink> descriptions;
+    for (const std::string& name : links) {
+      descriptions.push_back(
+          robot.link(name, [&](const std::string& what) { write(reading_record(what)); }));
+    }
+    write(links_record(std::move(descriptions)));
   } catch (const std::exception& error) {
     write(refusal_record(error.what()));
   }

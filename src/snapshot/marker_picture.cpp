@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "geometry/concatenate.hpp"
 #include "offline/user_input.hpp"
-#include "robot_reader/mesh_file.hpp"
 #include "ros/messages/conversions.hpp"
-#include "shapes.hpp"
 
 namespace organ_collision {
 namespace {
@@ -18,15 +17,61 @@ using Eigen::Affine3d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
 
-// [1] The proportions of RViz's arrows: head by length, and head by shaft diameter.
-constexpr double kArrowHead = 0.23;
-constexpr double kArrowHeadWidth = 2.0;
+/// Each three consecutive points are a triangle, with its outward normal by the right-hand rule.
+using TrianglePoints = std::vector<Vector3d>;
 
-Colour colour_of(const std_msgs::ColorRGBA& colour) {
-  const auto channel = [](float value) {
-    return std::isnan(value) ? value : std::clamp(value, 0.0F, 1.0F);
+/// [1] Length of the head of RViz's arrows, by that of the arrow.
+constexpr double kArrowHead = 0.23;
+constexpr int kMeridians = 48;
+constexpr int kRings = 24;
+/// [1] Cosine of the largest angle between faces that share a normal: 50 degrees.
+constexpr double kSmoothCosine = 0.643;
+
+/// A point of the profile of a solid of revolution around z.
+struct ProfilePoint {
+  double radius, z;
+};
+
+/// The solid whose profile goes from its lowest point to its highest one. The first meridian is at
+/// the angle `first` [rad] from x.
+TrianglePoints solid_of_revolution(const std::vector<ProfilePoint>& profile,
+                                   int meridians = kMeridians, double first = 0.0) {
+  const auto revolved = [&](const ProfilePoint& point, int meridian) {
+    const double angle = first + 2.0 * M_PI * (meridian % meridians) / meridians;
+    return Vector3d(point.radius * std::cos(angle), point.radius * std::sin(angle), point.z);
   };
-  return {channel(colour.r), channel(colour.g), channel(colour.b), channel(colour.a)};
+  TrianglePoints points;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    for (int m = 0; m < meridians; ++m) {
+      const Vector3d a = revolved(profile[i - 1], m), b = revolved(profile[i - 1], m + 1);
+      const Vector3d c = revolved(profile[i], m + 1), d = revolved(profile[i], m);
+      if (profile[i - 1].radius > 0.0) points.insert(points.end(), {a, b, c});
+      if (profile[i].radius > 0.0) points.insert(points.end(), {a, c, d});
+    }
+  }
+  return points;
+}
+
+// Around the origin, with length, width and height 1.
+
+TrianglePoints unit_cube() {
+  const double radius = std::sqrt(0.5);
+  return solid_of_revolution({{0.0, -0.5}, {radius, -0.5}, {radius, 0.5}, {0.0, 0.5}}, 4,
+                             M_PI / 4.0);
+}
+
+TrianglePoints unit_cylinder() {
+  return solid_of_revolution({{0.0, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {0.0, 0.5}});
+}
+
+TrianglePoints unit_sphere() {
+  std::vector<ProfilePoint> profile{{0.0, -0.5}};
+  for (int ring = 1; ring < kRings; ++ring) {
+    const double angle = M_PI * ring / kRings;
+    profile.push_back({0.5 * std::sin(angle), -0.5 * std::cos(angle)});
+  }
+  profile.push_back({0.0, 0.5});
+  return solid_of_revolution(profile);
 }
 
 /// The header's frame is the target.
@@ -38,231 +83,181 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
          (is_empty ? Eigen::Quaterniond::Identity() : rotation.normalized());
 }
 
-/// Throws InputError if a number of the marker was not finite.
-void check_finite(const PictureTriangles& triangles) {
-  const auto is_finite = [](const PictureVertex& vertex) {
-    return vertex.position.allFinite() && vertex.normal.allFinite() && vertex.colour.allFinite();
-  };
-  if (std::all_of(triangles.begin(), triangles.end(), is_finite)) return;
-  throw InputError("its pose, scale, points or colours are not finite");
-}
-
-void check_groups(const Marker& marker, std::size_t size) {
-  if (marker.points.size() % size == 0) return;
-  throw InputError(
-      concatenate("it has ", marker.points.size(), " points; must be a multiple of ", size));
-}
-
-void check_colours(const Marker& marker) {
-  const std::size_t points = marker.points.size(), colours = marker.colors.size();
-  const bool one_a_face = marker.type == Marker::TRIANGLE_LIST && 3 * colours == points;
-  if (colours == 0 || colours == points || one_a_face) return;
-  throw InputError(concatenate("it has ", colours, " colours for ", points, " points"));
-}
-
-/// The colour of a point of a list.
-Colour colour_at(const Marker& marker, std::size_t point) {
-  if (marker.colors.empty()) return colour_of(marker.color);
-  const std::size_t points_a_colour = marker.points.size() / marker.colors.size();
-  return colour_of(marker.colors[point / points_a_colour]);
-}
-
 /// One marker on its way into the picture.
 class Drawing {
  public:
-  Drawing(const Marker& marker, const Affine3d& T_picture_marker, const Eigen::Matrix3d& axes,
-          PictureTriangles& picture)
-      : marker_(marker), marker_pose_(T_picture_marker), axes_(axes), picture_(picture) {}
+  Drawing(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
+          const Eigen::Matrix3d& axes)
+      : marker_(marker), T_picture_marker_(T_picture_header * pose_of(marker)), axes_(axes) {}
+
+  PictureTriangles draw() {
+    switch (marker_.type) {
+      case Marker::ARROW:
+        add_arrow();
+        break;
+      case Marker::CUBE:
+        add_scaled(unit_cube());
+        break;
+      case Marker::SPHERE:
+        add_scaled(unit_sphere());
+        break;
+      case Marker::CYLINDER:
+        add_scaled(unit_cylinder());
+        break;
+      case Marker::LINE_STRIP:
+        add_lines(1);
+        break;
+      case Marker::LINE_LIST:
+        check_groups(2);
+        add_lines(2);
+        break;
+      case Marker::TRIANGLE_LIST:
+        add_triangle_list();
+        break;
+      case Marker::TEXT_VIEW_FACING:
+        break;
+      default:
+        throw InputError(concatenate("its type ", marker_.type, " is not drawn"));
+    }
+    const bool is_finite =
+        std::all_of(picture_.begin(), picture_.end(), [](const PictureVertex& vertex) {
+          return vertex.position.allFinite() && vertex.normal.allFinite() &&
+                 vertex.colour.allFinite();
+        });
+    if (!is_finite) throw InputError("its pose, scale, points or colours are not finite");
+    return std::move(picture_);
+  }
+
+ private:
+  void check_groups(std::size_t size) const {
+    if (marker_.points.size() % size == 0) return;
+    throw InputError(
+        concatenate("it has ", marker_.points.size(), " points; must be a multiple of ", size));
+  }
+
+  /// Of a point of a list.
+  Colour colour_at(std::size_t point) const {
+    return colour_of(marker_.colors.empty() ? marker_.color : marker_.colors[point]);
+  }
+
+  void check_colours() const {
+    const std::size_t points = marker_.points.size(), colours = marker_.colors.size();
+    if (colours == 0 || colours == points) return;
+    throw InputError(concatenate("it has ", colours, " colours for ", points, " points"));
+  }
+
+  static Colour colour_of(const std_msgs::ColorRGBA& colour) {
+    const auto channel = [](float value) {
+      return std::isnan(value) ? value : std::clamp(value, 0.0F, 1.0F);
+    };
+    return {channel(colour.r), channel(colour.g), channel(colour.b), channel(colour.a)};
+  }
 
   /// A shape in the marker's frame, lit, in one colour.
-  void add_solid(const TrianglePoints& shape, const Affine3d& T_marker_shape,
-                 const Colour& colour) {
-    const Affine3d T_picture_shape = marker_pose_ * T_marker_shape;
-    TrianglePoints points;
-    for (const Vector3d& point : shape) points.push_back(T_picture_shape * point);
-    if (T_picture_shape.linear().determinant() < 0.0) turn_inside_out(points);
+  void add_solid(TrianglePoints points, const Affine3d& T_marker_shape) {
+    const Affine3d T_picture_shape = T_picture_marker_ * T_marker_shape;
+    for (Vector3d& point : points) point = T_picture_shape * point;
+    if (T_picture_shape.linear().determinant() < 0.0) {  // It would be inside out.
+      for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+        std::swap(points[i + 1], points[i + 2]);
+    }
     const std::vector<Vector3d> normals = smooth_normals(points);
+    const Colour colour = colour_of(marker_.color);
     for (std::size_t i = 0; i < points.size(); ++i) {
       picture_.push_back({points[i], normals[i], colour});
     }
   }
 
-  void add_scaled(const TrianglePoints& shape) {
-    add_solid(shape, Affine3d(Eigen::Scaling(to_eigen(marker_.scale))), colour_of(marker_.color));
-  }
-
-  /// The same shape at each point.
-  void add_solids(const TrianglePoints& shape) {
-    check_colours(marker_);
-    for (std::size_t i = 0; i < marker_.points.size(); ++i) {
-      add_solid(shape,
-                Eigen::Translation3d(to_eigen(marker_.points[i])) *
-                    Affine3d(Eigen::Scaling(to_eigen(marker_.scale))),
-                colour_at(marker_, i));
-    }
-  }
-
-  void add_triangle_list() {
-    check_groups(marker_, 3);
-    check_colours(marker_);
-    if (marker_.colors.empty()) {
-      TrianglePoints points;
-      for (const geometry_msgs::Point& point : marker_.points) points.push_back(to_eigen(point));
-      return add_scaled(points);
-    }
-    const Affine3d T_picture_points = marker_pose_ * Eigen::Scaling(to_eigen(marker_.scale));
-    for (std::size_t i = 0; i < marker_.points.size(); ++i) {
-      add_flat(T_picture_points * to_eigen(marker_.points[i]), colour_at(marker_, i));
-    }
-  }
-
-  /// Lines from point i to i + 1, for each `step`-th point i.
-  void add_lines(std::size_t step) {
-    check_colours(marker_);
-    for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
-      const Vector3d a = marker_pose_ * to_eigen(marker_.points[i]);
-      const Vector3d b = marker_pose_ * to_eigen(marker_.points[i + 1]);
-      const Vector3d side = 0.5 * marker_.scale.x * (b - a).cross(axes_.col(2)).stableNormalized();
-      add_quad({a - side, a + side, b + side, b - side},
-               {colour_at(marker_, i), colour_at(marker_, i + 1)});
-    }
-  }
-
-  void add_points() {
-    check_colours(marker_);
-    const Vector3d x = 0.5 * marker_.scale.x * axes_.col(0);
-    const Vector3d y = 0.5 * marker_.scale.y * axes_.col(1);
-    for (std::size_t i = 0; i < marker_.points.size(); ++i) {
-      const Vector3d p = marker_pose_ * to_eigen(marker_.points[i]);
-      const Colour colour = colour_at(marker_, i);
-      add_quad({p - x - y, p + x - y, p + x + y, p - x + y}, {colour, colour});
-    }
-  }
-
-  void add_arrow() {
-    const Vector3d scale = to_eigen(marker_.scale);
-    if (marker_.points.empty()) {
-      const ArrowSize unit{1.0 - kArrowHead, 1.0, kArrowHead, kArrowHeadWidth};
-      return add_scaled(arrow(unit));
-    }
-    if (marker_.points.size() != 2) {
-      throw InputError(concatenate("it has ", marker_.points.size(), " points; must be 0 or 2"));
-    }
-    const Vector3d start = to_eigen(marker_.points[0]);
-    const Vector3d along = to_eigen(marker_.points[1]) - start;
-    const double length = along.norm();
-    if (length == 0.0) return;
-    const double head = scale.z() == 0.0 ? kArrowHead * length : std::clamp(scale.z(), 0.0, length);
-    const Affine3d T_marker_arrow =
-        Eigen::Translation3d(start) *
-        Affine3d(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), along));
-    add_solid(arrow({length - head, scale.x(), head, scale.y()}), T_marker_arrow,
-              colour_of(marker_.color));
-  }
-
-  void add_text(const Font& font) {
-    const Vector3d centre = marker_pose_.translation();
-    const auto at = [&](double x, double y) -> Vector3d {
-      return centre + marker_.scale.z * (x * axes_.col(0) + y * axes_.col(1));
-    };
-    for (const TextRectangle& part : font.write(marker_.text)) {
-      Colour colour = colour_of(marker_.color);
-      colour.w() *= part.opacity;
-      add_quad({at(part.left, part.bottom), at(part.right, part.bottom), at(part.right, part.top),
-                at(part.left, part.top)},
-               {colour, colour});
-    }
-  }
-
- private:
-  static void turn_inside_out(TrianglePoints& points) {
-    for (std::size_t i = 0; i + 2 < points.size(); i += 3) std::swap(points[i + 1], points[i + 2]);
+  void add_scaled(TrianglePoints points) {
+    add_solid(std::move(points), Affine3d(Eigen::Scaling(to_eigen(marker_.scale))));
   }
 
   void add_flat(const Vector3d& position, const Colour& colour) {
     picture_.push_back({position, Vector3d::Zero(), colour});
   }
 
-  /// `colours`: of the first two and of the last two corners.
-  void add_quad(const std::array<Vector3d, 4>& corners, const std::array<Colour, 2>& colours) {
-    for (const int i : {0, 1, 2, 0, 2, 3}) add_flat(corners[i], colours[i / 2]);
+  void add_triangle_list() {
+    check_groups(3);
+    check_colours();
+    TrianglePoints points;
+    for (const geometry_msgs::Point& point : marker_.points) points.push_back(to_eigen(point));
+    if (marker_.colors.empty()) return add_scaled(std::move(points));
+    const Affine3d T_picture_points = T_picture_marker_ * Eigen::Scaling(to_eigen(marker_.scale));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      add_flat(T_picture_points * points[i], colour_at(i));
+    }
+  }
+
+  /// Lines from point i to i + 1, for each `step`-th point i.
+  void add_lines(std::size_t step) {
+    check_colours();
+    for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
+      const Vector3d a = T_picture_marker_ * to_eigen(marker_.points[i]);
+      const Vector3d b = T_picture_marker_ * to_eigen(marker_.points[i + 1]);
+      const Vector3d side = 0.5 * marker_.scale.x * (b - a).cross(axes_.col(2)).stableNormalized();
+      const std::array<Vector3d, 4> corners{a - side, a + side, b + side, b - side};
+      for (const int corner : {0, 1, 2, 0, 2, 3}) {
+        add_flat(corners[corner], colour_at(corner < 2 ? i : i + 1));
+      }
+    }
+  }
+
+  /// From the first point to the second one. scale: diameters of shaft and head, length of the
+  /// head.
+  void add_arrow() {
+    const std::size_t count = marker_.points.size();
+    if (count != 2) throw InputError(concatenate("it has ", count, " points; must be 2"));
+    const Vector3d scale = to_eigen(marker_.scale), start = to_eigen(marker_.points[0]);
+    const Vector3d along = to_eigen(marker_.points[1]) - start;
+    const double length = along.norm();
+    if (length == 0.0) return;
+    const double head = scale.z() == 0.0 ? kArrowHead * length : std::clamp(scale.z(), 0.0, length);
+    const double shaft_radius = 0.5 * scale.x(), shaft = length - head;
+    TrianglePoints points = solid_of_revolution({{0.0, 0.0},
+                                                 {shaft_radius, 0.0},
+                                                 {shaft_radius, shaft},
+                                                 {0.5 * scale.y(), shaft},
+                                                 {0.0, shaft + head}});
+    for (Vector3d& point : points) point = Vector3d(point.z(), point.x(), point.y());
+    add_solid(std::move(points),
+              Eigen::Translation3d(start) *
+                  Affine3d(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), along)));
   }
 
   const Marker& marker_;
-  Affine3d marker_pose_;  ///< in the picture's frame
+  const Affine3d T_picture_marker_;
   const Eigen::Matrix3d& axes_;
-  PictureTriangles& picture_;
+  PictureTriangles picture_;
 };
 
 }  // namespace
 
-void MarkerPicture::add(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
-                        PictureTriangles& picture) {
-  PictureTriangles added;
-  Drawing drawing(marker, Affine3d(T_picture_header * pose_of(marker)), axes_, added);
-  switch (marker.type) {
-    case Marker::ARROW:
-      drawing.add_arrow();
-      break;
-    case Marker::CUBE:
-      drawing.add_scaled(unit_cube());
-      break;
-    case Marker::SPHERE:
-      drawing.add_scaled(unit_sphere());
-      break;
-    case Marker::CYLINDER:
-      drawing.add_scaled(unit_cylinder());
-      break;
-    case Marker::LINE_STRIP:
-      drawing.add_lines(1);
-      break;
-    case Marker::LINE_LIST:
-      check_groups(marker, 2);
-      drawing.add_lines(2);
-      break;
-    case Marker::CUBE_LIST:
-      drawing.add_solids(unit_cube());
-      break;
-    case Marker::SPHERE_LIST:
-      drawing.add_solids(unit_sphere());
-      break;
-    case Marker::POINTS:
-      drawing.add_points();
-      break;
-    case Marker::TEXT_VIEW_FACING:
-      drawing.add_text(font());
-      break;
-    case Marker::MESH_RESOURCE:
-      drawing.add_scaled(mesh(marker.mesh_resource));
-      break;
-    case Marker::TRIANGLE_LIST:
-      drawing.add_triangle_list();
-      break;
-    default:
-      throw InputError("its type " + std::to_string(marker.type) + " is unknown");
-  }
-  check_finite(added);
+void add_marker(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
+                const Eigen::Matrix3d& axes, PictureTriangles& picture) {
+  const PictureTriangles added = Drawing(marker, T_picture_header, axes).draw();
   picture.insert(picture.end(), added.begin(), added.end());
 }
 
-const TrianglePoints& MarkerPicture::mesh(const std::string& resource) {
-  const auto known = meshes_.find(resource);
-  if (known != meshes_.end()) return known->second;
-  try {
-    const MeshDescription file = read_mesh_file(resource, Vector3d::Ones(), Affine3d::Identity());
-    TrianglePoints points;
-    for (const FaceIndices& face : file.triangles) {
-      for (const std::uint32_t corner : face) points.push_back(file.vertices[corner]);
+std::vector<Vector3d> smooth_normals(const TrianglePoints& triangles) {
+  const auto key = [](const Vector3d& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
+  std::vector<Vector3d> areas;  // Of each face: its normal, as long as twice its area.
+  std::map<std::array<double, 3>, std::vector<std::size_t>> faces_at;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    for (std::size_t corner = i; corner < i + 3; ++corner) {
+      faces_at[key(triangles[corner])].push_back(areas.size());
     }
-    return meshes_.emplace(resource, std::move(points)).first->second;
-  } catch (const ToolError& error) {
-    throw InputError(error.what());
+    areas.push_back((triangles[i + 1] - triangles[i]).cross(triangles[i + 2] - triangles[i]));
   }
-}
-
-const Font& MarkerPicture::font() {
-  if (!loaded_font_) loaded_font_.emplace(font_);
-  return *loaded_font_;
+  std::vector<Vector3d> normals;
+  for (std::size_t corner = 0; corner < 3 * areas.size(); ++corner) {
+    const Vector3d own = areas[corner / 3].stableNormalized();
+    Vector3d sum = Vector3d::Zero();
+    for (const std::size_t face : faces_at[key(triangles[corner])]) {
+      if (areas[face].stableNormalized().dot(own) > kSmoothCosine) sum += areas[face];
+    }
+    normals.push_back(sum.stableNormalized());
+  }
+  return normals;
 }
 
 }  // namespace organ_collision

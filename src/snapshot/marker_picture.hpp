@@ -3,36 +3,25 @@
 #include <visualization_msgs/Marker.h>
 
 #include <Eigen/Geometry>
-#include <map>
-#include <optional>
-#include <string>
+#include <vector>
 
 #include "renderer.hpp"
-#include "shapes.hpp"
 
 namespace organ_collision {
 
-/// Turns markers into triangles, as RViz shows them: lists with a colour for each vertex have no
-/// light; lines, points and texts face the viewer. Unlike in RViz, surfaces are smooth.
-class MarkerPicture {
- public:
-  /// `axes`: of the camera, as in Camera. `font`: a file for texts.
-  MarkerPicture(const Eigen::Matrix3d& axes, const std::string& font) : axes_(axes), font_(font) {}
+/// Adds the triangles of a marker, as RViz shows it: a list of triangles with a colour for each
+/// corner has no light, and lines face the viewer. Unlike in RViz, surfaces are smooth. Draws the
+/// types that the nodes and examples of the package publish, except texts, which add nothing.
+/// `T_picture_header`: the pose of the marker's header frame in the picture's frame. `axes`: of the
+/// camera, as in Camera. Throws InputError if the marker is illegal or of another type; then
+/// nothing is added.
+void add_marker(const visualization_msgs::Marker& marker, const Eigen::Isometry3d& T_picture_header,
+                const Eigen::Matrix3d& axes, PictureTriangles& picture);
 
-  /// Adds a marker whose header frame has this pose in the picture's frame. Throws InputError if
-  /// the marker is illegal or of an unknown type, or its mesh file or the font cannot be read; then
-  /// nothing is added.
-  void add(const visualization_msgs::Marker& marker, const Eigen::Isometry3d& T_picture_header,
-           PictureTriangles& picture);
-
- private:
-  const TrianglePoints& mesh(const std::string& resource);
-  const Font& font();
-
-  Eigen::Matrix3d axes_;
-  std::string font_;
-  std::optional<Font> loaded_font_;
-  std::map<std::string, TrianglePoints> meshes_;  ///< by resource
-};
+/// The unit normal of each corner of triangles, for the light. Each three consecutive points are a
+/// triangle, with its outward normal by the right-hand rule. Faces that meet at a point with a
+/// small angle between them share their normal there, so a curved surface looks smooth and an edge
+/// stays sharp. A degenerate triangle has zero normals.
+std::vector<Eigen::Vector3d> smooth_normals(const std::vector<Eigen::Vector3d>& triangles);
 
 }  // namespace organ_collision

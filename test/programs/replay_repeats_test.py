@@ -12,8 +12,7 @@ from support import oracle
 from support.scenes import Mesh, box, sheet
 from support.tool_over_sheet import RADIUS, SHEET, at_height
 
-from recording import CONTACTS, TOOLS, messages, run, serialized
-from replay_case import ReplayCase
+from recording import CONTACTS, ReplayCase, TOOLS, messages, run, serialized
 
 STEPS = 120
 LARGE = sheet(0.1, 80)  # 12 800 faces: the pipeline builds it in a thread of its own.

@@ -76,20 +76,6 @@ TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
   expect_pose(box, {0.5, 0.25, -0.125}, Vector3d::UnitY());
 }
 
-TEST(RobotModel, MeshesAreToldOfAndThenRead) {
-  std::vector<std::string> told;
-  const RobotLink jaw =
-      gripper().link("jaw", [&](const std::string& what) { told.push_back(what); });
-  EXPECT_EQ(told,
-            std::vector<std::string>{"link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'"});
-  ASSERT_EQ(jaw.shapes.size(), 1u);
-  const RobotShape& mesh = jaw.shapes[0];
-  EXPECT_EQ(mesh.kind, RobotShape::MESH);
-  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
-  EXPECT_EQ(mesh.triangles.size(), 12u);
-  EXPECT_EQ(mesh.vertices.size(), 12u);
-}
-
 TEST(RobotModel, MovingJoints) {
   const RobotModel model = gripper();
   EXPECT_EQ(link(model, "mount").joint, "");
@@ -139,15 +125,6 @@ TEST(RobotModel, FaultsOfOtherLinksDoNotMatter) {
   expect_words(tool_error([&] { link(model, "tip_2"); }), {"'tip_2'", "cone"});
 }
 
-TEST(RobotModel, MeshFaultsNameTheLinkAndTheFile) {
-  expect_words(refusal_of_tip(robot_of("<mesh filename='package://organ_collision/no.stl'/>")),
-               {"'tip'", "no.stl"});
-  expect_words(
-      refusal_of_tip(robot_of("<mesh filename='" + tool_file("jaw.obj") + "' scale='1 0 1'/>")),
-      {"'tip'", "jaw.obj", "1 0 1"});
-  expect_words(refusal_of_tip(robot_of("<mesh filename=''/>")), {"'tip'", "''"});
-}
-
 TEST(RobotModel, LogsNothingAndLeavesConsoleBridgeAsItWas) {
   SilentHandler handler;
   console_bridge::useOutputHandler(&handler);
@@ -173,10 +150,17 @@ RobotReply ask(const std::function<std::string()>& urdf, const std::vector<std::
 TEST(RobotAnswer, HasTheLinksInTheOrderOfTheirNames) {
   const RobotReply reply = ask([] { return tool_text("gripper.urdf"); }, {"shaft", "jaw", "shaft"});
   EXPECT_FALSE(reply.refusal);
+  EXPECT_EQ(reply.reading, "link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'");
   ASSERT_TRUE(reply.links);
   ASSERT_EQ(reply.links->size(), 3U);
   EXPECT_EQ((*reply.links)[0].shapes.size(), 2U);
   EXPECT_EQ((*reply.links)[2].shapes.size(), 2U);
+  ASSERT_EQ((*reply.links)[1].shapes.size(), 1U);
+  const RobotShape& mesh = (*reply.links)[1].shapes[0];
+  EXPECT_EQ(mesh.kind, RobotShape::MESH);
+  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  EXPECT_EQ(mesh.vertices.size(), 12U);
 }
 
 TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
@@ -190,10 +174,20 @@ TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
 }
 
 TEST(RobotAnswer, IsARefusalIfSomethingCannotBeRead) {
-  const RobotReply reply = ask([] { return tool_text("gripper.urdf"); }, {"shaft", "nobody"});
-  ASSERT_TRUE(reply.refusal);
-  expect_words(*reply.refusal, {"nobody"});
-  EXPECT_FALSE(reply.links);
+  const std::string no_file = robot_of("<mesh filename='package://organ_collision/no.stl'/>");
+  const std::string flat =
+      robot_of("<mesh filename='" + tool_file("jaw.obj") + "' scale='1 0 1'/>");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> rows = {
+      {robot_of("<sphere radius='1'/>"), {"nobody"}},
+      {no_file, {"'tip'", "no.stl"}},
+      {flat, {"'tip'", "jaw.obj", "1 0 1"}},
+      {robot_of("<mesh filename=''/>"), {"'tip'", "''"}}};
+  for (const auto& [urdf, words] : rows) {
+    const RobotReply reply = ask([&urdf = urdf] { return urdf; }, {"tip", "nobody"});
+    ASSERT_TRUE(reply.refusal);
+    expect_words(*reply.refusal, words);
+    EXPECT_FALSE(reply.links);
+  }
   const auto missing = []() -> std::string { throw ToolError("cannot read 'x.urdf'"); };
   EXPECT_EQ(ask(missing, {"tip"}).refusal, "cannot read 'x.urdf'");
 }
