@@ -53,7 +53,6 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
   const urdf::Vector3& p = origin.position;
   const urdf::Rotation& q = origin.rotation;
   RobotShape shape;
-  shape.pose = {{p.x, p.y, p.z, q.x, q.y, q.z, q.w}};
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       shape.kind = RobotShape::SPHERE;
@@ -76,11 +75,10 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
       about_to_read("mesh '" + mesh.filename + "'");
       const Eigen::Isometry3d T_link_mesh =
           Eigen::Translation3d(to_eigen(p)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
-      const boost::array<double, 7> pose = shape.pose;
       shape = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
-      shape.pose = pose;
     }
   }
+  shape.pose = {{p.x, p.y, p.z, q.x, q.y, q.z, q.w}};
   return shape;
 }
 

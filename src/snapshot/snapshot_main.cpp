@@ -20,7 +20,6 @@
 #include <vector>
 
 #include "geometry/concatenate.hpp"
-#include "marker_picture.hpp"
 #include "markers.hpp"
 #include "offline/user_input.hpp"
 #include "picking/volumes/viewing_volume.hpp"

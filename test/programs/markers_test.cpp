@@ -7,7 +7,6 @@
 #include <set>
 #include <string>
 
-#include "snapshot/marker_picture.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {
@@ -83,7 +82,7 @@ TEST(MarkerStore, PlacesEachMarkerAtItsStampOnceItsTransformIsKnown) {
       return std::optional(Isometry3d(Eigen::Translation3d(x, stamp.toSec(), 0.0)));
     });
   }
-  const auto place = [&](const char* name) {
+  const auto place = [&](const char* name) -> Vector3d {
     return store.entries().at({"a", name, 0}).T_fixed_header->translation();
   };
   EXPECT_EQ(place("free"), Vector3d(1.0, 3.0, 0.0));

@@ -32,8 +32,8 @@ TEST(ObjFile, has_the_vertices_and_faces_in_the_order_of_the_file) {
             (std::vector<float>{0.1F, -0.2F, 0, 1, 1, 0, 0, 1, 524288.03125F, 3, 3, 3, 4, 4, 4}));
   // A polygon is cut into a fan.
   EXPECT_EQ(mesh_of(obj).faces(), (Faces{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
-  EXPECT_EQ(obj.face_lines, (std::vector<std::size_t>{12, 12, 12, 13}));
-  EXPECT_EQ(obj.line_count, 14U);
+  EXPECT_EQ(obj.face_lines, (std::vector<std::size_t>{13, 13, 13, 14}));
+  EXPECT_EQ(obj.line_count, 15U);
 }
 
 TEST(ObjFile, has_corners_of_every_form) {

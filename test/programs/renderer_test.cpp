@@ -14,7 +14,7 @@
 #include <stdexcept>
 
 #include "picking/volumes/viewing_volume.hpp"
-#include "snapshot/marker_picture.hpp"
+#include "snapshot/markers.hpp"
 
 namespace organ_collision {
 namespace {
