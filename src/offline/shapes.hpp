@@ -28,8 +28,8 @@ struct ObjFile {
 /// corner and counts as n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be
 /// negative (counted back from the last vertex above the line) and may carry texture and normal
 /// indices, which are ignored. Throws InputError if the file is missing, is not legal or has no
-/// face. (Assimp would leave out vertices without a face, round some numbers in another way, and not
-/// tell the line of an error.)
+/// face. (Assimp would leave out vertices without a face, round some numbers in another way, and
+/// not tell the line of an error.)
 ObjFile read_obj(const std::string& file);
 
 /// The mesh of an OBJ file. Throws InputError if it is too large.

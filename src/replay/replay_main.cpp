@@ -202,18 +202,14 @@ class AnswerBag {
 };
 
 /// Throws InputError if something is there that the output must not replace.
-void check_replaceable(const std::string& file) {
-  std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
-  const auto status = std::filesystem::symlink_status(file, ignored);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  throw InputError("replay: " + file +
-                   " is no regular file, and only those are replaced; name another OUT.bag");
-}
-
 void check_files(const ReplayOptions& options) {
   for (const std::string& written : {options.out, incomplete(options.out)}) {
-    check_replaceable(written);
-    std::error_code ignored;
+    std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
+    const auto status = std::filesystem::symlink_status(written, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+      throw InputError("replay: " + written +
+                       " is no regular file, and only those are replaced; name another OUT.bag");
+    }
     if (std::filesystem::equivalent(options.in, written, ignored)) {
       throw InputError("replay: " + written + " is also the input; name another OUT.bag");
     }

@@ -81,12 +81,6 @@ class NoOtherFiles : public Assimp::IOSystem {
   void Close(Assimp::IOStream* /*stream*/) override {}
 };
 
-void check_scale(const Vector3d& scale) {
-  if (scale.allFinite() && (scale.array() != 0.0).all()) return;
-  throw ToolError(concatenate("its scale is ", scale.transpose(),
-                              "; must be finite, and not 0 along any axis"));
-}
-
 /// The extension of a file name, without its dot. assimp recognises the format by it.
 std::string extension(const std::string& file) {
   const std::string dotted = std::filesystem::path(file).extension();
@@ -145,13 +139,6 @@ void check_faces(const aiScene& scene, const std::string& content) {
                               content.size(), " bytes; the file may be damaged"));
 }
 
-/// The processor time that reading a mesh file may take. With some broken files, assimp would not
-/// end.
-std::chrono::milliseconds time_for(const std::string& content) {
-  const auto more = content.size() / reader_limits::kMeshBytesPerMillisecond;
-  return reader_limits::kMeshTime + std::chrono::milliseconds(more);
-}
-
 /// Why the importer failed. If memory ran out, its error is only the text of std::bad_alloc.
 std::string reason(const Assimp::Importer& importer) {
   const std::string error = importer.GetErrorString();
@@ -184,9 +171,14 @@ RobotShape read_mesh_file(const std::string& file, const Vector3d& scale,
   std::string content = read_resource(file);
   remove_byte_order_mark(file, content);
   try {
-    check_scale(scale);
+    if (!scale.allFinite() || (scale.array() == 0.0).any()) {
+      throw ToolError(concatenate("its scale is ", scale.transpose(),
+                                  "; must be finite, and not 0 along any axis"));
+    }
     check_ply_header(content);
-    const ScopedTimeLimit limit(time_for(content));
+    // With some broken files, assimp would not end.
+    const std::chrono::milliseconds more(content.size() / reader_limits::kMeshBytesPerMillisecond);
+    const ScopedTimeLimit limit(reader_limits::kMeshTime + more);
     RobotShape shape = parse(file, content, T_link_mesh * Eigen::Scaling(scale));
     shape.kind = RobotShape::MESH;
     shape.file = file;

@@ -4,10 +4,10 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <exception>
-#include <utility>
 
 #include "mesh_file.hpp"
 #include "ros/messages/text.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
 namespace {
@@ -92,27 +92,20 @@ std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& a
   return shapes;
 }
 
-}  // namespace
-
-RobotModel::RobotModel(const std::string& urdf) {
-  {
-    const ScopedErrorCollector collector(errors_);
-    model_ = urdf::parseURDF(urdf);
-  }
-  if (!model_) throw ToolError("no legal URDF: " + listed(errors_));
-}
-
-RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_read) const {
-  const urdf::LinkConstSharedPtr link = model_->getLink(name);
+/// Throws ToolError if there is no such link, or a shape or mesh cannot be read. `errors`: those of
+/// urdfdom, also about links that it read in part.
+RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::string>& errors,
+                    const std::string& name, const AboutToRead& about_to_read) {
+  const urdf::LinkConstSharedPtr link = model.getLink(name);
   if (!link) {
     std::vector<std::string> legal;
-    for (const auto& [known, of_robot] : model_->links_) legal.push_back(known);
+    for (const auto& [known, of_robot] : model.links_) legal.push_back(known);
     throw ToolError("link '" + name + "' is unknown; nearest is '" + nearest_name(name, legal) +
                     "', legal are " + listed(legal));
   }
   const std::string prefix = "link '" + name + "': ";
   try {
-    check_complete(name, errors_);
+    check_complete(name, errors);
     const auto about_to_read_mesh = [&](const std::string& mesh) { about_to_read(prefix + mesh); };
     RobotLink description;
     const urdf::JointSharedPtr& joint = link->parent_joint;
@@ -126,17 +119,30 @@ RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_
   }
 }
 
+std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std::string>& names,
+                                  const AboutToRead& about_to_read) {
+  std::vector<std::string> errors;
+  urdf::ModelInterfaceSharedPtr model;
+  {
+    const ScopedErrorCollector collector(errors);
+    model = urdf::parseURDF(urdf);
+  }
+  if (!model) throw ToolError("no legal URDF: " + listed(errors));
+  std::vector<RobotLink> links;
+  for (const std::string& name : names) {
+    links.push_back(read_link(*model, errors, name, about_to_read));
+  }
+  return links;
+}
+
+}  // namespace
+
 void answer_with_links(const std::function<std::string()>& urdf,
                        const std::vector<std::string>& links,
                        const std::function<void(const std::string&)>& write) {
   try {
-    const RobotModel robot(urdf());
-    std::vector<RobotLink> descriptions;
-    for (const std::string& name : links) {
-      descriptions.push_back(
-          robot.link(name, [&](const std::string& what) { write(reading_record(what)); }));
-    }
-    write(links_record(std::move(descriptions)));
+    write(links_record(
+        read_links(urdf(), links, [&](const std::string& what) { write(reading_record(what)); })));
   } catch (const std::exception& error) {
     write(refusal_record(error.what()));
   }

@@ -40,20 +40,21 @@ void take(const ContactArray& answer, bool knows_radius, ForceLaw& law, PairName
   }
 }
 
-const FuzzTarget contact_adapter_target("contact_adapter",
-                                        [](const std::uint8_t* data, std::size_t size) {
-                                          FuzzInput input(data, size);
-                                          ForceLaw law;
-                                          PairNames names;
-                                          while (!input.empty()) {
-                                            const bool knows_radius = input.byte() % 2 == 1;
-                                            const auto answer = next_message<ContactArray>(input);
-                                            try {
-                                              if (answer) take(*answer, knows_radius, law, names);
-                                            } catch (const Rejection&) {
-                                            }
-                                          }
-                                        });
+void run_contact_adapter(const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  ForceLaw law;
+  PairNames names;
+  while (!input.empty()) {
+    const bool knows_radius = input.byte() % 2 == 1;
+    const auto answer = next_message<ContactArray>(input);
+    try {
+      if (answer) take(*answer, knows_radius, law, names);
+    } catch (const Rejection&) {
+    }
+  }
+}
+
+const FuzzTarget contact_adapter_target("contact_adapter", run_contact_adapter);
 
 // The messages that organ_mesh_adapter converts: bytes from the wire, to organ messages. Kinds of
 // message: shape_msgs/Mesh, pcl_msgs/PolygonMesh, Marker, a cloud of vertices.
@@ -87,8 +88,7 @@ void take(FuzzInput& input, OrganSource& source) {
   }
 }
 
-const FuzzTarget mesh_adapter_target("mesh_adapter", [](const std::uint8_t* data,
-                                                        std::size_t size) {
+void run_mesh_adapter(const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   const OrganSource::Callbacks callbacks{
       [](const OrganMeshPtr& mesh) { demand(mesh->organ == "liver", "a mesh names its organ"); },
@@ -103,6 +103,8 @@ const FuzzTarget mesh_adapter_target("mesh_adapter", [](const std::uint8_t* data
   }
   const OrganMeshPtr mesh = source.mesh();
   demand(!mesh || !mesh->triangles.empty(), "the last legal mesh has faces");
-});
+}
+
+const FuzzTarget mesh_adapter_target("mesh_adapter", run_mesh_adapter);
 
 }  // namespace

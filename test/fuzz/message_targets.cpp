@@ -79,14 +79,15 @@ class Receivers {
   ToolPoses poses_{buffer_, {0.001, 20}};
 };
 
-const FuzzTarget motion_messages_target("motion_messages",
-                                        [](const std::uint8_t* data, std::size_t size) {
-                                          ros::Time::setNow(ros::Time(50));
-                                          FuzzInput input(data, size);
-                                          Receivers receivers;
-                                          while (!input.empty()) receivers.take(input);
-                                          receivers.look_up();
-                                        });
+void run_motion_messages(const std::uint8_t* data, std::size_t size) {
+  ros::Time::setNow(ros::Time(50));
+  FuzzInput input(data, size);
+  Receivers receivers;
+  while (!input.empty()) receivers.take(input);
+  receivers.look_up();
+}
+
+const FuzzTarget motion_messages_target("motion_messages", run_motion_messages);
 
 // OrganMesh and OrganVertices: bytes from the wire, to shapes of organs. Kinds of message: mesh,
 // vertices.
@@ -129,19 +130,20 @@ void apply(FuzzInput& input, OrganRegistry& organs) {
   }
 }
 
-const FuzzTarget organ_messages_target("organ_messages",
-                                       [](const std::uint8_t* data, std::size_t size) {
-                                         FuzzInput input(data, size);
-                                         OrganRegistry organs{MeshLimits{1000}};
-                                         while (!input.empty()) {
-                                           if (input.byte() % 2 == 0) {
-                                             apply<OrganMesh>(input, organs);
-                                           } else {
-                                             apply<OrganVertices>(input, organs);
-                                           }
-                                         }
-                                         check_shapes(organs);
-                                       });
+void run_organ_messages(const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  OrganRegistry organs{MeshLimits{1000}};
+  while (!input.empty()) {
+    if (input.byte() % 2 == 0) {
+      apply<OrganMesh>(input, organs);
+    } else {
+      apply<OrganVertices>(input, organs);
+    }
+  }
+  check_shapes(organs);
+}
+
+const FuzzTarget organ_messages_target("organ_messages", run_organ_messages);
 
 // The services query and query_batch: bytes from the wire, to answers about an organ of two faces.
 // Kinds of request: one motion, a batch.
@@ -184,8 +186,7 @@ void check(const ContactArray& answer) {
   }
 }
 
-const FuzzTarget query_requests_target("query_requests", [](const std::uint8_t* data,
-                                                            std::size_t size) {
+void run_query_requests(const std::uint8_t* data, std::size_t size) {
   static QueryNode node;
   FuzzInput input(data, size);
   if (input.byte() % 2 == 0) {
@@ -199,6 +200,8 @@ const FuzzTarget query_requests_target("query_requests", [](const std::uint8_t* 
     demand(response.results.size() <= 50, "no batch is larger than its limit");
     for (const ContactArray& answer : response.results) check(answer);
   }
-});
+}
+
+const FuzzTarget query_requests_target("query_requests", run_query_requests);
 
 }  // namespace

@@ -146,13 +146,14 @@ class Node {
                        workers(),     [this](const EvaluatedStep& step) { check_(*step.answer); }};
 };
 
-const FuzzTarget node_messages_target("node_messages",
-                                      [](const std::uint8_t* data, std::size_t size) {
-                                        FuzzInput input(data, size);
-                                        Node node;
-                                        while (!input.empty()) node.take(input);
-                                        node.finish();
-                                      });
+void run_node_messages(const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  Node node;
+  while (!input.empty()) node.take(input);
+  node.finish();
+}
+
+const FuzzTarget node_messages_target("node_messages", run_node_messages);
 
 // All topics of haptic_proxy in any order: bytes from the wire, to forces. Kinds of message: mesh,
 // vertices, /tf, a pose of a tip.
@@ -260,13 +261,14 @@ class ProxyNode {
   ProxyFrame frame_{""};
 };
 
-const FuzzTarget haptic_proxy_target("haptic_proxy", [](const std::uint8_t* data,
-                                                        std::size_t size) {
+void run_haptic_proxy(const std::uint8_t* data, std::size_t size) {
   ros::Time::setNow(ros::Time(50));
   FuzzInput input(data, size);
   static Hand through_trocar(false), free(true);
   ProxyNode node(input.byte() % 2 == 1 ? free : through_trocar);
   while (!input.empty()) node.take(input);
-});
+}
+
+const FuzzTarget haptic_proxy_target("haptic_proxy", run_haptic_proxy);
 
 }  // namespace

@@ -24,8 +24,7 @@ std::vector<std::string> known_names() {
   std::istringstream first(
       "tools organs rate organ_motion stiffness max_force name trocar_frame tip_frame radius links "
       "urdf topic tip_pose_topic base_pose_topic robot_description tf_prefix margin max_near "
-      "freedom "
-      "vertices_topic not_a_name / ~");
+      "freedom vertices_topic not_a_name / ~");
   std::vector<std::string> names{std::istream_iterator<std::string>(first), {}};
   names.emplace_back();
   for (const auto& help :

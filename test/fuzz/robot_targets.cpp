@@ -112,16 +112,17 @@ const FuzzTarget tool_mesh_target("tool_mesh", [](const std::uint8_t* data, std:
 });
 
 const FuzzTarget urdf_target("urdf", [](const std::uint8_t* data, std::size_t size) {
-  try {
-    const RobotModel robot(FuzzInput(data, size).rest());
-    for (const char* name : {"tip", "shaft", "wrist"}) {
-      try {
-        check(name, robot.link(name, [](const std::string&) {}));
-      } catch (const ToolError& error) {
-        demand(std::string(error.what()).find("link '") == 0, "an error names the link");
-      }
-    }
-  } catch (const ToolError&) {
+  const std::string urdf = FuzzInput(data, size).rest();
+  for (const char* name : {"tip", "shaft", "wrist"}) {
+    std::string bytes;
+    answer_with_links([&] { return urdf; }, {name},
+                      [&](const std::string& record) { bytes += record; });
+    const RobotReply reply = parse_reply(bytes);
+    demand(reply.refusal.has_value() != reply.links.has_value(), "there is one answer");
+    if (reply.links) check(name, reply.links->front());
+    if (!reply.refusal) continue;
+    demand(reply.refusal->find("link '") == 0 || reply.refusal->find("no legal URDF") == 0,
+           "a refusal names the link");
   }
 });
 
