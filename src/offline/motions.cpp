@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "geometry/concatenate.hpp"
 #include "query/request_check.hpp"
 
 namespace organ_collision {
@@ -15,17 +16,6 @@ ToolPath path_of(const Motion& motion) {
   const ShaftAxis end{motion.trocar, motion.tip};
   if (is_static_mode(motion.mode)) return {{1.0, end}};
   return {{0.0, {motion.trocar, motion.previous}}, {1.0, end}};
-}
-
-void check(const Motion& motion) {
-  static const TriangleMesh any_organ({0.0F, 0.0F, 0.0F}, {0, 0, 0});
-  CollisionRequest request;
-  request.organ = &any_organ;
-  request.path = path_of(motion);
-  request.radius = motion.radius;
-  request.mode = motion.mode;
-  check(request);
-  if (is_paper_mode(motion.mode)) paper_volume(request);
 }
 
 namespace {
@@ -43,6 +33,19 @@ constexpr std::pair<std::string_view, QueryMode> kModes[] = {
     {"paper_swept", QueryMode::kPaperSwept},
     {"paper_naive", QueryMode::kPaperNaive}};
 
+/// Throws std::invalid_argument, naming the value and what is legal, if CollisionQuery has no
+/// answer to a motion, whatever the organ is.
+void check_motion(const Motion& motion) {
+  static const TriangleMesh any_organ({0.0F, 0.0F, 0.0F}, {0, 0, 0});
+  CollisionRequest request;
+  request.organ = &any_organ;
+  request.path = path_of(motion);
+  request.radius = motion.radius;
+  request.mode = motion.mode;
+  check(request);
+  if (is_paper_mode(motion.mode)) paper_volume(request);
+}
+
 }  // namespace
 
 std::optional<Motion> MotionReader::next() {
@@ -59,15 +62,21 @@ std::optional<Motion> MotionReader::next() {
 /// The motion in the current line.
 Motion MotionReader::motion() const {
   if (cells_.size() != kColumns.size()) {
-    throw text_.error(std::to_string(cells_.size()) + " columns; must be " +
-                      std::to_string(kColumns.size()));
+    throw text_.error(concatenate(cells_.size(), " columns; must be ", kColumns.size()));
   }
   if (cells_[kQuery].empty()) throw text_.error("query is empty; must be a number or a name");
 
   Motion motion;
   motion.query = cells_[kQuery];
   motion.line = text_.number();
-  motion.mode = mode();
+  const auto* const mode =
+      std::find_if(std::begin(kModes), std::end(kModes),
+                   [&](const auto& known) { return known.first == cells_[kMode]; });
+  if (mode == std::end(kModes)) {
+    throw text_.error("mode is " + in_quotes(cells_[kMode]) +
+                      "; legal are static, swept, paper_static, paper_swept and paper_naive");
+  }
+  motion.mode = mode->second;
   motion.trocar = point(kTrocar);
   motion.tip = point(kTip);
   motion.previous = is_static_mode(motion.mode) ? motion.tip : point(kPrevious);
@@ -76,19 +85,11 @@ Motion MotionReader::motion() const {
     throw text_.error("radius is " + in_quotes(cells_[kRadius]) + "; must be above 0");
   }
   try {
-    check(motion);
+    check_motion(motion);
   } catch (const std::invalid_argument& error) {
     throw text_.error(error.what());
   }
   return motion;
-}
-
-QueryMode MotionReader::mode() const {
-  for (const auto& [name, mode] : kModes) {
-    if (cells_[kMode] == name) return mode;
-  }
-  throw text_.error("mode is " + in_quotes(cells_[kMode]) +
-                    "; legal are static, swept, paper_static, paper_swept and paper_naive");
 }
 
 double MotionReader::number(std::size_t column) const {
@@ -133,8 +134,8 @@ MotionList::MotionList(std::string file, Order order) : file_(std::move(file)) {
   if (same != sorted.end()) {
     const Motion &first = motions_[*same], &second = motions_[*std::next(same)];
     throw InputError(file_, second.line,
-                     "query " + in_quotes(second.query) + " is already on line " +
-                         std::to_string(first.line) + "; each motion needs its own");
+                     concatenate("query ", in_quotes(second.query), " is already on line ",
+                                 first.line, "; each motion needs its own"));
   }
   if (order == Order::kByQuery) order_ = std::move(sorted);
 }

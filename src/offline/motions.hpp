@@ -27,10 +27,6 @@ struct Motion {
 /// Where a tool was during its motion: one waypoint in the static modes, else two.
 ToolPath path_of(const Motion& motion);
 
-/// Throws std::invalid_argument, naming the value and what is legal, if CollisionQuery has no
-/// answer to a motion, whatever the organ is.
-void check(const Motion& motion);
-
 /// Gives motions in the order in which they are answered.
 class MotionSource {
  public:
@@ -61,14 +57,10 @@ class MotionReader : public MotionSource {
   std::optional<Motion> next() override;
   bool is_ready() override { return text_.is_ready(); }
   const std::string& name() const override { return text_.name(); }
-  /// After the end: whether the last line has no line feed, as if the rest of it were missing.
-  bool ends_within_line() const { return text_.ends_within_line(); }
-  /// The number of the current line, from 1.
-  std::size_t line_number() const { return text_.number(); }
+  const TextReader& text() const { return text_; }
 
  private:
   Motion motion() const;
-  QueryMode mode() const;
   double number(std::size_t column) const;
   Eigen::Vector3d point(std::size_t column) const;
   bool is_header() const;

@@ -3,15 +3,14 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
-#include <exception>
 #include <iostream>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "evaluation.hpp"
+#include "geometry/concatenate.hpp"
 #include "user_input.hpp"
 
 namespace organ_collision {
@@ -108,7 +107,6 @@ struct Options {
 
 /// Returns none if --help is asked for.
 std::optional<Options> parse_options(const std::vector<std::string>& arguments) {
-  constexpr long long kMostJobs = 1024;
   Options options;
   Questions& questions = options.questions;
   questions.jobs = thread_count(0);
@@ -117,13 +115,7 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments) 
   line.text("motions", options.motions);
   line.text("mesh-before", options.mesh_before);
   line.text("shapes", options.shapes);
-  line.option("jobs", "a whole number from 1 to " + std::to_string(kMostJobs),
-              [&](const std::string& text) {
-                const std::optional<long long> jobs = parse_integer(text);
-                if (!jobs || *jobs < 1 || *jobs > kMostJobs) return false;
-                questions.jobs = static_cast<std::size_t>(*jobs);
-                return true;
-              });
+  line.count("jobs", questions.jobs, 1024);
   line.option("picker", "the name of a picker", [&](const std::string& name) {
     questions.picker.kind = picker_kind(name);
     return true;
@@ -162,9 +154,9 @@ MotionList read_motions(const Options& options, const ShapeSource& shapes) {
   using Order = MotionList::Order;
   MotionList motions(options.motions, options.shapes.empty() ? Order::kByQuery : Order::kAsInFile);
   if (options.shapes.empty() || motions.size() == shapes.remaining()) return motions;
-  throw InputError(options.motions + ": the file has " + std::to_string(motions.size()) +
-                   " motions; " + options.shapes + " has " + std::to_string(shapes.remaining()) +
-                   " OBJ files, and each needs one motion");
+  throw InputError(concatenate(options.motions, ": the file has ", motions.size(), " motions; ",
+                               options.shapes, " has ", shapes.remaining(),
+                               " OBJ files, and each needs one motion"));
 }
 
 /// `count`: of the motions, if it is known.
@@ -179,43 +171,28 @@ void answer_all(const Options& options, MotionSource& motions, std::optional<std
 }
 
 void answer(const Options& options) {
-  const std::unique_ptr<ShapeSource> shapes = options.shapes.empty()
-                                                  ? fixed_shapes(options.mesh, options.mesh_before)
-                                                  : recorded_shapes(options.shapes);
+  ShapeSource shapes = options.shapes.empty() ? ShapeSource(options.mesh, options.mesh_before)
+                                              : ShapeSource(options.shapes);
   if (options.motions != kStandardInput) {
-    MotionList motions = read_motions(options, *shapes);
-    return answer_all(options, motions, motions.size(), *shapes);
+    MotionList motions = read_motions(options, shapes);
+    return answer_all(options, motions, motions.size(), shapes);
   }
   MotionReader motions(StandardInput{});
-  answer_all(options, motions, std::nullopt, *shapes);
-  if (!motions.ends_within_line()) return;
-  std::cerr << motions.name() << ":" << motions.line_number()
+  answer_all(options, motions, std::nullopt, shapes);
+  if (!motions.text().ends_within_line()) return;
+  std::cerr << motions.name() << ":" << motions.text().number()
             << ": warning: the last line has no line feed; its end may be missing" << std::endl;
-}
-
-int run(const std::vector<std::string>& arguments) {
-  try {
-    const std::optional<Options> options = parse_options(arguments);
-    if (options) {
-      answer(*options);
-    } else {
-      print(kUsage);
-    }
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << error.what() << std::endl;
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "query_offline: " << error.what() << std::endl;
-    return 1;
-  }
 }
 
 }  // namespace
 }  // namespace organ_collision
 
 int main(int argc, char** argv) {
+  using namespace organ_collision;
   // A closed pipe on stdout is then reported like any other failed write.
   std::signal(SIGPIPE, SIG_IGN);
-  return organ_collision::run({argv + 1, argv + argc});
+  return exit_code("query_offline", [&] {
+    const std::optional<Options> options = parse_options({argv + 1, argv + argc});
+    options ? answer(*options) : print(kUsage);
+  });
 }

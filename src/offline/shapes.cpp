@@ -2,87 +2,106 @@
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <optional>
+#include <limits>
 #include <utility>
-#include <vector>
 
-#include "obj_reader.hpp"
-#include "user_input.hpp"
+#include "geometry/concatenate.hpp"
+#include "geometry/coordinate_range.hpp"
+#include "text_reader.hpp"
 
 namespace organ_collision {
 namespace {
 
 namespace fs = std::filesystem;
 
-class FixedShapes : public ShapeSource {
+class ObjReader {
  public:
-  FixedShapes(const std::string& mesh, const std::string& mesh_before)
-      : now_(mesh_of(read_obj(mesh))) {
-    if (mesh_before.empty()) return;
-    ObjFile before = read_obj(mesh_before);
-    check_same_faces(before, now_, mesh);
-    before_ = now_;
-    before_->move_vertices(std::move(before.vertices));
-  }
+  explicit ObjReader(const std::string& file) : text_(file) { obj_.file = file; }
 
-  std::size_t most_for_each_thread() const override { return 512; }
-  std::size_t get(std::size_t count, QueryWorkers&, std::exception_ptr&) override { return count; }
-  OrganShapes shapes_of(std::size_t) const override {
-    return {&now_, before_ ? &*before_ : nullptr};
-  }
-  std::size_t remaining() const override { return 0; }
-  const TriangleMesh& first() const override { return now_; }
-
- private:
-  TriangleMesh now_;
-  std::optional<TriangleMesh> before_;
-};
-
-class RecordedShapes : public ShapeSource {
- public:
-  explicit RecordedShapes(std::vector<fs::path> files)
-      : files_(std::move(files)), first_(mesh_of(read_obj(files_.at(0)))), shapes_{first_} {}
-
-  std::size_t most_for_each_thread() const override { return 4; }
-  std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error) override {
-    std::swap(shapes_[0], shapes_[count_]);
-    if (shapes_.size() <= count) shapes_.resize(count + 1, first_);
-    count_ = 0;
-    try {
-      threads.run(
-          std::min(count, remaining()),
-          [this](std::size_t, std::size_t task) { read(next_ + task, shapes_[task + 1]); },
-          [this](std::size_t) { ++count_; });
-    } catch (const InputError&) {
-      error = std::current_exception();
+  ObjFile read() {
+    std::vector<std::string_view> words;
+    while (text_.next()) {
+      const std::string_view line = text_.line();
+      split_words(line.substr(0, line.find('#')), words);
+      if (words.empty()) continue;
+      if (words[0] == "v") read_vertex(words);
+      if (words[0] == "f") read_polygon(words);
     }
-    next_ += count_;
-    return count_;
+    if (obj_.face_lines.empty()) {
+      throw text_.error("the file ends without an f line; a mesh in OBJ format has at least one");
+    }
+    check_indices();
+    obj_.line_count = text_.number();
+    return std::move(obj_);
   }
-  OrganShapes shapes_of(std::size_t motion) const override {
-    const bool is_first_step = next_ - count_ + motion == 0;
-    return {&shapes_[motion + 1], is_first_step ? nullptr : &shapes_[motion]};
-  }
-  std::size_t remaining() const override { return files_.size() - next_; }
-  const TriangleMesh& first() const override { return first_; }
 
  private:
-  /// Moves `shape` to the vertices of a file. A file that is missing, is not legal or has other
-  /// faces than the first one is an error.
-  void read(std::size_t file, TriangleMesh& shape) const {
-    if (file == 0) return;  // It is first_, which all shapes are copies of.
-    ObjFile obj = read_obj(files_[file]);
-    check_same_faces(obj, first_, files_[0]);
-    shape.move_vertices(std::move(obj.vertices));
+  /// Coordinates after the third are a weight or a colour, and are ignored.
+  void read_vertex(const std::vector<std::string_view>& words) {
+    if (words.size() < 4) {
+      throw text_.error(
+          concatenate("a vertex with ", words.size() - 1, " coordinates; must have x, y and z"));
+    }
+    for (std::size_t i = 1; i <= 3; ++i) {
+      const std::string axis(1, "xyz"[i - 1]);
+      const std::optional<double> number = parse_number(words[i]);
+      if (!number) throw text_.error(axis + " is " + in_quotes(words[i]) + "; must be a number");
+      const auto rounded = static_cast<float>(*number);
+      if (!is_in_range(rounded)) {
+        throw text_.error(axis + " is " + in_quotes(words[i]) +
+                          "; must be finite and within 1e6 m");
+      }
+      obj_.vertices.push_back(rounded);
+    }
   }
 
-  std::vector<fs::path> files_;
-  std::size_t next_ = 0;  ///< the file of the first motion of the next round
-  TriangleMesh first_;
-  std::vector<TriangleMesh> shapes_;  ///< that before the present round, then those of the round
-  std::size_t count_ = 0;             ///< of the shapes of the round
+  void read_polygon(const std::vector<std::string_view>& words) {
+    if (words.size() < 4) {
+      throw text_.error(
+          concatenate("a face with ", words.size() - 1, " corners; must have at least 3"));
+    }
+    polygon_.clear();
+    for (std::size_t i = 1; i < words.size(); ++i) polygon_.push_back(corner(words[i]));
+    for (std::size_t i = 2; i < polygon_.size(); ++i) {
+      obj_.triangles.insert(obj_.triangles.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
+      obj_.face_lines.push_back(text_.number());
+    }
+  }
+
+  /// The index, from 0, of the vertex in "v", "v/vt", "v//vn" or "v/vt/vn". The vertex may stand
+  /// later in the file.
+  std::uint32_t corner(std::string_view word) const {
+    const std::optional<long long> number = parse_integer(word.substr(0, word.find('/')));
+    if (!number) {
+      throw text_.error("corner " + in_quotes(word) +
+                        " does not begin with the number of a vertex");
+    }
+    const auto so_far = static_cast<long long>(obj_.vertices.size() / 3);
+    const long long index = *number < 0 ? so_far + *number : *number - 1;
+    if (index < 0 || index >= std::numeric_limits<std::uint32_t>::max()) {
+      throw text_.error(concatenate("a face refers to vertex ", *number,
+                                    "; legal are numbers from 1, or from -1 to -", so_far,
+                                    " counted back"));
+    }
+    return static_cast<std::uint32_t>(index);
+  }
+
+  void check_indices() const {
+    const std::size_t count = obj_.vertices.size() / 3;
+    for (std::size_t i = 0; i < obj_.triangles.size(); ++i) {
+      if (obj_.triangles[i] < count) continue;
+      throw InputError(obj_.file, obj_.face_lines[i / 3],
+                       concatenate("a face refers to vertex ", obj_.triangles[i] + 1ULL,
+                                   "; the file has ", count, ", counted from 1"));
+    }
+  }
+
+  TextReader text_;
+  ObjFile obj_;
+  std::vector<std::uint32_t> polygon_;
 };
+
+TriangleMesh read_mesh(const std::string& file) { return mesh_of(read_obj(file)); }
 
 bool is_shape(const fs::path& file) {
   const fs::path extension = file.extension();
@@ -90,13 +109,7 @@ bool is_shape(const fs::path& file) {
   return !is_hidden && (extension == ".obj" || extension == ".OBJ");
 }
 
-}  // namespace
-
-std::unique_ptr<ShapeSource> fixed_shapes(const std::string& mesh, const std::string& mesh_before) {
-  return std::make_unique<FixedShapes>(mesh, mesh_before);
-}
-
-std::unique_ptr<ShapeSource> recorded_shapes(const std::string& folder) {
+std::vector<fs::path> shapes_in(const std::string& folder) {
   std::vector<fs::path> files;
   try {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -111,7 +124,88 @@ std::unique_ptr<ShapeSource> recorded_shapes(const std::string& folder) {
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
     return strverscmp(a.filename().c_str(), b.filename().c_str()) < 0;
   });
-  return std::make_unique<RecordedShapes>(std::move(files));
+  return files;
+}
+
+}  // namespace
+
+ObjFile read_obj(const std::string& file) { return ObjReader(file).read(); }
+
+TriangleMesh mesh_of(const ObjFile& obj) {
+  try {
+    return {obj.vertices, obj.triangles};
+  } catch (const MeshError& error) {
+    throw InputError(obj.file + ": " + error.what());
+  }
+}
+
+void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh,
+                      const std::string& mesh_file) {
+  const auto counts = [](std::size_t vertices, std::size_t faces) {
+    return concatenate(vertices, " vertices and ", faces, " faces");
+  };
+  const std::string found = counts(shape.vertices.size() / 3, shape.face_lines.size());
+  const std::string right = counts(mesh.vertex_count(), mesh.face_count());
+  if (found != right) {
+    throw InputError(shape.file, shape.line_count,
+                     "the file ends with " + found + "; " + mesh_file + " has " + right);
+  }
+  // Vertices are counted from 1, as in the file.
+  const auto text = [](const FaceIndices& face) {
+    return concatenate(face[0] + 1, ' ', face[1] + 1, ' ', face[2] + 1);
+  };
+  for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+    const std::uint32_t* const corners = &shape.triangles[3 * face];
+    const FaceIndices indices{corners[0], corners[1], corners[2]};
+    if (indices == mesh.faces()[face]) continue;
+    throw InputError(shape.file, shape.face_lines[face],
+                     concatenate("face ", face, " has the vertices ", text(indices), "; in ",
+                                 mesh_file, " they are ", text(mesh.faces()[face])));
+  }
+}
+
+ShapeSource::ShapeSource(const std::string& mesh, const std::string& mesh_before)
+    : first_(read_mesh(mesh)) {
+  if (mesh_before.empty()) return;
+  ObjFile before = read_obj(mesh_before);
+  check_same_faces(before, first_, mesh);
+  before_ = first_;
+  before_->move_vertices(std::move(before.vertices));
+}
+
+ShapeSource::ShapeSource(const std::string& folder)
+    : files_(shapes_in(folder)), first_(read_mesh(files_.front())), shapes_{first_} {}
+
+std::size_t ShapeSource::get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error) {
+  if (files_.empty()) return count;
+  std::swap(shapes_[0], shapes_[count_]);
+  if (shapes_.size() <= count) shapes_.resize(count + 1, first_);
+  count_ = 0;
+  try {
+    threads.run(
+        std::min(count, remaining()),
+        [this](std::size_t, std::size_t task) { read(next_ + task, shapes_[task + 1]); },
+        [this](std::size_t) { ++count_; });
+  } catch (const InputError&) {
+    error = std::current_exception();
+  }
+  next_ += count_;
+  return count_;
+}
+
+OrganShapes ShapeSource::shapes_of(std::size_t motion) const {
+  if (files_.empty()) return {&first_, before_ ? &*before_ : nullptr};
+  const bool is_first_step = next_ - count_ + motion == 0;
+  return {&shapes_[motion + 1], is_first_step ? nullptr : &shapes_[motion]};
+}
+
+/// Moves `shape` to the vertices of a file. A file that is missing, is not legal or has other faces
+/// than the first one is an error.
+void ShapeSource::read(std::size_t file, TriangleMesh& shape) const {
+  if (file == 0) return;  // It is first_, which all shapes are copies of.
+  ObjFile obj = read_obj(files_[file]);
+  check_same_faces(obj, first_, files_[0]);
+  shape.move_vertices(std::move(obj.vertices));
 }
 
 }  // namespace organ_collision

@@ -1,15 +1,44 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
-#include <memory>
+#include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "query/worker_threads.hpp"
 
 namespace organ_collision {
+
+/// What an OBJ file says about a mesh, and in which lines.
+struct ObjFile {
+  std::string file;
+  std::vector<float> vertices;           ///< x y z x y z ... [m]; finite, within 1e6 m
+  std::vector<std::uint32_t> triangles;  ///< three vertex indices for each face, all legal
+  std::vector<std::size_t> face_lines;   ///< line of each face, from 1
+  std::size_t line_count = 0;
+};
+
+/// Reads the `v` and `f` lines of a Wavefront OBJ file and ignores all others. Faces are numbered
+/// in the order of the file's `f` lines. A polygon of n corners is cut into a fan around its first
+/// corner and counts as n - 2 faces. Vertices [m] are rounded to 32-bit floats. Indices may be
+/// negative (counted back from the last vertex above the line) and may carry texture and normal
+/// indices, which are ignored. Throws InputError if the file is missing, is not legal or has no
+/// face. (Assimp would leave out vertices without a face, round some numbers in another way, and
+/// not tell the line of an error.)
+ObjFile read_obj(const std::string& file);
+
+/// The mesh of an OBJ file. Throws InputError if it is too large.
+TriangleMesh mesh_of(const ObjFile& obj);
+
+/// Throws InputError, naming the first difference, if `shape` does not have the same faces and the
+/// same number of vertices as `mesh`, which was read from `mesh_file`. It then cannot be another
+/// shape of this mesh.
+void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh, const std::string& mesh_file);
 
 /// The threads that answer motions, and that read shapes for them.
 using QueryWorkers = QueryThreads<CollisionQuery>;
@@ -20,38 +49,45 @@ struct OrganShapes {
   const TriangleMesh* before = nullptr;  ///< at its start; null: the organ rests
 };
 
-/// Gives the shapes of the organ for motions that are answered in rounds.
+/// The shapes of the organ for motions that are answered in rounds: the same for all motions, or
+/// those of a recorded simulation, of which only those of a round are in memory.
 class ShapeSource {
  public:
-  virtual ~ShapeSource() = default;
+  /// Each motion meets the organ in the same shape, or while it moves from one shape to another.
+  /// `mesh`, `mesh_before`: OBJ files of the shapes at the end and at the start of each motion; an
+  /// empty name: the organ rests. Throws InputError if a file is missing or is not legal, or if
+  /// their faces differ.
+  ShapeSource(const std::string& mesh, const std::string& mesh_before);
+  /// A recorded simulation: an OBJ file for each step, with the same faces. During the motion of a
+  /// step, the organ moves from the shape of the step before to that of the step. In the first step
+  /// it rests. The files are those of the folder whose names end in .obj or .OBJ and begin with no
+  /// dot, in the order of strverscmp(), in which step_2 comes before step_10. Throws InputError if
+  /// the folder cannot be read or has none, or if the first one is not legal.
+  explicit ShapeSource(const std::string& folder);
 
   /// The most motions of a round for each thread, so that the shapes and answers of a round do not
   /// take too much memory.
-  virtual std::size_t most_for_each_thread() const = 0;
+  std::size_t most_for_each_thread() const { return files_.empty() ? 512 : 4; }
   /// Gets the shapes of a round of `count` motions, which follow those of the last round. Returns
   /// how many motions have their shapes. Further ones have none if there are no more shapes, or
   /// because the next shape is not legal; `error` is then set to its InputError.
-  virtual std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error) = 0;
+  std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error);
   /// The shapes that a motion of the present round meets.
-  virtual OrganShapes shapes_of(std::size_t motion) const = 0;
-  /// How many shapes need motions after this round.
-  virtual std::size_t remaining() const = 0;
+  OrganShapes shapes_of(std::size_t motion) const;
+  /// How many recorded shapes need motions after this round.
+  std::size_t remaining() const { return files_.size() - next_; }
   /// A shape that has the faces of all others.
-  virtual const TriangleMesh& first() const = 0;
+  const TriangleMesh& first() const { return first_; }
+
+ private:
+  void read(std::size_t file, TriangleMesh& shape) const;
+
+  std::vector<std::filesystem::path> files_;  ///< recorded shapes; empty: all motions meet first_
+  TriangleMesh first_;
+  std::optional<TriangleMesh> before_;  ///< only without recorded shapes
+  std::size_t next_ = 0;                ///< the file of the first motion of the next round
+  std::vector<TriangleMesh> shapes_;    ///< that before the present round, then those of the round
+  std::size_t count_ = 0;               ///< of the shapes of the round
 };
-
-/// Each motion meets the organ in the same shape, or while it moves from one shape to another.
-/// `mesh`, `mesh_before`: OBJ files of the shapes at the end and at the start of each motion; an
-/// empty name: the organ rests. Throws InputError if a file is missing or is not legal, or if their
-/// faces differ.
-std::unique_ptr<ShapeSource> fixed_shapes(const std::string& mesh, const std::string& mesh_before);
-
-/// The shapes of a recorded simulation: an OBJ file for each step, with the same faces. During the
-/// motion of a step, the organ moves from the shape of the step before to that of the step. In the
-/// first step it rests. The files are those of the folder whose names end in .obj or .OBJ and begin
-/// with no dot, in the order of strverscmp(), in which step_2 comes before step_10. Reads the first
-/// one at once, and a few for each thread in each round. Throws InputError if the folder cannot be
-/// read or has none, or if the first one is not legal.
-std::unique_ptr<ShapeSource> recorded_shapes(const std::string& folder);
 
 }  // namespace organ_collision

@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
-#include <sstream>
+
+#include "geometry/concatenate.hpp"
 
 namespace organ_collision {
 namespace {
@@ -81,7 +82,6 @@ CommandLine::CommandLine(std::string program)
     : program_(std::move(program)), legal_(std::make_shared<po::options_description>()) {}
 
 void CommandLine::flag(const std::string& name, bool& is_given) {
-  names_.push_back(name);
   legal_->add_options()(name.c_str(), po::bool_switch(&is_given));
 }
 
@@ -93,12 +93,10 @@ void CommandLine::text(const std::string& name, std::string& value) {
 }
 
 void CommandLine::texts(const std::string& name, std::vector<std::string>& values) {
-  names_.push_back(name);
   legal_->add_options()(name.c_str(), po::value(&values));
 }
 
 void CommandLine::option(const std::string& name, const std::string& legal, const Take& take) {
-  names_.push_back(name);
   const auto notify = [this, name, legal, take](const std::string& text) {
     if (text.rfind("--", 0) == 0) refuse("option --" + name + " has no value");
     if (!take(text)) refuse("--" + name + " is " + in_quotes(text) + "; must be " + legal);
@@ -106,10 +104,18 @@ void CommandLine::option(const std::string& name, const std::string& legal, cons
   legal_->add_options()(name.c_str(), po::value<std::string>()->notifier(notify));
 }
 
+void CommandLine::count(const std::string& name, std::size_t& value, std::size_t most) {
+  option(name, concatenate("a whole number from 1 to ", most), [&value, most](const auto& text) {
+    const long long count = parse_integer(text).value_or(0);
+    if (count < 1 || static_cast<unsigned long long>(count) > most) return false;
+    value = static_cast<std::size_t>(count);
+    return true;
+  });
+}
+
 void CommandLine::number(const std::string& name, double& value, double least, double most) {
-  std::ostringstream legal;
-  legal << "a number from " << least << " to " << most;
-  option(name, legal.str(), [&value, least, most](const std::string& text) {
+  const std::string legal = concatenate("a number from ", least, " to ", most);
+  option(name, legal, [&value, least, most](const std::string& text) {
     const std::optional<double> number = parse_number(text);
     if (!number || !(*number >= least && *number <= most)) return false;
     value = *number;
@@ -135,7 +141,9 @@ bool CommandLine::read(const std::vector<std::string>& words,
     po::notify(values);
   } catch (const po::unknown_option& error) {
     std::string legal;
-    for (const std::string& name : names_) legal += (legal.empty() ? "--" : ", --") + name;
+    for (const auto& option : legal_->options()) {
+      legal += (legal.empty() ? "--" : ", --") + option->long_name();
+    }
     refuse("unknown option " + in_quotes(error.get_option_name()) + "; legal are " + legal +
            " and --help");
   } catch (const po::error& error) {
@@ -158,9 +166,23 @@ void CommandLine::require(const std::string& name, const std::string& value) con
   if (value.empty()) refuse("option --" + name + " is missing");
 }
 
+int exit_code(const std::string& program, const std::function<void()>& work) {
+  try {
+    work();
+    return 0;
+  } catch (const InputError& error) {
+    std::cerr << error.what() << std::endl;
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << program << ": " << error.what() << std::endl;
+    return 1;
+  }
+}
+
 void Progress::report(std::size_t done) {
-  if (Clock::now() - last_ < std::chrono::seconds(1)) return;
-  last_ = Clock::now();
+  const auto now = std::chrono::steady_clock::now();
+  if (now - last_ < std::chrono::seconds(1)) return;
+  last_ = now;
   std::cerr << program_ << ": " << done;
   if (total_) std::cerr << " of " << *total_;
   std::cerr << ' ' << what_ << std::endl;

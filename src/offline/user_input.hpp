@@ -67,6 +67,8 @@ class CommandLine {
   void texts(const std::string& name, std::vector<std::string>& values);
   /// `legal`: which texts are legal, for example "a number above 0".
   void option(const std::string& name, const std::string& legal, const Take& take);
+  /// A whole number from 1 to `most`.
+  void count(const std::string& name, std::size_t& value, std::size_t most);
   /// A finite number from `least` to `most`.
   void number(const std::string& name, double& value, double least, double most);
 
@@ -83,9 +85,12 @@ class CommandLine {
 
  private:
   std::string program_;
-  std::vector<std::string> names_;
   std::shared_ptr<boost::program_options::options_description> legal_;
 };
+
+/// The exit code of a program that does this work: 0, or 2 after an InputError, or 1 after any
+/// other exception. Prints what the exception says in one line on stderr.
+int exit_code(const std::string& program, const std::function<void()>& work);
 
 /// Prints on stderr, at most once a second, how much is done. A run of less than a second prints
 /// nothing.
@@ -98,11 +103,9 @@ class Progress {
   void report(std::size_t done);
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   std::string program_, what_;
   std::optional<std::size_t> total_;
-  Clock::time_point last_ = Clock::now();
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace organ_collision

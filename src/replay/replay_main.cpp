@@ -90,8 +90,8 @@ std::string incomplete(const std::string& file) { return file + ".incomplete"; }
 class RecordedMessages : private rosbag::View {
  public:
   /// Those of the connections for which `is_wanted` returns true. `bag` must outlive this.
-  template <typename IsWanted>
-  RecordedMessages(const rosbag::Bag& bag, const IsWanted& is_wanted)
+  RecordedMessages(const rosbag::Bag& bag,
+                   const std::function<bool(const rosbag::ConnectionInfo&)>& is_wanted)
       : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
     for (const rosbag::MessageRange* range : ranges_) {
       for (auto entry = range->begin; entry != range->end; ++entry) {
@@ -106,14 +106,19 @@ class RecordedMessages : private rosbag::View {
   }
 
   std::size_t size() const { return places_.size(); }
-  /// Calls `take` for each message. Throws what rosbag throws if the bag cannot be read.
-  template <typename Take>
-  void for_each(const Take& take) {
+  /// Calls `take` for each message. Throws InputError if the bag cannot be read.
+  void for_each(const std::function<void(const rosbag::MessageInstance&)>& take) try {
     for (const Place& place : places_) {
       const std::unique_ptr<rosbag::MessageInstance> message(
           newMessageInstance(place.connection, place.entry, bag_));
       take(*message);
     }
+  } catch (const rosbag::BagException& error) {
+    throw InputError(bag_.getFileName() +
+                     ": cannot be read to its end: " + plain_text(error.what(), 200));
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw InputError(bag_.getFileName() +
+                     ": a message is damaged: it is shorter than its contents say");
   }
 
  private:
@@ -197,18 +202,14 @@ class AnswerBag {
 };
 
 /// Throws InputError if something is there that the output must not replace.
-void check_replaceable(const std::string& file) {
-  std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
-  const auto status = std::filesystem::symlink_status(file, ignored);
-  if (!std::filesystem::exists(status) || std::filesystem::is_regular_file(status)) return;
-  throw InputError("replay: " + file +
-                   " is no regular file, and only those are replaced; name another OUT.bag");
-}
-
 void check_files(const ReplayOptions& options) {
   for (const std::string& written : {options.out, incomplete(options.out)}) {
-    check_replaceable(written);
-    std::error_code ignored;
+    std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
+    const auto status = std::filesystem::symlink_status(written, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+      throw InputError("replay: " + written +
+                       " is no regular file, and only those are replaced; name another OUT.bag");
+    }
     if (std::filesystem::equivalent(options.in, written, ignored)) {
       throw InputError("replay: " + written + " is also the input; name another OUT.bag");
     }
@@ -270,12 +271,6 @@ void check_organs(const rosbag::Bag& bag, const ReplayOptions& options) {
                               " (--node names the node whose topics are replayed)"));
 }
 
-[[noreturn]] void refuse_frame(const std::string& file, const std::string& frame,
-                               const std::string& tool) {
-  throw InputError(file + ": frame '" + frame + "' of tool '" + tool +
-                   "' occurs neither on TF nor on a topic of poses");
-}
-
 /// Throws InputError if the bag has never told of a frame of a tool.
 void check_frames(const std::vector<Tool>& tools, const std::string& file, const Replay& replay) {
   for (const Tool& tool : tools) {
@@ -285,19 +280,10 @@ void check_frames(const std::vector<Tool>& tools, const std::string& file, const
     for (const std::string& link : parameters.links) frames.push_back(parameters.link_frame(link));
     if (parameters.has_tip_of_links()) frames.push_back(parameters.tip_frame);
     for (const std::string& frame : frames) {
-      if (!replay.knows_frame(frame)) refuse_frame(file, frame, parameters.name);
+      if (replay.knows_frame(frame)) continue;
+      throw InputError(file + ": frame '" + frame + "' of tool '" + parameters.name +
+                       "' occurs neither on TF nor on a topic of poses");
     }
-  }
-}
-
-void read(RecordedMessages& messages, const std::string& file,
-          const std::function<void(const rosbag::MessageInstance&)>& take) {
-  try {
-    messages.for_each(take);
-  } catch (const rosbag::BagException& error) {
-    throw InputError(file + ": cannot be read to its end: " + plain_text(error.what(), 200));
-  } catch (const ros::serialization::StreamOverrunException&) {
-    throw InputError(file + ": a message is damaged: it is shorter than its contents say");
   }
 }
 
@@ -323,7 +309,7 @@ void replay(const ReplayOptions& options) {
   });
   Progress progress("replay", "messages", messages.size());
   std::size_t done = 0;
-  read(messages, options.in, [&](const rosbag::MessageInstance& message) {
+  messages.for_each([&](const rosbag::MessageInstance& message) {
     if (interrupted) throw std::runtime_error("interrupted");
     if (options.with_input) answers.copy(message);
     if (replay.topics().count(message.getTopic()) > 0) replay.take(message);
@@ -335,33 +321,24 @@ void replay(const ReplayOptions& options) {
   std::cout << answers.summary() << std::endl;
 }
 
-int run(const std::vector<std::string>& arguments) {
-  try {
-    const std::optional<ReplayOptions> options = parse_options(arguments);
-    if (options) {
-      replay(*options);
-    } else {
-      std::cout << kUsage;
-    }
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << error.what() << std::endl;
-    return 2;
-  } catch (const ParameterError& error) {
-    std::cerr << "replay: " << error.what() << std::endl;
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "replay: " << error.what() << std::endl;
-    return 1;
-  }
-}
-
 }  // namespace
 }  // namespace organ_collision
 
 int main(int argc, char** argv) {
+  using namespace organ_collision;
   for (const int signal : {SIGINT, SIGTERM}) {
-    std::signal(signal, [](int) { organ_collision::interrupted = true; });
+    std::signal(signal, [](int) { interrupted = true; });
   }
-  return organ_collision::run({argv + 1, argv + argc});
+  return exit_code("replay", [&] {
+    const std::optional<ReplayOptions> options = parse_options({argv + 1, argv + argc});
+    if (!options) {
+      std::cout << kUsage;
+      return;
+    }
+    try {
+      replay(*options);
+    } catch (const ParameterError& error) {
+      throw InputError(std::string("replay: ") + error.what());
+    }
+  });
 }

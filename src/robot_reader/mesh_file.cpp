@@ -17,7 +17,6 @@
 #include <new>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include "geometry/concatenate.hpp"
 #include "resource.hpp"
@@ -43,33 +42,32 @@ class TriangleCollector {
     for (unsigned i = 0; i < node.mNumChildren; ++i) add(*node.mChildren[i], scene, T_link_node);
   }
 
-  MeshDescription mesh(const std::string& file) && {
-    return {file, std::move(vertices_), std::move(triangles_)};
-  }
+  RobotShape mesh() && { return std::move(mesh_); }
 
  private:
   void add(const aiMesh& mesh, const Affine3d& T_link_mesh) {
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;
-      const auto corner = [&](unsigned j) {
+      for (unsigned j = 0; j < 3; ++j) {
         const aiVector3D& v = mesh.mVertices[face.mIndices[j]];
-        return vertex(T_link_mesh * Vector3d(v.x, v.y, v.z));
-      };
-      triangles_.push_back({corner(0), corner(1), corner(2)});
+        mesh_.triangles.push_back(vertex(T_link_mesh * Vector3d(v.x, v.y, v.z)));
+      }
     }
   }
 
   std::uint32_t vertex(const Vector3d& position) {
     if (!position.allFinite()) throw ToolError("has a vertex that is not finite");
-    const auto [known, is_new] = index_of_.insert(
-        {{position.x(), position.y(), position.z()}, static_cast<std::uint32_t>(vertices_.size())});
-    if (is_new) vertices_.push_back(position);
+    const auto [known, is_new] =
+        index_of_.insert({{position.x(), position.y(), position.z()},
+                          static_cast<std::uint32_t>(mesh_.vertices.size() / 3)});
+    if (is_new) {
+      mesh_.vertices.insert(mesh_.vertices.end(), position.data(), position.data() + 3);
+    }
     return known->second;
   }
 
-  std::vector<Vector3d> vertices_;
-  std::vector<FaceIndices> triangles_;
+  RobotShape mesh_;
   std::map<std::array<double, 3>, std::uint32_t> index_of_;
 };
 
@@ -83,32 +81,10 @@ class NoOtherFiles : public Assimp::IOSystem {
   void Close(Assimp::IOStream* /*stream*/) override {}
 };
 
-void check_scale(const Vector3d& scale) {
-  if (scale.allFinite() && (scale.array() != 0.0).all()) return;
-  throw ToolError(concatenate("its scale is ", scale.transpose(),
-                              "; must be finite, and not 0 along any axis"));
-}
-
 /// The extension of a file name, without its dot. assimp recognises the format by it.
 std::string extension(const std::string& file) {
   const std::string dotted = std::filesystem::path(file).extension();
   return dotted.empty() ? dotted : dotted.substr(1);
-}
-
-/// Not all importers of assimp check the vertex indices, but its post-processing relies on them.
-void check_indices(const aiScene& scene) {
-  for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
-    const aiMesh& mesh = *scene.mMeshes[i];
-    for (unsigned j = 0; j < mesh.mNumFaces; ++j) {
-      const aiFace& face = mesh.mFaces[j];
-      for (unsigned k = 0; k < face.mNumIndices; ++k) {
-        if (face.mIndices[k] < mesh.mNumVertices) continue;
-        throw ToolError("face " + std::to_string(j) + " names vertex " +
-                        std::to_string(face.mIndices[k]) + " of " +
-                        std::to_string(mesh.mNumVertices));
-      }
-    }
-  }
 }
 
 /// Whether one line of the text, other than the first, is this word. Blanks may follow it.
@@ -139,27 +115,28 @@ void check_ply_header(const std::string& content) {
   }
 }
 
-/// In a PLY file, each triangle takes at least a byte: the index of one more corner. assimp gives
-/// each face as many corners as it claims, even if the file ends before them.
-void check_ply_faces(const aiScene& scene, const std::string& content) {
-  if (!is_ply(content)) return;
+/// Checks what not all importers of assimp check, but its post-processing relies on: the vertex
+/// indices, and the number of corners. In a PLY file, each triangle takes at least a byte: the
+/// index of one more corner. assimp gives each face as many corners as it claims, even if the file
+/// ends before them.
+void check_faces(const aiScene& scene, const std::string& content) {
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[i];
     for (unsigned j = 0; j < mesh.mNumFaces; ++j) {
-      triangles += std::max(mesh.mFaces[j].mNumIndices, 2u) - 2;
+      const aiFace& face = mesh.mFaces[j];
+      triangles += std::max(face.mNumIndices, 2u) - 2;
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] < mesh.mNumVertices) continue;
+        throw ToolError(
+            concatenate("face ", j, " names vertex ", face.mIndices[k], " of ", mesh.mNumVertices));
+      }
     }
   }
+  if (!is_ply(content)) return;
   if (triangles <= content.size()) return;
   throw ToolError(concatenate("its faces claim to be ", triangles, " triangles, but it has only ",
                               content.size(), " bytes; the file may be damaged"));
-}
-
-/// The processor time that reading a mesh file may take. With some broken files, assimp would not
-/// end.
-std::chrono::milliseconds time_for(const std::string& content) {
-  const auto more = content.size() / reader_limits::kMeshBytesPerMillisecond;
-  return reader_limits::kMeshTime + std::chrono::milliseconds(more);
 }
 
 /// Why the importer failed. If memory ran out, its error is only the text of std::bad_alloc.
@@ -168,8 +145,7 @@ std::string reason(const Assimp::Importer& importer) {
   return error == std::bad_alloc().what() ? "there is not enough memory to read it" : error;
 }
 
-MeshDescription parse(const std::string& file, const std::string& content,
-                      const Affine3d& T_link_mesh) {
+RobotShape parse(const std::string& file, const std::string& content, const Affine3d& T_link_mesh) {
   Assimp::Importer importer;
   importer.SetIOHandler(
       std::make_unique<NoOtherFiles>().release());  // The importer becomes the owner.
@@ -179,27 +155,34 @@ MeshDescription parse(const std::string& file, const std::string& content,
   const aiScene* scene =
       importer.ReadFileFromMemory(content.data(), content.size(), 0, extension(file).c_str());
   if (scene) {
-    check_indices(*scene);
-    check_ply_faces(*scene, content);
+    check_faces(*scene, content);
     scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
   }
   if (!scene) throw ToolError(reason(importer));
   TriangleCollector triangles;
   triangles.add(*scene->mRootNode, *scene, T_link_mesh);
-  return std::move(triangles).mesh(file);
+  return std::move(triangles).mesh();
 }
 
 }  // namespace
 
-MeshDescription read_mesh_file(const std::string& file, const Vector3d& scale,
-                               const Affine3d& T_link_mesh) {
+RobotShape read_mesh_file(const std::string& file, const Vector3d& scale,
+                          const Affine3d& T_link_mesh) {
   std::string content = read_resource(file);
   remove_byte_order_mark(file, content);
   try {
-    check_scale(scale);
+    if (!scale.allFinite() || (scale.array() == 0.0).any()) {
+      throw ToolError(concatenate("its scale is ", scale.transpose(),
+                                  "; must be finite, and not 0 along any axis"));
+    }
     check_ply_header(content);
-    const ScopedTimeLimit limit(time_for(content));
-    return parse(file, content, T_link_mesh * Eigen::Scaling(scale));
+    // With some broken files, assimp would not end.
+    const std::chrono::milliseconds more(content.size() / reader_limits::kMeshBytesPerMillisecond);
+    const ScopedTimeLimit limit(reader_limits::kMeshTime + more);
+    RobotShape shape = parse(file, content, T_link_mesh * Eigen::Scaling(scale));
+    shape.kind = RobotShape::MESH;
+    shape.file = file;
+    return shape;
   } catch (const std::exception& error) {
     throw ToolError("mesh '" + file + "': " + error.what());
   }

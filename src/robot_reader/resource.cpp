@@ -17,22 +17,8 @@
 #include "geometry/concatenate.hpp"
 #include "ros/tools/robot_reply.hpp"
 
-// GCC defines macros for sanitizers. clang has __has_feature instead.
-#ifndef __has_feature
-#define __has_feature(feature) 0
-#endif
-
 namespace organ_collision {
 namespace {
-
-/// AddressSanitizer and ThreadSanitizer reserve terabytes of address space, so they need RLIMIT_AS
-/// to stay as it is.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
-    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
 
 /// Lowers a limit of the process. A limit that is already lower stays as it is.
 template <typename Resource>
@@ -127,7 +113,9 @@ ScopedTimeLimit::~ScopedTimeLimit() { set_timer(std::chrono::milliseconds::zero(
 
 void limit_process() {
   limit(RLIMIT_CPU, reader_limits::kProcessorTime.count());
-  if (!kSanitized) limit(RLIMIT_AS, reader_limits::kMemoryBytes);
+#ifndef ORGAN_COLLISION_SANITIZED  // Sanitizers reserve terabytes of address space.
+  limit(RLIMIT_AS, reader_limits::kMemoryBytes);
+#endif
   // Not RLIMIT_CORE: it has no effect where the kernel pipes core dumps to a program.
   prctl(PR_SET_DUMPABLE, 0);
 }

@@ -4,10 +4,10 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <exception>
-#include <utility>
 
 #include "mesh_file.hpp"
 #include "ros/messages/text.hpp"
+#include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
 namespace {
@@ -48,28 +48,11 @@ void check_complete(const std::string& link, const std::vector<std::string>& err
 
 using AboutToRead = std::function<void(const std::string&)>;
 
-void read_mesh(const urdf::Mesh& mesh, const urdf::Pose& origin, const AboutToRead& about_to_read,
-               RobotShape& shape) {
-  about_to_read("mesh '" + mesh.filename + "'");
-  const urdf::Rotation& q = origin.rotation;
-  const Eigen::Isometry3d T_link_mesh =
-      Eigen::Translation3d(to_eigen(origin.position)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
-  const MeshDescription read = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
-  shape.file = read.file;
-  for (const Vector3d& vertex : read.vertices) {
-    shape.vertices.insert(shape.vertices.end(), vertex.data(), vertex.data() + 3);
-  }
-  for (const FaceIndices& corners : read.triangles) {
-    shape.triangles.insert(shape.triangles.end(), corners.begin(), corners.end());
-  }
-}
-
 RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
                     const AboutToRead& about_to_read) {
   const urdf::Vector3& p = origin.position;
   const urdf::Rotation& q = origin.rotation;
   RobotShape shape;
-  shape.pose = {{p.x, p.y, p.z, q.x, q.y, q.z, q.w}};
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       shape.kind = RobotShape::SPHERE;
@@ -87,10 +70,15 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
       shape.size = {{sides.x, sides.y, sides.z}};
       break;
     }
-    case urdf::Geometry::MESH:
-      shape.kind = RobotShape::MESH;
-      read_mesh(static_cast<const urdf::Mesh&>(geometry), origin, about_to_read, shape);
+    case urdf::Geometry::MESH: {
+      const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
+      about_to_read("mesh '" + mesh.filename + "'");
+      const Eigen::Isometry3d T_link_mesh =
+          Eigen::Translation3d(to_eigen(p)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
+      shape = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
+    }
   }
+  shape.pose = {{p.x, p.y, p.z, q.x, q.y, q.z, q.w}};
   return shape;
 }
 
@@ -104,40 +92,24 @@ std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& a
   return shapes;
 }
 
-std::string moving_joint(const urdf::Link& link) {
-  const urdf::JointSharedPtr& joint = link.parent_joint;
-  return joint && joint->type != urdf::Joint::FIXED ? joint->name : "";
-}
-
-std::vector<std::string> link_names(const urdf::ModelInterface& model) {
-  std::vector<std::string> names;
-  for (const auto& [name, link] : model.links_) names.push_back(name);
-  return names;
-}
-
-}  // namespace
-
-RobotModel::RobotModel(const std::string& urdf) {
-  {
-    const ScopedErrorCollector collector(errors_);
-    model_ = urdf::parseURDF(urdf);
-  }
-  if (!model_) throw ToolError("no legal URDF: " + listed(errors_));
-}
-
-RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_read) const {
-  const urdf::LinkConstSharedPtr link = model_->getLink(name);
+/// Throws ToolError if there is no such link, or a shape or mesh cannot be read. `errors`: those of
+/// urdfdom, also about links that it read in part.
+RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::string>& errors,
+                    const std::string& name, const AboutToRead& about_to_read) {
+  const urdf::LinkConstSharedPtr link = model.getLink(name);
   if (!link) {
-    const std::vector<std::string> legal = link_names(*model_);
+    std::vector<std::string> legal;
+    for (const auto& [known, of_robot] : model.links_) legal.push_back(known);
     throw ToolError("link '" + name + "' is unknown; nearest is '" + nearest_name(name, legal) +
                     "', legal are " + listed(legal));
   }
   const std::string prefix = "link '" + name + "': ";
   try {
-    check_complete(name, errors_);
+    check_complete(name, errors);
     const auto about_to_read_mesh = [&](const std::string& mesh) { about_to_read(prefix + mesh); };
     RobotLink description;
-    description.joint = moving_joint(*link);
+    const urdf::JointSharedPtr& joint = link->parent_joint;
+    if (joint && joint->type != urdf::Joint::FIXED) description.joint = joint->name;
     description.shapes = link->collision_array.empty()
                              ? shapes_of(link->visual_array, about_to_read_mesh)
                              : shapes_of(link->collision_array, about_to_read_mesh);
@@ -147,17 +119,20 @@ RobotLink RobotModel::link(const std::string& name, const AboutToRead& about_to_
   }
 }
 
-namespace {
-
-std::string read_links(const std::string& urdf, const std::vector<std::string>& names,
-                       const std::function<void(const std::string&)>& write) {
-  const RobotModel robot(urdf);
+std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std::string>& names,
+                                  const AboutToRead& about_to_read) {
+  std::vector<std::string> errors;
+  urdf::ModelInterfaceSharedPtr model;
+  {
+    const ScopedErrorCollector collector(errors);
+    model = urdf::parseURDF(urdf);
+  }
+  if (!model) throw ToolError("no legal URDF: " + listed(errors));
   std::vector<RobotLink> links;
   for (const std::string& name : names) {
-    links.push_back(
-        robot.link(name, [&](const std::string& what) { write(reading_record(what)); }));
+    links.push_back(read_link(*model, errors, name, about_to_read));
   }
-  return links_record(std::move(links));
+  return links;
 }
 
 }  // namespace
@@ -166,7 +141,8 @@ void answer_with_links(const std::function<std::string()>& urdf,
                        const std::vector<std::string>& links,
                        const std::function<void(const std::string&)>& write) {
   try {
-    write(read_links(urdf(), links, write));
+    write(links_record(
+        read_links(urdf(), links, [&](const std::string& what) { write(reading_record(what)); })));
   } catch (const std::exception& error) {
     write(refusal_record(error.what()));
   }

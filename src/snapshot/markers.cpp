@@ -1,28 +1,25 @@
 #include "markers.hpp"
 
-#include <ros/callback_queue.h>
-
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <iterator>
+#include <utility>
 
+#include "geometry/concatenate.hpp"
+#include "offline/user_input.hpp"
 #include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
-namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double kUpdateSec = 0.01;
-constexpr std::uint32_t kQueueSize = 4000;
-
-template <typename Map, typename Condition>
-void erase_if(Map& map, Condition condition) {
-  for (auto entry = map.begin(); entry != map.end();) {
-    entry = condition(*entry) ? map.erase(entry) : std::next(entry);
+template <typename Condition>
+void MarkerStore::erase_if(Condition condition) {
+  for (auto entry = entries_.begin(); entry != entries_.end();) {
+    entry = condition(*entry) ? entries_.erase(entry) : std::next(entry);
   }
 }
-
-}  // namespace
 
 void MarkerStore::apply(const std::string& topic, const visualization_msgs::MarkerArray& message,
                         const ros::Time& now) {
@@ -33,13 +30,13 @@ void MarkerStore::apply(const std::string& topic, const visualization_msgs::Mark
     } else if (marker.action == Marker::DELETE) {
       entries_.erase(key);
     } else if (marker.action == Marker::DELETEALL) {
-      erase_if(entries_, [&](const auto& entry) { return entry.first.topic == topic; });
+      erase_if([&](const auto& entry) { return std::get<0>(entry.first) == topic; });
     }
   }
 }
 
 void MarkerStore::expire(const ros::Time& now) {
-  erase_if(entries_, [&](const auto& entry) {
+  erase_if([&](const auto& entry) {
     const ros::Duration lifetime = entry.second.marker.lifetime;  // 0: for ever
     return lifetime > ros::Duration(0.0) && now - entry.second.received >= lifetime;
   });
@@ -55,54 +52,252 @@ void MarkerStore::place(const Lookup& lookup) {
   }
 }
 
-MarkerListener::MarkerListener(const std::vector<std::string>& topics, const std::string& frame)
-    : frame_(tf_frame(frame)), listener_(buffer_) {
-  ros::NodeHandle node;
-  for (const std::string& topic : topics) {
-    subscribers_.push_back(node.subscribe<visualization_msgs::MarkerArray>(
-        topic, kQueueSize, [this, topic](const visualization_msgs::MarkerArrayConstPtr& message) {
-          receive(topic, *message);
-        }));
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Vector3d;
+
+/// Each three consecutive points are a triangle, with its outward normal by the right-hand rule.
+using TrianglePoints = std::vector<Vector3d>;
+
+/// [1] Length of the head of RViz's arrows, by that of the arrow.
+constexpr double kArrowHead = 0.23;
+constexpr int kMeridians = 48;
+constexpr int kRings = 24;
+/// [1] Cosine of the largest angle between faces that share a normal: 50 degrees.
+constexpr double kSmoothCosine = 0.643;
+
+/// A point of the profile of a solid of revolution around z.
+struct ProfilePoint {
+  double radius, z;
+};
+
+/// The solid whose profile goes from its lowest point to its highest one. The first meridian is at
+/// the angle `first` [rad] from x.
+TrianglePoints solid_of_revolution(const std::vector<ProfilePoint>& profile,
+                                   int meridians = kMeridians, double first = 0.0) {
+  const auto revolved = [&](const ProfilePoint& point, int meridian) {
+    const double angle = first + 2.0 * M_PI * (meridian % meridians) / meridians;
+    return Vector3d(point.radius * std::cos(angle), point.radius * std::sin(angle), point.z);
+  };
+  TrianglePoints points;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    for (int m = 0; m < meridians; ++m) {
+      const Vector3d a = revolved(profile[i - 1], m), b = revolved(profile[i - 1], m + 1);
+      const Vector3d c = revolved(profile[i], m + 1), d = revolved(profile[i], m);
+      if (profile[i - 1].radius > 0.0) points.insert(points.end(), {a, b, c});
+      if (profile[i].radius > 0.0) points.insert(points.end(), {a, c, d});
+    }
   }
+  return points;
 }
 
-void MarkerListener::update() {
-  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kUpdateSec));
-  markers_.expire(ros::Time::now());
-  missing_transforms_.clear();
-  markers_.place(
-      [this](const std::string& frame, const ros::Time& stamp) { return look_up(frame, stamp); });
+// Around the origin, with length, width and height 1.
+
+TrianglePoints unit_cube() {
+  const double radius = std::sqrt(0.5);
+  return solid_of_revolution({{0.0, -0.5}, {radius, -0.5}, {radius, 0.5}, {0.0, 0.5}}, 4,
+                             M_PI / 4.0);
 }
 
-bool MarkerListener::has_placed_marker() const {
-  const auto& entries = markers_.entries();
-  return std::any_of(entries.begin(), entries.end(),
-                     [](const auto& entry) { return entry.second.T_fixed_header.has_value(); });
+TrianglePoints unit_cylinder() {
+  return solid_of_revolution({{0.0, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {0.0, 0.5}});
 }
 
-bool MarkerListener::has_publisher() const {
-  return std::any_of(
-      subscribers_.begin(), subscribers_.end(),
-      [](const ros::Subscriber& subscriber) { return subscriber.getNumPublishers() > 0; });
-}
-
-void MarkerListener::receive(const std::string& topic,
-                             const visualization_msgs::MarkerArray& message) {
-  markers_.apply(topic, message, ros::Time::now());
-  if (frame_.empty() && !markers_.entries().empty()) {
-    frame_ = tf_frame(markers_.entries().begin()->second.marker.header.frame_id);
+TrianglePoints unit_sphere() {
+  std::vector<ProfilePoint> profile{{0.0, -0.5}};
+  for (int ring = 1; ring < kRings; ++ring) {
+    const double angle = M_PI * ring / kRings;
+    profile.push_back({0.5 * std::sin(angle), -0.5 * std::cos(angle)});
   }
+  profile.push_back({0.0, 0.5});
+  return solid_of_revolution(profile);
 }
 
-std::optional<Eigen::Isometry3d> MarkerListener::look_up(const std::string& frame,
-                                                         const ros::Time& stamp) {
-  if (tf_frame(frame) == frame_) return Eigen::Isometry3d::Identity();
-  try {
-    return to_eigen(buffer_.lookupTransform(frame_, tf_frame(frame), stamp).transform);
-  } catch (const tf2::TransformException& error) {
-    missing_transforms_[frame] = error.what();
-    return std::nullopt;
+/// The header's frame is the target.
+Eigen::Isometry3d pose_of(const Marker& marker) {
+  const geometry_msgs::Quaternion& q = marker.pose.orientation;
+  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const bool is_empty = rotation.norm() == 0.0;  // RViz accepts it, too.
+  return Eigen::Translation3d(to_eigen(marker.pose.position)) *
+         (is_empty ? Eigen::Quaterniond::Identity() : rotation.normalized());
+}
+
+/// One marker on its way into the picture.
+class Drawing {
+ public:
+  Drawing(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
+          const Eigen::Matrix3d& axes)
+      : marker_(marker), T_picture_marker_(T_picture_header * pose_of(marker)), axes_(axes) {}
+
+  PictureTriangles draw() {
+    switch (marker_.type) {
+      case Marker::ARROW:
+        add_arrow();
+        break;
+      case Marker::CUBE:
+        add_scaled(unit_cube());
+        break;
+      case Marker::SPHERE:
+        add_scaled(unit_sphere());
+        break;
+      case Marker::CYLINDER:
+        add_scaled(unit_cylinder());
+        break;
+      case Marker::LINE_STRIP:
+        add_lines(1);
+        break;
+      case Marker::LINE_LIST:
+        check_groups(2);
+        add_lines(2);
+        break;
+      case Marker::TRIANGLE_LIST:
+        add_triangle_list();
+        break;
+      case Marker::TEXT_VIEW_FACING:
+        break;
+      default:
+        throw InputError(concatenate("its type ", marker_.type, " is not drawn"));
+    }
+    const bool is_finite =
+        std::all_of(picture_.begin(), picture_.end(), [](const PictureVertex& vertex) {
+          return vertex.position.allFinite() && vertex.normal.allFinite() &&
+                 vertex.colour.allFinite();
+        });
+    if (!is_finite) throw InputError("its pose, scale, points or colours are not finite");
+    return std::move(picture_);
   }
+
+ private:
+  void check_groups(std::size_t size) const {
+    if (marker_.points.size() % size == 0) return;
+    throw InputError(
+        concatenate("it has ", marker_.points.size(), " points; must be a multiple of ", size));
+  }
+
+  /// Of a point of a list.
+  Colour colour_at(std::size_t point) const {
+    return colour_of(marker_.colors.empty() ? marker_.color : marker_.colors[point]);
+  }
+
+  void check_colours() const {
+    const std::size_t points = marker_.points.size(), colours = marker_.colors.size();
+    if (colours == 0 || colours == points) return;
+    throw InputError(concatenate("it has ", colours, " colours for ", points, " points"));
+  }
+
+  static Colour colour_of(const std_msgs::ColorRGBA& colour) {
+    const auto channel = [](float value) {
+      return std::isnan(value) ? value : std::clamp(value, 0.0F, 1.0F);
+    };
+    return {channel(colour.r), channel(colour.g), channel(colour.b), channel(colour.a)};
+  }
+
+  /// A shape in the marker's frame, lit, in one colour.
+  void add_solid(TrianglePoints points, const Affine3d& T_marker_shape) {
+    const Affine3d T_picture_shape = T_picture_marker_ * T_marker_shape;
+    for (Vector3d& point : points) point = T_picture_shape * point;
+    if (T_picture_shape.linear().determinant() < 0.0) {  // It would be inside out.
+      for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+        std::swap(points[i + 1], points[i + 2]);
+    }
+    const std::vector<Vector3d> normals = smooth_normals(points);
+    const Colour colour = colour_of(marker_.color);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      picture_.push_back({points[i], normals[i], colour});
+    }
+  }
+
+  void add_scaled(TrianglePoints points) {
+    add_solid(std::move(points), Affine3d(Eigen::Scaling(to_eigen(marker_.scale))));
+  }
+
+  void add_flat(const Vector3d& position, const Colour& colour) {
+    picture_.push_back({position, Vector3d::Zero(), colour});
+  }
+
+  void add_triangle_list() {
+    check_groups(3);
+    check_colours();
+    TrianglePoints points;
+    for (const geometry_msgs::Point& point : marker_.points) points.push_back(to_eigen(point));
+    if (marker_.colors.empty()) return add_scaled(std::move(points));
+    const Affine3d T_picture_points = T_picture_marker_ * Eigen::Scaling(to_eigen(marker_.scale));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      add_flat(T_picture_points * points[i], colour_at(i));
+    }
+  }
+
+  /// Lines from point i to i + 1, for each `step`-th point i.
+  void add_lines(std::size_t step) {
+    check_colours();
+    for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
+      const Vector3d a = T_picture_marker_ * to_eigen(marker_.points[i]);
+      const Vector3d b = T_picture_marker_ * to_eigen(marker_.points[i + 1]);
+      const Vector3d side = 0.5 * marker_.scale.x * (b - a).cross(axes_.col(2)).stableNormalized();
+      const std::array<Vector3d, 4> corners{a - side, a + side, b + side, b - side};
+      for (const int corner : {0, 1, 2, 0, 2, 3}) {
+        add_flat(corners[corner], colour_at(corner < 2 ? i : i + 1));
+      }
+    }
+  }
+
+  /// From the first point to the second one. scale: diameters of shaft and head, length of the
+  /// head.
+  void add_arrow() {
+    const std::size_t count = marker_.points.size();
+    if (count != 2) throw InputError(concatenate("it has ", count, " points; must be 2"));
+    const Vector3d scale = to_eigen(marker_.scale), start = to_eigen(marker_.points[0]);
+    const Vector3d along = to_eigen(marker_.points[1]) - start;
+    const double length = along.norm();
+    if (length == 0.0) return;
+    const double head = scale.z() == 0.0 ? kArrowHead * length : std::clamp(scale.z(), 0.0, length);
+    const double shaft_radius = 0.5 * scale.x(), shaft = length - head;
+    TrianglePoints points = solid_of_revolution({{0.0, 0.0},
+                                                 {shaft_radius, 0.0},
+                                                 {shaft_radius, shaft},
+                                                 {0.5 * scale.y(), shaft},
+                                                 {0.0, shaft + head}});
+    for (Vector3d& point : points) point = Vector3d(point.z(), point.x(), point.y());
+    add_solid(std::move(points),
+              Eigen::Translation3d(start) *
+                  Affine3d(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), along)));
+  }
+
+  const Marker& marker_;
+  const Affine3d T_picture_marker_;
+  const Eigen::Matrix3d& axes_;
+  PictureTriangles picture_;
+};
+
+}  // namespace
+
+void add_marker(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
+                const Eigen::Matrix3d& axes, PictureTriangles& picture) {
+  const PictureTriangles added = Drawing(marker, T_picture_header, axes).draw();
+  picture.insert(picture.end(), added.begin(), added.end());
+}
+
+std::vector<Vector3d> smooth_normals(const TrianglePoints& triangles) {
+  const auto key = [](const Vector3d& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
+  std::vector<Vector3d> areas;  // Of each face: its normal, as long as twice its area.
+  std::map<std::array<double, 3>, std::vector<std::size_t>> faces_at;
+  for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
+    for (std::size_t corner = i; corner < i + 3; ++corner) {
+      faces_at[key(triangles[corner])].push_back(areas.size());
+    }
+    areas.push_back((triangles[i + 1] - triangles[i]).cross(triangles[i + 2] - triangles[i]));
+  }
+  std::vector<Vector3d> normals;
+  for (std::size_t corner = 0; corner < 3 * areas.size(); ++corner) {
+    const Vector3d own = areas[corner / 3].stableNormalized();
+    Vector3d sum = Vector3d::Zero();
+    for (const std::size_t face : faces_at[key(triangles[corner])]) {
+      if (areas[face].stableNormalized().dot(own) > kSmoothCosine) sum += areas[face];
+    }
+    normals.push_back(sum.stableNormalized());
+  }
+  return normals;
 }
 
 }  // namespace organ_collision

@@ -1,13 +1,9 @@
 #pragma once
 
-#include <ros/ros.h>
 #include <ros/time.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
 #include <visualization_msgs/MarkerArray.h>
 
 #include <Eigen/Geometry>
-#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -15,19 +11,15 @@
 #include <tuple>
 #include <vector>
 
+#include "renderer.hpp"
+
 namespace organ_collision {
 
 /// The markers that RViz would show at a time.
 class MarkerStore {
  public:
-  /// A marker is replaced by the next one with the same topic, namespace and id.
-  struct Key {
-    std::string topic, ns;
-    std::int32_t id;
-    bool operator<(const Key& other) const {
-      return std::tie(topic, ns, id) < std::tie(other.topic, other.ns, other.id);
-    }
-  };
+  /// Topic, namespace and id. A marker is replaced by the next one with the same key.
+  using Key = std::tuple<std::string, std::string, int>;
 
   struct Entry {
     visualization_msgs::Marker marker;
@@ -50,37 +42,25 @@ class MarkerStore {
   const std::map<Key, Entry>& entries() const { return entries_; }
 
  private:
+  template <typename Condition>
+  void erase_if(Condition condition);
+
   std::map<Key, Entry> entries_;
 };
 
-/// Receives the markers of several topics, and places them in the fixed frame by TF.
-class MarkerListener {
- public:
-  /// `frame`: the fixed frame. Empty: that of the first marker.
-  MarkerListener(const std::vector<std::string>& topics, const std::string& frame);
+/// Adds the triangles of a marker, as RViz shows it: a list of triangles with a colour for each
+/// corner has no light, and lines face the viewer. Unlike in RViz, surfaces are smooth. Draws the
+/// types that the nodes and examples of the package publish, except texts, which add nothing.
+/// `T_picture_header`: the pose of the marker's header frame in the picture's frame. `axes`: of the
+/// camera, as in Camera. Throws InputError if the marker is illegal or of another type; then
+/// nothing is added.
+void add_marker(const visualization_msgs::Marker& marker, const Eigen::Isometry3d& T_picture_header,
+                const Eigen::Matrix3d& axes, PictureTriangles& picture);
 
-  /// Handles messages for a short time. Afterwards, `markers` are those that RViz would show now.
-  void update();
-
-  const MarkerStore& markers() const { return markers_; }
-  bool has_placed_marker() const;
-  /// Whether a node publishes any of the topics.
-  bool has_publisher() const;
-  /// Why markers are not placed: by frame, the error of TF.
-  const std::map<std::string, std::string>& missing_transforms() const {
-    return missing_transforms_;
-  }
-
- private:
-  void receive(const std::string& topic, const visualization_msgs::MarkerArray& message);
-  std::optional<Eigen::Isometry3d> look_up(const std::string& frame, const ros::Time& stamp);
-
-  std::string frame_;
-  MarkerStore markers_;
-  std::map<std::string, std::string> missing_transforms_;
-  tf2_ros::Buffer buffer_;
-  tf2_ros::TransformListener listener_;
-  std::vector<ros::Subscriber> subscribers_;
-};
+/// The unit normal of each corner of triangles, for the light. Each three consecutive points are a
+/// triangle, with its outward normal by the right-hand rule. Faces that meet at a point with a
+/// small angle between them share their normal there, so a curved surface looks smooth and an edge
+/// stays sharp. A degenerate triangle has zero normals.
+std::vector<Eigen::Vector3d> smooth_normals(const std::vector<Eigen::Vector3d>& triangles);
 
 }  // namespace organ_collision

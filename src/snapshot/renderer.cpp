@@ -14,8 +14,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "picking/volumes/viewing_volume.hpp"
-
 namespace organ_collision {
 namespace {
 
@@ -117,10 +115,6 @@ void draw(const GlFunctions& gl, const std::vector<GlTriangle>& triangles) {
 }
 
 }  // namespace
-
-Eigen::Matrix3d view_axes(const Eigen::Vector3d& to_eye, const Eigen::Vector3d& up) {
-  return camera_axes(to_eye, up.normalized().cross(to_eye.normalized()));
-}
 
 Eigen::Vector3d centre(const PictureTriangles& triangles) {
   Eigen::AlignedBox3d box;

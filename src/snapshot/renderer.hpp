@@ -34,10 +34,6 @@ struct Camera {
 /// [rad] The vertical field of view, as in RViz.
 inline constexpr double kFieldOfView = 0.785;
 
-/// The axes of a camera that looks against `to_eye` (not zero). y is close to `up`; where both are
-/// parallel, it is close to a frame axis instead.
-Eigen::Matrix3d view_axes(const Eigen::Vector3d& to_eye, const Eigen::Vector3d& up);
-
 /// The centre of the box around the triangles, which is aligned with the frame. There must be a
 /// triangle.
 Eigen::Vector3d centre(const PictureTriangles& triangles);

@@ -1,22 +1,30 @@
 /// snapshot: pictures of the markers that the node publishes for RViz, without a display.
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <map>
 #include <optional>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "geometry/concatenate.hpp"
-#include "marker_picture.hpp"
 #include "markers.hpp"
 #include "offline/user_input.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 #include "renderer.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {
@@ -40,7 +48,6 @@ The camera:
   --view A,E           where the viewer is, seen from the target: azimuth from the x axis to the
                        y axis, and elevation, in degrees
   --view X,Y,Z         the same as a direction; 1,-1,0.8
-  --up X,Y,Z           the direction that is upwards in the picture; 0,0,1
   --target X,Y,Z       the middle of the picture [m]; by default the centre of the scene
   --distance METRES    from the viewer to the target; by default the whole scene is shown
 
@@ -48,15 +55,14 @@ The picture:
   --output FILE        snapshot.png
   --size WxH           width and height in pixels, each from 16 to 4096; 800x600
   --background COLOUR  '#RRGGBB'; '#282d36', as in the package's configuration of RViz
-  --font FILE          a TrueType font for texts; DejaVu Sans (package fonts-dejavu-core)
 
 A sequence of pictures, for example for a video:
   --frames N           number of pictures; --output frame.png writes frame_0001.png and so on
   --rate HZ            pictures a second, by ROS time; 10
 The camera stays where it is for the first picture.
 
-All types of markers are drawn. Surfaces look smooth. Colours and textures inside of mesh files are
-not shown. Subscribes to the topics, /tf and /tf_static. Has no parameters and no services.
+Surfaces look smooth. Texts, mesh files, points and lists of cubes or spheres are not drawn.
+Subscribes to the topics, /tf and /tf_static. Has no parameters and no services.
 
 Exit status: 0 done; 1 no picture, with the reason on stderr; 2 an illegal option.
 )";
@@ -68,21 +74,19 @@ struct SnapshotOptions {
   std::string output = "snapshot.png";
   Eigen::Vector2i size{800, 600};          ///< [pixel] width and height
   Eigen::Vector3d to_eye{1.0, -1.0, 0.8};  ///< direction from the target to the viewer
-  Eigen::Vector3d up{0.0, 0.0, 1.0};
-  std::optional<Eigen::Vector3d> target;            ///< [m] none: the centre of the scene
-  std::optional<double> distance;                   ///< [m] none: the whole scene is in the picture
-  std::string frame;                                ///< empty: the frame of the first marker
-  Colour background{0.157F, 0.176F, 0.212F, 1.0F};  ///< dark, because texts are white
-  std::string font = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
+  std::optional<Eigen::Vector3d> target;   ///< [m] none: the centre of the scene
+  double distance = 0.0;                   ///< [m] 0: the whole scene is in the picture
+  std::string frame;                       ///< empty: the frame of the first marker
+  Colour background{0.157F, 0.176F, 0.212F, 1.0F};
   double after_sec = 0.5;     ///< from the first marker to the first picture
-  int frames = 0;             ///< 0: one picture, which is no sequence
+  std::size_t frames = 0;     ///< 0: one picture, which is no sequence
   double rate = 10.0;         ///< [Hz] pictures of a sequence
   double timeout_sec = 10.0;  ///< of the wall clock
 };
 
-constexpr int kShortestSide = 16;  // [pixel]
-constexpr int kMostFrames = 9999;  // four digits
-constexpr double kLongest = 1e6;   // [s], [m]
+constexpr int kShortestSide = 16;       // [pixel]
+constexpr double kLongest = 1e6;        // [s], [m]
+constexpr std::uint32_t kQueue = 4000;  // [messages]
 
 /// The finite numbers between separators, or none if the text is anything else.
 std::vector<double> numbers(const std::string& text, char separator = ',') {
@@ -103,19 +107,17 @@ std::optional<Eigen::Vector3d> vector(const std::string& text) {
   return Eigen::Vector3d(parts[0], parts[1], parts[2]);
 }
 
-std::optional<Eigen::Vector3d> direction(const std::string& text) {
-  const std::optional<Eigen::Vector3d> result = vector(text);
-  if (!result || result->isZero(0.0)) return std::nullopt;
-  return result->stableNormalized();
-}
-
 /// AZIMUTH,ELEVATION in degrees, or X,Y,Z.
 std::optional<Eigen::Vector3d> view(const std::string& text) {
   const std::vector<double> parts = numbers(text);
-  if (parts.size() != 2) return direction(text);
-  const double azimuth = parts[0] * M_PI / 180.0, elevation = parts[1] * M_PI / 180.0;
-  return Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
-                         std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  if (parts.size() == 2) {
+    const double azimuth = parts[0] * M_PI / 180.0, elevation = parts[1] * M_PI / 180.0;
+    return Eigen::Vector3d(std::cos(elevation) * std::cos(azimuth),
+                           std::cos(elevation) * std::sin(azimuth), std::sin(elevation));
+  }
+  const std::optional<Eigen::Vector3d> direction = vector(text);
+  if (!direction || direction->isZero(0.0)) return std::nullopt;
+  return direction->stableNormalized();
 }
 
 std::optional<Eigen::Vector2i> size(const std::string& text) {
@@ -128,20 +130,9 @@ std::optional<Eigen::Vector2i> size(const std::string& text) {
 }
 
 std::optional<Colour> colour(const std::string& text) {
-  if (text.size() != 7 || text[0] != '#' ||
-      text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos) {
-    return std::nullopt;
-  }
-  const auto channel = [&](std::size_t at) {
-    return static_cast<float>(std::stoi(text.substr(at, 2), nullptr, 16)) / 255.0F;
-  };
-  return Colour(channel(1), channel(3), channel(5), 1.0F);
-}
-
-std::optional<int> frames(const std::string& text) {
-  const std::optional<long long> count = parse_integer(text);
-  if (!count || *count < 1 || *count > kMostFrames) return std::nullopt;
-  return static_cast<int>(*count);
+  if (!std::regex_match(text, std::regex("#[[:xdigit:]]{6}"))) return std::nullopt;
+  const unsigned long rgb = std::stoul(text.substr(1), nullptr, 16);
+  return Colour(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255, 255) / 255.0F;
 }
 
 /// Sets `value` to what `read` makes of the text of an option, if it makes something of it.
@@ -159,7 +150,6 @@ CommandLine::Take set(Value& value, Read read) {
 std::optional<SnapshotOptions> parse_options(const std::vector<std::string>& arguments) {
   SnapshotOptions options;
   std::vector<std::string> topics;
-  double distance = 0.0;
   CommandLine line("snapshot");
   line.texts("topic", topics);
   line.texts("hide", options.hidden);
@@ -168,57 +158,52 @@ std::optional<SnapshotOptions> parse_options(const std::vector<std::string>& arg
   line.number("timeout", options.timeout_sec, 0.0, kLongest);
   line.option("view", "AZIMUTH,ELEVATION in degrees, or X,Y,Z, not all 0",
               set(options.to_eye, view));
-  line.option("up", "X,Y,Z, not all 0", set(options.up, direction));
   line.option("target", "X,Y,Z", set(options.target, vector));
-  line.number("distance", distance, 1e-3, kLongest);
+  line.number("distance", options.distance, 1e-3, kLongest);
   line.text("output", options.output);
   line.option("size", concatenate("WIDTHxHEIGHT, each from ", kShortestSide, " to ", kLongestSide),
               set(options.size, size));
   line.option("background", "#RRGGBB in hexadecimal digits, for example '#ffffff'",
               set(options.background, colour));
-  line.text("font", options.font);
-  line.option("frames", concatenate("a whole number from 1 to ", kMostFrames),
-              set(options.frames, frames));
+  line.count("frames", options.frames, 9999);  // Their files have four digits.
   line.number("rate", options.rate, 0.01, 1000.0);
   if (!line.read(arguments)) return std::nullopt;
   if (!topics.empty()) options.topics = topics;
-  if (distance > 0.0) options.distance = distance;
   return options;
 }
 
-/// Whether the namespace, or one that contains it, is hidden: "surface" contains "surface/liver".
-bool is_hidden(const std::string& marker_namespace, const std::vector<std::string>& hidden) {
-  return std::any_of(hidden.begin(), hidden.end(), [&](const std::string& name) {
-    return (marker_namespace + "/").compare(0, name.size() + 1, name + "/") == 0;
-  });
-}
-
 /// The file of a picture of a sequence: number 1 of "frame.png" is "frame_0001.png".
-std::string numbered_file(const std::string& file, int number) {
-  const std::size_t slash = file.rfind('/');
-  const std::size_t dot = file.rfind('.');
-  const bool has_ending = dot != std::string::npos && (slash == std::string::npos || dot > slash);
-  const std::size_t end = has_ending ? dot : file.size();
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "_%04d", number);
-  return file.substr(0, end) + digits + file.substr(end);
+std::string numbered_file(const std::string& file, std::size_t number) {
+  const std::filesystem::path path(file);
+  char digits[8];
+  std::snprintf(digits, sizeof digits, "_%04d", static_cast<int>(number));
+  return path.parent_path() / (path.stem().string() + digits + path.extension().string());
 }
 
+/// Receives the markers of several topics, places them in the fixed frame by TF, and takes
+/// pictures.
 class Snapshot {
  public:
   explicit Snapshot(const SnapshotOptions& options)
       : options_(options),
-        axes_(view_axes(options.to_eye, options.up)),
-        markers_(options.topics, options.frame),
-        picture_(axes_, options.font),
-        renderer_(options.size.x(), options.size.y()) {}
+        axes_(camera_axes(options.to_eye, Eigen::Vector3d::UnitZ().cross(options.to_eye))),
+        frame_(tf_frame(options.frame)),
+        renderer_(options.size.x(), options.size.y()) {
+    for (const std::string& topic : options.topics) {
+      subscribers_.push_back(node_.subscribe<visualization_msgs::MarkerArray>(
+          topic, kQueue, [this, topic](const visualization_msgs::MarkerArrayConstPtr& message) {
+            receive(topic, *message);
+          }));
+    }
+  }
 
   void take_all() {
     wait_for_marker();
     const ros::Time first = ros::Time::now() + ros::Duration(options_.after_sec);
     if (options_.frames == 0) return take(first, options_.output);
-    for (int i = 0; i < options_.frames; ++i) {
-      take(first + ros::Duration(i / options_.rate), numbered_file(options_.output, i + 1));
+    for (std::size_t i = 0; i < options_.frames; ++i) {
+      const ros::Duration since_first(static_cast<double>(i) / options_.rate);
+      take(first + since_first, numbered_file(options_.output, i + 1));
     }
     if (latest_ > 1.0 / options_.rate) {
       warn(concatenate("the machine is too slow for --rate ", options_.rate,
@@ -227,16 +212,60 @@ class Snapshot {
   }
 
  private:
+  void receive(const std::string& topic, const visualization_msgs::MarkerArray& message) {
+    markers_.apply(topic, message, ros::Time::now());
+    const auto& entries = markers_.entries();
+    if (frame_.empty() && !entries.empty()) {
+      frame_ = tf_frame(entries.begin()->second.marker.header.frame_id);
+    }
+  }
+
+  std::optional<Eigen::Isometry3d> look_up(const std::string& frame, const ros::Time& stamp) {
+    if (tf_frame(frame) == frame_) return Eigen::Isometry3d::Identity();
+    try {
+      return to_eigen(buffer_.lookupTransform(frame_, tf_frame(frame), stamp).transform);
+    } catch (const tf2::TransformException& error) {
+      missing_transforms_[frame] = error.what();
+      return std::nullopt;
+    }
+  }
+
+  /// Handles messages for a short time. Afterwards, the markers are those that RViz would show now.
   void update() {
-    markers_.update();
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
+    markers_.expire(ros::Time::now());
+    missing_transforms_.clear();
+    markers_.place(
+        [this](const std::string& frame, const ros::Time& stamp) { return look_up(frame, stamp); });
     if (!ros::ok()) throw std::runtime_error("interrupted");
+  }
+
+  bool has_placed_marker() const {
+    const auto& entries = markers_.entries();
+    return std::any_of(entries.begin(), entries.end(),
+                       [](const auto& entry) { return entry.second.T_fixed_header.has_value(); });
   }
 
   void wait_for_marker() {
     const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(options_.timeout_sec);
-    for (update(); !markers_.has_placed_marker(); update()) {
+    for (update(); !has_placed_marker(); update()) {
       if (ros::SteadyTime::now() > end) throw std::runtime_error(why_no_marker());
     }
+  }
+
+  std::string why_no_marker() const {
+    std::string topics;
+    bool has_publisher = false;
+    for (const ros::Subscriber& subscriber : subscribers_) {
+      topics += " " + subscriber.getTopic();
+      has_publisher |= subscriber.getNumPublishers() > 0;
+    }
+    if (!has_publisher) {
+      return "no node publishes" + topics + "; `rostopic list` shows what there is";
+    }
+    if (missing_transforms_.empty()) return "no marker came within the timeout on" + topics;
+    const auto& [frame, error] = *missing_transforms_.begin();
+    return "the markers of frame '" + frame + "' have no transform: " + error;
   }
 
   /// Simulated time may be slow, but it must go on.
@@ -263,18 +292,27 @@ class Snapshot {
     write_png(file, renderer_.render(triangles, camera_, options_.background));
   }
 
+  /// Whether the namespace, or one that contains it, is hidden: "surface" contains "surface/liver".
+  bool is_hidden(const std::string& marker_namespace) const {
+    return std::any_of(options_.hidden.begin(), options_.hidden.end(),
+                       [&](const std::string& hidden) {
+                         return boost::starts_with(marker_namespace + '/', hidden + '/');
+                       });
+  }
+
   PictureTriangles scene() {
     PictureTriangles triangles;
-    for (const auto& [key, entry] : markers_.markers().entries()) {
-      if (!entry.T_fixed_header || is_hidden(key.ns, options_.hidden)) continue;
+    for (const auto& [key, entry] : markers_.entries()) {
+      const auto& [topic, name_space, id] = key;
+      if (!entry.T_fixed_header || is_hidden(name_space)) continue;
       try {
-        picture_.add(entry.marker, *entry.T_fixed_header, triangles);
+        add_marker(entry.marker, *entry.T_fixed_header, axes_, triangles);
       } catch (const InputError& error) {
-        warn(concatenate("marker ", key.ns, "/", key.id, " of ", key.topic,
+        warn(concatenate("marker ", name_space, "/", id, " of ", topic,
                          " is left out: ", error.what()));
       }
     }
-    for (const auto& [frame, error] : markers_.missing_transforms()) {
+    for (const auto& [frame, error] : missing_transforms_) {
       warn(concatenate("the markers of frame '", frame, "' are left out: ", error));
     }
     return triangles;
@@ -282,24 +320,11 @@ class Snapshot {
 
   void set_camera(const PictureTriangles& triangles) {
     const Eigen::Vector3d target = options_.target.value_or(centre(triangles));
-    const double distance = options_.distance
-                                ? *options_.distance
+    const double distance = options_.distance > 0.0
+                                ? options_.distance
                                 : framing_distance(triangles, target, axes_, renderer_.aspect());
     camera_ = {target + distance * axes_.col(2), axes_};
     is_framed_ = true;
-  }
-
-  std::string why_no_marker() const {
-    std::string topics;
-    for (const std::string& topic : options_.topics) topics += " " + ros::names::resolve(topic);
-    if (!markers_.has_publisher()) {
-      return "no node publishes" + topics + "; `rostopic list` shows what there is";
-    }
-    if (!markers_.missing_transforms().empty()) {
-      const auto& [frame, error] = *markers_.missing_transforms().begin();
-      return "the markers of frame '" + frame + "' have no transform: " + error;
-    }
-    return "no marker came within the timeout on" + topics;
   }
 
   /// Says everything only once.
@@ -308,9 +333,14 @@ class Snapshot {
   }
 
   const SnapshotOptions& options_;
-  Eigen::Matrix3d axes_;
-  MarkerListener markers_;
-  MarkerPicture picture_;
+  Eigen::Matrix3d axes_;  ///< of the camera
+  std::string frame_;     ///< the fixed frame; empty: that of the first marker
+  ros::NodeHandle node_;
+  MarkerStore markers_;
+  std::map<std::string, std::string> missing_transforms_;  ///< by frame: the error of TF
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_{buffer_};
+  std::vector<ros::Subscriber> subscribers_;
   Renderer renderer_;
   Camera camera_;
   bool is_framed_ = false;
@@ -318,34 +348,26 @@ class Snapshot {
   std::set<std::string> said_;
 };
 
-int run(int argc, char** argv) {
-  try {
-    std::vector<std::string> arguments;
-    ros::removeROSArgs(argc, argv, arguments);
-    const std::optional<SnapshotOptions> options =
-        parse_options({arguments.begin() + 1, arguments.end()});
-    if (!options) {
-      std::cout << kUsage;
-      return 0;
-    }
-    ros::init(argc, argv, "snapshot", ros::init_options::AnonymousName);
-    if (!ros::master::check()) {
-      throw std::runtime_error("there is no ROS master at " + ros::master::getURI() +
-                               "; start the scene first, for example with roslaunch");
-    }
-    const ros::NodeHandle node;  // It keeps ROS running after the markers' own handle is gone.
-    Snapshot(*options).take_all();
-    return 0;
-  } catch (const InputError& error) {
-    std::cerr << error.what() << std::endl;
-    return 2;
-  } catch (const std::exception& error) {
-    std::cerr << "snapshot: " << error.what() << std::endl;
-    return 1;
+void run(int argc, char** argv) {
+  std::vector<std::string> arguments;
+  ros::removeROSArgs(argc, argv, arguments);
+  const std::optional<SnapshotOptions> options =
+      parse_options({arguments.begin() + 1, arguments.end()});
+  if (!options) {
+    std::cout << kUsage;
+    return;
   }
+  ros::init(argc, argv, "snapshot", ros::init_options::AnonymousName);
+  if (!ros::master::check()) {
+    throw std::runtime_error("there is no ROS master at " + ros::master::getURI() +
+                             "; start the scene first, for example with roslaunch");
+  }
+  Snapshot(*options).take_all();
 }
 
 }  // namespace
 }  // namespace organ_collision
 
-int main(int argc, char** argv) { return organ_collision::run(argc, argv); }
+int main(int argc, char** argv) {
+  return organ_collision::exit_code("snapshot", [&] { organ_collision::run(argc, argv); });
+}

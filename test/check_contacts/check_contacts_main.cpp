@@ -4,19 +4,17 @@
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <iostream>
 #include <list>
 
 #include "contact_contract.hpp"
+#include "offline/user_input.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {
-
-namespace po = boost::program_options;
 
 constexpr int kNothingFound = 0, kFound = 1, kIllegalOption = 2, kNoAnswer = 3;
 /// [messages] That may wait while this program is busy. If more wait, the oldest are lost.
@@ -36,8 +34,10 @@ rise by face and link, near faces by distance; names are legal; a failure has a 
 else; static answers have no time but one; clearance and placement agree with themselves; a swept
 step begins where the last successful step of its organ and tool ended.
 
-Exit status: 0 nothing found; 1 something found; 2 an illegal option; 3 no answer came.
+  --seconds S  how long to watch, by the wall clock; until Ctrl-C by default
+  --help       this text
 
+Exit status: 0 nothing found; 1 something found; 2 an illegal option; 3 no answer came.
 )";
 
 /// Checks the answers of several topics, and logs and counts what they break. All its work is done
@@ -120,28 +120,16 @@ int watch(const std::vector<std::string>& topics, double seconds) {
 
 int run(int argc, char** argv) {
   std::vector<std::string> topics, words;
-  double seconds = 0.0;
-  po::options_description options("Options");
-  options.add_options()("help,h", "this text")(
-      "seconds", po::value(&seconds)->default_value(INFINITY, "until Ctrl-C"),
-      "how long to watch, by the wall clock");
-  po::options_description all;
-  all.add(options).add_options()(
-      "topic", po::value(&topics)->default_value({"organ_collision/contacts"}, ""));
+  double seconds = INFINITY;
+  CommandLine line("check_contacts");
+  line.number("seconds", seconds, 0.001, 1e9);
   ros::removeROSArgs(argc, argv, words);
   words.erase(words.begin());
-  po::variables_map values;
-  po::store(po::command_line_parser(words)
-                .options(all)
-                .positional(po::positional_options_description().add("topic", -1))
-                .run(),
-            values);
-  po::notify(values);
-  if (values.count("help") > 0) {
-    std::cout << kHelp << options;
+  if (!line.read(words, &topics)) {
+    std::cout << kHelp;
     return kNothingFound;
   }
-  if (!(seconds > 0.0)) throw po::error("--seconds must be positive");
+  if (topics.empty()) topics = {"organ_collision/contacts"};
   ros::init(argc, argv, "check_contacts");
   return watch(topics, seconds);
 }
@@ -149,9 +137,10 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace organ_collision
 
-int main(int argc, char** argv) try {
-  return organ_collision::run(argc, argv);
-} catch (const std::exception& error) {  // An illegal option, or an illegal name of a topic.
-  std::cerr << "check_contacts: " << error.what() << std::endl;
-  return organ_collision::kIllegalOption;
+int main(int argc, char** argv) {
+  using namespace organ_collision;
+  int found = kNothingFound;
+  // An illegal option, or an illegal name of a topic.
+  const bool is_refused = exit_code("check_contacts", [&] { found = run(argc, argv); }) != 0;
+  return is_refused ? kIllegalOption : found;
 }

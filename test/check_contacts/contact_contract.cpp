@@ -1,6 +1,325 @@
 #include "contact_contract.hpp"
 
+#include <Eigen/Core>
+#include <cmath>
+#include <ostream>
+#include <set>
+#include <utility>
+
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
+
 namespace organ_collision {
+namespace {
+
+using Eigen::Vector3d;
+
+/// [1] Lengths of normals, and barycentric coordinates, may be rounded by this much.
+constexpr double kRounding = 1e-6;
+/// [m] Distances, and places that must be the same, may differ by this much, and by this share of
+/// their distance from the frame's origin.
+constexpr double kSamePlace = 1e-6;
+constexpr double kSameShare = 1e-9;
+/// [m] A face at this depth may count as touched or as near.
+constexpr double kTouching = 1e-9;
+/// The largest legal value of the node's parameter max_faces.
+constexpr std::uint32_t kMostFaces = 83333333;
+
+double same_place(const Vector3d& place) { return kSamePlace + kSameShare * place.norm(); }
+
+/// What a rule is checked on, for its sentence: "contacts[3] (face 17)".
+struct Place {
+  const char* list;
+  std::size_t index;
+  std::uint32_t face;
+};
+
+std::ostream& operator<<(std::ostream& stream, const Place& place) {
+  return stream << place.list << '[' << place.index << "] (face " << place.face << ')';
+}
+
+/// Checks one answer. Each function collects what it finds in faults_.
+class AnswerCheck {
+ public:
+  explicit AnswerCheck(const ContactArray& answer) : answer_(answer) {}
+
+  Faults run() {
+    const bool is_ok = answer_.status == ContactArray::OK;
+    require(answer_.status <= ContactArray::INVALID_TOOL, "status", "status is ",
+            int{answer_.status}, "; must be from 0 to ", int{ContactArray::INVALID_TOOL});
+    require(!is_ok || answer_.mode <= ContactArray::PAPER_NAIVE, "mode", "mode is ",
+            int{answer_.mode}, "; must be from 0 to ", int{ContactArray::PAPER_NAIVE});
+    check_text("message", answer_.message, kLongestMessage);
+    is_ok ? check_success() : check_failure();
+    return std::move(faults_);
+  }
+
+ private:
+  template <typename... Parts>
+  void require(bool is_kept, const char* rule, const Parts&... parts) {
+    if (!is_kept) faults_.add(rule, parts...);
+  }
+
+  void check_text(const char* what, const std::string& text, std::size_t most) {
+    require(text.size() <= most && plain_text(text, most) == text, "texts", what, " is '",
+            plain_text(text, kLongestName), "', of ", text.size(),
+            " bytes; must be plain text of at most ", most, " bytes");
+  }
+
+  /// The names of an answer that is OK are legal and not empty.
+  void check_name(const char* what, const std::string& name) {
+    const std::string fault = name.empty() ? "is empty" : name_fault(name);
+    require(fault.empty(), "names", what, " ", fault);
+  }
+
+  /// Of a failure, nothing is known.
+  void check_failure() {
+    require(!answer_.message.empty(), "messages", "status is ", int{answer_.status},
+            ", and message is empty");
+    check_text("frame_id", answer_.header.frame_id, kLongestName);
+    check_text("organ", answer_.organ, kLongestName);
+    check_text("tool", answer_.tool, kLongestName);
+    require(answer_.contacts.empty() && answer_.regions.empty() && answer_.near.empty() &&
+                answer_.unresolved == 0 && answer_.near_left_out == 0 &&
+                answer_.near_unresolved == 0 && answer_.clearance.state == Clearance::NOT_ASKED &&
+                answer_.placement == ToolPlacement(),
+            "failures", "status is ", int{answer_.status},
+            ", but there are contacts, near faces, a clearance or a placement");
+  }
+
+  void check_success() {
+    require(answer_.message.empty() != (answer_.path_incomplete != 0), "messages",
+            "status is OK, path_incomplete is ", answer_.path_incomplete != 0, ", and message is '",
+            plain_text(answer_.message, kLongestName),
+            "'; must be empty unless path_incomplete is true");
+    check_name("frame_id", answer_.header.frame_id);
+    check_name("organ", answer_.organ);
+    require(!answer_.links.empty(), "names", "links is empty; a tool has a shaft or links");
+    for (std::size_t i = 0; i < answer_.links.size(); ++i) {
+      // Only a shaft has no name, and it comes first.
+      if (i > 0 || !answer_.links[i].empty()) check_name("a link", answer_.links[i]);
+    }
+    const ros::Time start = answer_.step_start, end = answer_.header.stamp;
+    require(is_static() ? start == end : start <= end, "stamps", "the step runs from ", start,
+            " to ", end, "; must not run backwards, and a static one takes no time");
+    if (answer_.mode >= ContactArray::PAPER_STATIC) return;
+    check_touched_faces();
+    check_near_faces();
+    check_clearance();
+    check_placement();
+  }
+
+  bool is_static() const { return answer_.mode == ContactArray::STATIC; }
+
+  // The rules of single fields.
+
+  void check_finite(const Place& place, const char* field, double value) {
+    require(std::isfinite(value), "finite numbers", field, " of ", place, " is ", value,
+            "; must be finite");
+  }
+  void check_finite(const Place& place, const char* field, const geometry_msgs::Point& value) {
+    const Vector3d point = to_eigen(value);
+    require(point.allFinite(), "finite numbers", field, " of ", place, " is ", point.transpose(),
+            "; must be finite");
+  }
+
+  void check_share(const Place& place, const char* field, double value) {
+    require(value >= 0.0 && value <= 1.0, "shares", field, " of ", place, " is ", value,
+            "; must be from 0 to 1");
+  }
+
+  void check_unit(const Place& place, const geometry_msgs::Vector3& normal) {
+    const Vector3d vector = to_eigen(normal);
+    require(std::abs(vector.norm() - 1.0) <= kRounding, "unit normals", "normal of ", place, " is ",
+            vector.transpose(), ", of length ", vector.norm(), "; must be 1");
+  }
+
+  void check_face(const Place& place) {
+    require(place.face < kMostFaces, "indices", place, ": no organ may have more than ", kMostFaces,
+            " faces");
+  }
+
+  void check_link(const Place& place, std::uint32_t link) {
+    require(link < answer_.links.size(), "indices", "link of ", place, " is ", link,
+            "; `links` has ", answer_.links.size(), " names");
+  }
+
+  void check_barycentric(const Place& place, const boost::array<double, 3>& barycentric) {
+    const Eigen::Map<const Vector3d> shares(barycentric.data());
+    const bool is_inside = shares.minCoeff() >= -kRounding && shares.maxCoeff() <= 1.0 + kRounding;
+    require(shares.allFinite() && is_inside && std::abs(shares.sum() - 1.0) <= kRounding,
+            "barycentric coordinates", "barycentric of ", place, " is ", shares.transpose(),
+            "; must be from 0 to 1 each, and 1 together");
+  }
+
+  // The rules of lists and groups.
+
+  void check_list(const char* list, const std::vector<Contact>& contacts) {
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const Contact& contact = contacts[i];
+      const Place place{list, i, contact.face};
+      check_face(place);
+      check_link(place, contact.link);
+      check_share(place, "fraction", contact.fraction);
+      check_share(place, "shaft", contact.shaft);
+      check_finite(place, "point", contact.point);
+      check_finite(place, "end_point", contact.end_point);
+      check_finite(place, "depth", contact.depth);
+      check_finite(place, "view_min", contact.view_min);
+      check_finite(place, "view_max", contact.view_max);
+      check_unit(place, contact.normal);
+      check_barycentric(place, contact.barycentric);
+      const bool is_of_shaft =
+          contact.link < answer_.links.size() && answer_.links[contact.link].empty();
+      require(is_of_shaft || contact.shaft == 0.0, "places on shafts", "shaft of ", place, " is ",
+              contact.shaft, "; must be 0, because this is a contact of a link");
+      if (!is_static()) continue;  // A static answer has no time but the end of the step.
+      require(contact.fraction == 0.0, "static answers", "fraction of ", place, " is ",
+              contact.fraction, "; must be 0 in a static answer");
+      const Vector3d point = to_eigen(contact.point), end = to_eigen(contact.end_point);
+      require(!((end - point).norm() > same_place(point)), "static answers", "end_point of ", place,
+              " is ", end.transpose(), ", and point is ", point.transpose(),
+              "; must be the same in a static answer");
+    }
+  }
+
+  void check_touched_faces() {
+    const std::vector<Contact>& contacts = answer_.contacts;
+    check_list("contacts", contacts);
+    for (std::size_t i = 1; i < contacts.size(); ++i) {
+      const Contact &before = contacts[i - 1], &contact = contacts[i];
+      require(std::pair(before.face, before.link) < std::pair(contact.face, contact.link),
+              "order of contacts", "contacts[", i, "] is of face ", contact.face, ", link ",
+              contact.link, ", after face ", before.face, ", link ", before.link,
+              "; must rise by face, then link");
+      require(before.face != contact.face || before.vertices == contact.vertices,
+              "corners of a face", "contacts[", i, "] has other vertices than contacts[", i - 1,
+              "], and both are of face ", contact.face);
+    }
+    const std::size_t regions = answer_.regions.size();
+    require(regions == 0 || regions == contacts.size(), "regions", regions, " regions of ",
+            contacts.size(), " contacts; must be none or as many");
+    require(answer_.unresolved <= contacts.size(), "unresolved", "unresolved is ",
+            answer_.unresolved, " of ", contacts.size(), " contacts");
+  }
+
+  /// A near face is named once, is not touched, and is within the margin. The nearest comes first.
+  void check_near_faces() {
+    const std::vector<Contact>& near = answer_.near;
+    check_list("near", near);
+    std::set<std::uint32_t> known;
+    for (const Contact& contact : answer_.contacts) known.insert(contact.face);
+    const double margin = answer_.clearance.margin;
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const Place place{"near", i, near[i].face};
+      const double depth = near[i].depth;
+      require(i == 0 || near[i - 1].depth >= depth, "order of near faces", place, " is at ", -depth,
+              " m, after one that is farther; the nearest must come first");
+      require(known.insert(near[i].face).second, "near faces", place,
+              " is touched, or named twice; must be near only");
+      require(!(depth > kTouching), "near faces", "depth of ", place, " is ", depth,
+              "; must be minus a distance");
+      require(!(margin > 0.0 && -depth > margin + kTouching), "near faces", place, " is at ",
+              -depth, " m; the margin is ", margin, " m");
+    }
+    const bool are_told = !near.empty() || answer_.near_left_out > 0 || answer_.near_unresolved > 0;
+    require(!are_told || answer_.clearance.state != Clearance::NOT_ASKED, "near faces",
+            "there are near faces, but nobody asked for the clearance");
+  }
+
+  void check_clearance() {
+    const Clearance& clearance = answer_.clearance;
+    require(clearance.state <= Clearance::KNOWN, "clearance", "state of the clearance is ",
+            int{clearance.state}, "; must be from 0 to ", int{Clearance::KNOWN});
+    if (clearance.state == Clearance::NOT_ASKED) return;
+    const bool is_legal = clearance.unlimited ? clearance.margin == 0.0 : clearance.margin > 0.0;
+    require(is_legal && std::isfinite(clearance.margin), "clearance", "margin of the clearance is ",
+            clearance.margin, "; must be positive, or 0 if it is unlimited");
+    // What touches at the end of the step is a contact, and what is a contact in a static answer
+    // touches.
+    const bool is_known = clearance.state == Clearance::KNOWN;
+    const double rounding = same_place(to_eigen(clearance.on_organ)), distance = clearance.distance;
+    require(!(is_known && answer_.contacts.empty() && distance < -rounding), "clearance",
+            "distance of the clearance is ", distance,
+            "; what it touches must be among the contacts");
+    const bool must_touch =
+        is_static() && answer_.contacts.size() > answer_.unresolved && !clearance.unresolved;
+    require(!must_touch || (is_known && !(distance > rounding)), "clearance",
+            "faces are touched, but the state of the clearance is ", int{clearance.state},
+            ", and its distance ", distance);
+    if (is_known) check_known_clearance();
+  }
+
+  void check_known_clearance() {
+    const Clearance& clearance = answer_.clearance;
+    const Place place{"clearance", 0, clearance.face};
+    check_face(place);
+    check_link(place, clearance.link);
+    check_finite(place, "distance", clearance.distance);
+    check_finite(place, "least", clearance.least);
+    check_share(place, "least_fraction", clearance.least_fraction);
+    check_finite(place, "on_organ", clearance.on_organ);
+    check_finite(place, "on_tool", clearance.on_tool);
+    check_unit(place, clearance.normal);
+    check_barycentric(place, clearance.barycentric);
+    require(clearance.unlimited || clearance.distance <= clearance.margin + kSamePlace, "clearance",
+            "distance of the clearance is ", clearance.distance, "; must be at most its margin, ",
+            clearance.margin);
+    const Vector3d on_organ = to_eigen(clearance.on_organ);
+    const Vector3d between = on_organ - to_eigen(clearance.on_tool);
+    const Vector3d expected = clearance.distance * to_eigen(clearance.normal);
+    require((between - expected).norm() <= same_place(on_organ), "clearance",
+            "on_organ - on_tool of the clearance is ", between.transpose(),
+            ", and distance * normal is ", expected.transpose(), "; must be the same");
+    const bool is_least_legal =
+        is_static() ? clearance.least == clearance.distance && clearance.least_fraction == 0.0
+                    : (answer_.contacts.empty() ? clearance.least <= clearance.distance
+                                                : clearance.least == 0.0);
+    require(is_least_legal, "clearance", "least of the clearance is ", clearance.least, " at ",
+            clearance.least_fraction, " of the step, and its distance ", clearance.distance,
+            "; least must be the distance, at 0, in a static answer, 0 if faces were touched, and "
+            "never more than the distance");
+  }
+
+  void check_placement() {
+    const ToolPlacement& placement = answer_.placement;
+    for (const std::uint8_t side : {placement.tip, placement.trocar}) {
+      require(side <= ToolPlacement::ON_SURFACE, "placement", "a side of the placement is ",
+              int{side}, "; must be from 0 to ", int{ToolPlacement::ON_SURFACE});
+    }
+    const bool are_sides_known =
+        placement.tip != ToolPlacement::UNKNOWN && placement.trocar != ToolPlacement::UNKNOWN;
+    require((placement.length_known != 0) == are_sides_known, "placement", "length_known is ",
+            int{placement.length_known}, "; must be 1 if the sides of tip and trocar are known");
+    const double length = placement.length_inside;
+    require(placement.length_known ? length >= 0.0 && std::isfinite(length) : length == 0.0,
+            "placement", "length_inside is ", length, "; must be a length, or 0 if it is unknown");
+    const std::vector<Crossing>& crossings = placement.crossings;
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+      const Crossing& crossing = crossings[i];
+      const Place place{"crossings", i, crossing.face};
+      check_face(place);
+      check_barycentric(place, crossing.barycentric);
+      check_share(place, "shaft", crossing.shaft);
+      check_finite(place, "point", crossing.point);
+      require(std::abs(crossing.direction) == 1, "crossings", "direction of ", place, " is ",
+              int{crossing.direction}, "; must be 1 or -1");
+      require(i == 0 || !(crossings[i - 1].shaft > crossing.shaft), "crossings", place, " is at ",
+              crossing.shaft, " of the shaft, after one beyond; must go from trocar to tip");
+    }
+    const bool has_shaft = !answer_.links.empty() && answer_.links.front().empty();
+    require(has_shaft || (placement.trocar == ToolPlacement::UNKNOWN && crossings.empty()),
+            "placement", "the tool has no shaft, but the placement has a side of its trocar or ",
+            crossings.size(), " crossings");
+  }
+
+  const ContactArray& answer_;
+  Faults faults_;
+};
+
+}  // namespace
+
+Faults check_answer(const ContactArray& answer) { return AnswerCheck(answer).run(); }
 
 Faults ContactContract::check(const ContactArray& answer, const std::string& publisher) {
   Faults faults = check_answer(answer);

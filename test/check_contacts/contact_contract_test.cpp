@@ -2,12 +2,264 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <limits>
 #include <string>
-
-#include "test/check_contacts/good_answer.hpp"
 
 namespace organ_collision {
 namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Contact good_contact(std::uint32_t face, std::uint32_t link) {
+  Contact contact;
+  contact.face = face;
+  contact.vertices = {face, face + 1, face + 2};
+  contact.link = link;
+  contact.fraction = 0.25;
+  contact.normal.y = 0.6;
+  contact.normal.z = -0.8;
+  contact.barycentric = {0.2, 0.3, 0.5};
+  contact.shaft = link == 0 ? 0.75 : 0.0;
+  contact.point.x = 0.01;
+  contact.end_point.x = 0.02;
+  contact.depth = 0.003;
+  return contact;
+}
+
+Contact near_contact(std::uint32_t face, double distance) {
+  Contact contact = good_contact(face, 0);
+  contact.depth = -distance;
+  return contact;
+}
+
+Clearance good_clearance() {
+  Clearance clearance;
+  clearance.state = Clearance::KNOWN;
+  clearance.margin = 0.05;
+  clearance.distance = 0.01;
+  clearance.least = 0.0;  // Faces were touched.
+  clearance.least_fraction = 0.25;
+  clearance.face = 4;
+  clearance.barycentric = {0.0, 1.0, 0.0};
+  clearance.on_organ.z = -0.01;
+  clearance.normal.z = -1.0;
+  return clearance;
+}
+
+ToolPlacement good_placement() {
+  ToolPlacement placement;
+  placement.tip = ToolPlacement::INSIDE;
+  placement.trocar = ToolPlacement::OUTSIDE;
+  placement.length_known = true;
+  placement.length_inside = 0.02;
+  Crossing crossing;
+  crossing.barycentric = {0.3, 0.3, 0.4};
+  crossing.direction = 1;
+  for (const double shaft : {0.5, 0.6}) {
+    crossing.shaft = shaft;
+    placement.crossings.push_back(crossing);
+    crossing.direction = -1;
+  }
+  return placement;
+}
+
+/// A swept answer about a tool with a shaft and a link, in which nothing is wrong.
+ContactArray good_answer() {
+  ContactArray answer;
+  answer.header.frame_id = "liver_frame";
+  answer.header.stamp = ros::Time(5, 100);
+  answer.header.seq = 1;
+  answer.step_start = ros::Time(5, 50);
+  answer.organ = "liver";
+  answer.tool = "grasper";
+  answer.links = {"", "jaw"};
+  answer.mode = ContactArray::SWEPT;
+  answer.contacts = {good_contact(3, 0), good_contact(3, 1), good_contact(7, 0)};
+  answer.regions.resize(3);
+  answer.near = {near_contact(9, 0.001), near_contact(2, 0.002)};
+  answer.clearance = good_clearance();
+  answer.placement = good_placement();
+  return answer;
+}
+
+/// The same at one moment.
+ContactArray good_static_answer() {
+  ContactArray answer = good_answer();
+  answer.mode = ContactArray::STATIC;
+  answer.step_start = answer.header.stamp;
+  for (auto* list : {&answer.contacts, &answer.near}) {
+    for (Contact& contact : *list) {
+      contact.fraction = 0.0;
+      contact.end_point = contact.point;
+    }
+  }
+  answer.clearance.distance = answer.clearance.least = -0.003;
+  answer.clearance.least_fraction = 0.0;
+  answer.clearance.on_organ.z = 0.003;
+  return answer;
+}
+
+ContactArray good_failure() {
+  ContactArray answer;
+  answer.header.stamp = ros::Time(5, 100);
+  answer.organ = "liver";
+  answer.tool = "grasper";
+  answer.links = {""};
+  answer.status = ContactArray::NO_TRANSFORM;
+  answer.message = "frame 'a' is not known";
+  return answer;
+}
+
+/// The rules that an answer breaks: "a, b".
+std::string broken_rules(const ContactArray& answer) {
+  std::string rules;
+  const Faults faults = check_answer(answer);
+  for (const Fault& fault : faults.all()) {
+    rules += (rules.empty() ? "" : ", ") + fault.rule;
+  }
+  return rules;
+}
+
+TEST(AnswerRulesTest, GoodAnswersBreakNone) {
+  EXPECT_EQ(broken_rules(good_answer()), "");
+  EXPECT_EQ(broken_rules(good_static_answer()), "");
+  EXPECT_EQ(broken_rules(good_failure()), "");
+
+  ContactArray nothing = good_answer();
+  nothing.contacts.clear();
+  nothing.regions.clear();
+  nothing.near.clear();
+  nothing.clearance = {};
+  nothing.placement = {};
+  EXPECT_EQ(broken_rules(nothing), "");
+  nothing.links = {"wrist", "jaw"};  // The first link may have a name.
+  nothing.clearance.state = Clearance::BEYOND_MARGIN;
+  nothing.clearance.margin = 0.01;
+  EXPECT_EQ(broken_rules(nothing), "");
+  nothing.links[0] = std::string(10000, 'w');
+  EXPECT_EQ(broken_rules(nothing), "names");
+
+  ContactArray unresolved = good_static_answer();  // An upper bound may be above a contact's.
+  unresolved.clearance.distance = unresolved.clearance.least = 0.01;
+  unresolved.clearance.on_organ.z = -0.01;
+  unresolved.clearance.unresolved = true;
+  EXPECT_EQ(broken_rules(unresolved), "");
+
+  ContactArray paper = good_answer();  // Paper modes have no geometry.
+  paper.mode = ContactArray::PAPER_SWEPT;
+  paper.contacts[0].normal = {};
+  EXPECT_EQ(broken_rules(paper), "");
+}
+
+TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
+  const std::pair<const char*, std::function<void(ContactArray&)>> flaws[] = {
+      {"failures", [](auto& a) { a.status = 2, a.message = "late"; }},
+      {"status", [](auto& a) { a = good_failure(), a.status = 9; }},
+      {"mode", [](auto& a) { a.mode = 5; }},
+      {"messages", [](auto& a) { a.message = "but"; }},
+      {"messages", [](auto& a) { a = good_failure(), a.message = ""; }},
+      {"texts", [](auto& a) { a = good_failure(), a.organ = "a\nb"; }},
+      {"texts", [](auto& a) { a = good_failure(), a.message.assign(2001, 'x'); }},
+      {"names", [](auto& a) { a.header.frame_id = ""; }},
+      {"names", [](auto& a) { a.organ = ""; }},
+      {"names", [](auto& a) { a.organ.assign(257, 'x'); }},
+      {"names", [](auto& a) { a.links[1] = ""; }},
+      {"stamps", [](auto& a) { a.step_start = ros::Time(6); }},
+      {"stamps", [](auto& a) { a = good_static_answer(), a.step_start = ros::Time(4); }},
+      {"finite numbers", [](auto& a) { a.contacts[1].point.y = kNan; }},
+      {"finite numbers", [](auto& a) { a.contacts[1].end_point.z = kInfinity; }},
+      {"finite numbers", [](auto& a) { a.contacts[1].depth = -kInfinity; }},
+      {"finite numbers", [](auto& a) { a.contacts[1].view_min = kNan; }},
+      {"finite numbers", [](auto& a) { a.contacts[1].view_max = kNan; }},
+      {"shares", [](auto& a) { a.contacts[2].fraction = 1.01; }},
+      {"shares", [](auto& a) { a.contacts[2].fraction = -1e-9; }},
+      {"shares", [](auto& a) { a.contacts[2].fraction = kNan; }},
+      {"shares", [](auto& a) { a.contacts[2].shaft = 1.5; }},
+      {"unit normals", [](auto& a) { a.contacts[0].normal.z = 0.8001; }},
+      {"unit normals", [](auto& a) { a.contacts[0].normal = {}; }},
+      {"unit normals", [](auto& a) { a.contacts[0].normal.x = kNan; }},
+      {"barycentric coordinates", [](auto& a) { a.contacts[0].barycentric[1] = 0.31; }},
+      {"barycentric coordinates", [](auto& a) { a.contacts[0].barycentric[1] = kNan; }},
+      {"barycentric coordinates", [](auto& a) { a.contacts[0].barycentric = {1.2, -0.4, 0.2}; }},
+      {"places on shafts", [](auto& a) { a.contacts[1].shaft = 0.5; }},
+      {"indices", [](auto& a) { a.contacts[1].link = 2; }},
+      {"indices", [](auto& a) { a.contacts[2].face = 83333333; }},
+      {"order of contacts", [](auto& a) { a.contacts[2].face = 1; }},
+      {"order of contacts", [](auto& a) { a.contacts[1] = a.contacts[0]; }},
+      {"corners of a face", [](auto& a) { a.contacts[1].vertices[0] = 77; }},
+      {"regions", [](auto& a) { a.regions.resize(2); }},
+      {"unresolved", [](auto& a) { a.unresolved = 4; }},
+      {"static answers", [](auto& a) { a = good_static_answer(), a.contacts[0].fraction = 0.5; }},
+      {"static answers", [](auto& a) { a = good_static_answer(), a.near[1].end_point.x = 0.5; }},
+      {"finite numbers", [](auto& a) { a.near[0].end_point.x = kNan; }},
+      {"order of near faces", [](auto& a) { a.near[0].depth = -0.003; }},
+      {"near faces", [](auto& a) { a.near[0].face = 2; }},
+      {"near faces", [](auto& a) { a.near[0].face = 7; }},
+      {"near faces", [](auto& a) { a.near[0].depth = 0.001; }},
+      {"near faces", [](auto& a) { a.near[1].depth = -0.06; }},
+      {"near faces", [](auto& a) { a.clearance = {}; }},
+      {"near faces", [](auto& a) { a.near.clear(), a.clearance = {}, a.near_left_out = 1; }},
+      {"clearance", [](auto& a) { a.clearance.margin = 0.001, a.near.clear(); }},
+      {"clearance", [](auto& a) { a.clearance.unlimited = true; }},
+      {"clearance", [](auto& a) { a.clearance.state = 3; }},
+      {"clearance", [](auto& a) { a.clearance.on_tool.x = 0.001; }},
+      {"clearance", [](auto& a) { a.clearance.least = 0.001; }},
+      {"clearance",
+       [](auto& a) { a.contacts.clear(), a.regions.clear(), a.clearance.least = 0.02; }},
+      {"clearance", [](auto& a) { a = good_static_answer(), a.clearance.least = 0.0; }},
+      {"clearance",
+       [](auto& a) {
+         a = good_static_answer();
+         a.clearance.distance = a.clearance.least = 0.01;
+         a.clearance.on_organ.z = -0.01;
+       }},
+      {"clearance",
+       [](auto& a) { a = good_static_answer(), a.clearance.state = Clearance::BEYOND_MARGIN; }},
+      {"clearance",
+       [](auto& a) {
+         a.contacts.clear(), a.regions.clear();
+         a.clearance.distance = a.clearance.least = -0.01;
+         a.clearance.on_organ.z = 0.01;
+       }},
+      {"shares", [](auto& a) { a.clearance.least_fraction = 1.1; }},
+      {"unit normals, clearance", [](auto& a) { a.clearance.normal.x = 0.1; }},
+      {"finite numbers, clearance", [](auto& a) { a.clearance.on_organ.x = kNan; }},
+      {"barycentric coordinates", [](auto& a) { a.clearance.barycentric[0] = 1.0; }},
+      {"indices", [](auto& a) { a.clearance.link = 2; }},
+      {"placement", [](auto& a) { a.placement.tip = 4; }},
+      {"placement", [](auto& a) { a.placement.length_known = false; }},
+      {"placement", [](auto& a) { a.placement.trocar = ToolPlacement::UNKNOWN; }},
+      {"placement", [](auto& a) { a.placement.length_inside = -0.1; }},
+      {"placement", [](auto& a) { a.placement.length_inside = kNan; }},
+      {"crossings", [](auto& a) { a.placement.crossings[0].direction = 0; }},
+      {"crossings", [](auto& a) { a.placement.crossings[0].shaft = 0.7; }},
+      {"shares", [](auto& a) { a.placement.crossings[1].shaft = 1.7; }},
+      {"finite numbers", [](auto& a) { a.placement.crossings[1].point.x = kNan; }},
+      {"barycentric coordinates", [](auto& a) { a.placement.crossings[1].barycentric[0] = 1.7; }},
+      {"placement",
+       [](auto& a) {
+         a.contacts.clear(), a.regions.clear(), a.near.clear(), a.clearance = {};
+         a.links = {"jaw"};
+       }},
+  };
+  for (std::size_t i = 0; i < std::size(flaws); ++i) {
+    ContactArray answer = good_answer();
+    flaws[i].second(answer);
+    EXPECT_EQ(broken_rules(answer), flaws[i].first) << "flaw " << i;
+  }
+}
+
+TEST(AnswerRulesTest, TheSentenceNamesThePlaceAndTheValue) {
+  ContactArray answer = good_answer();
+  answer.contacts[1].fraction = answer.contacts[2].fraction = 1.5;
+  const Faults faults = check_answer(answer);
+  ASSERT_EQ(faults.all().size(), 1U);
+  EXPECT_EQ(faults.all()[0].places, 2U);
+  EXPECT_EQ(faults.all()[0].sentence,
+            "fraction of contacts[1] (face 3) is 1.5; must be from 0 to 1");
+}
 
 /// Answers of a publisher, one after the other.
 class ContactContractTest : public testing::Test {

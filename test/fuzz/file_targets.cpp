@@ -9,7 +9,7 @@
 
 #include "fuzz_input.hpp"
 #include "offline/motions.hpp"
-#include "offline/obj_reader.hpp"
+#include "offline/shapes.hpp"
 #include "offline/user_input.hpp"
 #include "picking/gl/drawing.hpp"
 #include "replay/yaml_parameters.hpp"

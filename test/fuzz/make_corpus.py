@@ -272,7 +272,7 @@ def tool_mesh():
 
 
 def parameters():
-    """Trees in the encoding of parameters_fuzz.cpp."""
+    """Trees in the encoding of parameter_targets.cpp."""
     names = ['tools', 'organs', 'rate', 'organ_motion', 'stiffness', 'max_force', 'name', 'trocar_frame', 'tip_frame',
              'radius', 'links', 'urdf', 'topic']
     index = {name: i for i, name in enumerate(names)}

@@ -24,6 +24,12 @@ std::string resource_error(const std::string& name) {
   return tool_error([&] { read_resource(name); });
 }
 
+using Eigen::Vector3d;
+
+const Vector3d kUnit = Vector3d::Ones();
+const Vector3d kMillimetres = Vector3d::Constant(0.001);
+const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
+
 }  // namespace
 
 TEST(Resource, ReadsPathsAndUrls) {
@@ -34,21 +40,20 @@ TEST(Resource, ReadsPathsAndUrls) {
 }
 
 TEST(Resource, RefusalsNameTheFileAndWhy) {
-  expect_words(resource_error("/no/such.stl"), {"'/no/such.stl'", "no such file"});
-  expect_words(resource_error("file:///no/such.stl"), {"'/no/such.stl'", "no such file"});
-  expect_words(resource_error("/etc/passwd/such.stl"), {"Not a directory"});
-  expect_words(resource_error(tool_file("such.stl")),
-               {"/test/data/tools/such.stl", "no such file"});
-  expect_words(resource_error("package://no_such_package/jaw.stl"),
-               {"no_such_package", "not exist"});
-  expect_words(resource_error("package://organ_collision"), {"no file in the package"});
-  expect_words(resource_error("file://server/jaw.stl"),
-               {"'file://server/jaw.stl'", "absolute path"});
-  expect_words(resource_error("http://192.0.2.1/jaw.stl"),
-               {"absolute path", "package:// or file://"});
-  expect_words(resource_error("meshes/jaw.stl"),
-               {"'meshes/jaw.stl'", "absolute path", "package://"});
-  expect_words(resource_error(""), {"''", "absolute path", "package://"});
+  const std::pair<std::string, std::vector<std::string>> rows[] = {
+      {"/no/such.stl", {"'/no/such.stl'", "no such file"}},
+      {"file:///no/such.stl", {"'/no/such.stl'", "no such file"}},
+      {"/etc/passwd/such.stl", {"Not a directory"}},
+      {tool_file("such.stl"), {"/test/data/tools/such.stl", "no such file"}},
+      {"package://no_such_package/jaw.stl", {"no_such_package", "not exist"}},
+      {"package://organ_collision", {"no file in the package"}},
+      {"file://server/jaw.stl", {"'file://server/jaw.stl'", "absolute path"}},
+      {"http://192.0.2.1/jaw.stl", {"absolute path", "package:// or file://"}},
+      {"meshes/jaw.stl", {"'meshes/jaw.stl'", "absolute path", "package://"}},
+      {"", {"''", "absolute path", "package://"}},
+      {"/tmp", {"'/tmp'", "folder"}},
+      {"/dev/zero", {"'/dev/zero'", "device", "regular file"}}};
+  for (const auto& [name, words] : rows) expect_words(resource_error(name), words);
 }
 
 TEST(Resource, EscapesInUrlsAreBytes) {
@@ -60,10 +65,6 @@ TEST(Resource, EscapesInUrlsAreBytes) {
 }
 
 TEST(Resource, WhatIsNoRegularFileIsRefused) {
-  expect_words(resource_error("/tmp"), {"'/tmp'", "folder"});
-  expect_words(resource_error("file:///tmp"), {"'/tmp'", "folder"});
-  expect_words(resource_error("/dev/zero"), {"'/dev/zero'", "device", "regular file"});
-
   const std::string path = testing::TempDir() + "file.stl", link = testing::TempDir() + "link.stl";
   ASSERT_EQ(symlink(path.c_str(), link.c_str()), 0);
   const auto expect_refused = [&](const std::vector<std::string>& words) {
@@ -86,19 +87,21 @@ TEST(Resource, WhatIsNoRegularFileIsRefused) {
   std::remove(link.c_str());
 }
 
-using Eigen::Vector3d;
-
 namespace {
-
-const Vector3d kUnit = Vector3d::Ones();
-const Vector3d kMillimetres = Vector3d::Constant(0.001);
-const Eigen::Isometry3d kAtOrigin = Eigen::Isometry3d::Identity();
 
 ToolSurface read(const std::string& name, const Vector3d& scale = kUnit,
                  const Eigen::Isometry3d& T_link_mesh = kAtOrigin) {
-  MeshDescription mesh = read_mesh_file(tool_file(name), scale, T_link_mesh);
+  const RobotShape mesh = read_mesh_file(tool_file(name), scale, T_link_mesh);
   EXPECT_EQ(mesh.file, tool_file(name));
-  return {std::move(mesh.vertices), std::move(mesh.triangles)};
+  std::vector<Vector3d> vertices;
+  std::vector<FaceIndices> triangles;
+  for (std::size_t i = 0; i < mesh.vertices.size(); i += 3) {
+    vertices.emplace_back(&mesh.vertices[i]);
+  }
+  for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {
+    triangles.push_back({mesh.triangles[i], mesh.triangles[i + 1], mesh.triangles[i + 2]});
+  }
+  return {std::move(vertices), std::move(triangles)};
 }
 
 /// The corners of the tetrahedron in the mesh files, in the units of the files.
@@ -200,15 +203,6 @@ TEST(MeshFile, RefusalsNameTheFileAndWhy) {
   }
 }
 
-TEST(MeshFile, BlanksMayFollowTheHeaderOfPly) {
-  std::string text = tool_text("jaw_ascii.ply");
-  text.insert(text.find("end_header") + 10, " \t");
-  const std::string path = testing::TempDir() + "blanks.ply";
-  std::ofstream(path) << text;
-  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 4U);
-  std::remove(path.c_str());
-}
-
 TEST(MeshFile, AByteOrderMarkChangesNothing) {
   for (const std::string name :
        {"jaw.obj", "jaw_ascii.stl", "jaw_ascii.ply", "jaw_binary.ply", "jaw.dae"}) {
@@ -216,8 +210,8 @@ TEST(MeshFile, AByteOrderMarkChangesNothing) {
     if (name == "jaw.obj") text.erase(0, text.find("\nv ") + 1);  // A vertex follows the mark.
     const std::string path = testing::TempDir() + "marked_" + name;
     std::ofstream(path, std::ios::binary) << "\xEF\xBB\xBF" << text;
-    const MeshDescription marked = read_mesh_file(path, kUnit, kAtOrigin);
-    const MeshDescription plain = read_mesh_file(tool_file(name), kUnit, kAtOrigin);
+    const RobotShape marked = read_mesh_file(path, kUnit, kAtOrigin);
+    const RobotShape plain = read_mesh_file(tool_file(name), kUnit, kAtOrigin);
     EXPECT_EQ(marked.vertices, plain.vertices) << name;
     EXPECT_EQ(marked.triangles, plain.triangles) << name;
     std::remove(path.c_str());
@@ -241,6 +235,8 @@ TEST(MeshFile, CutOffPlyIsRefused) {
     std::ofstream(path) << text;
     expect_words(tool_error([&] { read_mesh_file(path, kUnit, kAtOrigin); }), {path, "end_header"});
   }
+  std::ofstream(path) << whole.substr(0, end + 10) << " \t" << whole.substr(end + 10);
+  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 12U) << "blanks may follow";
   std::remove(path.c_str());
 }
 
@@ -256,7 +252,7 @@ TEST(MeshFile, OtherFilesThatItNamesAreNotRead) {
                     path = testing::TempDir() + "a.obj";
   ASSERT_EQ(mkfifo(fifo.c_str(), 0600), 0);
   std::ofstream(path) << "mtllib " << fifo << "\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 1u);
+  EXPECT_EQ(read_mesh_file(path, kUnit, kAtOrigin).triangles.size(), 3u);
   std::remove(path.c_str());
   std::remove(fifo.c_str());
 }

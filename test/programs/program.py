@@ -1,4 +1,4 @@
-"""Runs query_offline as its users do: files in, CSV out."""
+"""Runs the programs as their users do: files in, files and texts out."""
 
 import os
 import pathlib
@@ -28,7 +28,7 @@ def motions_text(lines):
 
 
 class ProgramCase(unittest.TestCase):
-    """A folder of its own for each test, which is the program's working directory."""
+    """A folder of its own for each test, which is the programs' working directory."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -38,15 +38,15 @@ class ProgramCase(unittest.TestCase):
     def write(self, name, text):
         (self.folder / name).write_bytes(text if isinstance(text, bytes) else text.encode())
 
-    def run_program(self, *arguments, **environment):
-        """What the program did: `returncode`, `stdout` and `stderr`. No ROS master can be reached."""
-        return subprocess.run(
-            [PROGRAM, *arguments], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-            env={**os.environ, 'ROS_MASTER_URI': 'http://localhost:1', **environment},
-            universal_newlines=True, timeout=100)
+    def run_program(self, *arguments, program=PROGRAM, text='', **environment):
+        """What a program did with `text` as its standard input: `returncode`, `stdout` and `stderr`. No ROS master can
+        be reached."""
+        return subprocess.run([program, *arguments], cwd=self.folder, input=text, stdout=subprocess.PIPE,
+                              stderr=subprocess.PIPE, text=True, errors='backslashreplace', timeout=100,
+                              env={**os.environ, 'ROS_MASTER_URI': 'http://localhost:1', **environment})
 
     def contacts(self, *arguments):
-        """The rows that the program prints, each a list of its cells; it must succeed."""
+        """The rows that query_offline prints, each a list of its cells; it must succeed."""
         done = self.run_program(*arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
         header, *rows = done.stdout.split('\n')[:-1]

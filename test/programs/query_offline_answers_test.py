@@ -3,10 +3,9 @@
 
 import csv
 import random
-import subprocess
 import unittest
 
-from program import CONTACTS_HEADER, PROGRAM, ProgramCase, motion_line, motions_text, obj_text
+from program import CONTACTS_HEADER, ProgramCase, motion_line, motions_text, obj_text
 from support import oracle, scenes
 from support.vectors import length, lerp, sub
 
@@ -14,6 +13,10 @@ FILES = ('--mesh', 'organ.obj', '--motions', 'motions.csv')
 CONTACT_COLUMNS = CONTACTS_HEADER.split(',')
 TOLERANCE = 1e-7  # [m], and as a share of the step
 STEPS = 23
+
+
+def shape_name(step):
+    return 'step_%d.%s' % (step, 'OBJ' if step % 2 else 'obj')
 
 
 class AnswersTest(ProgramCase):
@@ -123,10 +126,12 @@ class AnswersTest(ProgramCase):
         """A liver that is pushed about, and a tool in it. The queries are not in the order of the steps."""
         liver, tip, lines = scenes.liver(), (0.0, 0.0, 0.04), []
         (self.folder / 'shapes').mkdir()
+        for name in 'motions.csv', 'obj', '.obj', '.step_1.obj', 'step_1.obj~', 'a.mtl':
+            self.write('shapes/' + name, '')  # No shape has such a name.
         for step, query in enumerate(self.rng.sample(range(1000), STEPS)):
             shift, bend = self.point(0.01, 0.0), self.rng.uniform(-1.0, 1.0)
             shape = liver.moved(lambda v: (v[0] + shift[0], v[1] + shift[1] + bend * v[0] * v[0], v[2] + shift[2]))
-            self.write('shapes/step_%d.obj' % step, obj_text(shape))
+            self.write('shapes/' + shape_name(step), obj_text(shape))
             previous, tip = tip, self.point(0.05, 0.0)
             mode = 'static' if step % 7 == 3 else 'swept'
             lines.append(motion_line(query, mode, (0.02, 0.01, 0.2), previous, tip, 0.004))
@@ -138,8 +143,8 @@ class AnswersTest(ProgramCase):
         rows = []
         for step, line in enumerate(lines):
             self.write('one.csv', line)
-            before = ('--mesh-before', 'shapes/step_%d.obj' % (step - 1)) if step > 0 else ()
-            files = ('--mesh', 'shapes/step_%d.obj' % step, '--motions', 'one.csv', *before)
+            before = ('--mesh-before', 'shapes/' + shape_name(step - 1)) if step > 0 else ()
+            files = ('--mesh', 'shapes/' + shape_name(step), '--motions', 'one.csv', *before)
             header, *answer = self.printed(*options, files=files).splitlines(True)
             rows += answer
         return ''.join([header] + rows)
@@ -151,11 +156,8 @@ class AnswersTest(ProgramCase):
             self.assertGreater(right.count('\n'), 5 * STEPS)
             for jobs in '1', '3':
                 for motions in 'motions.csv', '-':
-                    with open(self.folder / 'motions.csv') as file:
-                        done = subprocess.run(
-                            [PROGRAM, '--shapes', 'shapes', '--motions', motions, *options, '--jobs', jobs],
-                            cwd=self.folder, stdin=file, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                            timeout=100)
+                    done = self.run_program('--shapes', 'shapes', '--motions', motions, *options, '--jobs', jobs,
+                                            text=(self.folder / 'motions.csv').read_text())
                     self.assertEqual((done.stdout, done.stderr, done.returncode), (right, '', 0))
 
     def test_the_same_bytes_for_any_number_of_threads(self):

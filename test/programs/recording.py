@@ -1,7 +1,9 @@
-"""Bags as `rosbag record` writes them, and the program replay."""
+"""Bags as `rosbag record` writes them, the program replay, and a test case that records a bag and replays it."""
 
 import os
+import shutil
 import subprocess
+import tempfile
 
 import genpy
 from geometry_msgs.msg import PoseStamped, Quaternion, TransformStamped, Vector3
@@ -11,6 +13,7 @@ from rosgraph_msgs.msg import Clock
 from tf2_msgs.msg import TFMessage
 
 from support import scenes
+from support.contact_case import ContactCase
 
 WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
 TURN = (0.1, 0.2, 0.3, 0.9)
@@ -132,3 +135,47 @@ def serialized(path):
             (topic, raw[0], at.to_nsec(), raw[1])
             for topic, raw, at in bag.read_messages(raw=True)
         ]
+
+
+class ReplayCase(ContactCase):
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix='organ_collision_replay_')
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.recorded, self.answers = self.path('in.bag'), self.path('out.bag')
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), 'w') as file:
+            file.write(text)
+        return self.path(name)
+
+    def record(self, **named):
+        return Recording(self.recorded, **named)
+
+    def replay(self, parameters=TOOLS, options=(), out='out.bag'):
+        """Replays the recorded bag. Returns what subprocess.run returns."""
+        done = self.run_with(parameters, *options, self.recorded, self.path(out))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done
+
+    def answers_of(self, *arguments, **named):
+        """Replays the recorded bag. Returns (time, answer) for each answer."""
+        self.replay(*arguments, **named)
+        return messages(self.answers)
+
+    def run_with(self, parameters, *arguments):
+        """Runs replay with a file of parameters. Returns what subprocess.run returns."""
+        return run('--parameters', self.write('parameters.yaml', parameters), *arguments)
+
+    def assert_refused(self, done, *words):
+        """One line on stderr with these words, exit code 2, and no file beside those that were
+        there."""
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stdout, '')
+        lines = [line for line in done.stderr.splitlines() if 'WARN' not in line]
+        self.assertEqual(len(lines), 1, done.stderr)
+        for word in words:
+            self.assertIn(word, lines[0])
+        self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('out')])

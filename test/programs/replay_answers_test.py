@@ -1,6 +1,9 @@
 #!/usr/bin/python3
 """The answers of replay, compared with the oracle and with the rules of the node."""
 
+import os
+import re
+import subprocess
 import unittest
 
 from organ_collision.msg import ContactArray
@@ -8,9 +11,11 @@ from support import oracle
 from support.scenes import box, sheet
 from support.tool_over_sheet import RADIUS, SHEET, at_height
 
-from recording import TOOLS
-from replay_case import ReplayCase
+from recording import Recording, ReplayCase, TOOLS
 
+PAGE = os.path.join(os.environ['SOURCE'], 'doc', 'bags.md')
+# rosrun is tested elsewhere (test/install/rosrun_test.py).
+ROSRUN = 'rosrun() { test "$1 $2" = "organ_collision replay" && shift 2 && "$REPLAY" "$@"; }\n'
 OK, NO_TRANSFORM = ContactArray.OK, ContactArray.NO_TRANSFORM
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 POSES = (
@@ -120,7 +125,6 @@ class ReplayAnswersTest(ReplayCase):
         self.assertTrue(all(answer.status == OK for _, answer in answers))
 
 
-
 class SimulatedTimeTest(ReplayCase):
     """A bag with /clock is replayed in the time of /clock."""
 
@@ -195,6 +199,23 @@ class SimulatedTimeTest(ReplayCase):
             bag.tool(2.1, at_height(0.04), at=2.101)
             bag.vertices(2.1, SHEET, at=2.1)
         self.assertEqual([answer.mode for _, answer in self.answers_of()], [STATIC, SWEPT])
+
+
+class BagsPageTest(ReplayCase):
+    def test_the_commands_for_replay_on_the_page_work_as_they_stand(self):
+        with open(PAGE, encoding='utf-8') as page:
+            blocks = re.findall(r'```bash\n(.*?)```', page.read(), re.S)
+        (commands,) = [block for block in blocks if 'rosrun organ_collision replay' in block]
+        self.write('tools.yaml', TOOLS)
+        with Recording(self.path('surgery.bag')) as bag:
+            bag.resting(1.0)
+            bag.tool(2.0, at_height(-0.01))
+            bag.mesh(2.0, SHEET)
+        done = subprocess.run(['bash', '-e', '-c', ROSRUN + commands], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=100)
+        self.assertEqual(done.returncode, 0, done.stdout)
+        self.assertIn('1 answers on /organ_collision/contacts: 1 ok', done.stdout)
+        self.assertIn('tool: "hook"', done.stdout)
 
 
 if __name__ == '__main__':

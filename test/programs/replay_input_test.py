@@ -10,8 +10,7 @@ import unittest
 from std_msgs.msg import String
 from support.tool_over_sheet import SHEET, at_height
 
-from recording import TOOLS, run, serialized
-from replay_case import ReplayCase
+from recording import ReplayCase, TOOLS, serialized
 
 GRIPPER = os.path.join(os.environ['TEST_DATA'], 'tools', 'gripper.urdf')
 LINKS = 'tools:\n  - {name: grip, links: [wrist, jaw]%s}\n'
@@ -26,9 +25,7 @@ class ReplayInputTest(ReplayCase):
                 (bag.vertices if i else bag.mesh)(2.0 + 0.1 * i, SHEET)
 
     def refuse(self, *words, parameters=TOOLS, options=(), out='out.bag'):
-        file = self.write('parameters.yaml', parameters)
-        done = run('--parameters', file, *options, self.recorded, self.path(out))
-        self.assert_refused(done, *words)
+        self.assert_refused(self.run_with(parameters, *options, self.recorded, self.path(out)), *words)
 
     def test_files_that_are_no_bag(self):
         self.refuse('in.bag', 'no bag')
@@ -57,9 +54,7 @@ class ReplayInputTest(ReplayCase):
         bag.bag._file.flush()
         shutil.copy(self.recorded, self.path('active.bag'))
         bag.bag.close()
-        file = self.write('parameters.yaml', TOOLS)
-        done = run('--parameters', file, self.path('active.bag'), self.answers)
-        self.assert_refused(done, 'active.bag', 'no index', 'rosbag reindex')
+        self.assert_refused(self.run_with(TOOLS, self.path('active.bag'), self.answers), 'active.bag', 'no index', 'rosbag reindex')
 
     def test_a_bag_without_an_organ(self):
         with self.record() as bag:
@@ -96,36 +91,13 @@ class ReplayInputTest(ReplayCase):
             with self.subTest(parameters=parameters):
                 self.refuse(*words, parameters=parameters)
 
-    def test_bad_command_lines(self):
+    def test_an_output_in_no_folder(self):
         self.record_scene()
-        file = self.write('parameters.yaml', TOOLS)
-        for arguments, word in (
-            ([], 'IN.bag'),
-            ([self.recorded], 'IN.bag'),
-            ([self.recorded, self.answers], '--parameters'),
-            (['--parameters', file, self.recorded, self.answers, 'x'], '3 are given'),
-            (['--parameter', file, self.recorded, self.answers], '"--parameter"'),
-            (['--parameters=', self.recorded, self.answers], '--parameters'),
-            (['--with-input=1', '--parameters', file, self.recorded, self.answers], '--with-input'),
-            (['--parameters', file, '--node', '~x', self.recorded, self.answers], '"~x"'),
-            (['--parameters', file, '--node', 'a b', self.recorded, self.answers], '"a b"'),
-            (['--parameters', file, self.recorded, self.recorded], 'also the input'),
-            (['--parameters', file, self.recorded, '/nowhere/out.bag'], '/nowhere/out.bag'),
-        ):
-            self.assert_refused(run(*arguments), word)
-        self.assertGreater(len(serialized(self.recorded)), 0)
-
-    def test_an_input_with_the_name_of_an_incomplete_output_is_kept(self):
-        self.record_scene()
-        file = self.write('parameters.yaml', TOOLS)
-        recorded = self.path('x.bag.incomplete')
-        os.rename(self.recorded, recorded)
-        self.assert_refused(run('--parameters', file, recorded, self.path('x.bag')), 'also the input')
-        self.assertGreater(len(serialized(recorded)), 0)
+        self.refuse('/nowhere/out.bag', out='/nowhere/out.bag')
 
     def test_an_output_that_is_no_regular_file_is_kept(self):
         self.record_scene()
-        file = self.write('parameters.yaml', TOOLS)
+        self.write('parameters.yaml', TOOLS)
         os.mkdir(self.path('folder'))
         os.mkfifo(self.path('fifo'))
         os.symlink(self.write('target', 'precious'), self.path('link'))
@@ -135,7 +107,7 @@ class ReplayInputTest(ReplayCase):
         for written, name in (('folder', 'folder'), ('fifo', 'fifo'), ('link', 'link'),
                               ('dangling', 'dangling'), ('x.bag.incomplete', 'x.bag')):
             mode = os.lstat(self.path(written)).st_mode
-            done = run('--parameters', file, self.recorded, self.path(name))
+            done = self.run_with(TOOLS, self.recorded, self.path(name))
             self.assert_refused(done, self.path(written) + ' is no regular file')
             self.assertEqual(os.lstat(self.path(written)).st_mode, mode)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
@@ -159,36 +131,24 @@ class ReplayInputTest(ReplayCase):
             self.assertEqual(replay.returncode, 1)
         self.assertFalse([name for name in os.listdir(self.folder) if name.startswith('out')])
 
-    def test_help(self):
-        done = run('--help')
-        self.assertEqual((done.returncode, done.stderr), (0, ''))
-        for word in ('IN.bag', 'OUT.bag', '--parameters', '--node', '--with-input', 'Exit status'):
-            self.assertIn(word, done.stdout)
-
-
 
 class RobotTest(ReplayCase):
-    """Tools made of links, with the URDF where the node finds it."""
-
-    def check(self, parameters):
+    def test_links_whose_urdf_is_where_the_node_finds_it(self):
+        """In a file, and in the whole tree as rosparam dump writes it."""
         with self.record() as bag:
             bag.resting(1.0)
             for frame in ('wrist', 'jaw'):
                 bag.frame(2.0, frame, (-0.5, -0.25, 0.125))
             bag.mesh(2.0, SHEET)
-        ((_, answer),) = self.answers_of(parameters)
-        self.assert_ok(answer)
-        self.assertEqual(answer.links, ['wrist', 'jaw'])
-        self.assertGreater(len(answer.contacts), 0)
-
-    def test_a_file(self):
-        self.check(LINKS % (', urdf: ' + GRIPPER))
-
-    def test_the_whole_tree_as_rosparam_dump_writes_it(self):
         with open(GRIPPER) as urdf:
             text = urdf.read().replace('\n', ' ').replace("'", "''")
         indented = (LINKS % '').replace('\n', '\n  ')
-        self.check("robot_description: '%s'\norgan_collision:\n  %s" % (text, indented))
+        for parameters in (LINKS % (', urdf: ' + GRIPPER),
+                           "robot_description: '%s'\norgan_collision:\n  %s" % (text, indented)):
+            ((_, answer),) = self.answers_of(parameters)
+            self.assert_ok(answer)
+            self.assertEqual(answer.links, ['wrist', 'jaw'])
+            self.assertGreater(len(answer.contacts), 0)
 
 
 if __name__ == '__main__':

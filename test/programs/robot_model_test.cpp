@@ -14,10 +14,20 @@ using Eigen::Vector3d;
 
 namespace {
 
-RobotModel gripper() { return RobotModel(read_resource(tool_file("gripper.urdf"))); }
+/// The answer, as the node reads it.
+RobotReply ask(const std::function<std::string()>& urdf, const std::vector<std::string>& links) {
+  std::string bytes;
+  answer_with_links(urdf, links, [&](const std::string& record) { bytes += record; });
+  return parse_reply(bytes);
+}
 
-RobotLink link(const RobotModel& model, const std::string& name) {
-  return model.link(name, [](const std::string&) {});
+RobotLink link(const std::string& urdf, const std::string& name) {
+  return ask([&] { return urdf; }, {name}).links.value().front();
+}
+
+const std::string& gripper() {
+  static const std::string urdf = tool_text("gripper.urdf");
+  return urdf;
 }
 
 void expect_pose(const RobotShape& shape, const Vector3d& position, const Vector3d& image_of_x) {
@@ -35,13 +45,11 @@ std::string robot_of(const std::string& shape) {
   return robot("<link name='tip'><collision><geometry>" + shape + "</geometry></collision></link>");
 }
 
-std::string refusal(const std::string& urdf) {
-  return tool_error([&] { RobotModel{urdf}; });
-}
-
-std::string refusal_of_tip(const std::string& urdf) {
-  const RobotModel model(urdf);
-  return tool_error([&] { link(model, "tip"); });
+/// For a robot whose link cannot be read.
+std::string refusal(const std::string& urdf, const std::string& link = "tip") {
+  const RobotReply reply = ask([&] { return urdf; }, {link});
+  EXPECT_FALSE(reply.links);
+  return reply.refusal.value();
 }
 
 class SilentHandler : public console_bridge::OutputHandler {
@@ -76,27 +84,14 @@ TEST(RobotModel, VisualShapesWhereThereAreNoOthers) {
   expect_pose(box, {0.5, 0.25, -0.125}, Vector3d::UnitY());
 }
 
-TEST(RobotModel, MeshesAreToldOfAndThenRead) {
-  std::vector<std::string> told;
-  const RobotLink jaw =
-      gripper().link("jaw", [&](const std::string& what) { told.push_back(what); });
-  EXPECT_EQ(told,
-            std::vector<std::string>{"link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'"});
-  ASSERT_EQ(jaw.shapes.size(), 1u);
-  const RobotShape& mesh = jaw.shapes[0];
-  EXPECT_EQ(mesh.kind, RobotShape::MESH);
-  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
-  EXPECT_EQ(mesh.triangles.size(), 12u);
-  EXPECT_EQ(mesh.vertices.size(), 12u);
-}
-
 TEST(RobotModel, MovingJoints) {
-  const RobotModel model = gripper();
-  EXPECT_EQ(link(model, "mount").joint, "");
-  EXPECT_EQ(link(model, "shaft").joint, "insertion");
-  EXPECT_EQ(link(model, "wrist").joint, "");
-  EXPECT_EQ(link(model, "jaw").joint, "jaw_joint");
-  EXPECT_EQ(link(model, "other_jaw").joint, "other_jaw_joint");
+  for (const auto& [name, joint] : {std::pair("mount", ""),
+                                    {"shaft", "insertion"},
+                                    {"wrist", ""},
+                                    {"jaw", "jaw_joint"},
+                                    {"other_jaw", "other_jaw_joint"}}) {
+    EXPECT_EQ(link(gripper(), name).joint, joint);
+  }
 }
 
 TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
@@ -112,8 +107,7 @@ TEST(RobotModel, WhatIsNoUrdfIsRefusedWithTheReason) {
 }
 
 TEST(RobotModel, UnknownLinksAreNamedWithTheNearest) {
-  const RobotModel model = gripper();
-  expect_words(tool_error([&] { link(model, "jaws"); }),
+  expect_words(refusal(gripper(), "jaws"),
                {"'jaws' is unknown", "nearest is 'jaw'", "jaw, mount, other_jaw, shaft, wrist"});
 }
 
@@ -124,34 +118,25 @@ TEST(RobotModel, LinksReadInPartAreRefused) {
   const std::string end = "</geometry></collision></link>";
   for (const std::string shape :
        {"<sphere radius='nan'/>", "<cone/>", "<sphere/>", "<mesh filename='a' scale='1 1'/>"}) {
-    expect_words(refusal_of_tip(robot(first + second + shape + end)), {"'tip'", "Link [tip]"});
+    expect_words(refusal(robot(first + second + shape + end)), {"'tip'", "Link [tip]"});
   }
-  expect_words(refusal_of_tip(robot_of("<sphere radius='nan'/>")), {"radius [nan]"});
-  expect_words(refusal_of_tip(robot_of("<box size='1 1'/>")), {"[1 1]"});
+  expect_words(refusal(robot_of("<sphere radius='nan'/>")), {"radius [nan]"});
+  expect_words(refusal(robot_of("<box size='1 1'/>")), {"[1 1]"});
 }
 
 TEST(RobotModel, FaultsOfOtherLinksDoNotMatter) {
-  const RobotModel model(robot(
+  const std::string urdf = robot(
       "<link name='tip'><collision><geometry><sphere radius='1'/></geometry></collision></link>"
       "<link name='tip_2'><collision><geometry><cone/></geometry></collision></link>"
-      "<joint name='j' type='fixed'><parent link='tip'/><child link='tip_2'/></joint>"));
-  EXPECT_EQ(link(model, "tip").shapes.size(), 1u);
-  expect_words(tool_error([&] { link(model, "tip_2"); }), {"'tip_2'", "cone"});
-}
-
-TEST(RobotModel, MeshFaultsNameTheLinkAndTheFile) {
-  expect_words(refusal_of_tip(robot_of("<mesh filename='package://organ_collision/no.stl'/>")),
-               {"'tip'", "no.stl"});
-  expect_words(
-      refusal_of_tip(robot_of("<mesh filename='" + tool_file("jaw.obj") + "' scale='1 0 1'/>")),
-      {"'tip'", "jaw.obj", "1 0 1"});
-  expect_words(refusal_of_tip(robot_of("<mesh filename=''/>")), {"'tip'", "''"});
+      "<joint name='j' type='fixed'><parent link='tip'/><child link='tip_2'/></joint>");
+  EXPECT_EQ(link(urdf, "tip").shapes.size(), 1u);
+  expect_words(refusal(urdf, "tip_2"), {"'tip_2'", "cone"});
 }
 
 TEST(RobotModel, LogsNothingAndLeavesConsoleBridgeAsItWas) {
   SilentHandler handler;
   console_bridge::useOutputHandler(&handler);
-  RobotModel{robot_of("<cone/>")};
+  refusal(robot_of("<cone/>"));
   EXPECT_EQ(console_bridge::getOutputHandler(), &handler);
   refusal("");
   EXPECT_EQ(console_bridge::getOutputHandler(), &handler);
@@ -159,24 +144,20 @@ TEST(RobotModel, LogsNothingAndLeavesConsoleBridgeAsItWas) {
   console_bridge::noOutputHandler();
 }
 
-namespace {
-
-/// The answer, as the node reads it.
-RobotReply ask(const std::function<std::string()>& urdf, const std::vector<std::string>& links) {
-  std::string bytes;
-  answer_with_links(urdf, links, [&](const std::string& record) { bytes += record; });
-  return parse_reply(bytes);
-}
-
-}  // namespace
-
 TEST(RobotAnswer, HasTheLinksInTheOrderOfTheirNames) {
-  const RobotReply reply = ask([] { return tool_text("gripper.urdf"); }, {"shaft", "jaw", "shaft"});
+  const RobotReply reply = ask(gripper, {"shaft", "jaw", "shaft"});
   EXPECT_FALSE(reply.refusal);
+  EXPECT_EQ(reply.reading, "link 'jaw': mesh '" + tool_file("jaw_binary.stl") + "'");
   ASSERT_TRUE(reply.links);
   ASSERT_EQ(reply.links->size(), 3U);
   EXPECT_EQ((*reply.links)[0].shapes.size(), 2U);
   EXPECT_EQ((*reply.links)[2].shapes.size(), 2U);
+  ASSERT_EQ((*reply.links)[1].shapes.size(), 1U);
+  const RobotShape& mesh = (*reply.links)[1].shapes[0];
+  EXPECT_EQ(mesh.kind, RobotShape::MESH);
+  EXPECT_EQ(mesh.file, tool_file("jaw_binary.stl"));
+  EXPECT_EQ(mesh.triangles.size(), 12U);
+  EXPECT_EQ(mesh.vertices.size(), 12U);
 }
 
 TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
@@ -190,10 +171,20 @@ TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
 }
 
 TEST(RobotAnswer, IsARefusalIfSomethingCannotBeRead) {
-  const RobotReply reply = ask([] { return tool_text("gripper.urdf"); }, {"shaft", "nobody"});
-  ASSERT_TRUE(reply.refusal);
-  expect_words(*reply.refusal, {"nobody"});
-  EXPECT_FALSE(reply.links);
+  const std::string no_file = robot_of("<mesh filename='package://organ_collision/no.stl'/>");
+  const std::string flat =
+      robot_of("<mesh filename='" + tool_file("jaw.obj") + "' scale='1 0 1'/>");
+  const std::vector<std::pair<std::string, std::vector<std::string>>> rows = {
+      {robot_of("<sphere radius='1'/>"), {"nobody"}},
+      {no_file, {"'tip'", "no.stl"}},
+      {flat, {"'tip'", "jaw.obj", "1 0 1"}},
+      {robot_of("<mesh filename=''/>"), {"'tip'", "''"}}};
+  for (const auto& [urdf, words] : rows) {
+    const RobotReply reply = ask([&urdf = urdf] { return urdf; }, {"tip", "nobody"});
+    ASSERT_TRUE(reply.refusal);
+    expect_words(*reply.refusal, words);
+    EXPECT_FALSE(reply.links);
+  }
   const auto missing = []() -> std::string { throw ToolError("cannot read 'x.urdf'"); };
   EXPECT_EQ(ask(missing, {"tip"}).refusal, "cannot read 'x.urdf'");
 }

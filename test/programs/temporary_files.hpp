@@ -4,7 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
+#include <cstdio>
 #include <fstream>
 #include <string>
 
@@ -12,38 +12,22 @@
 
 namespace organ_collision {
 
-/// An empty folder. The destructor removes it with all that is in it.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static int count = 0;
-    path_ = testing::TempDir() + "organ_collision_programs_" + std::to_string(getpid()) + "_" +
-            std::to_string(++count);
-    std::filesystem::create_directory(path_);
-  }
-  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-  /// Writes a file and returns its path.
-  std::string write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ + '/' + name, std::ios::binary) << content;
-    return path_ + '/' + name;
-  }
-
- private:
-  std::string path_;
-};
-
 /// A file with a given content. The destructor removes it.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& content) : path_(folder_.write("file", content)) {}
+  explicit TemporaryFile(const std::string& content) {
+    static int count = 0;
+    path_ = testing::TempDir() + "organ_collision_programs_" + std::to_string(getpid()) + "_" +
+            std::to_string(++count);
+    std::ofstream(path_, std::ios::binary) << content;
+  }
+  ~TemporaryFile() { std::remove(path_.c_str()); }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+
   const std::string& path() const { return path_; }
 
  private:
-  TemporaryFolder folder_;
   std::string path_;
 };
 

@@ -1,3 +1,4 @@
+// The command lines of all programs, and the texts that query_offline reads.
 #include "offline/user_input.hpp"
 
 #include <gtest/gtest.h>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <thread>
 
+#include "offline/text_reader.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {
@@ -56,6 +58,62 @@ TEST(UserInput, is_a_number_only_from_end_to_end) {
   for (const char* text : {"", "x", "1.0", "1e3", "99999999999999999999", "+1"}) {
     EXPECT_FALSE(parse_integer(text)) << text;
   }
+}
+
+Words lines_of(const std::string& content) {
+  const TemporaryFile file(content);
+  TextReader text(file.path());
+  Words lines;
+  while (text.is_ready() && text.next()) lines.emplace_back(text.line());
+  return lines;
+}
+
+TEST(TextReader, takes_unix_and_windows_lines_without_blank_ones) {
+  for (const char* content :
+       {"a b\nc\n", "a b\n\nc", "a b\r\n\r\nc\r\n", "\n  a b \t\n   \n\tc  \r\n\n",
+        "\xEF\xBB\xBF"
+        "a b\nc\n",
+        "\xEF\xBB\xBF\r\na b\nc\n"}) {
+    EXPECT_EQ(lines_of(content), (Words{"a b", "c"})) << content;
+  }
+  for (const char* content : {"", "\n", " \t\r\n\n "}) EXPECT_TRUE(lines_of(content).empty());
+}
+
+TEST(TextReader, takes_lines_that_are_longer_than_what_it_reads_at_once) {
+  Words lines;
+  std::string content;
+  for (std::size_t i = 0; i < 40; ++i) {
+    lines.emplace_back(1 + i * i * 200, static_cast<char>('a' + i % 26));
+    content += lines.back() + '\n';
+  }
+  EXPECT_EQ(lines_of(content), lines);
+}
+
+TEST(TextReader, counts_all_lines_for_errors) {
+  const TemporaryFile file("\na\n\n\nb\n\n");
+  TextReader text(file.path());
+  ASSERT_TRUE(text.next());
+  EXPECT_EQ(text.number(), 2U);
+  ASSERT_TRUE(text.next());
+  EXPECT_STREQ(text.error("no").what(), (file.path() + ":5: no").c_str());
+  EXPECT_FALSE(text.next());
+  EXPECT_EQ(text.number(), 6U);
+  EXPECT_EQ(TextReader("/dev/null").number(), 1U);
+}
+
+TEST(TextReader, refuses_what_it_cannot_read) {
+  EXPECT_EQ(input_error([] { TextReader("/nowhere/a.csv"); }),
+            "/nowhere/a.csv: cannot be opened: No such file or directory");
+  EXPECT_EQ(input_error([] { TextReader("/").next(); }), "/: cannot be read: Is a directory");
+  const std::string longest(TextReader::kLongestLine, 'a');
+  const TemporaryFile file(longest + "\n" + longest + "b");
+  TextReader text(file.path());
+  ASSERT_TRUE(text.next());
+  EXPECT_EQ(text.line(), longest);
+  EXPECT_EQ(input_error([&] { text.next(); }),
+            file.path() +
+                ":2: the line has more than 1048576 bytes; must be shorter, with a line feed at "
+                "its end");
 }
 
 /// What a program with an option of each kind takes from its words.

@@ -1,4 +1,6 @@
 // Parameters of all nodes: any tree of values, as the parameter server may hold it.
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -19,31 +21,12 @@ namespace {
 /// names.
 std::vector<std::string> known_names() {
   // make_corpus.py knows the numbers of the first ones.
-  std::vector<std::string> names = {"tools",
-                                    "organs",
-                                    "rate",
-                                    "organ_motion",
-                                    "stiffness",
-                                    "max_force",
-                                    "name",
-                                    "trocar_frame",
-                                    "tip_frame",
-                                    "radius",
-                                    "links",
-                                    "urdf",
-                                    "topic",
-                                    "tip_pose_topic",
-                                    "base_pose_topic",
-                                    "robot_description",
-                                    "tf_prefix",
-                                    "margin",
-                                    "max_near",
-                                    "freedom",
-                                    "vertices_topic",
-                                    "not_a_name",
-                                    "",
-                                    "/",
-                                    "~"};
+  std::istringstream first(
+      "tools organs rate organ_motion stiffness max_force name trocar_frame tip_frame radius links "
+      "urdf topic tip_pose_topic base_pose_topic robot_description tf_prefix margin max_near "
+      "freedom vertices_topic not_a_name / ~");
+  std::vector<std::string> names{std::istream_iterator<std::string>(first), {}};
+  names.emplace_back();
   for (const auto& help :
        {parameter_help<NodeParameters>(), parameter_help<HapticProxyParameters>(),
         parameter_help<ContactAdapterParameters>(), parameter_help<MeshAdapterParameters>()}) {

@@ -1,17 +1,63 @@
-// The messages that organ_mesh_adapter converts: bytes from the wire, to organ messages. Kinds of
-// message: shape_msgs/Mesh, pcl_msgs/PolygonMesh, Marker, a cloud of vertices.
+// The messages that contact_adapter and organ_mesh_adapter take.
 #include <pcl_msgs/PolygonMesh.h>
 #include <sensor_msgs/PointCloud2.h>
 #include <shape_msgs/Mesh.h>
 #include <visualization_msgs/Marker.h>
 
+#include <cmath>
+
+#include "contact_adapter/contact_answer.hpp"
+#include "contact_adapter/force_law.hpp"
+#include "forces/forces.hpp"
 #include "fuzz_input.hpp"
 #include "mesh_adapter/organ_source.hpp"
 #include "mesh_adapter/surface_messages.hpp"
+#include "ros/messages/failure_log.hpp"
 
 using namespace organ_collision;
 
 namespace {
+
+// ContactArray as contact_adapter takes it: bytes from the wire, to forces and lists of faces. Each
+// message has a byte before it: whether the radius of the shaft is known.
+
+constexpr double kMaxForce = 5.0;  // [N]
+
+void take(const ContactArray& answer, bool knows_radius, ForceLaw& law, PairNames& names) {
+  check_contacts(answer);
+  names.of(answer.organ, answer.tool);
+  face_list(answer);
+  if (!has_geometry(answer)) return;
+  const ShaftRadius radius = knows_radius ? ShaftRadius(0.01) : std::nullopt;
+  std::vector<FaceForce> forces = law.follow(answer, 0.001, 300.0, radius);
+  limit_force(forces, kMaxForce);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const FaceForce& force : forces) sum += force.force;
+  demand(sum.norm() <= kMaxForce * (1.0 + 1e-6), "the force is finite and limited");
+  wrench_of(forces);
+  for (const auto& force : vertex_forces(answer, forces).forces) {
+    demand(std::isfinite(force.x + force.y + force.z), "forces on vertices are finite");
+  }
+}
+
+void run_contact_adapter(const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  ForceLaw law;
+  PairNames names;
+  while (!input.empty()) {
+    const bool knows_radius = input.byte() % 2 == 1;
+    const auto answer = next_message<ContactArray>(input);
+    try {
+      if (answer) take(*answer, knows_radius, law, names);
+    } catch (const Rejection&) {
+    }
+  }
+}
+
+const FuzzTarget contact_adapter_target("contact_adapter", run_contact_adapter);
+
+// The messages that organ_mesh_adapter converts: bytes from the wire, to organ messages. Kinds of
+// message: shape_msgs/Mesh, pcl_msgs/PolygonMesh, Marker, a cloud of vertices.
 
 /// The next bytes, as a subscriber receives them.
 template <typename Message>
@@ -42,9 +88,7 @@ void take(FuzzInput& input, OrganSource& source) {
   }
 }
 
-}  // namespace
-
-static const FuzzTarget target("mesh_adapter", [](const std::uint8_t* data, std::size_t size) {
+void run_mesh_adapter(const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
   const OrganSource::Callbacks callbacks{
       [](const OrganMeshPtr& mesh) { demand(mesh->organ == "liver", "a mesh names its organ"); },
@@ -59,4 +103,8 @@ static const FuzzTarget target("mesh_adapter", [](const std::uint8_t* data, std:
   }
   const OrganMeshPtr mesh = source.mesh();
   demand(!mesh || !mesh->triangles.empty(), "the last legal mesh has faces");
-});
+}
+
+const FuzzTarget mesh_adapter_target("mesh_adapter", run_mesh_adapter);
+
+}  // namespace

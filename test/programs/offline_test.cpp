@@ -1,0 +1,283 @@
+// What query_offline reads and writes: OBJ files, files of motions, and the CSV lines of answers.
+// query_offline_test.py compares whole runs of the program.
+#include <gtest/gtest.h>
+
+#include "offline/evaluation.hpp"
+#include "temporary_files.hpp"
+
+namespace organ_collision {
+namespace {
+
+/// The beginning of a file, and the end of the message that refuses it.
+using Refusals = std::vector<std::pair<std::string, std::string>>;
+using Faces = std::vector<FaceIndices>;
+
+const std::string kVertices =
+    "v 0 0 0\n"
+    "v 1 0 0\n"
+    "v 1 1 0\n"
+    "v 0 1 0.5\n"
+    "v -1 0.25 2\n";
+
+ObjFile read(const std::string& content) { return read_obj(TemporaryFile(content).path()); }
+
+Faces faces_of(const std::string& content) { return mesh_of(read(content)).faces(); }
+
+TEST(ObjFile, has_the_vertices_and_faces_in_the_order_of_the_file) {
+  const ObjFile obj = read(
+      "\xEF\xBB\xBF# f 1 2 3\nmtllib a.mtl\nvt 0 0\nvn 0 0 1\nv 0.1 -0.2 1e-50 1\r\n"
+      "\tv\t1.00000001  1e0 0 \nusemtl f\n\nv 0 1 524288.03 0.5 0.5 0.5\nv 3 3 3\nv 4 4 4\n"
+      "l 1 2\nf 2 3 4 5 1\nf 1 2 3\r\nend\n");
+  EXPECT_EQ(obj.vertices,
+            (std::vector<float>{0.1F, -0.2F, 0, 1, 1, 0, 0, 1, 524288.03125F, 3, 3, 3, 4, 4, 4}));
+  // A polygon is cut into a fan.
+  EXPECT_EQ(mesh_of(obj).faces(), (Faces{{1, 2, 3}, {1, 3, 4}, {1, 4, 0}, {0, 1, 2}}));
+  EXPECT_EQ(obj.face_lines, (std::vector<std::size_t>{13, 13, 13, 14}));
+  EXPECT_EQ(obj.line_count, 15U);
+}
+
+TEST(ObjFile, has_corners_of_every_form) {
+  for (const char* face : {"f 1/4 2/5 3/6\n", "f 1//4 2//5 3//6\n", "f 1/4/7 2/5/8 3/6/9\n",
+                           "f -5 -4 -3\n", "f -5/-1/-1 2 -3//-1  # a comment\n"}) {
+    EXPECT_EQ(faces_of(kVertices + face), (Faces{{0, 1, 2}})) << face;
+  }
+  EXPECT_EQ(faces_of("f 1 2 3\n" + kVertices), (Faces{{0, 1, 2}}));
+  // Negative numbers are counted from the last vertex so far.
+  EXPECT_EQ(faces_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 0 0 1\nf -3 -2 -1\n"),
+            (Faces{{0, 1, 2}, {1, 2, 3}}));
+}
+
+TEST(ObjFile, is_refused_with_the_value_and_what_is_legal) {
+  const std::string range = "; must be finite and within 1e6 m";
+  const std::string numbers = "; legal are numbers from 1, or from -1 to -5 counted back";
+  const std::string none =
+      ": the file ends without an f line; a mesh in OBJ format has at least one";
+  Refusals refusals = {
+      {"v 0 1\n", ":1: a vertex with 2 coordinates; must have x, y and z"},
+      {"\nv 0 a 1\n", ":2: y is \"a\"; must be a number"},
+      {"v 0 1 nan\n", ":1: z is \"nan\"" + range},
+      {"v 0 -1e39 0\n", ":1: y is \"-1e39\"" + range},
+      {"v 0 0 1000001\n", ":1: z is \"1000001\"" + range},
+      {kVertices + "f 1 2\n", ":6: a face with 2 corners; must have at least 3"},
+      {kVertices + "f 1 2 3\nf 1 2 6\nf 1 2 3\n",
+       ":7: a face refers to vertex 6; the file has 5, counted from 1"},
+      {kVertices + "f 0 1 2\n", ":6: a face refers to vertex 0" + numbers},
+      {kVertices + "f 1 2 -6\n", ":6: a face refers to vertex -6" + numbers},
+      {kVertices + "f 1 2 4294967296\n", ":6: a face refers to vertex 4294967296" + numbers},
+      {"", ":1" + none},
+      {kVertices, ":5" + none}};
+  for (const std::string corner : {"x", "1.5", "/1", "2x/1", "99999999999999999999"}) {
+    refusals.emplace_back(
+        kVertices + "f 1 2 " + corner + "\n",
+        ":6: corner \"" + corner + "\" does not begin with the number of a vertex");
+  }
+  for (const auto& [content, why] : refusals) EXPECT_EQ(refusal_of(content, read_obj), why);
+  ObjFile large = read(kVertices + "f 1 2 3\n");
+  large.triangles.resize(3 * (MeshLimits().max_faces + 1));
+  EXPECT_EQ(input_error([&] { mesh_of(large); }),
+            large.file + ": 2000001 faces; at most 2000000 are allowed");
+}
+
+TEST(ObjFile, of_another_shape_has_the_same_faces) {
+  const TemporaryFile file(kVertices + "f 1 2 3\nf 2 3 4\n");
+  const TriangleMesh mesh = mesh_of(read_obj(file.path()));
+  const auto check = [&](const std::string& other) {
+    check_same_faces(read_obj(other), mesh, file.path());
+  };
+  EXPECT_NO_THROW(check(TemporaryFile(kVertices + "f 1//1 -4 -3\nf 2 3 4\n").path()));
+  const std::string right = file.path() + " has 5 vertices and 2 faces";
+  for (const auto& [content, why] :
+       Refusals{{"f 1 2 3\nf 2 4 3\n",
+                 ":7: face 1 has the vertices 2 4 3; in " + file.path() + " they are 2 3 4"},
+                {"f 1 2 3\n", ":6: the file ends with 5 vertices and 1 faces; " + right},
+                {"v 0 0 0\nf 1 2 3\nf 2 3 4\n",
+                 ":8: the file ends with 6 vertices and 2 faces; " + right}}) {
+    EXPECT_EQ(refusal_of(kVertices + content, check), why);
+  }
+}
+
+using Order = MotionList::Order;
+using Names = std::vector<std::string>;
+
+const std::pair<const char*, QueryMode> kModes[] = {{"static", QueryMode::kStatic},
+                                                    {"swept", QueryMode::kSwept},
+                                                    {"paper_static", QueryMode::kPaperStatic},
+                                                    {"paper_swept", QueryMode::kPaperSwept},
+                                                    {"paper_naive", QueryMode::kPaperNaive}};
+const std::string kHeader =
+    "query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,tip_x,tip_y,tip_z,"
+    "radius\n";
+const std::string kPoints = ",1,2,3,4,5,6,7,8,9";
+
+std::vector<Motion> motions_in(const std::string& file) {
+  MotionReader reader(file);
+  std::vector<Motion> motions;
+  while (const std::optional<Motion> motion = reader.next()) motions.push_back(*motion);
+  return motions;
+}
+
+TEST(MotionReader, reads_every_mode) {
+  for (const auto& [name, mode] : kModes) {
+    // The static modes ignore the previous tip.
+    const bool is_static = is_static_mode(mode);
+    for (const std::string& cells :
+         is_static ? Names{",,,", ",x,nan,-", ",4,5,6"} : Names{",4,5,6"}) {
+      const std::vector<Motion> motions =
+          motions_in(TemporaryFile("\xEF\xBB\xBF\r\n" + kHeader + "\r\n 7 , " + name + ",1,2, 3" +
+                                   cells + ",7,8,9, 1e-3 \r\n\r\n")
+                         .path());
+      ASSERT_EQ(motions.size(), 1U);
+      const Motion& motion = motions[0];
+      EXPECT_EQ(motion.mode, mode);
+      EXPECT_EQ(motion.query, "7");
+      EXPECT_EQ(motion.line, 4U);
+      EXPECT_EQ(motion.radius, 1e-3);
+      const ToolPath path = path_of(motion);
+      ASSERT_EQ(path.size(), is_static ? 1U : 2U);
+      EXPECT_EQ(path.back().axis.trocar, Eigen::Vector3d(1, 2, 3));
+      EXPECT_EQ(path.back().axis.tip, Eigen::Vector3d(7, 8, 9));
+      EXPECT_EQ(path.front().axis.trocar, Eigen::Vector3d(1, 2, 3));
+      EXPECT_EQ(path.front().axis.tip,
+                is_static ? Eigen::Vector3d(7, 8, 9) : Eigen::Vector3d(4, 5, 6));
+    }
+  }
+}
+
+TEST(MotionReader, refuses_lines_naming_the_value_and_what_is_legal) {
+  const std::string none = ": the file ends without a motion; must have at least one";
+  const std::string good = kHeader + "1,swept" + kPoints + ",1\n3,static,1,2,3,,,,1,2,3,1\n";
+  const Refusals refusals = {
+      {"", ":1" + none},
+      {kHeader + "\n", ":2" + none},
+      {"query,mode\n",
+       ":1: header is \"query,mode\"; must be " + kHeader.substr(0, kHeader.size() - 1)},
+      {good + "1,swept" + kPoints + "\n", ":4: 11 columns; must be 12"},
+      {good + "1,swept" + kPoints + ",1,\n", ":4: 13 columns; must be 12"},
+      {good + ",swept" + kPoints + ",1\n", ":4: query is empty; must be a number or a name"},
+      {good + "2,sweep" + kPoints + ",1\n",
+       ":4: mode is \"sweep\"; legal are static, swept, paper_static, paper_swept and paper_naive"},
+      {good + "2,swept,1,2,3,4,five,6,7,8,9,1\n", ":4: previous_y is \"five\"; must be a number"},
+      {good + "2,swept,1,2,,4,5,6,7,8,9,1\n", ":4: trocar_z is \"\"; must be a number"},
+      {good + "2,static,1,2,3,4,5,6,nan,8,9,1\n", ":4: tip_x is \"nan\"; must be a finite number"},
+      {good + "2,static" + kPoints + ",0\n", ":4: radius is \"0\"; must be above 0"},
+      {good + "2,static" + kPoints + ",-1e-3\n", ":4: radius is \"-1e-3\"; must be above 0"},
+      {good + "2,static" + kPoints + ",inf\n", ":4: radius is \"inf\"; must be a finite number"},
+      {good + "2,swept,1,2,3,4,5,6,7,8,1e7,1\n",
+       ":4: tip of waypoint 1 is (7, 8, 1e+07); must be finite and within 1e+06 m"}};
+  const auto read = [](const std::string& file) { motions_in(file); };
+  for (const auto& [content, why] : refusals) EXPECT_EQ(refusal_of(content, read), why);
+  for (const char* mode : {"paper_static", "paper_swept", "paper_naive"}) {
+    const std::string point = good + "2," + mode + ",1,2,3,1,2,3,1,2,3,1\n";
+    EXPECT_EQ(refusal_of(point, read).find(":4: "), 0U);
+  }
+}
+
+/// A file of motions with these queries.
+std::string file_of(const Names& queries) {
+  std::string content;
+  for (const std::string& query : queries) content += query + ",swept" + kPoints + ",1\n";
+  return content;
+}
+
+/// The queries in the order in which they are given.
+Names given(const Names& queries, Order order) {
+  MotionList list(TemporaryFile(file_of(queries)).path(), order);
+  EXPECT_EQ(list.size(), queries.size());
+  Names names;
+  while (const std::optional<Motion> motion = list.next()) {
+    names.push_back(motion->query);
+    EXPECT_EQ(queries[motion->line - 1], motion->query);
+  }
+  return names;
+}
+
+TEST(MotionList, sorts_integers_by_value_and_names_as_text) {
+  const Names integers{"10", "9", "-3", "0", "100"}, names{"stab", "10", "9", "palpate 2"};
+  EXPECT_EQ(given(integers, Order::kByQuery), (Names{"-3", "0", "9", "10", "100"}));
+  EXPECT_EQ(given(names, Order::kByQuery), (Names{"10", "9", "palpate 2", "stab"}));
+  EXPECT_EQ(given(integers, Order::kAsInFile), integers);
+}
+
+TEST(MotionList, refuses_illegal_files_as_a_whole) {
+  const Refusals refusals = {
+      {file_of({"3", "4", "3"}), ":3: query \"3\" is already on line 1; each motion needs its own"},
+      {file_of({"3", "03"}), ":2: query \"03\" is already on line 1; each motion needs its own"},
+      {file_of({"a", "b", "b"}), ":3: query \"b\" is already on line 2; each motion needs its own"},
+      {file_of({"1", "2"}) + "3,swept\n", ":3: 2 columns; must be 12"}};
+  for (const Order order : {Order::kByQuery, Order::kAsInFile}) {
+    for (const auto& [content, why] : refusals) {
+      EXPECT_EQ(refusal_of(content, [&](const std::string& file) { MotionList(file, order); }),
+                why);
+    }
+  }
+}
+
+std::string csv_of(QueryMode mode, const CollisionResult& result, bool clearance, bool placement) {
+  Motion motion;
+  motion.query = "17";
+  motion.mode = mode;
+  Questions questions;
+  questions.clearance = clearance;
+  questions.placement = placement;
+  std::string csv;
+  append_contacts(motion, result, questions, csv);
+  return csv;
+}
+
+TEST(ContactsCsv, has_the_clearance_as_far_as_it_is_known) {
+  CollisionResult result;
+  const auto cells = [&] { return csv_of(QueryMode::kSwept, result, true, false).substr(2 + 9); };
+  EXPECT_EQ(cells(), std::string(15, ',') + "\n");
+  ToolClearance& clearance = result.clearance;
+  clearance.state = ClearanceState::kKnown;
+  clearance.distance = 0.125;
+  clearance.least = 0.1;
+  clearance.least_fraction = 0.75;
+  clearance.face = 4000000000U;
+  clearance.on_organ = {1.0, 2.0, 3.0};
+  clearance.on_tool = {1.0, 2.0, 2.875};
+  clearance.normal = {0.0, 0.0, 1.0};
+  clearance.normal_defined = true;
+  const std::string rest = ",0.125,0.10000000000000001,0.75,4000000000,1,2,3,1,2,2.875,0,0,1,";
+  EXPECT_EQ(cells(), ",known" + rest + "1\n");
+  clearance.is_resolved = clearance.normal_defined = false;
+  EXPECT_EQ(cells(), ",upper_bound" + rest + "0\n");
+  clearance.state = ClearanceState::kBeyondMargin;
+  EXPECT_EQ(cells(), ",beyond_margin" + std::string(14, ',') + "\n");
+}
+
+TEST(ContactsCsv, has_the_crossings_in_their_order_in_each_line) {
+  CollisionResult result;
+  EXPECT_EQ(csv_of(QueryMode::kSwept, result, false, true), "17,,,,,,,,,,unknown,unknown,0,,,,\n");
+  result.contacts.resize(2);
+  result.contacts[0].face = 3;
+  result.contacts[1].face = 4000000000U;
+  for (FaceContact& contact : result.contacts) {
+    contact.fraction = 1.0 / 3.0;
+    contact.depth = -0.0025;
+    contact.point = {0.1, -2e-10, 1234.5};
+    contact.normal = {0.0, 0.6, -0.8};
+  }
+  AxisPlacement& placement = result.placement;
+  placement.tip = Side::kOutside;
+  placement.trocar = Side::kOnSurface;
+  placement.crossings.resize(3);
+  placement.crossings[0].face = 12;
+  placement.crossings[1].shaft = 0.5;
+  for (AxisCrossing& crossing : placement.crossings) crossing.direction = 1;
+  placement.crossings[1].direction = -1;
+  placement.crossings[2].shaft = 0.1;
+  placement.length_known = true;
+  placement.length_inside = 0.1;
+  const std::string rest =
+      ",0.33333333333333331,-0.0025000000000000001,0.10000000000000001,-2.0000000000000001e-10"
+      ",1234.5,0,0.59999999999999998,-0.80000000000000004"
+      ",outside,on_surface,3,12 0 0,1 -1 1,0 0.5 0.10000000000000001,0.10000000000000001\n";
+  EXPECT_EQ(csv_of(QueryMode::kSwept, result, false, true), "17,3" + rest + "17,4000000000" + rest);
+  EXPECT_EQ(csv_of(QueryMode::kPaperSwept, result, true, true),
+            "17,3" + std::string(8 + 15 + 7, ',') + "\n17,4000000000" +
+                std::string(8 + 15 + 7, ',') + "\n");
+}
+
+}  // namespace
+}  // namespace organ_collision
