@@ -1,11 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <random>
 #include <utility>
 
 #include "test/grid_surface.hpp"
@@ -134,24 +132,6 @@ inline GridSurface unwelded(const GridSurface& surface) {
     soup.faces.push_back({first, first + 1, first + 2});
   }
   return soup;
-}
-
-/// The same surface, with the corners of each face in another cyclic order.
-inline GridSurface with_rotated_corners(GridSurface surface, unsigned seed) {
-  std::mt19937 random(seed);
-  for (FaceIndices& face : surface.faces) {
-    std::rotate(face.begin(), face.begin() + random() % 3, face.end());
-  }
-  return surface;
-}
-
-/// The same surface, whose vertices are moved by up to `by` [m] in each coordinate. It stays
-/// closed, but may intersect itself.
-inline GridSurface shaken(GridSurface surface, float by, unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<float> shift(-by, by);
-  for (float& coordinate : surface.vertices) coordinate += shift(random);
-  return surface;
 }
 
 }  // namespace organ_collision

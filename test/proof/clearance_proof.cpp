@@ -1,11 +1,10 @@
-#include "clearance_proof.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <iostream>
 #include <vector>
 
+#include "exactness_proof.hpp"
 #include "link_trials.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "step_oracle.hpp"
@@ -92,22 +91,23 @@ bool contacts_are_right(const ToolStep& step, const CollisionResult& result) {
 
 }  // namespace
 
-Tally ClearanceComparison::compare(const ClearanceTrial& trial) {
+Tally compare_clearance(const ClearanceTrial& trial, CollisionQuery& query) {
   const ToolStep& step = trial.step;
-  query_.evaluate(request_for(trial), result_);
-  const ToolClearance& found = result_.clearance;
+  CollisionResult result;
+  query.evaluate(request_for(trial), result);
+  const ToolClearance& found = result.clearance;
   const bool is_known = found.state == ClearanceState::kKnown;
   bool right =
-      found.is_resolved && margin_is_right(trial, found) && contacts_are_right(step, result_);
+      found.is_resolved && margin_is_right(trial, found) && contacts_are_right(step, result);
   double closest = found.least;
   if (is_known) {
     right = right && end_is_right(step, found) && pair_is_consistent(step, found) &&
-            least_is_right(step, result_, closest);
+            least_is_right(step, result, closest);
   }
   Tally tally;
   tally.count("pairs", 1);
   tally.count("known", is_known);
-  tally.count("touched", !result_.contacts.empty());
+  tally.count("touched", !result.contacts.empty());
   tally.count("wrong", !right);
   tally.keep_most("distance off by at most [m]",
                   is_known ? std::abs(found.distance - rounded_distance(step, 1.0)) : 0.0);
@@ -116,14 +116,14 @@ Tally ClearanceComparison::compare(const ClearanceTrial& trial) {
     std::cout << "clearance differs: state " << static_cast<int>(found.state) << " distance "
               << std::setprecision(17) << found.distance << " least " << found.least << " at "
               << found.least_fraction << " margin " << trial.margin << ", "
-              << result_.contacts.size() << " contacts\n"
+              << result.contacts.size() << " contacts\n"
               << step << std::endl;
   }
   return tally;
 }
 
 bool prove_clearance(const ProofSize& size, Progress& progress) {
-  ClearanceComparison comparison(size.pickers.front());
+  CollisionQuery query(size.pickers.front());
   bool all_right = true;
   const auto prove = [&](const std::string& what, const std::vector<std::string>& kinds, long pairs,
                          const auto& make_trial_of) {
@@ -133,7 +133,7 @@ bool prove_clearance(const ProofSize& size, Progress& progress) {
       Random random(1000 * size.seed + kind);
       for (long i = 0; i < each; ++i) {
         progress.show(what + ", " + kinds[kind], i, each);
-        tallies[kind].add(comparison.compare(make_trial_of(kind, random)));
+        tallies[kind].add(compare_clearance(make_trial_of(kind, random), query));
       }
     }
     print_table(what, kinds, tallies);

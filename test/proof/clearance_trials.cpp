@@ -79,18 +79,6 @@ using Eigen::Isometry3d;
 
 const ShaftAxis kNoShaft{Vector3d::Zero(), Vector3d::Zero()};
 
-TriangleMesh mesh_of(const std::vector<Triangle>& faces) {
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> triangles;
-  for (const Triangle& face : faces) {
-    for (const Vector3d& corner : face) {
-      triangles.push_back(static_cast<std::uint32_t>(triangles.size()));
-      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
-    }
-  }
-  return {vertices, triangles};
-}
-
 Triangle shifted(Triangle face, double size, Random& random) {
   const Vector3d shift = size * random.direction();
   for (Vector3d& corner : face) corner += shift;

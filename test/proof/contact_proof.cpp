@@ -27,14 +27,6 @@ constexpr double kBand = 1e-9;
 constexpr char kWrong[] = "differ by more";
 constexpr char kMissed[] = "missed";
 
-TriangleMesh mesh_of(const Triangle& face) {
-  std::vector<float> vertices;
-  for (const Vector3d& corner : face) {
-    for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
-  }
-  return {vertices, {0, 1, 2}};
-}
-
 /// The largest coordinate of the face relative to `origin` [m].
 double extent(const Triangle& face, const Vector3d& origin) {
   double largest = 0.0;
@@ -72,12 +64,18 @@ class Comparison {
     for (const PickerKind kind : kinds) pickers_.push_back(make_picker(kind));
   }
 
-  /// Compares with exact distances. If the library or the oracle says that the face touches, all
-  /// pickers must find it.
+  /// Compares with exact distances, which also tell whether a touch is too late. If the library or
+  /// the oracle says that the face touches, all pickers must find it.
   Tally capsule(const ShaftMotion& motion, const Trial& trial) {
     const bool touching = within(core(motion), trial.face, trial.radius);
-    const bool found = first_touch(motion, {trial.face, trial.face}, trial.radius).has_value();
+    const auto touch = first_touch(motion, {trial.face, trial.face}, trial.radius);
+    const bool found = touch.has_value();
     Tally tally = new_tally(touching);
+    if (found && touch->time > 0.0) {
+      const ShaftMotion before{motion.start, motion.at(touch->time)};
+      const bool is_late = within(core(before), trial.face, trial.radius - kBand);
+      if (is_late) count_difference("touches too late", false, trial, tally);
+    }
     if (touching != found) {
       const double off = std::abs(distance(core(motion), trial.face) - trial.radius);
       count_difference("differs from exact distance", off <= kBand, trial, tally);
@@ -86,7 +84,7 @@ class Comparison {
     if (!touching && !found) return tally;
     const double largest = extent(trial.face, motion.start.trocar);
     const ViewingVolume volume = conservative_volume(motion, trial.radius, {0.0, largest});
-    const TriangleMesh mesh = mesh_of(trial.face);
+    const TriangleMesh mesh = mesh_of({trial.face});
     for (const std::unique_ptr<Picker>& picker : pickers_) {
       if (picks(*picker, volume, mesh)) continue;
       tally.count(kMissed, 1);
@@ -102,7 +100,7 @@ class Comparison {
       return meets(trial.face, volume.origin(), half_spaces(volume, largest, share));
     };
     const bool exact = inside(0.0), surely = inside(-1.0), maybe = inside(1.0);
-    const TriangleMesh mesh = mesh_of(trial.face);
+    const TriangleMesh mesh = mesh_of({trial.face});
     Tally tally = new_tally(exact);
     for (const std::unique_ptr<Picker>& picker : pickers_) {
       const bool picked = picks(*picker, volume, mesh);
@@ -121,7 +119,7 @@ class Comparison {
     for (Vector3d& corner : face.start) corner += random.scale(1e-4, 0.05) * random.direction();
     face.start = rounded(face.start);
 
-    const TriangleMesh organ = mesh_of(face.end), before = mesh_of(face.start);
+    const TriangleMesh organ = mesh_of({face.end}), before = mesh_of({face.start});
     CollisionRequest request;
     request.organ = &organ;
     request.organ_before = &before;
@@ -169,12 +167,20 @@ void compare_volumes(const Trial& trial, Comparison& comparison, Tallies& tallie
 }  // namespace
 
 bool prove_contacts(const ProofSize& size, Progress& progress) {
-  const std::vector<std::string>& kinds = trial_kinds();
+  std::vector<std::string> kinds = trial_kinds();
   const long each = (size.pairs - 1) / static_cast<long>(kinds.size()) + 1;
+  kinds.emplace_back("once wrong");
   Comparison comparison(size.pickers);
   std::vector<Tally> at_rest(kinds.size()), swept(kinds.size()), moving(kinds.size());
   Tallies volumes;
-  for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+  const std::string data = ORGAN_COLLISION_TEST_DATA;
+  for (const char* const file : {"/first_touch_trials.txt", "/picker_trials.txt"}) {
+    for (const Trial& trial : read_trials(data + file)) {
+      at_rest.back().add(comparison.capsule({trial.motion.end, trial.motion.end}, trial));
+      swept.back().add(comparison.capsule(trial.motion, trial));
+    }
+  }
+  for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
     Random random(1000 * size.seed + kind);
     for (long i = 0; i < each; ++i) {
       progress.show(kinds[kind], i, each);
@@ -182,7 +188,7 @@ bool prove_contacts(const ProofSize& size, Progress& progress) {
       at_rest[kind].add(comparison.capsule({trial.motion.end, trial.motion.end}, trial));
       swept[kind].add(comparison.capsule(trial.motion, trial));
       if (i % 20 == 0) compare_volumes(trial, comparison, volumes);
-      if (i % 200 == 0) moving[kind].add(comparison.moving(trial, random));
+      if (i < 10 || i % 200 == 0) moving[kind].add(comparison.moving(trial, random));
     }
   }
   std::vector<std::string> volume_names;
@@ -219,19 +225,13 @@ Vector3d step_direction(const std::string& name, const Vector3d& axis, Random& r
 
 /// Small faces, within two radii of the axis.
 TriangleMesh faces_near(const ShaftMotion& motion, Random& random) {
-  constexpr int kFaces = 500;
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> triangles;
-  for (int i = 0; i < kFaces; ++i) {
+  std::vector<Triangle> faces(500);
+  for (Triangle& face : faces) {
     const Vector3d center = motion.at(random.uniform(0.0, 1.0)).at(random.uniform(0.0, 1.0)) +
                             random.uniform(0.0, 2.0 * kRadius) * random.direction();
-    for (int corner = 0; corner < 3; ++corner) {
-      const Vector3d vertex = center + 2e-3 * random.direction();
-      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(vertex[k]));
-      triangles.push_back(static_cast<std::uint32_t>(triangles.size()));
-    }
+    for (Vector3d& corner : face) corner = center + 2e-3 * random.direction();
   }
-  return {vertices, triangles};
+  return mesh_of(faces);
 }
 
 std::vector<bool> found_by(CollisionQuery& query, const TriangleMesh& organ,

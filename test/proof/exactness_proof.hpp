@@ -5,7 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "organ_collision/picking/picker_kind.hpp"
+#include "clearance_trials.hpp"
+#include "organ_collision/query/collision_query.hpp"
 
 /// Each proof compares random trials of one kind of answer with the oracles.
 namespace organ_collision::oracle {
@@ -57,6 +58,11 @@ struct ProofSize {
   /// Contacts are compared with all of these, and other answers with the first one.
   std::vector<PickerKind> pickers = {PickerKind::kFeedback, PickerKind::kSelect, PickerKind::kCpu};
 };
+
+/// Asks the library and the oracles how far a tool is from an organ. Prints the trial if the
+/// answers differ by more than 1e-9 m at the end of the step, or 1e-6 m during it. The tally counts
+/// it as "wrong".
+Tally compare_clearance(const ClearanceTrial& trial, CollisionQuery& query);
 
 // Each prints tables, and the trials in which library and oracle differ by more than the stated
 // tolerance. It returns whether there are none.

@@ -46,41 +46,6 @@ TEST(ExactSides, winds_as_often_as_the_solid_angles_say) {
   EXPECT_GT(twice, 10);
 }
 
-TEST(ExactSides, crosses_as_often_as_the_winding_numbers_say) {
-  for (std::size_t kind = 0; kind < placement_trial_kinds().size(); ++kind) {
-    Random random(kind);
-    std::size_t crossings = 0;
-    for (int i = 0; i < 300; ++i) {
-      const PlacementTrial trial = make_placement_trial(kind, random);
-      const auto winding = [&](const Vector3d& point) { return exact_winding(trial.faces, point); };
-      int sum = 0;
-      for (const ExactCrossing& crossing : exact_crossings(trial.faces, trial.axis)) {
-        sum += crossing.direction;
-        EXPECT_GE(crossing.shaft, 0.0) << trial;
-        EXPECT_LE(crossing.shaft, 1.0) << trial;
-        ++crossings;
-      }
-      EXPECT_EQ(winding(trial.axis.tip) - winding(trial.axis.trocar), sum) << trial;
-    }
-    EXPECT_GT(crossings, 100U) << placement_trial_kinds()[kind];
-  }
-}
-
-TEST(RoundedDistance, agrees_with_exact_arithmetic) {
-  for (std::size_t kind = 0; kind < trial_kinds().size(); ++kind) {
-    Random random(kind);
-    for (int i = 0; i < 200; ++i) {
-      const Trial trial = make_trial(kind, random);
-      for (const Triangle& tool : {core(trial.motion), core(trial.motion.end)}) {
-        EXPECT_NEAR(rounded_distance(tool, trial.face), distance(tool, trial.face), 1e-11)
-            << trial_kinds()[kind] << ' ' << to_line(trial);
-        EXPECT_NEAR(rounded_distance(trial.face, tool), distance(tool, trial.face), 1e-11)
-            << trial_kinds()[kind] << ' ' << to_line(trial);
-      }
-    }
-  }
-}
-
 /// Some trials of each kind, at rest and moving.
 std::vector<ToolStep> make_steps() {
   std::vector<ToolStep> steps;

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "clearance_proof.hpp"
 #include "exact_sides.hpp"
 #include "exactness_proof.hpp"
 #include "organ_collision/query/collision_query.hpp"
@@ -139,7 +138,6 @@ bool prove_placement(const ProofSize& size, Progress& progress) {
   const long each = size.pairs / static_cast<long>(kinds.size()) + 1;
   CollisionQuery query(size.pickers.front());
   CollisionResult result;
-  ClearanceComparison clearance(size.pickers.front());
   std::vector<Tally> placements(kinds.size()), clearances(kinds.size());
   for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
     Random random(1000 * size.seed + kind);
@@ -148,7 +146,7 @@ bool prove_placement(const ProofSize& size, Progress& progress) {
       const PlacementTrial trial = make_placement_trial(kind, random);
       query.evaluate(request_for(trial), result);
       placements[kind].add(compare(trial, result.placement));
-      clearances[kind].add(clearance.compare(clearance_of(trial, random)));
+      clearances[kind].add(compare_clearance(clearance_of(trial, random), query));
     }
   }
   print_table("axis, closed organ", kinds, placements);

@@ -262,6 +262,18 @@ std::string text_of(const Eigen::MatrixXd& values) {
   return text.str();
 }
 
+TriangleMesh mesh_of(const std::vector<Triangle>& faces) {
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  for (const Triangle& face : faces) {
+    for (const Vector3d& corner : face) {
+      triangles.push_back(static_cast<std::uint32_t>(triangles.size()));
+      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
+    }
+  }
+  return {vertices, triangles};
+}
+
 double largest_coordinate(const TriangleMesh& mesh) {
   const Eigen::AlignedBox3f& box = mesh.box();
   return std::max(box.min().cwiseAbs().maxCoeff(), box.max().cwiseAbs().maxCoeff());

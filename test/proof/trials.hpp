@@ -65,6 +65,9 @@ std::string text_of_all(const Points& points) {
   return text;
 }
 
+/// A mesh of these faces, each with vertices of its own, rounded to 32-bit floats.
+TriangleMesh mesh_of(const std::vector<Triangle>& faces);
+
 /// [m] The largest coordinate of a mesh.
 double largest_coordinate(const TriangleMesh& mesh);
 

@@ -34,72 +34,36 @@ class ClearanceScene : public LinkScene {
       for (Eigen::Isometry3d& pose : waypoint.links) pose.translation() += away;
     }
   }
-  double slack() const { return request.mode == QueryMode::kStatic ? kExact : kMoving; }
 };
 
-/// The parts of a clearance fit together, and to the request.
-void expect_consistent(const ToolClearance& clearance, const CollisionRequest& request) {
+/// Compares a clearance with the distances by brute force, at the end of the step and during it.
+void expect_clearance(const CollisionResult& result, const CollisionRequest& request, double at_end,
+                      double least) {
+  const ToolClearance& clearance = result.clearance;
+  EXPECT_EQ(clearance.unlimited, request.clearance);
+  EXPECT_EQ(clearance.margin, request.clearance ? 0.0 : request.margin);
   EXPECT_TRUE(clearance.is_resolved);
+  if (!request.clearance && at_end > request.margin) {
+    EXPECT_EQ(clearance.state, ClearanceState::kBeyondMargin);
+    EXPECT_EQ(clearance.distance, 0.0);
+    EXPECT_EQ(clearance.least, 0.0);
+    return;
+  }
   ASSERT_EQ(clearance.state, ClearanceState::kKnown);
-  EXPECT_NEAR(clearance.normal.norm(), 1.0, 1e-12);
+  EXPECT_NEAR(clearance.distance, at_end, kExact);
   EXPECT_LE((clearance.on_organ - clearance.on_tool - clearance.distance * clearance.normal).norm(),
             1e-15);
-  EXPECT_EQ(clearance.vertices, request.organ->faces()[clearance.face]);
-  EXPECT_LE((point_at(request.organ->triangle(clearance.face), clearance.barycentric) -
-             clearance.on_organ)
-                .norm(),
-            1e-12);
-  EXPECT_LE(clearance.least, std::max(clearance.distance, 0.0));
-  EXPECT_GE(clearance.least_fraction, 0.0);
-  EXPECT_LE(clearance.least_fraction, 1.0);
-}
-
-TEST(Clearance, IsThatOfBruteForceUpToTheMargin) {
-  Random random(1);
-  CollisionQuery query;
-  CollisionResult result;
-  int apart = 0, beyond = 0, touched = 0;
-  for (int i = 0; i < 500 && !testing::Test::HasFailure(); ++i) {
-    ClearanceScene scene(random);
-    CollisionRequest& request = scene.request;
-    query.evaluate(request, result);
-    EXPECT_EQ(result.clearance.state, ClearanceState::kNotAsked);
-    const double distance = least_of(distances_at_end(request));
-    request.clearance = random.chance(0.5);
-    request.margin = distance > 0.0 ? distance * random.uniform(0.2, 3.0) : random.scale(1e-4, 1.0);
-    query.evaluate(request, result);
-    const ToolClearance& clearance = result.clearance;
-    EXPECT_EQ(clearance.unlimited, request.clearance);
-    EXPECT_EQ(clearance.margin, request.clearance ? 0.0 : request.margin);
-    if (!request.clearance && distance > request.margin) {
-      ++beyond;
-      EXPECT_EQ(clearance.state, ClearanceState::kBeyondMargin);
-      EXPECT_EQ(clearance.distance, 0.0);
-      EXPECT_EQ(clearance.least, 0.0);
-      continue;
-    }
-    expect_consistent(clearance, request);
-    EXPECT_NEAR(clearance.distance, distance, kExact);
-    if (request.mode == QueryMode::kStatic) {
-      EXPECT_EQ(clearance.least, clearance.distance);
-      EXPECT_EQ(clearance.least_fraction, 0.0);
-      if (!request.links) {
-        EXPECT_EQ(clearance.distance <= 0.0, !result.contacts.empty());
-      }
-    } else if (!result.contacts.empty()) {
-      ++touched;
-      double first = 1.0;
-      for (const FaceContact& contact : result.contacts) first = std::min(first, contact.fraction);
-      EXPECT_EQ(clearance.least, 0.0);
-      EXPECT_EQ(clearance.least_fraction, first);
-    } else {
-      ++apart;
-      EXPECT_NEAR(clearance.least, least_of(distances_by_brute_force(request)), kMoving);
-    }
+  if (request.mode == QueryMode::kStatic) {
+    EXPECT_EQ(clearance.least, clearance.distance);
+    EXPECT_EQ(clearance.least_fraction, 0.0);
+  } else if (!result.contacts.empty()) {
+    double first = 1.0;
+    for (const FaceContact& contact : result.contacts) first = std::min(first, contact.fraction);
+    EXPECT_EQ(clearance.least, 0.0);
+    EXPECT_EQ(clearance.least_fraction, first);
+  } else {
+    EXPECT_NEAR(clearance.least, least, kMoving);
   }
-  EXPECT_GT(apart, 50);
-  EXPECT_GT(beyond, 30);
-  EXPECT_GT(touched, 50);
 }
 
 // All numbers are short, so that nothing is rounded.
@@ -122,45 +86,66 @@ TEST(Clearance, AboveAVertexTellsTheFirstOfItsFaces) {
   }
 }
 
-TEST(NearFaces, AreTheNearestOfBruteForce) {
-  Random random(2);
+/// The near faces are the nearest ones that the tool does not touch. Returns how many there are.
+std::size_t expect_near(const CollisionResult& result, const CollisionRequest& request,
+                        const std::vector<double>& measured) {
+  const double slack = request.mode == QueryMode::kStatic ? kExact : kMoving;
+  EXPECT_EQ(result.near_unresolved, 0U);
+  std::vector<bool> is_told(measured.size());
+  for (const FaceContact& contact : result.contacts) is_told[contact.face] = true;
+  std::vector<double> expected;  // of the faces that are not touched
+  for (std::size_t face = 0; face < measured.size(); ++face) {
+    if (!is_told[face]) expected.push_back(measured[face]);
+  }
+  std::sort(expected.begin(), expected.end());
+  const auto within = [&](double margin) {
+    return static_cast<std::size_t>(std::upper_bound(expected.begin(), expected.end(), margin) -
+                                    expected.begin());
+  };
+  const std::size_t count = result.near.size() + result.near_left_out;
+  EXPECT_GE(count, within(request.margin - slack));
+  EXPECT_LE(count, within(request.margin + slack));
+  EXPECT_EQ(result.near.size(), std::min(request.max_near, count));
+  for (std::size_t k = 0; k < result.near.size(); ++k) {
+    const FaceContact& near = result.near[k];
+    EXPECT_FALSE(is_told[near.face]);
+    is_told[near.face] = true;
+    EXPECT_NEAR(-near.depth, expected[k], slack);
+    EXPECT_NEAR(-near.depth, measured[near.face], slack);
+    EXPECT_EQ(near.vertices, request.organ->faces()[near.face]);
+    EXPECT_NEAR(near.normal.norm(), 1.0, 1e-12);
+  }
+  return result.near.size();
+}
+
+TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
+  Random random(1);
   CollisionQuery query;
   CollisionResult result;
-  std::size_t checked = 0;
-  for (int i = 0; i < 300 && !testing::Test::HasFailure(); ++i) {
+  std::size_t apart = 0, beyond = 0, touched = 0, near = 0;
+  for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
     ClearanceScene scene(random);
     CollisionRequest& request = scene.request;
-    request.margin = random.scale(1e-3, 0.3);
+    query.evaluate(request, result);
+    EXPECT_EQ(result.clearance.state, ClearanceState::kNotAsked);
+    EXPECT_TRUE(result.near.empty());
+    const double at_end = least_of(distances_at_end(request));
+    request.clearance = random.chance(0.5);
+    request.margin = at_end > 0.0 && random.chance(0.7) ? at_end * random.uniform(0.2, 3.0)
+                                                        : random.scale(1e-3, 0.3);
     request.max_near = static_cast<std::size_t>(random.integer(1, 200));
     query.evaluate(request, result);
-    EXPECT_EQ(result.near_unresolved, 0U);
     const std::vector<double> measured = distances_by_brute_force(request);
-    std::vector<bool> is_told(measured.size());
-    for (const FaceContact& contact : result.contacts) is_told[contact.face] = true;
-    std::vector<double> expected;  // of the faces that are not touched
-    for (std::size_t face = 0; face < measured.size(); ++face) {
-      if (!is_told[face]) expected.push_back(measured[face]);
-    }
-    std::sort(expected.begin(), expected.end());
-    const auto within = [&](double margin) {
-      return static_cast<std::size_t>(std::upper_bound(expected.begin(), expected.end(), margin) -
-                                      expected.begin());
-    };
-    const std::size_t count = result.near.size() + result.near_left_out;
-    EXPECT_GE(count, within(request.margin - scene.slack()));
-    EXPECT_LE(count, within(request.margin + scene.slack()));
-    EXPECT_EQ(result.near.size(), std::min(request.max_near, count));
-    for (std::size_t k = 0; k < result.near.size(); ++k, ++checked) {
-      const FaceContact& near = result.near[k];
-      EXPECT_FALSE(is_told[near.face]);
-      is_told[near.face] = true;
-      EXPECT_NEAR(-near.depth, expected[k], scene.slack());
-      EXPECT_NEAR(-near.depth, measured[near.face], scene.slack());
-      EXPECT_EQ(near.vertices, request.organ->faces()[near.face]);
-      EXPECT_NEAR(near.normal.norm(), 1.0, 1e-12);
-    }
+    expect_clearance(result, request, at_end, least_of(measured));
+    near += expect_near(result, request, measured);
+    apart += result.contacts.empty();
+    touched += !result.contacts.empty();
+    beyond += result.clearance.state == ClearanceState::kBeyondMargin;
   }
-  EXPECT_GT(checked, 4000U);
+  EXPECT_GT(apart, 50U);
+  EXPECT_GT(beyond, 15U);
+  EXPECT_GT(touched, 50U);
+  EXPECT_GT(near, 2000U);
 }
 
 /// A budget of which only this many steps are left.

@@ -61,7 +61,7 @@ TEST_P(ScenesWith, ContactsAreThoseOfBruteForce) {
     LinkScene scene(kind_.may_be_meshes, random, kind_.rotation);
     CollisionRequest& request = scene.request;
     if (!kind_.has_links) scene.remove_links(random);
-    const Soup before = changed(scene.soup, static_cast<Change>(i % 4), random);
+    const GridSurface before = changed(scene.soup, static_cast<Change>(i % 4), random);
     const TriangleMesh organ_before = mesh(before);
     if (kind_.most_legs > 0) {
       request.path = trembling(request.path, random.integer(2, kind_.most_legs),
@@ -140,20 +140,6 @@ TEST_P(CollisionQueryWith, TheDeepestOfAToolsTrianglesIsTheContact) {
   }
 }
 
-TEST_P(CollisionQueryWith, TrialsThatAPickerOnceMissed) {
-  for (const oracle::Trial& trial :
-       oracle::read_trials(ORGAN_COLLISION_TEST_DATA "/picker_trials.txt")) {
-    std::vector<float> vertices;
-    for (const Vector3d& corner : trial.face) {
-      for (int k = 0; k < 3; ++k) vertices.push_back(static_cast<float>(corner[k]));
-    }
-    const TriangleMesh organ(vertices, {0, 1, 2});
-    const auto& [start, end] = trial.motion;
-    EXPECT_EQ(contacts(swept(organ, {{0.0, start}, {1.0, end}}, trial.radius)).size(), 1U)
-        << oracle::to_line(trial);
-  }
-}
-
 // A region lies in its face, and in a volume of its part on the leg of the first touch.
 TEST_P(CollisionQueryWith, RegionsAreInTheFaceAndInTheVolumeOfTheLegThatTouched) {
   Random random(24);
@@ -202,24 +188,22 @@ TEST_P(CollisionQueryWith, PaperModesPickInThePapersVolumes) {
   const TriangleMesh organ = mesh(liver());
   const auto picker = make_picker(GetParam());
   std::size_t found = 0;
+  const std::vector<Link> links = random_links(true, random);
   for (int i = 0; i < 20; ++i) {
-    LinkScene scene(true, random);
-    const ShaftMotion motion{scene.request.path.front().axis,
-                             {scene.request.path.front().axis.trocar, random.point(0.1)}};
-    scene.request.organ = &organ;
-    scene.request.organ_before = nullptr;
-    scene.request.radius = 5e-3;
-    scene.request.path.front().axis = motion.start;
-    scene.request.path.back().axis = motion.end;
+    CollisionRequest request = swept(organ, random_link_path(links.size(), 0.1, random), 5e-3);
+    request.links = &links;
+    ShaftMotion motion{request.path.front().axis, request.path.front().axis};
+    motion.end.tip = random.point(0.1);
+    request.path.back().axis = motion.end;
     const std::pair<QueryMode, ViewingVolume> volumes[] = {
         {QueryMode::kPaperStatic, paper_static_volume(motion.end, 5e-3)},
         {QueryMode::kPaperSwept, paper_swept_volume(motion, 5e-3)},
         {QueryMode::kPaperNaive, paper_naive_volume(motion, 5e-3)}};
     for (const auto& [mode, volume] : volumes) {
-      scene.request.mode = mode;
+      request.mode = mode;
       std::vector<Candidate> expected;
       picker->pick(volume, organ, expected);
-      contacts(scene.request);
+      contacts(request);
       ASSERT_EQ(result_.contacts.size(), expected.size());
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_EQ(result_.contacts[k].face, expected[k].face);

@@ -90,8 +90,7 @@ TEST_P(CompiledPipelines, AreEnoughWhenMoreAndMoreFacesAreDrawn) {
 
 TEST_P(CompiledPipelines, AreEnoughForQueriesOfAllKinds) {
   oracle::Random random(54);
-  const Soup large = scattered_faces(3000, random);
-  const TriangleMesh large_organ = mesh(large);
+  const TriangleMesh large_organ = mesh(scattered_faces(3000, random));
   for (int i = 0; i < 200; ++i) {
     LinkScene scene(true, random);
     scene.request.regions = random.chance(0.5);

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <array>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -19,10 +18,6 @@ using Eigen::Vector3d;
 using oracle::Random;
 
 constexpr std::uint32_t kNumber = 3;  ///< of the link
-
-Vector3d on(const Triangle& face, const Vector3d& barycentric) {
-  return barycentric[0] * face[0] + barycentric[1] * face[1] + barycentric[2] * face[2];
-}
 
 Triangle shifted_by(Triangle face, const Vector3d& shift) {
   for (Vector3d& corner : face) corner += shift;
@@ -176,10 +171,10 @@ TEST_P(ContactTrials, OnALegTheyAreAtTheRadiusAndTellOfTheEndOfTheStep) {
     if (time > 0.0) {
       EXPECT_NEAR(distance, radius, trial.is_shaft() ? 1e-9 : 1e-8);
     }
-    EXPECT_LE((contact->point - on(face, contact->barycentric)).norm(), trial.slack);
+    EXPECT_LE((contact->point - point_at(face, contact->barycentric)).norm(), trial.slack);
     EXPECT_NEAR(contact->barycentric.sum(), 1.0, 1e-14);
     const Vector3d& end_point = contact->end_point;
-    EXPECT_LE((end_point - on(trial.face.end, contact->barycentric)).norm(), trial.slack);
+    EXPECT_LE((end_point - point_at(trial.face.end, contact->barycentric)).norm(), trial.slack);
     const Vector3d& normal = contact->normal;
     if (distance < 0.5 * tolerance::kPierced) {
       const double reach = trial.is_shaft() ? normal.dot(trial.part->end.axis.tip)
@@ -199,29 +194,6 @@ TEST_P(ContactTrials, OnALegTheyAreAtTheRadiusAndTellOfTheEndOfTheStep) {
   for_each_trial(Moves::kTool, 150, check);
   for_each_trial(Moves::kAll, 150, check);
   EXPECT_GT(contacts, 0);
-}
-
-TEST_P(ContactTrials, OrderOfCornersChangesNothing) {
-  constexpr std::array<std::array<int, 3>, 5> kOrders = {
-      {{1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {1, 0, 2}, {2, 1, 0}}};
-  if (GetParam() >= oracle::trial_kinds().size()) return;  // The sweep of a link has no exact core.
-  for_each_trial(Moves::kTool, 150, [&](const PartTrial& trial) {
-    const auto contact = trial.contact();
-    const ShaftMotion motion{trial.part->core.start().axis(), trial.part->core.end().axis()};
-    const Triangle& corners = trial.face.end;
-    const double gap = oracle::distance(oracle::core(motion), corners) - trial.part->radius;
-    for (const auto& order : kOrders) {
-      const Triangle face = {corners[order[0]], corners[order[1]], corners[order[2]]};
-      const auto other = refine(*trial.part, {{face, face}, 0.0, 1.0, face});
-      if (std::abs(gap) > 1e-9) {
-        ASSERT_EQ(other.has_value(), contact.has_value());
-      }
-      if (!contact || !other || std::abs(gap) < 1e-6) continue;
-      EXPECT_NEAR(other->fraction, contact->fraction, 1e-5);
-      EXPECT_LE((other->normal - contact->normal).norm(), 1e-4);
-      EXPECT_NEAR(other->depth, contact->depth, 1e-4);
-    }
-  });
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ContactTrials,

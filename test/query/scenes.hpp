@@ -25,42 +25,41 @@
 /// part on every leg, without picking, boxes or bounds.
 namespace organ_collision {
 
-struct Soup {
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> triangles;
-};
-
-inline TriangleMesh mesh(const Soup& soup) { return {soup.vertices, soup.triangles}; }
+inline TriangleMesh mesh(const GridSurface& surface) {
+  return {surface.vertices, surface.triangles()};
+}
 
 /// Scattered faces of many sizes. Some share corners.
-inline Soup scattered_faces(std::size_t count, oracle::Random& random) {
-  Soup soup;
-  for (std::size_t i = 0; i < count; ++i) {
+inline GridSurface scattered_faces(std::uint32_t count, oracle::Random& random) {
+  GridSurface soup;
+  for (std::uint32_t i = 0; i < count; ++i) {
     const Eigen::Vector3d center = random.point(0.12);
     const double size = random.scale(1e-3, 0.05);
-    for (int corner = 0; corner < 3; ++corner) {
-      const Eigen::Vector3d vertex = center + size * random.direction();
-      for (int k = 0; k < 3; ++k) soup.vertices.push_back(static_cast<float>(vertex[k]));
-      const bool common = i > 0 && random.chance(0.2);
-      soup.triangles.push_back(common ? random.integer(0, 3 * i - 1) : 3 * i + corner);
+    FaceIndices face = {3 * i, 3 * i + 1, 3 * i + 2};
+    for (std::uint32_t& corner : face) {
+      const Eigen::Vector3f vertex = (center + size * random.direction()).cast<float>();
+      add_vertex(soup, {vertex.x(), vertex.y(), vertex.z()});
+      const int earlier = static_cast<int>(3 * i) - 1;
+      if (i > 0 && random.chance(0.2)) corner = random.integer(0, earlier);
     }
+    soup.faces.push_back(face);
   }
   return soup;
 }
 
-inline Soup shaken(const Soup& soup, double by, oracle::Random& random) {
-  Soup moved = soup;
-  for (float& x : moved.vertices) x += static_cast<float>(random.uniform(-by, by));
-  return moved;
+/// The same surface, whose vertices are moved by up to `by` [m] in each coordinate.
+inline GridSurface shaken(GridSurface surface, double by, oracle::Random& random) {
+  for (float& x : surface.vertices) x += static_cast<float>(random.uniform(-by, by));
+  return surface;
 }
 
 /// How an organ changes during a step.
 enum class Change { kNone, kShakes, kGlitches, kJumps };
 
 /// The organ's shape at the start of the step.
-inline Soup changed(const Soup& soup, Change change, oracle::Random& random) {
+inline GridSurface changed(const GridSurface& soup, Change change, oracle::Random& random) {
   if (change == Change::kShakes) return shaken(soup, random.scale(1e-5, 0.02), random);
-  Soup before = soup;
+  GridSurface before = soup;
   const double size = random.scale(0.02, 0.2);
   if (change == Change::kGlitches) {
     for (int i = 0; i < 3; ++i) {
@@ -70,23 +69,21 @@ inline Soup changed(const Soup& soup, Change change, oracle::Random& random) {
     }
   }
   if (change == Change::kJumps) {
-    const Eigen::Vector3d jump = size * random.direction();
-    for (std::size_t i = 0; i < before.vertices.size(); ++i) {
-      before.vertices[i] += static_cast<float>(jump[static_cast<Eigen::Index>(i % 3)]);
-    }
+    const Eigen::Vector3f jump = (size * random.direction()).cast<float>();
+    before = moved(before, {jump.x(), jump.y(), jump.z()});
   }
   return before;
 }
 
 /// A closed bumpy surface, about 0.2 m long, with as many faces as the paper's liver: 1224.
-inline Soup liver() {
+inline GridSurface liver() {
   GridSurface ball = sphere(17, 36, 1.0);
   for (std::size_t i = 0; i < ball.vertices.size(); i += 3) {
     Eigen::Map<Eigen::Array3f> at(&ball.vertices[i]);
     const float bump = 1.0F + 0.2F * std::sin(5.0F * at[0]) + 0.1F * std::cos(7.0F * at[2]);
     at *= bump * Eigen::Array3f(0.1F, 0.06F, 0.04F);
   }
-  return {ball.vertices, ball.triangles()};
+  return ball;
 }
 
 /// The axis of a tool that has none.
@@ -203,7 +200,7 @@ struct LinkScene {
     request.radius = random.scale(0.5e-3, 0.01);
   }
 
-  Soup soup;
+  GridSurface soup;
   TriangleMesh organ, before;
   std::vector<Link> links;
   CollisionRequest request;

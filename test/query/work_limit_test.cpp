@@ -17,16 +17,16 @@ using oracle::Random;
 constexpr double kFar = 4e5;  // [m]
 
 /// Long thin faces that intersect each other.
-Soup slivers(std::size_t count, Random& random) {
-  Soup soup;
-  for (std::size_t i = 0; i < count; ++i) {
+GridSurface slivers(std::uint32_t count, Random& random) {
+  GridSurface soup;
+  for (std::uint32_t i = 0; i < count; ++i) {
     const Vector3d a = random.point(kFar), b = random.point(kFar);
     const Vector3d c =
         a + random.uniform(-0.2, 1.2) * (b - a) + random.scale(1e-3, 1e3) * random.direction();
     for (const Vector3d& corner : {a, b, c}) {
       for (int k = 0; k < 3; ++k) soup.vertices.push_back(static_cast<float>(corner[k]));
-      soup.triangles.push_back(static_cast<std::uint32_t>(soup.triangles.size()));
     }
+    soup.faces.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return soup;
 }
@@ -54,7 +54,7 @@ class WorkLimit : public testing::Test {
   }
 
   Random random_{1};
-  const Soup soup_ = slivers(60'000, random_);
+  const GridSurface soup_ = slivers(60'000, random_);
   const TriangleMesh organ_ = mesh(soup_), before_ = mesh(shaken(soup_, 0.3 * kFar, random_));
   CollisionRequest request_;
   CollisionQuery query_;

@@ -58,19 +58,6 @@ TEST(WorkerThreads, DoEachTaskOnceAndDeliverInOrder) {
   }
 }
 
-TEST(WorkerThreads, DoTasksAtTheSameTime) {
-  WorkerThreads workers(prepare_nothing);
-  workers.start(1);
-  std::promise<void> begun[2];
-  workers.run(
-      2,
-      [&](std::size_t, std::size_t task) {
-        begun[task].set_value();
-        begun[1 - task].get_future().wait();  // One after the other, they would wait for ever.
-      },
-      deliver_nothing);
-}
-
 TEST(WorkerThreads, DeliverWhileLaterTasksRun) {
   WorkerThreads workers(prepare_nothing);
   workers.start(1);

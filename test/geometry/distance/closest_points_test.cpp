@@ -1,22 +1,21 @@
+// The distances themselves are compared with exact arithmetic to 1e-9 m by the proof of the
+// clearance. These tests are stricter, and about what depends on the distances.
 #include "geometry/distance/closest_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-#include <utility>
 
 #include "organ_collision/geometry/tolerances.hpp"
 #include "test/proof/exact_distance.hpp"
-#include "test/proof/link_trials.hpp"
+#include "test/proof/trial_suites.hpp"
 #include "test/proof/trials.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Vector3d;
-
 using oracle::LinkTrial;
 using oracle::Random;
 using oracle::Trial;
@@ -48,113 +47,32 @@ TEST(Gjk, ANeedleBesideAnotherTriangleIsNotTouched) {
   EXPECT_NEAR(closest_points(core, needle).distance, 9.75e-8, 1e-10);
 }
 
-/// [m] The rounding error of doubles: a few roundings of the largest coordinate.
-double rounding(const Trial& trial) {
-  double largest = 0.0;
-  for (const ShaftAxis& axis : {trial.motion.start, trial.motion.end})
-    largest = std::max({largest, axis.trocar.norm(), axis.tip.norm()});
-  for (const Vector3d& corner : trial.face) largest = std::max(largest, corner.norm());
-  return 1e-15 * largest;
-}
-
-/// Checks that the fields describe one pair of points of core and face.
-void expect_consistent(const ClosestPoints& found, const ConvexCore& core, const Triangle& face,
-                       double slack) {
-  EXPECT_GE(found.barycentric.minCoeff(), 0.0);
-  EXPECT_NEAR(found.barycentric.sum(), 1.0, 1e-15);
-  EXPECT_LE((found.on_face - point_at(face, found.barycentric)).norm(), slack);
-  EXPECT_NEAR((found.on_face - found.on_core).norm(), found.distance, slack);
-  if (core.is_axis()) {
-    EXPECT_GE(found.shaft, 0.0);
-    EXPECT_LE(found.shaft, 1.0);
-    EXPECT_LE((found.on_core - core.axis().at(found.shaft)).norm(), slack);
-  } else {
-    EXPECT_EQ(found.shaft, 0.0);
-    EXPECT_LE(oracle::distance(core, found.on_core), slack);
-  }
-}
-
-class AxisDistanceTrials : public testing::TestWithParam<std::size_t> {
- protected:
-  /// Calls `check(trial, axis)` with the axes of some trials.
-  template <typename Check>
-  void for_each_axis(Check check) {
-    Random random(100 + GetParam());
-    for (int i = 0; i < 300 && !HasFailure(); ++i) {
-      const Trial trial = oracle::make_trial(GetParam(), random);
-      for (const ShaftAxis& axis : {trial.motion.start, trial.motion.end}) check(trial, axis);
-      if (HasFailure()) ADD_FAILURE() << oracle::to_line(trial);
-    }
-  }
-};
-
-TEST_P(AxisDistanceTrials, AreAsNearAsExactArithmeticSays) {
-  for_each_axis([](const Trial& trial, const ShaftAxis& axis) {
-    const ClosestPoints found = axis_closest_points(axis, trial.face);
-    expect_consistent(found, axis, trial.face, 4 * rounding(trial));
-    EXPECT_NEAR(found.distance, oracle::distance(oracle::core(axis), trial.face),
-                rounding(trial) + tolerance::kTie);
-  });
-}
+class AxisDistanceTrials : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(AxisDistanceTrials, NoNearestPairIsNearerTheTip) {
-  for_each_axis([](const Trial& trial, const ShaftAxis& axis) {
-    const ClosestPoints found = axis_closest_points(axis, trial.face);
-    const double place = found.shaft + 1e-3;
-    if (place > 1.0 || axis.tip == axis.trocar) return;
-    const double rest =
-        oracle::distance(oracle::core(ShaftAxis{axis.at(place), axis.tip}), trial.face);
-    EXPECT_GT(rest, found.distance - rounding(trial) - tolerance::kTie);
-    const double nearest = oracle::distance(oracle::core(axis), trial.face);
-    EXPECT_GT(rest - nearest, 1e-17) << "at least as near beyond " << found.shaft;
-  });
+  Random random(100 + GetParam());
+  for (int i = 0; i < 300 && !HasFailure(); ++i) {
+    const Trial trial = oracle::make_trial(GetParam(), random);
+    for (const ShaftAxis& axis : {trial.motion.start, trial.motion.end}) {
+      double largest = std::max(axis.trocar.norm(), axis.tip.norm());
+      for (const Vector3d& corner : trial.face) largest = std::max(largest, corner.norm());
+      const double rounding = 1e-15 * largest + tolerance::kTie;  // [m]
+      const ClosestPoints found = axis_closest_points(axis, trial.face);
+      const double nearest = oracle::distance(oracle::core(axis), trial.face);
+      EXPECT_NEAR(found.distance, nearest, rounding);
+      const double place = found.shaft + 1e-3;
+      if (place > 1.0 || axis.tip == axis.trocar) continue;
+      const double rest =
+          oracle::distance(oracle::core(ShaftAxis{axis.at(place), axis.tip}), trial.face);
+      EXPECT_GT(rest, found.distance - rounding);
+      EXPECT_GT(rest - nearest, 1e-17) << "at least as near beyond " << found.shaft;
+    }
+    if (HasFailure()) ADD_FAILURE() << oracle::to_line(trial);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, AxisDistanceTrials,
                          testing::Range<std::size_t>(0, oracle::trial_kinds().size()));
-
-const Triangle kFace = {Vector3d(0.1, 0.1, 0.5), Vector3d(0.5, 0.1, 0.5), Vector3d(0.1, 0.3, 0.5)};
-
-TEST(AxisDistance, AxisAlongTheFaceIsNearestWhereItLeavesItTowardsTheTip) {
-  const ClosestPoints found = axis_closest_points({{0.0, 0.2, 0.53}, {1.0, 0.2, 0.53}}, kFace);
-  EXPECT_NEAR(found.distance, 0.03, 1e-15);
-  EXPECT_NEAR(found.shaft, 0.3, 1e-15);
-  EXPECT_TRUE(found.on_face.isApprox(Vector3d(0.3, 0.2, 0.5), 1e-15));
-  EXPECT_TRUE(found.barycentric.isApprox(Vector3d(0.0, 0.5, 0.5), 1e-14));
-}
-
-// Both ends are tied. The point is at the tip, and the trocar decides how near the axis is.
-TEST(AxisDistance, OfATieIsTheLeastOfItsPairs) {
-  const Triangle face = {Vector3d(-1.0, -1.0, 0.0), Vector3d(1.0, -1.0, 0.0),
-                         Vector3d(1.0, 1.0, 0.0)};
-  const Vector3d low(0.0, 0.0, 0.005), high(0.1, 0.0, 0.005 + 9e-13);
-  for (const ShaftAxis& axis : {ShaftAxis{low, high}, ShaftAxis{high, low}}) {
-    const ClosestPoints found = axis_closest_points(axis, face);
-    EXPECT_EQ(found.distance, 0.005);
-    EXPECT_EQ(found.shaft, 1.0);
-  }
-}
-
-// Only an end of the axis is near the inside of such a face, if it does not pierce it.
-TEST(AxisDistance, AcrossAFaceNearOneOfItsEnds) {
-  Random random(11);
-  for (const double length : {1.0, 1e-3, 1e-6, 1e-9, 1e-12, 1e-15, 1e-18, 0.0}) {
-    for (const double place : {-1e-2, -1e-16, 0.0, 1e-16, 1e-8, 1e-3, 0.5, 1.0 - 1e-3, 1.0 - 1e-8,
-                               1.0 - 1e-16, 1.0, 1.0 + 1e-16, 1.0 + 1e-2}) {
-      for (const double tilt : {0.0, 1e-17, 1e-12, 1e-6}) {
-        const Vector3d along = random.direction(), trocar = random.point(0.1);
-        const Vector3d u = 0.05 * along.cross(random.direction()).normalized();
-        const Vector3d v = along.cross(u) + tilt * along;
-        const Vector3d crossing = trocar + place * length * along;
-        const ShaftAxis axis{trocar, trocar + length * along};
-        const Triangle face{crossing + u, crossing - 0.5 * u + v, crossing - 0.5 * u - v};
-        EXPECT_NEAR(axis_closest_points(axis, face).distance,
-                    oracle::distance(oracle::core(axis), face), 1e-15 + tolerance::kTie)
-            << "length " << length << ", place " << place << ", tilt " << tilt;
-      }
-    }
-  }
-}
 
 // Rounding hides some of these piercings. An end of the axis is then the nearest point that is
 // found.
@@ -179,48 +97,30 @@ TEST(AxisDistance, PiercingASliverMuchLongerThanItself) {
 /// slivers that lie along each other, and discs.
 constexpr double kSlack = 2e-9;
 
-/// For each kind of trials and each kind of core.
-class CoreTrials : public testing::TestWithParam<std::tuple<std::size_t, std::size_t>> {
- protected:
-  /// Calls `check(trial, core in the organ's frame, random)`.
-  template <typename Check>
-  void for_each_core(int count, Check check) {
-    const auto [kind, core_kind] = GetParam();
-    Random random(600 + 10 * kind + core_kind);
-    for (int i = 0; i < count && !HasFailure(); ++i) {
-      const LinkTrial trial = oracle::make_link_trial(kind, core_kind, random);
-      check(trial, trial.start * trial.core, random);
-      if (HasFailure()) ADD_FAILURE() << trial;
-    }
-  }
-};
+class CoreTrials : public oracle::LinkTrials {};
 
-TEST_P(CoreTrials, AreAsNearAsTheOracleSays) {
-  for_each_core(150, [](const LinkTrial& trial, const ConvexCore& core, Random& /*random*/) {
+TEST_P(CoreTrials, AreAsNearAsTheOracleSaysAndTheirFieldsFitTogether) {
+  for_each_trial(150, [](const LinkTrial& trial, Random& /*random*/) {
+    const ConvexCore core = trial.start * trial.core;
     const ClosestPoints found = closest_points(core, trial.face);
     const double distance = oracle::distance(core, trial.face);
-    EXPECT_GE(found.distance, distance - 1e-13 - oracle::rounding(trial) * 20.0);
+    const double rounding = 20.0 * oracle::rounding(trial), slack = 1e-10 + rounding;
+    EXPECT_GE(found.distance, distance - 1e-13 - rounding);
     EXPECT_LE(found.distance, distance + kSlack);
-    expect_consistent(found, core, trial.face, 1e-10 + 20.0 * oracle::rounding(trial));
-  });
-}
-
-TEST_P(CoreTrials, OrderOfCornersOnlyPermutesBarycentrics) {
-  for_each_core(100, [](const LinkTrial& trial, const ConvexCore& core, Random& /*random*/) {
-    const double distance = closest_points(core, trial.face).distance;
-    for (int turn = 0; turn < 3; ++turn) {
-      for (const bool mirror : {false, true}) {
-        Triangle face = trial.face;
-        std::rotate(face.begin(), face.begin() + turn, face.end());
-        if (mirror) std::swap(face[1], face[2]);
-        EXPECT_NEAR(closest_points(core, face).distance, distance, kSlack);
-      }
+    EXPECT_GE(found.barycentric.minCoeff(), 0.0);
+    EXPECT_NEAR(found.barycentric.sum(), 1.0, 1e-15);
+    EXPECT_LE((found.on_face - point_at(trial.face, found.barycentric)).norm(), slack);
+    EXPECT_NEAR((found.on_face - found.on_core).norm(), found.distance, slack);
+    EXPECT_LE(oracle::distance(core, found.on_core), slack);
+    if (!core.is_axis()) {
+      EXPECT_EQ(found.shaft, 0.0);
     }
   });
 }
 
 TEST_P(CoreTrials, BeyondTheDistanceBoundTheResultIsALowerBound) {
-  for_each_core(150, [](const LinkTrial& trial, const ConvexCore& core, Random& random) {
+  for_each_trial(150, [](const LinkTrial& trial, Random& random) {
+    const ConvexCore core = trial.start * trial.core;
     const double slack = 1e-12 + oracle::rounding(trial);
     const double distance = closest_points(core, trial.face).distance;
     const double bound = distance * random.uniform(0.0, 1.5) + random.scale(1e-9, 1e-3);
@@ -233,6 +133,8 @@ TEST_P(CoreTrials, BeyondTheDistanceBoundTheResultIsALowerBound) {
     }
   });
 }
+
+INSTANTIATE_TEST_SUITE_P(Kinds, CoreTrials, oracle::LinkTrials::all());
 
 /// A triangle of a length [m] that is nearly a segment. Some of its points are near the origin.
 Triangle needle(double length, Random& random) {
@@ -266,11 +168,6 @@ TEST(ClosestPoints, OfNeedlesAreExactToABillionthOfTheirLength) {
     }
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Kinds, CoreTrials,
-    testing::Combine(testing::Range<std::size_t>(0, oracle::link_trial_kinds().size()),
-                     testing::Range<std::size_t>(0, oracle::kCoreKinds)));
 
 }  // namespace
 }  // namespace organ_collision

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <vector>
 
@@ -183,24 +182,6 @@ TEST(BlockBoxes, AreTheSmallestInEveryShape) {
         EXPECT_TRUE(boxes.all().isApprox(box_around(grid.vertices.size() / 3, any), 0.0F));
       }
     }
-  }
-}
-
-TEST(BlockBoxes, NoticeEveryCoordinateThatIsNotFinite) {
-  for (const bool shuffle : {false, true}) {
-    const GridSurface grid = shuffle ? shuffled(grid_surface(20), 3) : grid_surface(20);
-    const FaceClusters clusters(grid.faces, grid.vertices);
-    BlockBoxes boxes;
-    for (std::size_t i = 0; i < grid.vertices.size(); ++i) {
-      for (const float bad :
-           {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
-        std::vector<float> vertices = grid.vertices;
-        vertices[i] = bad;
-        EXPECT_FALSE(boxes.refit(clusters, vertices)) << i;
-      }
-    }
-    std::vector<float> largest(grid.vertices.size(), std::numeric_limits<float>::max());
-    EXPECT_TRUE(boxes.refit(clusters, largest));
   }
 }
 

@@ -4,6 +4,8 @@
 
 #include <limits>
 
+#include "geometry/organ/organ_motion.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -142,13 +144,14 @@ TEST(TriangleMesh, KnowsWhetherTrianglesAreItsOwn) {
   }
 }
 
-using Eigen::Vector3d;
-
-const Triangle kTriangle = {Vector3d(0.1, 0.2, 0.5), Vector3d(0.5, 0.2, 0.5),
-                            Vector3d(0.1, 0.4, 0.5)};
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+TEST(OrganMotion, ExtentIsTheLargestCoordinateOfBothShapes) {
+  const TriangleMesh after({0, 0, 0, 1, 0, 0, 0, 2, 0}, {0, 1, 2});
+  TriangleMesh before = after;
+  before.move_vertices(std::vector<float>{0, 0, -5, 1, 0, 0, 0, 2, 0});
+  EXPECT_EQ(OrganMotion(after).extent({0.5, 0.5, 0.5}), 1.5);
+  const OrganMotion motion(before, before.block_boxes(), after, 0.0, 1.0);
+  EXPECT_EQ(motion.extent({0.5, 0.5, 0.5}), 5.5);
+}
 
 }  // namespace
 }  // namespace organ_collision

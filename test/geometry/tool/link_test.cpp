@@ -1,3 +1,4 @@
+// Links: the shapes of their parts, and their motion on a leg.
 #include "organ_collision/geometry/tool/link.hpp"
 
 #include <gtest/gtest.h>
@@ -7,95 +8,68 @@
 #include <vector>
 
 #include "geometry/distance/closest_points.hpp"
+#include "geometry/tool/leg_motion.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "test/proof/exact_distance.hpp"
 #include "test/proof/link_trials.hpp"
+#include "test/proof/step_oracle.hpp"
 
 namespace organ_collision {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using oracle::LinkTrial;
 using oracle::Random;
 
-TEST(OrientedBox, SupportValueIsThatOfItsFarthestCorner) {
+/// [m] The distance of a centred shape, with its axes along x, y and z, from a point in its frame.
+double box_distance(const Vector3d& size, const Vector3d& point) {
+  return (point.cwiseAbs() - 0.5 * size).cwiseMax(0.0).norm();
+}
+double cylinder_distance(double radius, double length, const Vector3d& point) {
+  return std::hypot(std::max(0.0, point.head<2>().norm() - radius),
+                    std::max(0.0, std::abs(point.z()) - 0.5 * length));
+}
+
+/// Checks that the part's bounds contain its core and touch it on all six sides.
+void expect_tight_bounds(const LinkPart& part) {
+  const OrientedBox& box = part.bounds;
+  EXPECT_LE((box.axes * box.axes.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+  EXPECT_GT(box.axes.determinant(), 0.0);
+  for (int i = 0; i < 3; ++i) {
+    const Vector3d axis = box.axes.col(i);
+    const double middle = axis.dot(box.center);
+    EXPECT_NEAR(part.project_onto(axis).high, middle + box.half_size[i], 1e-15);
+    EXPECT_NEAR(part.project_onto(-axis).high, box.half_size[i] - middle, 1e-15);
+  }
+}
+
+// A cylinder is along z and flat-ended. A box has its sizes along its axes.
+TEST(LinkPart, HasItsShapeAtItsPose) {
   Random random(1);
   for (int i = 0; i < 300; ++i) {
-    const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
-    const OrientedBox box{pose.translation(), pose.linear(),
-                          Vector3d(random.uniform(0.0, 0.2), random.scale(1e-6, 0.2), 0.1)};
-    const Vector3d direction = random.scale(1e-3, 1e3) * random.direction();
-    double farthest = -INFINITY;
-    for (int corner = 0; corner < 8; ++corner) {
-      const Vector3d signs(corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0,
-                           corner & 4 ? 1.0 : -1.0);
-      farthest = std::max(farthest, direction.dot(pose * box.half_size.cwiseProduct(signs)));
+    const Isometry3d pose = oracle::random_pose(0.1, random);
+    const Vector3d size(random.scale(1e-4, 0.3), random.scale(1e-4, 0.3), random.scale(1e-4, 0.3));
+    const double radius = 0.5 * size.x();
+    const LinkPart box = LinkPart::box(pose, size);
+    const LinkPart cylinder = LinkPart::cylinder(pose, radius, size.z());
+    EXPECT_TRUE(cylinder.core.is_cylinder());
+    EXPECT_FALSE(box.core.is_cylinder());
+    for (const LinkPart& part : {box, cylinder}) {
+      EXPECT_EQ(part.radius, tolerance::kConvexMargin);
+      EXPECT_EQ(part.surface, nullptr);
+      expect_tight_bounds(part);
     }
-    EXPECT_NEAR(box.support_value(direction), farthest, 1e-15 * direction.norm());
-  }
-}
-
-/// Points of a core's boundary: its corners, or `count` points on each of a cylinder's rims.
-std::vector<Vector3d> border(const ConvexCore& core, int count) {
-  std::vector<Vector3d> points(core.points.begin(), core.points.begin() + core.count);
-  if (!core.is_cylinder()) return points;
-  std::vector<Vector3d> rims;
-  for (const Vector3d& center : points) {
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2.0 * M_PI * i / count;
-      rims.push_back(center + core.rim * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    for (int k = 0; k < 20; ++k) {
+      const Vector3d in_shape = size.cwiseProduct(random.point(1.2)), point = pose * in_shape;
+      const auto distance = [&](const LinkPart& part) {
+        return closest_points(part.core, Triangle{point, point, point}).distance;
+      };
+      EXPECT_NEAR(distance(box), box_distance(size, in_shape), 1e-12);
+      EXPECT_NEAR(distance(cylinder), cylinder_distance(radius, size.z(), in_shape), 1e-11);
     }
   }
-  return rims;
 }
-
-Vector3d any_direction(const ConvexCore& core, Random& random) {
-  // For some cores this is the axis.
-  if (random.chance(0.2)) return core.points[core.count - 1] - core.points[0];
-  if (random.chance(0.2)) return core.rim.col(0);
-  return random.scale(1e-12, 1e6) * random.direction();
-}
-
-class ConvexCoreOf : public testing::TestWithParam<std::size_t> {};
-
-TEST_P(ConvexCoreOf, SupportIsItsFarthestPoint) {
-  Random random(10 + GetParam());
-  for (int i = 0; i < 300; ++i) {
-    const ConvexCore core = oracle::make_core(GetParam(), random);
-    const Vector3d direction = any_direction(core, random);
-    const Vector3d support = core.support(direction);
-    EXPECT_LE(oracle::distance(core, support), 4e-15);
-    EXPECT_EQ(core.support_value(direction), direction.dot(support));
-    double highest = -INFINITY;
-    for (const Vector3d& point : border(core, 5000)) {
-      highest = std::max(highest, direction.dot(point));
-    }
-    const double rounding = 1e-15 * direction.norm();
-    EXPECT_GE(core.support_value(direction), highest - rounding);
-    // The nearest of 5000 points on a rim is at most this much lower.
-    const double lower = 2e-7 * core.rim.norm() * direction.norm();
-    EXPECT_LE(core.support_value(direction), highest + lower + rounding);
-  }
-}
-
-TEST_P(ConvexCoreOf, MovesRigidly) {
-  Random random(20 + GetParam());
-  for (int i = 0; i < 300; ++i) {
-    const ConvexCore core = oracle::make_core(GetParam(), random);
-    const Eigen::Isometry3d pose = oracle::random_pose(0.3, random);
-    const ConvexCore moved = pose * core;
-    EXPECT_EQ(moved.count, core.count);
-    EXPECT_EQ(moved.is_axis(), core.is_axis());
-    EXPECT_EQ(moved.is_cylinder(), core.is_cylinder());
-    const Vector3d direction = any_direction(core, random);
-    EXPECT_NEAR(moved.support_value(pose.linear() * direction),
-                core.support_value(direction) +
-                    direction.dot(pose.linear().transpose() * pose.translation()),
-                1e-15 * direction.norm());
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(Kinds, ConvexCoreOf, testing::Range<std::size_t>(0, oracle::kCoreKinds));
 
 // is_cylinder() must not depend on which components of the rim are zero.
 TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
@@ -112,69 +86,100 @@ TEST(ConvexCore, OfACylinderIsOneInEveryOrientation) {
   }
 }
 
-/// [m] The distance of a centred shape, with its axes along x, y and z, from a point in its frame.
-double box_distance(const Vector3d& size, const Vector3d& point) {
-  return (point.cwiseAbs() - 0.5 * size).cwiseMax(0.0).norm();
-}
-double cylinder_distance(double radius, double length, const Vector3d& point) {
-  return std::hypot(std::max(0.0, point.head<2>().norm() - radius),
-                    std::max(0.0, std::abs(point.z()) - 0.5 * length));
-}
+class ConvexCoreOf : public testing::TestWithParam<std::size_t> {};
 
-double distance(const LinkPart& part, const Vector3d& point) {
-  return closest_points(part.core, Triangle{point, point, point}).distance;
-}
-
-/// A point in or around a shape of this size, in its frame.
-Vector3d around(const Vector3d& size, Random& random) {
-  return size.cwiseProduct(random.point(1.2));
-}
-
-/// Checks that the part's bounds contain its core and touch it on all six sides.
-void expect_tight_bounds(const LinkPart& part) {
-  const OrientedBox& box = part.bounds;
-  EXPECT_LE((box.axes * box.axes.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
-  EXPECT_GT(box.axes.determinant(), 0.0);
-  for (int i = 0; i < 3; ++i) {
-    const Vector3d axis = box.axes.col(i);
-    const double middle = axis.dot(box.center);
-    EXPECT_NEAR(part.project_onto(axis).high, middle + box.half_size[i], 1e-15);
-    EXPECT_NEAR(part.project_onto(-axis).high, box.half_size[i] - middle, 1e-15);
+TEST_P(ConvexCoreOf, SupportIsItsFarthestPoint) {
+  Random random(10 + GetParam());
+  for (int i = 0; i < 300; ++i) {
+    const ConvexCore core = oracle::make_core(GetParam(), random);
+    const bool is_along = random.chance(0.2);  // For some cores this is the axis.
+    const Vector3d direction = is_along ? Vector3d(core.points[core.count - 1] - core.points[0])
+                                        : Vector3d(random.scale(1e-12, 1e6) * random.direction());
+    const Vector3d support = core.support(direction);
+    EXPECT_LE(oracle::distance(core, support), 4e-15);
+    EXPECT_EQ(core.support_value(direction), direction.dot(support));
+    for (int k = 0; k < 200; ++k) {
+      const double angle = 2.0 * M_PI * k / 200;
+      const Vector3d on_rim = core.rim * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+      const double other = direction.dot(core.points[k % core.count] + on_rim);
+      EXPECT_GE(core.support_value(direction), other - 1e-15 * direction.norm());
+    }
   }
 }
 
-TEST(LinkPart, CylinderIsAlongZAndFlatEnded) {
+// A link turns at constant speed the shorter way, as quaternions do. Half a turn may go either way.
+TEST(RigidMotion, InterpolatesPosesAsQuaternionsDo) {
   Random random(1);
-  for (int i = 0; i < 300; ++i) {
-    const Isometry3d pose = oracle::random_pose(0.1, random);
-    const double radius = random.scale(1e-4, 0.1), length = random.scale(1e-4, 0.3);
-    const LinkPart part = LinkPart::cylinder(pose, radius, length);
-    EXPECT_EQ(part.radius, tolerance::kConvexMargin);
-    EXPECT_EQ(part.surface, nullptr);
-    EXPECT_TRUE(part.core.is_cylinder());
-    expect_tight_bounds(part);
-    for (int k = 0; k < 20; ++k) {
-      const Vector3d point = around({2.0 * radius, 2.0 * radius, length}, random);
-      EXPECT_NEAR(distance(part, pose * point), cylinder_distance(radius, length, point), 1e-11);
+  for (const double angle : {0.0, 1e-12, 1e-6, 1e-3, 0.1, 1.0, 2.0, 3.0, 3.14159, M_PI}) {
+    for (int i = 0; i < 100; ++i) {
+      const Isometry3d start = oracle::random_pose(0.3, random);
+      Isometry3d end = oracle::random_pose(0.3, random);
+      end.linear() = start.linear() * oracle::random_turn(angle, random);
+      const RigidMotion motion(start, end);
+      EXPECT_NEAR(motion.angle(), angle, 1e-14);
+      EXPECT_NEAR(motion.origin_displacement(), (start.translation() - end.translation()).norm(),
+                  1e-15);
+      EXPECT_EQ(motion.rests(), start.matrix() == end.matrix());
+      EXPECT_LE((motion.at(0.0).matrix() - start.matrix()).norm(), 2e-15);
+      EXPECT_LE((motion.at(1.0).matrix() - end.matrix()).norm(), 2e-15);
+      // There is no jump at the ends.
+      EXPECT_LE((motion.at(1e-12).matrix() - start.matrix()).norm(), 2e-11);
+      EXPECT_LE((motion.at(1.0 - 1e-12).matrix() - end.matrix()).norm(), 2e-11);
+      const double time = random.uniform(0.0, 1.0);
+      const Eigen::Quaterniond begun(start.linear()), turned(motion.at(time).linear());
+      EXPECT_NEAR(begun.angularDistance(turned), time * angle, 1e-7);
+      if (angle == M_PI) continue;
+      const Isometry3d expected = oracle::between(start, end, time);
+      EXPECT_LE((motion.at(time).matrix() - expected.matrix()).norm(), 1e-9);
     }
   }
 }
 
-TEST(LinkPart, BoxIsCentredWithItsSizesAlongItsAxes) {
-  Random random(2);
-  for (int i = 0; i < 300; ++i) {
-    const Isometry3d pose = oracle::random_pose(0.1, random);
-    const Vector3d size(random.scale(1e-4, 0.3), random.scale(1e-4, 0.3), random.scale(1e-4, 0.3));
-    const LinkPart part = LinkPart::box(pose, size);
-    EXPECT_EQ(part.radius, tolerance::kConvexMargin);
-    EXPECT_EQ(part.surface, nullptr);
-    EXPECT_EQ(part.core.count, 8U);
-    EXPECT_FALSE(part.core.is_cylinder());
-    expect_tight_bounds(part);
-    for (int k = 0; k < 20; ++k) {
-      const Vector3d point = around(size, random);
-      EXPECT_NEAR(distance(part, pose * point), box_distance(size, point), 1e-12);
+/// Support points of the core, for the same directions of the link at every pose.
+std::vector<Vector3d> points_of(const ConvexCore& core, const Eigen::Isometry3d& pose) {
+  Random random(5);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 30; ++i) points.push_back(pose * core.support(random.direction()));
+  return points;
+}
+
+TEST_P(ConvexCoreOf, MovesNoFartherThanItsBounds) {
+  Random random(40 + GetParam());
+  for (int i = 0; i < 200; ++i) {
+    const LinkTrial trial = oracle::make_link_trial(0, GetParam(), random);
+    const RigidMotion motion = trial.motion();
+    const CoreMotion core(trial.core, motion);
+    const double from = random.uniform(0.0, 1.0), to = random.uniform(from, 1.0);
+    const auto first = points_of(trial.core, motion.at(from));
+    const auto last = points_of(trial.core, motion.at(to));
+    constexpr int kSteps = 50;
+    std::vector<Vector3d> before = first;
+    for (int step = 0; step <= kSteps; ++step) {
+      const double share = static_cast<double>(step) / kSteps;
+      const auto now = points_of(trial.core, motion.at(from + share * (to - from)));
+      for (std::size_t k = 0; k < now.size(); ++k) {
+        EXPECT_LE((now[k] - before[k]).norm(), core.farthest_move() * (to - from) / kSteps + 1e-14)
+            << "at any time, not on average";
+        const Vector3d on_chord = (1.0 - share) * first[k] + share * last[k];
+        EXPECT_LE((now[k] - on_chord).norm(),
+                  4.0 * share * (1.0 - share) * core.chord_deviation(to - from) + 1e-15);
+      }
+      before = now;
     }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, ConvexCoreOf, testing::Range<std::size_t>(0, oracle::kCoreKinds));
+
+TEST(CoreMotion, OfAShaftHasNoChordDeviation) {
+  Random random(6);
+  for (int i = 0; i < 100; ++i) {
+    const ShaftMotion shaft = oracle::make_trial(0, random).motion;
+    const CoreMotion core(shaft);
+    EXPECT_EQ(core.link(), nullptr);
+    EXPECT_EQ(core.chord_deviation(1.0), 0.0);
+    EXPECT_EQ(core.farthest_move(), std::max((shaft.end.tip - shaft.start.tip).norm(),
+                                             (shaft.end.trocar - shaft.start.trocar).norm()));
   }
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cmath>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "organ_collision/geometry/tool/tool_surface.hpp"
@@ -46,21 +44,6 @@ inline ToolMesh wavy_mesh(int side, double scale) {
         scale * Eigen::Vector3d(grid.vertices[i], grid.vertices[i + 1], grid.vertices[i + 2]));
   }
   mesh.faces = grid.faces;
-  return mesh;
-}
-
-/// The twelve triangles of a box, facing outward, at a pose in the link's frame.
-inline ToolMesh box_mesh(const Eigen::Isometry3d& T_link_shape, const Eigen::Vector3d& size) {
-  ToolMesh mesh;
-  for (const double x : {-0.5, 0.5}) {
-    for (const double y : {-0.5, 0.5}) {
-      for (const double z : {-0.5, 0.5}) {
-        mesh.vertices.emplace_back(T_link_shape * size.cwiseProduct(Eigen::Vector3d(x, y, z)));
-      }
-    }
-  }
-  mesh.faces = {{0, 1, 3}, {0, 3, 2}, {4, 6, 7}, {4, 7, 5}, {0, 4, 5}, {0, 5, 1},
-                {2, 3, 7}, {2, 7, 6}, {0, 2, 6}, {0, 6, 4}, {1, 5, 7}, {1, 7, 3}};
   return mesh;
 }
 

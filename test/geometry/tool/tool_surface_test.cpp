@@ -1,15 +1,18 @@
+// The surfaces of tools: their trees of boxes, and how they touch faces.
 #include "organ_collision/geometry/tool/tool_surface.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "geometry/distance/surface_touch.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
+#include "test/proof/trial_suites.hpp"
 #include "tool_meshes.hpp"
 
 namespace organ_collision {
@@ -19,107 +22,132 @@ using Eigen::Vector3d;
 using oracle::Random;
 using Reason = MeshError::Reason;
 
-/// [m] How far a point is outside a box.
-double outside(const OrientedBox& box, const Vector3d& point) {
-  const Vector3d from_center = box.axes.transpose() * (point - box.center);
-  return std::max(0.0, (from_center.cwiseAbs() - box.half_size).maxCoeff());
+/// The first touch of one face, from every triangle alone, without boxes.
+std::optional<FirstTouch> by_all_pairs(const ToolMesh& mesh, const RigidMotion& motion,
+                                       double radius, const FaceMotion& face) {
+  std::optional<FirstTouch> first;
+  for (const auto& [a, b, c] : mesh.faces) {
+    const ConvexCore core(Triangle{mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]});
+    const auto touch = first_touch(CoreMotion(core, motion), face, radius);
+    if (touch && (!first || touch->time < first->time)) first = touch;
+  }
+  return first;
 }
 
-/// Checks every node of a tree.
-class TreeCheck {
- public:
-  explicit TreeCheck(const ToolSurface& surface)
-      : surface_(surface), rounding_(1e-15 * reach(surface.nodes().front().box)) {}
+/// Faces of an organ around a tool, some at rest and some moving. Some have a touch that is left
+/// from an earlier query.
+std::vector<FaceTouch> faces_around(const Eigen::Isometry3d& pose, std::uint32_t count,
+                                    Random& random) {
+  std::vector<FaceTouch> faces;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Vector3d center = pose * random.point(0.05);
+    const double size = random.scale(1e-3, 0.05);
+    Triangle corners;
+    for (Vector3d& corner : corners) corner = center + size * random.direction();
+    faces.push_back({100 + i, oracle::motion_to(corners, random), {}});
+    if (random.chance(0.3)) faces.back().first = FirstTouch{0.0, ClosestPoints{}};
+  }
+  return faces;
+}
 
-  /// Returns the depth of the tree below a node.
-  int depth(std::uint32_t index = 0) {
-    ++visited_;
-    const ToolSurface::Node& node = surface_.nodes()[index];
-    expect_holds_its_faces(node);
-    if (node.second == 0) {
-      for (std::uint32_t face = node.begin; face < node.end; ++face) ++in_leaves_[face];
-      return 1;
+void expect_as_all_pairs(const ToolMesh& mesh, const RigidMotion& motion, double radius,
+                         std::vector<FaceTouch> faces, int& touched) {
+  const std::vector<FaceTouch> asked = faces;
+  WorkBudget unlimited = WorkBudget::unlimited();
+  SurfaceTouches().find(mesh.surface(), motion, radius, unlimited, faces);
+  ASSERT_EQ(faces.size(), asked.size());
+  std::sort(faces.begin(), faces.end(),
+            [](const auto& a, const auto& b) { return a.face < b.face; });
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    ASSERT_EQ(faces[i].face, asked[i].face);
+    EXPECT_EQ(faces[i].motion.start, asked[i].motion.start);
+    const auto expected = by_all_pairs(mesh, motion, radius, asked[i].motion);
+    ASSERT_EQ(faces[i].first.has_value(), expected.has_value());
+    if (!expected) continue;
+    ++touched;
+    // Both distances are within kTouch of the radius.
+    EXPECT_NEAR(faces[i].first->time, expected->time, 1e-6);
+    if (expected->time > 0.0) {
+      EXPECT_NEAR(faces[i].first->closest.distance, radius, 2.0 * tolerance::kTouch);
+    } else {
+      EXPECT_LE(faces[i].first->closest.distance, radius);
     }
-    const ToolSurface::Node &first = surface_.nodes()[index + 1],
-                            &second = surface_.nodes()[node.second];
-    EXPECT_EQ(first.begin, node.begin);
-    EXPECT_EQ(first.end, second.begin);
-    EXPECT_EQ(second.end, node.end);
-    EXPECT_LT(first.begin, first.end);
-    EXPECT_LT(second.begin, second.end);
-    return 1 + std::max(depth(index + 1), depth(node.second));
   }
-
-  std::size_t visited() const { return visited_; }
-  const std::vector<int>& in_leaves() const { return in_leaves_; }
-
- private:
-  void expect_holds_its_faces(const ToolSurface::Node& node) const {
-    const OrientedBox& box = node.box;
-    EXPECT_LE((box.axes * box.axes.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-14);
-    EXPECT_GT(box.axes.determinant(), 0.0);
-    EXPECT_GE(box.half_size.minCoeff(), 0.0);
-    for (std::uint32_t face = node.begin; face < node.end; ++face) {
-      for (const Vector3d& corner : surface_.triangle(face)) {
-        EXPECT_LE(outside(box, corner), rounding_);
-      }
-    }
-  }
-
-  static double reach(const OrientedBox& box) { return box.center.norm() + box.half_size.norm(); }
-
-  const ToolSurface& surface_;
-  const double rounding_;  ///< [m]
-  std::size_t visited_ = 0;
-  std::vector<int> in_leaves_ = std::vector<int>(surface_.faces().size());
-};
-
-/// The coordinates of each face's corners, in sorted order.
-std::vector<std::array<double, 9>> sorted(const std::vector<FaceIndices>& faces,
-                                          const std::vector<Vector3d>& vertices) {
-  std::vector<std::array<double, 9>> corners;
-  for (const FaceIndices& face : faces) {
-    const Vector3d &a = vertices[face[0]], &b = vertices[face[1]], &c = vertices[face[2]];
-    corners.push_back({a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), c.x(), c.y(), c.z()});
-  }
-  std::sort(corners.begin(), corners.end());
-  return corners;
 }
 
-void expect_tree(const ToolMesh& mesh) {
-  const ToolSurface surface = mesh.surface();
-  EXPECT_EQ(sorted(surface.faces(), surface.vertices()), sorted(mesh.faces, mesh.vertices))
-      << "in another order, corners as given";
-  std::vector<bool> used(surface.vertices().size());
-  for (const FaceIndices& face : surface.faces()) {
-    for (const std::uint32_t corner : face) used[corner] = true;
-  }
-  EXPECT_EQ(std::count(used.begin(), used.end(), false), 0);
-  ASSERT_FALSE(surface.nodes().empty());
-  EXPECT_EQ(surface.nodes().front().begin, 0U);
-  EXPECT_EQ(surface.nodes().front().end, mesh.faces.size());
-  TreeCheck check(surface);
-  EXPECT_LE(check.depth(), 2.0 + std::log2(static_cast<double>(mesh.faces.size())));
-  EXPECT_EQ(check.visited(), surface.nodes().size()) << "every node is a child of one";
-  for (const int times : check.in_leaves()) EXPECT_EQ(times, 1);
-}
-
-TEST(ToolSurface, HasEachFaceInOneLeafAndInItsAncestorsBoxes) {
+// So each triangle is in a leaf of the tree, and in the boxes above it.
+TEST(SurfaceTouch, IsTheFirstOfAllPairs) {
   Random random(1);
-  for (int i = 0; i < 40; ++i) {
-    expect_tree(scattered_mesh(static_cast<std::size_t>(random.integer(1, 200)), random));
+  int touched = 0;
+  for (int i = 0; i < 500 && !testing::Test::HasFailure(); ++i) {
+    const ToolMesh mesh =
+        i % 3 == 0 ? wavy_mesh(random.integer(1, 6), random.uniform(0.1, 0.5))
+                   : scattered_mesh(static_cast<std::size_t>(random.integer(1, 60)), random);
+    const Eigen::Isometry3d start = oracle::random_pose(0.3, random);
+    Eigen::Isometry3d end = start;
+    if (random.chance(0.8)) end.linear() *= oracle::random_turn(random.scale(1e-6, 3.1), random);
+    if (random.chance(0.8)) end.translation() += random.scale(1e-6, 0.2) * random.direction();
+    const double radius = random.chance(0.7) ? tolerance::kConvexMargin : random.scale(1e-4, 5e-3);
+    expect_as_all_pairs(mesh, {start, end}, radius, faces_around(start, 30, random), touched);
   }
-  expect_tree(wavy_mesh(16, 0.3));
-  expect_tree(box_mesh(oracle::random_pose(0.1, random), {0.02, 0.03, 1e-4}));
+  EXPECT_GT(touched, 1000);
 }
 
-TEST(ToolSurface, OfFacesThatAreAllTheSameIsATreeAsWell) {
-  ToolMesh mesh;
-  mesh.vertices = {{0.1, 0.2, 0.3}, {0.2, 0.1, 0.3}, {0.3, 0.1, 0.1}};
-  mesh.faces.assign(1000, {0, 1, 2});
-  expect_tree(mesh);
-  mesh.faces.assign(1000, {1, 1, 1});
-  expect_tree(mesh);
+/// A sheet of 2 * side * side triangles in the plane z = 0, 0.2 m wide.
+ToolMesh flat_mesh(int side) {
+  ToolMesh mesh = wavy_mesh(side, 1.0);
+  for (Vector3d& vertex : mesh.vertices) vertex.z() = 0.0;
+  return mesh;
+}
+
+// Every triangle comes within the convex margin of every face at the same time, and none pierces
+// it: the tree of boxes, which are loose because the tool turns, rules out none of the million
+// pairs.
+TEST(SurfaceTouch, DescendsNoFurtherOnceTheBudgetIsUsedUp) {
+  const auto face_at = [](double height) {
+    return Triangle{Vector3d(-0.2, -0.2, height), Vector3d(0.6, -0.2, height),
+                    Vector3d(-0.2, 0.6, height)};
+  };
+  const Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d turned = pose;
+  turned.rotate(Eigen::AngleAxisd(0.01, Vector3d::UnitZ()));
+  std::vector<FaceTouch> faces(200, {0, {face_at(1e-3), face_at(5e-9)}, {}});
+  WorkBudget budget;
+  SurfaceTouches().find(flat_mesh(50).surface(), RigidMotion(pose, turned),
+                        tolerance::kConvexMargin, budget, faces);
+  EXPECT_TRUE(budget.is_used_up());
+  budget.add_pairs(WorkBudget::kLeastPairs + 10'000);
+  EXPECT_FALSE(budget.is_used_up()) << "a tenth of the budget did not suffice to end the search";
+  for (const FaceTouch& face : faces) {
+    ASSERT_TRUE(face.first);
+    EXPECT_FALSE(face.first->is_resolved);
+  }
+}
+
+/// The depth of a tree below a node. Counts the leaves.
+int depth(const ToolSurface& surface, std::uint32_t index, std::size_t& leaves) {
+  const ToolSurface::Node& node = surface.nodes()[index];
+  if (node.second == 0) {
+    ++leaves;
+    return 1;
+  }
+  return 1 + std::max(depth(surface, index + 1, leaves), depth(surface, node.second, leaves));
+}
+
+TEST(ToolSurface, IsABalancedTreeEvenOfFacesThatAreAllTheSame) {
+  Random random(1);
+  ToolMesh same;
+  same.vertices = {{0.1, 0.2, 0.3}, {0.2, 0.1, 0.3}, {0.3, 0.1, 0.1}};
+  same.faces.assign(1000, {0, 1, 2});
+  ToolMesh points = same;
+  points.faces.assign(1000, {1, 1, 1});
+  for (const ToolMesh& mesh : {same, points, scattered_mesh(200, random), wavy_mesh(16, 0.3)}) {
+    const ToolSurface surface = mesh.surface();
+    EXPECT_EQ(surface.faces().size(), mesh.faces.size());
+    std::size_t leaves = 0;
+    EXPECT_LE(depth(surface, 0, leaves), 2.0 + std::log2(static_cast<double>(mesh.faces.size())));
+    EXPECT_EQ(surface.nodes().size(), 2 * leaves - 1) << "every node is a child of one";
+  }
 }
 
 TEST(ToolSurface, ProjectsOntoADirectionAsItsVertices) {
@@ -145,23 +173,12 @@ TEST(ToolSurface, BoxesAreTurnedWithTheFaces) {
   Random random(2);
   for (int i = 0; i < 20; ++i) {
     const Eigen::Isometry3d pose = oracle::random_pose(0.1, random);
-    ToolMesh mesh = wavy_mesh(16, 1.0);
-    for (Vector3d& vertex : mesh.vertices) vertex = pose * Vector3d(vertex.x(), vertex.y(), 0.0);
+    ToolMesh mesh = flat_mesh(16);
+    for (Vector3d& vertex : mesh.vertices) vertex = pose * vertex;
     const ToolSurface surface = mesh.surface();
     for (const ToolSurface::Node& node : surface.nodes()) {
       EXPECT_LE(node.box.half_size.minCoeff(), 1e-9);
     }
-  }
-}
-
-/// Checks that the mesh is refused for `reason`, with `word` in the message.
-void expect_refused(Reason reason, const std::string& word, const ToolMesh& mesh) {
-  try {
-    mesh.surface();
-    ADD_FAILURE() << "was accepted";
-  } catch (const MeshError& error) {
-    EXPECT_EQ(error.reason(), reason) << error.what();
-    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << error.what();
   }
 }
 
@@ -173,17 +190,31 @@ TEST(ToolSurface, RefusesWhatIsNoMesh) {
     mesh.vertices[index] = vertex;
     return mesh;
   };
-  expect_refused(Reason::kNoTriangles, "no triangle", {good.vertices, {}});
-  expect_refused(Reason::kNoTriangles, "no triangle", {});
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_refused(Reason::kNotFinite, "vertex 4", with_vertex(4, {0.0, nan, 0.0}));
-  expect_refused(Reason::kNotFinite, "vertex 2", with_vertex(2, {0.0, 0.0, -INFINITY}));
-  expect_refused(Reason::kTooFar, "vertex 3",
-                 with_vertex(3, {1.01 * tolerance::kFarthest, 0.0, 0.0}));
   ToolMesh wrong = good;
   wrong.faces[3][1] = 15;
-  expect_refused(Reason::kIndex, "face 3 names vertex 15 of 15", wrong);
-  expect_refused(Reason::kIndex, "face 0", {{}, {FaceIndices{0, 1, 2}}});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const struct {
+    Reason reason;
+    const char* word;
+    ToolMesh mesh;
+  } cases[] = {
+      {Reason::kNoTriangles, "no triangle", {good.vertices, {}}},
+      {Reason::kNoTriangles, "no triangle", {}},
+      {Reason::kNotFinite, "vertex 4", with_vertex(4, {0.0, nan, 0.0})},
+      {Reason::kNotFinite, "vertex 2", with_vertex(2, {0.0, 0.0, -INFINITY})},
+      {Reason::kTooFar, "vertex 3", with_vertex(3, {1.01 * tolerance::kFarthest, 0.0, 0.0})},
+      {Reason::kIndex, "face 3 names vertex 15 of 15", wrong},
+      {Reason::kIndex, "face 0", {{}, {FaceIndices{0, 1, 2}}}},
+  };
+  for (const auto& c : cases) {
+    try {
+      c.mesh.surface();
+      ADD_FAILURE() << "was accepted: " << c.word;
+    } catch (const MeshError& error) {
+      EXPECT_EQ(error.reason(), c.reason) << error.what();
+      EXPECT_NE(std::string(error.what()).find(c.word), std::string::npos) << error.what();
+    }
+  }
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 
 #include <cstdlib>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -118,32 +117,6 @@ TEST_P(GlContextOf, ReleasesOnlyItself) {
   EXPECT_NE(get_string(GL_VERSION), nullptr);
 }
 
-TEST_P(GlContextOf, ReleasedInOneThreadWorksInAnother) {
-  GlContext context = this->context();
-  EXPECT_TRUE(sees_face(context, box()));
-  context.release();
-  bool sees_elsewhere = false;
-  std::thread([&] {
-    sees_elsewhere = sees_face(context, box());
-    context.release();
-  }).join();
-  EXPECT_TRUE(sees_elsewhere);
-  EXPECT_TRUE(sees_face(context, box()));
-}
-
-TEST_P(GlContextOf, OneForEachThreadSideBySide) {
-  std::vector<int> seen(3, 0);
-  std::vector<std::thread> threads;
-  for (int& count : seen) {
-    threads.emplace_back([&count, platform = GetParam()] {
-      GlContext context(platform);
-      for (int i = 0; i < 20; ++i) count += sees_face(context, box()) ? 1 : 0;
-    });
-  }
-  for (std::thread& thread : threads) thread.join();
-  EXPECT_EQ(seen, std::vector<int>(3, 20));
-}
-
 // EGL says that its context is current even if OSMesa's has taken its place.
 TEST(GlContext, ContextsOfBothPlatformsAlternate) {
   GlContext osmesa(GlPlatform::kOsmesa), egl(GlPlatform::kEgl);
@@ -158,7 +131,9 @@ TEST(GlContext, ContextsOfBothPlatformsAlternate) {
   }
 }
 
-TEST(GlContext, OutlivesThoseOfTheOtherPlatform) {
+// A context that another one has replaced is released as well: otherwise its platform does not
+// give it to another thread. It also outlives the other one.
+TEST(GlContext, ReplacedAndReleasedWorksInAnotherThread) {
   for (const GlPlatform other : {GlPlatform::kOsmesa, GlPlatform::kEgl}) {
     GlContext context(other == GlPlatform::kEgl ? GlPlatform::kOsmesa : GlPlatform::kEgl);
     for (int i = 0; i < 3; ++i) {
@@ -167,14 +142,6 @@ TEST(GlContext, OutlivesThoseOfTheOtherPlatform) {
       EXPECT_TRUE(sees_face(passing, box()));
     }
     EXPECT_TRUE(sees_face(context, box()));
-  }
-}
-
-// A context that another one has replaced is released as well: otherwise its platform does not
-// give it to another thread.
-TEST(GlContext, ReplacedAndReleasedWorksInAnotherThread) {
-  for (const GlPlatform other : {GlPlatform::kOsmesa, GlPlatform::kEgl}) {
-    GlContext context(other == GlPlatform::kEgl ? GlPlatform::kOsmesa : GlPlatform::kEgl);
     GlContext second(other);
     EXPECT_TRUE(sees_face(second, box()));
     context.release();
@@ -275,20 +242,6 @@ TEST(GlContext, AutoTakesWhatThereIs) {
       EXPECT_NE(what.find(part), std::string::npos) << what;
     }
   }
-}
-
-TEST(GlContext, UserPlanesOfAnEarlierVolumeDoNotStay) {
-  // Of all user planes, only the last one leaves nothing of the face.
-  ViewingVolume cut = box();
-  for (std::size_t i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) {
-    cut.add_user_plane(
-        {Eigen::Vector3d::UnitX(), i + 1 < ViewingVolume::kMaxUserPlanes ? 0.9 : 0.1});
-  }
-  EXPECT_THROW(cut.add_user_plane({Eigen::Vector3d::UnitX(), 0.1}), std::out_of_range);
-  GlContext context;
-  EXPECT_TRUE(sees_face(context, box()));
-  EXPECT_FALSE(sees_face(context, cut));
-  EXPECT_TRUE(sees_face(context, box()));
 }
 
 }  // namespace

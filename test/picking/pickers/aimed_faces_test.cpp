@@ -26,15 +26,15 @@ struct AimedFace {
 AimedFace aimed_face(const Vector3d& place, const Vector3d& outward, double largest,
                      Random& random) {
   const Vector3d side = outward.cross(random.direction()).normalized();
-  const double size = random.magnitude(1e-4, largest);
-  const double lift = random.below(2) == 0 ? 0 : random.uniform(0, 1);
+  const double size = random.scale(1e-4, largest);
+  const double lift = random.chance(0.5) ? 0 : random.uniform(0, 1);
   const auto beyond = [&] {
     return Vector3d(size *
                     (Eigen::AngleAxisd(random.uniform(0, 7), outward) * side + lift * outward));
   };
   Vector3d share(1, 0, 0);
   Triangle face = {place, place + beyond(), place + beyond()};
-  if (lift == 0 && random.below(2) == 0) {
+  if (lift == 0 && random.chance(0.5)) {
     const Vector3d arm = beyond();
     face = {place - arm, place + 0.7 * arm, face[2]};
     share = Vector3d(0.7, 1, 0) / 1.7;
@@ -43,14 +43,9 @@ AimedFace aimed_face(const Vector3d& place, const Vector3d& outward, double larg
     face = {place - arm, place + arm + other, place + arm - other};
     share = Vector3d(0.5, 0.25, 0.25);
   }
-  const int turn = random.below(3);
-  std::vector<float> vertices;
-  for (int i = 0; i < 3; ++i) {
-    for (const double value : face[static_cast<std::size_t>((i + turn) % 3)]) {
-      vertices.push_back(static_cast<float>(value));
-    }
-  }
-  const TriangleMesh mesh(vertices, {0, 1, 2});
+  const int turn = random.integer(0, 2);
+  std::rotate(face.begin(), face.begin() + turn, face.end());
+  const TriangleMesh mesh = oracle::mesh_of({face});
   const Triangle rounded = mesh.triangle(0);
   Vector3d touch = Vector3d::Zero();
   for (int i = 0; i < 3; ++i) touch += share[(i + turn) % 3] * rounded[static_cast<std::size_t>(i)];
@@ -59,11 +54,11 @@ AimedFace aimed_face(const Vector3d& place, const Vector3d& outward, double larg
 
 /// A direction outward through a side, an edge or a corner of the volume, or a random direction.
 Vector3d aim(const ViewingVolume& volume, Random& random) {
-  const int planes = random.below(8);
+  const int planes = random.integer(0, 7);
   if (planes == 0) return random.direction();
   Vector3d outward = Vector3d::Zero();
   for (int i = 0; i < std::max(1, planes - 4); ++i) {
-    const int index = random.below(static_cast<int>(volume.half_space_count()));
+    const int index = random.integer(0, static_cast<int>(volume.half_space_count()) - 1);
     outward += volume.half_space(static_cast<std::size_t>(index)).normal;
   }
   return outward.norm() < 0.1 ? random.direction() : Vector3d(outward.normalized());
@@ -91,52 +86,13 @@ ShaftMotion moved(const ShaftMotion& motion, const Vector3d& by) {
           {motion.end.trocar + by, motion.end.tip + by}};
 }
 
-// The point of the box that is farthest along `outward`. If there are several, a random one.
-Vector3d farthest(const OrientedBox& box, const Vector3d& outward, Random& random) {
-  Vector3d point = box.center;
-  for (int i = 0; i < 3; ++i) {
-    const double along = outward.dot(box.axes.col(i));
-    const double place = std::abs(along) < 1e-12 ? random.uniform(-1, 1) : along > 0 ? 1.0 : -1.0;
-    point += place * box.half_size[i] * box.axes.col(i);
-  }
-  return point;
-}
-
-// The farthest such point of the moving box, at one of several times of the leg.
-Vector3d farthest(const MovingBox& moving, const Vector3d& outward, Random& random) {
-  const RigidMotion motion = moving.motion();
-  Vector3d best = motion.start() * moving.box.center;
-  for (int i = 0; i < 8; ++i) {
-    const Eigen::Isometry3d pose = motion.at(i < 2 ? i : random.uniform(0, 1));
-    const Vector3d in_link = pose.linear().transpose() * outward;
-    const Vector3d point = pose * farthest(moving.box, in_link, random);
-    if (outward.dot(point - best) > 0) best = point;
-  }
-  return best;
-}
-
-// A direction outward through planes of the volume, along an axis of the box at the start or end of
-// the leg, or a random one.
-Vector3d aim_at(const MovingBox& moving, Random& random) {
-  const SweptBox swept(moving.box, moving.motion(), moving.radius);
-  const Eigen::Matrix3d turn = (random.below(2) == 0 ? moving.start : moving.end).linear();
-  switch (random.below(3)) {
-    case 0:
-      return aim(conservative_volume(swept, {}), random);
-    case 1:
-      return (random.below(2) == 0 ? 1 : -1) * turn * moving.box.axes.col(random.below(3));
-    default:
-      return random.direction();
-  }
-}
-
 class AimedFaces : public PickerTest {
  protected:
   // Makes a face no larger than `size` [m], moves the tool so that it just touches the face in the
   // direction `outward`, and expects that the face is picked.
   void shoot(ShaftMotion motion, double radius, const Vector3d& outward, double size) {
     const Vector3d on_core = farthest(motion, outward, random_);
-    const double reach = radius * (1 - random_.magnitude(1e-9, 1e-6));
+    const double reach = radius * (1 - random_.scale(1e-9, 1e-6));
     const AimedFace face = aimed_face(on_core + reach * outward, outward, size, random_);
     const Vector3d by = face.touch - reach * outward - on_core;
     motion = moved(motion, by);
@@ -144,17 +100,6 @@ class AimedFaces : public PickerTest {
     ++aimed_;
     const VolumeMargin margin{0.0, extent(face.mesh, motion.start.trocar)};
     expect_picked(conservative_volume(motion, radius, margin), face.mesh, motion);
-  }
-  void shoot(MovingBox moving, const Vector3d& outward, double size) {
-    const Vector3d on_box = farthest(moving, outward, random_);
-    const double reach = moving.radius * (1 - random_.magnitude(1e-9, 1e-6));
-    const AimedFace face = aimed_face(on_box + reach * outward, outward, size, random_);
-    const Vector3d by = face.touch - reach * outward - on_box;
-    moving.start.pretranslate(by);
-    moving.end.pretranslate(by);
-    const SweptBox swept(moving.box, moving.motion(), moving.radius);
-    const VolumeMargin margin{0.0, extent(face.mesh, swept.origin())};
-    expect_picked(conservative_volume(swept, margin), face.mesh, moving);
   }
 
   Random random_{31};
@@ -165,10 +110,9 @@ INSTANTIATE_TEST_SUITE_P(Pickers, AimedFaces, PickerTest::all(), PickerTest::nam
 
 TEST_P(AimedFaces, OfShaftsAreNeverMissed) {
   for (int i = 0; i < 200'000; ++i) {
-    const MotionKind kind = kMotionKinds[static_cast<std::size_t>(i) % kMotionKinds.size()];
-    const double offset = i % 2 == 0 ? 0.3 : random_.magnitude(1, 1000);
-    const ShaftMotion motion = random_motion(kind, offset, random_);
-    const double radius = random_.magnitude(0.0005, 0.01);
+    const double offset = i % 2 == 0 ? 0.3 : random_.scale(1, 1000);
+    const ShaftMotion motion = random_motion(motion_kind(i), offset, random_);
+    const double radius = random_.scale(0.0005, 0.01);
     shoot(motion, radius, aim(conservative_volume(motion, radius, {}), random_), 3);
   }
   EXPECT_GT(aimed_, 150'000);
@@ -198,15 +142,6 @@ TEST_P(AimedFaces, AreNotMissedWhereThePerspectiveDivisionIsWorst) {
   }
   EXPECT_GT(perspective, 90'000);
   EXPECT_GT(aimed_, 90'000);
-}
-
-// At sides, edges and corners of a link's moving box.
-TEST_P(AimedFaces, OfBoxesAreNeverMissed) {
-  for (int i = 0; i < 100'000; ++i) {
-    const double offset = i % 2 == 0 ? 0.3 : random_.magnitude(1, 1000);
-    const MovingBox moving = random_box(offset, random_);
-    shoot(moving, aim_at(moving, random_), i % 3 == 0 ? 0.01 : 3);
-  }
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <cstddef>
 #include <cstdint>
 #include <iomanip>
 #include <memory>
@@ -15,25 +14,6 @@
 #include "picking/pickers/picker.hpp"
 
 namespace organ_collision {
-
-/// Triangles that share no vertex.
-class Soup {
- public:
-  void add(const Triangle& face) {
-    for (const Eigen::Vector3d& corner : face) {
-      for (int k = 0; k < 3; ++k) vertices_.push_back(static_cast<float>(corner[k]));
-    }
-  }
-  std::size_t size() const { return vertices_.size() / 9; }
-  TriangleMesh mesh() const {
-    std::vector<std::uint32_t> triangles(vertices_.size() / 3);
-    for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = static_cast<std::uint32_t>(i);
-    return {vertices_, triangles};
-  }
-
- private:
-  std::vector<float> vertices_;
-};
 
 /// The numbers of the faces, which must be sorted, each once.
 inline std::vector<std::uint32_t> numbers(const std::vector<Candidate>& candidates) {
