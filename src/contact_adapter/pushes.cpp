@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "basins.hpp"
 #include "geometry/concatenate.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "haptic_proxy_parameters.hpp"
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "ros/markers/marker_publisher.hpp"
@@ -58,8 +57,6 @@ class HapticProxyNode {
   };
 
   Core::Callbacks callbacks();
-  void start();
-  void work();
   void let_go(const std::string& why);
   void watch_clock();
   void apply_organ_messages();
@@ -74,11 +71,8 @@ class HapticProxyNode {
   std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
-  bool release_leaving(const KeptTools& kept);
-  bool do_leaving_hands_fade() const;
   void let_leaving_hands_fade(const KeptTools& kept);
   void exchange_tools(LoadedTools& loaded, const KeptTools& kept);
-  void change_parameters();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ProxyCounters counters_;

@@ -75,8 +75,9 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
     ramp_.rise(now);
     forces_ = std::move(forces);
   }
-  ProxyReport report{tool_,  scene.frame, stamp, ContactArray::OK, answer.message, &answer,
-                     &scene, hand_,       held_};
+  ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
+  report.answer = &answer;
+  report.scene = &scene;
   report.tick_sec = passed.count();
   set_forces(report, ramp_.share());
   return report;
@@ -88,15 +89,8 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
   is_released_ = false;
   velocity_ = {};
   const double share = ramp_.fall(now);
-  ProxyReport report{tool_,
-                     frame_.empty() ? frame : frame_,
-                     ros::Time::now(),
-                     status,
-                     message,
-                     nullptr,
-                     nullptr,
-                     hand_,
-                     held_};
+  const std::string& told = frame_.empty() ? frame : frame_;
+  ProxyReport report{tool_, told, ros::Time::now(), status, message, hand_, held_};
   set_forces(report, share);
   if (share == 0.0) forces_ = {};
   return report;
