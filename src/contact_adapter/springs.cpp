@@ -139,14 +139,6 @@ struct Spring {
 
 double agreement(const Vector3d& a, const Vector3d& b) { return std::max(0.0, a.dot(b)); }
 
-std::vector<Spring> springs_of(const std::vector<Push>& pushes) {
-  std::vector<Spring> springs;
-  for (const Push& push : pushes) {
-    if (push.counts && push.depth > 0.0) springs.push_back({push.normal, push.depth});
-  }
-  return springs;
-}
-
 /// Repeatedly lengthens the spring with the greatest lack. Stops when no lack exceeds `tolerance`
 /// [m], or after kSpringsARound times. Adds the lengthened springs to `used`. Returns whether it
 /// lengthened any.
@@ -224,25 +216,23 @@ void share(const Spring& spring, const Vector3d& force, const std::vector<Push>&
   }
 }
 
-/// Whether all torques together, and so all forces, are finite.
-bool is_finite(const std::vector<Vector3d>& forces, const std::vector<Push>& pushes) {
+}  // namespace
+
+std::vector<Vector3d> penalty_forces(const std::vector<Push>& pushes, double stiffness) {
+  std::vector<Spring> springs;
+  for (const Push& push : pushes) {
+    if (push.counts && push.depth > 0.0) springs.push_back({push.normal, push.depth});
+  }
+  std::vector<Vector3d> forces(pushes.size(), Vector3d::Zero());
+  for (const std::size_t i : find_lengths(springs)) {
+    share(springs[i], -stiffness * springs[i].length * springs[i].normal, pushes, forces);
+  }
   Vector3d sum = Vector3d::Zero(), torque = Vector3d::Zero();
   for (std::size_t j = 0; j < pushes.size(); ++j) {
     sum += forces[j];
     torque += pushes[j].place.cross(forces[j]);
   }
-  return sum.allFinite() && torque.allFinite();
-}
-
-}  // namespace
-
-std::vector<Vector3d> penalty_forces(const std::vector<Push>& pushes, double stiffness) {
-  std::vector<Spring> springs = springs_of(pushes);
-  std::vector<Vector3d> forces(pushes.size(), Vector3d::Zero());
-  for (const std::size_t i : find_lengths(springs)) {
-    share(springs[i], -stiffness * springs[i].length * springs[i].normal, pushes, forces);
-  }
-  if (!is_finite(forces, pushes)) {
+  if (!sum.allFinite() || !torque.allFinite()) {
     throw Rejection(ContactArray::INVALID_REQUEST, "force not finite",
                     "the force of " + std::to_string(springs.size()) + " contacts is not finite");
   }

@@ -91,7 +91,7 @@ class FemTissue {
   void step() {
     const ros::Time stamp = ros::Time::now();
     publish_probe(stamp);
-    publish_vertices(stamp);
+    vertices_publisher_.publish(shape<OrganVertices>(stamp));
     if (!wait_for_forces(stamp)) return;
     publish_impulse(apply_forces());
     block_.step(kStep);
@@ -104,23 +104,21 @@ class FemTissue {
     return node.advertise<Message>(ros::names::append(kCollisionNode, topic), 1, latch);
   }
 
+  template <typename Message>
+  boost::shared_ptr<Message> shape(const ros::Time& stamp) const {
+    const auto message = boost::make_shared<Message>();
+    message->header.stamp = stamp;
+    message->header.frame_id = message->organ = kOrgan;
+    message->vertices = block_.vertices();
+    return message;
+  }
+
   void publish_mesh(const ros::Time& stamp) {
-    const auto mesh = boost::make_shared<OrganMesh>();
-    mesh->header.stamp = stamp;
-    mesh->header.frame_id = mesh->organ = kOrgan;
-    mesh->vertices = block_.vertices();
+    const auto mesh = shape<OrganMesh>(stamp);
     for (const FaceIndices& face : block_.faces()) {
       mesh->triangles.insert(mesh->triangles.end(), face.begin(), face.end());
     }
     mesh_publisher_.publish(mesh);
-  }
-
-  void publish_vertices(const ros::Time& stamp) {
-    const auto vertices = boost::make_shared<OrganVertices>();
-    vertices->header.stamp = stamp;
-    vertices->header.frame_id = vertices->organ = kOrgan;
-    vertices->vertices = block_.vertices();
-    vertices_publisher_.publish(vertices);
   }
 
   /// The probe moves up and down above the middle of the tissue, and leans a little.

@@ -147,7 +147,8 @@ class LiverSimulator {
     if (++steps_ > 1) liver_.step(1.0 / rate_, pushes);
     const ros::Time stamp = ros::Time::now();
     send_stabber(steps_ / rate_, stamp);
-    steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
+    if (steps_ == 1) return publish_mesh(stamp);
+    vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
   /// On /tf, at `seconds` since the start. The z axis of a tip points along the shaft.
@@ -190,10 +191,6 @@ class LiverSimulator {
       mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
     }
     mesh_publisher_.publish(mesh);
-  }
-
-  void publish_vertices(const ros::Time& stamp) {
-    vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
   double rate_;

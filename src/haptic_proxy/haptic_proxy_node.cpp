@@ -33,10 +33,6 @@ constexpr std::chrono::milliseconds kRepetition(100);
 /// ToolPoses::path() is not used.
 constexpr PathSampling kNoPaths{1.0, 1};
 
-AgeLimits age_limits(const HapticProxyParameters& parameters) {
-  return {parameters.mesh_timeout_sec, parameters.frame_timeout_sec};
-}
-
 SteadyClock::duration duration(double seconds) {
   return std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds));
 }
@@ -81,11 +77,18 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
 
 NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
   Core::Callbacks callbacks;
-  callbacks.loop = {[this] { watch_clock(); },
-                    [this](SteadyTime) {
-                      apply_organ_messages();
-                      follow_waiting_hands();
-                    }};
+  callbacks.loop.watch_clock = [this] {
+    if (!inbox_.watch_clock()) return;
+    reset_proxies("the clock jumped back");
+    for (Hand& hand : hands_) hand.stamp = {};
+  };
+  callbacks.loop.handle = [this](SteadyTime) {
+    while (const auto update = inbox_.intake.next()) {
+      has_new_shape_ = true;
+      if (update->status == ContactArray::OK) counters_.meshes.count();
+    }
+    follow_waiting_hands();
+  };
   callbacks.work = [this] {
     follow_hands();
     markers_.update(inbox_.organs, [this] { return views(); });
@@ -130,19 +133,6 @@ void HapticProxyNode::let_go(const std::string& why) {
   if (core_.private_node().ok()) kFarewell.sleep();
 }
 
-void HapticProxyNode::watch_clock() {
-  if (!inbox_.watch_clock()) return;
-  reset_proxies("the clock jumped back");
-  for (Hand& hand : hands_) hand.stamp = {};
-}
-
-void HapticProxyNode::apply_organ_messages() {
-  while (const auto update = inbox_.intake.next()) {
-    has_new_shape_ = true;
-    if (update->status == ContactArray::OK) counters_.meshes.count();
-  }
-}
-
 /// After each message: a tick for each pose of a topic, as long as the node keeps up with them.
 void HapticProxyNode::follow_waiting_hands() {
   const Time now = SteadyClock::now();
@@ -170,7 +160,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
     const ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
-                                         age_limits(core_.parameters()), ros::Time::now());
+                                         age_limits(), ros::Time::now());
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
       tick(hand, pose, scene, now);
@@ -192,9 +182,7 @@ Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
                     core_.tools()[tool].fault);
   }
-  if (frame_.name().empty()) {
-    throw no_organ();
-  }
+  if (frame_.name().empty()) throw no_organ();
   auto pose = poses_.pose(core_.tools()[tool], frame_.name(), ros::Time(0));
   if (!pose.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
@@ -216,10 +204,9 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
     hand.heard = now;
     return true;
   }
-  const HapticProxyParameters& parameters = core_.parameters();
   check_age(inbox_.transforms, frame_.name(), swept_frames(core_.tools()[tool]), stamp,
-            age_limits(parameters), ros::Time::now());
-  const double timeout = parameters.pose_timeout_sec;
+            age_limits(), ros::Time::now());
+  const double timeout = core_.parameters().pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
     throw Rejection(
         ContactArray::NO_TRANSFORM, "no pose",
@@ -240,12 +227,12 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyS
   const std::string named = "tool '" + report.tool.name + "': ";
   if (report.clipped_by) {
     const bool is_force = report.clipped_by == names::kMaxForce;
-    counters_.clipped.add(report.clipped_by,
-                          concatenate(named, is_force ? "the force" : "the torque",
-                                      " is clipped to ",
-                                      is_force ? parameters.max_force : parameters.max_torque,
-                                      is_force ? " N" : " N m"),
-                          now);
+    counters_.clipped.add(
+        report.clipped_by,
+        concatenate(named, is_force ? "the force" : "the torque", " is clipped to ",
+                    is_force ? parameters.max_force : parameters.max_torque,
+                    is_force ? " N" : " N m"),
+        now);
   }
   if (report.answer->is_placed_anew && std::exchange(hand.had_answer, true)) {
     counters_.placed_anew.add("placed anew", named + report.message, now);

@@ -58,11 +58,12 @@ class HapticProxyNode {
 
   Core::Callbacks callbacks();
   void let_go(const std::string& why);
-  void watch_clock();
-  void apply_organ_messages();
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
+  AgeLimits age_limits() const {
+    return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
+  }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);

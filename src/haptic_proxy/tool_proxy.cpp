@@ -10,10 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-ProxyTool proxy_tool(const Tool& tool) {
-  return {tool.parameters.radius, tool.links, tool.parameters.freedom};
-}
-
 /// From whole nanoseconds, because ros::Duration overflows for extreme stamps.
 double seconds_between(ros::Time from, ros::Time to) {
   return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
@@ -49,7 +45,8 @@ const Vector3d& PullVelocity::update(const Vector3d& pull, ros::Time stamp, bool
 ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
     : tool_(tool.parameters),
       parameters_(parameters),
-      proxy_(proxy_tool(tool), proxy_settings(parameters, tool.parameters), parameters.picker) {}
+      proxy_({tool_.radius, tool.links, tool_.freedom}, proxy_settings(parameters, tool.parameters),
+             parameters.picker) {}
 
 ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
   const auto start = std::chrono::steady_clock::now();

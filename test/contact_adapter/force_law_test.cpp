@@ -175,19 +175,6 @@ TEST(ForceLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   expect_near(moved, kUp + kLeft + 4.0 * kStiffness * 0.0001 * back.normalized());
 }
 
-TEST(ForceLaw, TheTorqueFollowsInTheSameShare) {
-  ForceLaw law;
-  const auto wrench = [&](const ContactArray& answer, double seconds) {
-    return wrench_of(law.follow(answer, seconds, kStiffness, kRadius));
-  };
-  const auto before = wrench(floor_and_wall(0.003, 0.002, true), kSeconds);
-  const auto half = wrench(floor_and_wall(0.003, 0.002), 0.02);
-  const auto whole = wrench(floor_and_wall(0.003, 0.002), 1.0);
-  EXPECT_NEAR(half.force.x, 0.5 * (before.force.x + whole.force.x), 1e-9);
-  EXPECT_NEAR(half.torque.y, 0.5 * (before.torque.y + whole.torque.y), 1e-9);
-  EXPECT_GT(std::abs(whole.torque.y - before.torque.y), 0.1);
-}
-
 TEST(ForceLaw, AStaticAnswerAndAnotherTopologyBeginAnew) {
   ForceLaw law;
   force(law, floor_and_wall(0.003, 0.002, true));
