@@ -93,7 +93,7 @@ class FemTissue {
     publish_probe(stamp);
     vertices_publisher_.publish(shape<OrganVertices>(stamp));
     if (!wait_for_forces(stamp)) return;
-    publish_impulse(apply_forces());
+    apply_forces();
     block_.step(kStep);
     ++steps_;
   }
@@ -138,7 +138,7 @@ class FemTissue {
     return false;
   }
 
-  FemBlock::Impulse apply_forces() {
+  void apply_forces() {
     FemBlock::Impulse sum;
     for (std::size_t i = 0; i < forces_->vertices.size(); ++i) {
       const FemBlock::Impulse given =
@@ -146,14 +146,10 @@ class FemTissue {
       sum.linear += given.linear;
       sum.angular += given.angular;
     }
-    return sum;
-  }
-
-  void publish_impulse(const FemBlock::Impulse& impulse) {
     geometry_msgs::WrenchStamped message;
     message.header = forces_->header;
-    message.wrench.force = to_vector(impulse.linear);
-    message.wrench.torque = to_vector(impulse.angular);
+    message.wrench.force = to_vector(sum.linear);
+    message.wrench.torque = to_vector(sum.angular);
     impulse_publisher_.publish(message);
   }
 

@@ -135,8 +135,14 @@ class LiverSimulator {
     send_hand(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
   }
 
-  /// Instead of all steps: the liver rests.
-  void rest() { publish_mesh(ros::Time::now()); }
+  /// At `stamp`. Alone, without steps, it shows a liver at rest.
+  void publish_mesh(const ros::Time& stamp) {
+    auto mesh = shape<OrganMesh>(stamp);
+    for (const FaceIndices& face : surface_.faces) {
+      mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
+    }
+    mesh_publisher_.publish(mesh);
+  }
 
  private:
   /// Simulates one period. Publishes the stabber's pose before the shape, with the same stamp.
@@ -185,14 +191,6 @@ class LiverSimulator {
     return message;
   }
 
-  void publish_mesh(const ros::Time& stamp) {
-    auto mesh = shape<OrganMesh>(stamp);
-    for (const FaceIndices& face : surface_.faces) {
-      mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
-    }
-    mesh_publisher_.publish(mesh);
-  }
-
   double rate_;
   ClosedSurface surface_;
   LiverSoftBody liver_;
@@ -231,7 +229,7 @@ int main(int argc, char** argv) {
   LiverSimulator simulator{ros::NodeHandle(), ros::NodeHandle(collision_node),
                            ros::NodeHandle(haptic_node), rate};
   if (!private_node.param<bool>("moves", true)) {
-    simulator.rest();
+    simulator.publish_mesh(ros::Time::now());
     ros::spin();
     return 0;
   }

@@ -106,7 +106,17 @@ NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
   };
   callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
     let_leaving_hands_fade(kept);
-    core_.in_node_thread([&] { exchange_tools(loaded, kept); });
+    core_.in_node_thread([&] {
+      for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
+      core_.exchange_tools(
+          loaded,
+          [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
+          [&] {
+            publisher_.set_tools(core_.parameters().tools);
+            hands_ = make_hands(core_.tools(), kept);
+            has_new_shape_ = true;
+          });
+    });
   };
   callbacks.break_down = [this](const std::string& why) { let_go("the node broke down: " + why); };
   return callbacks;
@@ -351,18 +361,6 @@ void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
     });
   }
   kFarewell.sleep();  // The last messages leave.
-}
-
-void HapticProxyNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
-  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-  core_.exchange_tools(
-      loaded,
-      [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
-      [&] {
-        publisher_.set_tools(core_.parameters().tools);
-        hands_ = make_hands(core_.tools(), kept);
-        has_new_shape_ = true;
-      });
 }
 
 void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

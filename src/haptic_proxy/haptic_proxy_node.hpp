@@ -73,7 +73,6 @@ class HapticProxyNode {
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
   void let_leaving_hands_fade(const KeptTools& kept);
-  void exchange_tools(LoadedTools& loaded, const KeptTools& kept);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ProxyCounters counters_;
