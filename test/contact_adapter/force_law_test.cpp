@@ -98,33 +98,6 @@ TEST(ContactMotion, AKnownClearanceThatChangesIsAWay) {
   EXPECT_EQ(way(Clearance::BEYOND_MARGIN, 0.5), 0.0);
 }
 
-TEST(ContactMotion, IsNoMoreThanTheWayOfRealQueries) {
-  const TriangleMesh organ = grid_mesh(24, 24, [](double u, double v) -> Vector3d {
-    const double x = 0.06 * u - 0.0297, y = 0.06 * v - 0.0302;
-    return {x, y, (x * x - y * y) / 0.06};
-  });
-  for (const double yaw : {0.0, 0.7, 1.5}) {
-    const auto at = [&](double z) {
-      const Vector3d along(std::sin(yaw), std::cos(yaw), -0.02), middle(0.0, 0.001, z);
-      return ShaftAxis{middle - 0.05 * along, middle + 0.02 * along};
-    };
-    PushTracker tracker;
-    ContactMotion motion;
-    std::vector<double> ways;
-    const auto steps = forces_along(
-        way_through({at(0.015), at(-0.003), at(0.015)}, 1e-4), organ, [&](const ContactArray& a) {
-          ways.push_back(motion.follow(a, tracker.follow(a, kRadius), kRadius).value_or(0.0));
-          return Vector3d::Zero();
-        });
-    double sum = 0.0;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      EXPECT_LE(ways[i], 1.01 * steps[i].way) << "yaw " << yaw << ", step " << i;
-      sum += ways[i];
-    }
-    EXPECT_GE(sum, 0.01) << "yaw " << yaw;  // [m] The tool moves by 36 mm.
-  }
-}
-
 /// An answer about a floor and a wall. If the wall is hidden, its push does not count: its nearest
 /// corner also belongs to the floor, which is nearer to the tool.
 ContactArray floor_and_wall(double floor_depth, double wall_depth, bool is_hidden = false) {
@@ -191,19 +164,6 @@ TEST(ForceLaw, AStaticAnswerAndAnotherTopologyBeginAnew) {
   EXPECT_GT(force(law, past, 1.0).z(), 0.0);
   past.mode = ContactArray::STATIC;
   expect_near(force(law, past), {0.0, 0.0, -0.004 * kStiffness});
-}
-
-TEST(ForceLaw, LinksThatShareAFaceAreOneSpringBetweenThem) {
-  Contact left = of_depth(0.001), right = of_depth(0.003);
-  left.end_point = tf2::toMsg(Vector3d(0.0, 0.0, 0.0));
-  right.end_point = tf2::toMsg(Vector3d(0.04, 0.0, 0.0));
-  right.link = 1;
-  ContactArray answer = touched({left, right});
-  answer.links = {"left_jaw", "right_jaw"};
-  ForceLaw law;
-  const auto wrench = wrench_of(law.follow(answer, kSeconds, kStiffness, std::nullopt));
-  EXPECT_NEAR(wrench.force.z, 3.0, 1e-9);
-  EXPECT_NEAR(wrench.torque.y, -3.0 * 0.03, 1e-9);
 }
 
 }  // namespace
