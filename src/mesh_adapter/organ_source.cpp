@@ -77,8 +77,7 @@ void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
         message_of<OrganMesh>(parameters_.name, last_topology_, surface.frame, surface.stamp));
   } else {
     surface.frame = frame_or_given(surface.frame);
-    const bool has_known_triangles = mesh_ &&
-                                     surface.vertices.size() == mesh_->vertices().size() &&
+    const bool has_known_triangles = mesh_ && surface.vertices.size() == mesh_->vertices().size() &&
                                      mesh_->has_triangles(surface.triangles);
     if (!has_known_triangles) {
       send_mesh(++last_topology_, std::move(surface));
