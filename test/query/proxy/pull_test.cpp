@@ -26,11 +26,17 @@ void expect_depth(const ProxyAnswer& answer, double depth, const Vector3d& tip) 
   EXPECT_LE(answer.pull.head<2>().norm(), 5e-6) << "the hand is at " << tip.transpose();
 }
 
-/// The flat sheet with its vertices moved within it by up to `share` of a cell.
+/// The flat sheet with its inner vertices moved within it by up to `share` of a cell.
 GridSurface irregular_sheet(int side, float share, Random& random) {
   const auto seed = static_cast<unsigned>(random.integer(0, 1000));
-  GridSurface sheet = shaken(flat_sheet(side), share * 0.2F / static_cast<float>(side), seed);
-  for (std::size_t i = 2; i < sheet.vertices.size(); i += 3) sheet.vertices[i] = 0.0F;
+  const GridSurface regular = flat_sheet(side);
+  GridSurface sheet = shaken(regular, share * 0.2F / static_cast<float>(side), seed);
+  for (std::size_t i = 0; i < sheet.vertices.size(); i += 3) {
+    const float* const before = &regular.vertices[i];
+    const bool is_inner = std::max(std::abs(before[0]), std::abs(before[1])) < 0.099F;
+    if (!is_inner) std::copy_n(before, 2, &sheet.vertices[i]);
+    sheet.vertices[i + 2] = 0.0F;
+  }
   return shuffled(sheet, seed);
 }
 
