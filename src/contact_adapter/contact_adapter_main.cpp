@@ -1,8 +1,14 @@
 /// contact_adapter: turns the collision node's contacts into a wrench, forces on vertices and a
 /// list of faces for each pair of organ and tool.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/WrenchStamped.h>
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/VertexForces.h>
+#include <ros/names.h>
 #include <ros/ros.h>
+#include <std_msgs/UInt32MultiArray.h>
 
 #include <chrono>
 #include <map>
@@ -18,8 +24,41 @@
 namespace organ_collision {
 namespace {
 
+constexpr char kProgram[] = "contact_adapter";
+/// A topic of a pair, below ~ORGAN/TOOL.
+constexpr char kFaces[] = "faces";
+
 // [messages] Late forces would be wrong, so only a few messages may wait, for all organs and tools.
 constexpr std::uint32_t kQueue = 20;
+
+/// What --help says. doc/forces.md explains the same names at length; a test compares both.
+ProgramHelp contact_adapter_help() {
+  const std::string pair = "~ORGAN/TOOL";
+  ProgramHelp help{kProgram,
+                   "Turns the contacts of the collision node into a wrench, forces on vertices and "
+                   "a list of faces for each organ and tool. The force has no upper limit unless "
+                   "max_force is set."};
+  help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
+                      message_type<ContactArray>(),
+                      "remap it if the collision node has another name"}};
+  help.published = {
+      {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
+       "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
+      {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
+       "forces of the tool on the tissue's vertices [N]; together, minus the wrench"},
+      {ros::names::append(pair, kFaces), message_type<std_msgs::UInt32MultiArray>(),
+       "the numbers of the touched faces"},
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
+       "number of messages, of those without output by reason, of clipped forces"}};
+  help.services = {{"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
+                    "changes stiffness and max_force while the node runs, as dynparam and "
+                    "rqt_reconfigure do"}};
+  help.parameters = parameter_help<ContactAdapterParameters>();
+  help.further =
+      "roslaunch organ_collision contact_adapter.launch starts it. doc/forces.md explains the law "
+      "of the force.";
+  return help;
+}
 
 /// The node. It logs and counts an answer that reports a failure, but publishes nothing for it,
 /// because the contacts are unknown then. All its work is done in the callbacks of the node's
@@ -123,7 +162,7 @@ class ContactAdapter {
     return pairs_
         .insert(
             {{organ, tool},
-             {private_node_.advertise<std_msgs::UInt32MultiArray>(topic(names::kFaces), kQueue),
+             {private_node_.advertise<std_msgs::UInt32MultiArray>(topic(kFaces), kQueue),
               private_node_.advertise<geometry_msgs::WrenchStamped>(topic(names::kWrench), kQueue),
               private_node_.advertise<VertexForces>(topic(names::kVertexForces), kQueue),
               ForceLaw(parameters_.way_out)}})
@@ -162,7 +201,7 @@ class ContactAdapter {
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  return run_program(argc, argv, contact_adapter_help(), names::kContactAdapter,
+  return run_program(argc, argv, contact_adapter_help(), kProgram,
                      [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
                        const ContactAdapter adapter(node, private_node);
                        ros::spin();

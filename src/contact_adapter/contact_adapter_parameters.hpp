@@ -4,18 +4,7 @@
 #include <vector>
 
 #include "forces/forces.hpp"
-#include "ros/node/program.hpp"
 #include "ros/parameters/parameter_table.hpp"
-
-/// The names of contact_adapter in the ROS graph, besides those of the collision node and of all
-/// nodes with forces.
-namespace organ_collision::names {
-
-inline constexpr char kContactAdapter[] = "contact_adapter";
-/// A topic of a pair, below ~ORGAN/TOOL.
-inline constexpr char kFaces[] = "faces";
-
-}  // namespace organ_collision::names
 
 namespace organ_collision {
 
@@ -28,9 +17,17 @@ struct ContactAdapterParameters {
   std::vector<std::string> misspelt{};  ///< a sentence for each unknown name
 };
 
-ParameterTable table_of(ContactAdapterParameters& parameters);
-
-/// What --help says. doc/forces.md explains the same names at length; a test compares both.
-ProgramHelp contact_adapter_help();
+inline ParameterTable table_of(ContactAdapterParameters& p) {
+  ParameterTable t;
+  t.number(names::kStiffness, p.stiffness, kPositive, "[N/m] force for each metre of depth").live();
+  t.number(names::kMaxForce, p.max_force, kPositiveOrInfinite,
+           "[N] larger forces are clipped to it")
+      .live();
+  t.flag("way_out", p.way_out,
+         "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin");
+  t.number("diagnostic_period", p.diagnostic_period_sec, kTimerPeriod,
+           "[s] between messages on /diagnostics");
+  return t;
+}
 
 }  // namespace organ_collision

@@ -29,39 +29,38 @@ void refuse_illegal_name(const char* what, const std::string& name) {
   if (!fault.empty()) refuse(what, " ", fault);
 }
 
-// `what`: the parts of the value's name, which are put together only for a refusal.
-
-template <typename... What>
-void check_finite(double value, const What&... what) {
-  if (!std::isfinite(value)) refuse(what..., " is ", value, "; must be finite");
+/// Refuses a value that is not `legal`. `what`: the parts of its name, which are put together only
+/// for a refusal.
+template <typename Value, typename... What>
+void check(bool is_legal, const Value& value, const char* legal, const What&... what) {
+  if (!is_legal) refuse(what..., " is ", value, "; must be ", legal);
 }
 
 template <typename... What>
-void check_finite(const geometry_msgs::Point& point, const What&... what) {
-  const Vector3d value = to_eigen(point);
-  if (!value.allFinite()) refuse(what..., " is ", value.transpose(), "; must be finite");
+void check_place(const geometry_msgs::Point& place, const What&... what) {
+  const Vector3d value = to_eigen(place);
+  check(value.allFinite(), value.transpose(), "finite", what...);
 }
 
 template <typename... What>
-void check_unit(const geometry_msgs::Vector3& normal, const What&... what) {
+void check_normal(const geometry_msgs::Vector3& normal, const What&... what) {
   const Vector3d value = to_eigen(normal);
-  if (!(std::abs(value.norm() - 1.0) <= kUnitTolerance)) {
-    refuse(what..., " is ", value.transpose(), "; must be unit");
-  }
+  check(std::abs(value.norm() - 1.0) <= kUnitTolerance, value.transpose(), "unit", what...);
 }
 
 void check_geometry(const ContactArray& answer) {
   for (const Contact& contact : answer.contacts) {
-    check_finite(contact.point, "point of face ", contact.face);
-    check_finite(contact.end_point, "end_point of face ", contact.face);
-    check_finite(contact.depth, "depth of face ", contact.face);
-    check_unit(contact.normal, "normal of face ", contact.face);
+    check_place(contact.point, "point of face ", contact.face);
+    check_place(contact.end_point, "end_point of face ", contact.face);
+    check(std::isfinite(contact.depth), contact.depth, "finite", "depth of face ", contact.face);
+    check_normal(contact.normal, "normal of face ", contact.face);
   }
   const Clearance& clearance = answer.clearance;
   if (clearance.state != Clearance::KNOWN) return;
-  check_finite(clearance.distance, "distance of the clearance");
-  check_finite(clearance.on_organ, "on_organ of the clearance");
-  check_unit(clearance.normal, "normal of the clearance");
+  const double distance = clearance.distance;
+  check(std::isfinite(distance), distance, "finite", "distance of the clearance");
+  check_place(clearance.on_organ, "on_organ of the clearance");
+  check_normal(clearance.normal, "normal of the clearance");
 }
 
 ShaftRadius positive_number(const XmlRpcValue& value) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "penalty_forces.hpp"
 #include "ros/messages/conversions.hpp"
 
 namespace organ_collision {

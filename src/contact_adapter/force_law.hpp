@@ -19,16 +19,12 @@ namespace organ_collision {
 ///
 /// - A contact's normal is from first touch in its step, and its depth is from the end of the step.
 ///   Therefore the change of the vector may come from two steps, and only half of it counts. The
-///   change along the normal comes from one step and counts in full.
+///   change along the normal counts in full.
 /// - A face that is newly touched counts with its depth, and so does a face that is left.
-/// - A face that the axis pierces in both answers counts with the change of the tip's depth. For a
-///   face that is pierced in only one answer, the distance of the tip beyond the face does not
-///   count.
+/// - A face that the axis pierces in both answers counts with the change of the tip's depth.
 /// - For links, and for a shaft of unknown radius, only the change of depth counts, and only while
-///   the contact's normal stays. If a face pierces a link with flat faces, the normal and the depth
-///   jump to those of the whole link.
-/// - If the clearance is known, so does its change. The distance to the nearest face changes by at
-///   most the motion.
+///   the contact's normal stays: otherwise the depth may have become that of the whole link.
+/// - If the clearance is known, so does its change.
 class ContactMotion {
  public:
   /// [m] A lower bound of the motion since the answer of the last call, which has the same
@@ -62,16 +58,12 @@ class ContactMotion {
 /// Turns the answers about one organ and one tool into forces: the penalty law of the pushes, with
 /// a limit on the rate of change of their sum, the force on the tool.
 ///
-/// The springs of the penalty law appear and vanish suddenly where facets, creases or valleys begin
-/// and end under the tool. The limit bridges such jumps: the force at each face is interpolated
-/// linearly from the last one towards the penalty law's, and their sum changes in a step by at most
+/// The limit bridges the jumps where springs appear and vanish: the force at each face is
+/// interpolated linearly from the last one towards the penalty law's, and their sum changes in a
+/// step by at most
 ///   stiffness * (4 * motion + 0.05 m/s * seconds),
-/// with the motion that ContactMotion finds. Because of the second term, the force reaches the
-/// penalty law's force while the tool rests: a lag of stiffness * 1 mm ends within 20 ms. If there
-/// is no push, the force becomes zero at once.
-///
-/// Forces act only on faces of the answer, where the present places are known. The last force of a
-/// face that is no longer among them is shared among those that are.
+/// with the motion that ContactMotion finds. If there is no push, the force becomes zero at once.
+/// The last force of a face that is no longer in the answer is shared among those that are.
 class ForceLaw {
  public:
   /// `way_out`: whether a tool that is wholly inside is pushed out.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "basins.hpp"
 #include "geometry/concatenate.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
@@ -137,6 +136,7 @@ void PushTracker::Side::move_on(const Contact& contact, double radius) {
   depth = depth_in_plane - distance * normal.dot(now);
 }
 
+/// Null: the contact's face was not touched at the last answer.
 const PushTracker::Side* PushTracker::find(const Contact& contact) const {
   const auto side = sides_.find({contact.face, contact.link});
   return side == sides_.end() ? nullptr : &side->second;

@@ -8,18 +8,9 @@
 #include <vector>
 
 #include "contact_answer.hpp"
+#include "springs.hpp"
 
 namespace organ_collision {
-
-/// How a point of the tissue pushes the tool. Lengths in metres, vectors in the organ's frame.
-struct Push {
-  Eigen::Vector3d place;   ///< of the point, at the end of the step
-  Eigen::Vector3d normal;  ///< unit, into the tissue; the tool is pushed against it
-  double depth;            ///< along the normal; negative if the tool has left the face
-  /// Whether it has a spring: it is nearest the tool in its surroundings, or it belongs to another
-  /// side of a crease.
-  bool counts;
-};
 
 using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
 
@@ -44,13 +35,10 @@ using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
 ///   side. There the depth is the link's depth just below the surface, less the contact's depth.
 ///
 /// A tool that is wholly inside a closed organ touches no face, and is pushed along the nearest way
-/// out. It is taken to be inside if the clearance was asked for, its tip is inside and, for a tool
-/// with a shaft, its trocar is inside too and no face is crossed. A tool with links must also touch
-/// nothing, because a link may be half inside; its links are then taken to be on the side of its
-/// tip. The clearance's normal points to the nearest face. The depth is the clearance's distance
-/// plus the depth just below the surface: twice the radius for a shaft. For a link it is the depth
-/// with which the link was last pushed before it lost touch, or 0 if it was never seen to enter.
-/// So the depth continues where the contacts end.
+/// out ("Wholly inside" in doc/forces.md says when). The depth is the clearance's distance plus the
+/// depth just below the surface: twice the radius for a shaft. For a link it is the depth with
+/// which the link was last pushed before it lost touch, or 0 if it was never seen to enter. So the
+/// depth continues where the contacts end.
 class PushTracker {
  public:
   /// `pushes_out`: false if tools inside shall not be pushed out, for example in a hollow organ.

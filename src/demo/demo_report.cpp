@@ -16,7 +16,6 @@
 #include <deque>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "geometry/distance/closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
@@ -67,66 +66,39 @@ double percentile(std::vector<double> values, double percent) {
   return *nth;
 }
 
+/// " (7 8 9 10 ...)"; empty if there are none.
 std::string first_of(const std::set<std::uint32_t>& faces) {
-  std::ostringstream text;
+  std::string text;
   std::size_t listed = 0;
   for (const std::uint32_t face : faces) {
-    if (listed++ == kFacesListed) return text.str() + " ...";
-    text << (listed > 1 ? " " : "") << face;
+    if (++listed > kFacesListed) return text + " ...)";
+    text += (listed > 1 ? " " : " (") + std::to_string(face);
   }
-  return text.str();
+  return faces.empty() ? text : text + ")";
 }
 
-/// What a proxy did, for a line each second and a summary.
-class ProxyTally {
- public:
+/// What a proxy did.
+struct ProxyTally {
   void add(const ProxyState& state) {
-    state_ = state.state;
-    message_ = state.message;
+    latest = state;
     if (state.state == ProxyState::NO_ANSWER) return;
     const double force = to_eigen(state.wrench.force).norm();
-    ++poses_;
-    ++answered_;
-    held_ += state.state != ProxyState::FREE;
-    force_ = std::max(force_, force);
-    greatest_ = std::max(greatest_, force);
-    tick_sec_ += state.tick_sec;
+    ++poses;
+    ++answered;
+    held += state.state != ProxyState::FREE;
+    recent_force = std::max(recent_force, force);
+    greatest_force = std::max(greatest_force, force);
+    tick_sec += state.tick_sec;
   }
 
-  /// "TOUCHING, up to 1.2 N, 998 poses/s", about the last `seconds`: the latest state, and the
-  /// greatest force. Begins to count anew.
-  void print_line(double seconds) {
-    std::printf("%s", name_of(static_cast<ProxyStatus>(state_)).c_str());
-    if (state_ == ProxyState::NO_ANSWER) {
-      std::printf(": %s\n", message_.c_str());
-    } else {
-      std::printf(", up to %.1f N, %.0f poses/s\n", force_, poses_ / seconds);
-    }
-    poses_ = 0;
-    force_ = 0.0;
-  }
-
-  void print_summary() const {
-    const double all = std::max<double>(1.0, answered_);
-    std::printf(
-        "%zu poses, tissue held the proxy in %.0f%% of them, with at most %.1f N; %.0f us "
-        "a tick on average",
-        answered_, 100.0 * held_ / all, greatest_, kMicroseconds * tick_sec_ / all);
-  }
-
-  /// The number of poses that had an answer.
-  std::size_t answered() const { return answered_; }
-
- private:
-  std::uint8_t state_ = ProxyState::NO_ANSWER;
-  std::string message_;
+  ProxyState latest;
   // Since the last line.
-  std::size_t poses_ = 0;
-  double force_ = 0.0;  ///< [N]
+  std::size_t poses = 0;      ///< that had an answer
+  double recent_force = 0.0;  ///< [N] the greatest
   // In all.
-  std::size_t answered_ = 0, held_ = 0;
-  double greatest_ = 0.0;  ///< [N]
-  double tick_sec_ = 0.0;  ///< [s] of all ticks
+  std::size_t answered = 0, held = 0;
+  double greatest_force = 0.0;  ///< [N]
+  double tick_sec = 0.0;        ///< [s] of all ticks
 };
 
 /// Counts the contacts that a static test at the same instants would have missed. These are the
@@ -218,11 +190,6 @@ class StaticComparison {
   std::map<std::string, Tally> tallies_;
 };
 
-/// [us] The node's query times, as published on /diagnostics.
-struct QueryTime {
-  double median = 0.0, percentile_99 = 0.0, worst = 0.0;
-};
-
 class DemoReport {
  public:
   DemoReport(ros::NodeHandle node, ros::NodeHandle collision_node, ros::NodeHandle haptic_node)
@@ -245,17 +212,21 @@ class DemoReport {
     std::printf("%4.0f s  %3.0f shapes/s  %3.0f answers/s", time, shapes_ / seconds,
                 answers_ / seconds);
     for (auto& [tool, faces] : touched_) {
-      const std::size_t count = faces.size();
-      std::printf("  %s %zu faces%s%s%s", tool.c_str(), count, count > 0 ? " (" : "",
-                  first_of(faces).c_str(), count > 0 ? ")" : "");
+      std::printf("  %s %zu faces%s", tool.c_str(), faces.size(), first_of(faces).c_str());
       faces.clear();
     }
     if (query_time_.median > 0.0) std::printf("  query %.0f us", query_time_.median);
     std::printf("  palpator ");
-    proxy_.print_line(seconds);
+    std::printf("%s", name_of(static_cast<ProxyStatus>(proxy_.latest.state)).c_str());
+    if (proxy_.latest.state == ProxyState::NO_ANSWER) {
+      std::printf(": %s\n", proxy_.latest.message.c_str());
+    } else {
+      std::printf(", up to %.1f N, %.0f poses/s\n", proxy_.recent_force, proxy_.poses / seconds);
+    }
     if (!failure_.empty()) std::printf("        %s\n", failure_.c_str());
     std::fflush(stdout);
-    shapes_ = answers_ = 0;
+    shapes_ = answers_ = proxy_.poses = 0;
+    proxy_.recent_force = 0.0;
     failure_.clear();
   }
 
@@ -284,11 +255,14 @@ class DemoReport {
     std::printf("From shape to answer, through ROS: median %.0f us, 99%% within %.0f us.\n",
                 kMicroseconds * percentile(delays_, 50.0),
                 kMicroseconds * percentile(delays_, 99.0));
-    std::printf("The palpator's hand: ");
-    proxy_.print_summary();
-    std::printf(".\n");
+    const double all = std::max<double>(1.0, proxy_.answered);
+    std::printf(
+        "The palpator's hand: %zu poses, tissue held the proxy in %.0f%% of them, with at most "
+        "%.1f N; %.0f us a tick on average.\n",
+        proxy_.answered, 100.0 * proxy_.held / all, proxy_.greatest_force,
+        kMicroseconds * proxy_.tick_sec / all);
     std::fflush(stdout);
-    return contacts > 0 && proxy_.answered() > 0;
+    return contacts > 0 && proxy_.answered > 0;
   }
 
  private:
@@ -321,8 +295,8 @@ class DemoReport {
         const double value = std::atof(entry.value.c_str());
         if (entry.key == "query time, median [us]") query_time_.median = value;
         if (entry.key == "query time, 99th percentile [us]") query_time_.percentile_99 = value;
-        if (entry.key == "query time, worst [us]") {
-          query_time_.worst = std::max(query_time_.worst, value);
+        if (entry.key == "query time, worst [us]" && value > query_time_.worst) {
+          query_time_.worst = value;
         }
       }
     }
@@ -336,7 +310,9 @@ class DemoReport {
   std::map<std::string, std::set<std::uint32_t>> touched_;  ///< by tool, since the last line
   std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
   std::vector<double> delays_;                              ///< [s]
-  QueryTime query_time_;
+  struct {
+    double median = 0.0, percentile_99 = 0.0, worst = 0.0;
+  } query_time_;  ///< [us] the node's, as published on /diagnostics
   ros::WallTime last_answer_;
   std::string failure_;  ///< the latest one since the last line
 
@@ -374,29 +350,24 @@ bool report(const std::string& collision_node, const std::string& haptic_node, d
   return report.print_summary(elapsed());
 }
 
-/// Ends roslaunch, which has started this program, as Ctrl-C does. If this program ended first,
-/// roslaunch would report the death of a required node as an error.
-void end_launch() {
-  kill(getppid(), SIGINT);
-  ros::waitForShutdown();
-}
-
 }  // namespace
 }  // namespace organ_collision
 
 int main(int argc, char** argv) try {
-  if (const auto exit_code =
-          organ_collision::answer_arguments(argc, argv, organ_collision::help())) {
-    return *exit_code;
-  }
+  using namespace organ_collision;
+  if (const auto exit_code = answer_arguments(argc, argv, help())) return *exit_code;
   ros::init(argc, argv, "demo_report");
   ros::NodeHandle private_node("~");
-  const bool has_answers = organ_collision::report(
-      private_node.param<std::string>("collision_node", organ_collision::kCollisionNode),
-      private_node.param<std::string>("haptic_node", organ_collision::kHapticNode),
-      private_node.param("seconds", 0.0));
+  const bool has_answers = report(private_node.param<std::string>("collision_node", kCollisionNode),
+                                  private_node.param<std::string>("haptic_node", kHapticNode),
+                                  private_node.param("seconds", 0.0));
   if (!has_answers) return 1;
-  if (ros::ok() && private_node.param("ends_launch", false)) organ_collision::end_launch();
+  if (ros::ok() && private_node.param("ends_launch", false)) {
+    // Ends roslaunch, which has started this program, as Ctrl-C does. If this program ended first,
+    // roslaunch would report the death of a required node as an error.
+    kill(getppid(), SIGINT);
+    ros::waitForShutdown();
+  }
   return 0;
 } catch (const std::exception& error) {
   std::fprintf(stderr, "demo_report: %s\n", error.what());  // ROS is shut down by now

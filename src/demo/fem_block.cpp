@@ -112,16 +112,6 @@ std::vector<FaceIndices> surface_of(const Grid& grid) {
   return surface;
 }
 
-/// [kg] A quarter of each tetrahedron's mass goes to each of its corners.
-std::vector<double> masses_of(const Grid& grid) {
-  std::vector<double> masses(grid.nodes.size(), 0.0);
-  for (const Tetrahedron& t : grid.tetrahedra) {
-    for (const std::uint32_t corner : t)
-      masses[corner] += 0.25 * kDensity * volume_of(t, grid.nodes);
-  }
-  return masses;
-}
-
 /// The state of a tetrahedron at rest.
 btSoftBody::TetraScratch undeformed() {
   btSoftBody::TetraScratch scratch;
@@ -141,7 +131,11 @@ struct FemBlock::World {
     constraints.setDeformableSolver(&solver);
     world.setImplicit(false);
     world.setGravity(btVector3(0.0F, 0.0F, 0.0F));  // the shape at rest already includes gravity
-    const std::vector<double> masses = masses_of(grid);
+    std::vector<double> masses(grid.nodes.size(), 0.0);  // [kg]
+    for (const Tetrahedron& t : grid.tetrahedra) {
+      const double quarter = 0.25 * kDensity * volume_of(t, grid.nodes);
+      for (const std::uint32_t corner : t) masses[corner] += quarter;
+    }
     for (std::size_t i = 0; i < grid.nodes.size(); ++i) {
       btSoftBody::Node& node = body.m_nodes[static_cast<int>(i)];
       node.m_x = node.m_q = to_bullet(grid.nodes[i]);

@@ -91,9 +91,9 @@ class FemTissue {
   void step() {
     const ros::Time stamp = ros::Time::now();
     publish_probe(stamp);
-    publish_vertices(stamp);
+    vertices_publisher_.publish(shape<OrganVertices>(stamp));
     if (!wait_for_forces(stamp)) return;
-    publish_impulse(apply_forces());
+    apply_forces();
     block_.step(kStep);
     ++steps_;
   }
@@ -104,23 +104,21 @@ class FemTissue {
     return node.advertise<Message>(ros::names::append(kCollisionNode, topic), 1, latch);
   }
 
+  template <typename Message>
+  boost::shared_ptr<Message> shape(const ros::Time& stamp) const {
+    const auto message = boost::make_shared<Message>();
+    message->header.stamp = stamp;
+    message->header.frame_id = message->organ = kOrgan;
+    message->vertices = block_.vertices();
+    return message;
+  }
+
   void publish_mesh(const ros::Time& stamp) {
-    const auto mesh = boost::make_shared<OrganMesh>();
-    mesh->header.stamp = stamp;
-    mesh->header.frame_id = mesh->organ = kOrgan;
-    mesh->vertices = block_.vertices();
+    const auto mesh = shape<OrganMesh>(stamp);
     for (const FaceIndices& face : block_.faces()) {
       mesh->triangles.insert(mesh->triangles.end(), face.begin(), face.end());
     }
     mesh_publisher_.publish(mesh);
-  }
-
-  void publish_vertices(const ros::Time& stamp) {
-    const auto vertices = boost::make_shared<OrganVertices>();
-    vertices->header.stamp = stamp;
-    vertices->header.frame_id = vertices->organ = kOrgan;
-    vertices->vertices = block_.vertices();
-    vertices_publisher_.publish(vertices);
   }
 
   /// The probe moves up and down above the middle of the tissue, and leans a little.
@@ -140,7 +138,7 @@ class FemTissue {
     return false;
   }
 
-  FemBlock::Impulse apply_forces() {
+  void apply_forces() {
     FemBlock::Impulse sum;
     for (std::size_t i = 0; i < forces_->vertices.size(); ++i) {
       const FemBlock::Impulse given =
@@ -148,14 +146,10 @@ class FemTissue {
       sum.linear += given.linear;
       sum.angular += given.angular;
     }
-    return sum;
-  }
-
-  void publish_impulse(const FemBlock::Impulse& impulse) {
     geometry_msgs::WrenchStamped message;
     message.header = forces_->header;
-    message.wrench.force = to_vector(impulse.linear);
-    message.wrench.torque = to_vector(impulse.angular);
+    message.wrench.force = to_vector(sum.linear);
+    message.wrench.torque = to_vector(sum.angular);
     impulse_publisher_.publish(message);
   }
 

@@ -135,8 +135,14 @@ class LiverSimulator {
     send_hand(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
   }
 
-  /// Instead of all steps: the liver rests.
-  void rest() { publish_mesh(ros::Time::now()); }
+  /// At `stamp`. Alone, without steps, it shows a liver at rest.
+  void publish_mesh(const ros::Time& stamp) {
+    auto mesh = shape<OrganMesh>(stamp);
+    for (const FaceIndices& face : surface_.faces) {
+      mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
+    }
+    mesh_publisher_.publish(mesh);
+  }
 
  private:
   /// Simulates one period. Publishes the stabber's pose before the shape, with the same stamp.
@@ -147,7 +153,8 @@ class LiverSimulator {
     if (++steps_ > 1) liver_.step(1.0 / rate_, pushes);
     const ros::Time stamp = ros::Time::now();
     send_stabber(steps_ / rate_, stamp);
-    steps_ == 1 ? publish_mesh(stamp) : publish_vertices(stamp);
+    if (steps_ == 1) return publish_mesh(stamp);
+    vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
   /// On /tf, at `seconds` since the start. The z axis of a tip points along the shaft.
@@ -182,18 +189,6 @@ class LiverSimulator {
     message.header.frame_id = message.organ = kOrgan;
     message.vertices = liver_.vertices();
     return message;
-  }
-
-  void publish_mesh(const ros::Time& stamp) {
-    auto mesh = shape<OrganMesh>(stamp);
-    for (const FaceIndices& face : surface_.faces) {
-      mesh.triangles.insert(mesh.triangles.end(), face.begin(), face.end());
-    }
-    mesh_publisher_.publish(mesh);
-  }
-
-  void publish_vertices(const ros::Time& stamp) {
-    vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
   double rate_;
@@ -234,7 +229,7 @@ int main(int argc, char** argv) {
   LiverSimulator simulator{ros::NodeHandle(), ros::NodeHandle(collision_node),
                            ros::NodeHandle(haptic_node), rate};
   if (!private_node.param<bool>("moves", true)) {
-    simulator.rest();
+    simulator.publish_mesh(ros::Time::now());
     ros::spin();
     return 0;
   }

@@ -34,19 +34,24 @@ void on_signal(int signal) {
   std::signal(signal, SIG_DFL);
 }
 
-std::vector<HelpEntry> subscribed_topics() {
-  return {
+/// doc/haptic_interface.md explains the same names at length; a test compares both.
+ProgramHelp haptic_proxy_help() {
+  const std::string tool = "~TOOL", pair = "~ORGAN/TOOL";
+  std::vector<std::string> live;
+  for (const LiveParameter& p : live_parameters(HapticProxyParameters())) live.push_back(p.name);
+  ProgramHelp help{names::kHapticProxy,
+                   "Gives each tool a proxy that follows the hand but stops at tissue, and the "
+                   "force of a spring between both. The force and the torque have no upper limit "
+                   "unless max_force and max_torque are set. The names below are private to the "
+                   "node (~), whose default name is /" +
+                       std::string(names::kHapticProxy) + "."};
+  help.subscribed = {
       {names::kOrganMesh, message_type<OrganMesh>(), "an organ's surface: vertices and triangles"},
       {names::kOrganVertices, message_type<OrganVertices>(), "an organ's new shape: its vertices"},
       {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(), "where the hands and organs are"},
       {"as each tool names it", message_type<geometry_msgs::PoseStamped>(),
-       "where the hand holds the tool's tip (tip_pose_topic, base_pose_topic)"},
-  };
-}
-
-std::vector<HelpEntry> published_topics() {
-  const std::string tool = "~TOOL", pair = "~ORGAN/TOOL";
-  return {
+       "where the hand holds the tool's tip (tip_pose_topic, base_pose_topic)"}};
+  help.published = {
       {ros::names::append(tool, names::kProxy), message_type<geometry_msgs::PoseStamped>(),
        "where the proxy's tip or first link is; also the TF frame TOOL_proxy"},
       {ros::names::append(tool, names::kState), message_type<ProxyState>(),
@@ -61,38 +66,20 @@ std::vector<HelpEntry> published_topics() {
        "what RViz shows: hands, proxies, forces, states and organs"},
       {"/tf", message_type<tf2_msgs::TFMessage>(), "the frames TOOL_proxy"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
-       "times of ticks, what had no answer, clipped forces, refused messages"},
-  };
-}
-
-std::vector<HelpEntry> services() {
-  std::vector<std::string> live;
-  for (const LiveParameter& p : live_parameters(HapticProxyParameters())) live.push_back(p.name);
-  return {
+       "times of ticks, what had no answer, clipped forces, refused messages"}};
+  help.services = {
       {names::kListOrgans, service_type<ListOrgans>(),
        "the organs: faces, box, volume, closed or not"},
       {names::kRemoveOrgan, service_type<RemoveOrgan>(), "removes an organ"},
       {names::kReset, service_type<std_srvs::Empty>(), "places all proxies anew"},
       {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
       {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
-       "changes " + listed(live) + " while the node runs"},
-  };
-}
-
-/// doc/haptic_interface.md explains the same names at length; a test compares both.
-ProgramHelp haptic_proxy_help() {
-  return {names::kHapticProxy,
-          "Gives each tool a proxy that follows the hand but stops at tissue, and the force of a "
-          "spring between both. The force and the torque have no upper limit unless max_force and "
-          "max_torque are set. The names "
-          "below are private to the node (~), whose default name is /" +
-              std::string(names::kHapticProxy) + ".",
-          subscribed_topics(),
-          published_topics(),
-          services(),
-          parameter_help<HapticProxyParameters>(),
-          "roslaunch organ_collision haptic_proxy.launch tools:=FILE.yaml starts the node with the "
-          "tools of a file. doc/haptic_interface.md explains all of this."};
+       "changes " + listed(live) + " while the node runs"}};
+  help.parameters = parameter_help<HapticProxyParameters>();
+  help.further =
+      "roslaunch organ_collision haptic_proxy.launch tools:=FILE.yaml starts the node with the "
+      "tools of a file. doc/haptic_interface.md explains all of this.";
+  return help;
 }
 
 }  // namespace

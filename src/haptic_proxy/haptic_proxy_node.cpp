@@ -8,10 +8,8 @@
 #include <utility>
 
 #include "geometry/concatenate.hpp"
-#include "haptic_proxy_parameters.hpp"
 #include "organ_collision/picking/gl_error.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "proxy_scene.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/threads/queues.hpp"
 
@@ -34,10 +32,6 @@ const ros::WallDuration kFarewell(0.1);
 constexpr std::chrono::milliseconds kRepetition(100);
 /// ToolPoses::path() is not used.
 constexpr PathSampling kNoPaths{1.0, 1};
-
-AgeLimits age_limits(const HapticProxyParameters& parameters) {
-  return {parameters.mesh_timeout_sec, parameters.frame_timeout_sec};
-}
 
 SteadyClock::duration duration(double seconds) {
   return std::chrono::duration_cast<SteadyClock::duration>(std::chrono::duration<double>(seconds));
@@ -65,7 +59,16 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       organ_services_(inbox_.organs, inbox_.intake, core_.loop().queue(),
                       core_.background().queue()) {
   try {
-    start();
+    publisher_.set_tools(core_.parameters().tools);
+    inbox_.subscribe(core_.node(), core_.private_node());
+    organ_services_.advertise(core_.private_node());
+    core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
+    add_diagnostics(core_.updater(),
+                    ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs,
+                                  inbox_.intake, counters_.meshes, counters_.rejected});
+    core_.start();
+    ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
+             core_.parameters().stiffness);
   } catch (...) {
     core_.end();
     throw;
@@ -74,47 +77,54 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
 
 NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
   Core::Callbacks callbacks;
-  callbacks.loop = {[this] { watch_clock(); },
-                    [this](SteadyTime) {
-                      apply_organ_messages();
-                      follow_waiting_hands();
-                    }};
-  callbacks.work = [this] { work(); };
+  callbacks.loop.watch_clock = [this] {
+    if (!inbox_.watch_clock()) return;
+    reset_proxies("the clock jumped back");
+    for (Hand& hand : hands_) hand.stamp = {};
+  };
+  callbacks.loop.handle = [this](SteadyTime) {
+    while (const auto update = inbox_.intake.next()) {
+      has_new_shape_ = true;
+      if (update->status == ContactArray::OK) counters_.meshes.count();
+    }
+    follow_waiting_hands();
+  };
+  callbacks.work = [this] {
+    follow_hands();
+    markers_.update(inbox_.organs, [this] { return views(); });
+  };
   callbacks.next_deadline = [this] { return next_deadline(); };
   callbacks.reset = [this] {
     inbox_.forget_history();
     reset_proxies("reset was called");
   };
-  callbacks.parameters_changed = [this](const auto&) { change_parameters(); };
+  callbacks.parameters_changed = [this](const auto&) {
+    for (Hand& hand : hands_) {
+      if (hand.proxy) hand.proxy->update_settings();
+    }
+    markers_.set_settings(core_.parameters().markers);
+  };
   callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
     let_leaving_hands_fade(kept);
-    core_.in_node_thread([&] { exchange_tools(loaded, kept); });
+    core_.in_node_thread([&] {
+      for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
+      core_.exchange_tools(
+          loaded,
+          [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
+          [&] {
+            publisher_.set_tools(core_.parameters().tools);
+            hands_ = make_hands(core_.tools(), kept);
+            has_new_shape_ = true;
+          });
+    });
   };
   callbacks.break_down = [this](const std::string& why) { let_go("the node broke down: " + why); };
   return callbacks;
 }
 
-void HapticProxyNode::start() {
-  publisher_.set_tools(core_.parameters().tools);
-  inbox_.subscribe(core_.node(), core_.private_node());
-  organ_services_.advertise(core_.private_node());
-  core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
-  add_diagnostics(core_.updater(),
-                  ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs,
-                                inbox_.intake, counters_.meshes, counters_.rejected});
-  core_.start();
-  ROS_INFO("ready: %s with a proxy, %g N/m", counted(core_.tools().size(), "tool").c_str(),
-           core_.parameters().stiffness);
-}
-
 void HapticProxyNode::run(const std::function<bool()>& stop) {
   core_.run(stop);
   let_go("the node ends");
-}
-
-void HapticProxyNode::work() {
-  follow_hands();
-  markers_.update(inbox_.organs, [this] { return views(); });
 }
 
 /// Lets all forces fade, and tells each hand why. Returns when the last messages have left.
@@ -131,19 +141,6 @@ void HapticProxyNode::let_go(const std::string& why) {
     std::this_thread::sleep_for(kFadeStep);
   }
   if (core_.private_node().ok()) kFarewell.sleep();
-}
-
-void HapticProxyNode::watch_clock() {
-  if (!inbox_.watch_clock()) return;
-  reset_proxies("the clock jumped back");
-  for (Hand& hand : hands_) hand.stamp = {};
-}
-
-void HapticProxyNode::apply_organ_messages() {
-  while (const auto update = inbox_.intake.next()) {
-    has_new_shape_ = true;
-    if (update->status == ContactArray::OK) counters_.meshes.count();
-  }
 }
 
 /// After each message: a tick for each pose of a topic, as long as the node keeps up with them.
@@ -173,7 +170,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
     const ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
-                                         age_limits(core_.parameters()), ros::Time::now());
+                                         age_limits(), ros::Time::now());
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
       tick(hand, pose, scene, now);
@@ -195,9 +192,7 @@ Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
                     core_.tools()[tool].fault);
   }
-  if (frame_.name().empty()) {
-    throw no_organ();
-  }
+  if (frame_.name().empty()) throw no_organ();
   auto pose = poses_.pose(core_.tools()[tool], frame_.name(), ros::Time(0));
   if (!pose.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, reason_of(ContactArray::NO_TRANSFORM),
@@ -219,10 +214,9 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
     hand.heard = now;
     return true;
   }
-  const HapticProxyParameters& parameters = core_.parameters();
   check_age(inbox_.transforms, frame_.name(), swept_frames(core_.tools()[tool]), stamp,
-            age_limits(parameters), ros::Time::now());
-  const double timeout = parameters.pose_timeout_sec;
+            age_limits(), ros::Time::now());
+  const double timeout = core_.parameters().pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
     throw Rejection(
         ContactArray::NO_TRANSFORM, "no pose",
@@ -241,14 +235,14 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyS
   counters_.ticks.count();
   counters_.tick_times.add(report.tick_sec);
   const std::string named = "tool '" + report.tool.name + "': ";
-  if (report.clipped_by == names::kMaxForce) {
+  if (report.clipped_by) {
+    const bool is_force = report.clipped_by == names::kMaxForce;
     counters_.clipped.add(
-        names::kMaxForce,
-        concatenate(named, "the force is clipped to ", parameters.max_force, " N"), now);
-  } else if (report.clipped_by == names::kMaxTorque) {
-    counters_.clipped.add(
-        names::kMaxTorque,
-        concatenate(named, "the torque is clipped to ", parameters.max_torque, " N m"), now);
+        report.clipped_by,
+        concatenate(named, is_force ? "the force" : "the torque", " is clipped to ",
+                    is_force ? parameters.max_force : parameters.max_torque,
+                    is_force ? " N" : " N m"),
+        now);
   }
   if (report.answer->is_placed_anew && std::exchange(hand.had_answer, true)) {
     counters_.placed_anew.add("placed anew", named + report.message, now);
@@ -272,15 +266,7 @@ void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   if (hand.proxy) {
     publisher_.publish(hand.proxy->lose(why.status(), why.what(), frame_.name(), now));
   } else {
-    publisher_.publish({parameters,
-                        frame_.name(),
-                        ros::Time::now(),
-                        why.status(),
-                        why.what(),
-                        nullptr,
-                        nullptr,
-                        {},
-                        {}});
+    publisher_.publish({parameters, frame_.name(), ros::Time::now(), why.status(), why.what()});
   }
   hand.told = now;
 }
@@ -351,56 +337,30 @@ void HapticProxyNode::reset_proxies(const std::string& why) {
   }
 }
 
-/// The forces of tools that will be removed or changed begin to fade. Returns whether there are
-/// such tools.
-bool HapticProxyNode::release_leaving(const KeptTools& kept) {
-  bool leaves = false;
-  for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
-    if (std::find(kept.begin(), kept.end(), tool) != kept.end()) continue;
-    Hand& hand = hands_[tool];
-    hand.is_leaving = leaves = true;
-    hand.told = {};  // It is to be told at once.
-    hand.why_not =
-        Rejection(ContactArray::UNKNOWN_TOOL, "tool removed", "the tool was removed or changed");
-  }
-  return leaves;
-}
-
-bool HapticProxyNode::do_leaving_hands_fade() const {
-  return std::any_of(hands_.begin(), hands_.end(), [](const Hand& hand) {
-    return hand.is_leaving && hand.proxy && hand.proxy->is_ramping();
-  });
-}
-
-/// Runs in the background thread. The node's thread lets the forces fade meanwhile.
+/// The forces of tools that will be removed or changed fade. Runs in the background thread. The
+/// node's thread lets the forces fade meanwhile.
 void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
-  bool leaves = false;
-  core_.in_node_thread([&] { leaves = release_leaving(kept); });
-  if (!leaves) return;
-  for (bool fades = true; fades;) {
+  bool is_fading = false;
+  core_.in_node_thread([&] {
+    for (std::size_t tool = 0; tool < hands_.size(); ++tool) {
+      if (std::find(kept.begin(), kept.end(), tool) != kept.end()) continue;
+      Hand& hand = hands_[tool];
+      hand.is_leaving = is_fading = true;
+      hand.told = {};  // It is to be told at once.
+      hand.why_not =
+          Rejection(ContactArray::UNKNOWN_TOOL, "tool removed", "the tool was removed or changed");
+    }
+  });
+  if (!is_fading) return;
+  while (is_fading) {
     std::this_thread::sleep_for(kFadeStep);
-    core_.in_node_thread([&] { fades = do_leaving_hands_fade(); });
+    core_.in_node_thread([&] {
+      is_fading = std::any_of(hands_.begin(), hands_.end(), [](const Hand& hand) {
+        return hand.is_leaving && hand.proxy && hand.proxy->is_ramping();
+      });
+    });
   }
   kFarewell.sleep();  // The last messages leave.
-}
-
-void HapticProxyNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
-  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-  core_.exchange_tools(
-      loaded,
-      [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
-      [&] {
-        publisher_.set_tools(core_.parameters().tools);
-        hands_ = make_hands(core_.tools(), kept);
-        has_new_shape_ = true;
-      });
-}
-
-void HapticProxyNode::change_parameters() {
-  for (Hand& hand : hands_) {
-    if (hand.proxy) hand.proxy->update_settings();
-  }
-  markers_.set_settings(core_.parameters().markers);
 }
 
 void HapticProxyNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "haptic_proxy_parameters.hpp"
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "ros/markers/marker_publisher.hpp"
@@ -58,14 +57,13 @@ class HapticProxyNode {
   };
 
   Core::Callbacks callbacks();
-  void start();
-  void work();
   void let_go(const std::string& why);
-  void watch_clock();
-  void apply_organ_messages();
   void follow_waiting_hands();
   void follow_hands();
   void follow_hand(std::size_t tool, Time now);
+  AgeLimits age_limits() const {
+    return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
+  }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);
@@ -74,11 +72,7 @@ class HapticProxyNode {
   std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
-  bool release_leaving(const KeptTools& kept);
-  bool do_leaving_hands_fade() const;
   void let_leaving_hands_fade(const KeptTools& kept);
-  void exchange_tools(LoadedTools& loaded, const KeptTools& kept);
-  void change_parameters();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ProxyCounters counters_;

@@ -66,12 +66,6 @@ std::vector<double> shares_of(const std::vector<Place>& places) {
   return shares;
 }
 
-FaceForce transformed(FaceForce at, const Eigen::Isometry3d& T_target_source) {
-  at.place = T_target_source * at.place;
-  at.force = T_target_source.linear() * at.force;
-  return at;
-}
-
 }  // namespace
 
 void OrganForce::scale(double factor) {
@@ -110,7 +104,10 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
     OrganForce& of_organ = forces[place.organ];
     of_organ.force += place.on_hand + shares[i] * unexplained;
     place.on_face.force += shares[i] * unexplained;
-    of_organ.on_faces.push_back(transformed(place.on_face, organs[place.organ].T_organ_proxy));
+    const Eigen::Isometry3d& T_organ_proxy = organs[place.organ].T_organ_proxy;
+    FaceForce& on_face = of_organ.on_faces.emplace_back(place.on_face);
+    on_face.place = T_organ_proxy * place.on_face.place;
+    on_face.force = T_organ_proxy.linear() * place.on_face.force;
     if (acts_at_tip) continue;
     const Vector3d torque = (place.on_face.place - answer.center).cross(place.on_face.force);
     of_organ.torque += torque;

@@ -9,14 +9,10 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <boost/make_shared.hpp>
-#include <chrono>
 #include <iterator>
 
-#include "forces/forces.hpp"
-#include "haptic_proxy_parameters.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/steps/contact_array.hpp"
 

@@ -10,10 +10,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-ProxyTool proxy_tool(const Tool& tool) {
-  return {tool.parameters.radius, tool.links, tool.parameters.freedom};
-}
-
 /// From whole nanoseconds, because ros::Duration overflows for extreme stamps.
 double seconds_between(ros::Time from, ros::Time to) {
   return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
@@ -49,7 +45,8 @@ const Vector3d& PullVelocity::update(const Vector3d& pull, ros::Time stamp, bool
 ToolProxy::ToolProxy(const Tool& tool, const HapticProxyParameters& parameters)
     : tool_(tool.parameters),
       parameters_(parameters),
-      proxy_(proxy_tool(tool), proxy_settings(parameters, tool.parameters), parameters.picker) {}
+      proxy_({tool_.radius, tool.links, tool_.freedom}, proxy_settings(parameters, tool.parameters),
+             parameters.picker) {}
 
 ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now) {
   const auto start = std::chrono::steady_clock::now();
@@ -75,8 +72,9 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
     ramp_.rise(now);
     forces_ = std::move(forces);
   }
-  ProxyReport report{tool_,  scene.frame, stamp, ContactArray::OK, answer.message, &answer,
-                     &scene, hand_,       held_};
+  ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
+  report.answer = &answer;
+  report.scene = &scene;
   report.tick_sec = passed.count();
   set_forces(report, ramp_.share());
   return report;
@@ -88,15 +86,8 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
   is_released_ = false;
   velocity_ = {};
   const double share = ramp_.fall(now);
-  ProxyReport report{tool_,
-                     frame_.empty() ? frame : frame_,
-                     ros::Time::now(),
-                     status,
-                     message,
-                     nullptr,
-                     nullptr,
-                     hand_,
-                     held_};
+  const std::string& told = frame_.empty() ? frame : frame_;
+  ProxyReport report{tool_, told, ros::Time::now(), status, message, hand_, held_};
   set_forces(report, share);
   if (share == 0.0) forces_ = {};
   return report;

@@ -26,11 +26,11 @@ struct ProxyReport {
   ros::Time stamp;      ///< of the hand's pose; now if there is no answer, or if the pose has none
   std::uint8_t status;  ///< ContactArray's: OK, or why there is no answer
   std::string message;  ///< why there is no answer, or why the proxy was placed anew
-  const ProxyAnswer* answer;         ///< null: there is no answer
-  const ProxyScene* scene;           ///< of the answer
-  std::optional<ToolPose> hand;      ///< the last one that had an answer
-  std::optional<ToolPose> proxy;     ///< the last one
-  std::vector<OrganForce> forces{};  ///< as they are published: limited, and faded in or out
+  std::optional<ToolPose> hand = {};    ///< the last one that had an answer
+  std::optional<ToolPose> proxy = {};   ///< the last one
+  const ProxyAnswer* answer = nullptr;  ///< null: there is no answer
+  const ProxyScene* scene = nullptr;    ///< of the answer
+  std::vector<OrganForce> forces = {};  ///< as published: limited, and faded in or out
   /// The parameter whose limit reduced the forces. Null: they are whole.
   const char* clipped_by = nullptr;
   double tick_sec = 0.0;  ///< [s] that the tick took in the core

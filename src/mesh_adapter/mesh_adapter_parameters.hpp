@@ -3,19 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "ros/node/program.hpp"
 #include "ros/parameters/parameter_table.hpp"
 
-/// The names of organ_mesh_adapter in the ROS graph, besides those of the collision node.
+/// The keys of the entries of `organs` that messages and --help name.
 namespace organ_collision::names {
 
-inline constexpr char kMeshAdapter[] = "organ_mesh_adapter";
-
-///@{
-/// A key of the entries of `organs`.
 inline constexpr char kTopic[] = "topic";
 inline constexpr char kVerticesTopic[] = "vertices_topic";
-///@}
 
 }  // namespace organ_collision::names
 
@@ -38,8 +32,5 @@ struct MeshAdapterParameters {
 };
 
 ParameterTable table_of(MeshAdapterParameters& parameters);
-
-/// What --help says. doc/meshes.md explains the same names at length; a test compares both.
-ProgramHelp mesh_adapter_help();
 
 }  // namespace organ_collision

@@ -1,6 +1,8 @@
 /// organ_mesh_adapter: subscribes to surfaces in the messages of other simulators, and publishes
 /// them as organs for the collision node.
 
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/names.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -18,11 +20,37 @@
 namespace organ_collision {
 namespace {
 
+constexpr char kProgram[] = "organ_mesh_adapter";
+
 /// [messages] Meshes are rare, but another marker must not displace the organ's marker in the
 /// queue.
 constexpr std::uint32_t kSurfaceQueue = 10;
 /// [messages] Only the newest vertices count.
 constexpr std::uint32_t kVerticesQueue = 1;
+
+/// What --help says. doc/meshes.md explains the same names at length; a test compares both.
+ProgramHelp mesh_adapter_help() {
+  ProgramHelp help{kProgram,
+                   "Turns meshes of other message types into organs of the collision node."};
+  help.subscribed = {
+      {names::kTopic, message_type<shape_msgs::Mesh>(),
+       "of each organ; has no header: needs frame"},
+      {names::kTopic, message_type<pcl_msgs::PolygonMesh>(), "of each organ; polygons become fans"},
+      {names::kTopic, message_type<visualization_msgs::Marker>(), "of each organ; a TRIANGLE_LIST"},
+      {names::kVerticesTopic, message_type<sensor_msgs::PointCloud2>(),
+       "of each organ that names it: as many points as the mesh has vertices"}};
+  help.published = {{ros::names::append(names::kNode, names::kOrganMesh), message_type<OrganMesh>(),
+                     "surfaces with new triangles"},
+                    {ros::names::append(names::kNode, names::kOrganVertices),
+                     message_type<OrganVertices>(), "surfaces with known triangles"},
+                    {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
+                     "messages of each organ: received, converted, refused by reason, age"}};
+  help.parameters = parameter_help<MeshAdapterParameters>();
+  help.further =
+      "roslaunch organ_collision organ_mesh_adapter.launch organs:=FILE.yaml starts it. "
+      "doc/meshes.md explains all of this.";
+  return help;
+}
 
 /// The node. All its work is done in the thread that spins.
 class OrganMeshAdapter {
@@ -147,7 +175,7 @@ class OrganMeshAdapter {
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  return run_program(argc, argv, mesh_adapter_help(), names::kMeshAdapter,
+  return run_program(argc, argv, mesh_adapter_help(), kProgram,
                      [](const ros::NodeHandle& node, const ros::NodeHandle& private_node) {
                        const OrganMeshAdapter adapter(node, private_node);
                        ros::spin();

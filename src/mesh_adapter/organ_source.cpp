@@ -69,20 +69,22 @@ OrganSource::OrganSource(OrganParameters parameters, std::uint32_t last_topology
       callbacks_(std::move(callbacks)) {}
 
 void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
-  read(message);
-  surface_.stamp = stamp_or(arrival, surface_.stamp);
-  if (surface_.empty()) {
+  ReceivedSurface surface = read(message);
+  surface.stamp = stamp_or(arrival, surface.stamp);
+  if (surface.empty()) {
     mesh_.reset();
     callbacks_.mesh(
-        message_of<OrganMesh>(parameters_.name, last_topology_, surface_.frame, surface_.stamp));
+        message_of<OrganMesh>(parameters_.name, last_topology_, surface.frame, surface.stamp));
   } else {
-    surface_.frame = frame_or_given(surface_.frame);
-    if (!has_triangles_of_mesh()) {
-      send_mesh(++last_topology_);
-    } else if (surface_.frame != frame_) {
-      send_mesh(mesh_->topology());
+    surface.frame = frame_or_given(surface.frame);
+    const bool has_known_triangles = mesh_ && surface.vertices.size() == mesh_->vertices().size() &&
+                                     mesh_->has_triangles(surface.triangles);
+    if (!has_known_triangles) {
+      send_mesh(++last_topology_, std::move(surface));
+    } else if (surface.frame != frame_) {
+      send_mesh(mesh_->topology(), std::move(surface));
     } else {
-      send_vertices(surface_.frame, surface_.stamp, std::move(surface_.vertices));
+      send_vertices(surface.frame, surface.stamp, std::move(surface.vertices));
     }
   }
   marker_reader_.keep();
@@ -91,28 +93,22 @@ void OrganSource::take_surface(const ShapeShifter& message, ros::Time arrival) {
 void OrganSource::take_vertices(const ShapeShifter& message, ros::Time arrival) {
   if (!is<sensor_msgs::PointCloud2>(message)) refuse_type(message, "sensor_msgs/PointCloud2");
   const auto cloud = instance<sensor_msgs::PointCloud2>(message);
-  std::vector<float> vertices;
-  read_points(*cloud, vertices);
+  std::vector<float> vertices = read_points(*cloud);
   send_vertices(frame_or_given(cloud->header.frame_id), stamp_or(arrival, cloud->header.stamp),
                 std::move(vertices));
 }
 
-bool OrganSource::has_triangles_of_mesh() const {
-  return mesh_ && surface_.vertices.size() == mesh_->vertices().size() &&
-         mesh_->has_triangles(surface_.triangles);
-}
-
 /// Sends the message before it is checked here, so that the collision node need not wait.
-void OrganSource::send_mesh(std::uint32_t topology) {
+void OrganSource::send_mesh(std::uint32_t topology, ReceivedSurface&& surface) {
   const auto message =
-      message_of<OrganMesh>(parameters_.name, topology, surface_.frame, surface_.stamp);
-  message->vertices = std::move(surface_.vertices);
-  message->triangles = surface_.triangles;
+      message_of<OrganMesh>(parameters_.name, topology, surface.frame, surface.stamp);
+  message->vertices = std::move(surface.vertices);
+  message->triangles = std::move(surface.triangles);
   callbacks_.mesh(message);
   try {
     mesh_.emplace(TriangleMesh(vertices_of(message), message->triangles, topology, kNoLimits));
-    frame_ = surface_.frame;
-    stamp_ = surface_.stamp;
+    frame_ = surface.frame;
+    stamp_ = surface.stamp;
   } catch (const MeshError&) {  // The collision node refuses and reports the mesh.
   }
 }
@@ -148,16 +144,13 @@ OrganMeshPtr OrganSource::mesh() const {
   return message;
 }
 
-void OrganSource::read(const ShapeShifter& message) {
-  if (is<shape_msgs::Mesh>(message)) {
-    convert(*instance<shape_msgs::Mesh>(message), surface_);
-  } else if (is<pcl_msgs::PolygonMesh>(message)) {
-    convert(*instance<pcl_msgs::PolygonMesh>(message), surface_);
-  } else if (is<visualization_msgs::Marker>(message)) {
-    marker_reader_.read(*instance<visualization_msgs::Marker>(message), surface_);
-  } else {
-    refuse_type(message, "shape_msgs/Mesh, pcl_msgs/PolygonMesh or visualization_msgs/Marker");
+ReceivedSurface OrganSource::read(const ShapeShifter& message) {
+  if (is<shape_msgs::Mesh>(message)) return convert(*instance<shape_msgs::Mesh>(message));
+  if (is<pcl_msgs::PolygonMesh>(message)) return convert(*instance<pcl_msgs::PolygonMesh>(message));
+  if (is<visualization_msgs::Marker>(message)) {
+    return marker_reader_.read(*instance<visualization_msgs::Marker>(message));
   }
+  refuse_type(message, "shape_msgs/Mesh, pcl_msgs/PolygonMesh or visualization_msgs/Marker");
 }
 
 /// The parameter `frame` overrides the frame that the messages name. The log says so once.

@@ -50,17 +50,15 @@ class OrganSource {
   OrganMeshPtr mesh() const;
 
  private:
-  void read(const topic_tools::ShapeShifter& message);
+  ReceivedSurface read(const topic_tools::ShapeShifter& message);
   std::string frame_or_given(const std::string& named);
-  bool has_triangles_of_mesh() const;
-  void send_mesh(std::uint32_t topology);
+  void send_mesh(std::uint32_t topology, ReceivedSurface&& surface);
   void send_vertices(const std::string& frame, ros::Time stamp, std::vector<float> vertices);
 
   OrganParameters parameters_;
   std::uint32_t last_topology_;
   Callbacks callbacks_;
   MarkerReader marker_reader_;
-  ReceivedSurface surface_;  ///< of the last message; kept only to reuse its memory
   bool has_warned_ = false;
 
   std::optional<TriangleMesh> mesh_;  ///< shares the vertices of the message that was sent

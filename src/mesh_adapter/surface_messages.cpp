@@ -121,30 +121,32 @@ Eigen::Isometry3d pose_of(const Marker& marker) {
   return Eigen::Translation3d(to_eigen(marker.pose.position)) * rotation.normalized();
 }
 
-void place_points(const Marker& marker, std::vector<float>& vertices) {
-  const Eigen::Affine3d placed = pose_of(marker) * Eigen::Scaling(scale_of(marker));
-  vertices.resize(3 * marker.points.size());
-  float* coordinate = vertices.data();
-  for (const geometry_msgs::Point& point : marker.points) {
-    const Eigen::Vector3f vertex = (placed * to_eigen(point)).cast<float>();
-    coordinate = std::copy_n(vertex.data(), 3, coordinate);
+/// The points as x y z x y z ... [m], each moved by a transform.
+std::vector<float> placed(const std::vector<geometry_msgs::Point>& points,
+                          const Eigen::Affine3d& T_frame_points) {
+  std::vector<float> vertices;
+  vertices.reserve(3 * points.size());
+  for (const geometry_msgs::Point& point : points) {
+    const Eigen::Vector3f vertex = (T_frame_points * to_eigen(point)).cast<float>();
+    vertices.insert(vertices.end(), vertex.begin(), vertex.end());
   }
+  return vertices;
 }
 
 }  // namespace
 
-void read_points(const PointCloud2& cloud, std::vector<float>& vertices) {
+std::vector<float> read_points(const PointCloud2& cloud) {
   if (cloud.width == 0 || cloud.height == 0) {
     if (!cloud.data.empty()) {
       throw MessageError("wrong size", "the cloud is ", cloud.width, " x ", cloud.height,
                          " points; must be none only where data is empty");
     }
-    return vertices.clear();
+    return {};
   }
   const std::array<PointField, 3> fields = {field_of(cloud, "x"), field_of(cloud, "y"),
                                             field_of(cloud, "z")};
   check_sizes(cloud);
-  vertices.resize(3 * std::size_t{cloud.width} * cloud.height);
+  std::vector<float> vertices(3 * std::size_t{cloud.width} * cloud.height);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (fields[axis].datatype == PointField::FLOAT64) {
       copy<double>(cloud, fields[axis].offset, &vertices[axis]);
@@ -152,32 +154,31 @@ void read_points(const PointCloud2& cloud, std::vector<float>& vertices) {
       copy<float>(cloud, fields[axis].offset, &vertices[axis]);
     }
   }
+  return vertices;
 }
 
-void convert(const shape_msgs::Mesh& mesh, ReceivedSurface& surface) {
-  surface.frame.clear();
-  surface.stamp = {};
-  surface.vertices.resize(3 * mesh.vertices.size());
-  float* coordinate = surface.vertices.data();
+ReceivedSurface convert(const shape_msgs::Mesh& mesh) {
+  ReceivedSurface surface;
+  surface.vertices.reserve(3 * mesh.vertices.size());
   for (const geometry_msgs::Point& vertex : mesh.vertices) {
     for (const double value : {vertex.x, vertex.y, vertex.z}) {
-      *coordinate++ = static_cast<float>(value);
+      surface.vertices.push_back(static_cast<float>(value));
     }
   }
-  surface.triangles.clear();
   surface.triangles.reserve(3 * mesh.triangles.size());
   for (const shape_msgs::MeshTriangle& triangle : mesh.triangles) {
     surface.triangles.insert(surface.triangles.end(), triangle.vertex_indices.begin(),
                              triangle.vertex_indices.end());
   }
+  return surface;
 }
 
-void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface) {
+ReceivedSurface convert(const pcl_msgs::PolygonMesh& mesh) {
   const std_msgs::Header &own = mesh.header, &clouds = mesh.cloud.header;
-  surface.frame = own.frame_id.empty() ? clouds.frame_id : own.frame_id;
-  surface.stamp = own.stamp.isZero() ? clouds.stamp : own.stamp;
-  read_points(mesh.cloud, surface.vertices);
-  surface.triangles.clear();
+  ReceivedSurface surface{own.frame_id.empty() ? clouds.frame_id : own.frame_id,
+                          own.stamp.isZero() ? clouds.stamp : own.stamp,
+                          read_points(mesh.cloud),
+                          {}};
   for (std::size_t i = 0; i < mesh.polygons.size(); ++i) {
     const auto& corners = mesh.polygons[i].vertices;
     if (corners.size() < 3) {
@@ -189,9 +190,10 @@ void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface) {
                                {corners[0], corners[last - 1], corners[last]});
     }
   }
+  return surface;
 }
 
-void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
+ReceivedSurface MarkerReader::read(const Marker& marker) {
   if (const std::string fault = name_fault(marker.ns); !fault.empty()) {
     throw MessageError("illegal name", "the marker's namespace ", fault);
   }
@@ -205,12 +207,10 @@ void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
     throw MessageError("other marker", "marker '", name, "' is not the organ's, which is '", name_,
                        "'; must have a topic of its own");
   }
-  surface.frame = marker.header.frame_id;
-  surface.stamp = marker.header.stamp;
+  ReceivedSurface surface{marker.header.frame_id, marker.header.stamp, {}, {}};
   if (!add) {
-    surface.vertices.clear();
-    surface.triangles.clear();
-    return read_name_.clear();
+    read_name_.clear();
+    return surface;
   }
   if (marker.type != Marker::TRIANGLE_LIST) {
     throw MessageError("other marker type", "marker '", name, "' is of type ",
@@ -220,10 +220,12 @@ void MarkerReader::read(const Marker& marker, ReceivedSurface& surface) {
     throw MessageError("wrong number of points", "marker '", name, "' has ", marker.points.size(),
                        " points; must be a multiple of three");
   }
-  place_points(marker, surface.vertices);
+  const Eigen::Isometry3d pose = pose_of(marker);
+  surface.vertices = placed(marker.points, pose * Eigen::Scaling(scale_of(marker)));
   surface.triangles.resize(marker.points.size());
   std::iota(surface.triangles.begin(), surface.triangles.end(), 0);
   read_name_ = name;
+  return surface;
 }
 
 }  // namespace organ_collision

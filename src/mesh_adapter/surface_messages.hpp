@@ -41,32 +41,31 @@ class MessageError : public std::runtime_error {
   std::string reason_;
 };
 
-/// Replaces the content of `vertices` by the fields x, y and z of all points, row by row, as
-/// x y z x y z ... The fields may lie anywhere in a point and in any order. They may be float32 or
-/// float64, in little or big endian. Other fields and padding are skipped. The numbers are rounded
-/// to 32-bit floats and need not be finite. Throws MessageError.
-void read_points(const sensor_msgs::PointCloud2& cloud, std::vector<float>& vertices);
+/// The fields x, y and z of all points, row by row, as x y z x y z ... The fields may lie anywhere
+/// in a point and in any order. They may be float32 or float64, in little or big endian. Other
+/// fields and padding are skipped. The numbers are rounded to 32-bit floats and need not be finite.
+/// Throws MessageError.
+std::vector<float> read_points(const sensor_msgs::PointCloud2& cloud);
 
 // Conversions from messages with a mesh to surfaces. Vertices keep their order and are rounded to
-// 32-bit floats. The content of `surface` is replaced, and its memory is reused.
+// 32-bit floats.
 
 /// The surface has no frame and no stamp, because the message has none.
-void convert(const shape_msgs::Mesh& mesh, ReceivedSurface& surface);
+ReceivedSurface convert(const shape_msgs::Mesh& mesh);
 
 /// A polygon of n corners is cut into a fan around its first corner and becomes n - 2 faces. If the
 /// mesh's own header has no frame or no stamp, the one in the cloud's header is used. Throws
 /// MessageError.
-void convert(const pcl_msgs::PolygonMesh& mesh, ReceivedSurface& surface);
+ReceivedSurface convert(const pcl_msgs::PolygonMesh& mesh);
 
 /// Reads the organ's marker among the markers of a topic: a TRIANGLE_LIST with three vertices for
 /// each face, placed by its scale and pose. The organ's marker is identified by namespace and id.
 /// The first marker that is kept becomes the organ's marker, until it is deleted.
 class MarkerReader {
  public:
-  /// Replaces the content of `surface`; DELETE and DELETEALL make it empty. An orientation of four
-  /// zeros means no rotation, as in RViz. Throws MessageError, also if the marker is not the
-  /// organ's.
-  void read(const visualization_msgs::Marker& marker, ReceivedSurface& surface);
+  /// DELETE and DELETEALL are an empty surface. An orientation of four zeros means no rotation, as
+  /// in RViz. Throws MessageError, also if the marker is not the organ's.
+  ReceivedSurface read(const visualization_msgs::Marker& marker);
   /// Accepts the marker that was read last as the organ's. If it deleted the organ's marker, the
   /// next marker that is kept becomes the organ's.
   void keep() { name_ = read_name_; }

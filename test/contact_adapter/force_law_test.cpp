@@ -98,33 +98,6 @@ TEST(ContactMotion, AKnownClearanceThatChangesIsAWay) {
   EXPECT_EQ(way(Clearance::BEYOND_MARGIN, 0.5), 0.0);
 }
 
-TEST(ContactMotion, IsNoMoreThanTheWayOfRealQueries) {
-  const TriangleMesh organ = grid_mesh(24, 24, [](double u, double v) -> Vector3d {
-    const double x = 0.06 * u - 0.0297, y = 0.06 * v - 0.0302;
-    return {x, y, (x * x - y * y) / 0.06};
-  });
-  for (const double yaw : {0.0, 0.7, 1.5}) {
-    const auto at = [&](double z) {
-      const Vector3d along(std::sin(yaw), std::cos(yaw), -0.02), middle(0.0, 0.001, z);
-      return ShaftAxis{middle - 0.05 * along, middle + 0.02 * along};
-    };
-    PushTracker tracker;
-    ContactMotion motion;
-    std::vector<double> ways;
-    const auto steps = forces_along(
-        way_through({at(0.015), at(-0.003), at(0.015)}, 1e-4), organ, [&](const ContactArray& a) {
-          ways.push_back(motion.follow(a, tracker.follow(a, kRadius), kRadius).value_or(0.0));
-          return Vector3d::Zero();
-        });
-    double sum = 0.0;
-    for (std::size_t i = 0; i < steps.size(); ++i) {
-      EXPECT_LE(ways[i], 1.01 * steps[i].way) << "yaw " << yaw << ", step " << i;
-      sum += ways[i];
-    }
-    EXPECT_GE(sum, 0.01) << "yaw " << yaw;  // [m] The tool moves by 36 mm.
-  }
-}
-
 /// An answer about a floor and a wall. If the wall is hidden, its push does not count: its nearest
 /// corner also belongs to the floor, which is nearer to the tool.
 ContactArray floor_and_wall(double floor_depth, double wall_depth, bool is_hidden = false) {
@@ -175,19 +148,6 @@ TEST(ForceLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   expect_near(moved, kUp + kLeft + 4.0 * kStiffness * 0.0001 * back.normalized());
 }
 
-TEST(ForceLaw, TheTorqueFollowsInTheSameShare) {
-  ForceLaw law;
-  const auto wrench = [&](const ContactArray& answer, double seconds) {
-    return wrench_of(law.follow(answer, seconds, kStiffness, kRadius));
-  };
-  const auto before = wrench(floor_and_wall(0.003, 0.002, true), kSeconds);
-  const auto half = wrench(floor_and_wall(0.003, 0.002), 0.02);
-  const auto whole = wrench(floor_and_wall(0.003, 0.002), 1.0);
-  EXPECT_NEAR(half.force.x, 0.5 * (before.force.x + whole.force.x), 1e-9);
-  EXPECT_NEAR(half.torque.y, 0.5 * (before.torque.y + whole.torque.y), 1e-9);
-  EXPECT_GT(std::abs(whole.torque.y - before.torque.y), 0.1);
-}
-
 TEST(ForceLaw, AStaticAnswerAndAnotherTopologyBeginAnew) {
   ForceLaw law;
   force(law, floor_and_wall(0.003, 0.002, true));
@@ -204,19 +164,6 @@ TEST(ForceLaw, AStaticAnswerAndAnotherTopologyBeginAnew) {
   EXPECT_GT(force(law, past, 1.0).z(), 0.0);
   past.mode = ContactArray::STATIC;
   expect_near(force(law, past), {0.0, 0.0, -0.004 * kStiffness});
-}
-
-TEST(ForceLaw, LinksThatShareAFaceAreOneSpringBetweenThem) {
-  Contact left = of_depth(0.001), right = of_depth(0.003);
-  left.end_point = tf2::toMsg(Vector3d(0.0, 0.0, 0.0));
-  right.end_point = tf2::toMsg(Vector3d(0.04, 0.0, 0.0));
-  right.link = 1;
-  ContactArray answer = touched({left, right});
-  answer.links = {"left_jaw", "right_jaw"};
-  ForceLaw law;
-  const auto wrench = wrench_of(law.follow(answer, kSeconds, kStiffness, std::nullopt));
-  EXPECT_NEAR(wrench.force.z, 3.0, 1e-9);
-  EXPECT_NEAR(wrench.torque.y, -3.0 * 0.03, 1e-9);
 }
 
 }  // namespace

@@ -169,26 +169,6 @@ TEST_P(ForceTrajectoryTest, AnEdgeIsNotSlippedOffPastTheRadius) {
   }
 }
 
-TEST_P(ForceTrajectoryTest, OnASaddle) {
-  // In some of these cases the tip is in the rising wall of the valley, or the axis is past the
-  // saddle.
-  const int cells = static_cast<int>(std::lround(0.06 / cell_));
-  for (const double radius : {0.03, 0.012}) {
-    const TriangleMesh saddle = grid_mesh(cells, cells, [&](double u, double v) -> Vector3d {
-      const double x = 0.06 * u - 0.0297, y = 0.06 * v - 0.0302;
-      return {x, y, (x * x - y * y) / (2.0 * radius)};
-    });
-    for (const double yaw : {0.0, 0.7, 1.2, 1.5}) {
-      const auto at = [&](double z) {
-        const Vector3d along(std::sin(yaw), std::cos(yaw), -0.02), middle(0.0, 0.001, z);
-        return ShaftAxis{middle - 0.05 * along, middle + 0.02 * along};
-      };
-      expect_no_jump("radius " + std::to_string(radius) + ", yaw " + std::to_string(yaw), saddle,
-                     {at(0.015), at(-0.003), at(0.015)});
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Cells, ForceTrajectoryTest, testing::ValuesIn(kCells));
 
 TEST(ForceTrajectory, OverHillsOnRandomWays) {

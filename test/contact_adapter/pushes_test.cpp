@@ -34,29 +34,6 @@ void expect_push(const Push& push, double normal_z, double depth) {
   expect_push(push, {0.0, 0.0, normal_z}, depth);
 }
 
-TEST(KeptSides, TheSideOfFirstTouchStaysAndTheDepthGrows) {
-  struct {
-    ShaftRadius radius;
-    std::vector<double> heights;      ///< [m] of the axis, one after the other
-    double normal_z, depth_in_plane;  ///< of all pushes; [m]
-  } const rows[] = {
-      {kRadius, {0.002, 0.001, -0.001, -0.003, -0.004, -0.002, 0.002}, -1.0, kRadius},
-      {kRadius, {-0.001, 0.001, 0.003, -0.002}, 1.0, kRadius},  // touched from inside
-      // As the depth changes: it is continued from the last one above the face.
-      {std::nullopt, {0.001, 0.0001, -0.0001, -0.003, -0.0049, -0.002, 0.002}, -1.0, kRadius},
-  };
-  for (const auto& row : rows) {
-    PushTracker tracker;
-    for (const double height : row.heights) {
-      const Push push = follow(tracker, at_height(height), row.radius);
-      const double lost = !row.radius && height < 0.0 ? 0.0002 : 0.0;
-      expect_push(push, row.normal_z, row.depth_in_plane + row.normal_z * height - lost);
-      EXPECT_EQ(push.place, Vector3d(0.1, 0.2, 0.003));
-      EXPECT_TRUE(push.counts);
-    }
-  }
-}
-
 TEST(KeptSides, AStepThroughTheFaceIsKnownByItsDepth) {
   PushTracker tracker;
   Contact through = at_height(0.001);
@@ -127,13 +104,6 @@ void expect_push_out(const std::vector<Push>& pushes, double depth) {
   expect_push(pushes[0], -kWay, depth);
   EXPECT_EQ(pushes[0].place, kPlace);
   EXPECT_TRUE(pushes[0].counts);
-}
-
-TEST(WayOut, AShaftInsideIsPushedAsDeepAsItMustMove) {
-  PushTracker tracker;
-  for (const double distance : {0.0, 0.002, 0.03, 0.001}) {
-    expect_push_out(tracker.follow(inside_at(distance), kRadius), 2.0 * kRadius + distance);
-  }
 }
 
 TEST(WayOut, OnlyAToolThatIsKnownToBeInsideIsPushed) {

@@ -17,18 +17,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-TEST(FaceForce, TheWrenchIsTheirSumAndThatOfTheirTorques) {
-  std::vector<FaceForce> forces(2);
-  forces[0].place = {0.1, 0.0, 0.0};
-  forces[0].force = {0.0, 2.0, 0.5};
-  forces[1].place = {0.0, 0.0, 0.3};
-  forces[1].force = {1.0, -4.0, 0.0};
-  const geometry_msgs::Wrench wrench = wrench_of(forces);
-  EXPECT_EQ(to_eigen(wrench.force), Vector3d(1.0, -2.0, 0.5));
-  EXPECT_LE((to_eigen(wrench.torque) - Vector3d(1.2, -0.05 + 0.3, 0.2)).norm(), 1e-15);
-  EXPECT_EQ(wrench_of({}), geometry_msgs::Wrench());
-}
-
 TEST(ForceLimit, TheSumIsLimitedAndAllPartsAreScaledAlike) {
   std::vector<FaceForce> forces(2);  // with the sum (3, 0, -4)
   forces[0].force = {5.0, 1.0, -4.0};
@@ -130,32 +118,6 @@ TEST(VertexForces, AreMinusTheWrenchForRandomContactsThatMove) {
       limit_force(forces, 0.5);
       EXPECT_LE(sum_of(forces).norm(), 0.5 + 1e-12);
       expect_minus_wrench(forces);
-    }
-  }
-}
-
-TEST(VertexForces, DoNotDependOnTheOrderOfTheContacts) {
-  oracle::Random random(6);
-  for (int i = 0; i < 60; ++i) {
-    const std::vector<Vector3d> cloud = random_cloud(random);
-    ForceLaw one, other;
-    for (int step = 0; step < 5; ++step) {
-      ContactArray answer = random_answer(cloud, random);
-      std::map<std::uint32_t, Vector3d> difference;
-      const auto add = [&](ForceLaw& law, double sign) {
-        const VertexForces at = vertex_forces(answer, law.follow(answer, 0.001, 1000.0, 0.005));
-        for (std::size_t k = 0; k < at.vertices.size(); ++k) {
-          difference.insert({at.vertices[k], Vector3d::Zero()}).first->second +=
-              sign * to_eigen(at.forces[k]);
-        }
-      };
-      add(one, 1.0);
-      std::reverse(answer.contacts.begin(), answer.contacts.end());
-      std::rotate(answer.contacts.begin(), answer.contacts.begin() + answer.contacts.size() / 3,
-                  answer.contacts.end());
-      add(other, -1.0);
-      // [N] The search for the springs' lengths stops at a millionth of the greatest depth.
-      for (const auto& [vertex, force] : difference) EXPECT_LE(force.norm(), 1e-3) << vertex;
     }
   }
 }

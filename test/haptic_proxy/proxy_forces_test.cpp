@@ -132,24 +132,3 @@ TEST_F(ProxyForcesTest, ACrossingLoadsTheTissueWholeAndTheHandWithItsLever) {
   EXPECT_EQ(at.vertices[2], 2U);
   EXPECT_EQ(at.barycentric[1], 0.6);
 }
-
-TEST(ForceRamp, RisesAndFallsLinearlyWithinTenMilliseconds) {
-  const struct {
-    double at;  ///< [ms]
-    bool rises;
-    double share;
-  } rows[] = {
-      {0.0, true, 0.0},    {4.0, true, 0.4},    {7.0, true, 0.7},   {25.0, true, 1.0},
-      {120.0, false, 1.0},  // Until now it rose.
-      {123.0, false, 0.7}, {129.0, true, 0.1},  {131.0, true, 0.3}, {133.0, false, 0.5},
-      {143.0, false, 0.0}, {5000.0, true, 0.0},  // A long time at zero is no rise.
-      {5001.0, true, 0.1},
-  };
-  ForceRamp ramp;
-  for (const auto& row : rows) {
-    const auto now = ForceRamp::Time(std::chrono::hours(7)) +
-                     std::chrono::microseconds(std::lround(1e3 * row.at));
-    EXPECT_NEAR(row.rises ? ramp.rise(now) : ramp.fall(now), row.share, 1e-9) << row.at;
-    EXPECT_NEAR(ramp.share(), row.share, 1e-9);
-  }
-}

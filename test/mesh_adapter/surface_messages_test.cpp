@@ -40,12 +40,6 @@ std::vector<double> random_points(std::size_t count, unsigned seed) {
 
 Floats floats(const std::vector<double>& numbers) { return {numbers.begin(), numbers.end()}; }
 
-Floats read(const PointCloud2& cloud) {
-  Floats vertices = {4.0f, 5.0f};
-  read_points(cloud, vertices);
-  return vertices;
-}
-
 TEST(PointCloudReader, ReadsEveryLayout) {
   constexpr std::uint8_t kDouble = PointField::FLOAT64;
   const std::vector<CloudLayout> layouts = {
@@ -70,7 +64,7 @@ TEST(PointCloudReader, ReadsEveryLayout) {
           layout.big_endian = big_endian;
           layout.width = width;
           layout.row_padding = row_padding;
-          EXPECT_EQ(read(cloud_of(points, layout)), floats(points))
+          EXPECT_EQ(read_points(cloud_of(points, layout)), floats(points))
               << layout.fields[0].name << " first, big endian " << big_endian << ", width " << width
               << ", row padding " << row_padding;
         }
@@ -85,15 +79,15 @@ TEST(PointCloudReader, TakesWhatIsLooselyFilledIn) {
   cloud.row_step = 0;  // Not used if there is only one row.
   for (PointField& field : cloud.fields) field.count = 0;
   cloud.data.resize(cloud.data.size() + 7);
-  EXPECT_EQ(read(cloud), floats(points));
+  EXPECT_EQ(read_points(cloud), floats(points));
   cloud = cloud_of(points, {{{"x"}, {"y"}, {"z"}}, false, 2, 8});
   cloud.data.resize(cloud.data.size() - 8);  // The last row needs no padding.
-  EXPECT_EQ(read(cloud), floats(points));
+  EXPECT_EQ(read_points(cloud), floats(points));
   cloud = PointCloud2();
-  EXPECT_TRUE(read(cloud).empty());
+  EXPECT_TRUE(read_points(cloud).empty());
   cloud.height = 1;
   cloud.row_step = 16;
-  EXPECT_TRUE(read(cloud).empty());
+  EXPECT_TRUE(read_points(cloud).empty());
 }
 
 TEST(PointCloudReader, RefusesWhatIsNoCloudOfPoints) {
@@ -125,7 +119,7 @@ TEST(PointCloudReader, RefusesWhatIsNoCloudOfPoints) {
   for (const auto& row : rows) {
     PointCloud2 cloud = good;
     row.spoil(cloud);
-    expect_words(refusal([&] { read(cloud); }), row.words);
+    expect_words(refusal([&] { read_points(cloud); }), row.words);
   }
 }
 
@@ -142,24 +136,12 @@ TEST(PointCloudReader, RefusesSizesWhoseBytesOverflow) {
           cloud.point_step = point_step;
           cloud.row_step = row_step;
           const bool legal = width == 6 && height == 1 && point_step == 12;
-          EXPECT_EQ(refusal([&] { read(cloud); }) == "accepted", legal)
+          EXPECT_EQ(refusal([&] { read_points(cloud); }) == "accepted", legal)
               << width << " x " << height << ", " << point_step << ", " << row_step;
         }
       }
     }
   }
-}
-
-/// A surface with the content of an earlier message.
-ReceivedSurface used_surface() {
-  return {"table", ros::Time(3), {1.0f, 2.0f, 3.0f, 4.0f}, {7, 8, 9, 10}};
-}
-
-template <typename Message>
-ReceivedSurface converted(const Message& message) {
-  ReceivedSurface surface = used_surface();
-  convert(message, surface);
-  return surface;
 }
 
 TEST(MeshConversions, TakesAShapeMeshAsItIs) {
@@ -171,13 +153,13 @@ TEST(MeshConversions, TakesAShapeMeshAsItIs) {
   mesh.triangles.resize(2);
   mesh.triangles[0].vertex_indices = {2, 0, 1};
   mesh.triangles[1].vertex_indices = {1, 1, 4000};
-  const ReceivedSurface surface = converted(mesh);
+  const ReceivedSurface surface = convert(mesh);
   EXPECT_EQ(surface.frame, "");
   EXPECT_TRUE(surface.stamp.isZero());
   EXPECT_EQ(surface.vertices, (Floats{0.1f, -0.2f, 0.3f, INFINITY, 5.5f, 1e30f}));
   EXPECT_EQ(surface.triangles, (Indices{2, 0, 1, 1, 1, 4000}));
-  EXPECT_TRUE(converted(shape_msgs::Mesh()).empty());
-  EXPECT_TRUE(converted(pcl_msgs::PolygonMesh()).empty());
+  EXPECT_TRUE(convert(shape_msgs::Mesh()).empty());
+  EXPECT_TRUE(convert(pcl_msgs::PolygonMesh()).empty());
 }
 
 TEST(MeshConversions, PolygonsAreFansOfTheCloudsPoints) {
@@ -188,23 +170,23 @@ TEST(MeshConversions, PolygonsAreFansOfTheCloudsPoints) {
   mesh.polygons.resize(2);
   mesh.polygons[0].vertices = {9, 8, 7, 6, 5};
   mesh.polygons[1].vertices = {0, 0, 4, 0};
-  const ReceivedSurface surface = converted(mesh);
+  const ReceivedSurface surface = convert(mesh);
   EXPECT_EQ(surface.vertices, (Floats{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f}));
   EXPECT_EQ(surface.triangles, (Indices{9, 8, 7, 9, 7, 6, 9, 6, 5, 0, 0, 4, 0, 4, 0}));
   EXPECT_EQ(surface.frame, "camera");
   EXPECT_EQ(surface.stamp, ros::Time(5.5));
   mesh.header.frame_id = "liver";
   mesh.header.stamp = ros::Time(6.5);
-  EXPECT_EQ(converted(mesh).frame, "liver");
-  EXPECT_EQ(converted(mesh).stamp, ros::Time(6.5));
+  EXPECT_EQ(convert(mesh).frame, "liver");
+  EXPECT_EQ(convert(mesh).stamp, ros::Time(6.5));
   for (const Indices& corners : {Indices{}, Indices{1}, Indices{1, 0}}) {
     mesh.polygons[1].vertices = corners;
-    expect_words(refusal([&] { converted(mesh); }),
+    expect_words(refusal([&] { convert(mesh); }),
                  {"polygon without area: ", "polygon 1 ",
                   std::to_string(corners.size()) + " corners", "at least 3"});
   }
   mesh.cloud.data.pop_back();
-  expect_words(refusal([&] { converted(mesh); }), {"truncated cloud: "});
+  expect_words(refusal([&] { convert(mesh); }), {"truncated cloud: "});
 }
 
 class MarkerReaderTest : public testing::Test {
@@ -224,8 +206,7 @@ class MarkerReaderTest : public testing::Test {
   }
 
   ReceivedSurface read(const Marker& marker) {
-    ReceivedSurface surface = used_surface();
-    reader_.read(marker, surface);
+    ReceivedSurface surface = reader_.read(marker);
     reader_.keep();
     return surface;
   }

@@ -3,19 +3,23 @@
 // was overrun, or gave an answer that contradicts itself.
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
+#include <boost/program_options.hpp>
+#include <ctime>
 #include <future>
+#include <iomanip>
 #include <iostream>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "episode.hpp"
+#include "referee.hpp"
 #include "scenes.hpp"
 #include "test/proof/exactness_proof.hpp"
 
 namespace {
 
+using namespace organ_collision;
 using namespace organ_collision::oracle;
 
 constexpr long kEpisodeTicks = 10000;
@@ -23,68 +27,132 @@ constexpr int kMostReports = 5;  // in an episode
 
 struct Options {
   std::string scene;  // empty: all
-  long ticks = 1000000;
-  long seed = 1;
-  long threads = 1;
-  long episode = -1;  // only this one
+  long ticks, seed, threads;
+  long episode;  // only this one; negative: all
 };
 
-[[noreturn]] void show_usage() {
-  std::cerr << "usage: proxy_proof [--scene NAME] [--ticks N] [--seed N] [--threads N] "
-               "[--episode N]\nticks: of each scene, in episodes of "
-            << kEpisodeTicks << "; episode: only this one, from 0. Scenes:\n";
-  for (const std::string& kind : proxy_scene_kinds()) std::cerr << "  " << kind << '\n';
-  std::exit(2);
+/// std::nullopt: they are illegal, and the usage was printed.
+std::optional<Options> read(int argc, char** argv) {
+  namespace po = boost::program_options;
+  const std::vector<std::string>& kinds = proxy_scene_kinds();
+  std::string usage = "usage: proxy_proof [options]. Scenes:";
+  for (const std::string& kind : kinds) usage += "\n  " + kind;
+  Options options;
+  po::options_description legal(usage + "\nOptions");
+  auto add = legal.add_options();
+  add("scene", po::value(&options.scene)->default_value(""), "only this one");
+  add("ticks", po::value(&options.ticks)->default_value(1000000),
+      ("of each scene, in episodes of " + std::to_string(kEpisodeTicks)).c_str());
+  add("seed", po::value(&options.seed)->default_value(1), "");
+  add("threads", po::value(&options.threads)->default_value(1), "");
+  add("episode", po::value(&options.episode)->default_value(-1), "only this one, from 0");
+  try {
+    po::variables_map given;
+    po::store(po::parse_command_line(argc, argv, legal), given);
+    po::notify(given);
+    const bool is_scene = options.scene.empty() ||
+                          std::find(kinds.begin(), kinds.end(), options.scene) != kinds.end();
+    if (is_scene && std::min({options.ticks, options.seed, options.threads}) > 0) return options;
+  } catch (const po::error& error) {
+    std::cerr << error.what() << '\n';
+  }
+  std::cerr << legal;
+  return std::nullopt;
 }
 
-Options read(int argc, char** argv) {
-  Options options;
-  for (int i = 1; i < argc; i += 2) {
-    const std::string option = argv[i], text = i + 1 < argc ? argv[i + 1] : "";
-    if (option == "--scene") {
-      const auto& kinds = proxy_scene_kinds();
-      if (std::find(kinds.begin(), kinds.end(), text) == kinds.end()) show_usage();
-      options.scene = text;
-      continue;
-    }
-    char* end = nullptr;
-    const long value = std::strtol(text.c_str(), &end, 10);
-    if (text.empty() || *end != '\0' || value < (option == "--episode" ? 0 : 1)) show_usage();
-    if (option == "--ticks") {
-      options.ticks = value;
-    } else if (option == "--seed") {
-      options.seed = value;
-    } else if (option == "--threads") {
-      options.threads = value;
-    } else if (option == "--episode") {
-      options.episode = value;
-    } else {
-      show_usage();
-    }
+/// The time below which this share of the ticks is [us]. Reorders them.
+double quantile(std::vector<float>& seconds, double share) {
+  if (seconds.empty()) return 0.0;
+  const auto last = static_cast<double>(seconds.size() - 1);
+  const auto place = seconds.begin() + static_cast<std::ptrdiff_t>(share * last);
+  std::nth_element(seconds.begin(), place, seconds.end());
+  return 1e6 * static_cast<double>(*place);
+}
+
+double percent(long part, long all) {
+  return all > 0 ? 100.0 * static_cast<double>(part) / static_cast<double>(all) : 0.0;
+}
+
+void print_proxy_head(std::ostream& out) {
+  out << "| scene | ticks | touching | squeezed | jumps | overrun | no answer | too near | through "
+         "| inside | held | inconsistent | least distance [mm] | where squeezed [mm] | median [us] "
+         "| 99 % "
+         "| 99.9 % | most "
+         "|\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+}
+
+void print(const std::string& name, ProxyTally tally, std::ostream& out) {
+  out << "| " << name << " | " << tally.ticks << std::fixed << std::setprecision(1) << " | "
+      << percent(tally.touching, tally.ticks) << " % | " << std::setprecision(3)
+      << percent(tally.squeezed, tally.ticks) << " %";
+  for (const long count : {tally.jumps, tally.overrun, tally.no_answer, tally.near, tally.through,
+                           tally.inside, tally.held, tally.inconsistent}) {
+    out << " | " << count;
   }
-  return options;
+  out << std::setprecision(4) << " | " << 1e3 * tally.least << " | ";
+  if (tally.squeezed > 0) out << 1e3 * tally.least_squeezed;
+  out << std::setprecision(0);
+  for (const double share : {0.5, 0.99, 0.999, 1.0}) {
+    out << " | " << quantile(tally.seconds, share);
+  }
+  out << " |" << std::defaultfloat << std::endl;
+}
+
+/// What this thread has computed for. Other programs on the machine do not matter.
+double processor_seconds() {
+  timespec time;
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+/// Follows the hand of an episode, a random scene with a proxy of its own, for so many ticks.
+/// `report` receives a tick and what went wrong in it.
+ProxyTally follow_hand(const std::string& kind, unsigned long seed, long episode, long ticks,
+                       const std::function<void(long, const std::string&)>& report) {
+  Random random(1000003 * seed + static_cast<unsigned long>(episode));
+  ProxyScene scene = make_proxy_scene(kind, random);
+  ScriptedHand hand(scene.hand, random);
+  HapticProxy proxy(scene.hand.tool, scene.settings);
+  long tick = 0;
+  Referee referee(scene.hand.tool, scene.settings,
+                  [&](const std::string& what) { report(tick, what); });
+  std::vector<bool> is_closed;
+  for (const ScriptedOrgan& organ : scene.organs) is_closed.push_back(organ.is_closed());
+  std::vector<float> seconds;
+  for (; tick < ticks; ++tick) {
+    const ToolPose& pose = hand.next();
+    std::vector<ProxyOrgan> organs;
+    for (ScriptedOrgan& organ : scene.organs) organs.push_back(organ.at(tick));
+    const double begin = processor_seconds();
+    const ProxyAnswer& answer = proxy.follow(pose, organs);
+    seconds.push_back(static_cast<float>(processor_seconds() - begin));
+    referee.check(pose, hand.jumped(), organs, is_closed, answer);
+  }
+  ProxyTally tally = referee.tally();
+  tally.seconds = std::move(seconds);
+  return tally;
 }
 
 /// Follows the hands of all episodes of one scene, which several threads share.
 ProxyTally prove(const Options& options, const std::string& kind, Progress& progress) {
+  const auto seed = static_cast<unsigned long>(options.seed);
   std::mutex mutex;
   ProxyTally all;
   std::atomic<long> next_episode = 0;
-  const auto follow = [&](const Episode& episode, long ticks) {
+  const auto follow = [&](long episode, long ticks) {
     int reports = 0;
-    return follow_hand(episode, ticks, [&](long tick, const std::string& what) {
+    return follow_hand(kind, seed, episode, ticks, [&](long tick, const std::string& what) {
       if (++reports > kMostReports) return;
       const std::lock_guard<std::mutex> lock(mutex);
-      std::cerr << "--scene '" << episode.kind << "' --seed " << episode.seed << " --episode "
-                << episode.number << ": tick " << tick << ": " << what << std::endl;
+      std::cerr << "--scene '" << kind << "' --seed " << options.seed << " --episode " << episode
+                << ": tick " << tick << ": " << what << std::endl;
     });
   };
   const auto work = [&] {
     const long first = std::max(0L, options.episode);
     for (long next = next_episode++; next * kEpisodeTicks < options.ticks; next = next_episode++) {
       const long ticks = std::min(kEpisodeTicks, options.ticks - next * kEpisodeTicks);
-      const ProxyTally tally =
-          follow({kind, static_cast<unsigned long>(options.seed), first + next}, ticks);
+      const ProxyTally tally = follow(first + next, ticks);
       const std::lock_guard<std::mutex> lock(mutex);
       all.add(tally);
       progress.show(kind, all.ticks, options.ticks);
@@ -102,13 +170,14 @@ ProxyTally prove(const Options& options, const std::string& kind, Progress& prog
 }  // namespace
 
 int main(int argc, char** argv) {
-  const Options options = read(argc, argv);
+  const std::optional<Options> options = read(argc, argv);
+  if (!options) return 2;
   Progress progress;
   ProxyTally all;
   print_proxy_head(std::cout);
   for (const std::string& kind : proxy_scene_kinds()) {
-    if (!options.scene.empty() && options.scene != kind) continue;
-    const ProxyTally tally = prove(options, kind, progress);
+    if (!options->scene.empty() && options->scene != kind) continue;
+    const ProxyTally tally = prove(*options, kind, progress);
     print(kind, tally, std::cout);
     all.add(tally);
   }

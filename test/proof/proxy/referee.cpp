@@ -112,6 +112,23 @@ std::string in_mm(const std::string& what, double length) {
 
 }  // namespace
 
+void ProxyTally::add(const ProxyTally& other) {
+  ticks += other.ticks;
+  touching += other.touching;
+  squeezed += other.squeezed;
+  jumps += other.jumps;
+  overrun += other.overrun;
+  no_answer += other.no_answer;
+  near += other.near;
+  through += other.through;
+  inside += other.inside;
+  held += other.held;
+  inconsistent += other.inconsistent;
+  least = std::min(least, other.least);
+  least_squeezed = std::min(least_squeezed, other.least_squeezed);
+  seconds.insert(seconds.end(), other.seconds.begin(), other.seconds.end());
+}
+
 Referee::Referee(ProxyTool tool, const ProxySettings& settings, Report report)
     : tool_(std::move(tool)), settings_(settings), report_(std::move(report)) {}
 

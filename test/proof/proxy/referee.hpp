@@ -1,15 +1,38 @@
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "episode.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "organ_oracle.hpp"
 #include "test/proof/trials.hpp"
 
 namespace organ_collision::oracle {
+
+/// What proxies did, and which promises they broke.
+struct ProxyTally {
+  long ticks = 0;
+  long touching = 0;      ///< TOUCHING
+  long squeezed = 0;      ///< SQUEEZED
+  long jumps = 0;         ///< of the hand
+  long overrun = 0;       ///< placed anew because tissue moved through the proxy
+  long no_answer = 0;     ///< NO_ANSWER
+  long near = 0;          ///< nearer than half the clearance, but not SQUEEZED
+  long through = 0;       ///< no way leads around the tissue that a middle line met
+  long inside = 0;        ///< a middle line begins or ends inside a closed organ
+  long held = 0;          ///< longer than needed: the straight way to the hand was free for a while
+  long inconsistent = 0;  ///< FREE but not at the hand, or values that contradict each other
+  double least = INFINITY;           ///< [m] the smallest distance up to the clearance
+  double least_squeezed = INFINITY;  ///< [m] the same, where SQUEEZED
+  std::vector<float> seconds;        ///< of processor time that each tick took
+
+  long broken() const {
+    return overrun + no_answer + near + through + inside + held + inconsistent;
+  }
+  void add(const ProxyTally& other);
+};
 
 /// Checks each tick of a proxy with oracles that share nothing with it but the mesh.
 class Referee {

@@ -48,8 +48,8 @@ std::vector<Vector3d> folded_curve(int layers, double gap, double width) {
   return curve;
 }
 
-}  // namespace
-
+/// A closed bumpy organ, about 0.18 m long and 0.06 m high, of 150 to 4500 faces. It points
+/// outward.
 GridSurface bumpy_organ(Random& random) {
   const int rings = static_cast<int>(random.scale(6, 48));
   GridSurface organ = sphere(rings, 2 * rings, 1.0);
@@ -63,6 +63,8 @@ GridSurface bumpy_organ(Random& random) {
   return organ;
 }
 
+/// A thin sheet, folded into horizontal layers that are `gap` [m] apart, the upper one at z = 0.
+/// The layers are joined by half circles. Each is `width` [m] wide.
 GridSurface folded_sheet(int layers, double gap, double width) {
   GridSurface sheet;
   const std::vector<Vector3d> curve = folded_curve(layers, gap, width);
@@ -77,6 +79,7 @@ GridSurface folded_sheet(int layers, double gap, double width) {
   return sheet;
 }
 
+/// A bent tube along z, 0.24 m long and open at both ends. It points outward.
 GridSurface bent_tube(double radius, Random& random) {
   constexpr double kLength = 0.24;
   const int around = random.integer(8, 32), along = random.integer(12, 48);
@@ -94,8 +97,6 @@ GridSurface bent_tube(double radius, Random& random) {
   add_faces(tube, along, around, true);
   return tube;
 }
-
-namespace {
 
 enum class Tissue { kClosed, kFolds, kPockets, kTube, kClosedOrFolds, kTwo };
 enum class Tool { kShaft, kShaftWithJaws, kBall, kFreeShaft, kBoxJaws, kBallJaws, kMeshJaws };

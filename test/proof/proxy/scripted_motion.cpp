@@ -111,8 +111,6 @@ const ToolPose& ScriptedHand::next() {
   return pose_;
 }
 
-namespace {}  // namespace
-
 OrganMotion random_motion(double speed, double reach, Random& random) {
   OrganMotion motion;
   const double shares[] = {random.uniform(0.1, 1.0), random.uniform(0.1, 1.0),

@@ -1,5 +1,6 @@
-// haptic_proxy.hpp: what is refused, and organs that come, go, are cut, or have frames of their
-// own.
+// haptic_proxy.hpp: what is refused; organs that come, go, are cut, or have frames of their own;
+// and tissue that closes in from both sides. proxy_proof shows that the proxy never passes through
+// tissue.
 #include "organ_collision/query/haptic_proxy.hpp"
 
 #include <gtest/gtest.h>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "proxy_scenes.hpp"
+#include "test/proof/proxy/referee.hpp"
 #include "test/proof/proxy/scenes.hpp"
 
 namespace organ_collision {
@@ -148,51 +150,40 @@ TEST_F(ProxyTissue, ThatIsCutLetsTheProxyThroughTheHole) {
   EXPECT_EQ(state, ProxyStatus::kFree);
 }
 
-TEST_F(ProxyTissue, AroundTheProxyPlacesItAnewOutside) {
+// The floor rises while an organ appears elsewhere. The whole shaft is swept, not only its axis.
+TEST_F(ProxyTissue, FarAwayLeavesTheGuaranteeForOtherOrgans) {
+  ProxyOrgan floor = organ_of(flat_sheet(7), "floor");
+  follow(0.02, {floor});
+  ASSERT_EQ(follow(kStop - 0.001, {floor}).state, ProxyStatus::kTouching);
+  const auto shape = std::make_shared<TriangleMesh>(*floor.shape);
+  shape->move_vertices(flat_sheet(7, 0.03).vertices);
+  floor.shape = shape;
+  const ProxyAnswer& lifted = follow(kStop - 0.001, {floor, organ_of(flat_sheet(7, -0.2), "roof")});
+  EXPECT_FALSE(lifted.is_placed_anew);
+  EXPECT_EQ(lifted.state, ProxyStatus::kTouching);
+  EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kStop, 1e-6);
+}
+
+TEST_F(ProxyTissue, ThatComesOrGoesMovesTheProxyOnlyWhereItIs) {
   const ProxyOrgan floor = organ_of(flat_sheet(7, -0.1), "floor");
-  ASSERT_EQ(follow(0.01, {floor}).state, ProxyStatus::kFree);
-  const ProxyAnswer& anew = follow(0.01, {floor, organ_of(sphere(19, 24, 0.03), "ball")});
+  const ProxyOrgan table = organ_of(flat_sheet(7, -0.002), "table");
+  ASSERT_EQ(follow(0.0, {floor}).state, ProxyStatus::kFree);
+  // It is nearer than the radius, but not across the axis.
+  const ProxyAnswer& pushed = follow(0.0, {floor, table});
+  EXPECT_FALSE(pushed.is_placed_anew);
+  EXPECT_EQ(pushed.state, ProxyStatus::kTouching);
+  EXPECT_NEAR(pushed.proxy.axis.tip.z(), -0.002 + kStop, 1e-6);
+  const ProxyAnswer& free = follow(0.0, {});
+  EXPECT_EQ(free.state, ProxyStatus::kFree);
+  EXPECT_EQ(free.pull, Vector3d::Zero());
+  EXPECT_EQ(free.proxy.axis.tip.z(), 0.0);
+  const ProxyAnswer& anew = follow(0.0, {floor, organ_of(sphere(19, 24, 0.03), "ball")});
   EXPECT_TRUE(anew.is_placed_anew);
   EXPECT_NE(anew.message.find("new tissue"), std::string::npos);
   EXPECT_EQ(anew.state, ProxyStatus::kTouching);
   EXPECT_GT(anew.proxy.axis.tip.norm(), 0.03);
   ASSERT_FALSE(anew.contacts.empty());
   EXPECT_EQ(anew.contacts.front().organ, 1u);
-}
-
-TEST_F(ProxyTissue, BesideTheProxyPushesItAway) {
-  const ProxyOrgan floor = organ_of(flat_sheet(7, -0.1), "floor");
-  ASSERT_EQ(follow(0.0, {floor}).state, ProxyStatus::kFree);
-  // It is nearer than the radius, but not across the axis.
-  const ProxyAnswer& pushed = follow(0.0, {floor, organ_of(flat_sheet(7, -0.002), "table")});
-  EXPECT_FALSE(pushed.is_placed_anew);
-  EXPECT_EQ(pushed.state, ProxyStatus::kTouching);
-  EXPECT_NEAR(pushed.proxy.axis.tip.z(), -0.002 + kStop, 1e-6);
-}
-
-// The floor rises while an organ appears elsewhere. The whole shaft is swept, not only its axis.
-TEST_F(ProxyTissue, FarAwayLeavesTheGuaranteeForOtherOrgans) {
-  follow(0.02, {organ_of(flat_sheet(7), "floor")});
-  follow(kStop - 0.001, {organ_of(flat_sheet(7), "floor")});
-  ProxyOrgan risen = organ_of(flat_sheet(7), "floor");
-  const ProxyAnswer& before = follow(kStop - 0.001, {risen});
-  ASSERT_EQ(before.state, ProxyStatus::kTouching);
-  const auto shape = std::make_shared<TriangleMesh>(*risen.shape);
-  shape->move_vertices(flat_sheet(7, 0.03).vertices);
-  risen.shape = shape;
-  const ProxyAnswer& lifted = follow(kStop - 0.001, {risen, organ_of(flat_sheet(7, -0.2), "roof")});
-  EXPECT_FALSE(lifted.is_placed_anew);
-  EXPECT_EQ(lifted.state, ProxyStatus::kTouching);
-  EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kStop, 1e-6);
-}
-
-TEST_F(ProxyTissue, ThatGoesLetsTheProxyGo) {
-  follow(0.02, {organ_of(flat_sheet(7))});
-  ASSERT_EQ(follow(-0.02, {organ_of(flat_sheet(7))}).state, ProxyStatus::kTouching);
-  const ProxyAnswer& free = follow(-0.02, {});
-  EXPECT_EQ(free.state, ProxyStatus::kFree);
-  EXPECT_EQ(free.pull, Vector3d::Zero());
-  EXPECT_EQ(free.proxy.axis.tip.z(), -0.02);
 }
 
 TEST_F(ProxyTissue, AroundTheTrocarLeavesNoAnswer) {
@@ -269,25 +260,79 @@ TEST(ProxyFrames, DoNotMatter) {
   EXPECT_GT(touching, 200);
 }
 
-TEST(ProxyAnswers, AreTheSameAgain) {
-  const auto pulls = [] {
-    Random random(32);
-    oracle::ProxyScene scene = oracle::make_proxy_scene("two moving", random);
-    oracle::ScriptedHand hand(scene.hand, random);
-    HapticProxy proxy(scene.hand.tool, scene.settings);
-    std::vector<Vector3d> all;
-    for (long tick = 0; tick < 1500; ++tick) {
-      std::vector<ProxyOrgan> organs;
-      for (oracle::ScriptedOrgan& organ : scene.organs) organs.push_back(organ.at(tick));
-      all.push_back(proxy.follow(hand.next(), organs).pull);
-    }
-    return all;
+/// The distance between two plates or jaws that close and open again, at 5 mm/s [m].
+double gap_at(int tick) {
+  return std::max(4e-3, 0.012 - 5e-6 * tick) + std::max(0.0, 5e-6 * (tick - 2400));
+}
+
+TEST(ProxySqueeze, StaysBetweenTwoPlatesThatClose) {
+  const auto plates = [](double gap) {
+    return joined(flat_sheet(6, 0.5 * gap), turned_over(flat_sheet(9, -0.5 * gap)));
   };
-  const std::vector<Vector3d> first = pulls();
-  EXPECT_GT(
-      std::count_if(first.begin(), first.end(), [](const auto& pull) { return !pull.isZero(); }),
-      100);
-  EXPECT_EQ(first, pulls());
+  const ProxyTool tool = ball_tool();
+  HapticProxy proxy(tool, {});
+  ProxyOrgan organ = organ_of(plates(gap_at(0)));
+  oracle::Referee referee(tool, {}, [](const std::string& what) { ADD_FAILURE() << what; });
+  // The hand is not in the middle, and goes into the upper plate.
+  const ToolPose hand = ball_hand({0.01, 0.003, 0.002});
+  long squeezed = 0;
+  for (int tick = 0; tick < 4000; ++tick) {
+    const auto shape = std::make_shared<TriangleMesh>(*organ.shape);
+    shape->move_vertices(plates(gap_at(tick)).vertices);
+    organ.shape = shape;
+    const ProxyAnswer& answer = proxy.follow(hand, {organ});
+    referee.check(hand, false, {organ}, {false}, answer);
+    const double half = 0.5 * gap_at(tick), z = answer.proxy.axis.tip.z();
+    if (half < kToolRadius) {
+      EXPECT_EQ(answer.state, ProxyStatus::kSqueezed) << half;
+      EXPECT_NEAR(z, 0.0, 1e-4) << half;
+      ++squeezed;
+    } else if (half > kStop) {
+      EXPECT_NE(answer.state, ProxyStatus::kSqueezed) << half;
+      EXPECT_NEAR(z, std::min(0.002, half - kStop), 1e-5) << half;
+    }
+  }
+  EXPECT_GT(squeezed, 500);
+}
+
+/// A closed box, 60 mm wide and 5 mm thick. Its middle is 1 mm above the origin.
+GridSurface slab() {
+  GridSurface box = grid_cube(4, 0.015F);
+  for (std::size_t i = 0; i < box.vertices.size(); i += 3) {
+    Eigen::Map<Eigen::Vector3f> at(&box.vertices[i]);
+    at = (at.array() - 0.03F) * Eigen::Array3f(1.0F, 1.0F, 5.0F / 60.0F);
+    at.z() += 1e-3F;
+  }
+  return box;
+}
+
+TEST(ProxySqueeze, HoldsTissueBetweenJawsThatClose) {
+  // Two boxes along x, whose inner faces are `gap` apart.
+  const LinkPart box = LinkPart::box(Eigen::Isometry3d::Identity(), {0.02, 4e-3, 2e-3});
+  const ProxyTool tool{0.0, {{"upper", {box}}, {"lower", {box}}}, ProxyFreedom::kFree};
+  const auto hand = [](double gap) {
+    ToolPose pose{{Vector3d::Zero(), Vector3d::Zero()}};
+    for (const double side : {1.0, -1.0}) {
+      pose.links.emplace_back(Eigen::Translation3d(0.0, 0.0, side * (0.5 * gap + 1e-3)));
+    }
+    return pose;
+  };
+  const std::vector<ProxyOrgan> organs = {organ_of(slab())};
+  HapticProxy proxy(tool, {});
+  oracle::Referee referee(tool, {}, [](const std::string& what) { ADD_FAILURE() << what; });
+  long squeezed = 0;
+  for (int tick = 0; tick < 3000; ++tick) {
+    const double gap = gap_at(tick);
+    const ProxyAnswer& answer = proxy.follow(hand(gap), organs);
+    referee.check(hand(gap), false, organs, {true}, answer);
+    if (answer.state == ProxyStatus::kSqueezed) ++squeezed;
+    if (gap < 5e-3) {
+      EXPECT_EQ(answer.state, ProxyStatus::kSqueezed) << gap;
+    } else if (gap > 5.2e-3) {
+      EXPECT_NE(answer.state, ProxyStatus::kSqueezed) << gap;
+    }
+  }
+  EXPECT_GT(squeezed, 500);
 }
 
 }  // namespace

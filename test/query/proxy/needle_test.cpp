@@ -130,10 +130,5 @@ TEST_F(NeedleTest, LosesItsHoldIfItsEntryComesToTheTrocar) {
   EXPECT_TRUE(lost.pull.allFinite());
 }
 
-TEST_F(NeedleTest, IsOffByDefault) {
-  proxy_.set_settings({});
-  EXPECT_EQ(move_to(-0.05).state, ProxyStatus::kTouching);
-}
-
 }  // namespace
 }  // namespace organ_collision

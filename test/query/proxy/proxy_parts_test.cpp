@@ -133,27 +133,6 @@ std::vector<ProxyTool> tools(Random& random) {
           tool_of_links(random, 0.004, ProxyFreedom::kTrocar)};
 }
 
-TEST(Mobility, MovesByTheMotionBetween) {
-  Random random(1);
-  for (const ProxyTool& tool : tools(random)) {
-    const auto mobility = make_mobility(tool);
-    for (int trial = 0; trial < 200; ++trial) {
-      const ToolPose hand = random_hand(tool, random);
-      mobility->measure(hand);
-      const ToolPose from = mobility->moved(hand, random_displacement(tool, random, 0.02), hand);
-      const Displacement by = random_displacement(tool, random, 0.02);
-      const ToolPose to = mobility->moved(from, by, hand);
-      // A shaft's rotation about itself is no motion.
-      const Displacement between = mobility->between(from, to);
-      EXPECT_LE(between.norm(), by.norm() + 1e-12);
-      EXPECT_LT(difference(mobility->moved(from, between, hand), to), 1e-12);
-      // And back to the hand.
-      const ToolPose back = mobility->moved(to, mobility->between(to, hand), hand);
-      EXPECT_LT(difference(back, hand), 1e-12);
-    }
-  }
-}
-
 TEST(Mobility, TakesTrocarAndJointsFromTheHand) {
   Random random(2);
   for (const ProxyTool& tool : tools(random)) {
@@ -173,40 +152,6 @@ TEST(Mobility, TakesTrocarAndJointsFromTheHand) {
       EXPECT_LT((pose.links[0].linear() - before.links[0].linear()).norm(), 1e-12);
     }
     EXPECT_LT(difference(mobility->combine(hand, hand), hand), 1e-12);
-  }
-}
-
-/// The row of a contact is the derivative of the place of the tool's point along the normal.
-TEST(Mobility, RowsAreDerivatives) {
-  Random random(3);
-  for (const ProxyTool& tool : tools(random)) {
-    const auto mobility = make_mobility(tool);
-    for (int trial = 0; trial < 100; ++trial) {
-      const ToolPose hand = random_hand(tool, random);
-      mobility->measure(hand);
-      const ToolPose pose = mobility->moved(hand, random_displacement(tool, random, 0.005), hand);
-      FaceContact contact;
-      contact.normal = random.direction();
-      const bool has_shaft = tool.radius > 0.0;
-      const std::size_t parts = tool.links.size() + (has_shaft ? 1 : 0);
-      contact.link = static_cast<std::uint32_t>(random.integer(0, static_cast<int>(parts) - 1));
-      const bool on_shaft = has_shaft && contact.link == 0;
-      const std::size_t link = on_shaft ? 0 : contact.link - (has_shaft ? 1 : 0);
-      contact.shaft = on_shaft ? random.uniform(0.0, 1.0) : 0.0;
-      const Vector3d in_link = random.point(0.02);
-      const auto place = [&](const ToolPose& at) {
-        return on_shaft ? at.axis.at(contact.shaft) : Vector3d(at.links[link] * in_link);
-      };
-      contact.point = place(pose);
-      const Displacement row = mobility->row(pose, contact);
-      const Displacement by = random_displacement(tool, random, 1e-6);
-      const Vector3d moved =
-          place(mobility->moved(pose, by, hand)) - place(mobility->moved(pose, -by, hand));
-      // The links of a tool through a trocar also turn a little about the shaft (holonomy).
-      const bool is_rough = tool.freedom == ProxyFreedom::kTrocar && !on_shaft;
-      EXPECT_NEAR(contact.normal.dot(moved), 2.0 * row.dot(by), is_rough ? 0.05 * by.norm() : 2e-10)
-          << (on_shaft ? "shaft" : "link") << ", trial " << trial;
-    }
   }
 }
 
