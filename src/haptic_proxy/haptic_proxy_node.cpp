@@ -53,17 +53,14 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
           [this](std::size_t tool) {
             if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
           },
-          OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
-                               core_.background().queue()}),
+          core_.organ_threads()),
       poses_(inbox_.transforms, kNoPaths),
       frame_(core_.parameters().frame),
       hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
       started_(SteadyClock::now()),
       publisher_(core_.private_node(), inbox_.organs, counters_.failed,
                  core_.parameters().publish_tf),
-      markers_(core_.private_node(), core_.parameters().markers),
-      organ_services_(inbox_.organs, inbox_.intake, core_.loop().queue(),
-                      core_.background().queue()) {
+      markers_(core_.private_node(), core_.parameters().markers) {
   try {
     start();
   } catch (...) {
@@ -86,10 +83,12 @@ NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
     reset_proxies("reset was called");
   };
   callbacks.parameters_changed = [this](const auto&) { change_parameters(); };
-  callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
-    let_leaving_hands_fade(kept);
-    core_.in_node_thread([&] { exchange_tools(loaded, kept); });
+  callbacks.release_tools = [this](const auto& kept) { let_leaving_hands_fade(kept); };
+  callbacks.prepare_tools = [this](const auto& tools) {
+    for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
+    inbox_.motion.change_tools(tools, core_.node());
   };
+  callbacks.tools_changed = [this](const auto& kept) { change_tools(kept); };
   callbacks.break_down = [this](const std::string& why) { let_go("the node broke down: " + why); };
   return callbacks;
 }
@@ -97,7 +96,6 @@ NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
 void HapticProxyNode::start() {
   publisher_.set_tools(core_.parameters().tools);
   inbox_.subscribe(core_.node(), core_.private_node());
-  organ_services_.advertise(core_.private_node());
   core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
   add_diagnostics(core_.updater(),
                   ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs,
@@ -384,16 +382,10 @@ void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
   kFarewell.sleep();  // The last messages leave.
 }
 
-void HapticProxyNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
-  for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-  core_.exchange_tools(
-      loaded,
-      [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
-      [&] {
-        publisher_.set_tools(core_.parameters().tools);
-        hands_ = make_hands(core_.tools(), kept);
-        has_new_shape_ = true;
-      });
+void HapticProxyNode::change_tools(const KeptTools& kept) {
+  publisher_.set_tools(core_.parameters().tools);
+  hands_ = make_hands(core_.tools(), kept);
+  has_new_shape_ = true;
 }
 
 void HapticProxyNode::change_parameters() {

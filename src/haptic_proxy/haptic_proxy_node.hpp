@@ -15,8 +15,6 @@
 #include "ros/markers/marker_publisher.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/node_core.hpp"
-#include "ros/organs/organ_report.hpp"
-#include "ros/organs/organ_services.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/steps/inbox.hpp"
 #include "tool_proxy.hpp"
@@ -77,7 +75,7 @@ class HapticProxyNode {
   bool release_leaving(const KeptTools& kept);
   bool do_leaving_hands_fade() const;
   void let_leaving_hands_fade(const KeptTools& kept);
-  void exchange_tools(LoadedTools& loaded, const KeptTools& kept);
+  void change_tools(const KeptTools& kept);
   void change_parameters();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -93,7 +91,6 @@ class HapticProxyNode {
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
-  OrganServices organ_services_;
 };
 
 }  // namespace organ_collision

@@ -40,7 +40,6 @@ class Receivers {
       // The last one: as late as a stamp can be.
       for (const ros::Time time : {ros::Time(1), ros::Time(49, 999'999'999), ros::Time(0),
                                    ros::Time(0xffffffffu, 999'999'999)}) {
-        poses_.has_pose(tool, "world", time);
         const auto pose = poses_.pose(tool, "world", time);
         demand(pose.found || !pose.why_not.empty(), "a pose that is not found has a reason");
         if (!pose.found) continue;

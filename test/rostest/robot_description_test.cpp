@@ -19,7 +19,7 @@ Tool load(const std::string& robot_description, const std::string& node) {
   parameters.name = "probe";
   parameters.links = {"ball"};
   parameters.robot_description = robot_description;
-  return load_tool(parameters, ros::NodeHandle(node));
+  return load_tools({parameters}, ros::NodeHandle(node)).front();
 }
 
 /// Radius [m] of the ball in the description that is found.
