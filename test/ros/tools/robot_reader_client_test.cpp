@@ -71,7 +71,7 @@ TEST(ChildProcess, SaysHowTheProgramEnded) {
         Row{"kill -SEGV $$", "was ended by signal 11 (Segmentation fault)"},
         Row{"exec sleep 1000", "took more than 0.05 s", short_time},
         Row{"trap '' TERM INT; while :; do :; done", "took more than 0.05 s", short_time},
-        Row{"yes", "wrote more than 100000 bytes", {std::chrono::minutes(1), 100'000}}}) {
+        Row{"exec yes", "wrote more than 100000 bytes", {std::chrono::minutes(1), 100'000}}}) {
     const std::string unread(10'000'000, 'x');
     const ProcessResult result = run_shell(row.script, unread, row.limits);
     EXPECT_EQ(result.failure, row.failure) << row.script;
