@@ -9,7 +9,7 @@ from shapes import ROUND, TOOLS
 from subject import ANSWERERS, ECHO, Subject
 
 FACES, RATE = 1224, 1000
-DEVICE = '/dev/cpu_dma_latency'  # the request of AwakeCores, which holds while it is open
+DEVICE = '/dev/cpu_dma_latency'  # the request of keep_cores_awake(), which holds while it is open
 PICKERS = ('feedback', 'cpu')
 
 

@@ -47,17 +47,14 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
           [this](std::size_t tool) {
             if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
           },
-          OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
-                               core_.background().queue()}),
+          core_.organ_threads()),
       poses_(inbox_.transforms, kNoPaths),
       frame_(core_.parameters().frame),
       hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
       started_(SteadyClock::now()),
       publisher_(core_.private_node(), inbox_.organs, counters_.failed,
                  core_.parameters().publish_tf),
-      markers_(core_.private_node(), core_.parameters().markers),
-      organ_services_(inbox_.organs, inbox_.intake, core_.loop().queue(),
-                      core_.background().queue()) {
+      markers_(core_.private_node(), core_.parameters().markers) {
   try {
     publisher_.set_tools(core_.parameters().tools);
     inbox_.subscribe(core_.node(), core_.private_node());
@@ -104,19 +101,15 @@ NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
     }
     markers_.set_settings(core_.parameters().markers);
   };
-  callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
-    let_leaving_hands_fade(kept);
-    core_.in_node_thread([&] {
-      for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
-      core_.exchange_tools(
-          loaded,
-          [this](const auto& parameters) { inbox_.motion.change_tools(parameters, core_.node()); },
-          [&] {
-            publisher_.set_tools(core_.parameters().tools);
-            hands_ = make_hands(core_.tools(), kept);
-            has_new_shape_ = true;
-          });
-    });
+  callbacks.release_tools = [this](const auto& kept) { let_leaving_hands_fade(kept); };
+  callbacks.prepare_tools = [this](const auto& tools) {
+    for (Hand& hand : hands_) hand.is_leaving = false;  // If the exchange fails, the hands stay.
+    inbox_.motion.change_tools(tools, core_.node());
+  };
+  callbacks.tools_changed = [this](const auto& kept) {
+    publisher_.set_tools(core_.parameters().tools);
+    hands_ = make_hands(core_.tools(), kept);
+    has_new_shape_ = true;
   };
   callbacks.break_down = [this](const std::string& why) { let_go("the node broke down: " + why); };
   return callbacks;

@@ -14,8 +14,6 @@
 #include "ros/markers/marker_publisher.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/node_core.hpp"
-#include "ros/organs/organ_report.hpp"
-#include "ros/organs/organ_services.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/steps/inbox.hpp"
 #include "tool_proxy.hpp"
@@ -87,7 +85,6 @@ class HapticProxyNode {
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
   ProxyMarkerPublisher markers_;
-  OrganServices organ_services_;
 };
 
 }  // namespace organ_collision

@@ -46,8 +46,7 @@ Rejection stale_frame(const NewestTransform& newest, const FrameLimit& limit, ro
 /// The frame between these two whose newest transform is the oldest; the first if there is none.
 std::string oldest_between(const TransformBuffer& transforms, const std::string& a,
                            const std::string& b) {
-  const auto of_a = oldest_transform(transforms, a, {b}),
-             of_b = oldest_transform(transforms, b, {a});
+  const auto of_a = transforms.oldest_transform(a, {b}), of_b = transforms.oldest_transform(b, {a});
   if (of_b && (!of_a || of_b->stamp < of_a->stamp)) return of_b->frame;
   return of_a ? of_a->frame : a;
 }
@@ -102,7 +101,7 @@ void check_age(const TransformBuffer& transforms, const std::string& frame,
   const FrameLimit limit = frame_limit(limits);
   // No transform behind the pose is older than the pose.
   if (!is_old(stamp, limit, now)) return;
-  const auto oldest = oldest_transform(transforms, frame, tool_frames);
+  const auto oldest = transforms.oldest_transform(frame, tool_frames);
   if (oldest && is_old(oldest->stamp, limit, now)) throw stale_frame(*oldest, limit, now);
 }
 

@@ -31,7 +31,7 @@ class ReplyStream {
   void write(const std::string& record) const {
     for (std::size_t done = 0; done < record.size();) {
       const ssize_t count = ::write(descriptor_, &record[done], record.size() - done);
-      if (count < 0 && errno != EINTR) std::exit(EXIT_FAILURE);  // The node has closed the pipe.
+      if (count < 0 && errno != EINTR) std::exit(EXIT_FAILURE);
       if (count > 0) done += static_cast<std::size_t>(count);
     }
   }

@@ -8,8 +8,6 @@
 #include "ros/motion/motion_topics.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/organs/organ_registry.hpp"
-#include "ros/organs/organ_report.hpp"
-#include "ros/organs/organ_services.hpp"
 #include "test/ros/queries/query_fixtures.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
@@ -49,7 +47,6 @@ class Receivers {
       // The last one: as late as a stamp can be.
       for (const ros::Time time : {ros::Time(1), ros::Time(49, 999'999'999), ros::Time(0),
                                    ros::Time(0xffffffffu, 999'999'999)}) {
-        poses_.has_pose(tool, "world", time);
         const auto pose = poses_.pose(tool, "world", time);
         demand(pose.found || !pose.why_not.empty(), "a pose that is not found has a reason");
         if (!pose.found) continue;
@@ -112,9 +109,7 @@ void check_shapes(const OrganRegistry& organs) {
     summary(name, *organ.surface());
     doubts(name, mesh.box().cast<double>(), *organ.surface());
     organ.latest().age(ros::Time(50));
-  }
-  for (const ListedOrgan& organ : list_organs(organs)) {
-    demand(std::isfinite(completed(organ).volume), "the volume is finite");
+    demand(std::isfinite(info_of(organ).volume), "the volume is finite");
   }
 }
 

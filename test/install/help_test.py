@@ -17,7 +17,7 @@ SOURCE, DEVEL = sys.argv[1:3]
 SCRIPTS = [path for path in glob.glob(os.path.join(SOURCE, 'examples', '*.py')) if os.access(path, os.X_OK)] + [
     os.path.join(SOURCE, 'scripts', 'view.py')]
 # The programs of tests and benchmarks, besides the unit tests.
-NOT_SHIPPED = ('mutated_robots', 'exactness_proof', 'proxy_proof', 'stab_forces', 'collision_benchmark', 'force_benchmark',
+NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'stab_forces', 'collision_benchmark', 'force_benchmark',
                'end_to_end', 'pose_to_wrench', 'echo_node', 'ask_batches', 'motions_benchmark',
                'soak', 'fuzz')
 # The page of each node. Its tables, in this order, are of topics, services and parameters.

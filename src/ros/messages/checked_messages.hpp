@@ -77,23 +77,19 @@ class CheckedSubscription
       CheckedStream(params.buffer, params.length).next(*message);
       return message;
     } catch (const std::exception& error) {
-      reject(params, error.what());
+      const auto sender = params.connection_header->find("callerid");
+      const std::string from =
+          sender == params.connection_header->end() ? "a nameless node" : sender->second;
+      rejected_.add("unreadable message",
+                    std::to_string(params.length) + " bytes from " +
+                        plain_text(from, kLongestName) + " are no " +
+                        ros::message_traits::datatype<Message>() + ": " + error.what(),
+                    std::chrono::steady_clock::now());
       return {};
     }
   }
 
  private:
-  void reject(const ros::SubscriptionCallbackHelperDeserializeParams& params,
-              const std::string& why) {
-    const auto sender = params.connection_header->find("callerid");
-    const std::string from =
-        sender == params.connection_header->end() ? "a nameless node" : sender->second;
-    rejected_.add("unreadable message",
-                  std::to_string(params.length) + " bytes from " + plain_text(from, kLongestName) +
-                      " are no " + ros::message_traits::datatype<Message>() + ": " + why,
-                  std::chrono::steady_clock::now());
-  }
-
   FailureLog& rejected_;
 };
 

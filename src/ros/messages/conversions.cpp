@@ -11,12 +11,19 @@
 namespace organ_collision {
 namespace {
 
-/// What to do about a length, if it is implausible.
-std::string advice(double length, double smallest, double largest) {
-  const std::string range =
-      concatenate("; plausible are ", smallest, " to ", largest, " m. Lengths are in metres: ");
-  return range + (length > largest ? "are these millimetres?"
-                                   : "were they converted from millimetres twice?");
+/// [m] The longest side of the box around an organ: of a whole body, and of a small vessel.
+constexpr double kLargestOrgan = 3.0;
+constexpr double kSmallestOrgan = 1e-3;
+/// [m] The radius of a shaft: of something much thicker than any instrument, and of a hair.
+constexpr double kLargestRadius = 0.1;
+constexpr double kSmallestRadius = 2e-5;
+
+/// `what`: names the length [m]. Empty if the length is plausible.
+std::string doubt_about(const std::string& what, double length, double smallest, double largest) {
+  if (length >= smallest && length <= largest) return {};
+  return concatenate(
+      what, "; plausible are ", smallest, " to ", largest, " m. Lengths are in metres: ",
+      length > largest ? "are these millimetres?" : "were they converted from millimetres twice?");
 }
 
 }  // namespace
@@ -71,18 +78,13 @@ std::string sides_of(const Eigen::AlignedBox3d& box) {
 }
 
 std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3d& box) {
-  using namespace plausible;
-  const double longest = box.sizes().maxCoeff();
-  if (longest >= kSmallestOrgan && longest <= kLargestOrgan) return {};
-  return concatenate("organ '", organ, "' is ", sides_of(box), " m large") +
-         advice(longest, kSmallestOrgan, kLargestOrgan);
+  return doubt_about(concatenate("organ '", organ, "' is ", sides_of(box), " m large"),
+                     box.sizes().maxCoeff(), kSmallestOrgan, kLargestOrgan);
 }
 
 std::string doubt_about_radius(const std::string& tool, double radius) {
-  using namespace plausible;
-  if (radius >= kSmallestRadius && radius <= kLargestRadius) return {};
-  return concatenate("tool '", tool, "' has a radius of ", radius, " m") +
-         advice(radius, kSmallestRadius, kLargestRadius);
+  return doubt_about(concatenate("tool '", tool, "' has a radius of ", radius, " m"), radius,
+                     kSmallestRadius, kLargestRadius);
 }
 
 }  // namespace organ_collision

@@ -3,31 +3,26 @@
 #include <organ_collision/ContactArray.h>
 #include <ros/console.h>
 
+#include <array>
+
 #include "text.hpp"
 
 namespace organ_collision {
 
+namespace {
+
+constexpr std::chrono::seconds kLogPeriod(1);
+
+/// By status of ContactArray.
+constexpr std::array<const char*, ContactArray::INVALID_TOOL + 1> kReasons = {
+    "ok",           "no mesh",         "no transform",
+    "stale mesh",   "invalid request", "unknown organ",
+    "unknown tool", "picker failed",   "invalid tool"};
+
+}  // namespace
+
 std::string reason_of(std::uint8_t status) {
-  switch (status) {
-    case ContactArray::OK:
-      return "ok";
-    case ContactArray::NO_MESH:
-      return "no mesh";
-    case ContactArray::NO_TRANSFORM:
-      return "no transform";
-    case ContactArray::STALE_MESH:
-      return "stale mesh";
-    case ContactArray::UNKNOWN_ORGAN:
-      return "unknown organ";
-    case ContactArray::UNKNOWN_TOOL:
-      return "unknown tool";
-    case ContactArray::PICKER_FAILED:
-      return "picker failed";
-    case ContactArray::INVALID_TOOL:
-      return "invalid tool";
-    default:
-      return "invalid request";
-  }
+  return status < kReasons.size() ? kReasons[status] : "invalid request";
 }
 
 void check_name(const std::string& what, const std::string& name) {
@@ -36,31 +31,23 @@ void check_name(const std::string& what, const std::string& name) {
   throw Rejection(ContactArray::INVALID_REQUEST, "illegal name", what + " " + fault);
 }
 
-namespace {
-
-constexpr std::chrono::seconds kLogPeriod(1);
-
-}  // namespace
-
 void FailureLog::add(const std::string& reason, const std::string& message, Time now,
                      std::uint64_t times) {
+  const std::string plain = plain_text(message, kLongestMessage);
+  std::uint64_t count = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    Entry& entry = entries_[reason];
+    const bool is_recent = entry.count > 0 && now - entry.logged < kLogPeriod;
+    count = entry.count += times;
+    entry.not_yet_reported += times;
+    entry.latest = plain;
+    if (is_recent) return;
+    entry.logged = now;
+  }
   // Without the lock, because the log may take long, and the other threads need the lock.
-  const std::string line = count(reason, plain_text(message, kLongestMessage), now, times);
-  if (!line.empty()) ROS_WARN("%s", line.c_str());
-}
-
-std::string FailureLog::count(const std::string& reason, const std::string& message, Time now,
-                              std::uint64_t times) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  Entry& entry = entries_[reason];
-  const bool is_first = entry.count == 0;
-  entry.count += times;
-  entry.not_yet_reported += times;
-  entry.latest = message;
-  if (!is_first && now - entry.logged < kLogPeriod) return "";
-  entry.logged = now;
-  if (entry.count == 1) return message;
-  return message + " (" + std::to_string(entry.count) + " times)";
+  const std::string counted = count == 1 ? "" : " (" + std::to_string(count) + " times)";
+  ROS_WARN("%s%s", plain.c_str(), counted.c_str());
 }
 
 FailureLog::Entries FailureLog::by_reason() const {

@@ -60,10 +60,6 @@ class FailureLog {
   Entries take_report();
 
  private:
-  /// Returns what to log; empty: nothing.
-  std::string count(const std::string& reason, const std::string& message, Time now,
-                    std::uint64_t times);
-
   mutable std::mutex mutex_;
   Entries entries_;  ///< guarded by mutex_
 };

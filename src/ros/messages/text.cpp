@@ -86,17 +86,11 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 }
 
 std::string duration_text(double seconds) {
-  constexpr double kMilliseconds = 1e3;
+  const double size = std::abs(seconds);
   std::ostringstream text;
-  text.precision(3);
-  if (std::abs(seconds) < 1.0) {
-    text << kMilliseconds * seconds << " ms";
-  } else if (std::abs(seconds) < 1000.0) {
-    text << seconds << " s";
-  } else {
-    text.precision(0);
-    text << std::fixed << seconds << " s";
-  }
+  text.precision(size < 1000.0 ? 3 : 0);
+  if (size >= 1000.0) text << std::fixed;
+  text << (size < 1.0 ? 1e3 * seconds : seconds) << (size < 1.0 ? " ms" : " s");
   return text.str();
 }
 

@@ -35,6 +35,7 @@ std::string contents(const TransformStamped& transform) {
 std::string fault(const PoseStamped& pose, double max_ahead_sec) {
   const auto& p = pose.pose.position;
   const auto& q = pose.pose.orientation;
+  const std::string ahead = ahead_fault(pose.header.stamp, ros::Time::now(), max_ahead_sec);
   if (tf_frame(pose.header.frame_id).empty()) return "has no frame: header.frame_id is empty";
   if (const std::string wrong = name_fault(pose.header.frame_id); !wrong.empty()) {
     return "is in an illegal frame: " + wrong;
@@ -43,7 +44,6 @@ std::string fault(const PoseStamped& pose, double max_ahead_sec) {
     return concatenate("is at (", p.x, ", ", p.y, ", ", p.z, "); must be finite and within ",
                        tolerance::kFarthest, " m");
   }
-  const std::string ahead = ahead_fault(pose.header.stamp, ros::Time::now(), max_ahead_sec);
   if (!ahead.empty()) return "is refused: " + ahead;
   if (is_unit(q)) return "";
   return concatenate("has the orientation (", q.x, ", ", q.y, ", ", q.z, ", ", q.w,
@@ -51,13 +51,12 @@ std::string fault(const PoseStamped& pose, double max_ahead_sec) {
 }
 
 TransformStamped to_transform(const PoseStamped& pose, const std::string& frame) {
-  const auto& q = pose.pose.orientation;
   TransformStamped transform;
   transform.header.stamp = pose.header.stamp;
   transform.header.frame_id = tf_frame(pose.header.frame_id);
   transform.child_frame_id = frame;
   transform.transform.translation = to_vector(to_eigen(pose.pose.position));
-  transform.transform.rotation = tf2::toMsg(Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized());
+  transform.transform.rotation = tf2::toMsg(to_eigen(pose.pose.orientation).normalized());
   return transform;
 }
 
@@ -70,7 +69,7 @@ MotionTopics::MotionTopics(const std::vector<ToolParameters>& tools, TransformBu
       arrived_(std::move(arrived)),
       max_ahead_sec_(max_ahead_sec) {
   for (const ToolParameters& tool : tools) {
-    streams_.push_back(std::make_shared<Stream>(Stream{streams_.size(), tool, {}, {}, {}, {}, {}}));
+    streams_.push_back(std::make_shared<Stream>(Stream{streams_.size(), tool}));
   }
 }
 
@@ -108,11 +107,19 @@ void MotionTopics::change_tools(const std::vector<ToolParameters>& tools,
                                 const ros::NodeHandle& node) {
   std::vector<std::shared_ptr<Stream>> streams;
   for (const ToolParameters& tool : tools) {
-    streams.push_back(find_stream(tool));
-    if (streams.back()) continue;
-    streams.back() = std::make_shared<Stream>();
-    streams.back()->tool = tool;
-    subscribe(*streams.back(), node);
+    // Names of tools are unique, so no two tools have the same stream.
+    const auto known = std::find_if(streams_.begin(), streams_.end(), [&](const auto& stream) {
+      const ToolParameters& old = stream->tool;
+      return old.name == tool.name && old.tip_frame == tool.tip_frame &&
+             old.tip_pose_topic == tool.tip_pose_topic &&
+             old.base_pose_topic == tool.base_pose_topic;
+    });
+    if (known != streams_.end()) {
+      streams.push_back(*known);
+    } else {
+      streams.push_back(std::make_shared<Stream>(Stream{0, tool}));
+      subscribe(*streams.back(), node);
+    }
   }
   for (std::size_t tool = 0; tool < tools.size(); ++tool) {
     streams[tool]->index = tool;
@@ -121,38 +128,22 @@ void MotionTopics::change_tools(const std::vector<ToolParameters>& tools,
   streams_ = std::move(streams);
 }
 
-/// The stream whose subscriptions also serve this tool; null if there is none. Names of tools are
-/// unique, so no two tools have the same.
-std::shared_ptr<MotionTopics::Stream> MotionTopics::find_stream(const ToolParameters& tool) const {
-  for (const std::shared_ptr<Stream>& stream : streams_) {
-    const ToolParameters& known = stream->tool;
-    if (known.name == tool.name && known.tip_frame == tool.tip_frame &&
-        known.tip_pose_topic == tool.tip_pose_topic &&
-        known.base_pose_topic == tool.base_pose_topic) {
-      return stream;
-    }
-  }
-  return nullptr;
-}
-
 void MotionTopics::take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
                                    bool resting) {
   const ros::Time now = ros::Time::now();
   for (const TransformStamped& transform : message.transforms) {
     const std::string& frame = transform.child_frame_id;
     const ros::Time stamp = transform.header.stamp;
-    const std::string ahead = resting ? "" : ahead_fault(stamp, now, max_ahead_sec_);
-    if (!ahead.empty()) {
-      reject("transform", frame, ": " + ahead);
-      continue;
-    }
+    std::string fault = resting ? "" : ahead_fault(stamp, now, max_ahead_sec_);
     try {
-      if (transforms_.add(transform, authority, resting)) continue;
-      const bool is_repeated = !resting && transforms_.has(frame, stamp);
-      if (!is_repeated) reject("transform", frame, ": " + contents(transform));
+      if (fault.empty() && !transforms_.add(transform, authority, resting)) {
+        const bool is_repeated = !resting && transforms_.has(frame, stamp);
+        if (!is_repeated) fault = contents(transform);
+      }
     } catch (const std::runtime_error& error) {
-      reject("transform", frame, std::string(": ") + error.what());
+      fault = error.what();
     }
+    if (!fault.empty()) reject("transform", frame, ": " + fault);
   }
 }
 

@@ -56,13 +56,12 @@ class MotionTopics {
   struct Stream {
     std::size_t index;  ///< of the tool
     ToolParameters tool;
-    std::string frame;  ///< in which the tip's poses are given; empty: no pose came yet
-    ros::Time latest;   ///< stamp of the tip's last pose; zero: no pose came yet
-    std::optional<geometry_msgs::PoseStamped> base;  ///< pose of that frame, if it came
-    ros::Subscriber tips, bases;
+    std::string frame = {};  ///< in which the tip's poses are given; empty: no pose came yet
+    ros::Time latest = {};   ///< stamp of the tip's last pose; zero: no pose came yet
+    std::optional<geometry_msgs::PoseStamped> base = {};  ///< pose of that frame, if it came
+    ros::Subscriber tips = {}, bases = {};
   };
   void subscribe(Stream& stream, ros::NodeHandle node);
-  std::shared_ptr<Stream> find_stream(const ToolParameters& tool) const;
   static ros::Time arrival(const Stream& stream);
   bool came_for_another_tool(const Stream& stream, ros::Time stamp) const;
   void place_base(const Stream& stream);

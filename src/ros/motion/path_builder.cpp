@@ -46,34 +46,18 @@ struct Deviation {
   double links;  ///< an upper bound for all points of the links
 };
 
-/// The straight motion from one waypoint to another: the ends of the axis move linearly, and each
-/// link moves as a RigidMotion.
-class StraightMotion {
- public:
-  /// `to` has a larger fraction than `from`.
-  StraightMotion(const ToolWaypoint& from, const ToolWaypoint& to)
-      : begin_(from.fraction), duration_(to.fraction - from.fraction), axis_{from.axis, to.axis} {
-    links_.reserve(from.links.size());
-    for (std::size_t i = 0; i < from.links.size(); ++i) {
-      links_.emplace_back(from.links[i], to.links[i]);
-    }
+/// From the straight motion between two other waypoints: the ends of the axis move linearly, and
+/// each link moves as a RigidMotion. `to` has a larger fraction than `from`.
+Deviation deviation_of(const ToolWaypoint& waypoint, const ToolWaypoint& from,
+                       const ToolWaypoint& to, const std::vector<double>& reaches) {
+  const double time = (waypoint.fraction - from.fraction) / (to.fraction - from.fraction);
+  Deviation deviation{distance(ShaftMotion{from.axis, to.axis}.at(time), waypoint.axis), 0.0};
+  for (std::size_t i = 0; i < reaches.size(); ++i) {
+    const Eigen::Isometry3d straight = RigidMotion(from.links[i], to.links[i]).at(time);
+    deviation.links = std::max(deviation.links, distance(straight, waypoint.links[i], reaches[i]));
   }
-
-  Deviation deviation(const ToolWaypoint& waypoint, const std::vector<double>& reaches) const {
-    const double time = (waypoint.fraction - begin_) / duration_;
-    Deviation deviation{distance(axis_.at(time), waypoint.axis), 0.0};
-    for (std::size_t i = 0; i < reaches.size(); ++i) {
-      deviation.links =
-          std::max(deviation.links, distance(links_[i].at(time), waypoint.links[i], reaches[i]));
-    }
-    return deviation;
-  }
-
- private:
-  double begin_, duration_;  ///< fractions of the step
-  ShaftMotion axis_;
-  std::vector<RigidMotion> links_;
-};
+  return deviation;
+}
 
 /// The straight motion between two waypoints, and the waypoint in between that deviates most.
 struct Leg {
@@ -86,9 +70,8 @@ struct Leg {
 Leg straight_leg(const ToolPath& path, const std::vector<double>& reaches, std::size_t begin,
                  std::size_t end) {
   Leg leg{begin, end, begin};
-  const StraightMotion motion(path[begin], path[end]);
   for (std::size_t i = begin + 1; i < end; ++i) {
-    const Deviation deviation = motion.deviation(path[i], reaches);
+    const Deviation deviation = deviation_of(path[i], path[begin], path[end], reaches);
     const double most = std::max(deviation.axis, deviation.links);
     if (most > leg.deviation) {
       leg.deviation = most;
@@ -121,8 +104,7 @@ void PathBuilder::add(double fraction, const ToolPose& pose) {
   ToolWaypoint next{fraction, pose.axis, pose.links};
   const std::size_t size = path_.size();
   if (size > 1) {
-    const Deviation deviation =
-        StraightMotion(path_[size - 2], next).deviation(path_[size - 1], reaches_);
+    const Deviation deviation = deviation_of(path_[size - 1], path_[size - 2], next, reaches_);
     // Each dropped sample changes the leg by at most its own deviation, so the sum bounds the
     // change. It is a multiple of the tolerance.
     dropped_deviation_ += std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
@@ -135,7 +117,7 @@ void PathBuilder::add(double fraction, const ToolPose& pose) {
   path_.push_back(std::move(next));
 }
 
-BuiltPath PathBuilder::take(std::size_t legs_max) {
+SampledPath PathBuilder::take(std::size_t legs_max) {
   rest_trocar(path_);
   if (path_.size() <= legs_max + 1) return {std::move(path_)};
   std::priority_queue<Leg> legs;
@@ -149,7 +131,7 @@ BuiltPath PathBuilder::take(std::size_t legs_max) {
     kept.push_back(leg.farthest);
   }
   std::sort(kept.begin(), kept.end());
-  BuiltPath built{{}, path_.size() - kept.size(), legs.top().deviation};
+  SampledPath built{{}, path_.size() - kept.size(), legs.top().deviation};
   for (const std::size_t waypoint : kept) built.path.push_back(std::move(path_[waypoint]));
   return built;
 }

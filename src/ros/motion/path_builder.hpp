@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "organ_collision/geometry/tool/link.hpp"
@@ -8,11 +9,13 @@
 
 namespace organ_collision {
 
-/// A path, and what was dropped from it because it had too many legs.
-struct BuiltPath {
-  ToolPath path;
-  std::size_t dropped = 0;  ///< waypoints
-  double deviation = 0.0;   ///< [m] the largest distance of a dropped waypoint from the path
+/// A tool's path, and what it lost because it had too many samples.
+struct SampledPath {
+  ToolPath path = {};
+  std::size_t samples_cut = 0;
+  /// [m] the largest distance of a dropped pose from the path; infinite if some were not even read
+  double deviation_cut = 0.0;
+  std::string unknown = {};  ///< what is not known of the tool's way; empty: all is known
 };
 
 /// Builds a path from samples of a tool's motion, without redundant waypoints, because each leg of
@@ -32,7 +35,7 @@ class PathBuilder {
   /// that moved by at most 1e-9 m is at rest. If it has more than `legs_max` legs, at least 1, the
   /// waypoints that matter least are dropped, as Douglas and Peucker (1973) do, but waypoint and
   /// path are compared at the same time. The waypoint with the largest deviation is kept first.
-  BuiltPath take(std::size_t legs_max);
+  SampledPath take(std::size_t legs_max);
 
  private:
   std::vector<double> reaches_;  ///< [m] of each link: an upper bound of its points' distances

@@ -7,7 +7,6 @@
 
 #include "geometry/concatenate.hpp"
 #include "geometry/coordinate_range.hpp"
-#include "path_builder.hpp"
 #include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
@@ -34,9 +33,10 @@ bool is_near(const ToolPose& pose) {
 std::int64_t elapsed(ros::Time from, ros::Time to) {
   return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
 }
-double nanoseconds(ros::Time from, ros::Time to) { return static_cast<double>(elapsed(from, to)); }
 
-double seconds(ros::Time from, ros::Time to) { return 1e-9 * nanoseconds(from, to); }
+double seconds(ros::Time from, ros::Time to) {
+  return 1e-9 * static_cast<double>(elapsed(from, to));
+}
 
 /// How many samples with this spacing lie strictly between two times with this gap.
 double samples_between(double gap_sec, double spacing_sec) {
@@ -117,21 +117,8 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
   return times;
 }
 
-Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame,
-                                 ros::Time time) const {
-  return look_up_pose(tool, organ_frame, time, true);
-}
-
-bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
-  TransformBuffer::Frames frames = swept_frames(tool);
-  if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
-  return std::all_of(frames.begin(), frames.end(), [&](const std::string& frame) {
-    return has_transform(buffer_, organ_frame, frame, time);
-  });
-}
-
-Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& organ_frame,
-                                         ros::Time time, bool with_tip_of_links) const {
+Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
+                                 bool with_tip_of_links) const {
   const ToolParameters& parameters = tool.parameters;
   ToolPose pose{{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
   ros::Time earliest, latest;  // Zero: all transforms are static.
@@ -167,7 +154,7 @@ Lookup<ToolPose> ToolPoses::look_up_pose(const Tool& tool, const std::string& or
   }
   // For time zero, each frame was looked up at its own latest time, but all poses must be of the
   // same time.
-  if (earliest != latest) return look_up_pose(tool, organ_frame, earliest, with_tip_of_links);
+  if (earliest != latest) return this->pose(tool, organ_frame, earliest, with_tip_of_links);
   return {{{std::move(pose), earliest}}, ""};
 }
 
@@ -191,14 +178,14 @@ std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::stri
 
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
                             const Timed<ToolPose>& from, const Timed<ToolPose>& to) const {
-  const double duration = nanoseconds(from.stamp, to.stamp);
+  const auto duration = static_cast<double>(elapsed(from.stamp, to.stamp));
   PathBuilder path(tool.links, from.value);
   SampledPath sampled;
   for (const ros::Time time : sample_times(tool, organ_frame, from.stamp, to.stamp, sampled)) {
     // A sample that is too far away to be evaluated must not make the whole step fail.
-    const auto between = look_up_pose(tool, organ_frame, time, false);
+    const auto between = pose(tool, organ_frame, time, false);
     if (between.found && is_near(between.found->value)) {
-      path.add(nanoseconds(from.stamp, time) / duration, between.found->value);
+      path.add(static_cast<double>(elapsed(from.stamp, time)) / duration, between.found->value);
     } else if (sampled.unknown.empty()) {
       sampled.unknown =
           concatenate("the tool's pose at ", time, " s is not known: ",
@@ -206,10 +193,10 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
     }
   }
   path.add(1.0, to.value);
-  BuiltPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
+  SampledPath built = path.take(static_cast<std::size_t>(sampling_.samples_max));
   sampled.path = std::move(built.path);
-  sampled.samples_cut += built.dropped;
-  sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation);
+  sampled.samples_cut += built.samples_cut;
+  sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation_cut);
   return sampled;
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "organ_collision/geometry/tool/tool_path.hpp"
+#include "path_builder.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
 #include "transform_buffer.hpp"
@@ -17,15 +17,6 @@ struct PathSampling {
   int samples_max;  ///< in one step, including its end
 };
 
-/// A tool's path, and what it lost because of `samples_max`.
-struct SampledPath {
-  ToolPath path;
-  std::size_t samples_cut = 0;
-  /// [m] the largest distance of a dropped pose from the path; infinite if some were not even read
-  double deviation_cut = 0.0;
-  std::string unknown;  ///< what is not known of the tool's way; empty: all is known
-};
-
 /// The frames that determine the pose of what is swept.
 TransformBuffer::Frames swept_frames(const Tool& tool);
 
@@ -36,11 +27,10 @@ class ToolPoses {
   ToolPoses(TransformBuffer& buffer, const PathSampling& sampling)
       : buffer_(buffer), sampling_(sampling) {}
 
-  /// The pose at a time. Time zero means the latest time at which all its frames are known.
-  Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
-  /// Whether TF has all frames of the tool at a time; time zero: each at any time. Costs less than
-  /// a pose() that is not found, see has_transform().
-  bool has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const;
+  /// The pose at a time. Time zero means the latest time at which all its frames are known. The tip
+  /// of links is not swept: a sample of their motion does not need it.
+  Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
+                        bool with_tip_of_links = true) const;
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
   /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
@@ -65,9 +55,6 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// The tip of links is not swept: a sample of their motion does not need it.
-  Lookup<ToolPose> look_up_pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
-                                bool with_tip_of_links) const;
   /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,

@@ -8,12 +8,19 @@
 #include <cstddef>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace organ_collision {
+
+/// A frame, and the stamp of the newest transform to its parent.
+struct NewestTransform {
+  std::string frame;
+  ros::Time stamp;
+};
 
 /// TF's buffer, with a record of the stamps of each frame's transforms, because tf2 does not give
 /// them. Transforms that are set with setTransform instead of add are not in the record.
@@ -57,30 +64,39 @@ class TransformBuffer : public tf2::BufferCore {
   /// How many transforms came late, after poses at or past their stamp had already been used.
   std::size_t late() const { return late_; }
 
+  /// Of the frames that carry `frame`, the one whose newest transform is the oldest; a static one
+  /// has no age. These are `frame` and those above it, without those that also carry each of
+  /// `others`: what they do, moves none against the other. Empty if nothing but static transforms
+  /// is left.
+  std::optional<NewestTransform> oldest_transform(const std::string& frame,
+                                                  const Frames& others) const;
+
  private:
-  using Indices = std::vector<std::size_t>;
+  struct Frame;
+  using Nodes = std::vector<Frame*>;
   struct Frame {
+    std::string name;
+    Nodes parents = {};                 ///< recent parents, the last one last
     std::deque<ros::Time> stamps = {};  ///< of recent transforms, in rising order
     ros::Time heard = {};               ///< the stamp that came last; zero: none came
     ros::Time forgotten = {};           ///< the latest stamp that was forgotten; zero: none was
     /// A stamp that its sender showed to be wrong, until later ones come; zero: there is none.
     ros::Time disproved = {};
     ros::Time answered = {};  ///< poses were used up to this stamp; zero: never
-    Indices parents = {};     ///< recent parents
 
     bool has(ros::Time stamp) const;
   };
 
-  std::size_t index_of(const std::string& frame);
+  Frame* find(const std::string& frame) const;
+  Frame& obtain(const std::string& frame);
   void judge(Frame& frame, ros::Time stamp);
   void note(Frame& frame, ros::Time stamp);
-  Indices chain(const std::string& target, const Frames& sources) const;
-  Indices upward(const std::string& frame) const;
-  bool is_line(const Indices& frames) const;
+  Nodes chain(const std::string& target, const Frames& sources) const;
+  Nodes upward(const std::string& frame, std::size_t most) const;
+  static bool is_line(const Nodes& frames);
 
-  std::map<std::string, std::size_t> indices_;  ///< into frames_, by name
-  std::vector<Frame> frames_;
-  ros::Time latest_;           ///< the largest stamp of all frames
+  std::map<std::string, std::unique_ptr<Frame>> frames_;  ///< by name
+  ros::Time latest_;                                      ///< the largest stamp of all frames
   std::size_t disproved_ = 0;  ///< how many frames have a disproved stamp
   bool has_stepped_back_ = false;
   std::size_t late_ = 0;
@@ -106,23 +122,5 @@ struct Lookup {
 /// have no leading slash.
 Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
                                   const std::string& source, ros::Time time);
-
-/// Whether TF has that transform. Costs less than a look_up() that finds none, because no error is
-/// put into words.
-bool has_transform(const TransformBuffer& buffer, const std::string& target,
-                   const std::string& source, ros::Time time);
-
-/// A frame, and the stamp of the newest transform to its parent.
-struct NewestTransform {
-  std::string frame;
-  ros::Time stamp;
-};
-
-/// Of the frames that carry `frame`, the one whose newest transform is the oldest; a static one has
-/// no age. These are `frame` and those above it, without those that also carry each of `others`:
-/// what they do, moves none against the other. Empty if nothing but static transforms is left.
-std::optional<NewestTransform> oldest_transform(const TransformBuffer& buffer,
-                                                const std::string& frame,
-                                                const std::vector<std::string>& others);
 
 }  // namespace organ_collision

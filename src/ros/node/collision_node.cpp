@@ -16,14 +16,12 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                    markers_.add(step);
                  },
                  [this](const OrganUpdate& update) { publisher_.report(update); }},
-                OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
-                                     core_.background().queue()}),
+                core_.organ_threads()),
       services_(
           {core_.parameters(), core_.tools(), pipeline_.inbox.organs, pipeline_.inbox.transforms,
            pipeline_.poses, pipeline_.steps.history()},
-          [this](const std::function<void()>& action) { core_.in_node_thread(action); }, counters_),
-      organ_services_(pipeline_.inbox.organs, pipeline_.inbox.intake, core_.loop().queue(),
-                      core_.background().queue()) {
+          [this](const std::function<void()>& action) { core_.in_node_thread(action); },
+          counters_) {
   try {
     start();
   } catch (...) {
@@ -42,8 +40,12 @@ NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
   callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
   callbacks.reset = [this] { pipeline_.reset(); };
   callbacks.parameters_changed = [this](const auto& before) { change_parameters(before); };
-  callbacks.exchange_tools = [this](auto& loaded, const auto& kept) {
-    core_.in_node_thread([&] { exchange_tools(loaded, kept); });
+  callbacks.prepare_tools = [this](const auto& tools) {
+    pipeline_.inbox.motion.change_tools(tools, core_.node());
+  };
+  callbacks.tools_changed = [this](const auto& kept) {
+    pipeline_.steps.change_tools(kept);
+    markers_.set_tools(core_.tools());
   };
   callbacks.break_down = [this](const std::string& why) {
     publisher_.report_breakdown(pipeline_.inbox.organs, why);
@@ -55,7 +57,6 @@ void CollisionNode::start() {
   pipeline_.inbox.subscribe(core_.node(), core_.private_node());
   services_.advertise(on_queue(core_.private_node(), query_thread_.queue()),
                       on_queue(core_.private_node(), batch_thread_.queue()));
-  organ_services_.advertise(core_.private_node());
   start_ticks();
   add_diagnostics(core_.updater(),
                   AnsweredParts{core_.parameters().misspelt, pipeline_.workers.gl_version(),
@@ -88,18 +89,6 @@ void CollisionNode::start_ticks() {
   if (!(rate > 0.0)) return;
   tick_ = core_.private_node().createTimer(
       ros::Duration(1.0 / rate), [this](const ros::TimerEvent&) { pipeline_.steps.add_tick(); });
-}
-
-void CollisionNode::exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
-  core_.exchange_tools(
-      loaded,
-      [this](const auto& parameters) {
-        pipeline_.inbox.motion.change_tools(parameters, core_.node());
-      },
-      [&] {
-        pipeline_.steps.change_tools(kept);
-        markers_.set_tools(core_.tools());
-      });
 }
 
 void CollisionNode::change_parameters(const NodeParameters& before) {

@@ -6,7 +6,6 @@
 
 #include "node_core.hpp"
 #include "ros/markers/marker_publisher.hpp"
-#include "ros/organs/organ_services.hpp"
 #include "ros/publishing/contact_publisher.hpp"
 #include "ros/publishing/counters.hpp"
 #include "ros/publishing/diagnostics.hpp"
@@ -37,7 +36,6 @@ class CollisionNode {
   void end();
   void work();
   void start_ticks();
-  void exchange_tools(LoadedTools& loaded, const KeptTools& kept);
   void change_parameters(const NodeParameters& before);
 
   NodeCounters counters_;
@@ -48,7 +46,6 @@ class CollisionNode {
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
-  OrganServices organ_services_;
   ros::Timer tick_;
 };
 

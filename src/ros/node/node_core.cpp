@@ -27,13 +27,6 @@ constexpr std::chrono::milliseconds kShortestSimulatedWait(1);
 /// tf_timeout_sec for their transforms.
 constexpr std::chrono::seconds kLongestBacklog(1);
 
-/// A tool that would stop working is refused. One that did not work before may go on so.
-void check(const std::vector<Tool>& tools, const KeptTools& kept) {
-  for (std::size_t tool = 0; tool < tools.size(); ++tool) {
-    if (!kept[tool] && !tools[tool].fault.empty()) throw ToolError(tools[tool].fault);
-  }
-}
-
 }  // namespace
 
 void MessageLoop::receive(std::optional<SteadyTime> deadline) {
@@ -71,15 +64,6 @@ void MessageLoop::end() {
   queue_.clear();
 }
 
-std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
-                             const ros::NodeHandle& private_node) {
-  std::vector<Tool> tools;
-  for (const ToolParameters& of_tool : parameters) {
-    tools.push_back(load_tool(of_tool, private_node));
-  }
-  return tools;
-}
-
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt) {
   for (const std::string& sentence : misspelt) ROS_WARN("%s", sentence.c_str());
   for (const Tool& tool : tools) {
@@ -93,14 +77,18 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
   }
 }
 
-std_srvs::Trigger::Response reload_tools(const std::vector<Tool>& tools,
-                                         const std::function<LoadedTools()>& load,
-                                         const Exchange& exchange) {
+std_srvs::Trigger::Response reload_tools(
+    const std::vector<Tool>& tools, const std::function<LoadedTools()>& load,
+    const std::function<void(LoadedTools& loaded, const KeptTools& kept)>& exchange) {
   std_srvs::Trigger::Response response;
   try {
     LoadedTools loaded = load();
     const ToolChanges changes = compare_tools(tools, loaded.tools);
-    check(loaded.tools, changes.kept);
+    // A tool that would stop working is refused. One that did not work before may go on so.
+    for (std::size_t tool = 0; tool < loaded.tools.size(); ++tool) {
+      const std::string& fault = loaded.tools[tool].fault;
+      if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);
+    }
     exchange(loaded, changes.kept);
     response.success = true;
     response.message = plain_text(changes.summary, kLongestMessage);

@@ -14,6 +14,7 @@
 
 #include "organ_collision/ros/names.hpp"
 #include "program.hpp"
+#include "ros/organs/organ_intake.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/step_history.hpp"
 #include "ros/threads/queues.hpp"
@@ -67,19 +68,15 @@ struct LoadedTools {
   std::vector<std::string> misspelt;
 };
 
-std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
-                             const ros::NodeHandle& private_node);
-
 /// Logs what is doubtful about the parameters of a node: unknown names, tools that do not work, and
 /// implausible sizes.
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt);
 
-/// What `reload_tools` does. `exchange` exchanges the node's tools for `loaded`, which then has the
-/// old ones. Call it in a background thread: robots' files may take seconds to load.
-using Exchange = std::function<void(LoadedTools& loaded, const KeptTools& kept)>;
-std_srvs::Trigger::Response reload_tools(const std::vector<Tool>& tools,
-                                         const std::function<LoadedTools()>& load,
-                                         const Exchange& exchange);
+/// What `reload_tools` does. `exchange` exchanges the node's tools for `loaded`. Call it in a
+/// background thread: robots' files may take seconds to load.
+std_srvs::Trigger::Response reload_tools(
+    const std::vector<Tool>& tools, const std::function<LoadedTools()>& load,
+    const std::function<void(LoadedTools& loaded, const KeptTools& kept)>& exchange);
 
 /// What all nodes with organs have: the loop of their thread, a background thread, parameters and
 /// tools that can be changed while the node runs, the service `reset`, real-time scheduling, and
@@ -96,8 +93,12 @@ class NodeCore {
     std::function<std::optional<SteadyTime>()> next_deadline;
     std::function<void()> reset;
     std::function<void(const Parameters& before)> parameters_changed;
-    /// In the background thread, which waits for its end: exchanges the tools, by exchange_tools().
-    Exchange exchange_tools;
+    /// In the background thread, before the tools that are not kept are exchanged.
+    std::function<void(const KeptTools& kept)> release_tools = [](const KeptTools&) {};
+    /// Gets the parameters of the new tools. If it throws, the tools stay as they were.
+    std::function<void(const std::vector<ToolParameters>& tools)> prepare_tools;
+    /// tools() are the new ones. If it throws, the node cannot go on, and breaks down.
+    std::function<void(const KeptTools& kept)> tools_changed;
     /// Before the node ends because of an exception: tells the subscribers.
     std::function<void(const std::string& why)> break_down;
   };
@@ -119,9 +120,9 @@ class NodeCore {
   NodeCore& operator=(const NodeCore&) = delete;
 
   MessageLoop& loop() { return loop_; }
-  /// The thread of slow work, and the one that builds large meshes.
-  QueueThread& background() { return background_; }
-  QueueThread& builder() { return builder_; }
+  OrganIntake::Threads organ_threads() {
+    return {loop_.queue(), builder_.queue(), background_.queue()};
+  }
   /// Their callbacks are called in the node's thread.
   const ros::NodeHandle& node() const { return node_; }
   ros::NodeHandle& private_node() { return private_node_; }
@@ -137,7 +138,7 @@ class NodeCore {
     reload_ = on_queue(private_node_, background_.queue())
                   .advertiseService(names::kReloadTools, &NodeCore::on_reload, this);
     reset_ = private_node_.advertiseService(names::kReset, &NodeCore::on_reset, this);
-    realtime_.add_to(updater());
+    updater().add("scheduling", &realtime_, &Realtime::diagnose);
   }
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
@@ -168,27 +169,6 @@ class NodeCore {
     run_in_thread_of(loop_.queue(), action);
   }
 
-  /// Exchanges the tools and their parameters for `loaded`. `prepare` gets the new parameters; if
-  /// it throws, nothing has changed. `follow`: what the node does then. If that throws, the node
-  /// cannot go on with half of the exchange, and breaks down.
-  void exchange_tools(LoadedTools& loaded,
-                      const std::function<void(const std::vector<ToolParameters>&)>& prepare,
-                      const std::function<void()>& follow) {
-    std::vector<ToolParameters> parameters;
-    for (const Tool& tool : loaded.tools) parameters.push_back(tool.parameters);
-    prepare(parameters);
-    try {
-      std::swap(tools_, loaded.tools);
-      std::swap(parameters_.misspelt, loaded.misspelt);
-      std::swap(parameters_.tools, parameters);
-      follow();
-      warn_of_settings(tools_, parameters_.misspelt);
-    } catch (...) {
-      broken_ = std::current_exception();
-      throw;
-    }
-  }
-
  private:
   /// Runs in the background thread.
   bool on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
@@ -200,8 +180,27 @@ class NodeCore {
       table.read(all, names::kTools);
       return {load_tools(parameters.tools, private_node_), parameters.misspelt};
     };
-    response = reload_tools(tools_, load, callbacks_.exchange_tools);
+    response = reload_tools(tools_, load, [this](LoadedTools& loaded, const KeptTools& kept) {
+      callbacks_.release_tools(kept);
+      in_node_thread([&] { exchange_tools(loaded, kept); });
+    });
     return true;
+  }
+
+  void exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
+    std::vector<ToolParameters> parameters;
+    for (const Tool& tool : loaded.tools) parameters.push_back(tool.parameters);
+    callbacks_.prepare_tools(parameters);
+    try {
+      std::swap(tools_, loaded.tools);
+      std::swap(parameters_.misspelt, loaded.misspelt);
+      std::swap(parameters_.tools, parameters);
+      callbacks_.tools_changed(kept);
+      warn_of_settings(tools_, parameters_.misspelt);
+    } catch (...) {
+      broken_ = std::current_exception();
+      throw;
+    }
   }
 
   bool on_reset(std_srvs::Empty::Request&, std_srvs::Empty::Response&) {

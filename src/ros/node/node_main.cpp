@@ -19,29 +19,28 @@
 namespace organ_collision {
 namespace {
 
-std::vector<HelpEntry> subscribed_topics() {
-  return {
+/// doc/interface.md explains the same names at length; a test compares both.
+ProgramHelp node_help() {
+  ProgramHelp help;
+  help.program = "organ_collision_node";
+  help.purpose =
+      "Tells which faces of deforming organs surgical tools touch, or touched since the last "
+      "answer. The names below are private to the node (~), whose default name is /" +
+      std::string(names::kNode) + ".";
+  help.subscribed = {
       {names::kOrganMesh, message_type<OrganMesh>(), "an organ's surface: vertices and triangles"},
       {names::kOrganVertices, message_type<OrganVertices>(), "an organ's new shape: its vertices"},
       {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(), "where tools and organs are"},
       {"as each tool names it", message_type<geometry_msgs::PoseStamped>(),
-       "where the tool's tip is (tip_pose_topic, base_pose_topic)"},
-  };
-}
-
-std::vector<HelpEntry> published_topics() {
-  return {
+       "where the tool's tip is (tip_pose_topic, base_pose_topic)"}};
+  help.published = {
       {names::kContacts, message_type<ContactArray>(),
        "what each tool touches, how far it is if it has a margin, and whether it is inside; for "
        "each shape or pose"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(), "what RViz shows"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
-       "query times, age of meshes, refused messages"},
-  };
-}
-
-std::vector<HelpEntry> services() {
-  return {
+       "query times, age of meshes, refused messages"}};
+  help.services = {
       {names::kQuery, service_type<QueryCollision>(),
        "what one motion, or one tool, would touch; on request, how far and on which side it is"},
       {names::kQueryBatch, service_type<QueryCollisionBatch>(),
@@ -53,22 +52,12 @@ std::vector<HelpEntry> services() {
        "forgets all history: the next step of each tool is static"},
       {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
       {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
-       "changes parameters while the node runs, as dynparam and rqt_reconfigure do"},
-  };
-}
-
-/// doc/interface.md explains the same names at length; a test compares both.
-ProgramHelp node_help() {
-  return {"organ_collision_node",
-          "Tells which faces of deforming organs surgical tools touch, or touched since the last "
-          "answer. The names below are private to the node (~), whose default name is /" +
-              std::string(names::kNode) + ".",
-          subscribed_topics(),
-          published_topics(),
-          services(),
-          parameter_help<NodeParameters>(),
-          "roslaunch organ_collision organ_collision.launch tools:=FILE.yaml starts the node with "
-          "the tools of a file. doc/interface.md explains all of this."};
+       "changes parameters while the node runs, as dynparam and rqt_reconfigure do"}};
+  help.parameters = parameter_help<NodeParameters>();
+  help.further =
+      "roslaunch organ_collision organ_collision.launch tools:=FILE.yaml starts the node with the "
+      "tools of a file. doc/interface.md explains all of this.";
+  return help;
 }
 
 }  // namespace

@@ -63,8 +63,6 @@ void update_parameter(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) 
   }
 }
 
-}  // namespace
-
 std::string help_text(const ProgramHelp& help) {
   return "Usage: rosrun organ_collision " + help.program + " [NAME:=VALUE ...]\n\n" +
          wrapped(help.purpose, "") + section("Subscribed topics", help.subscribed) +
@@ -72,6 +70,8 @@ std::string help_text(const ProgramHelp& help) {
          section("Parameters, private (~), with their defaults", help.parameters) +
          (help.further.empty() ? "" : "\n" + wrapped(help.further, ""));
 }
+
+}  // namespace
 
 std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help) {
   ros::V_string arguments;
@@ -114,51 +114,46 @@ void guard_parameter_updates() {
   });
 }
 
-MasterWatch::MasterWatch() {
-  timer_ = on_queue(ros::NodeHandle(), thread_.queue())
-               .createWallTimer(kMasterPeriod, [this](const ros::WallTimerEvent&) { check(); });
+Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
+                         double period_sec)
+    : updater_(node, private_node, private_node.getNamespace()) {
+  updater_.setHardwareID("none");
+  updater_.add("master", [this](auto& status) { diagnose_master(status); });
+  // The updater's own timer follows simulated time, and would stop when simulated time stops.
+  publish_ =
+      private_node.createWallTimer(ros::WallDuration(period_sec),
+                                   [this](const ros::WallTimerEvent&) { updater_.force_update(); });
+  ask_ = on_queue(ros::NodeHandle(), asking_.queue())
+             .createWallTimer(kMasterPeriod, [this](const ros::WallTimerEvent&) { ask_master(); });
 }
 
 /// A restart is noticed once. What registers later, such as the topics of a new tool, makes the
 /// master list the node again, but without the rest.
-void MasterWatch::check() {
-  if (state_ == State::kNotListed) return;
+void Diagnostics::ask_master() {
+  if (master_ == Master::kForgotNode) return;
   XmlRpc::XmlRpcValue arguments, response, uri;
   arguments[0] = arguments[1] = ros::this_node::getName();
   const bool is_listed = ros::master::execute("lookupNode", arguments, response, uri, false);
   if (ros::isShuttingDown()) return;
   const bool is_answered = response.valid();
-  state_ = is_listed ? State::kListed : is_answered ? State::kNotListed : State::kNoAnswer;
-  if (state_ == State::kNotListed) ROS_ERROR("%s", kNotListed);
+  master_ = is_listed     ? Master::kListsNode
+            : is_answered ? Master::kForgotNode
+                          : Master::kDoesNotAnswer;
+  if (master_ == Master::kForgotNode) ROS_ERROR("%s", kNotListed);
 }
 
-void MasterWatch::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const {
+void Diagnostics::diagnose_master(diagnostic_updater::DiagnosticStatusWrapper& status) const {
   using diagnostic_msgs::DiagnosticStatus;
-  switch (state_) {
-    case State::kListed:
-      status.summary(DiagnosticStatus::OK, "listed");
-      break;
-    case State::kNotListed:
-      status.summary(DiagnosticStatus::ERROR, kNotListed);
-      break;
-    case State::kNoAnswer:
-      status.summary(
-          DiagnosticStatus::WARN,
-          "the ROS master at " + ros::master::getURI() +
-              " does not answer; nodes that are connected go on, and new ones cannot connect");
-      break;
+  if (master_ == Master::kListsNode) {
+    status.summary(DiagnosticStatus::OK, "listed");
+  } else if (master_ == Master::kForgotNode) {
+    status.summary(DiagnosticStatus::ERROR, kNotListed);
+  } else {
+    status.summary(
+        DiagnosticStatus::WARN,
+        "the ROS master at " + ros::master::getURI() +
+            " does not answer; nodes that are connected go on, and new ones cannot connect");
   }
-}
-
-Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                         double period_sec)
-    : updater_(node, private_node, private_node.getNamespace()) {
-  updater_.setHardwareID("none");
-  updater_.add("master", [this](auto& status) { master_.diagnose(status); });
-  // The updater's own timer follows simulated time, and would stop when simulated time stops.
-  timer_ =
-      private_node.createWallTimer(ros::WallDuration(period_sec),
-                                   [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
 }  // namespace organ_collision

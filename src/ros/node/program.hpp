@@ -28,13 +28,10 @@ struct ProgramHelp {
   std::string further = {};  ///< how to start the program, or where to read on
 };
 
-/// The text of --help.
-std::string help_text(const ProgramHelp& help);
-
-/// Answers the arguments that are not for ROS, such as NAME:=VALUE. Prints the help for --help and
-/// -h, and one line on standard error for any other argument. Returns the exit code with which the
-/// program ends then: 0 or 2. Returns std::nullopt if there is no such argument. Call this before
-/// ros::init(), so that the program does not wait for a master.
+/// Prints the help for --help and -h, and one line on standard error for any other argument that is
+/// not for ROS, such as NAME:=VALUE. Returns the exit code with which the program ends then: 0 or
+/// 2; std::nullopt if there is no such argument. Call this before ros::init(), so that the program
+/// does not wait for a master.
 std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help);
 
 /// The type of a topic, as --help shows it.
@@ -49,9 +46,9 @@ std::string service_type() {
   return ros::service_traits::datatype<Service>();
 }
 
-/// The main function of a node. Answers --help; else starts ROS and calls `run`. Logs an exception
-/// that `run` throws. Returns the exit code. `name`: the node's default name. `options`: of
-/// ros::init_options.
+/// The main function of a node. Answers arguments; else starts ROS and calls `run`. Logs an
+/// exception that `run` throws. Returns the exit code. `name`: the node's default name. `options`:
+/// of ros::init_options.
 int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
                 const std::function<void(const ros::NodeHandle& node,
                                          const ros::NodeHandle& private_node)>& run,
@@ -63,24 +60,9 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
 /// nothing. run_program() calls it.
 void guard_parameter_updates();
 
-/// Notices that the ROS master does not list this process any more, as after a restart of the
-/// master: roscpp does not register again. Asks the master once a second, in a thread of its own.
-class MasterWatch {
- public:
-  MasterWatch();
-
-  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) const;
-
- private:
-  enum class State { kListed, kNoAnswer, kNotListed };
-  void check();
-
-  std::atomic<State> state_{State::kListed};
-  QueueThread thread_;
-  ros::WallTimer timer_;
-};
-
-/// What a node publishes on /diagnostics: the tasks that its parts add, and what MasterWatch found.
+/// What a node publishes on /diagnostics: the tasks that its parts add, and whether the ROS master
+/// still lists this process. After a restart of the master it does not, because roscpp does not
+/// register again. The master is asked once a second, in a thread of its own.
 class Diagnostics {
  public:
   /// `period_sec`: of wall time. The thread that calls the callbacks of `private_node` publishes.
@@ -89,9 +71,14 @@ class Diagnostics {
   diagnostic_updater::Updater& updater() { return updater_; }
 
  private:
+  enum class Master { kListsNode, kDoesNotAnswer, kForgotNode };
+  void ask_master();
+  void diagnose_master(diagnostic_updater::DiagnosticStatusWrapper& status) const;
+
   diagnostic_updater::Updater updater_;
-  MasterWatch master_;
-  ros::WallTimer timer_;
+  std::atomic<Master> master_{Master::kListsNode};
+  QueueThread asking_;
+  ros::WallTimer publish_, ask_;
 };
 
 }  // namespace organ_collision

@@ -3,7 +3,6 @@
 #include <nodelet/nodelet.h>
 #include <ros/init.h>
 
-#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <functional>
@@ -29,8 +28,8 @@ class RestartingNodelet : public nodelet::Nodelet {
 
  private:
   /// [s] The pause before a restart. Without it, a node that breaks down at once would keep a
-  /// processor busy. It doubles each time the node cannot be constructed.
-  static constexpr double kShortestPauseSec = 0.2, kLongestPauseSec = 5.0;
+  /// processor busy.
+  static constexpr double kPauseSec = 0.5;
 
   /// Returns when the node works. If it cannot be constructed, throws its exception, so that
   /// loading the nodelet fails.
@@ -39,7 +38,17 @@ class RestartingNodelet : public nodelet::Nodelet {
     std::promise<void> ready;
     std::future<void> outcome = ready.get_future();
     // The promise moves to the worker, which may still use it when this function has returned.
-    worker_ = std::thread([this, ready = std::move(ready)]() mutable { work(ready); });
+    worker_ = std::thread([this, ready = std::move(ready)]() mutable {
+      std::unique_ptr<Node> node;
+      try {
+        node = make_node();
+      } catch (const std::exception& error) {
+        NODELET_FATAL("%s", error.what());
+        return ready.set_exception(std::current_exception());
+      }
+      ready.set_value();
+      run(std::move(node));
+    });
     outcome.get();
   }
 
@@ -47,21 +56,8 @@ class RestartingNodelet : public nodelet::Nodelet {
     return std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle());
   }
 
-  void work(std::promise<void>& ready) {
-    std::unique_ptr<Node> node;
-    try {
-      node = make_node();
-    } catch (const std::exception& error) {
-      NODELET_FATAL("%s", error.what());
-      return ready.set_exception(std::current_exception());
-    }
-    ready.set_value();
-    run(std::move(node));
-  }
-
   /// A node that breaks down is started again. The manager and its other nodelets keep running.
   void run(std::unique_ptr<Node> node) {
-    double pause_sec = kShortestPauseSec;
     while (!is_to_stop()) {
       try {
         if (!node) node = make_node();
@@ -69,16 +65,11 @@ class RestartingNodelet : public nodelet::Nodelet {
         return;
       } catch (const std::exception& error) {
         NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
-        pause_sec = node ? kShortestPauseSec : std::min(2.0 * pause_sec, kLongestPauseSec);
       }
       node.reset();
-      pause(pause_sec);
+      const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPauseSec);
+      while (!is_to_stop() && ros::WallTime::now() < end) ros::WallDuration(0.05).sleep();
     }
-  }
-
-  void pause(double seconds) const {
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(seconds);
-    while (!is_to_stop() && ros::WallTime::now() < end) ros::WallDuration(0.05).sleep();
   }
 
   bool is_to_stop() const { return stop_ || !ros::ok(); }

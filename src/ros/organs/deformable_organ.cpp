@@ -1,8 +1,15 @@
 #include "deformable_organ.hpp"
 
+#include <ros/console.h>
+#include <tf2_eigen/tf2_eigen.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "geometry/concatenate.hpp"
+#include "ros/messages/conversions.hpp"
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -10,6 +17,8 @@ namespace {
 /// [1] A smaller share of the cube of the organ's size is no volume but rounding, as between the
 /// two sides of a sheet.
 constexpr double kNoVolume = 1e-9;
+
+constexpr char kNotYetKnown[] = "not yet known";
 
 }  // namespace
 
@@ -56,6 +65,66 @@ void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time rece
 void DeformableOrgan::receive_anew(ros::Time now) {
   const bool came_before_time = latest_.received.isZero();
   latest_.received = came_before_time ? now : std::min(latest_.received, now);
+}
+
+std::string closedness(const OrganSurface& surface) {
+  if (!surface.is_found()) return kNotYetKnown;
+  if (surface.topology().is_closed()) return "closed";
+  return "open (" + counted(surface.topology().open_edge_count(), "edge") + ")";
+}
+
+std::string orientation(const OrganSurface& surface) {
+  if (!surface.is_found()) return kNotYetKnown;
+  if (!surface.topology().is_closed()) return "none";
+  return surface.is_inward() ? "inward" : "outward";
+}
+
+std::string summary(const std::string& organ, const OrganSurface& surface) {
+  return concatenate("organ '", organ, "': ", counted(surface.face_count(), "face"), ", ",
+                     closedness(surface), ", ", sides_of(surface.box()), " m");
+}
+
+std::vector<std::string> doubts(const std::string& organ, const Eigen::AlignedBox3d& box,
+                                const OrganSurface& surface) {
+  std::vector<std::string> sentences;
+  const std::string size = doubt_about_organ(organ, box);
+  if (!size.empty()) sentences.push_back(size);
+  if (surface.is_found() && surface.is_inward()) {
+    sentences.push_back("the faces of organ '" + organ +
+                        "' point inward, so that `behind` and the direction of crossings are "
+                        "reversed: swap two vertices of each triangle");
+  }
+  return sentences;
+}
+
+OrganInfo info_of(const DeformableOrgan& organ) {
+  const TriangleMesh& mesh = *organ.latest().mesh;
+  const Eigen::AlignedBox3d box = mesh.box().cast<double>();
+  organ.surface()->find();
+  OrganInfo info;
+  info.name = organ.name();
+  info.frame = organ.frame();
+  info.topology = mesh.topology();
+  info.faces = static_cast<std::uint32_t>(mesh.face_count());
+  info.vertices = static_cast<std::uint32_t>(mesh.vertex_count());
+  info.low = tf2::toMsg(Eigen::Vector3d(box.min()));
+  info.high = tf2::toMsg(Eigen::Vector3d(box.max()));
+  info.stamp = organ.latest().stamp;
+  info.closed = organ.surface()->topology().is_closed();
+  info.volume = organ.surface()->volume(mesh.vertices());
+  return info;
+}
+
+void SurfaceLog::tell(const std::string& organ, const OrganSurface& surface, Time now) {
+  Next& next = next_[organ];
+  if (now >= next.summary) {
+    next.summary = now + kPeriod;
+    ROS_INFO("%s", summary(organ, surface).c_str());
+  }
+  const std::vector<std::string> sentences = doubts(organ, surface.box(), surface);
+  if (sentences.empty() || now < next.doubts) return;
+  next.doubts = now + kPeriod;
+  for (const std::string& sentence : sentences) ROS_WARN("%s", sentence.c_str());
 }
 
 }  // namespace organ_collision

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <organ_collision/OrganInfo.h>
 #include <ros/time.h>
 
 #include <chrono>
 #include <future>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -103,7 +105,11 @@ class DeformableOrgan {
   /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
 
-  void set_frame(std::string frame) { frame_ = std::move(frame); }
+  /// The previous shape, which was in another frame, is forgotten.
+  void set_frame(std::string frame) {
+    frame_ = std::move(frame);
+    previous_ = {};
+  }
   void forget_previous() { previous_ = {}; }
   /// For a clock that jumped back to `now`, or began: the latest shape counts as received then at
   /// the latest.
@@ -117,6 +123,42 @@ class DeformableOrgan {
   OrganShape latest_;
   OrganShape previous_;
   std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< of the present topology
+};
+
+// What users are told about an organ.
+
+/// "closed", "open (12 edges)", or "not yet known". An edge is open if it has no opposite.
+std::string closedness(const OrganSurface& surface);
+/// "outward" or "inward" for a closed surface, otherwise "none". "not yet known" if it is not
+/// found.
+std::string orientation(const OrganSurface& surface);
+/// For example "organ 'kidney': 2208 faces, closed, 0.12 x 0.09 x 0.06 m".
+std::string summary(const std::string& organ, const OrganSurface& surface);
+/// Whole sentences about what is legal, but probably a mistake: the organ's size, and faces that
+/// point inward. `box`: around the organ [m].
+std::vector<std::string> doubts(const std::string& organ, const Eigen::AlignedBox3d& box,
+                                const OrganSurface& surface);
+/// Everything about the organ's latest shape. Takes milliseconds for a large mesh, because it finds
+/// out what is not yet known.
+OrganInfo info_of(const DeformableOrgan& organ);
+
+/// Tells the user in the log which surfaces came.
+class SurfaceLog {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  /// An organ whose triangles change all the time, as in cutting, is told about at most once in
+  /// this time. The same holds for what is doubtful about it.
+  static constexpr std::chrono::seconds kPeriod{5};
+
+  /// Logs the summary of a surface that is found, and the doubts about it.
+  void tell(const std::string& organ, const OrganSurface& surface, Time now);
+
+ private:
+  struct Next {
+    Time summary{}, doubts{};  ///< not before these
+  };
+  std::map<std::string, Next> next_;  ///< by organ
 };
 
 }  // namespace organ_collision

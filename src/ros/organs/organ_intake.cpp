@@ -7,7 +7,6 @@
 #include <boost/make_shared.hpp>
 #include <exception>
 #include <memory>
-#include <set>
 #include <utility>
 
 #include "organ_collision/ros/names.hpp"
@@ -44,7 +43,7 @@ bool is_replaced(const OrganMessage& message, const OrganMessage& next) {
 
 }  // namespace
 
-void OrganIntake::subscribe(const ros::NodeHandle& private_node) {
+void OrganIntake::subscribe(ros::NodeHandle private_node) {
   subscribers_ = {
       subscribe_checked<OrganMesh>(
           private_node, names::kOrganMesh, kQueue,
@@ -62,6 +61,9 @@ void OrganIntake::subscribe(const ros::NodeHandle& private_node) {
             take_vertices(message);
           },
           rejected_)};
+  services_ = {private_node.advertiseService(names::kRemoveOrgan, &OrganIntake::on_remove, this),
+               on_queue(private_node, threads_->inspector)
+                   .advertiseService(names::kListOrgans, &OrganIntake::on_list, this)};
 }
 
 void OrganIntake::take_mesh(const OrganMeshConstPtr& message, const Connection& connection) {
@@ -75,15 +77,15 @@ void OrganIntake::take_vertices(const OrganVerticesConstPtr& message) {
 }
 
 void OrganIntake::add(OrganMessage message) {
-  if (!has(message.organ())) begin(message);
-  messages_.push_back(std::move(message));
+  std::deque<OrganMessage>& waiting = messages_[message.organ()];
+  const bool is_first_built = !waiting.empty() && waiting.front().built.valid();
+  while (is_first_built && waiting.size() > 1 && is_replaced(waiting.back(), message)) {
+    waiting.pop_back();
+    ++counts_.dropped;
+  }
+  waiting.push_back(std::move(message));
   ++counts_.received;
-  drop_replaced(messages_.back().organ());
-}
-
-bool OrganIntake::has(const std::string& organ) const {
-  return std::any_of(messages_.begin(), messages_.end(),
-                     [&](const OrganMessage& message) { return message.organ() == organ; });
+  if (waiting.size() == 1) begin(waiting.front());
 }
 
 /// Has the mesh of a message built if it must be. All earlier messages of the organ must have been
@@ -100,57 +102,57 @@ void OrganIntake::begin(OrganMessage& message) {
   });
 }
 
-/// Never drops the first message, whose mesh is being built, nor the last one.
-void OrganIntake::drop_replaced(const std::string& organ) {
-  std::vector<std::list<OrganMessage>::iterator> messages;
-  for (auto message = messages_.begin(); message != messages_.end(); ++message) {
-    if (message->organ() == organ) messages.push_back(message);
-  }
-  if (messages.size() <= kMostWaiting || !messages.front()->built.valid()) return;
-  for (std::size_t i = 1; i + 1 < messages.size(); ++i) {
-    if (!is_replaced(*messages[i], *messages[i + 1])) continue;
-    messages_.erase(messages[i]);
-    ++counts_.dropped;
-    return;
-  }
-}
-
-/// The next message that waits for no mesh of its organ.
-std::optional<OrganMessage> OrganIntake::take_ready() {
-  std::set<std::string> waiting;
-  for (auto message = messages_.begin(); message != messages_.end(); ++message) {
-    if (waiting.count(message->organ()) > 0) continue;
-    begin(*message);
-    if (is_ready(*message)) {
-      OrganMessage taken = std::move(*message);
-      messages_.erase(message);
-      return taken;
-    }
-    waiting.insert(message->organ());
-  }
-  return std::nullopt;
-}
-
 OrganMessageCounts OrganIntake::counts() const {
   OrganMessageCounts counts = counts_;
-  counts.waiting = messages_.size();
-  counts.refused =
-      counts.received - counts.applied - counts.removals - counts.dropped - counts.waiting;
+  for (const auto& [organ, waiting] : messages_) counts.waiting += waiting.size();
   return counts;
 }
 
 void OrganIntake::remove(const std::string& organ) {
   check_name("organ", organ);
-  if (!has(organ)) organs_.at(organ);
+  if (messages_.count(organ) == 0) organs_.at(organ);
   const auto removal = boost::make_shared<OrganMesh>();
   removal->organ = organ;
   take_mesh(removal);
 }
 
+bool OrganIntake::on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response) {
+  try {
+    remove(request.name);
+    response.success = true;
+    response.message = "organ '" + request.name + "' is removed";
+  } catch (const Rejection& rejection) {
+    response.message = rejection.what();
+  }
+  return true;
+}
+
+bool OrganIntake::on_list(ListOrgans::Request&, ListOrgans::Response& response) {
+  std::map<std::string, DeformableOrgan> organs;
+  try {
+    run_in_thread_of(threads_->node, [&] { organs = organs_.organs(); });
+  } catch (const std::exception&) {  // The node ends.
+    return false;
+  }
+  for (const auto& [name, organ] : organs) response.organs.push_back(info_of(organ));
+  return true;
+}
+
 std::optional<OrganUpdate> OrganIntake::next() {
-  std::optional<OrganMessage> message = take_ready();
-  if (!message) return std::nullopt;
-  OrganUpdate update{*std::move(message)};
+  for (auto organ = messages_.begin(); organ != messages_.end(); ++organ) {
+    std::deque<OrganMessage>& waiting = organ->second;
+    begin(waiting.front());
+    if (!is_ready(waiting.front())) continue;
+    OrganMessage message = std::move(waiting.front());
+    waiting.pop_front();
+    if (waiting.empty()) messages_.erase(organ);
+    return update_by(std::move(message));
+  }
+  return std::nullopt;
+}
+
+OrganUpdate OrganIntake::update_by(OrganMessage message) {
+  OrganUpdate update{std::move(message)};
   try {
     update.change = apply(update.message);
     if (update.change != OrganChange::kRemoved) {
@@ -198,6 +200,7 @@ void OrganIntake::inspect(const DeformableOrgan& organ) {
 }
 
 void OrganIntake::count(const Rejection& rejection) {
+  ++counts_.refused;
   const auto now = SteadyClock::now();
   if (rejection.status() == ContactArray::UNKNOWN_ORGAN && now - start_ < kStart) {
     ROS_DEBUG("%s", rejection.what());

@@ -1,22 +1,23 @@
 #pragma once
 
+#include <organ_collision/ListOrgans.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
-#include <ros/callback_queue_interface.h>
+#include <organ_collision/RemoveOrgan.h>
+#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <future>
-#include <list>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "organ_registry.hpp"
-#include "organ_report.hpp"
 #include "ros/messages/failure_log.hpp"
 
 namespace organ_collision {
@@ -54,27 +55,25 @@ struct OrganMessageCounts {
   std::uint64_t lost = 0;
 };
 
-/// Receives meshes and vertices of organs, and applies them to the known organs.
+/// Receives meshes and vertices of organs, and applies them to the known organs. Serves
+/// `list_organs` and `remove_organ`.
 ///
 /// A large mesh with new triangles is built in another thread first, which leaves scarce processors
 /// to the steps. Later messages of that organ wait behind it, so that the messages of each organ
-/// keep their order; messages of other organs do not wait. What takes even longer, such as finding
+/// keep their order; messages of other organs do not wait. Of those that wait, only the ones are
+/// kept without which the organ would end in another state. What takes even longer, such as finding
 /// out whether a surface is closed, is done in a third thread when the mesh is applied already.
 class OrganIntake {
  public:
   /// [faces, and vertices] Meshes up to this size are built when they are applied, in a millisecond
   /// or less.
   static constexpr std::size_t kLarge = 10'000;
-  /// If more messages of one organ wait, with the mesh that is being built, the oldest that a later
-  /// one replaces are dropped: vertices, and meshes with another mesh behind them. The others are
-  /// applied at once when the mesh is built; with a million faces, each takes 0.6 ms.
-  static constexpr std::size_t kMostWaiting = 10;
 
   /// The queues of the threads that work for the intake.
   struct Threads {
-    ros::CallbackQueueInterface& node;       ///< calls next(). It is woken when a mesh was built
-    ros::CallbackQueueInterface& builder;    ///< builds large meshes
-    ros::CallbackQueueInterface& inspector;  ///< finds out surfaces, and logs what came
+    ros::CallbackQueue& node;       ///< calls next(). It is woken when a mesh was built
+    ros::CallbackQueue& builder;    ///< builds large meshes
+    ros::CallbackQueue& inspector;  ///< finds out surfaces, logs what came, and lists organs
   };
 
   /// All must outlive this, but builder and inspector must call no more callbacks when this ends.
@@ -84,7 +83,8 @@ class OrganIntake {
       : organs_(organs), rejected_(rejected), threads_(threads) {}
   OrganIntake(const OrganIntake&) = delete;  ///< The subscriptions refer to this.
 
-  void subscribe(const ros::NodeHandle& private_node);
+  /// Subscribes to the topics and advertises the services. Needs threads.
+  void subscribe(ros::NodeHandle private_node);
 
   /// Take a message of a topic. `connection`: the one over which the mesh came.
   void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {});
@@ -100,12 +100,16 @@ class OrganIntake {
 
   OrganMessageCounts counts() const;
 
+  /// In the inspector's thread, because volumes of large organs take milliseconds. It asks the
+  /// node's thread only for the shapes. Returns false if the node ends before that has answered.
+  bool on_list(ListOrgans::Request& request, ListOrgans::Response& response);
+  /// In the node's thread.
+  bool on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response);
+
  private:
   void add(OrganMessage message);
-  bool has(const std::string& organ) const;
   void begin(OrganMessage& message);
-  void drop_replaced(const std::string& organ);
-  std::optional<OrganMessage> take_ready();
+  OrganUpdate update_by(OrganMessage message);
   OrganChange apply(OrganMessage& message);
   void inspect(const DeformableOrgan& organ);
   void count(const Rejection& rejection);
@@ -113,13 +117,15 @@ class OrganIntake {
   OrganRegistry& organs_;
   FailureLog& rejected_;
   std::optional<Threads> threads_;
-  std::list<OrganMessage> messages_;  ///< in the order in which they came
-  OrganMessageCounts counts_;         ///< without refused and waiting
+  /// By organ, in the order in which they came: the first may be being built. No list is empty.
+  std::map<std::string, std::deque<OrganMessage>> messages_;
+  OrganMessageCounts counts_;  ///< without waiting
   /// The numbers of the last messages, by publisher.
   std::map<std::string, std::uint32_t> meshes_, vertices_;
   SurfaceLog log_;  ///< for the inspector
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
 };
 
 /// How many messages of a publisher were lost on the way between its last one and the one with this

@@ -21,17 +21,15 @@ constexpr const char* kReasons[] = {"wrong size",       "index out of range", "n
                                     "too far",          "no triangles",       "too many faces",
                                     "too many vertices"};
 
-/// Throws a Rejection for the exception that is being handled. `named`: the message in words.
-[[noreturn]] void reject_thrown(const std::string& named) {
-  try {
-    throw;
-  } catch (const Rejection&) {
-    throw;
-  } catch (const MeshError& error) {
-    refuse(kReasons[static_cast<int>(error.reason())], named + ": " + error.what());
-  } catch (const std::exception& error) {  // Usually std::bad_alloc.
-    refuse("not made", named + " could not be made: " + error.what());
+/// What an exception refuses. `named`: the message in words.
+Rejection rejection_of(const std::exception& error, const std::string& named) {
+  if (const auto* rejection = dynamic_cast<const Rejection*>(&error)) return *rejection;
+  if (const auto* fault = dynamic_cast<const MeshError*>(&error)) {
+    return {ContactArray::INVALID_REQUEST, kReasons[static_cast<int>(fault->reason())],
+            named + ": " + error.what()};
   }
+  return {ContactArray::INVALID_REQUEST, "not made",  // Usually std::bad_alloc.
+          named + " could not be made: " + error.what()};
 }
 
 template <typename Message>
@@ -78,66 +76,57 @@ OrganChange OrganRegistry::apply(const OrganMeshConstPtr& pointer, const Connect
     refusals_[message.organ].clear();
     return OrganChange::kRemoved;
   }
+  const std::string named = "mesh of organ " + quoted(message.organ);
   try {
     const std::string frame = tf_frame(message.header.frame_id);
     if (frame.empty()) {
       refuse("empty frame", "header.frame_id is empty; must be the organ's TF frame");
     }
     check_name("header.frame_id", frame);
-    check_stamp(message.header.stamp, now, "mesh of organ " + quoted(message.organ));
-    const OrganChange change = apply_checked(pointer, connection, frame, now, built);
-    note(connection, message.organ);
+    check_stamp(message.header.stamp, now, named);
+    const OrganChange change = set_shape(pointer, connection, frame, now, built);
+    std::set<Connection>& known = connections_[message.organ];
+    for (auto entry = known.begin(); entry != known.end();) {
+      entry = entry->expired() ? known.erase(entry) : std::next(entry);
+    }
+    known.insert(connection);
     refusals_.erase(message.organ);
     return change;
-  } catch (const Rejection& rejection) {
+  } catch (const std::exception& error) {
+    const Rejection rejection = rejection_of(error, named);
     refusals_[message.organ] = plain_text(rejection.what(), kLongestMessage);
-    throw;
+    throw rejection;
   }
 }
 
-/// Notes a connection of an organ's meshes, and forgets those that are closed.
-void OrganRegistry::note(const Connection& connection, const std::string& organ) {
-  std::set<Connection>& known = connections_[organ];
-  for (auto entry = known.begin(); entry != known.end();) {
-    entry = entry->expired() ? known.erase(entry) : std::next(entry);
-  }
-  known.insert(connection);
-}
-
-OrganChange OrganRegistry::apply_checked(const OrganMeshConstPtr& pointer,
-                                         const Connection& connection, const std::string& frame,
-                                         ros::Time now,
-                                         const std::function<TriangleMesh()>& built) {
+OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Connection& connection,
+                                     const std::string& frame, ros::Time now,
+                                     const std::function<TriangleMesh()>& built) {
   const OrganMesh& message = *pointer;
   const ros::Time stamp = message.header.stamp;
   const auto known = organs_.find(message.organ);
-  try {
-    if (known == organs_.end()) {
-      organs_.emplace(message.organ, DeformableOrgan(message.organ, frame, built(), stamp, now));
-      return OrganChange::kShape;
-    }
-    DeformableOrgan& organ = known->second;
-    OrganChange change = OrganChange::kShape;
-    if (has_new_topology(organ, message)) {
-      organ.replace(built(), stamp, now);
-    } else if (is_another_organ(organ, message, connection)) {
-      organ.replace(built(), stamp, now);
-      change = OrganChange::kOrgan;
-    } else if (organ.latest().mesh->has_triangles(message.triangles)) {
-      organ.move(vertices_of(pointer), stamp, now);
-    } else {
-      refuse("same topology, other triangles",
-             "organ " + quoted(message.organ) + " already has other triangles of topology " +
-                 std::to_string(message.topology) +
-                 "; for new triangles raise `topology`, or call the service reset first");
-    }
-    if (frame == organ.frame()) return change;
-    organ.set_frame(frame);
-    organ.forget_previous();
-    return change == OrganChange::kShape ? OrganChange::kFrame : change;
-  } catch (...) {
-    reject_thrown("mesh of organ " + quoted(message.organ));
+  if (known == organs_.end()) {
+    organs_.emplace(message.organ, DeformableOrgan(message.organ, frame, built(), stamp, now));
+    return OrganChange::kShape;
   }
+  DeformableOrgan& organ = known->second;
+  OrganChange change = OrganChange::kShape;
+  if (has_new_topology(organ, message)) {
+    organ.replace(built(), stamp, now);
+  } else if (is_another_organ(organ, message, connection)) {
+    organ.replace(built(), stamp, now);
+    change = OrganChange::kOrgan;
+  } else if (organ.latest().mesh->has_triangles(message.triangles)) {
+    organ.move(vertices_of(pointer), stamp, now);
+  } else {
+    refuse("same topology, other triangles",
+           "organ " + quoted(message.organ) + " already has other triangles of topology " +
+               std::to_string(message.topology) +
+               "; for new triangles raise `topology`, or call the service reset first");
+  }
+  if (frame == organ.frame()) return change;
+  organ.set_frame(frame);
+  return change == OrganChange::kShape ? OrganChange::kFrame : change;
 }
 
 OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time now) {
@@ -162,8 +151,8 @@ OrganChange OrganRegistry::apply(const OrganVerticesConstPtr& pointer, ros::Time
   }
   try {
     organ.move(vertices_of(pointer), message.header.stamp, now);
-  } catch (...) {
-    reject_thrown(named);
+  } catch (const std::exception& error) {
+    throw rejection_of(error, named);
   }
   return OrganChange::kShape;
 }

@@ -79,12 +79,11 @@ class OrganRegistry {
   void forget_history();
 
  private:
-  OrganChange apply_checked(const OrganMeshConstPtr& message, const Connection& connection,
-                            const std::string& frame, ros::Time now,
-                            const std::function<TriangleMesh()>& built);
+  OrganChange set_shape(const OrganMeshConstPtr& message, const Connection& connection,
+                        const std::string& frame, ros::Time now,
+                        const std::function<TriangleMesh()>& built);
   bool is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                         const Connection& connection) const;
-  void note(const Connection& connection, const std::string& organ);
   std::string known_organs() const;
   void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;
 

@@ -4,7 +4,7 @@
 
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
-#include "ros/organs/organ_report.hpp"
+#include "ros/organs/deformable_organ.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {

@@ -53,7 +53,6 @@ struct LastStep {
 struct WaitingShape {
   OrganShape shape;
   SteadyTime arrival;
-  bool waits = false;  ///< for its transforms, which were missing when it was due
 };
 
 /// The state of one pair of organ and tool.

@@ -99,10 +99,8 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
   if (!late && !faulty) {
-    if (may_wait && front.waits && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
     end = poses_.pose(tools_[tool], organ.frame(), stamp);
-    front.waits = !end.found && may_wait;
-    if (front.waits) return;
+    if (!end.found && may_wait) return;
   }
   pair.current = std::move(front.shape);
   pair.waiting.erase(pair.waiting.begin());

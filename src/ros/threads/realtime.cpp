@@ -1,6 +1,5 @@
 #include "realtime.hpp"
 
-#include <fcntl.h>
 #include <linux/capability.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -12,7 +11,6 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 
 namespace organ_collision {
 namespace {
@@ -23,18 +21,11 @@ constexpr pid_t kThisThread = 0;
 constexpr int kBackgroundNiceness = 10;
 constexpr int kMostNiceness = 19;
 
-/// Returns the number of the system's error, or 0.
-int make_realtime(pid_t thread, int priority) {
+bool make_realtime(pid_t thread, int priority) {
   sched_param parameters{};
   parameters.sched_priority = priority;
-  const int flags = SCHED_FIFO | SCHED_RESET_ON_FORK;
-  return sched_setscheduler(thread, flags, &parameters) == 0 ? 0 : errno;
+  return sched_setscheduler(thread, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
 }
-
-/// On Linux, each thread has a niceness of its own.
-void set_niceness(int niceness) { setpriority(PRIO_PROCESS, kThisThread, niceness); }
-
-std::string error_text(int error) { return error == 0 ? std::string() : std::strerror(error); }
 
 /// Whether the calling thread may lock more memory than the limit.
 bool is_above_limits() {
@@ -44,35 +35,39 @@ bool is_above_limits() {
   return (sets[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
+/// [bytes] How much memory of the process is locked.
+double locked_memory() {
+  std::ifstream status("/proc/self/status");
+  constexpr double kBytesOfUnit = 1024.0;
+  for (std::string word; status >> word;) {
+    double amount = 0.0;
+    if (word == "VmLck:" && status >> amount) return amount * kBytesOfUnit;
+  }
+  return 0.0;
+}
+
 }  // namespace
 
 std::string make_this_thread_realtime(int priority) {
-  return error_text(make_realtime(kThisThread, priority));
+  return make_realtime(kThisThread, priority) ? std::string() : std::strerror(errno);
 }
 
-std::string make_all_threads_realtime(int priority) {
-  for (const pid_t thread : threads_of_this_process()) {
-    const int error = make_realtime(thread, priority);
-    const bool has_ended = error == ESRCH;  // Since the list was made.
-    if (error != 0 && !has_ended) return error_text(error);
-  }
-  return {};
-}
+// On Linux, each thread has a niceness of its own.
 
 void lower_priority_of_this_thread() {
-  set_niceness(getpriority(PRIO_PROCESS, kThisThread) + kBackgroundNiceness);
+  setpriority(PRIO_PROCESS, kThisThread,
+              getpriority(PRIO_PROCESS, kThisThread) + kBackgroundNiceness);
 }
 
-void yield_to_all_threads() { set_niceness(kMostNiceness); }
+void yield_to_all_threads() { setpriority(PRIO_PROCESS, kThisThread, kMostNiceness); }
 
 std::string scheduling_of_this_thread() {
   sched_param parameters{};
   sched_getparam(kThisThread, &parameters);
   const int policy = sched_getscheduler(kThisThread) & ~SCHED_RESET_ON_FORK;
-  const std::string priority = ", priority " + std::to_string(parameters.sched_priority);
-  if (policy == SCHED_FIFO) return "SCHED_FIFO" + priority;
-  if (policy == SCHED_RR) return "SCHED_RR" + priority;
-  return "ordinary";
+  if (policy != SCHED_FIFO && policy != SCHED_RR) return "ordinary";
+  return std::string(policy == SCHED_FIFO ? "SCHED_FIFO" : "SCHED_RR") + ", priority " +
+         std::to_string(parameters.sched_priority);
 }
 
 std::vector<pid_t> threads_of_this_process() {
@@ -95,29 +90,14 @@ std::string lock_memory() {
   return is_locked ? std::string() : std::strerror(errno);
 }
 
-long long locked_memory() {
-  std::ifstream status("/proc/self/status");
-  constexpr long long kBytesOfUnit = 1024;
-  for (std::string word; status >> word;) {
-    long long amount = 0;
-    if (word == "VmLck:" && status >> amount) return amount * kBytesOfUnit;
-  }
-  return 0;
-}
-
-AwakeCores::AwakeCores() : request_(open("/dev/cpu_dma_latency", O_RDWR | O_CLOEXEC)) {
+std::string keep_cores_awake(std::fstream& request) {
   constexpr std::int32_t kLongestWaking = 0;  // [us]
-  const bool is_accepted = request_ >= 0 && write(request_, &kLongestWaking,
-                                                  sizeof kLongestWaking) == sizeof kLongestWaking;
-  if (!is_accepted) refusal_ = std::strerror(errno);
+  request.open("/dev/cpu_dma_latency", std::ios::in | std::ios::out | std::ios::binary);
+  request.write(reinterpret_cast<const char*>(&kLongestWaking), sizeof kLongestWaking).flush();
+  return request ? std::string() : std::strerror(errno);
 }
 
-AwakeCores::~AwakeCores() {
-  if (request_ >= 0) close(request_);
-}
-
-Realtime::Realtime(const RealtimeParameters& parameters)
-    : shows_locked_memory_(parameters.lock_memory) {
+Realtime::Realtime(const RealtimeParameters& parameters) : parameters_(parameters) {
   const auto note = [this](const std::string& what, const std::string& refusal,
                            const std::string& cure) {
     if (refusal.empty()) return;
@@ -133,13 +113,9 @@ Realtime::Realtime(const RealtimeParameters& parameters)
     note("lock_memory", lock_memory(), " without it. Set the user's limit memlock to unlimited");
   }
   if (parameters.awake_cores) {
-    note("awake_cores", awake_cores_.emplace().refusal(),
+    note("awake_cores", keep_cores_awake(awake_cores_),
          ", and idle cores sleep. Permit this user to write to /dev/cpu_dma_latency");
   }
-}
-
-void Realtime::add_to(diagnostic_updater::Updater& updater) {
-  updater.add("scheduling", this, &Realtime::diagnose);
 }
 
 void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -148,11 +124,10 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string scheduling = scheduling_of_this_thread();
   status.summary(DiagnosticStatus::OK, scheduling);
   status.add("scheduling", scheduling);
-  if (shows_locked_memory_) {
-    status.add("locked memory of the process [MiB]",
-               static_cast<double>(locked_memory()) / kMebibyte);
+  if (parameters_.lock_memory) {  // Only on request, because the system takes time to find it out.
+    status.add("locked memory of the process [MiB]", locked_memory() / kMebibyte);
   }
-  if (awake_cores_ && awake_cores_->refusal().empty()) status.add("idle cores", "awake");
+  if (awake_cores_.is_open() && awake_cores_) status.add("idle cores", "awake");
   for (const std::string& refusal : refusals_) status.mergeSummary(DiagnosticStatus::WARN, refusal);
 }
 
@@ -160,7 +135,8 @@ void make_ros_realtime(const ros::NodeHandle& node, int priority) {
   if (priority == 0) return;
   // roscpp starts the thread of its timers with the first timer. It stays.
   node.createTimer(ros::Duration(1.0), [](const ros::TimerEvent&) {});
-  make_all_threads_realtime(priority);  // If it is refused, class Realtime says so.
+  // If it is refused, class Realtime says so.
+  for (const pid_t thread : threads_of_this_process()) make_realtime(thread, priority);
 }
 
 }  // namespace organ_collision

@@ -4,7 +4,7 @@
 #include <ros/node_handle.h>
 #include <sys/types.h>
 
-#include <optional>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -14,8 +14,6 @@ namespace organ_collision {
 /// threads. Threads that it starts later are ordinary ones. `priority`: from 1 (lowest) to 99.
 /// Returns why the system refuses; empty: it did not. If it refuses, the thread stays as it was.
 std::string make_this_thread_realtime(int priority);
-/// The same for all threads that the process has now.
-std::string make_all_threads_realtime(int priority);
 
 /// Lowers the priority of the calling thread: its niceness grows by 10, to at most 19. If all
 /// processors are busy, the process's other threads come first, whatever niceness the process was
@@ -38,27 +36,12 @@ std::vector<pid_t> threads_of_this_process();
 /// Returns why the system refuses; empty: it did not. A limit of locked memory counts as a refusal:
 /// beyond it, the process would get no more memory at all.
 std::string lock_memory();
-/// [bytes] How much memory of the process is locked.
-long long locked_memory();
 
-/// While one exists, no core of the machine enters an idle state from which it takes time to wake:
-/// idle cores wait in a loop instead. A core that slept wakes late, and deep states empty its
-/// caches. This is a request of Linux's PM QoS interface, /dev/cpu_dma_latency, which holds while
-/// that file is open.
-class AwakeCores {
- public:
-  AwakeCores();
-  ~AwakeCores();
-  AwakeCores(const AwakeCores&) = delete;
-  AwakeCores& operator=(const AwakeCores&) = delete;
-
-  /// Why the system refuses; empty: it does not.
-  const std::string& refusal() const { return refusal_; }
-
- private:
-  int request_;  ///< descriptor of the file; negative: it is not open
-  std::string refusal_;
-};
+/// While `request` stays open, no core of the machine enters an idle state from which it takes time
+/// to wake: idle cores wait in a loop instead. A core that slept wakes late, and deep states empty
+/// its caches. `request` becomes Linux's PM QoS interface, /dev/cpu_dma_latency. Returns why the
+/// system refuses; empty: it did not.
+std::string keep_cores_awake(std::fstream& request);
 
 /// What a node asks of the system, so that nothing else delays its steps.
 struct RealtimeParameters {
@@ -75,14 +58,12 @@ class Realtime {
   /// theirs.
   explicit Realtime(const RealtimeParameters& parameters);
 
-  void add_to(diagnostic_updater::Updater& updater);
-
- private:
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  bool shows_locked_memory_;  ///< only on request, because the system takes time to find it out
-  std::optional<AwakeCores> awake_cores_;  ///< empty: not wanted
-  std::vector<std::string> refusals_;      ///< and what to do about each
+ private:
+  RealtimeParameters parameters_;
+  std::fstream awake_cores_;
+  std::vector<std::string> refusals_;  ///< and what to do about each
 };
 
 /// Gives a priority to roscpp's threads, through which messages and ticks come. For programs that

@@ -1,20 +1,21 @@
 #include "robot_reader_client.hpp"
 
 #include <dlfcn.h>
-#include <fcntl.h>
-#include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include "geometry/concatenate.hpp"
@@ -24,49 +25,28 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-[[noreturn]] void fail(int error, const char* what) {
+[[noreturn]] void fail(int error, const std::string& what) {
   throw std::system_error(error, std::generic_category(), what);
 }
 
-class Descriptor {
- public:
-  Descriptor() = default;
-  ~Descriptor() { close(); }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
+/// A file in memory, for a standard stream of the program. With pipes, somebody would have to read
+/// and to write while the program runs.
+using MemoryFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-  int get() const { return number_; }
-  /// Takes over a descriptor and gives it a number above those of the standard streams, which the
-  /// child's redirection replaces.
-  void take(int number, const char* what) {
-    if (number < 0) fail(errno, what);
-    number_ = fcntl(number, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
-    const int error = errno;
-    ::close(number);
-    if (number_ < 0) fail(error, what);
-  }
-  void close() {
-    if (number_ >= 0) ::close(number_);
-    number_ = -1;
-  }
+MemoryFile open_in_memory() {
+  const int descriptor = memfd_create("robot", MFD_CLOEXEC);
+  if (descriptor < 0) fail(errno, "memfd_create");
+  return {fdopen(descriptor, "w+b"), std::fclose};
+}
 
- private:
-  int number_ = -1;
-};
-
-/// A file in memory instead of a pipe, so that the parent need not wait for the reader.
-void open_input(const std::string& input, Descriptor& descriptor) {
-  descriptor.take(memfd_create("input", MFD_CLOEXEC), "memfd_create");
-  for (std::size_t done = 0; done < input.size();) {
-    const ssize_t count = write(descriptor.get(), &input[done], input.size() - done);
-    if (count < 0 && errno != EINTR) fail(errno, "write");
-    if (count > 0) done += static_cast<std::size_t>(count);
-  }
-  if (lseek(descriptor.get(), 0, SEEK_SET) != 0) fail(errno, "lseek");
+std::size_t size_of(std::FILE* file) {
+  struct stat status {};
+  if (fstat(fileno(file), &status) != 0) fail(errno, "fstat");
+  return static_cast<std::size_t>(status.st_size);
 }
 
 /// Starts a process with these standard streams. No signal is blocked or ignored in it.
-pid_t start_process(const std::vector<std::string>& command, int input, int output) {
+pid_t start_process(const std::vector<std::string>& command, std::FILE* input, std::FILE* output) {
   std::vector<char*> arguments;
   for (const std::string& argument : command) {
     arguments.push_back(const_cast<char*>(argument.c_str()));
@@ -74,8 +54,8 @@ pid_t start_process(const std::vector<std::string>& command, int input, int outp
   arguments.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, fileno(output), STDOUT_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t signals;
@@ -89,36 +69,9 @@ pid_t start_process(const std::vector<std::string>& command, int input, int outp
       posix_spawn(&process, arguments[0], &actions, &attributes, arguments.data(), environ);
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) fail(error, arguments[0]);
+  if (error != 0) fail(error, command[0]);
   return process;
 }
-
-/// A running process. The destructor kills it and waits for its end, unless end() was called.
-class Child {
- public:
-  explicit Child(pid_t process) : process_(process) {}
-  ~Child() {
-    if (process_ > 0) end();
-  }
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
-
-  /// Kills the process, unless it is already ending by itself. Returns waitpid's status, or 0 if
-  /// the host process took that status: it ignores SIGCHLD, or waits for all children.
-  int end() {
-    kill(process_, SIGKILL);
-    int status = 0;
-    pid_t ended = 0;
-    do {
-      ended = waitpid(process_, &status, 0);
-    } while (ended < 0 && errno == EINTR);
-    process_ = 0;
-    return ended < 0 ? 0 : status;
-  }
-
- private:
-  pid_t process_;
-};
 
 std::string describe(int status) {
   if (WIFSIGNALED(status)) {
@@ -129,27 +82,28 @@ std::string describe(int status) {
   return code == 0 ? "" : "ended with exit code " + std::to_string(code);
 }
 
-/// Reads until the other end is closed. Returns why it stopped earlier, or an empty text.
-std::string read_all(int descriptor, const ProcessLimits& limits, std::string& output) {
+/// Waits until the process ends, and kills it if it exceeds a limit. Returns why it failed, or an
+/// empty text. If the host process took its status, because it ignores SIGCHLD or waits for all
+/// children, it counts as ended well.
+std::string wait_for_end(pid_t process, std::FILE* output, const ProcessLimits& limits) {
   const Clock::time_point end = Clock::now() + limits.time;
-  std::array<char, 65536> block;
-  while (true) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - Clock::now());
-    pollfd waited{descriptor, POLLIN, 0};
-    const int ready = poll(&waited, 1, static_cast<int>(std::max<long>(0, left.count())));
-    if (ready == 0) {
-      return concatenate("took more than ", std::chrono::duration<double>(limits.time).count(),
-                         " s");
+  const auto kill_because = [process](const std::string& why) {
+    kill(process, SIGKILL);
+    waitpid(process, nullptr, 0);
+    return why;
+  };
+  int status = 0;
+  while (waitpid(process, &status, WNOHANG) == 0) {
+    if (size_of(output) > limits.output_bytes) {
+      return kill_because("wrote more than " + std::to_string(limits.output_bytes) + " bytes");
     }
-    const ssize_t count = ready < 0 ? -1 : read(descriptor, block.data(), block.size());
-    if (count < 0 && errno != EINTR) fail(errno, "read");
-    if (count == 0) return {};
-    if (count < 0) continue;
-    if (output.size() + static_cast<std::size_t>(count) > limits.output_bytes) {
-      return "wrote more than " + std::to_string(limits.output_bytes) + " bytes";
+    if (Clock::now() > end) {
+      return kill_because(
+          concatenate("took more than ", std::chrono::duration<double>(limits.time).count(), " s"));
     }
-    output.append(block.data(), static_cast<std::size_t>(count));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  return describe(status);
 }
 
 constexpr char kProgram[] = "robot_reader";
@@ -181,20 +135,32 @@ std::string find_program() {
   return below;
 }
 
-ProcessResult run_reader(std::vector<std::string> arguments, const std::string& input) {
-  arguments.insert(arguments.begin(), find_program());
-  try {
-    return run_process(arguments, input, {reader_limits::kTime, reader_limits::kReplyBytes});
-  } catch (const std::system_error& error) {
-    throw ToolError("cannot run " + arguments[0] + ", which reads it: " + error.code().message());
-  }
+}  // namespace
+
+ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
+                          const ProcessLimits& limits) {
+  const MemoryFile given = open_in_memory(), written = open_in_memory();
+  std::fwrite(input.data(), 1, input.size(), given.get());
+  std::rewind(given.get());
+  const pid_t process = start_process(command, given.get(), written.get());
+  ProcessResult result;
+  result.failure = wait_for_end(process, written.get(), limits);
+  result.output.resize(std::min(size_of(written.get()), limits.output_bytes));
+  std::rewind(written.get());
+  result.output.resize(std::fread(result.output.data(), 1, result.output.size(), written.get()));
+  return result;
 }
 
-std::vector<RobotLink> read(const std::string& urdf, const std::string& input,
-                            const std::vector<std::string>& links) {
-  std::vector<std::string> arguments = {urdf};
-  arguments.insert(arguments.end(), links.begin(), links.end());
-  const ProcessResult result = run_reader(std::move(arguments), input);
+std::vector<RobotLink> read_robot(const std::string& urdf, const std::string& input,
+                                  const std::vector<std::string>& links) {
+  std::vector<std::string> command = {find_program(), urdf};
+  command.insert(command.end(), links.begin(), links.end());
+  ProcessResult result;
+  try {
+    result = run_process(command, input, {reader_limits::kTime, reader_limits::kReplyBytes});
+  } catch (const std::system_error& error) {
+    throw ToolError("cannot run " + command[0] + ", which reads it: " + error.code().message());
+  }
   RobotReply reply = parse_reply(result.output);
   if (reply.refusal) throw ToolError(*reply.refusal);
   if (result.failure.empty() && reply.links && reply.links->size() == links.size()) {
@@ -203,36 +169,6 @@ std::vector<RobotLink> read(const std::string& urdf, const std::string& input,
   throw ToolError((reply.reading.empty() ? "" : reply.reading + ": ") + kProgram + " " +
                   (result.failure.empty() ? "gave a malformed answer" : result.failure) +
                   " while it read it; the file may be broken, or too large");
-}
-
-}  // namespace
-
-ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
-                          const ProcessLimits& limits) {
-  Descriptor given, read_end, write_end;
-  open_input(input, given);
-  std::array<int, 2> pipe_ends;
-  if (pipe2(pipe_ends.data(), O_CLOEXEC) != 0) fail(errno, "pipe");
-  read_end.take(pipe_ends[0], "pipe");
-  write_end.take(pipe_ends[1], "pipe");
-
-  Child child(start_process(command, given.get(), write_end.get()));
-  write_end.close();  // Only the child holds this end now.
-  ProcessResult result;
-  result.failure = read_all(read_end.get(), limits, result.output);
-  const int status = child.end();
-  if (result.failure.empty()) result.failure = describe(status);
-  return result;
-}
-
-std::vector<RobotLink> read_robot_file(const std::string& urdf,
-                                       const std::vector<std::string>& links) {
-  return read(urdf, "", links);
-}
-
-std::vector<RobotLink> read_robot_text(const std::string& urdf,
-                                       const std::vector<std::string>& links) {
-  return read("-", urdf, links);
 }
 
 }  // namespace organ_collision

@@ -11,7 +11,7 @@ namespace organ_collision {
 
 struct ProcessLimits {
   std::chrono::milliseconds time;  ///< of real time, after which the process is killed
-  std::size_t output_bytes;        ///< a process that writes more is killed
+  std::size_t output_bytes;        ///< a process that writes more is killed soon after that
 };
 
 /// How a process ended.
@@ -29,17 +29,12 @@ struct ProcessResult {
 ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
                           const ProcessLimits& limits);
 
-// Both functions return links of a robot, in the order of `links`, from its URDF and the mesh files
-// that the URDF names. A separate program, robot_reader, reads these files, because the libraries
-// that parse them crash or hang on broken ones. Both throw ToolError, which names the file, if a
-// link does not exist, if a shape or mesh cannot be read, or if the program fails or exceeds
-// reader_limits.
-
-/// `urdf`: an absolute path, or a URL (package://, file://).
-std::vector<RobotLink> read_robot_file(const std::string& urdf,
-                                       const std::vector<std::string>& links);
-/// `urdf`: the text itself.
-std::vector<RobotLink> read_robot_text(const std::string& urdf,
-                                       const std::vector<std::string>& links);
+/// Links of a robot, in the order of `links`, from its URDF and the mesh files that the URDF names.
+/// A separate program, robot_reader, reads these files, because the libraries that parse them crash
+/// or hang on broken ones. `urdf`: an absolute path, or a URL (package://, file://); "-": `input`
+/// is the text itself. Throws ToolError, which names the file, if a link does not exist, if a shape
+/// or mesh cannot be read, or if the program fails or exceeds reader_limits.
+std::vector<RobotLink> read_robot(const std::string& urdf, const std::string& input,
+                                  const std::vector<std::string>& links);
 
 }  // namespace organ_collision

@@ -2,6 +2,7 @@
 
 #include <organ_collision/RobotRecord.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -10,13 +11,17 @@
 namespace organ_collision {
 namespace {
 
-struct Malformed : std::runtime_error {
-  Malformed() : std::runtime_error("malformed reply") {}
-};
+bool is_legal(const RobotShape& shape) {
+  return shape.kind <= RobotShape::MESH && shape.vertices.size() % 3 == 0 &&
+         shape.triangles.size() % 3 == 0;
+}
 
-void check(const RobotShape& shape) {
-  if (shape.kind > RobotShape::MESH) throw Malformed();
-  if (shape.vertices.size() % 3 != 0 || shape.triangles.size() % 3 != 0) throw Malformed();
+bool is_legal(const RobotRecord& record) {
+  return record.kind <= RobotRecord::LINKS &&
+         std::all_of(record.links.begin(), record.links.end(), [](const RobotLink& link) {
+           return std::all_of(link.shapes.begin(), link.shapes.end(),
+                              [](const RobotShape& shape) { return is_legal(shape); });
+         });
 }
 
 std::string bytes_of(const RobotRecord& record) {
@@ -32,23 +37,6 @@ std::string text_record(std::uint8_t kind, const std::string& text) {
   record.kind = kind;
   record.text = text;
   return bytes_of(record);
-}
-
-/// Throws a std::runtime_error; what was read before that stays in `reply`.
-void read(CheckedStream stream, RobotReply& reply) {
-  RobotRecord record;
-  for (stream.next(record); record.kind == RobotRecord::READING; stream.next(record)) {
-    reply.reading = record.text;
-  }
-  if (stream.getLength() != 0 || record.kind > RobotRecord::LINKS) throw Malformed();
-  for (const RobotLink& link : record.links) {
-    for (const RobotShape& shape : link.shapes) check(shape);
-  }
-  if (record.kind == RobotRecord::REFUSAL) {
-    reply.refusal = std::move(record.text);
-  } else {
-    reply.links = std::move(record.links);
-  }
 }
 
 }  // namespace
@@ -70,12 +58,21 @@ std::string links_record(std::vector<RobotLink> links) {
 
 RobotReply parse_reply(const std::string& bytes) {
   RobotReply reply;
+  RobotRecord record;
+  CheckedStream stream(reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                       static_cast<std::uint32_t>(bytes.size()));
   try {
-    read({reinterpret_cast<const std::uint8_t*>(bytes.data()),
-          static_cast<std::uint32_t>(bytes.size())},
-         reply);
-  } catch (const std::runtime_error&) {
-    // The reply has neither links nor a refusal.
+    for (stream.next(record); record.kind == RobotRecord::READING; stream.next(record)) {
+      reply.reading = record.text;
+    }
+  } catch (const ros::serialization::StreamOverrunException&) {
+    return reply;
+  }
+  if (stream.getLength() != 0 || !is_legal(record)) return reply;
+  if (record.kind == RobotRecord::REFUSAL) {
+    reply.refusal = std::move(record.text);
+  } else {
+    reply.links = std::move(record.links);
   }
   return reply;
 }

@@ -83,39 +83,14 @@ std::string find_text(const std::string& parameter, const ros::NodeHandle& priva
   return text;
 }
 
-template <typename Range, typename Same>
-bool are_same(const Range& a, const Range& b, const Same& same) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
-}
-
-bool is_same(const ConvexCore& a, const ConvexCore& b) {
-  return std::equal(a.points.begin(), a.points.begin() + a.count, b.points.begin(),
-                    b.points.begin() + b.count) &&
-         a.rim == b.rim;
-}
-
-bool is_same(const LinkPart& a, const LinkPart& b) {
-  if (!a.surface != !b.surface || a.radius != b.radius) return false;
-  if (!a.surface) return is_same(a.core, b.core);
-  return a.surface->vertices() == b.surface->vertices() && a.surface->faces() == b.surface->faces();
-}
-
-bool is_same(const ToolParameters& a, const ToolParameters& b) {
-  const auto members = [](const ToolParameters& p) {
+bool is_same(const Tool& a, const Tool& b) {
+  const auto members = [](const Tool& tool) {
+    const ToolParameters& p = tool.parameters;
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
                     p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix, p.margin,
-                    p.max_near, p.freedom);
+                    p.max_near, p.freedom, tool.fault, tool.fingerprint);
   };
   return members(a) == members(b);
-}
-
-bool is_same(const Tool& a, const Tool& b) {
-  const auto same_part = [](const LinkPart& c, const LinkPart& d) { return is_same(c, d); };
-  const auto same_link = [&](const Link& c, const Link& d) {
-    return c.name == d.name && are_same(c.parts, d.parts, same_part);
-  };
-  return is_same(a.parameters, b.parameters) && a.joints == b.joints && a.fault == b.fault &&
-         are_same(a.links, b.links, same_link);
 }
 
 std::optional<std::size_t> find(const std::vector<Tool>& tools, const std::string& name) {
@@ -138,9 +113,13 @@ Link build_link(const std::string& name, const RobotLink& description) {
   return link;
 }
 
-Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node) {
-  return load_tool(
-      parameters, [&](const std::string& parameter) { return find_text(parameter, private_node); });
+std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
+                             const ros::NodeHandle& private_node) {
+  std::vector<Tool> tools;
+  for (const ToolParameters& of_tool : parameters) {
+    tools.push_back(load_tool(of_tool, [&](const auto& p) { return find_text(p, private_node); }));
+  }
+  return tools;
 }
 
 Tool load_tool(const ToolParameters& parameters,
@@ -151,8 +130,9 @@ Tool load_tool(const ToolParameters& parameters,
   const bool is_file = !parameters.urdf.empty();
   try {
     const std::vector<RobotLink> links =
-        is_file ? read_robot_file(parameters.urdf, parameters.links)
-                : read_robot_text(find_text(parameters.robot_description), parameters.links);
+        is_file ? read_robot(parameters.urdf, "", parameters.links)
+                : read_robot("-", find_text(parameters.robot_description), parameters.links);
+    tool.fingerprint = std::hash<std::string>()(links_record(links));
     for (std::size_t i = 0; i < links.size(); ++i) {
       tool.joints.push_back(links[i].joint);
       tool.links.push_back(build_link(parameters.links[i], links[i]));

@@ -23,6 +23,7 @@ struct Tool {
   ToolParameters parameters;
   std::vector<Link> links;          ///< in the order of parameters.links
   std::vector<std::string> joints;  ///< of each link: the joint that moves it, or empty
+  std::size_t fingerprint = 0;      ///< a hash of what the robot's files say of links and joints
   std::string fault;  ///< why the links could not be loaded; empty if there was no error
 };
 
@@ -31,15 +32,16 @@ inline constexpr char kNoTools[] =
     "~tools is empty: no contacts are published, and only queries that give a motion are answered; "
     "set ~tools and call ~reload_tools, or start the node anew";
 
-/// The tool, with its links from its URDF. The URDF is a file, or a parameter that is searched in
-/// the node's private namespace and upwards from there. A bad description is not thrown: the tool
-/// gets a `fault`, a sentence that begins with the tool's name.
-Tool load_tool(const ToolParameters& parameters, const ros::NodeHandle& private_node);
-
-/// The same without a parameter server. `find_text` returns the value of a parameter, or throws
-/// ToolError.
+/// The tool, with its links from its URDF, which is a file, or the value of a parameter. A bad
+/// description is not thrown: the tool gets a `fault`, a sentence that begins with the tool's name.
+/// `find_text` returns the value of a parameter, or throws ToolError.
 Tool load_tool(const ToolParameters& parameters,
                const std::function<std::string(const std::string& parameter)>& find_text);
+
+/// The same for all tools of a node. Parameters are searched in the node's private namespace and
+/// upwards from there.
+std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
+                             const ros::NodeHandle& private_node);
 
 /// For each tool of a new list: its index in the old list if it is unchanged; std::nullopt if it is
 /// new or changed.

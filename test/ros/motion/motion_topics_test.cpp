@@ -22,51 +22,6 @@ geometry_msgs::TransformStamped transform(const std::string& child, double time)
   return transform;
 }
 
-class TransformTopicsTest : public testing::Test {
- protected:
-  TransformTopicsTest() { ros::Time::setNow(ros::Time(1000.0)); }
-
-  void take(const std::vector<geometry_msgs::TransformStamped>& transforms, bool resting) {
-    tf2_msgs::TFMessage message;
-    message.transforms = transforms;
-    topics_.take_transforms(message, "robot", resting);
-  }
-
-  TransformBuffer buffer_;
-  FailureLog rejected_;
-  MotionTopics topics_{{}, buffer_, rejected_, [](std::size_t) {}};
-};
-
-}  // namespace
-
-TEST_F(TransformTopicsTest, TransformsGoToTheBufferWithTheirStamps) {
-  take({transform("tip", 1.0), transform("tip", 1.0005), transform("tip", 2.0)}, false);
-  take({transform("trocar", 1.0)}, true);
-  EXPECT_TRUE(buffer_.canTransform("trocar", "tip", ros::Time(1.5)));
-  EXPECT_EQ(buffer_.stamps_between("trocar", {"tip"}, ros::Time(0.5), ros::Time(3.0)).rising,
-            (std::vector<ros::Time>{ros::Time(1.0), ros::Time(1.0005), ros::Time(2.0)}));
-}
-
-TEST_F(TransformTopicsTest, WhatTfRefusesIsCountedButNoRepetition) {
-  geometry_msgs::TransformStamped broken = transform("tip", 1.0);
-  broken.transform.translation.y = std::nan("");
-  take({broken, transform("tip", 1.0), transform("tip", 1.0)}, false);
-  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1u);
-  EXPECT_NE(rejected_.by_reason()["transform"].latest.find("(1, nan, 0)"), std::string::npos)
-      << rejected_.by_reason()["transform"].latest;
-  take({transform("tip", 100.0), transform("tip", 1.5)}, false);
-  EXPECT_EQ(rejected_.by_reason()["transform"].count, 2u) << "1.5 is too old";
-  take({broken}, true);
-  EXPECT_EQ(rejected_.by_reason()["transform"].count, 3u);
-  geometry_msgs::TransformStamped absurd = transform("tip", 1.0);
-  absurd.header.stamp = ros::Time(4294967295u, 999999999u);  // tf2 throws.
-  take({absurd, transform("trocar", 100.0)}, false);
-  EXPECT_EQ(rejected_.by_reason()["transform"].count, 4u);
-  EXPECT_TRUE(buffer_.canTransform("world", "trocar", ros::Time(100.0)));
-}
-
-namespace {
-
 ToolParameters streamed_tool(const std::string& name) {
   return {name, "base", name + "_tip", 0.005, "measured_cp", "base_pose"};
 }
@@ -75,17 +30,20 @@ geometry_msgs::PoseStamped pose(const std::string& frame, double time, const Vec
   geometry_msgs::PoseStamped pose;
   pose.header.frame_id = frame;
   pose.header.stamp = ros::Time(time);
-  pose.pose.position.x = point.x();
-  pose.pose.position.y = point.y();
-  pose.pose.position.z = point.z();
+  pose.pose.position = tf2::toMsg(point);
   pose.pose.orientation.w = 1.0;
   return pose;
 }
 
-class PoseTopicsTest : public testing::Test {
+class MotionTopicsTest : public testing::Test {
  protected:
-  PoseTopicsTest() { ros::Time::setNow(ros::Time(1000.0)); }
+  MotionTopicsTest() { ros::Time::setNow(ros::Time(1000.0)); }
 
+  void take(const std::vector<geometry_msgs::TransformStamped>& transforms, bool resting) {
+    tf2_msgs::TFMessage message;
+    message.transforms = transforms;
+    topics_.take_transforms(message, "robot", resting);
+  }
   /// The position of the tip in a frame; NaN if the buffer does not have it.
   Vector3d tip(const std::string& frame, double time, const std::string& tool = "left") const {
     const auto found = look_up(buffer_, frame, tool + "_tip", ros::Time(time)).found;
@@ -114,7 +72,25 @@ class PoseTopicsTest : public testing::Test {
 
 }  // namespace
 
-TEST_F(PoseTopicsTest, PosesPlaceTheTip) {
+TEST_F(MotionTopicsTest, WhatTfRefusesIsCountedButNoRepetition) {
+  geometry_msgs::TransformStamped broken = transform("tip", 1.0);
+  broken.transform.translation.y = std::nan("");
+  take({broken, transform("tip", 1.0), transform("tip", 1.0)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 1u);
+  EXPECT_NE(rejected_.by_reason()["transform"].latest.find("(1, nan, 0)"), std::string::npos)
+      << rejected_.by_reason()["transform"].latest;
+  take({transform("tip", 100.0), transform("tip", 1.5)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 2u) << "1.5 is too old";
+  take({broken}, true);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 3u);
+  geometry_msgs::TransformStamped absurd = transform("tip", 1.0);
+  absurd.header.stamp = ros::Time(4294967295u, 999999999u);  // tf2 throws.
+  take({absurd, transform("trocar", 100.0)}, false);
+  EXPECT_EQ(rejected_.by_reason()["transform"].count, 4u);
+  EXPECT_TRUE(buffer_.canTransform("world", "trocar", ros::Time(100.0)));
+}
+
+TEST_F(MotionTopicsTest, PosesPlaceTheTip) {
   topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
   topics_.take_tip(0, pose("/base", 2.0, {0.3, 0.2, 0.1}));
   topics_.take_tip(1, pose("base", 2.0, {7.0, 8.0, 9.0}));
@@ -125,14 +101,14 @@ TEST_F(PoseTopicsTest, PosesPlaceTheTip) {
   EXPECT_EQ(rejected(), 0u);
 }
 
-TEST_F(PoseTopicsTest, PosesWithoutAStampDoNotCollide) {
+TEST_F(MotionTopicsTest, PosesWithoutAStampDoNotCollide) {
   for (int i = 0; i < 1000; ++i) topics_.take_tip(0, pose("base", 0.0, {0.001 * i, 0.0, 0.0}));
   EXPECT_EQ(arrived_.size(), 1000u);
   EXPECT_EQ(rejected(), 0u);
   EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.999, 0.0, 0.0)));
 }
 
-TEST_F(PoseTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
+TEST_F(MotionTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
   topics_.take_base(0, pose("world", 1.0, {10.0, 0.0, 0.0}));
   topics_.take_tip(0, pose("base", 50.0, {0.1, 0.2, 0.3}));
   EXPECT_TRUE(tip("world", 50.0).isApprox(Vector3d(10.1, 0.2, 0.3)));
@@ -141,7 +117,7 @@ TEST_F(PoseTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
   EXPECT_EQ(rejected(), 0u);
 }
 
-TEST_F(PoseTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
+TEST_F(MotionTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   const double nan = std::nan("");
   topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
   expect_rejected(pose("base", 2.0, {0.1, nan, 0.3}), "nan");
@@ -161,7 +137,7 @@ TEST_F(PoseTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   EXPECT_EQ(arrived_.size(), 1u);
 }
 
-TEST_F(PoseTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
+TEST_F(MotionTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
   topics_.take_base(0, pose("world", 1.0, {std::nan(""), 0.0, 0.0}));
   topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
   topics_.take_tip(0, pose("other_base", 1.1, {0.1, 0.2, 0.3}));
@@ -170,7 +146,7 @@ TEST_F(PoseTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
   EXPECT_EQ(rejected(), 2u);
 }
 
-TEST_F(PoseTopicsTest, ToolsMayShareATipAndItsPoses) {
+TEST_F(MotionTopicsTest, ToolsMayShareATipAndItsPoses) {
   ToolParameters wide = streamed_tool("left");
   wide.name = "wide";
   MotionTopics topics({streamed_tool("left"), wide}, buffer_, rejected_,

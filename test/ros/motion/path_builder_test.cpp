@@ -160,7 +160,7 @@ ToolPath heights(const std::vector<double>& heights) {
   return path;
 }
 
-BuiltPath simplified(const ToolPath& samples, std::size_t legs) {
+SampledPath simplified(const ToolPath& samples, std::size_t legs) {
   PathBuilder path({}, {samples.front().axis});
   for (std::size_t i = 1; i < samples.size(); ++i) {
     path.add(samples[i].fraction, {samples[i].axis});
@@ -185,43 +185,34 @@ std::vector<double> fractions(const ToolPath& path) {
 
 }  // namespace
 
-TEST(BuiltPath, WhatFitsStays) {
-  const ToolPath path = heights({0.0, 0.3, 0.1, 0.2, 0.5});
-  for (const std::size_t legs : {4u, 5u, 100u}) {
-    const BuiltPath built = simplified(path, legs);
-    EXPECT_EQ(fractions(built.path), fractions(path));
-    EXPECT_EQ(built.dropped, 0u);
-    EXPECT_EQ(built.deviation, 0.0);
-  }
+TEST(PathBuilder, WhatMattersMostStays) {
+  const ToolPath path = heights({0.0, 0.001, -0.002, 0.4, 0.0, 0.02, 0.0, 0.001, 0.0});
+  EXPECT_EQ(fractions(simplified(path, 1).path), (std::vector<double>{0.0, 1.0}));
+  EXPECT_NEAR(simplified(path, 1).deviation_cut, 0.4, 1e-12);
+  EXPECT_EQ(fractions(simplified(path, 2).path), (std::vector<double>{0.0, 0.375, 1.0}));
+  EXPECT_LT(simplified(path, 4).deviation_cut, 0.021);
+  const SampledPath whole = simplified(path, 8);
+  EXPECT_EQ(fractions(whole.path), fractions(path));
+  EXPECT_EQ(whole.deviation_cut, 0.0);
   EXPECT_EQ(simplified(resting_path({{kTrocar, kTrocar}}), 1).path.size(), 1u);
 }
 
-TEST(BuiltPath, WhatMattersMostStays) {
-  const ToolPath path = heights({0.0, 0.001, -0.002, 0.4, 0.0, 0.02, 0.0, 0.001, 0.0});
-  EXPECT_EQ(fractions(simplified(path, 1).path), (std::vector<double>{0.0, 1.0}));
-  EXPECT_NEAR(simplified(path, 1).deviation, 0.4, 1e-12);
-  EXPECT_EQ(fractions(simplified(path, 2).path), (std::vector<double>{0.0, 0.375, 1.0}));
-  EXPECT_EQ(simplified(path, 2).dropped, 6u);
-  EXPECT_EQ(simplified(path, 4).path.size(), 5u);
-  EXPECT_LT(simplified(path, 4).deviation, 0.021);
-}
-
-TEST(BuiltPath, NothingIsFartherFromTheWayThanItSays) {
+TEST(PathBuilder, NothingIsFartherFromTheWayThanItSays) {
   std::mt19937 random(11);
   std::normal_distribution<double> number(0.0, 0.05);
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<double> tips = {0.0};
     while (tips.size() < 60) tips.push_back(tips.back() + number(random));
     const ToolPath path = heights(tips);
-    for (const std::size_t legs : {1u, 3u, 10u, 40u}) {
-      const BuiltPath built = simplified(path, legs);
+    for (const std::size_t legs : {1u, 3u, 10u, 40u, 59u}) {
+      const SampledPath built = simplified(path, legs);
       ASSERT_EQ(built.path.size(), legs + 1);
-      EXPECT_EQ(built.dropped, path.size() - built.path.size());
+      EXPECT_EQ(built.samples_cut, path.size() - built.path.size());
       double farthest = 0.0;
       for (const ToolWaypoint& waypoint : path) {
         farthest = std::max(farthest, distance(built.path, waypoint));
       }
-      EXPECT_NEAR(built.deviation, farthest, 1e-12);
+      EXPECT_NEAR(built.deviation_cut, farthest, 1e-12);
     }
   }
 }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <mutex>
 #include <set>
 #include <thread>
 
@@ -12,6 +10,8 @@
 using namespace organ_collision;
 
 namespace {
+
+using Texts = std::vector<std::string>;
 
 std::vector<float> triangle_at(float z) { return {0, 0, z, 1, 0, z, 0, 1, z}; }
 
@@ -30,51 +30,43 @@ struct Liver : DeformableOrgan {
   }
 };
 
+/// A tetrahedron whose surface is found.
+struct Kidney : OrganSurface {
+  explicit Kidney(const std::vector<std::uint32_t>& triangles = kOutward, float unit = 1.0F)
+      : OrganSurface(tetrahedron(triangles, unit)) {
+    find();
+  }
+};
+
+const char kWhatCame[] = "organ 'kidney': 4 faces, closed, 0.03 x 0.04 x 0.05 m";
+
 }  // namespace
 
-TEST(OrganSurface, VolumeIsOfTheGivenShapeAndInwardIsAVolumeBelowZero) {
-  const TriangleMesh mesh = tetrahedron();
-  OrganSurface surface(mesh);
-  EXPECT_FALSE(surface.is_found());
-  surface.find();
-  surface.find();
-  ASSERT_TRUE(surface.is_found());
-  EXPECT_TRUE(surface.topology().is_closed());
-  EXPECT_FALSE(surface.is_inward());
-  const double volume = surface.volume(mesh.vertices());
-  EXPECT_NEAR(volume, 0.03 * 0.04 * 0.05 / 6.0, 1e-10);
-  EXPECT_NEAR(surface.volume(corners(2.0F)), 8.0 * volume, 1e-11);
-  // Both sides of a sheet enclose nothing; what rounding leaves is no orientation.
-  const TriangleMesh sheet({0.1F, 0.7F, 0.3F, 1.1F, 0.2F, 0.9F, 0.4F, 1.3F, 0.6F},
-                           {0, 1, 2, 2, 1, 0});
-  struct Case {
-    TriangleMesh mesh;
-    bool closed, inward;
-  };
-  for (const Case& expected : {Case{tetrahedron(kInward), true, true}, Case{sheet, true, false},
-                               Case{tetrahedron({0, 1, 2}), false, false}}) {
-    OrganSurface found(expected.mesh);
-    found.find();
-    EXPECT_EQ(found.topology().is_closed(), expected.closed);
-    EXPECT_EQ(found.is_inward(), expected.inward);
-  }
-}
-
-TEST(OrganSurface, AnotherThreadMayWaitForIt) {
+TEST(OrganSurface, VolumeIsOfTheGivenShape) {
   OrganSurface surface(tetrahedron());
   EXPECT_FALSE(surface.wait_until_found(std::chrono::milliseconds(0)));
   bool found = false;
   std::thread waiting([&] { found = surface.wait_until_found(std::chrono::seconds(60)); });
   surface.find();
+  surface.find();
   waiting.join();
-  EXPECT_TRUE(found);
+  EXPECT_TRUE(found) << "another thread may wait for it";
+  const double volume = surface.volume(corners());
+  EXPECT_NEAR(volume, 0.03 * 0.04 * 0.05 / 6.0, 1e-10);
+  EXPECT_NEAR(surface.volume(corners(2.0F)), 8.0 * volume, 1e-11);
 }
 
-TEST(DeformableOrgan, MoveKeepsThePreviousShape) {
+TEST(DeformableOrgan, RefusedVerticesChangeNothingAndOthersKeepThePreviousShape) {
   Liver liver;
   EXPECT_FALSE(liver.previous().mesh);
   liver.rise(5, 3);
+  std::vector<float> bad = triangle_at(6);
+  bad[4] = std::nanf("");
+  for (const std::vector<float>& vertices : {std::vector<float>{1, 2, 3}, bad}) {
+    EXPECT_THROW(liver.move(shared(vertices), ros::Time(9), ros::Time(9)), MeshError);
+  }
   EXPECT_EQ(liver.latest().mesh->vertices(), triangle_at(5));
+  EXPECT_EQ(liver.latest().stamp, ros::Time(3));
   EXPECT_EQ(liver.latest().received, ros::Time(3));
   EXPECT_EQ(liver.previous().mesh->vertices(), triangle_at(0));
   EXPECT_EQ(liver.previous().stamp, ros::Time(1));
@@ -100,47 +92,6 @@ TEST(DeformableOrgan, ShapesInUseNeverChangeAndTheOthersAreUsedAgain) {
   EXPECT_EQ(seen.size(), 3U);
 }
 
-/// The reader releases shapes while the writer changes others. No shape may change while it is
-/// read. With -fsanitize=thread, the test also shows that there is no data race.
-TEST(DeformableOrgan, AnotherThreadMayReleaseShapes) {
-  Liver liver;
-  std::shared_ptr<const TriangleMesh> latest = liver.latest().mesh;
-  std::atomic<bool> stop{false};
-  std::mutex mutex;
-  std::thread reader([&] {
-    while (!stop) {
-      std::shared_ptr<const TriangleMesh> held;
-      {
-        const std::lock_guard<std::mutex> lock(mutex);
-        held = latest;
-      }
-      const std::vector<float> before = held->vertices();
-      std::this_thread::yield();
-      EXPECT_EQ(held->vertices(), before);
-    }
-  });
-  for (int i = 1; i < 5000; ++i) {
-    liver.rise(static_cast<float>(i), i);
-    const std::lock_guard<std::mutex> lock(mutex);
-    latest = liver.latest().mesh;
-  }
-  stop = true;
-  reader.join();
-}
-
-TEST(DeformableOrgan, RefusedVerticesChangeNothing) {
-  Liver liver;
-  liver.rise(5, 3);
-  std::vector<float> bad = triangle_at(6);
-  bad[4] = std::nanf("");
-  for (const std::vector<float>& vertices : {std::vector<float>{1, 2, 3}, bad}) {
-    EXPECT_THROW(liver.move(shared(vertices), ros::Time(9), ros::Time(9)), MeshError);
-  }
-  EXPECT_EQ(liver.latest().mesh->vertices(), triangle_at(5));
-  EXPECT_EQ(liver.latest().stamp, ros::Time(3));
-  EXPECT_EQ(liver.previous().mesh->vertices(), triangle_at(0));
-}
-
 TEST(DeformableOrgan, NewTrianglesHaveASurfaceOfTheirOwnAndNoPreviousShape) {
   Liver liver;
   liver.rise(5, 3);
@@ -157,8 +108,6 @@ TEST(DeformableOrgan, NewTrianglesHaveASurfaceOfTheirOwnAndNoPreviousShape) {
   liver.surface()->find();
   ASSERT_NE(liver.latest().topology(), nullptr);
   EXPECT_EQ(liver.latest().topology()->welded().size(), 4U);
-  liver.move(shared({0, 0, 2, 1, 0, 2, 0, 1, 2, 1, 1, 2}), ros::Time(6), ros::Time(6));
-  EXPECT_EQ(liver.latest().mesh->faces()[0], (FaceIndices{0, 2, 1}));
 }
 
 TEST(DeformableOrgan, AgeOfAnUnstampedShapeIsSinceItsArrival) {
@@ -171,4 +120,83 @@ TEST(DeformableOrgan, AgeOfAnUnstampedShapeIsSinceItsArrival) {
                             Case{ros::Time(8), {}, 2.0}}) {  // It came before the first /clock.
     EXPECT_EQ((OrganShape{nullptr, shape.stamp, shape.received}.age(ros::Time(10))), shape.age);
   }
+}
+
+TEST(OrganReport, SaysWhatCame) {
+  const Kidney outward, inward(kInward), open({0, 1, 2});
+  EXPECT_EQ(summary("kidney", outward), kWhatCame);
+  EXPECT_EQ(summary("kidney", open),
+            "organ 'kidney': 1 face, open (3 edges), 0.03 x 0.04 x 0.05 m");
+  EXPECT_EQ(orientation(outward), "outward");
+  EXPECT_EQ(orientation(inward), "inward");
+  EXPECT_EQ(orientation(open), "none");
+  // Both sides of a sheet enclose nothing; what rounding leaves is no orientation.
+  OrganSurface sheet(
+      TriangleMesh({0.1F, 0.7F, 0.3F, 1.1F, 0.2F, 0.9F, 0.4F, 1.3F, 0.6F}, {0, 1, 2, 2, 1, 0}));
+  sheet.find();
+  EXPECT_EQ(closedness(sheet), "closed");
+  EXPECT_EQ(orientation(sheet), "outward");
+  const OrganSurface unknown(tetrahedron(kInward));
+  EXPECT_EQ(closedness(unknown), "not yet known");
+  EXPECT_EQ(orientation(unknown), "not yet known");
+  EXPECT_TRUE(doubts("kidney", unknown.box(), unknown).empty());
+}
+
+TEST(OrganReport, DoubtsWhatIsProbablyAMistake) {
+  struct Case {
+    std::vector<std::uint32_t> triangles;
+    float unit;
+    Texts words;  ///< one for each sentence
+  };
+  for (const Case& row :
+       {Case{kOutward, 1.0F, {}}, Case{{0, 1, 2}, 1.0F, {}},  // An open surface is no mistake.
+        Case{kOutward, 1000.0F, {"are these millimetres?"}},
+        Case{kInward, 1e-3F, {"twice", "organ 'kidney' point inward"}}}) {
+    const Kidney kidney(row.triangles, row.unit);
+    const Texts sentences = doubts("kidney", kidney.box(), kidney);
+    ASSERT_EQ(sentences.size(), row.words.size());
+    for (std::size_t i = 0; i < sentences.size(); ++i) {
+      EXPECT_NE(sentences[i].find(row.words[i]), std::string::npos) << sentences[i];
+    }
+  }
+}
+
+TEST(SurfaceLog, CutsAtEveryStepDoNotFloodTheLog) {
+  CapturedLog captured;
+  SurfaceLog log;
+  SurfaceLog::Time now{std::chrono::hours(1)};
+  const Kidney outward, inward(kInward);
+  const auto logged = [&](const OrganSurface& surface, int later) {
+    log.tell("kidney", surface, now += std::chrono::seconds(later));
+    return captured.take();
+  };
+  const Texts came = {std::string("INFO ") + kWhatCame};
+  EXPECT_EQ(logged(outward, 0), came);
+  for (int i = 0; i < 3; ++i) EXPECT_TRUE(logged(outward, 1).empty());
+  const Texts doubted = logged(inward, 1);  // A doubt is said at once.
+  ASSERT_EQ(doubted.size(), 1U);
+  EXPECT_EQ(doubted[0].find("WARN the faces of organ 'kidney' point inward"), 0U) << doubted[0];
+  EXPECT_EQ(logged(inward, 1), came);
+  EXPECT_EQ(logged(inward, 5).size(), 2U);
+  log.tell("liver", outward, now);
+  EXPECT_EQ(captured.take().size(), 1U) << "another organ";
+}
+
+TEST(OrganInfo, TellsEverythingAboutTheLatestShape) {
+  DeformableOrgan organ("kidney", "kidney_frame", tetrahedron(kInward, 1.0F, 7), ros::Time(4), {});
+  organ.move(shared(corners(2.0F)), ros::Time(5), {});
+  const OrganInfo kidney = info_of(organ);
+  EXPECT_EQ(kidney.name, "kidney");
+  EXPECT_EQ(kidney.frame, "kidney_frame");
+  EXPECT_EQ(kidney.topology, 7U);
+  EXPECT_EQ(kidney.faces, 4U);
+  EXPECT_EQ(kidney.vertices, 4U);
+  EXPECT_TRUE(kidney.closed);
+  EXPECT_NEAR(kidney.volume, -8e-5, 1e-10);
+  EXPECT_FLOAT_EQ(static_cast<float>(kidney.low.x), 0.2F);
+  EXPECT_FLOAT_EQ(static_cast<float>(kidney.high.y), 0.48F);
+  EXPECT_EQ(kidney.stamp, ros::Time(5.0));
+  organ.replace(tetrahedron({0, 1, 2}), {}, {});
+  EXPECT_FALSE(info_of(organ).closed);
+  EXPECT_EQ(info_of(organ).volume, 0.0);
 }

@@ -110,23 +110,17 @@ class OrganRegistryTest : public testing::Test {
     EXPECT_EQ(store_.at("liver").latest().mesh, before.mesh);
   }
 
-  std::uint8_t status_of(const std::string& organ) {
+  /// Why the organ is not there, with this status; status OK if it is there.
+  Rejection rejection_of(const std::string& organ) {
     try {
       store_.at(organ);
     } catch (const Rejection& rejection) {
-      return rejection.status();
+      return rejection;
     }
-    return ContactArray::OK;
+    return {ContactArray::OK, "", ""};
   }
-  /// Why the organ is not there; empty if it is.
-  std::string why(const std::string& organ) {
-    try {
-      store_.at(organ);
-    } catch (const Rejection& rejection) {
-      return rejection.what();
-    }
-    return "";
-  }
+  std::uint8_t status_of(const std::string& organ) { return rejection_of(organ).status(); }
+  std::string why(const std::string& organ) { return rejection_of(organ).what(); }
 
   /// A header such as roscpp makes for each connection.
   static ros::M_stringPtr header() {

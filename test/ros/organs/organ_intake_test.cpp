@@ -6,7 +6,7 @@
 
 #include <boost/make_shared.hpp>
 #include <functional>
-#include <memory>
+#include <future>
 
 #include "test/ros/organs/organ_fixture.hpp"
 
@@ -17,7 +17,6 @@ namespace {
 using Texts = std::vector<std::string>;
 
 constexpr std::size_t kFaces = OrganIntake::kLarge + 1;
-constexpr std::size_t kMost = OrganIntake::kMostWaiting;
 
 /// An intake whose threads work when the test says so.
 struct Intake {
@@ -49,10 +48,13 @@ struct Intake {
     vertices->vertices = {0, 0, z, 1, 0, z, 0, 1, z};
     intake.take_vertices(vertices);
   }
-  void removal(const std::string& organ) {
-    const auto mesh = boost::make_shared<OrganMesh>();
-    mesh->organ = organ;
-    intake.take_mesh(mesh);
+  bool remove(const std::string& organ, const std::string& says) {
+    RemoveOrgan::Request request;
+    RemoveOrgan::Response response;
+    request.name = organ;
+    EXPECT_TRUE(intake.on_remove(request, response));
+    EXPECT_NE(response.message.find(says), std::string::npos) << response.message;
+    return response.success;
   }
 
   /// Builds the next large mesh.
@@ -108,45 +110,31 @@ const std::vector<Case> kCases = {
        EXPECT_EQ(in.next(), (Texts{"liver mesh 1", "liver vertices 1"}));
        EXPECT_EQ(in.organs.at("liver").latest().mesh->face_count(), kFaces);
      }},
-    {"ManyVerticesMakeAMeshLargeToo",
-     [](Intake& in) {
-       const auto soup = Intake::message("liver", 1, 1);
-       soup->vertices.resize(3 * kFaces);
-       in.intake.take_mesh(soup);
-       EXPECT_EQ(in.next(), Texts{});
-       in.build();
-       EXPECT_EQ(in.next(), Texts{"liver mesh 1"});
-     }},
     {"TheOrderOfEachOrganStays",
      [](Intake& in) {
        in.mesh("liver", 1, kFaces);
        in.mesh("liver", 2);
        in.vertices("liver", 2);
-       in.mesh("liver", 3, kFaces);
+       const auto soup = Intake::message("liver", 3, 1);
+       soup->vertices.resize(3 * kFaces);  // Many vertices make a mesh large, too.
+       in.intake.take_mesh(soup);
        in.mesh("spleen", 4, kFaces);
        in.build();
-       EXPECT_EQ(in.next(), (Texts{"liver mesh 1", "liver mesh 2", "liver vertices 2"}));
+       EXPECT_EQ(in.next(), Texts{"liver mesh 1"});
        in.build();
        EXPECT_EQ(in.next(), Texts{"spleen mesh 4"});
        in.build();
        EXPECT_EQ(in.next(), Texts{"liver mesh 3"});
      }},
-    {"AKnownTopologyIsNotBuiltAgain",
-     [](Intake& in) {
-       for (int i = 0; i < 5; ++i) in.mesh("liver", 1, kFaces);
-       in.build();
-       EXPECT_EQ(in.next().size(), 5U);
-       EXPECT_TRUE(in.builder.isEmpty());
-     }},
-    {"AMeshIsAppliedWithItsConnection",
+    {"AKnownTopologyIsNotBuiltAgainAndTheConnectionIsKnown",
      [](Intake& in) {
        const auto header = boost::make_shared<const ros::M_string>();
-       in.intake.take_mesh(Intake::message("liver", 1, kFaces), header);
+       for (int i = 0; i < 2; ++i) in.intake.take_mesh(Intake::message("liver", 1, kFaces), header);
        in.build();
-       in.next();
-       const auto other = Intake::message("liver", 1, 1);
-       EXPECT_FALSE(in.organs.is_new(*other, header));
-       EXPECT_TRUE(in.organs.is_new(*other, {}));
+       EXPECT_EQ(in.next().size(), 2U);
+       EXPECT_TRUE(in.builder.isEmpty());
+       EXPECT_FALSE(in.organs.is_new(*Intake::message("liver", 1, 1), header));
+       EXPECT_TRUE(in.organs.is_new(*Intake::message("liver", 1, 1), {}));
      }},
     {"AFaultOfALargeMeshRefusesIt",
      [](Intake& in) {
@@ -158,58 +146,21 @@ const std::vector<Case> kCases = {
        EXPECT_EQ(in.next(), (Texts{"liver mesh 1 refused", "liver vertices 1 refused"}));
        EXPECT_EQ(in.rejected.by_reason().at("index out of range").count, 1U);
      }},
-    {"TheOldestVerticesGoWhereTooManyWait",
-     [](Intake& in) {
-       in.mesh("liver", 1, kFaces);
-       for (int i = 0; i < 250; ++i) in.vertices("liver", 1, static_cast<float>(i));
-       EXPECT_EQ(in.intake.counts().waiting, kMost);
-       EXPECT_EQ(in.intake.counts().dropped, 251U - kMost);
-       in.build();
-       EXPECT_EQ(in.next().size(), kMost);
-       EXPECT_EQ(in.organs.at("liver").previous().mesh->vertex(0).z(), 248.0);
-       EXPECT_EQ(in.organs.at("liver").latest().mesh->vertex(0).z(), 249.0);
-     }},
-    {"OfMeshesThatComeTooFastTheNewestStay",
-     [](Intake& in) {
-       for (std::uint32_t i = 1; i <= 200; ++i) in.mesh("liver", i, kFaces);
-       EXPECT_EQ(in.intake.counts().waiting, kMost);
-       Texts applied;
-       while (in.intake.counts().waiting > 0) {
-         in.build();
-         for (const std::string& text : in.next()) applied.push_back(text);
-       }
-       EXPECT_EQ(applied.size(), kMost);
-       EXPECT_EQ(applied.front(), "liver mesh 1");
-       EXPECT_EQ(applied.back(), "liver mesh 200");
-     }},
-    {"AMeshWithVerticesStaysAsLongAsItHasThem",
-     [](Intake& in) {
-       in.mesh("liver", 1, kFaces);
-       in.mesh("liver", 2);
-       for (int i = 0; i < 50; ++i) in.vertices("liver", 2);
-       in.build();
-       const Texts applied = in.next();
-       EXPECT_EQ(applied.at(1), "liver mesh 2");
-       EXPECT_EQ(applied.at(2), "liver vertices 2");
-     }},
-    {"TheRemovalBeforeAMeshStays",
+    {"WhatALaterMessageReplacesIsDroppedBehindALargeMesh",
      [](Intake& in) {
        in.mesh("liver", 1, kFaces);
        for (int i = 0; i < 50; ++i) {
-         in.removal("liver");
-         in.mesh("liver", 2);
+         EXPECT_TRUE(in.remove("liver", ""));
+         in.mesh("liver", 2, kFaces);
+         in.mesh("liver", 3);
+         for (int k = 0; k <= i; ++k) in.vertices("liver", 3, static_cast<float>(k));
        }
-       EXPECT_EQ(in.intake.counts().waiting, kMost);
+       EXPECT_EQ(in.intake.counts().waiting, 4U);
        in.build();
-       const Texts applied = in.next();
-       ASSERT_GE(applied.size(), 2U);
-       EXPECT_EQ(applied[applied.size() - 2], "liver removed");
-       EXPECT_EQ(applied.back(), "liver mesh 2");
-     }},
-    {"EndsWhileMeshesAreStillToBeBuilt",
-     [](Intake& in) {
-       in.mesh("liver", 1, kFaces);
-       in.mesh("liver", 2, kFaces);
+       EXPECT_EQ(in.next(),
+                 (Texts{"liver mesh 1", "liver removed", "liver mesh 3", "liver vertices 3"}));
+       EXPECT_EQ(in.organs.at("liver").latest().mesh->vertex(0).z(), 49.0);
+       EXPECT_EQ(in.intake.counts().received, in.intake.counts().dropped + 4U);
      }},
     {"ARefusedMessageIsCountedAndSaysWhy",
      [](Intake& in) {
@@ -232,19 +183,38 @@ const std::vector<Case> kCases = {
        EXPECT_EQ(update->status, ContactArray::UNKNOWN_ORGAN);
        EXPECT_TRUE(in.rejected.by_reason().empty());
      }},
-    {"RemoveDoesWhatAnEmptyMeshDoes",
+    {"RemovesAnOrganButNotWhatIsNotThere",
      [](Intake& in) {
-       EXPECT_THROW(in.intake.remove("liver"), Rejection);
+       EXPECT_FALSE(in.remove("liver", "organ 'liver' is unknown; no organ is known yet"));
+       EXPECT_FALSE(in.remove("", "unknown"));
+       EXPECT_FALSE(in.remove("\n", "control characters"));
        in.mesh("liver", 1);
-       in.intake.remove("liver");  // It may still wait.
+       EXPECT_TRUE(in.remove("liver", "organ 'liver' is removed")) << "it may still wait";
        in.intake.next();
        const auto update = in.intake.next();
        ASSERT_TRUE(update);
        EXPECT_EQ(update->change, OrganChange::kRemoved);
        EXPECT_EQ(update->status, ContactArray::NO_MESH);
        EXPECT_TRUE(in.rejected.by_reason().empty());
-       EXPECT_THROW(in.intake.remove("liver"), Rejection) << "it is removed already";
-       EXPECT_THROW(in.intake.remove("\n"), Rejection);
+       EXPECT_FALSE(in.remove("liver", "organ 'liver' was removed")) << "it is removed already";
+     }},
+    {"ListsTheOrgansInAnotherThread",
+     [](Intake& in) {
+       for (const char* organ : {"spleen", "kidney"}) in.mesh(organ, 1);
+       in.next();
+       ListOrgans::Response list;
+       const auto ask = [&] {
+         ListOrgans::Request request;
+         return in.intake.on_list(request, list);
+       };
+       auto answer = std::async(std::launch::async, ask);
+       in.node.callOne(ros::WallDuration(20.0));
+       EXPECT_TRUE(answer.get());
+       ASSERT_EQ(list.organs.size(), 2U);
+       EXPECT_EQ(list.organs[0].name, "kidney");
+       EXPECT_EQ(list.organs[1].name, "spleen");
+       in.node.disable();  // As when the node ends.
+       EXPECT_FALSE(ask());
      }},
     {"TellsWhatBecameOfEachMessage",
      [](Intake& in) {
@@ -257,7 +227,7 @@ const std::vector<Case> kCases = {
        EXPECT_EQ(in.intake.counts().waiting, 2U);
        in.build();
        in.next();
-       in.intake.remove("liver");
+       EXPECT_TRUE(in.remove("liver", ""));
        in.next();
        EXPECT_EQ(in.intake.counts().received, 4U);
        EXPECT_EQ(in.intake.counts().applied, 2U);
@@ -282,7 +252,7 @@ const std::vector<Case> kCases = {
        CapturedLog log;
        in.mesh("liver", 1);
        in.next();
-       in.removal("liver");
+       in.remove("liver", "");
        in.next();
        in.inspector.callAvailable();
        EXPECT_TRUE(log.take().empty());

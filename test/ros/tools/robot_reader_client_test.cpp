@@ -8,7 +8,6 @@
 #include <csignal>
 #include <cstdio>
 #include <fstream>
-#include <future>
 #include <system_error>
 
 #include "ros/tools/robot_reply.hpp"
@@ -46,7 +45,7 @@ std::string robot_of(const std::string& mesh) {
 }
 
 std::string refusal(const std::string& urdf, const std::vector<std::string>& links = {"tip"}) {
-  return tool_error([&] { read_robot_text(urdf, links); });
+  return tool_error([&] { read_robot("-", urdf, links); });
 }
 
 }  // namespace
@@ -72,8 +71,7 @@ TEST(ChildProcess, SaysHowTheProgramEnded) {
         Row{"kill -SEGV $$", "was ended by signal 11 (Segmentation fault)"},
         Row{"exec sleep 1000", "took more than 0.05 s", short_time},
         Row{"trap '' TERM INT; while :; do :; done", "took more than 0.05 s", short_time},
-        Row{"yes", "wrote more than 100000 bytes", {std::chrono::minutes(1), 100'000}},
-        Row{"exec >&-; exec sleep 1000", "was ended by signal 9 (Killed)"}}) {
+        Row{"exec yes", "wrote more than 100000 bytes", {std::chrono::minutes(1), 100'000}}}) {
     const std::string unread(10'000'000, 'x');
     const ProcessResult result = run_shell(row.script, unread, row.limits);
     EXPECT_EQ(result.failure, row.failure) << row.script;
@@ -98,26 +96,9 @@ TEST(ChildProcess, SignalsOfTheHostProcessDoNotMatter) {
   EXPECT_EQ(run_shell("kill -TERM $$; echo alive").failure, "was ended by signal 15 (Terminated)");
   EXPECT_EQ(run_shell("kill -PIPE $$; echo alive").failure, "was ended by signal 13 (Broken pipe)");
   pthread_sigmask(SIG_SETMASK, &former, nullptr);
-}
-
-TEST(ChildProcess, AHostThatIgnoresItsChildrenGetsTheOutput) {
   const ScopedSignalAction no_child(SIGCHLD, SIG_IGN);
-  const ProcessResult result = run_shell("echo answer");
-  EXPECT_EQ(result.output, "answer\n");
-  EXPECT_EQ(result.failure, "");
-}
-
-TEST(ChildProcess, ManyThreadsRunTheirOwn) {
-  std::vector<std::future<std::string>> outputs;
-  for (int i = 0; i < 8; ++i) {
-    outputs.push_back(std::async(std::launch::async, [i] {
-      std::string all;
-      for (int k = 0; k < 20; ++k) all += run_shell("cat", std::to_string(i)).output;
-      return all;
-    }));
-  }
-  for (int i = 0; i < 8; ++i)
-    EXPECT_EQ(outputs[i].get(), std::string(20, static_cast<char>('0' + i)));
+  EXPECT_EQ(run_shell("echo answer").output, "answer\n");
+  EXPECT_EQ(run_shell("echo answer").failure, "");
 }
 
 TEST(ChildProcess, NothingIsLeftOpenOrWaitedFor) {
@@ -138,8 +119,8 @@ TEST(ChildProcess, NothingIsLeftOpenOrWaitedFor) {
 
 TEST(RobotReader, ReadsFilesAndTexts) {
   const std::vector<std::string> names = {"jaw", "shaft"};
-  for (const auto& links : {read_robot_file(tool_file("gripper.urdf"), names),
-                            read_robot_text(tool_text("gripper.urdf"), names)}) {
+  for (const auto& links : {read_robot(tool_file("gripper.urdf"), "", names),
+                            read_robot("-", tool_text("gripper.urdf"), names)}) {
     ASSERT_EQ(links.size(), 2u);
     EXPECT_EQ(links[0].joint, "jaw_joint");
     EXPECT_EQ(links[0].shapes.at(0).triangles.size(), 12u);
@@ -148,17 +129,13 @@ TEST(RobotReader, ReadsFilesAndTexts) {
   }
 }
 
-TEST(RobotReader, NamesOfLinksMayBeAnything) {
+TEST(RobotReader, RefusalsAreTheReaders) {
   for (const std::string name : {"", "-", "--help", "a b", "\xff"}) {
     expect_words(refusal(tool_text("gripper.urdf"), {name}), {"link '" + name + "' is unknown"});
   }
-}
-
-TEST(RobotReader, RefusalsAreTheReaders) {
   expect_words(refusal(""), {"no legal URDF"});
   expect_words(refusal(robot_of("/no/such.stl")), {"link 'tip'", "/no/such.stl", "no such file"});
-  expect_words(tool_error([] { read_robot_file("/no/such.urdf", {"tip"}); }), {"no such file"});
-  expect_words(tool_error([] { read_robot_file("-", {"tip"}); }), {"no legal URDF"});
+  expect_words(tool_error([] { read_robot("/no/such.urdf", "", {"tip"}); }), {"no such file"});
 }
 
 // Some versions of the parsers crash on these files; others report the error.
