@@ -18,7 +18,7 @@
 #include "ros/organs/organ_report.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/publishing/diagnostics.hpp"
-#include "ros/steps/inbox.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 #include "tool_proxy.hpp"
 
 namespace organ_collision {
@@ -92,7 +92,7 @@ class HapticProxyNode {
   Time started_;
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
-  ProxyMarkerPublisher markers_;
+  MarkerPublisher markers_;
   OrganServices organ_services_;
 };
 

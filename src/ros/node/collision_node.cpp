@@ -11,7 +11,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       publisher_(core_.private_node(), core_.tools(), counters_),
       markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
       pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
-                {[this](const EvaluatedStep& step) {
+                {[this](const ToolStep& step) {
                    publisher_.publish(step);
                    markers_.add(step);
                  },
@@ -19,8 +19,7 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
                 OrganIntake::Threads{core_.loop().queue(), core_.builder().queue(),
                                      core_.background().queue()}),
       services_(
-          {core_.parameters(), core_.tools(), pipeline_.inbox.organs, pipeline_.inbox.transforms,
-           pipeline_.poses, pipeline_.steps.history()},
+          {core_.parameters(), core_.tools(), pipeline_},
           [this](const std::function<void()>& action) { core_.in_node_thread(action); }, counters_),
       organ_services_(pipeline_.inbox.organs, pipeline_.inbox.intake, core_.loop().queue(),
                       core_.background().queue()) {
@@ -58,8 +57,7 @@ void CollisionNode::start() {
   organ_services_.advertise(core_.private_node());
   start_ticks();
   add_diagnostics(core_.updater(),
-                  AnsweredParts{core_.parameters().misspelt, pipeline_.workers.gl_version(),
-                                pipeline_.steps, pipeline_.inbox.transforms, counters_});
+                  AnsweredParts{core_.parameters().misspelt, pipeline_, counters_});
   add_diagnostics(core_.updater(), ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
                                                  pipeline_.inbox.organs, pipeline_.inbox.intake,
                                                  counters_.meshes, counters_.rejected});

@@ -8,7 +8,6 @@
 #include "ros/markers/marker_publisher.hpp"
 #include "ros/organs/organ_services.hpp"
 #include "ros/publishing/contact_publisher.hpp"
-#include "ros/publishing/counters.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/queries/query_services.hpp"
 #include "ros/steps/collision_pipeline.hpp"

@@ -15,7 +15,7 @@
 #include "organ_collision/ros/names.hpp"
 #include "program.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/steps/step_history.hpp"
+#include "ros/steps/step.hpp"
 #include "ros/threads/queues.hpp"
 #include "ros/threads/realtime.hpp"
 #include "ros/tools/tool.hpp"
