@@ -20,7 +20,7 @@
 #include "geometry/distance/closest_points.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
 #include "organ_collision/ros/names.hpp"
-#include "ros/markers/tool_markers.hpp"
+#include "ros/markers/markers.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/program.hpp"

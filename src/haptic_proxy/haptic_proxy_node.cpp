@@ -42,8 +42,7 @@ SteadyClock::duration duration(double seconds) {
 HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
       inbox_(
-          {core_.parameters().max_faces, core_.parameters().max_ahead_sec},
-          core_.parameters().tools, counters_.rejected,
+          core_.parameters(), counters_.rejected,
           [this](std::size_t tool) {
             if (std::exchange(hands_[tool].is_waiting, true)) ++counters_.poses_merged;
           },

@@ -15,7 +15,7 @@
 #include "ros/motion/tool_poses.hpp"
 #include "ros/node/node_core.hpp"
 #include "ros/publishing/diagnostics.hpp"
-#include "ros/steps/inbox.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 #include "tool_proxy.hpp"
 
 namespace organ_collision {
@@ -84,7 +84,7 @@ class HapticProxyNode {
   Time started_;
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;
-  ProxyMarkerPublisher markers_;
+  MarkerPublisher markers_;
 };
 
 }  // namespace organ_collision

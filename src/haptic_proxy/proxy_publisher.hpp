@@ -14,8 +14,7 @@
 #include "forces/forces.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/organs/organ_registry.hpp"
-#include "ros/publishing/counters.hpp"
-#include "ros/steps/duration_statistics.hpp"
+#include "ros/publishing/diagnostics.hpp"
 #include "tool_proxy.hpp"
 
 namespace organ_collision {

@@ -14,7 +14,7 @@
 #include "proxy_forces.hpp"
 #include "proxy_scene.hpp"
 #include "ros/motion/transform_buffer.hpp"
-#include "ros/parameters/tool_parameters.hpp"
+#include "ros/parameters/node_parameters.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {

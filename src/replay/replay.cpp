@@ -33,7 +33,7 @@ Replay::Replay(const NodeParameters& parameters, const std::vector<Tool>& tools,
       follows_clock_(follows_clock),
       answer_(std::move(answer)),
       pipeline_(parameters, tools, rejected_,
-                {[this](const EvaluatedStep& step) { write(*step.answer); },
+                {[this](const ToolStep& step) { write(*step.answer); },
                  [this](const OrganUpdate& update) { report(update); }}) {
   ros::Time::init();
   ros::Time::setNow(now_);  // From now on, ROS time is that of the bag.

@@ -7,12 +7,7 @@
 #include "fuzz_input.hpp"
 #include "haptic_proxy/proxy_scene.hpp"
 #include "haptic_proxy/tool_proxy.hpp"
-#include "ros/motion/motion_topics.hpp"
-#include "ros/motion/tool_poses.hpp"
-#include "ros/organs/organ_registry.hpp"
-#include "ros/steps/inbox.hpp"
-#include "ros/steps/step_scheduler.hpp"
-#include "ros/steps/step_workers.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 #include "test/check_contacts/contact_contract.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
@@ -135,15 +130,12 @@ class Node {
 
   FailureLog rejected_;
   SteadyTime now_{std::chrono::hours(1)};
-  Inbox inbox_{{parameters().max_faces, parameters().max_ahead_sec},
-               parameters().tools,
-               rejected_,
-               [this](std::size_t tool) { steps_.add_pose(tool); }};
+  Inbox inbox_{parameters(), rejected_, [this](std::size_t tool) { steps_.add_pose(tool); }};
   ToolPoses poses_{inbox_.transforms, {0.001, 10}};
   AnswerCheck check_;
   StepScheduler steps_{parameters(),  tools(),
                        inbox_.organs, poses_,
-                       workers(),     [this](const EvaluatedStep& step) { check_(*step.answer); }};
+                       workers(),     [this](const ToolStep& step) { check_(*step.answer); }};
 };
 
 void run_node_messages(const std::uint8_t* data, std::size_t size) {

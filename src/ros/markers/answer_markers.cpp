@@ -1,13 +1,7 @@
-#include "answer_markers.hpp"
-
 #include <algorithm>
 #include <cstdio>
-#include <map>
-#include <vector>
 
-#include "marker_shapes.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/messages/failure_log.hpp"
+#include "markers.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {

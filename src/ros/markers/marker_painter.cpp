@@ -2,12 +2,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
-#include <chrono>
 #include <unordered_map>
-
-#include "answer_markers.hpp"
-#include "marker_shapes.hpp"
-#include "tool_markers.hpp"
 
 namespace organ_collision {
 namespace {
@@ -198,22 +193,21 @@ void MarkerPainter::add_answer(const Scene& scene, const ScenePair& pair,
 
 /// Adds a DELETE for each marker that subscribers have beyond this picture and the surfaces.
 void MarkerPainter::delete_rest(const Scene& scene, MarkerArray& picture) {
-  std::map<std::string, Group> now;
+  decltype(shown_) now;
   for (Marker& marker : picture.markers) {
     marker.lifetime = ros::Duration(kLifetimes * kRefreshSec);
-    now[marker.ns] = {now[marker.ns].count + 1, marker.header.frame_id};
+    now[{marker.ns, marker.id}] = marker.header.frame_id;
   }
   for (const SceneOrgan& organ : scene.organs) {
-    if (surfaces_.count(organ.name) == 0) continue;
-    now[kSurface + organ.name] = {surface_marker_count(organ), organ.frame};
+    const int count = surfaces_.count(organ.name) > 0 ? surface_marker_count(organ) : 0;
+    for (int id = 0; id < count; ++id) now[{kSurface + organ.name, id}] = organ.frame;
   }
-  for (const auto& [name_space, before] : shown_) {
-    for (int id = now.count(name_space) > 0 ? now[name_space].count : 0; id < before.count; ++id) {
-      Marker gone = make_marker({name_space, before.frame, colours::kText}, Marker::CUBE);
-      gone.action = Marker::DELETE;
-      gone.id = id;
-      picture.markers.push_back(std::move(gone));
-    }
+  for (const auto& [marker, frame] : shown_) {
+    if (now.count(marker) > 0) continue;
+    Marker gone = make_marker({marker.first, frame, colours::kText}, Marker::CUBE);
+    gone.action = Marker::DELETE;
+    gone.id = marker.second;
+    picture.markers.push_back(std::move(gone));
   }
   shown_ = std::move(now);
 }

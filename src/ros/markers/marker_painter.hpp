@@ -1,15 +1,8 @@
 #pragma once
 
-#include <visualization_msgs/MarkerArray.h>
-
-#include <cstddef>
 #include <deque>
-#include <functional>
-#include <map>
-#include <memory>
-#include <string>
 
-#include "scene.hpp"
+#include "markers.hpp"
 
 namespace organ_collision {
 
@@ -41,11 +34,6 @@ class MarkerPainter {
     std::shared_ptr<const TriangleMesh> mesh;
     std::string frame;
   };
-  /// The markers that a namespace has, with the ids 0 ... count - 1.
-  struct Group {
-    int count = 0;
-    std::string frame;  ///< of one of them; RViz ignores a DELETE without a frame
-  };
 
   void start_anew(const Scene& scene, const Publish& publish);
   void remember(const Scene& scene);
@@ -59,8 +47,9 @@ class MarkerPainter {
   void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
 
   std::map<std::string, Surface> surfaces_;  ///< by organ
-  std::map<std::string, Group> shown_;       ///< what subscribers have, by namespace
-  std::deque<SceneStep> trail_;              ///< the recent steps, which fade
+  /// What subscribers have: frames by namespace and id. RViz ignores a DELETE without a frame.
+  std::map<std::pair<std::string, int>, std::string> shown_;
+  std::deque<SceneStep> trail_;  ///< the recent steps, which fade
 
   // The mean time of the queries of about a second, which changes once a second so that people can
   // read it.

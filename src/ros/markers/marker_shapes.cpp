@@ -1,10 +1,9 @@
-#include "marker_shapes.hpp"
-
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
+
+#include "markers.hpp"
 
 namespace organ_collision {
 
@@ -34,19 +33,10 @@ std_msgs::ColorRGBA tissue(std::size_t number) {
 }
 
 std_msgs::ColorRGBA proxy(ProxyStatus state) {
-  switch (state) {
-    case ProxyStatus::kFree:
-      return kText;
-    case ProxyStatus::kTouching:
-      return rgba(0.30F, 0.95F, 0.50F);
-    case ProxyStatus::kSqueezed:
-      return rgba(1.00F, 0.65F, 0.10F);
-    case ProxyStatus::kPunctured:
-      return rgba(0.80F, 0.50F, 1.00F);
-    case ProxyStatus::kNoAnswer:
-      break;
-  }
-  return kFailure;
+  static const std_msgs::ColorRGBA colours[] = {kFailure, kText, rgba(0.30F, 0.95F, 0.50F),
+                                                rgba(1.00F, 0.65F, 0.10F),
+                                                rgba(0.80F, 0.50F, 1.00F)};
+  return colours[static_cast<std::size_t>(state)];
 }
 
 std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share) {

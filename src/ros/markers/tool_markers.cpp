@@ -1,10 +1,9 @@
-#include "tool_markers.hpp"
-
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
 #include <cstdio>
 
+#include "markers.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
@@ -173,19 +172,9 @@ void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
 }
 
 std::string name_of(ProxyStatus state) {
-  switch (state) {
-    case ProxyStatus::kFree:
-      return "FREE";
-    case ProxyStatus::kTouching:
-      return "TOUCHING";
-    case ProxyStatus::kSqueezed:
-      return "SQUEEZED";
-    case ProxyStatus::kPunctured:
-      return "PUNCTURED";
-    case ProxyStatus::kNoAnswer:
-      break;
-  }
-  return "NO_ANSWER";
+  static constexpr const char* kNames[] = {"NO_ANSWER", "FREE", "TOUCHING", "SQUEEZED",
+                                           "PUNCTURED"};
+  return kNames[static_cast<std::size_t>(state)];
 }
 
 void add_proxy(const ProxyView& view, MarkerArray& picture) {

@@ -11,15 +11,14 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
       publisher_(core_.private_node(), core_.tools(), counters_),
       markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
       pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
-                {[this](const EvaluatedStep& step) {
+                {[this](const ToolStep& step) {
                    publisher_.publish(step);
                    markers_.add(step);
                  },
                  [this](const OrganUpdate& update) { publisher_.report(update); }},
                 core_.organ_threads()),
       services_(
-          {core_.parameters(), core_.tools(), pipeline_.inbox.organs, pipeline_.inbox.transforms,
-           pipeline_.poses, pipeline_.steps.history()},
+          {core_.parameters(), core_.tools(), pipeline_},
           [this](const std::function<void()>& action) { core_.in_node_thread(action); },
           counters_) {
   try {
@@ -59,8 +58,7 @@ void CollisionNode::start() {
                       on_queue(core_.private_node(), batch_thread_.queue()));
   start_ticks();
   add_diagnostics(core_.updater(),
-                  AnsweredParts{core_.parameters().misspelt, pipeline_.workers.gl_version(),
-                                pipeline_.steps, pipeline_.inbox.transforms, counters_});
+                  AnsweredParts{core_.parameters().misspelt, pipeline_, counters_});
   add_diagnostics(core_.updater(), ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
                                                  pipeline_.inbox.organs, pipeline_.inbox.intake,
                                                  counters_.meshes, counters_.rejected});

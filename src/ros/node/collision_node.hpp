@@ -7,7 +7,6 @@
 #include "node_core.hpp"
 #include "ros/markers/marker_publisher.hpp"
 #include "ros/publishing/contact_publisher.hpp"
-#include "ros/publishing/counters.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/queries/query_services.hpp"
 #include "ros/steps/collision_pipeline.hpp"

@@ -16,7 +16,7 @@
 #include "program.hpp"
 #include "ros/organs/organ_intake.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/steps/step_history.hpp"
+#include "ros/steps/step.hpp"
 #include "ros/threads/queues.hpp"
 #include "ros/threads/realtime.hpp"
 #include "ros/tools/tool.hpp"

@@ -56,29 +56,29 @@ ParameterGroup::ParameterGroup(std::string path, const XmlRpcValue& value,
 }
 
 bool ParameterGroup::flag(const std::string& name, bool fallback) const {
-  const XmlRpcValue* value = find(name, XmlRpcValue::TypeBoolean, "must be true or false");
-  return value ? static_cast<const bool&>(*value) : fallback;
+  if (!has(name)) return fallback;
+  return static_cast<const bool&>(require(name, XmlRpcValue::TypeBoolean, "must be true or false"));
 }
 
 std::string ParameterGroup::choice(const std::string& name, const std::string& fallback,
                                    const std::vector<std::string>& legal_values) const {
+  if (!has(name)) return fallback;
   const std::string legal = "must be one of " + listed(legal_values);
-  const XmlRpcValue* value = find(name, XmlRpcValue::TypeString, legal);
-  if (!value) return fallback;
-  const std::string& text = text_in(*value);
+  const std::string& text = text_in(require(name, XmlRpcValue::TypeString, legal));
   const auto found = std::find(legal_values.begin(), legal_values.end(), text);
   if (found == legal_values.end()) refuse(name, legal);
   return text;
 }
 
 double ParameterGroup::number(const std::string& name, std::optional<double> fallback,
-                              const NumberRange& range) const {
-  const std::string legal = "must be a number, " + written(range);
+                              const NumberRange& range, bool must_be_whole) const {
+  const std::string legal =
+      (must_be_whole ? "must be a whole number, " : "must be a number, ") + written(range);
   if (!has(name)) {
     if (!fallback) refuse_missing(name, legal);
     return *fallback;
   }
-  const bool is_whole = value_[name].getType() == XmlRpcValue::TypeInt;
+  const bool is_whole = must_be_whole || value_[name].getType() == XmlRpcValue::TypeInt;
   const XmlRpcValue& value =
       require(name, is_whole ? XmlRpcValue::TypeInt : XmlRpcValue::TypeDouble, legal);
   const double number =
@@ -87,15 +87,6 @@ double ParameterGroup::number(const std::string& name, std::optional<double> fal
   if (number != 0.0 && number < range.least_above_zero) {
     refuse(name, "must be 0 or at least " + written(range.least_above_zero));
   }
-  return number;
-}
-
-int ParameterGroup::whole_number(const std::string& name, int fallback,
-                                 const NumberRange& range) const {
-  const std::string legal = "must be a whole number, " + written(range);
-  const XmlRpcValue* value = find(name, XmlRpcValue::TypeInt, legal);
-  const int number = value ? static_cast<const int&>(*value) : fallback;
-  if (value && !contains(range, number)) refuse(name, legal);
   return number;
 }
 
@@ -159,12 +150,6 @@ void ParameterGroup::refuse_missing(const std::string& name, const std::string& 
 
 std::string ParameterGroup::path_of(const std::string& name) const {
   return path_ == "~" ? path_ + name : path_ + "/" + name;
-}
-
-/// Returns null if there is no such member.
-const XmlRpcValue* ParameterGroup::find(const std::string& name, Type type,
-                                        const std::string& legal) const {
-  return has(name) ? &require(name, type, legal) : nullptr;
 }
 
 const XmlRpcValue& ParameterGroup::require(const std::string& name, Type type,

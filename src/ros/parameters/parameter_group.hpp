@@ -51,9 +51,11 @@ class ParameterGroup {
   bool flag(const std::string& name, bool fallback) const;
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& legal_values) const;
-  double number(const std::string& name, std::optional<double> fallback,
-                const NumberRange& range) const;
-  int whole_number(const std::string& name, int fallback, const NumberRange& range) const;
+  double number(const std::string& name, std::optional<double> fallback, const NumberRange& range,
+                bool must_be_whole = false) const;
+  int whole_number(const std::string& name, int fallback, const NumberRange& range) const {
+    return static_cast<int>(number(name, fallback, range, true));
+  }
 
   /// Required members. Each throws ParameterError if the member is missing or illegal.
   /// A text that is not empty.
@@ -80,8 +82,6 @@ class ParameterGroup {
 
  private:
   using Type = XmlRpc::XmlRpcValue::Type;
-  const XmlRpc::XmlRpcValue* find(const std::string& name, Type type,
-                                  const std::string& legal) const;
   const XmlRpc::XmlRpcValue& require(const std::string& name, Type type,
                                      const std::string& legal) const;
 

@@ -5,7 +5,7 @@
 #include <ros/console.h>
 
 #include <cmath>
-#include <sstream>
+#include <type_traits>
 
 #include "ros/messages/checked_messages.hpp"
 
@@ -65,36 +65,35 @@ XmlRpcValue requested(const Config& request) {
 
 }  // namespace
 
-ParameterTable::Row& ParameterTable::number(const std::string& name, double& value,
-                                            const NumberRange& range, const std::string& text) {
-  other(
-      name, std::isinf(value) ? "no limit" : shown(value),
-      [name, &value, range](const ParameterGroup& all) { value = all.number(name, value, range); },
-      text);
+template <typename Value>
+ParameterTable::Row& ParameterTable::add(const std::string& name, Value& value,
+                                         const NumberRange& range, const std::string& text) {
+  const auto read = [name, &value, range](const ParameterGroup& all) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      value = all.flag(name, value);
+    } else {
+      value = static_cast<Value>(all.number(name, value, range, std::is_same_v<Value, int>));
+    }
+  };
+  other(name, std::isinf(static_cast<double>(value)) ? "no limit" : shown(value), read, text);
   rows_.back().value = [&value] { return XmlRpcValue(value); };
   rows_.back().range = range;
   return rows_.back();
+}
+
+ParameterTable::Row& ParameterTable::number(const std::string& name, double& value,
+                                            const NumberRange& range, const std::string& text) {
+  return add(name, value, range, text);
 }
 
 ParameterTable::Row& ParameterTable::flag(const std::string& name, bool& value,
                                           const std::string& text) {
-  other(
-      name, shown(value),
-      [name, &value](const ParameterGroup& all) { value = all.flag(name, value); }, text);
-  rows_.back().value = [&value] { return XmlRpcValue(value); };
-  return rows_.back();
+  return add(name, value, {}, text);
 }
 
 void ParameterTable::whole_number(const std::string& name, int& value, const NumberRange& range,
                                   const std::string& text) {
-  other(
-      name, shown(value),
-      [name, &value, range](const ParameterGroup& all) {
-        value = all.whole_number(name, value, range);
-      },
-      text);
-  rows_.back().value = [&value] { return XmlRpcValue(value); };
-  rows_.back().range = range;
+  add(name, value, range, text);
 }
 
 void ParameterTable::choice(const std::string& name, const std::string& fallback,

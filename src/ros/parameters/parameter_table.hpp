@@ -4,9 +4,7 @@
 
 #include <functional>
 #include <sstream>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "parameter_group.hpp"
 
@@ -75,6 +73,10 @@ class ParameterTable {
   std::vector<HelpEntry> help() const;
 
  private:
+  template <typename Value>
+  Row& add(const std::string& name, Value& value, const NumberRange& range,
+           const std::string& text);
+
   std::vector<Row> rows_;
 };
 

@@ -1,10 +1,8 @@
 #include "contact_publisher.hpp"
 
-#include <organ_collision/ContactArray.h>
 #include <ros/console.h>
 
 #include <boost/make_shared.hpp>
-#include <chrono>
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/steps/contact_array.hpp"
@@ -25,7 +23,7 @@ ContactPublisher::ContactPublisher(ros::NodeHandle private_node, const std::vect
       counters_(counters),
       contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)) {}
 
-void ContactPublisher::publish(const EvaluatedStep& step) {
+void ContactPublisher::publish(const ToolStep& step) {
   if (step.is_starting) {
     ++counters_.starting;
     ROS_DEBUG("%s", step.answer->message.c_str());
@@ -37,6 +35,7 @@ void ContactPublisher::publish(const EvaluatedStep& step) {
                              "tool '" + step.answer->tool + "': " + step.answer->message,
                              SteadyClock::now());
   }
+  if (step.answer->status == ContactArray::OK) counters_.query_times.add(step.query_sec);
   contacts_.publish(step.answer);
   ++counters_.published;
   counters_.contacts.count();

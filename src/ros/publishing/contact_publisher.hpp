@@ -1,17 +1,6 @@
 #pragma once
 
-#include <ros/node_handle.h>
-#include <std_msgs/Header.h>
-
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "counters.hpp"
-#include "ros/organs/organ_intake.hpp"
-#include "ros/organs/organ_registry.hpp"
-#include "ros/steps/step_scheduler.hpp"
-#include "ros/tools/tool.hpp"
+#include "diagnostics.hpp"
 
 namespace organ_collision {
 
@@ -22,7 +11,7 @@ class ContactPublisher {
   ContactPublisher(ros::NodeHandle private_node, const std::vector<Tool>& tools,
                    NodeCounters& counters);
 
-  void publish(const EvaluatedStep& step);
+  void publish(const ToolStep& step);
   /// Counts an accepted shape. If the message brought no shape, publishes for each tool an answer
   /// that says why.
   void report(const OrganUpdate& update);

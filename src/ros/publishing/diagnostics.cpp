@@ -1,8 +1,7 @@
 #include "diagnostics.hpp"
 
-#include <chrono>
+#include <algorithm>
 
-#include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/organs/deformable_organ.hpp"
 #include "ros/steps/contact_array.hpp"
@@ -40,7 +39,8 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
 
 /// "queries", "query time, median [us]" and so on.
 void show_times(const std::string& count, const std::string& time,
-                const DurationStatistics::Summary& times, DiagnosticStatusWrapper& status) {
+                const DurationStatistics& statistics, DiagnosticStatusWrapper& status) {
+  const DurationStatistics::Summary times = statistics.summary();
   constexpr double kMicroseconds = 1e6;
   status.add(count, times.count);
   status.add(time + ", median [us]", times.median * kMicroseconds);
@@ -49,6 +49,33 @@ void show_times(const std::string& count, const std::string& time,
 }
 
 }  // namespace
+
+double EventRate::take(Time now) {
+  const double seconds = std::chrono::duration<double>(now - since_).count();
+  const double rate = seconds > 0.0 ? static_cast<double>(count_) / seconds : 0.0;
+  since_ = now;
+  count_ = 0;
+  return rate;
+}
+
+void DurationStatistics::add(double seconds) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  seconds_[count_++ % kCapacity] = seconds;
+}
+
+DurationStatistics::Summary DurationStatistics::summary() const {
+  std::unique_lock<std::mutex> lock(mutex_);
+  const std::size_t count = count_, kept = std::min(count, kCapacity);
+  std::vector<double> times(seconds_.begin(), seconds_.begin() + kept);
+  lock.unlock();
+  if (times.empty()) return {};
+  const auto percentile = [&](std::size_t percent) {
+    const auto place = times.begin() + static_cast<std::ptrdiff_t>((kept * percent + 99) / 100 - 1);
+    std::nth_element(times.begin(), place, times.end());  // Sorting all would delay a step.
+    return *place;
+  };
+  return {count, percentile(50), percentile(99), *std::max_element(times.begin(), times.end())};
+}
 
 void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts) {
   updater.add("tools", [parts](auto& status) { show_tools(parts, status); });
@@ -97,25 +124,24 @@ void show_messages(const ReceivedParts& parts, DiagnosticStatusWrapper& status) 
 void show_queries(const AnsweredParts& parts, DiagnosticStatusWrapper& status) {
   NodeCounters& counters = parts.counters;
   status.summary(DiagnosticStatus::OK, "answering");
-  status.add("GL version", parts.gl_version);
+  status.add("GL version", parts.pipeline.workers.gl_version());
   status.add("contacts rate [1/s]", counters.contacts.take(std::chrono::steady_clock::now()));
-  show_times("queries", "query time", parts.steps.query_times().summary(), status);
-  status.add("motion samples cut", parts.steps.samples_cut());
-  status.add("motion samples cut, farthest from the swept way [m]", parts.steps.deviation_cut());
-  status.add("transforms after their step", parts.transforms.late());
-  status.add("poses merged into later ones", parts.steps.poses_merged());
-  const ShapeCounts shapes = parts.steps.shapes();
-  status.add("shapes due", shapes.due);
-  status.add("shapes answered", shapes.answered);
-  status.add("shapes superseded by newer ones", shapes.superseded);
-  status.add("shapes forgotten before their step", shapes.forgotten);
-  status.add("shapes waiting", shapes.waiting);
+  show_times("queries", "query time", counters.query_times, status);
+  const StepCounts steps = parts.pipeline.steps.counts();
+  status.add("motion samples cut", steps.samples_cut);
+  status.add("motion samples cut, farthest from the swept way [m]", steps.deviation_cut);
+  status.add("transforms after their step", parts.pipeline.inbox.transforms.late());
+  status.add("poses merged into later ones", steps.poses_merged);
+  status.add("shapes due", steps.due);
+  status.add("shapes answered", steps.answered);
+  status.add("shapes superseded by newer ones", steps.superseded);
+  status.add("shapes forgotten before their step", steps.forgotten);
+  status.add("shapes waiting", steps.waiting);
   status.add("answers published", counters.published);
   status.add("steps while TF was starting", counters.starting);
-  const ServiceStatistics::Counts services = counters.services.counts();
-  show_times("service queries", "service query time", services.queries.summary(), status);
-  status.add("batches", services.batches);
-  status.add("motions of batches", services.motions);
+  show_times("service queries", "service query time", counters.service_times, status);
+  status.add("batches", counters.batches.load());
+  status.add("motions of batches", counters.motions.load());
   for (const std::string& sentence : parts.misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }

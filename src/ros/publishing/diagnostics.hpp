@@ -2,17 +2,73 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
 #include <string>
 #include <vector>
 
-#include "counters.hpp"
-#include "ros/motion/transform_buffer.hpp"
-#include "ros/organs/organ_intake.hpp"
-#include "ros/organs/organ_registry.hpp"
-#include "ros/steps/step_scheduler.hpp"
+#include "ros/messages/failure_log.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {
+
+/// Counts events and gives their rate.
+class EventRate {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  explicit EventRate(Time start) : since_(start) {}
+  void count() { ++count_; }
+  /// [1/s] The rate since the last call, or since the start. 0 if no time has passed.
+  double take(Time now);
+
+ private:
+  Time since_;
+  std::uint64_t count_ = 0;
+};
+
+/// Statistics of the durations of the last kCapacity events [s]. Any thread may use it at any time.
+class DurationStatistics {
+ public:
+  static constexpr std::size_t kCapacity = 4096;
+
+  struct Summary {
+    std::size_t count = 0;  ///< of all events since the start; without events, all members are 0
+    double median = 0.0;
+    double percentile_99 = 0.0;
+    double worst = 0.0;
+  };
+
+  void add(double seconds);
+  /// The percentile p is the smallest duration that at least p percent of the events do not exceed.
+  Summary summary() const;
+
+ private:
+  mutable std::mutex mutex_;  ///< guards all that follows
+  std::array<double, kCapacity> seconds_{};
+  std::size_t count_ = 0;
+};
+
+/// What the node counts for /diagnostics.
+struct NodeCounters {
+  EventRate meshes{std::chrono::steady_clock::now()};    ///< accepted shapes of organs
+  EventRate contacts{std::chrono::steady_clock::now()};  ///< answers to steps
+  std::uint64_t published = 0;       ///< answers on `contacts`, also those about refused messages
+  std::uint64_t starting = 0;        ///< steps without TF that may be starting
+  DurationStatistics query_times;    ///< of the answered steps
+  DurationStatistics service_times;  ///< of single queries, without the time in which they waited
+  std::atomic<std::uint64_t> batches{0};  ///< that were answered to the end
+  std::atomic<std::uint64_t> motions{0};  ///< of all batches, also of the present one
+  FailureLog rejected;                    ///< messages that were refused
+  FailureLog failed;                      ///< steps without an answer
+  FailureLog incomplete;                  ///< steps with an answer whose path is not wholly known
+  FailureLog refused;                     ///< service calls without an answer
+};
 
 // The parts of /diagnostics that the nodes share.
 
@@ -29,9 +85,7 @@ struct ReceivedParts {
 /// What the collision node has answered. All must outlive the updater.
 struct AnsweredParts {
   const std::vector<std::string>& misspelt;
-  const std::string& gl_version;
-  const StepScheduler& steps;
-  const TransformBuffer& transforms;
+  const CollisionPipeline& pipeline;
   NodeCounters& counters;
 };
 

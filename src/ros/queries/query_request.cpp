@@ -1,11 +1,6 @@
 #include "query_request.hpp"
 
-#include <chrono>
 #include <cmath>
-#include <string>
-#include <vector>
-
-#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 
@@ -19,40 +14,6 @@ static_assert(ContactArray::STATIC == static_cast<int>(QueryMode::kStatic) &&
 
 /// A query waits at most this long until the background thread has inspected a new surface.
 constexpr std::chrono::milliseconds kLongestInspection(200);
-
-/// What single queries and batches have in common.
-template <typename Request>
-CollisionRequest common_request(const Request& request) {
-  if (request.mode > ContactArray::PAPER_NAIVE) {
-    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
-  }
-  CollisionRequest collision;
-  collision.mode = static_cast<QueryMode>(request.mode);
-  collision.margin = request.margin;
-  collision.clearance = request.clearance != 0;
-  collision.placement = request.placement != 0;
-  return collision;
-}
-
-/// CollisionQuery would refuse the same, but for each motion of a batch.
-CollisionRequest checked(const CollisionRequest& collision) {
-  const double margin = collision.margin;
-  if (!std::isfinite(margin) || margin < 0.0) {
-    refuse("margin is ", margin,
-           " m; must be positive and finite, or 0 for no clearance within a margin");
-  }
-  if (collision.max_near > 0 && margin == 0.0) {
-    refuse("max_near is ", collision.max_near,
-           ", and margin is 0; near faces need a margin above 0");
-  }
-  const bool asks_more = margin > 0.0 || collision.clearance || collision.placement;
-  if (is_paper_mode(collision.mode) && asks_more) {
-    refuse("mode is ", static_cast<int>(collision.mode),
-           ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
-           "1 (SWEPT)");
-  }
-  return collision;
-}
 
 using Poses = std::vector<geometry_msgs::Pose>;
 
@@ -119,16 +80,6 @@ void check_links_of(const Tool& tool, const LinkMotion* motion, QueryMode mode) 
   if (!is_static_mode(mode)) check_poses("previous", motion->previous, tool);
 }
 
-std::vector<Eigen::Isometry3d> link_poses(const Poses& poses,
-                                          const Eigen::Isometry3d& T_organ_motion) {
-  std::vector<Eigen::Isometry3d> result;
-  result.reserve(poses.size());
-  for (const geometry_msgs::Pose& pose : poses) {
-    result.push_back(T_organ_motion * to_eigen(pose));
-  }
-  return result;
-}
-
 /// The path of a legal motion, in the organ's frame.
 ToolPath path_of(const GivenMotion& motion, bool at_end_only,
                  const Eigen::Isometry3d& T_organ_motion) {
@@ -141,8 +92,11 @@ ToolPath path_of(const GivenMotion& motion, bool at_end_only,
                 T_organ_motion * to_eigen(motion.shaft->tip)};
   }
   if (motion.links) {
-    start.links = link_poses(motion.links->previous, T_organ_motion);
-    end.links = link_poses(motion.links->links, T_organ_motion);
+    const auto add = [&](const Poses& poses, ToolWaypoint& waypoint) {
+      for (const auto& pose : poses) waypoint.links.push_back(T_organ_motion * to_eigen(pose));
+    };
+    add(motion.links->previous, start);
+    add(motion.links->links, end);
   }
   if (at_end_only) return {std::move(end)};
   return {std::move(start), std::move(end)};
@@ -160,14 +114,42 @@ std::optional<Eigen::Vector3d> tip_of_links(const ToolParameters& tool, const To
 }  // namespace
 
 CollisionRequest checked_request(const QueryCollision::Request& request) {
-  CollisionRequest collision = common_request(request);
+  if (request.mode > ContactArray::PAPER_NAIVE) {
+    refuse("mode is ", static_cast<int>(request.mode), "; legal are 0 (STATIC) to 4 (PAPER_NAIVE)");
+  }
+  CollisionRequest collision;
+  collision.mode = static_cast<QueryMode>(request.mode);
   collision.regions = request.regions != 0;
+  collision.margin = request.margin;
   collision.max_near = request.max_near;
-  return checked(collision);
+  collision.clearance = request.clearance != 0;
+  collision.placement = request.placement != 0;
+  // CollisionQuery would refuse the same, but for each motion of a batch.
+  const double margin = collision.margin;
+  if (!std::isfinite(margin) || margin < 0.0) {
+    refuse("margin is ", margin,
+           " m; must be positive and finite, or 0 for no clearance within a margin");
+  }
+  if (collision.max_near > 0 && margin == 0.0) {
+    refuse("max_near is ", collision.max_near,
+           ", and margin is 0; near faces need a margin above 0");
+  }
+  const bool asks_more = margin > 0.0 || collision.clearance || collision.placement;
+  if (is_paper_mode(collision.mode) && asks_more) {
+    refuse("mode is ", static_cast<int>(collision.mode),
+           ", which has no clearance, near faces or placement; for these, legal are 0 (STATIC) and "
+           "1 (SWEPT)");
+  }
+  return collision;
 }
 
-CollisionRequest checked_request(const QueryCollisionBatch::Request& request) {
-  return checked(common_request(request));
+CollisionRequest checked_request(const QueryCollisionBatch::Request& batch) {
+  QueryCollision::Request request;
+  request.mode = batch.mode;
+  request.margin = batch.margin;
+  request.clearance = batch.clearance;
+  request.placement = batch.placement;
+  return checked_request(request);
 }
 
 void check_tool(const Tool& tool, QueryMode mode) {
@@ -192,12 +174,6 @@ void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequ
   if (!snapshot.tool) return;
   collision.radius = snapshot.tool->parameters.radius;
   collision.links = &snapshot.tool->links;
-}
-
-bool is_given(const ToolMotion& motion) { return motion != ToolMotion(); }
-
-bool is_given(const LinkMotion& motion) {
-  return !motion.previous.empty() || !motion.links.empty();
 }
 
 void check_shaft(const ToolMotion& motion, QueryMode mode) {

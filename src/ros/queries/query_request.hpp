@@ -1,21 +1,12 @@
 #pragma once
 
-#include <organ_collision/ContactArray.h>
 #include <organ_collision/LinkMotion.h>
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
 #include <organ_collision/ToolMotion.h>
 
-#include <cstddef>
-#include <cstdint>
-#include <optional>
-
 #include "geometry/concatenate.hpp"
-#include "organ_collision/query/collision_query.hpp"
-#include "organ_collision/query/query_mode.hpp"
 #include "query_snapshot.hpp"
-#include "ros/messages/failure_log.hpp"
-#include "ros/tools/tool.hpp"
 
 namespace organ_collision {
 
@@ -46,10 +37,6 @@ struct GivenMotion {
   const ToolMotion* shaft;  ///< null: not given
   const LinkMotion* links;  ///< null: not given
 };
-
-/// Whether a single query sets the field. In a batch, each motion of the lists is given.
-bool is_given(const ToolMotion& motion);
-bool is_given(const LinkMotion& motion);
 
 /// Checks the motion of a shaft that is no tool of the node. Throws Rejection.
 void check_shaft(const ToolMotion& motion, QueryMode mode);

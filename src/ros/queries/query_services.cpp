@@ -1,16 +1,13 @@
 #include "query_services.hpp"
 
+#include <ros/serialization.h>
+
 #include <algorithm>
-#include <exception>
 
 #include "organ_collision/ros/names.hpp"
 #include "query_request.hpp"
 #include "ros/messages/checked_messages.hpp"
-#include "ros/messages/conversions.hpp"
-#include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
-#include "ros/steps/contact_array.hpp"
-#include "ros/threads/realtime.hpp"
 
 namespace organ_collision {
 namespace {
@@ -33,6 +30,12 @@ void check_names(const QuerySubject& subject) {
   if (!subject.moves_as_in_tf) check_name("header.frame_id", tf_frame(subject.header.frame_id));
 }
 
+/// Whether a single query sets the field. In a batch, each motion of the lists is given.
+bool is_given(const ToolMotion& motion) { return motion != ToolMotion(); }
+bool is_given(const LinkMotion& motion) {
+  return !motion.previous.empty() || !motion.links.empty();
+}
+
 /// Runs a function that answers. Its exception becomes the failure of the answer.
 template <typename Answer, typename Function>
 void or_failure(Answer& answer, const Function& function) {
@@ -53,38 +56,38 @@ QueryServices::QueryServices(const NodeState& node, InNodeThread in_node_thread,
     : node_(node),
       in_node_thread_(std::move(in_node_thread)),
       counters_(counters),
-      query_(node.parameters.picker),
-      workers_(node.parameters.picker, node.parameters.threads, counters.services) {}
+      query_(node.parameters.picker) {}
 
 void QueryServices::advertise(const ros::NodeHandle& query_node,
                               const ros::NodeHandle& batch_node) {
-  servers_ = {advertise_checked<QueryCollision>(
-                  query_node, names::kQuery,
-                  [this](auto& request, auto& response) { return on_query(request, response); }),
-              advertise_checked<QueryCollisionBatch>(batch_node, names::kQueryBatch,
-                                                     [this](auto& request, auto& response) {
-                                                       return on_query_batch(request, response);
-                                                     })};
+  const auto on_query = [this](const auto& request, auto& response) {
+    response.result = query(request);
+    count_failure(counters_.refused, response.result.status, response.result.message);
+    return true;
+  };
+  const auto on_batch = [this](const auto& request, auto& response) {
+    or_failure(response, [&] {
+      start_batches();
+      yield_to_all_threads();  // This thread is one of those that answer the batch.
+    });
+    if (response.status == ContactArray::OK) response = query_batch(request);
+    count_failure(counters_.refused, response.status, response.message);
+    for (const ContactArray& answer : response.results) {
+      count_failure(counters_.refused, answer.status, answer.message);
+    }
+    return true;
+  };
+  servers_ = {advertise_checked<QueryCollision>(query_node, names::kQuery, on_query),
+              advertise_checked<QueryCollisionBatch>(batch_node, names::kQueryBatch, on_batch)};
 }
 
-bool QueryServices::on_query(QueryCollision::Request& request, QueryCollision::Response& response) {
-  response.result = query(request);
-  count_failure(counters_.refused, response.result.status, response.result.message);
-  return true;
-}
-
-bool QueryServices::on_query_batch(QueryCollisionBatch::Request& request,
-                                   QueryCollisionBatch::Response& response) {
-  or_failure(response, [&] {
-    workers_.start();
-    yield_to_all_threads();  // This thread is one of those that answer the batch.
-  });
-  if (response.status == ContactArray::OK) response = query_batch(request);
-  count_failure(counters_.refused, response.status, response.message);
-  for (const ContactArray& answer : response.results) {
-    count_failure(counters_.refused, answer.status, answer.message);
-  }
-  return true;
+/// Also makes the GL context of the thread that answers batches.
+void QueryServices::start_batches() {
+  if (batch_threads_) return;
+  // Each thread lowers its priority only when its GL context is made, because that holds locks for
+  // long that the node's thread may want, too.
+  batch_threads_.emplace(thread_count(node_.parameters.threads), node_.parameters.picker,
+                         yield_to_all_threads);
 }
 
 ContactArray QueryServices::query(const QueryCollision::Request& request) {
@@ -131,7 +134,7 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
   }
   const double query_sec = query_.evaluate(collision, answer);
   set_incomplete(answer, snapshot.unknown);
-  if (answer.status == ContactArray::OK) counters_.services.add_query(query_sec);
+  if (answer.status == ContactArray::OK) counters_.service_times.add(query_sec);
 }
 
 std::vector<ContactArray> QueryServices::answer_batch(const QueryCollisionBatch::Request& request) {
@@ -150,8 +153,59 @@ std::vector<ContactArray> QueryServices::answer_batch(const QueryCollisionBatch:
   check_lists(request, snapshot.tool);
 
   set_subject(snapshot, request.organ_motion != 0, collision);
-  return workers_.answer({request, motions, snapshot, collision, unanswered,
-                          static_cast<std::size_t>(node_.parameters.max_batch_bytes)});
+  const auto answer_motion = [&](std::size_t motion, ContactQuery& query, ContactArray& answer) {
+    CollisionRequest moving = collision;
+    try {
+      set_motion({request.motions.empty() ? nullptr : &request.motions[motion],
+                  request.link_motions.empty() ? nullptr : &request.link_motions[motion]},
+                 snapshot, moving);
+      query.evaluate(moving, answer);
+    } catch (const Rejection& rejection) {
+      set_failure(answer, rejection.status(), rejection.what());
+    }
+  };
+  return answer_motions(request, motions, answer_motion, unanswered);
+}
+
+/// `unanswered`: what all answers have in common.
+std::vector<ContactArray> QueryServices::answer_motions(
+    const QueryCollisionBatch::Request& request, std::size_t motions,
+    const std::function<void(std::size_t motion, ContactQuery&, ContactArray&)>& answer_motion,
+    const ContactArray& unanswered) {
+  using ros::serialization::serializationLength;
+  start_batches();
+  const auto most_bytes = static_cast<std::size_t>(node_.parameters.max_batch_bytes);
+  const auto is_last = [&](const ContactArray& answer) {
+    return request.stop_at_first_contact && !answer.contacts.empty();
+  };
+  std::vector<std::unique_ptr<ContactArray>> made(motions);
+  std::atomic<std::size_t> bytes_made{0};
+  const auto evaluate = [&](std::size_t worker, std::size_t motion) {
+    if (ended_) throw std::runtime_error("the node is about to end");
+    made[motion] = std::make_unique<ContactArray>(unanswered);
+    answer_motion(motion, batch_threads_->query(worker), *made[motion]);
+    bytes_made += serializationLength(*made[motion]);
+    if (is_last(*made[motion]) || bytes_made > most_bytes) batch_threads_->skip_rest();
+  };
+
+  std::vector<ContactArray> answers;
+  answers.reserve(motions);
+  std::size_t bytes = serializationLength(QueryCollisionBatch::Response());
+  const auto take = [&](std::size_t motion) {
+    if (!answers.empty() && is_last(answers.back())) return;
+    answers.push_back(std::move(*made[motion]));
+    made[motion].reset();
+    bytes += serializationLength(answers.back());
+    if (bytes > most_bytes) {
+      refuse("the answers to the first ", answers.size(), " of ", motions, " motions have ", bytes,
+             " bytes; a batch's must have at most ", most_bytes,
+             " (max_batch_bytes): ask for fewer motions at once");
+    }
+    ++counters_.motions;
+  };
+  batch_threads_->run(motions, evaluate, take);
+  ++counters_.batches;
+  return answers;
 }
 
 QuerySnapshot QueryServices::snapshot_of(const QuerySubject& subject, ContactArray& answer) const {

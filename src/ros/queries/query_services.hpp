@@ -2,16 +2,11 @@
 
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
-#include <ros/node_handle.h>
 
-#include <functional>
-#include <string>
-#include <vector>
+#include <atomic>
 
-#include "batch_workers.hpp"
 #include "query_snapshot.hpp"
-#include "ros/messages/failure_log.hpp"
-#include "ros/publishing/counters.hpp"
+#include "ros/publishing/diagnostics.hpp"
 #include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
@@ -33,8 +28,8 @@ class QueryServices {
 
   /// Each node handle must have a callback queue with a thread of its own.
   void advertise(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node);
-  /// For any thread: a batch that is being answered ends soon, without an answer.
-  void end() { workers_.end(); }
+  /// For any thread: the present batch and all later ones end soon, without an answer.
+  void end() { ended_ = true; }
 
   // Do not call these in the node's thread: they wait for it. (In tests, `in_node_thread` runs its
   // action directly.) At most one thread at a time may call each.
@@ -42,24 +37,34 @@ class QueryServices {
   ContactArray query(const QueryCollision::Request& request);
   /// One snapshot and one look-up in TF serve the whole batch. A batch that fails as a whole has a
   /// status and a message but no results. It fails as a whole, among other reasons, if it has more
-  /// motions than max_batch or if its results exceed max_batch_bytes.
+  /// motions than max_batch or if its results exceed max_batch_bytes. While they are made, they
+  /// exceed it by at most one answer for each thread.
+  ///
+  /// The results are in the order of the motions, whatever the number of threads. They end with the
+  /// first motion that touches if the request asks for that. The result of an illegal motion says
+  /// so.
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
 
  private:
-  bool on_query(QueryCollision::Request& request, QueryCollision::Response& response);
-  bool on_query_batch(QueryCollisionBatch::Request& request,
-                      QueryCollisionBatch::Response& response);
+  void start_batches();
 
   // These throw Rejection and other exceptions.
   void answer_one(const QueryCollision::Request& request, ContactArray& answer);
   std::vector<ContactArray> answer_batch(const QueryCollisionBatch::Request& request);
+  std::vector<ContactArray> answer_motions(
+      const QueryCollisionBatch::Request& request, std::size_t motions,
+      const std::function<void(std::size_t motion, ContactQuery&, ContactArray&)>& answer_motion,
+      const ContactArray& unanswered);
   QuerySnapshot snapshot_of(const QuerySubject& subject, ContactArray& answer) const;
 
   const NodeState node_;
   const InNodeThread in_node_thread_;
   NodeCounters& counters_;
   ContactQuery query_;
-  BatchWorkers workers_;
+  std::atomic<bool> ended_{false};
+  /// Threads that answer batches together with that of the service, from the first batch on. They
+  /// have the lowest ordinary priority, because all steps come first.
+  std::optional<QueryThreads<ContactQuery>> batch_threads_;
   std::vector<ros::ServiceServer> servers_;
 };
 

@@ -1,13 +1,9 @@
 #include "query_snapshot.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "query_request.hpp"
-#include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
-#include "ros/motion/transform_buffer.hpp"
-#include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
 namespace {
@@ -30,7 +26,7 @@ const Tool& find_tool(const NodeState& node, const std::string& name) {
 
 const DeformableOrgan& find_organ(const NodeState& node, const std::string& name) {
   if (name.empty()) refuse("organ is empty; must be an organ's name");
-  return node.organs.at(name);
+  return node.pipeline.inbox.organs.at(name);
 }
 
 void check_age(const NodeState& node, const DeformableOrgan& organ) {
@@ -47,7 +43,8 @@ void read_motion_frame(const NodeState& node, const QuerySubject& subject,
                        ContactArray& answer) {
   const std::string frame = tf_frame(subject.header.frame_id);
   if (frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");
-  const auto T_organ_motion = look_up(node.transforms, organ.frame(), frame, subject.header.stamp);
+  const auto T_organ_motion =
+      look_up(node.pipeline.inbox.transforms, organ.frame(), frame, subject.header.stamp);
   if (!T_organ_motion.found) {
     throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
   }
@@ -59,14 +56,17 @@ void read_motion_frame(const NodeState& node, const QuerySubject& subject,
 void read_tool_motion(const NodeState& node, const QuerySubject& subject,
                       const DeformableOrgan& organ, const Tool& tool, QuerySnapshot& snapshot,
                       ContactArray& answer) {
-  const auto end = node.poses.pose(tool, organ.frame(), subject.header.stamp);
+  const auto end = node.pipeline.poses.pose(tool, organ.frame(), subject.header.stamp);
   if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
   snapshot.tip = end.found->value.tip;
   set_end(end.found->stamp, answer);
 
   const auto index = static_cast<std::size_t>(&tool - node.tools.data());
-  const LastStep* last = node.history.last(organ.name(), index);
-  const bool is_disproved = last && node.poses.is_disproved(tool, organ.frame(), last->stamp);
+  const StepHistory& history = node.pipeline.steps.history();
+  const auto pair = history.find({organ.name(), index});
+  const LastStep* last = pair != history.end() && pair->second.last ? &*pair->second.last : nullptr;
+  const bool is_disproved =
+      last && node.pipeline.poses.is_disproved(tool, organ.frame(), last->stamp);
   if (!last || is_disproved || is_static_mode(subject.mode)) {
     snapshot.path = resting_path(end.found->value);
     return;
@@ -79,8 +79,8 @@ void read_tool_motion(const NodeState& node, const QuerySubject& subject,
            " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
            last->stamp, " s; header.stamp must not be earlier");
   }
-  SampledPath sampled = node.poses.path(tool, organ.frame(), {last->pose, last->stamp},
-                                        {end.found->value, answer.header.stamp});
+  SampledPath sampled = node.pipeline.poses.path(tool, organ.frame(), {last->pose, last->stamp},
+                                                 {end.found->value, answer.header.stamp});
   snapshot.path = std::move(sampled.path);
   snapshot.unknown = std::move(sampled.unknown);
   answer.step_start = last->stamp;

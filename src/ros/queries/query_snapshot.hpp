@@ -10,10 +10,8 @@
 
 #include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/query/query_mode.hpp"
-#include "ros/motion/tool_poses.hpp"
-#include "ros/organs/organ_registry.hpp"
 #include "ros/parameters/node_parameters.hpp"
-#include "ros/steps/step_history.hpp"
+#include "ros/steps/collision_pipeline.hpp"
 #include "ros/tools/tool.hpp"
 
 namespace organ_collision {
@@ -47,10 +45,7 @@ struct QuerySubject {
 struct NodeState {
   const NodeParameters& parameters;
   const std::vector<Tool>& tools;
-  const OrganRegistry& organs;
-  const TransformBuffer& transforms;
-  const ToolPoses& poses;
-  const StepHistory& history;
+  const CollisionPipeline& pipeline;
 };
 
 /// Takes a snapshot. Call it in the node's thread. Sets what is known of `answer` before there is

@@ -3,14 +3,31 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <chrono>
-#include <stdexcept>
-#include <vector>
 
 #include "geometry/concatenate.hpp"
-#include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
+namespace {
+
+// The messages have the numbers of the enumerations.
+static_assert(Clearance::NOT_ASKED == static_cast<int>(ClearanceState::kNotAsked) &&
+              Clearance::BEYOND_MARGIN == static_cast<int>(ClearanceState::kBeyondMargin) &&
+              Clearance::KNOWN == static_cast<int>(ClearanceState::kKnown));
+static_assert(ToolPlacement::UNKNOWN == static_cast<int>(Side::kUnknown) &&
+              ToolPlacement::OUTSIDE == static_cast<int>(Side::kOutside) &&
+              ToolPlacement::INSIDE == static_cast<int>(Side::kInside) &&
+              ToolPlacement::ON_SURFACE == static_cast<int>(Side::kOnSurface));
+
+/// Sets the fields that name a place on a face.
+template <typename Source, typename Message>
+void set_place(const Source& source, Message& message) {
+  message.face = source.face;
+  for (std::size_t i = 0; i < 3; ++i) message.vertices[i] = source.vertices[i];
+  for (std::size_t i = 0; i < 3; ++i) message.barycentric[i] = source.barycentric[i];
+}
+
+}  // namespace
 
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp) {
@@ -80,27 +97,6 @@ std::string stale_message(const std::string& organ, const OrganShape& shape, ros
                      timeout_sec, " s are allowed (mesh_timeout_sec)");
 }
 
-namespace {
-
-// The messages have the numbers of the enumerations.
-static_assert(Clearance::NOT_ASKED == static_cast<int>(ClearanceState::kNotAsked) &&
-              Clearance::BEYOND_MARGIN == static_cast<int>(ClearanceState::kBeyondMargin) &&
-              Clearance::KNOWN == static_cast<int>(ClearanceState::kKnown));
-static_assert(ToolPlacement::UNKNOWN == static_cast<int>(Side::kUnknown) &&
-              ToolPlacement::OUTSIDE == static_cast<int>(Side::kOutside) &&
-              ToolPlacement::INSIDE == static_cast<int>(Side::kInside) &&
-              ToolPlacement::ON_SURFACE == static_cast<int>(Side::kOnSurface));
-
-/// Sets the fields that name a place on a face.
-template <typename Source, typename Message>
-void set_place(const Source& source, Message& message) {
-  message.face = source.face;
-  for (std::size_t i = 0; i < 3; ++i) message.vertices[i] = source.vertices[i];
-  for (std::size_t i = 0; i < 3; ++i) message.barycentric[i] = source.barycentric[i];
-}
-
-}  // namespace
-
 Contact to_message(const FaceContact& contact) {
   Contact message;
   set_place(contact, message);
@@ -159,25 +155,14 @@ ToolPlacement to_message(const AxisPlacement& placement) {
 
 geometry_msgs::Polygon to_message(const Region& region) {
   geometry_msgs::Polygon message;
-  message.points.resize(region.size());
-  for (std::size_t i = 0; i < region.size(); ++i) {
-    message.points[i].x = static_cast<float>(region[i].x());
-    message.points[i].y = static_cast<float>(region[i].y());
-    message.points[i].z = static_cast<float>(region[i].z());
+  for (const auto& corner : region) {
+    geometry_msgs::Point32& point = message.points.emplace_back();
+    point.x = static_cast<float>(corner.x());
+    point.y = static_cast<float>(corner.y());
+    point.z = static_cast<float>(corner.z());
   }
   return message;
 }
-
-namespace {
-
-std::vector<Contact> to_messages(const std::vector<FaceContact>& contacts) {
-  std::vector<Contact> messages;
-  messages.reserve(contacts.size());
-  for (const FaceContact& contact : contacts) messages.push_back(to_message(contact));
-  return messages;
-}
-
-}  // namespace
 
 ContactQuery::ContactQuery(const PickerSettings& picker) : query_(picker) {
   const TriangleMesh face({-1.0f, -1.0f, 0.0f, 1.0f, -1.0f, 0.0f, 0.0f, 1.0f, 0.0f}, {0, 1, 2});
@@ -210,9 +195,9 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
 
   answer.status = ContactArray::OK;
   answer.unresolved = static_cast<std::uint32_t>(result_.unresolved);
-  answer.contacts = to_messages(result_.contacts);
+  for (const FaceContact& at : result_.contacts) answer.contacts.push_back(to_message(at));
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));
-  answer.near = to_messages(result_.near);
+  for (const FaceContact& at : result_.near) answer.near.push_back(to_message(at));
   answer.near_left_out = static_cast<std::uint32_t>(result_.near_left_out);
   answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
   answer.clearance = to_message(result_.clearance);

@@ -3,10 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <chrono>
-#include <utility>
 
-#include "contact_array.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
@@ -27,31 +24,44 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 
 }  // namespace
 
+StepWorkers::StepWorkers(const NodeParameters& parameters)
+    : QueryThreads(thread_count(parameters.threads), parameters.picker,
+                   [priority = parameters.realtime.priority] {
+                     // If the system refuses, the node's thread was refused, too, and has said so.
+                     if (priority > 0) make_this_thread_realtime(priority);
+                   }) {
+  // Already here, because a thread costs milliseconds if memory is locked.
+  start_for(parameters.tools.size());
+}
+
 void StepScheduler::add(const OrganUpdate& update, SteadyTime now) {
   if (!update.change) return;
   const std::string& organ = update.message.organ();
-  if (update.change != OrganChange::kShape) history_.forget(organ);
+  for (auto pair = history_.begin();
+       update.change != OrganChange::kShape && pair != history_.end();) {
+    pair = pair->first.first == organ ? history_.erase(pair) : std::next(pair);
+  }
   if (update.change == OrganChange::kRemoved) return;
   for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-    std::vector<WaitingShape>& waiting = history_.of(organ, tool).waiting;
+    std::vector<WaitingShape>& waiting = history_[{organ, tool}].waiting;
     if (!keeps_all_shapes_ && waiting.size() > 1) {
       waiting.pop_back();
-      ++shapes_.superseded;
+      ++counts_.superseded;
     }
     waiting.push_back({organs_.at(organ).latest(), now});
-    ++shapes_.due;
+    ++counts_.due;
   }
 }
 
 void StepScheduler::add_pose(std::size_t tool) {
-  if (std::exchange(tool_is_due_[tool], true)) ++poses_merged_;
+  if (std::exchange(tool_is_due_[tool], true)) ++counts_.poses_merged;
 }
 
 void StepScheduler::evaluate(SteadyTime now) {
   now_ = now;
   due_.clear();  // An exception may have ended the last round.
   do {
-    for (auto& [key, pair] : history_.pairs()) {
+    for (auto& [key, pair] : history_) {
       if (!pair.waiting.empty()) plan_front(organs_.at(key.first), key.second, pair);
     }
   } while (evaluate_due());  // Behind each shape, another one may wait.
@@ -76,16 +86,20 @@ void StepScheduler::evaluate(SteadyTime now) {
 /// Evaluates and publishes the steps that are due. Returns whether there were any.
 bool StepScheduler::evaluate_due() {
   if (due_.empty()) return false;
-  workers_.run(evaluator_, due_, deliver_);
+  const auto work = [this](std::size_t worker, std::size_t step) {
+    if (!due_[step].answer) evaluator_.evaluate(due_[step], workers_.query(worker));
+  };
+  const auto take = [this](std::size_t step) { deliver(due_[step]); };
+  workers_.run(due_.size(), std::ref(work), std::ref(take));  // References spare allocations.
   due_.clear();
   return true;
 }
 
-ShapeCounts StepScheduler::shapes() const {
-  ShapeCounts shapes = shapes_;
-  shapes.waiting = history_.waiting();
-  shapes.forgotten = shapes.due - shapes.answered - shapes.superseded - shapes.waiting;
-  return shapes;
+StepCounts StepScheduler::counts() const {
+  StepCounts counts = counts_;
+  for (const auto& [key, pair] : history_) counts.waiting += pair.waiting.size();
+  counts.forgotten = counts.due - counts.answered - counts.superseded - counts.waiting;
+  return counts;
 }
 
 /// Plans nothing if the shape still waits for its transform.
@@ -104,15 +118,15 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   }
   pair.current = std::move(front.shape);
   pair.waiting.erase(pair.waiting.begin());
-  DueStep step{&organ, tool, &pair};
+  ToolStep step{&organ, tool, &pair};
   step.is_of_shape = true;
   const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
   if (faulty) {
     plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
   } else if (late) {
-    plan_held(std::move(step));
+    plan_step(std::move(step), std::nullopt);
   } else if (end.found) {
-    plan_step(std::move(step), *std::move(end.found));
+    plan_step(std::move(step), std::move(end.found));
   } else {
     plan_without_transform(std::move(step), failure,
                            end.why_not + "; waited " + duration_text(parameters_.tf_timeout_sec) +
@@ -122,10 +136,10 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
 
 /// With the latest poses. `only_new`: unless they are answered already.
 void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new) {
-  OrganToolPair& pair = history_.of(organ.name(), tool);
+  OrganToolPair& pair = history_[{organ.name(), tool}];
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   forget_if_disproved(organ, tool, pair);
-  DueStep step{&organ, tool, &pair};
+  ToolStep step{&organ, tool, &pair};
   const ros::Time stamp = ros::Time::now();
   if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
     return plan_failure(std::move(step), stamp, ContactArray::INVALID_TOOL, fault);
@@ -138,7 +152,7 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
   if (end.found) {
     if (only_new && is_answered(pair, end.found->stamp)) return;
-    plan_step(std::move(step), *std::move(end.found));
+    plan_step(std::move(step), std::move(end.found));
   } else {
     plan_without_transform(std::move(step), stamp, end.why_not);
   }
@@ -147,7 +161,7 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
 /// The pairs whose last step was so long ago that TF would soon forget how the tool moved since.
 void StepScheduler::plan_long_steps() {
   const auto longest = std::chrono::nanoseconds(poses_.longest_step().toNSec());
-  for (auto& [key, pair] : history_.pairs()) {
+  for (auto& [key, pair] : history_) {
     if (!pair.last) continue;
     const auto& [organ_name, tool] = key;
     const DeformableOrgan& organ = organs_.at(organ_name);
@@ -184,19 +198,19 @@ bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_
 }
 
 void StepScheduler::change_tools(const KeptTools& kept) {
-  history_.renumber(kept);
+  StepHistory old = std::exchange(history_, {});
   const std::vector<char> was_due = std::exchange(tool_is_due_, std::vector<char>(kept.size()));
   for (std::size_t tool = 0; tool < kept.size(); ++tool) {
     tool_is_due_[tool] = !kept[tool] || was_due[*kept[tool]];
-    if (kept[tool]) continue;
-    for (const auto& [name, organ] : organs_.organs()) {
-      history_.of(name, tool).current = organ.latest();
+    if (!kept[tool]) begin_with_latest_shapes(tool);
+    for (auto& [key, pair] : old) {
+      if (key.second == kept[tool]) history_[{key.first, tool}] = std::move(pair);
     }
   }
 }
 
 void StepScheduler::reset() {
-  for (auto& [key, pair] : history_.pairs()) {
+  for (auto& [key, pair] : history_) {
     pair.last.reset();
     pair.answer.reset();
   }
@@ -204,16 +218,18 @@ void StepScheduler::reset() {
 
 void StepScheduler::start_anew() {
   history_.clear();
+  for (std::size_t tool = 0; tool < tools_.size(); ++tool) begin_with_latest_shapes(tool);
+}
+
+void StepScheduler::begin_with_latest_shapes(std::size_t tool) {
   for (const auto& [name, organ] : organs_.organs()) {
-    for (std::size_t tool = 0; tool < tools_.size(); ++tool) {
-      history_.of(name, tool).current = organ.latest();
-    }
+    history_[{name, tool}].current = organ.latest();
   }
 }
 
 std::optional<SteadyTime> StepScheduler::next_deadline() const {
   std::optional<SteadyTime> next;
-  for (const auto& [key, pair] : history_.pairs()) {
+  for (const auto& [key, pair] : history_) {
     if (pair.waiting.empty()) continue;
     const SteadyTime time = deadline(pair.waiting.front());
     if (!next || time < *next) next = time;
@@ -221,35 +237,25 @@ std::optional<SteadyTime> StepScheduler::next_deadline() const {
   return next;
 }
 
-void StepScheduler::plan_step(DueStep step, Timed<ToolPose> end) {
+/// Without an end, or if no pose is newer than the last one, the tool rests at its last pose.
+void StepScheduler::plan_step(ToolStep step, std::optional<Timed<ToolPose>> end) {
   const std::optional<LastStep>& last = step.pair->last;
-  if (end.stamp.isZero()) {
-    end.stamp = ros::Time::now();
-    if (last) end.stamp = std::max(end.stamp, last->stamp);
-  } else if (last && end.stamp <= last->stamp) {
-    return plan_held(std::move(step));
-  }
-  step.moves = last.has_value();
-  step.end = std::move(end);
+  const bool is_of_now = end && end->stamp.isZero();
+  if (is_of_now) end->stamp = std::max(ros::Time::now(), last ? last->stamp : ros::Time());
+  const bool is_held = !end || (last && !is_of_now && end->stamp <= last->stamp);
+  step.moves = last && !is_held;
+  step.end = is_held ? Timed<ToolPose>{last->pose, last->stamp} : *std::move(end);
   step.topology = step.pair->current.topology();
   due_.push_back(std::move(step));
 }
 
-/// The tool rests at its last pose, because no newer pose goes with the shape.
-void StepScheduler::plan_held(DueStep step) {
-  const LastStep& last = *step.pair->last;
-  step.end = Timed<ToolPose>{last.pose, last.stamp};
-  step.topology = step.pair->current.topology();
-  due_.push_back(std::move(step));
-}
-
-void StepScheduler::plan_failure(DueStep step, ros::Time stamp, std::uint8_t status,
+void StepScheduler::plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                                  const std::string& message) {
   evaluator_.set_failed(step, stamp, status, message);
   due_.push_back(std::move(step));
 }
 
-void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const std::string& why) {
+void StepScheduler::plan_without_transform(ToolStep step, ros::Time stamp, const std::string& why) {
   OrganToolPair& pair = *step.pair;
   if (!pair.first_without_transform) pair.first_without_transform = now_;
   step.is_starting = !pair.last && now_ - *pair.first_without_transform < kStart;
@@ -257,19 +263,18 @@ void StepScheduler::plan_without_transform(DueStep step, ros::Time stamp, const 
 }
 
 /// Makes the step the last one of its pair, and publishes it.
-void StepScheduler::deliver(DueStep& step) {
+void StepScheduler::deliver(ToolStep& step) {
   OrganToolPair& pair = *step.pair;
-  if (step.is_of_shape) ++shapes_.answered;
-  samples_cut_ += step.samples_cut;
-  deviation_cut_ = std::max(deviation_cut_, step.deviation_cut);
+  if (step.is_of_shape) ++counts_.answered;
+  counts_.samples_cut += step.samples_cut;
+  counts_.deviation_cut = std::max(counts_.deviation_cut, step.deviation_cut);
   if (step.answer->status == ContactArray::OK) {
-    query_times_.add(step.query_sec);
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
     pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_};
     pair.tried.reset();
   }
   pair.answer = step.answer;
-  publish_({step.answer, *pair.current.mesh, step.request.path, step.query_sec, step.is_starting});
+  publish_(step);
 }
 
 SteadyTime StepScheduler::deadline(const WaitingShape& shape) const {

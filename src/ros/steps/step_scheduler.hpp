@@ -1,48 +1,40 @@
 #pragma once
 
-#include <organ_collision/ContactArray.h>
-#include <ros/time.h>
-
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
 
-#include "duration_statistics.hpp"
-#include "ros/motion/tool_poses.hpp"
+#include "query/worker_threads.hpp"
 #include "ros/organs/organ_intake.hpp"
 #include "ros/organs/organ_registry.hpp"
-#include "ros/parameters/node_parameters.hpp"
-#include "ros/tools/tool.hpp"
-#include "step_evaluator.hpp"
-#include "step_history.hpp"
-#include "step_workers.hpp"
+#include "step.hpp"
 
 namespace organ_collision {
 
-/// The answer to one step of one tool against one organ, and the tool's path in that step.
-struct EvaluatedStep {
-  ContactArrayPtr answer;
-  const TriangleMesh& mesh;
-  const ToolPath& path;    ///< empty if the step failed before the path was known
-  double query_sec = 0.0;  ///< [s] that the query took; 0 if there was none
-  /// The step has no transform, and none had one before, but TF may still be starting: there is
-  /// nothing to warn of yet.
-  bool is_starting = false;
-};
-
-/// What became of the accepted shapes since the start, each counted once for each tool:
-/// due = answered + superseded + forgotten + waiting.
-struct ShapeCounts {
+/// What became of the accepted shapes since the start, each counted once for each tool, and of the
+/// poses: due = answered + superseded + forgotten + waiting.
+struct StepCounts {
   std::uint64_t due = 0;
   std::uint64_t answered = 0;    ///< a step was published, also if it failed
   std::uint64_t superseded = 0;  ///< a newer shape came before the step
   /// Before the step, the organ, the tool or all history was gone, or the organ got another frame,
   /// or an exception ended the round.
   std::uint64_t forgotten = 0;
-  std::uint64_t waiting = 0;  ///< now, for transforms
+  std::uint64_t waiting = 0;       ///< now, for transforms
+  std::uint64_t poses_merged = 0;  ///< came while an earlier one was due: one step covers both
+  std::uint64_t samples_cut = 0;   ///< of motion, dropped because of motion_samples_max
+  /// [m] The largest distance of a dropped sample from the path that was swept instead.
+  double deviation_cut = 0.0;
+};
+
+/// Evaluate steps side by side. The calling thread is one of the workers. There are as many as
+/// there are tools, or more if more steps are due at once, but at most `threads`. A new worker
+/// joins in when its GL context is made, after about 30 ms.
+class StepWorkers : public QueryThreads<ContactQuery> {
+ public:
+  /// Takes picker, threads and priority. Throws GlError if GL picking does not work on this
+  /// machine, and std::system_error if the system refuses a thread.
+  explicit StepWorkers(const NodeParameters& parameters);
+
+  const std::string& gl_version() const { return query(0).gl_version(); }
 };
 
 /// Decides which tool is evaluated against which organ, when, and from which pose: at each new
@@ -50,12 +42,13 @@ struct ShapeCounts {
 /// where the last successful one of that tool and organ ended. A tool with a fault is never
 /// evaluated: its answers say INVALID_TOOL.
 ///
-/// Steps that are due at the same time are evaluated side by side (step_workers.hpp), at most one
-/// for each pair of organ and tool. Everything else happens in the calling thread, in an order that
+/// Steps that are due at the same time are evaluated side by side, at most one for each pair of
+/// organ and tool. Everything else happens in the calling thread, in an order that
 /// does not depend on the number of workers.
 class StepScheduler {
  public:
-  using Publish = std::function<void(const EvaluatedStep&)>;
+  /// Gets an answer, in a step whose pair is that of the next step already.
+  using Publish = std::function<void(const ToolStep&)>;
 
   /// The references must outlive this. `publish` gets the steps of a round in their
   /// order. One that is ready waits for at most one task (worker_threads.hpp).
@@ -69,7 +62,6 @@ class StepScheduler {
         evaluator_(parameters, tools, poses),
         workers_(workers),
         publish_(std::move(publish)),
-        deliver_([this](std::size_t step) { deliver(due_[step]); }),
         tool_is_due_(tools.size(), false) {}
 
   /// Notes what a message did to an organ. A new shape becomes due for every tool. Forgets history
@@ -104,17 +96,8 @@ class StepScheduler {
   std::optional<SteadyTime> next_deadline() const;
   const StepHistory& history() const { return history_; }
 
-  // Counted since the start, for /diagnostics.
-
-  /// Samples of motion that were dropped because of motion_samples_max.
-  std::size_t samples_cut() const { return samples_cut_; }
-  /// [m] The largest distance of a dropped sample from the path that was swept instead.
-  double deviation_cut() const { return deviation_cut_; }
-  /// How long the queries of the answered steps took.
-  const DurationStatistics& query_times() const { return query_times_; }
-  /// Poses of tips that came while an earlier one was still due: one step covers both.
-  std::size_t poses_merged() const { return poses_merged_; }
-  ShapeCounts shapes() const;
+  /// For /diagnostics.
+  StepCounts counts() const;
 
  private:
   // These find out which steps are due.
@@ -122,35 +105,31 @@ class StepScheduler {
   void plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new);
   void plan_long_steps();
   bool forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
-  void plan_step(DueStep step, Timed<ToolPose> end);
-  void plan_held(DueStep step);
-  void plan_failure(DueStep step, ros::Time stamp, std::uint8_t status, const std::string& message);
-  void plan_without_transform(DueStep step, ros::Time stamp, const std::string& why);
+  void plan_step(ToolStep step, std::optional<Timed<ToolPose>> end);
+  void plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
+                    const std::string& message);
+  void plan_without_transform(ToolStep step, ros::Time stamp, const std::string& why);
 
   bool evaluate_due();
-  void deliver(DueStep& step);
+  void deliver(ToolStep& step);
+  void begin_with_latest_shapes(std::size_t tool);
   SteadyTime deadline(const WaitingShape& shape) const;
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;
   const OrganRegistry& organs_;
   ToolPoses& poses_;
-  StepEvaluator evaluator_;
+  const StepEvaluator evaluator_;
   StepWorkers& workers_;
   Publish publish_;
-  const StepWorkers::Deliver deliver_;
   StepHistory history_;
-  std::vector<DueStep> due_;       ///< the steps of one round
+  std::vector<ToolStep> due_;      ///< the steps of one round
   std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
   bool tick_is_due_ = false;
   SteadyTime now_;           ///< of the last call of evaluate()
   SteadyTime next_lookout_;  ///< for steps that become too long
   bool keeps_all_shapes_ = false;
-  ShapeCounts shapes_;  ///< without forgotten and waiting
-  std::size_t poses_merged_ = 0;
-  std::size_t samples_cut_ = 0;
-  double deviation_cut_ = 0.0;
-  DurationStatistics query_times_;
+  StepCounts counts_;  ///< without forgotten and waiting
 };
 
 }  // namespace organ_collision

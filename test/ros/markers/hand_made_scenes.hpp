@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "ros/markers/marker_shapes.hpp"
-#include "ros/markers/scene.hpp"
+#include "ros/markers/markers.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
 namespace organ_collision {

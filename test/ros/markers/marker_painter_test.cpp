@@ -116,6 +116,11 @@ TEST_F(Painter, TouchedFacesAreColouredByDepthAndFadeAfterTheContact) {
   EXPECT_EQ(namespaces().count("normals"), 1u);
   paint(resting(5.0));
   EXPECT_EQ(namespaces(), (Names{"surface/liver", "tools", "status"}));
+  Scene scene = touching(9.0);
+  scene.steps.clear();
+  paint(scene);  // The latest answer still has the contact.
+  EXPECT_EQ(namespaces(),
+            (Names{"surface/liver", "tools", "touched", "normals", "names", "status"}));
 }
 
 TEST_F(Painter, TheDeeperOfTwoToolsColoursAFace) {
@@ -126,16 +131,6 @@ TEST_F(Painter, TheDeeperOfTwoToolsColoursAFace) {
   EXPECT_EQ(touched().colors.at(0), colours::depth(0.6));
   paint(touching(0.1, 0.002));
   EXPECT_EQ(touched().colors.at(0), colours::depth(0.2));
-}
-
-TEST_F(Painter, AContactLastsAsLongAsTheLatestAnswerHasIt) {
-  paint(touching(0.0));
-  Scene scene = touching(5.0);
-  scene.steps.clear();
-  paint(scene);
-  EXPECT_EQ(namespaces().count("touched"), 1u);
-  EXPECT_EQ(namespaces().count("normals"), 1u);
-  EXPECT_EQ(namespaces().count("swept"), 0u);
 }
 
 TEST_F(Painter, StepsOfEarlierTrianglesLeaveNoTraces) {
@@ -181,6 +176,10 @@ TEST_F(Painter, ASurfaceThatRestsIsSentSeldom) {
   EXPECT_EQ(paint(resting(0.0)), 1u);
   EXPECT_EQ(paint(resting(0.5)), 0u);
   EXPECT_EQ(paint(resting(1.1 * kRefreshSec)), 1u);
+  Scene scene = resting(9.0);
+  scene.settings.surface_rate_hz = 0.0;  // Switched off.
+  paint(scene);
+  EXPECT_EQ(namespaces(), (Names{"tools", "status"}));
 }
 
 TEST_F(Painter, ASurfaceThatMovesIsSentAtItsRateAndALargeOneLessOften) {
@@ -210,14 +209,6 @@ TEST_F(Painter, ALargeSurfaceIsCutAndASmallerOneLeavesNoScraps) {
   EXPECT_EQ(paint(resting(1.0)), 1u);
   EXPECT_EQ(shown_.count({"surface/liver", 0}), 1u);
   EXPECT_EQ(shown_.count({"surface/liver", 1}), 0u);
-}
-
-TEST_F(Painter, SurfacesCanBeTurnedOff) {
-  paint(resting(0.0));
-  Scene scene = resting(0.1);
-  scene.settings.surface_rate_hz = 0.0;
-  paint(scene);
-  EXPECT_EQ(namespaces(), (Names{"tools", "status"}));
 }
 
 TEST_F(Painter, TheTimeOfAQueryChangesOnceASecond) {

@@ -57,6 +57,31 @@ TEST(NodeParameters, PickersAreChosenByName) {
             "~picker is 'raytrace'; must be one of feedback, select, cpu");
 }
 
+TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
+  struct Row {
+    const char* name;
+    XmlRpcValue value;
+    const char* legal;
+  };
+  const std::vector<Row> rows = {
+      {"motion_sample_sec", 0.0, "'0'; must be a number, more than 0"},
+      {"motion_sample_sec", "2.5", "'2.5'; must be a number, more than 0"},
+      {"tf_timeout_sec", 60.0000001, "'60'; must be a number, at least 0, at most 60"},
+      {"markers_depth", kUnlimited, "'inf'; must be a number, more than 0"},
+      {"threads", 1025, "'1025'; must be a whole number, at least 0, at most 1024"},
+      {"threads", 2.0, "'2'; must be a whole number, at least 0, at most 1024"},
+      {"organ_motion", 1, "'1'; must be true or false"},
+      {"picker", 1, "'1'; must be one of feedback, select, cpu"},
+      {"tools", list_of({"hook"}), "'hook'; must be a group of name"}};
+  for (const Row& row : rows) {
+    expect_contains(refusal_of<NodeParameters>(row.name, row.value),
+                    {std::string("~") + row.name, row.legal});
+  }
+  for (const char* name : {"motion_sample_sec", "threads", "rate"}) {  // Without a decimal point.
+    EXPECT_EQ(refusal_of<NodeParameters>(name, 1), "accepted");
+  }
+}
+
 TEST(NodeParameters, VerySlowRatesAreRefused) {
   for (const char* name : {"rate", "markers_rate", "surface_rate"}) {
     EXPECT_EQ(refusal_of<NodeParameters>(name, 1e-10),
@@ -84,6 +109,11 @@ TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
   ASSERT_EQ(misspelt.size(), 2u);
   expect_contains(misspelt[0], {"~rates", "'rate'"});
   expect_contains(misspelt[1], {"~tools[0]/raduis", "'radius'"});
+  XmlRpcValue tool = shaft(), wrong;
+  for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
+  expect_contains(refusal(wrong), {"~tools[0]/radius is missing; must be a number, more than 0 "
+                                   "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
+                                   "are name, trocar_frame"});
 }
 
 /// A key of a legal tool with an illegal value, and what the refusal says besides the key.
@@ -100,6 +130,7 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {shaft, "radius", 0.0, {"'0'", "more than 0"}},
       {shaft, "radius", kUnlimited, {"inf", "more than 0"}},
       {shaft, "name", "", {"not empty"}},
+      {shaft, "name", 1, {"'1'; must be a text that is not empty"}},
       {shaft, "name", too_long, {"at most 256 bytes"}},
       {shaft, "name", "ho\nok", {"control characters"}},
       {shaft, "trocar_frame", too_long, {"at most 256 bytes"}},
@@ -127,6 +158,7 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {shaft, "links", list_of({}), {"not empty"}},
       {shaft, "links", list_of({"jaw", "jaw"}), {"jaw", "each once"}},
       {shaft, "links", list_of({""}), {"not empty"}},
+      {shaft, "links", list_of({"a", 1}), {"'{a,1}'", "not empty, of texts"}},
       {links, "links", list_of({too_long}), {"at most 256 bytes"}},
       {links, "robot_description", "a b", {"'a b'"}},
       {links, "urdf", "", {"not empty"}},

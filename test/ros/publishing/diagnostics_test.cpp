@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 
 #include "test/ros/steps/node_parts.hpp"
 
@@ -44,7 +46,7 @@ class DiagnosticsTest : public testing::Test, protected NodeParts {
   diagnostic_updater::DiagnosticStatusWrapper status;
   ReceivedParts received{
       parameters.mesh_timeout_sec, tools, organs, organ_topics, counters.meshes, counters.rejected};
-  AnsweredParts answered{misspelt, workers.gl_version(), steps, transforms, counters};
+  AnsweredParts answered{misspelt, pipeline, counters};
 };
 
 }  // namespace
@@ -148,51 +150,72 @@ TEST_F(DiagnosticsTest, ARefusedNewerMeshOfAGoodOrgan) {
   EXPECT_FALSE(of_organs().count("liver, newer mesh refused"));
 }
 
-TEST_F(DiagnosticsTest, QueryTimesOfStepsAndServices) {
-  Values shown = of_queries();
+TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
+  EXPECT_EQ(of_queries().at("queries"), "0");
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
-  EXPECT_EQ(shown.at("GL version"), workers.gl_version());
-  EXPECT_EQ(shown.at("queries"), "0");
-  send_tip(1.0, {0.1, 0.2, 0.3});
-  send_mesh(1.0, 0.0);
-  evaluate();
-  counters.services.add_query(0.003);
-  for (int i = 0; i < 7; ++i) counters.services.add_motion();
-  counters.services.add_batch();
-  shown = of_queries();
-  EXPECT_EQ(shown.at("queries"), "1");
-  EXPECT_GT(std::stod(shown.at("query time, median [us]")), 0.0);
-  EXPECT_EQ(shown.at("query time, worst [us]"), shown.at("query time, 99th percentile [us]"));
-  EXPECT_EQ(shown.at("service queries"), "1");
-  EXPECT_EQ(std::stod(shown.at("service query time, median [us]")), 3000.0);
-  EXPECT_EQ(shown.at("batches"), "1");
-  EXPECT_EQ(shown.at("motions of batches"), "7");
-}
-
-TEST_F(DiagnosticsTest, MotionThatWasNotSweptThrough) {
   for (const double time : {1.0, 2.0}) {
     send_tip(time, {0.1, 0.2, 0.3});
     send_mesh(time, 0.0);
     evaluate();
   }
-  const Values shown = of_queries();
-  EXPECT_EQ(shown.at("transforms after their step"), "0");
-  EXPECT_EQ(shown.at("motion samples cut, farthest from the swept way [m]"), "0");
+  for (const double time : {3.0, 4.0, 5.0, 6.0}) send_mesh(time, 0.0);
   send_tip(1.5, {0.1, 0.2, -0.3});
-  EXPECT_EQ(of_queries().at("transforms after their step"), "1");
-}
-
-TEST_F(DiagnosticsTest, ShapesThatNewerOnesReplacedAndStepsWhileTfWasStarting) {
-  for (const double time : {1.0, 2.0, 3.0, 4.0}) send_mesh(time, 0.0);
+  steps.add_pose(0);
+  steps.add_pose(0);
   counters.starting = 3;
   counters.published = 5;
-  const Values shown = of_queries();
+  counters.query_times.add(0.002);
+  counters.service_times.add(0.003);
+  counters.motions = 7;
+  counters.batches = 1;
+  const Values shown = of_queries(),
+               expected = {{"GL version", pipeline.workers.gl_version()},
+                           {"queries", "1"},
+                           {"query time, median [us]", "2000"},
+                           {"query time, worst [us]", "2000"},
+                           {"motion samples cut", "0"},
+                           {"motion samples cut, farthest from the swept way [m]", "0"},
+                           {"transforms after their step", "1"},
+                           {"poses merged into later ones", "1"},
+                           {"shapes due", "6"},
+                           {"shapes answered", "2"},
+                           {"shapes superseded by newer ones", "2"},
+                           {"shapes forgotten before their step", "0"},
+                           {"shapes waiting", "2"},
+                           {"steps while TF was starting", "3"},
+                           {"answers published", "5"},
+                           {"service queries", "1"},
+                           {"service query time, median [us]", "3000"},
+                           {"batches", "1"},
+                           {"motions of batches", "7"}};
+  for (const auto& [key, value] : expected) EXPECT_EQ(shown.at(key), value) << key;
   EXPECT_EQ(status.level, DiagnosticStatus::OK);
-  EXPECT_EQ(shown.at("shapes due"), "4");
-  EXPECT_EQ(shown.at("shapes answered"), "0");
-  EXPECT_EQ(shown.at("shapes superseded by newer ones"), "2");
-  EXPECT_EQ(shown.at("shapes forgotten before their step"), "0");
-  EXPECT_EQ(shown.at("shapes waiting"), "2");
-  EXPECT_EQ(shown.at("steps while TF was starting"), "3");
-  EXPECT_EQ(shown.at("answers published"), "5");
+}
+
+TEST(DurationStatistics, AgreesWithCountingAndForgetsTheOldest) {
+  std::mt19937 random(2);
+  std::lognormal_distribution<double> duration(-9.0, 1.0);
+  const std::size_t capacity = DurationStatistics::kCapacity;
+  for (const std::size_t size : {std::size_t{1}, std::size_t{2}, std::size_t{3}, std::size_t{99},
+                                 std::size_t{100}, std::size_t{101}, capacity + 5}) {
+    DurationStatistics statistics;
+    EXPECT_EQ(statistics.summary().count, 0u);
+    std::vector<double> values(size);
+    for (double& value : values) statistics.add(value = duration(random));
+    if (size > capacity) values.erase(values.begin(), values.end() - capacity);
+    const DurationStatistics::Summary summary = statistics.summary();
+    EXPECT_EQ(summary.count, size);
+    EXPECT_EQ(summary.worst, *std::max_element(values.begin(), values.end()));
+    // The smallest value that at least so many percent of all values do not exceed.
+    const auto expect_percentile = [&](double found, double percent) {
+      const auto share = [&](auto is_covered) {
+        return 100.0 * static_cast<double>(std::count_if(values.begin(), values.end(), is_covered));
+      };
+      EXPECT_GE(share([&](double value) { return value <= found; }), percent * values.size());
+      EXPECT_LT(share([&](double value) { return value < found; }), percent * values.size());
+      EXPECT_EQ(std::count(values.begin(), values.end(), found), 1);
+    };
+    expect_percentile(summary.median, 50.0);
+    expect_percentile(summary.percentile_99, 99.0);
+  }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <vector>
 
 #include "ros/queries/query_services.hpp"
 #include "test/ros/steps/node_parts.hpp"
@@ -9,10 +10,11 @@ namespace organ_collision {
 
 /// The node without ROS's topics, with its services. One thread does all but the work of batches.
 struct ServedNode : NodeParts {
-  ServedNode() : NodeParts(2) {}
+  explicit ServedNode(int threads = 2, const std::vector<Tool>& tools = {shaft_tool("hook", 0.01)})
+      : NodeParts(threads, tools) {}
 
   NodeCounters counters;
-  QueryServices services{{parameters, tools, organs, transforms, poses, steps.history()},
+  QueryServices services{{parameters, tools, pipeline},
                          [](const std::function<void()>& action) { action(); },
                          counters};
 };

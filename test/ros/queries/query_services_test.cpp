@@ -4,12 +4,17 @@
 #include <ros/serialization.h>
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <future>
 #include <limits>
+#include <map>
+#include <memory>
 #include <new>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "query_fixtures.hpp"
@@ -70,8 +75,8 @@ void expect_words(const std::string& message, const std::vector<std::string>& wo
 /// The services of a node with one organ, "liver", and a request of a swept query that touches it.
 class QueryServicesTest : public testing::Test, protected ServedNode {
  protected:
-  explicit QueryServicesTest(const std::vector<Tool>& list = {shaft_tool("hook", 0.01)}) {
-    tools = list;
+  explicit QueryServicesTest(const std::vector<Tool>& list = {shaft_tool("hook", 0.01)})
+      : ServedNode(2, list) {
     request.header.frame_id = "liver_frame";
     request.organ = "liver";
     request.motion = through();
@@ -107,6 +112,51 @@ class QueryServicesTest : public testing::Test, protected ServedNode {
   Single request;
 };
 
+/// A node with a sheet of 800 faces.
+struct BatchNode : ServedNode {
+  explicit BatchNode(int threads) : ServedNode(threads) {
+    send_mesh(1.0, wavy_sheet(20, 0.5, 0.0F));
+  }
+};
+
+class BatchTest : public testing::Test {
+ protected:
+  /// Shafts that go from heights in [0.05, 0.3] to heights in [low, 0.3].
+  void add_random_shafts(std::size_t count, double low) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-0.8, 0.8), from(0.05, 0.3), to(low, 0.3);
+    for (std::size_t i = 0; i < count; ++i) {
+      ToolMotion& motion = batch.motions.emplace_back();
+      const auto point = [&](double z) {
+        const double x = place(random), y = place(random);
+        return tf2::toMsg(Vector3d(x, y, z));
+      };
+      motion.trocar = motion.previous_trocar = point(1.0);
+      motion.previous_tip = point(from(random));
+      motion.tip = point(to(random));
+      motion.radius = i % 7 == 3 ? 0.0 : 0.01;  // Some are illegal.
+    }
+  }
+  BatchTest() {
+    batch.header.frame_id = "liver_frame";
+    batch.organ = "liver";
+    batch.mode = ContactArray::SWEPT;
+    for (const int threads : {1, 2, 5}) nodes.push_back(std::make_unique<BatchNode>(threads));
+  }
+
+  /// The response, which must be the same for each number of threads.
+  QueryCollisionBatch::Response answer(int max_batch_bytes = 256 << 20) {
+    for (const auto& node : nodes) node->parameters.max_batch_bytes = max_batch_bytes;
+    const QueryCollisionBatch::Response response = nodes[0]->services.query_batch(batch);
+    EXPECT_EQ(nodes[1]->services.query_batch(batch), response);
+    EXPECT_EQ(nodes[2]->services.query_batch(batch), response);
+    return response;
+  }
+
+  std::vector<std::unique_ptr<BatchNode>> nodes;  ///< with 1, 2 and 5 threads
+  Batch batch;
+};
+
 /// A node with a hook that has a shaft and two links, a grasper that has only the links, and a
 /// probe that has only a shaft. See with_links() and NodeParts.
 class LinkQueriesTest : public QueryServicesTest {
@@ -130,11 +180,6 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_EQ(answer.header.frame_id, "liver_frame");
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
   EXPECT_TRUE(answer.regions.empty());
-  request.regions = request.placement = true;
-  answer = services.query(request);
-  EXPECT_EQ(answer.regions.size(), 1u);
-  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);  // The surface is never inspected.
-  EXPECT_EQ(answer.placement.crossings.size(), 1u);
   request.mode = ContactArray::STATIC;
   request.motion.tip = tf2::toMsg(kAbove);
   request.motion.previous_tip = tf2::toMsg(kBelow);
@@ -143,38 +188,32 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_TRUE(answer.contacts.empty());
 }
 
-TEST_F(QueryServicesTest, MotionInAnotherFrame) {
-  const Eigen::Isometry3d T_liver_table =
-      Eigen::Translation3d(0.5, -0.3, 0.2) *
-      Eigen::AngleAxisd(0.9, Vector3d(0.2, 1.0, -0.6).normalized());
-  set_transform(transforms, "liver_frame", "table", 4.0, T_liver_table);
-  const ContactArray here = services.query(request);
-  for (geometry_msgs::Point* point : {&request.motion.previous_trocar, &request.motion.previous_tip,
-                                      &request.motion.trocar, &request.motion.tip}) {
-    *point = tf2::toMsg(Vector3d(T_liver_table.inverse() * to_eigen(*point)));
-  }
-  request.header.frame_id = "/table";
-  const ContactArray there = services.query(request);
-  ASSERT_EQ(there.status, ContactArray::OK) << there.message;
-  EXPECT_EQ(there.header.stamp, ros::Time(4.0));
-  EXPECT_EQ(there.step_start, ros::Time(4.0));
-  EXPECT_EQ(there.header.frame_id, "liver_frame");
-  ASSERT_EQ(there.contacts.size(), 1u);
-  EXPECT_EQ(there.contacts[0].face, here.contacts[0].face);
-  EXPECT_NEAR(there.contacts[0].depth, here.contacts[0].depth, 1e-9);
-  EXPECT_NEAR(there.contacts[0].point.x, here.contacts[0].point.x, 1e-9);
-  const QueryCollisionBatch::Response batch = services.query_batch(batch_of({request.motion}));
-  EXPECT_EQ(batch.results, std::vector<ContactArray>{there});
-  request.header.stamp = ros::Time(5.0);
-  expect_refused(ContactArray::NO_TRANSFORM, {"table", "liver_frame"});
-}
-
-TEST_F(QueryServicesTest, OrganMovesOnRequest) {
+TEST_F(QueryServicesTest, OrganMovesOnRequestInSweptQueriesAlone) {
   send_vertices(1.1, 2.0f);
   request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAbove);
   EXPECT_TRUE(services.query(request).contacts.empty());
   request.organ_motion = true;
   EXPECT_EQ(services.query(request).contacts.size(), 2u);
+  request.mode = ContactArray::STATIC;
+  EXPECT_TRUE(services.query(request).contacts.empty());
+}
+
+TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
+  request.regions = request.placement = true;
+  ContactArray answer = services.query(request);
+  EXPECT_EQ(answer.regions.size(), 1u);
+  EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
+  EXPECT_EQ(answer.placement.crossings.size(), 1u);
+  OrganMesh tetrahedron;
+  tetrahedron.organ = "liver";
+  tetrahedron.topology = 2;
+  tetrahedron.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2};
+  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  send_mesh(1.1, tetrahedron);
+  std::thread inspector([&] { organs.at("liver").surface()->find(); });
+  organs.at("liver").surface()->wait_until_found(std::chrono::minutes(1));
+  inspector.join();
+  EXPECT_EQ(services.query(request).placement.tip, ToolPlacement::INSIDE);
 }
 
 TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
@@ -190,8 +229,7 @@ TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
   EXPECT_EQ(answer.step_start, ros::Time(1.0));
   EXPECT_EQ(answer.header.stamp, ros::Time(1.2));
   EXPECT_EQ(answer.contacts.size(), 1u);
-  ASSERT_TRUE(steps.history().last("liver", 0));
-  EXPECT_EQ(steps.history().last("liver", 0)->stamp, ros::Time(1.0));  // It is left alone.
+  EXPECT_EQ(steps.history().at({"liver", 0}).last->stamp, ros::Time(1.0));  // It is left alone.
   request.header.stamp = ros::Time(1.05);
   EXPECT_EQ(services.query(request).header.stamp, ros::Time(1.05));
   request.mode = ContactArray::STATIC;
@@ -254,7 +292,7 @@ TEST_F(QueryServicesTest, ASnapshotStaysAsItIsWhileTheNodeGoesOn) {
   send_vertices(1.1, 0.5);
   ContactArray answer;
   const QuerySnapshot snapshot =
-      take_snapshot({parameters, tools, organs, transforms, poses, steps.history()},
+      take_snapshot({parameters, tools, pipeline},
                     {request.header, "liver", "hook", false, QueryMode::kSwept}, answer);
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.1));
   EXPECT_EQ(answer.topology, 1u);
@@ -294,61 +332,35 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
     std::vector<std::string> words;
     std::function<void(Single&)> edit;
   };
+  const auto of_tool = [](Single& r, const char* tool) {
+    r.tool = tool;
+    r.motion = {};
+  };
+  const auto in_mode = [](Single& r, std::uint8_t mode) -> Single& {
+    r.mode = mode;
+    return r;
+  };
   const std::vector<Refusal> refusals = {
       {ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"}, [](auto& r) { r.organ = "spleen"; }},
       {kInvalid, {"organ", "empty"}, [](auto& r) { r.organ = ""; }},
-      {ContactArray::UNKNOWN_TOOL,
-       {"'saw'", "'hook'"},
-       [](auto& r) {
-         r.tool = "saw";
-         r.motion = {};
-       }},
-      {kInvalid, {"mode is 5", "0 (STATIC) to 4"}, [](auto& r) { r.mode = 5; }},
+      {ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"}, [&](auto& r) { of_tool(r, "saw"); }},
+      {ContactArray::NO_TRANSFORM, {"hook_tip"}, [&](auto& r) { of_tool(r, "hook"); }},
+      {kInvalid, {"motion is set", "'hook' moves as in TF"}, [](auto& r) { r.tool = "hook"; }},
+      {kInvalid, {"mode is 5", "0 (STATIC) to 4"}, [&](auto& r) { in_mode(r, 5); }},
+      {kInvalid, {"mode is 2", "1 (SWEPT)"}, [&](auto& r) { in_mode(r, 2).margin = 0.01; }},
+      {kInvalid, {"mode is 3", "1 (SWEPT)"}, [&](auto& r) { in_mode(r, 3).clearance = true; }},
+      {kInvalid, {"mode is 4", "1 (SWEPT)"}, [&](auto& r) { in_mode(r, 4).placement = true; }},
+      {kInvalid, {}, [&](auto& r) { in_mode(r, 2).motion.tip = r.motion.trocar; }},
       {kInvalid, {"frame_id", "empty"}, [](auto& r) { r.header.frame_id = ""; }},
-      {ContactArray::NO_TRANSFORM,
-       {"nowhere", "unknown to TF"},
-       [](auto& r) { r.header.frame_id = "nowhere"; }},
+      {ContactArray::NO_TRANSFORM, {"nowhere"}, [](auto& r) { r.header.frame_id = "nowhere"; }},
       {kInvalid, {"radius", "-0.25", "positive"}, [](auto& r) { r.motion.radius = -0.25; }},
       {kInvalid, {"radius", "nan", "finite"}, [](auto& r) { r.motion.radius = kNan; }},
-      {kInvalid,
-       {"previous_tip", "inf", "finite"},
-       [](auto& r) { r.motion.previous_tip.y = kInfinity; }},
-      {kInvalid,
-       {},
-       [](auto& r) {
-         r.mode = ContactArray::PAPER_STATIC;
-         r.motion.tip = r.motion.trocar;
-       }},
-      {kInvalid, {"motion is set", "'hook' moves as in TF"}, [](auto& r) { r.tool = "hook"; }},
-      {ContactArray::NO_TRANSFORM,
-       {"hook_tip"},
-       [](auto& r) {
-         r.tool = "hook";
-         r.motion = {};
-       }},
-      {kInvalid,
-       {"link_motion", "tool is empty"},
-       [](auto& r) { r.link_motion = jaw_goes_down(); }},
+      {kInvalid, {"previous_tip", "inf"}, [](auto& r) { r.motion.previous_tip.y = kInfinity; }},
+      {kInvalid, {"tool is empty"}, [](auto& r) { r.link_motion = jaw_goes_down(); }},
       {kInvalid, {"margin is -0.25", "positive and finite"}, [](auto& r) { r.margin = -0.25; }},
       {kInvalid, {"margin is nan", "positive and finite"}, [](auto& r) { r.margin = kNan; }},
       {kInvalid, {"margin is inf", "positive and finite"}, [](auto& r) { r.margin = kInfinity; }},
-      {kInvalid, {"max_near is 7", "margin"}, [](auto& r) { r.max_near = 7; }},
-      {kInvalid,
-       {"mode is 2", "1 (SWEPT)"},
-       [](auto& r) {
-         r.mode = 2;
-         r.margin = 0.01;
-       }},
-      {kInvalid,
-       {"mode is 3", "1 (SWEPT)"},
-       [](auto& r) {
-         r.mode = 3;
-         r.clearance = true;
-       }},
-      {kInvalid, {"mode is 4", "1 (SWEPT)"}, [](auto& r) {
-         r.mode = 4;
-         r.placement = true;
-       }}};
+      {kInvalid, {"max_near is 7", "margin"}, [](auto& r) { r.max_near = 7; }}};
   const Single good = request;
   for (const Refusal& refusal : refusals) {
     request = good;
@@ -407,30 +419,14 @@ TEST_F(QueryServicesTest, RemovedOrganAndStaleMesh) {
 
 TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
   QueryServices broken(
-      {parameters, tools, organs, transforms, poses, steps.history()},
-      [](const std::function<void()>&) { throw std::bad_alloc(); }, counters);
+      {parameters, tools, pipeline}, [](const std::function<void()>&) { throw std::bad_alloc(); },
+      counters);
   const ContactArray answer = broken.query(request);
   EXPECT_EQ(answer.status, ContactArray::PICKER_FAILED);
   EXPECT_EQ(answer.message, "the query failed: std::bad_alloc");
   const QueryCollisionBatch::Response response = broken.query_batch(batch_of({through()}));
   EXPECT_EQ(response.status, ContactArray::PICKER_FAILED);
   EXPECT_EQ(response.message, "the query failed: std::bad_alloc");
-}
-
-TEST_F(QueryServicesTest, BatchAnswersEachMotionInOrder) {
-  EXPECT_TRUE(services.query_batch(batch_of({})).results.empty());
-  ToolMotion aside = through();
-  aside.tip = aside.previous_tip;
-  ToolMotion bad = through();
-  bad.radius = 0.0;
-  const auto response = services.query_batch(batch_of({through(), aside, bad, through()}));
-  EXPECT_EQ(response.status, ContactArray::OK);
-  ASSERT_EQ(response.results.size(), 4u);
-  EXPECT_EQ(response.results[0].contacts.size(), 1u);
-  EXPECT_TRUE(response.results[1].contacts.empty());
-  EXPECT_EQ(response.results[1].status, ContactArray::OK);
-  EXPECT_EQ(response.results[2].status, kInvalid);
-  EXPECT_EQ(response.results[3].contacts.size(), 1u);
 }
 
 TEST_F(QueryServicesTest, BatchThatFailsAsAWholeSaysWhy) {
@@ -471,6 +467,89 @@ TEST_F(QueryServicesTest, BatchWhoseResultsGrowTooLargeIsRefused) {
                      " (max_batch_bytes): ask for fewer motions at once");
   parameters.max_batch_bytes = static_cast<int>(all - 4 * one);
   expect_refused(batch, kInvalid, "first 2 of 5");
+}
+
+TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
+  EXPECT_TRUE(answer().results.empty());
+  add_random_shafts(203, -0.3);
+  const std::vector<ContactArray> results = answer().results;
+  ASSERT_EQ(results.size(), 203u);
+  EXPECT_EQ(results[3].status, kInvalid);
+  std::size_t contacts = 0;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    Single one;
+    one.header = batch.header;
+    one.organ = batch.organ;
+    one.mode = batch.mode;
+    one.motion = batch.motions[i];
+    const ContactArray alone = nodes[0]->services.query(one);
+    EXPECT_EQ(results[i].contacts, alone.contacts) << i;
+    EXPECT_EQ(results[i].status, alone.status) << i;
+    EXPECT_EQ(results[i].message, alone.message) << i;
+    contacts += alone.contacts.size();
+  }
+  EXPECT_GT(contacts, 100u);
+}
+
+TEST_F(BatchTest, EndsWithTheFirstMotionThatTouches) {
+  add_random_shafts(200, 0.05);
+  const std::vector<ToolMotion> motions = batch.motions;
+  for (const std::size_t first : {0u, 15u, 87u, 199u}) {
+    batch.motions = motions;
+    batch.motions[first] = batch.motions.back() = through();
+    batch.stop_at_first_contact = 0;
+    std::vector<ContactArray> expected = answer().results;
+    for (std::size_t i = 0; i < first; ++i) ASSERT_TRUE(expected[i].contacts.empty());
+    ASSERT_FALSE(expected[first].contacts.empty());
+    expected.resize(first + 1);
+    batch.stop_at_first_contact = 1;
+    EXPECT_EQ(answer().results, expected) << first;
+  }
+  batch.motions = motions;
+  EXPECT_EQ(answer().results.size(), 200u) << "none touches";
+  EXPECT_EQ(nodes[0]->counters.batches.load(), 9u);
+  EXPECT_EQ(nodes[0]->counters.motions.load(), 4 * 200u + 1 + 16 + 88 + 200 + 200);
+}
+
+TEST_F(BatchTest, MotionsAfterTheFirstContactAreNotEvaluated) {
+  batch.motions.assign(100'000, through());
+  batch.stop_at_first_contact = 1;
+  EXPECT_EQ(answer().results.size(), 1u);
+}
+
+TEST_F(BatchTest, TooManyBytesAreRefusedWithTheSameWords) {
+  add_random_shafts(300, -0.3);
+  for (ToolMotion& motion : batch.motions) motion.radius = 0.3;  // Hundreds of contacts.
+  const QueryCollisionBatch::Response refused = answer(100'000);
+  EXPECT_EQ(refused.status, kInvalid);
+  EXPECT_TRUE(refused.results.empty());
+  expect_words(refused.message, {"of 300 motions", "max_batch_bytes"});
+}
+
+TEST_F(BatchTest, BytesAfterTheFirstContactDoNotCount) {
+  add_random_shafts(200, 0.05);
+  ToolMotion wide = through();
+  wide.radius = 0.5;  // So many contacts that one answer is too large.
+  batch.motions.push_back(through());
+  batch.motions.insert(batch.motions.end(), 100, wide);
+  EXPECT_EQ(answer(400'000).status, kInvalid);
+  batch.stop_at_first_contact = 1;
+  const std::vector<ContactArray> found = answer(400'000).results;
+  ASSERT_EQ(found.size(), 201u);
+  EXPECT_FALSE(found.back().contacts.empty());
+}
+
+TEST_F(BatchTest, EndsSoonWhenAsked) {
+  add_random_shafts(1, 0.05);
+  batch.motions.assign(500'000, batch.motions[0]);
+  BatchNode& node = *nodes[1];
+  node.parameters.max_batch = 500'000;
+  auto answering =
+      std::async(std::launch::async, [&] { return node.services.query_batch(batch).status; });
+  EXPECT_EQ(answering.wait_for(std::chrono::milliseconds(100)), std::future_status::timeout);
+  node.services.end();
+  EXPECT_EQ(answering.get(), ContactArray::PICKER_FAILED);
+  EXPECT_EQ(node.services.query_batch(batch).message, "the query failed: the node is about to end");
 }
 
 TEST_F(LinkQueriesTest, GiveWhatTheStepGave) {
@@ -543,6 +622,82 @@ TEST_F(LinkQueriesTest, NeedNoPosesInTf) {
   EXPECT_EQ(services.query(request).status, ContactArray::NO_TRANSFORM);
 }
 
+/// The same motions, given in the organ's frame and in one that is elsewhere.
+TEST_F(LinkQueriesTest, MotionsInAnotherFrameGiveTheSame) {
+  const Eigen::Isometry3d T_liver_table =
+      Eigen::Translation3d(0.5, -0.3, 0.2) *
+      Eigen::AngleAxisd(0.9, Vector3d(0.2, 1.0, -0.6).normalized());
+  const Eigen::Isometry3d T_table_liver = T_liver_table.inverse();
+  set_transform(transforms, "liver_frame", "table", 4.0, T_liver_table);
+  tools[0].parameters.radius = 0.01;
+  request.tool = "hook";
+  request.motion = through();
+  request.motion.previous_tip.x = 0.4;
+  for (const std::uint8_t mode : {ContactArray::SWEPT, ContactArray::STATIC}) {
+    request.mode = mode;
+    const ContactArray here = services.query(request);
+    ASSERT_FALSE(here.contacts.empty()) << here.message;
+    Single moved = request;
+    moved.header.frame_id = "/table";
+    for (geometry_msgs::Point* point : {&moved.motion.previous_trocar, &moved.motion.previous_tip,
+                                        &moved.motion.trocar, &moved.motion.tip}) {
+      *point = tf2::toMsg(Vector3d(T_table_liver * to_eigen(*point)));
+    }
+    for (auto* poses : {&moved.link_motion.previous, &moved.link_motion.links}) {
+      for (geometry_msgs::Pose& pose : *poses) {
+        pose = tf2::toMsg(Eigen::Isometry3d(T_table_liver * to_eigen(pose)));
+        pose.orientation.x *= 1.0005;  // Senders round. It is normalised.
+        pose.orientation.y *= 1.0005;
+        pose.orientation.z *= 1.0005;
+        pose.orientation.w *= 1.0005;
+      }
+    }
+    if (mode == ContactArray::STATIC) {  // What is not used may be missing or illegal.
+      moved.motion.previous_tip.x = kNan;
+      moved.link_motion.previous.clear();
+    }
+    const ContactArray there = services.query(moved);
+    ASSERT_EQ(there.status, ContactArray::OK) << there.message;
+    EXPECT_EQ(there.header.stamp, ros::Time(4.0));
+    EXPECT_EQ(there.step_start, ros::Time(4.0));
+    EXPECT_EQ(there.header.frame_id, "liver_frame");
+    ASSERT_EQ(there.contacts.size(), here.contacts.size());
+    for (std::size_t i = 0; i < here.contacts.size(); ++i) {
+      EXPECT_EQ(there.contacts[i].face, here.contacts[i].face);
+      EXPECT_EQ(there.contacts[i].link, here.contacts[i].link);
+      EXPECT_NEAR(there.contacts[i].fraction, here.contacts[i].fraction, 1e-9);
+      EXPECT_NEAR(there.contacts[i].depth, here.contacts[i].depth, 1e-9);
+      EXPECT_NEAR(there.contacts[i].point.x, here.contacts[i].point.x, 1e-9);
+    }
+    Batch batch = batch_of({moved.motion});
+    batch.header = moved.header;
+    batch.link_motions = {moved.link_motion};
+    EXPECT_EQ(services.query_batch(batch).results, std::vector<ContactArray>{there});
+    moved.header.stamp = ros::Time(5.0);
+    EXPECT_EQ(services.query(moved).status, ContactArray::NO_TRANSFORM);
+  }
+}
+
+TEST_F(LinkQueriesTest, TheTipIsKnownIfALinkHasItsFrame) {
+  request.placement = true;
+  OrganMesh tetrahedron;
+  tetrahedron.organ = "liver";
+  tetrahedron.topology = 2;
+  tetrahedron.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2};
+  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+  send_mesh(1.1, tetrahedron);
+  organs.at("liver").surface()->find();
+  request.link_motion.links[0].position.z = 5.0;  // The wrist is outside, and the jaw inside.
+  for (const auto& [frame, side] :
+       std::map<std::string, std::uint8_t>{{"", ToolPlacement::UNKNOWN},
+                                           {"arm/point", ToolPlacement::UNKNOWN},
+                                           {"arm/wrist", ToolPlacement::OUTSIDE},
+                                           {"arm/jaw", ToolPlacement::INSIDE}}) {
+    tools[1].parameters.tip_frame = frame;
+    EXPECT_EQ(services.query(request).placement.tip, side) << frame;
+  }
+}
+
 TEST_F(LinkQueriesTest, RefuseFaultyTools) {
   tools[1].fault = "grasper: parameter 'robot_description' is not set";
   expect_refused(ContactArray::INVALID_TOOL, {"grasper: parameter"});
@@ -565,35 +720,29 @@ TEST_F(LinkQueriesTest, RefuseIllegalMotionsWithTheirValue) {
       edit(r.motion);
     };
   };
+  const auto jaws = [](Single& r) -> geometry_msgs::Pose& { return r.link_motion.links[1]; };
   const std::vector<Refusal> refusals = {
       {{"link_motion is set", "'probe' has no links"}, of_shaft("probe", [](auto&) {})},
-      {{"link_motion.links has 1 poses", "2", "'grasper'"},
-       [](auto& r) { r.link_motion.links.pop_back(); }},
-      {{"link_motion.previous has 0 poses", "2"}, [](auto& r) { r.link_motion.previous.clear(); }},
-      {{"link_motion.previous has 3 poses", "2"},
-       [](auto& r) { r.link_motion.previous.emplace_back(); }},
-      {{"link_motion.links[1]", "'jaw'", "(0, nan, 0)", "finite"},
-       [](auto& r) {
-         r.link_motion.links[1] = at({0.0, kNan, 0.0});
-       }},
-      {{"link_motion.previous[0]", "'wrist'", "(inf, 0, 0)", "finite"},
-       [](auto& r) {
-         r.link_motion.previous[0] = at({kInfinity, 0.0, 0.0});
-       }},
-      {{"link_motion.links[0]", "'wrist'", "(0, 0, 0, 0)", "length 1"},
-       [](auto& r) { r.link_motion.links[0].orientation = {}; }},
-      {{"link_motion.links[0]", "(0, 0, 0, 1.0011)", "length 1"},
-       [](auto& r) { r.link_motion.links[0].orientation.w = 1.0011; }},
-      {{"link_motion.previous[1]", "(nan, 0, 0, 1)", "length 1"},
-       [](auto& r) { r.link_motion.previous[1].orientation.x = kNan; }},
       {{"motion is set", "'grasper' has no shaft"}, of_shaft("grasper", [](auto&) {})},
       {{"motion is not set", "'hook' has a shaft"}, [](auto& r) { r.tool = "hook"; }},
       {{"motion.radius is 0.02 m", "'hook'", "0.01 m"},
        of_shaft("hook", [](auto& motion) { motion.radius = 0.02; })},
       {{"motion.tip is (0.1, nan, 0.3)", "finite"},
        of_shaft("hook", [](auto& motion) { motion.tip.y = kNan; })},
-      {{"mode is 3", "'grasper' has no shaft"},
-       [](auto& r) { r.mode = ContactArray::PAPER_SWEPT; }}};
+      {{"mode is 3", "'grasper' has no shaft"}, [](auto& r) { r.mode = 3; }},
+      {{"link_motion.links has 1 poses", "2", "'grasper'"},
+       [](auto& r) { r.link_motion.links.pop_back(); }},
+      {{"link_motion.previous has 0 poses", "2"}, [](auto& r) { r.link_motion.previous.clear(); }},
+      {{"link_motion.links[1]", "'jaw'", "(0.1, nan, -0.3)", "finite"},
+       [&](auto& r) { jaws(r).position.y = kNan; }},
+      {{"link_motion.previous[0]", "'wrist'", "(inf, 0.2, 0.6)", "finite"},
+       [](auto& r) { r.link_motion.previous[0].position.x = kInfinity; }},
+      {{"link_motion.links[1]", "'jaw'", "(0, 0, 0, 0)", "length 1"},
+       [&](auto& r) { jaws(r).orientation = {}; }},
+      {{"link_motion.links[1]", "(0, 0, 0, 1.0011)", "length 1"},
+       [&](auto& r) { jaws(r).orientation.w = 1.0011; }},
+      {{"link_motion.previous[1]", "(nan, 0, 0, 1)", "length 1"},
+       [](auto& r) { r.link_motion.previous[1].orientation.x = kNan; }}};
   const Single good = request;
   for (const Refusal& refusal : refusals) {
     request = good;

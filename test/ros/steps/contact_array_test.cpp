@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "ros/messages/conversions.hpp"
+#include <sstream>
+
 #include "ros/messages/text.hpp"
 
 using namespace organ_collision;
@@ -14,21 +15,32 @@ DeformableOrgan liver() {
           ros::Time(10), ros::Time(12)};
 }
 
+/// All fields of a message in one line.
+template <typename Message>
+std::string fields_of(const Message& message) {
+  std::stringstream words;
+  words << message;
+  std::string text;
+  for (std::string word; words >> word;) text += (text.empty() ? "" : " ") + word;
+  return text;
+}
+
 }  // namespace
 
 TEST(Answers, AboutAnOrganAndATool) {
   const DeformableOrgan organ = liver();
   ContactArray answer = answer_about("liver", "hook", ContactArray::SWEPT, ros::Time(11));
   set_organ(answer, organ, organ.latest());
-  EXPECT_EQ(answer.organ, "liver");
-  EXPECT_EQ(answer.tool, "hook");
-  EXPECT_EQ(answer.mode, ContactArray::SWEPT);
-  EXPECT_EQ(answer.header.stamp, ros::Time(11));
-  EXPECT_EQ(answer.step_start, ros::Time(11));
-  EXPECT_EQ(answer.header.frame_id, "liver_frame");
-  EXPECT_EQ(answer.topology, 7u);
-  EXPECT_EQ(answer.mesh_stamp, ros::Time(10));
-  EXPECT_EQ(answer.links, std::vector<std::string>{""});
+  ContactArray expected;
+  expected.organ = "liver";
+  expected.tool = "hook";
+  expected.links = {""};
+  expected.mode = ContactArray::SWEPT;
+  expected.header.stamp = expected.step_start = ros::Time(11);
+  expected.header.frame_id = "liver_frame";
+  expected.topology = 7;
+  expected.mesh_stamp = ros::Time(10);
+  EXPECT_EQ(answer, expected);
 }
 
 TEST(Answers, AFailureIsEmpty) {
@@ -72,6 +84,7 @@ TEST(Answers, StaleIsOlderThanTheLimit) {
 TEST(QueryConversions, EveryFieldOfAContact) {
   FaceContact contact;
   contact.face = 4000000000u;
+  contact.vertices = {9, 5, 6};
   contact.link = 7;
   contact.fraction = 0.25;
   contact.point = {1.0, 2.0, 3.0};
@@ -80,22 +93,15 @@ TEST(QueryConversions, EveryFieldOfAContact) {
   contact.shaft = 0.75;
   contact.depth = -0.001;
   contact.behind = true;
+  contact.end_point = {1.5, 2.5, 3.5};
   contact.view_min = 0.01;
   contact.view_max = 0.02;
-  const Contact message = to_message(contact);
-  EXPECT_EQ(message.face, 4000000000u);
-  EXPECT_EQ(message.link, 7u);
-  EXPECT_EQ(message.fraction, 0.25);
-  EXPECT_EQ(to_eigen(message.point), contact.point);
-  EXPECT_EQ(message.normal.x, 0.6);
-  EXPECT_EQ(message.normal.z, -0.8);
-  EXPECT_EQ(message.barycentric[0], 0.2);
-  EXPECT_EQ(message.barycentric[2], 0.5);
-  EXPECT_EQ(message.shaft, 0.75);
-  EXPECT_EQ(message.depth, -0.001);
-  EXPECT_TRUE(message.behind);
-  EXPECT_EQ(message.view_min, 0.01);
-  EXPECT_EQ(message.view_max, 0.02);
+  EXPECT_EQ(fields_of(to_message(contact)),
+            "face: 4000000000 vertices[] vertices[0]: 9 vertices[1]: 5 vertices[2]: 6 link: 7 "
+            "fraction: 0.25 point: x: 1 y: 2 z: 3 normal: x: 0.6 y: 0 z: -0.8 barycentric[] "
+            "barycentric[0]: 0.2 barycentric[1]: 0.3 barycentric[2]: 0.5 shaft: 0.75 "
+            "depth: -0.001 behind: 1 end_point: x: 1.5 y: 2.5 z: 3.5 view_min: 0.01 "
+            "view_max: 0.02");
 }
 
 TEST(QueryConversions, EveryFieldOfAClearance) {
@@ -115,26 +121,16 @@ TEST(QueryConversions, EveryFieldOfAClearance) {
   clearance.normal = {0.6, 0.0, -0.8};
   clearance.normal_defined = true;
   clearance.is_resolved = false;
-  const Clearance message = to_message(clearance);
-  EXPECT_EQ(message.state, Clearance::KNOWN);
-  EXPECT_EQ(message.margin, 0.02);
-  EXPECT_TRUE(message.unlimited);
-  EXPECT_EQ(message.distance, 0.011);
-  EXPECT_EQ(message.least, 0.003);
-  EXPECT_EQ(message.least_fraction, 0.4);
-  EXPECT_EQ(message.face, 4000000001u);
-  EXPECT_EQ(message.vertices, (Clearance::_vertices_type{7, 5, 6}));
-  EXPECT_EQ(message.barycentric, (Clearance::_barycentric_type{0.2, 0.3, 0.5}));
-  EXPECT_EQ(message.link, 3u);
-  EXPECT_EQ(to_eigen(message.on_organ), clearance.on_organ);
-  EXPECT_EQ(to_eigen(message.on_tool), clearance.on_tool);
-  EXPECT_EQ(to_eigen(message.normal), clearance.normal);
-  EXPECT_TRUE(message.normal_defined);
-  EXPECT_TRUE(message.unresolved);
+  EXPECT_EQ(fields_of(to_message(clearance)),
+            "state: 2 margin: 0.02 unlimited: 1 distance: 0.011 least: 0.003 least_fraction: 0.4 "
+            "face: 4000000001 vertices[] vertices[0]: 7 vertices[1]: 5 vertices[2]: 6 "
+            "barycentric[] barycentric[0]: 0.2 barycentric[1]: 0.3 barycentric[2]: 0.5 link: 3 "
+            "on_organ: x: 1 y: 2 z: 3 on_tool: x: 4 y: 5 z: 6.5 normal: x: 0.6 y: 0 z: -0.8 "
+            "normal_defined: 1 unresolved: 1");
   EXPECT_EQ(to_message(ToolClearance()), Clearance());
 }
 
-TEST(QueryConversions, EveryFieldOfAPlacement) {
+TEST(QueryConversions, EveryFieldOfAPlacementAndTheCornersOfARegion) {
   AxisCrossing crossing;
   crossing.face = 4000000002u;
   crossing.vertices = {3, 9, 4};
@@ -149,26 +145,18 @@ TEST(QueryConversions, EveryFieldOfAPlacement) {
   placement.length_known = true;
   placement.length_inside = 0.032;
   const ToolPlacement message = to_message(placement);
+  ASSERT_EQ(message.crossings.size(), 2u);
+  EXPECT_EQ(message.crossings[0], Crossing());
+  EXPECT_EQ(fields_of(message.crossings[1]),
+            "face: 4000000002 vertices[] vertices[0]: 3 vertices[1]: 9 vertices[2]: 4 "
+            "barycentric[] barycentric[0]: 0.1 barycentric[1]: 0.2 barycentric[2]: 0.7 "
+            "shaft: 0.75 point: x: 1 y: -2 z: 3 direction: -1");
   EXPECT_EQ(message.tip, ToolPlacement::INSIDE);
   EXPECT_EQ(message.trocar, ToolPlacement::ON_SURFACE);
   EXPECT_TRUE(message.length_known);
   EXPECT_EQ(message.length_inside, 0.032);
-  ASSERT_EQ(message.crossings.size(), 2u);
-  EXPECT_EQ(message.crossings[0], Crossing());
-  EXPECT_EQ(message.crossings[1].face, 4000000002u);
-  EXPECT_EQ(message.crossings[1].vertices, (Crossing::_vertices_type{3, 9, 4}));
-  EXPECT_EQ(message.crossings[1].barycentric, (Crossing::_barycentric_type{0.1, 0.2, 0.7}));
-  EXPECT_EQ(message.crossings[1].shaft, 0.75);
-  EXPECT_EQ(to_eigen(message.crossings[1].point), crossing.point);
-  EXPECT_EQ(message.crossings[1].direction, -1);
-}
-
-TEST(QueryConversions, RegionKeepsItsCorners) {
-  const geometry_msgs::Polygon polygon = to_message(Region{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.5}});
-  ASSERT_EQ(polygon.points.size(), 2u);
-  EXPECT_EQ(polygon.points[1].y, 5.0f);
-  EXPECT_EQ(polygon.points[1].z, 6.5f);
-  EXPECT_TRUE(to_message(Region{}).points.empty());
+  EXPECT_EQ(fields_of(to_message(Region{{1.0, 2.0, 3.0}, {4.0, 5.0, 6.5}})),
+            "points[] points[0]: x: 1 y: 2 z: 3 points[1]: x: 4 y: 5 z: 6.5");
 }
 
 TEST(ContactQuery, ARequestWithoutAnswerBecomesAStatus) {

@@ -1,0 +1,232 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "organ_collision/geometry/tool/tool_path.hpp"
+#include "organ_collision/query/haptic_proxy.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "ros/steps/step.hpp"
+#include "ros/tools/tool.hpp"
+
+namespace organ_collision {
+
+// What is drawn.
+
+/// An organ and its latest shape, which nobody changes.
+struct SceneOrgan {
+  std::string name;
+  std::string frame;
+  std::shared_ptr<const TriangleMesh> mesh;
+
+  /// [m] The diagonal of its box. Widths of lines and heights of texts are shares of it.
+  double size() const { return mesh->box().diagonal().cast<double>().norm(); }
+};
+
+/// What is known of a tool and an organ.
+struct ScenePair {
+  std::string organ;
+  std::size_t tool;              ///< index into Scene::tools
+  ContactArrayConstPtr answer;   ///< the latest about the organ's present triangles; null: none yet
+  std::optional<ToolPose> pose;  ///< in the organ's frame, at the last successful step
+};
+
+/// A step since the last picture.
+struct SceneStep {
+  SteadyTime time;
+  ContactArrayConstPtr answer;
+  SharedFaces faces;  ///< of the organ at that time
+  ToolPath path;      ///< empty if the step failed
+  double query_sec;
+};
+
+/// A hand and its proxy.
+struct ProxyView {
+  Tool tool;
+  std::string frame;             ///< the proxy's frame
+  std::optional<ToolPose> hand;  ///< in this frame; not set: it is not known
+  ProxyAnswer answer;            ///< to this hand
+  double force = 0.0;            ///< [N] the magnitude of the force on the hand
+  double size = 0.1;             ///< [m] of the scene: widths and heights of texts are shares of it
+};
+
+/// What one picture shows. It shares or copies everything, so that another thread can draw it.
+struct Scene {
+  SteadyTime time;
+  MarkerSettings settings;
+  bool anew = false;  ///< a subscriber has come that knows nothing yet
+  std::shared_ptr<const std::vector<Tool>> tools;
+  std::vector<SceneOrgan> organs;
+  std::vector<ScenePair> pairs;  ///< sorted by organ, then tool
+  std::vector<SceneStep> steps;  ///< the oldest first
+  std::vector<ProxyView> proxies;
+
+  /// Null if there is no such organ.
+  const SceneOrgan* organ(const std::string& name) const {
+    for (const SceneOrgan& organ : organs) {
+      if (organ.name == name) return &organ;
+    }
+    return nullptr;
+  }
+  /// The first pair of the tool that has a pose: the tool is drawn in the frame of that organ. Null
+  /// if there is none.
+  const ScenePair* placement(std::size_t tool) const {
+    for (const ScenePair& pair : pairs) {
+      if (pair.tool == tool && pair.pose && organ(pair.organ)) return &pair;
+    }
+    return nullptr;
+  }
+};
+
+// What it is drawn with.
+
+namespace colours {
+
+inline std_msgs::ColorRGBA rgba(float red, float green, float blue, float alpha = 1.0F) {
+  std_msgs::ColorRGBA colour;
+  colour.r = red;
+  colour.g = green;
+  colour.b = blue;
+  colour.a = alpha;
+  return colour;
+}
+
+inline const std_msgs::ColorRGBA kTool = rgba(0.85F, 0.87F, 0.90F);
+inline const std_msgs::ColorRGBA kSwept = rgba(0.20F, 0.60F, 1.00F, 0.45F);
+inline const std_msgs::ColorRGBA kRegion = rgba(0.05F, 0.05F, 0.05F);
+inline const std_msgs::ColorRGBA kNormal = rgba(0.20F, 0.85F, 0.45F);
+inline const std_msgs::ColorRGBA kNearFace = rgba(0.35F, 0.85F, 0.95F, 0.80F);
+inline const std_msgs::ColorRGBA kClearance = rgba(0.35F, 0.95F, 1.00F);
+/// Where a shaft's axis enters and leaves an organ. Both differ also for the colour-blind.
+inline const std_msgs::ColorRGBA kEntering = rgba(1.00F, 0.65F, 0.10F);
+inline const std_msgs::ColorRGBA kLeaving = rgba(0.25F, 0.45F, 1.00F);
+/// A tool where the hand has it, while tissue holds its proxy back.
+inline const std_msgs::ColorRGBA kHand = rgba(0.45F, 0.75F, 1.00F, 0.40F);
+/// The force of a proxy on the tissue.
+inline const std_msgs::ColorRGBA kLoad = rgba(1.00F, 0.80F, 0.15F);
+inline const std_msgs::ColorRGBA kText = rgba(0.95F, 0.95F, 0.95F);
+inline const std_msgs::ColorRGBA kFailure = rgba(1.00F, 0.45F, 0.35F);
+
+/// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
+/// that the map distinguishes (dark violet). Values beyond are clamped.
+std_msgs::ColorRGBA depth(double share);
+/// The surface of an organ. `number`: its place among the organs; neighbours differ.
+std_msgs::ColorRGBA tissue(std::size_t number);
+/// What a proxy does: its text, and the line between hand and proxy.
+std_msgs::ColorRGBA proxy(ProxyStatus state);
+/// The colour with its opacity multiplied by `share` in [0, 1].
+std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share);
+
+}  // namespace colours
+
+/// [s] What is no longer so fades within this time.
+inline constexpr double kFadeSec = 0.5;
+/// How visible something is, `now`, that was new at `time`: from 1 down to 0.
+double visibility(SteadyTime time, SteadyTime now);
+
+/// What markers of one kind have in common.
+struct MarkerStyle {
+  std::string name_space;
+  std::string frame;
+  std_msgs::ColorRGBA colour;
+};
+
+/// A marker at the origin of the frame, with a scale of 1 m. Its stamp is zero and it is locked to
+/// the frame: a viewer places it by the latest transform, again and again.
+visualization_msgs::Marker make_marker(const MarkerStyle& style, int type);
+/// Adds a corner to a TRIANGLE_LIST or LINE_LIST.
+void add_point(visualization_msgs::Marker& list, const Eigen::Vector3d& point);
+/// Adds a face of the organ to a TRIANGLE_LIST, slightly above the surface. Adds both of its sides,
+/// because a tool may be on either.
+void add_lifted_face(const SceneOrgan& organ, std::size_t face, const std_msgs::ColorRGBA& colour,
+                     visualization_msgs::Marker& list);
+
+// These add a marker to a picture. Lengths are in metres.
+
+/// Numbers the marker: the ids of each namespace run from 0. Drops a list without points, which
+/// RViz would report as an error.
+void add_marker(visualization_msgs::Marker marker, visualization_msgs::MarkerArray& picture);
+void add_text(const MarkerStyle& style, const Eigen::Vector3d& place, double height,
+              const std::string& text, visualization_msgs::MarkerArray& picture);
+void add_line(const MarkerStyle& style, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
+              double width, visualization_msgs::MarkerArray& picture);
+/// The widths and the length of the head are shares of the arrow's length.
+struct ArrowShape {
+  double shaft_width = 0.08;
+  double head_width = 0.22;
+  double head_length = 0.3;
+};
+/// Adds nothing if the arrow has no length.
+void add_arrow(const MarkerStyle& style, const Eigen::Vector3d& tail, const Eigen::Vector3d& head,
+               const ArrowShape& shape, visualization_msgs::MarkerArray& picture);
+
+// What an answer about an organ tells, added to a picture in the organ's frame.
+
+/// An answer has at most this many arrows: those of its deepest contacts.
+inline constexpr std::size_t kMostArrows = 30;
+/// At most this many near faces of an answer are drawn: the nearest ones.
+inline constexpr std::size_t kMostNearFaces = 2000;
+/// At most this many crossings of a tool and an organ are drawn: the first ones from the trocar.
+inline constexpr std::size_t kMostCrossings = 100;
+
+/// Adds the outlines of the regions, an arrow for each contact, along its normal, and the name of
+/// each link that touches, at its deepest contact. The arrow ends at the contact's end point. The
+/// name of a shaft is that of its tool. `share`: how visible arrows and names are, in [0, 1].
+void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
+                  visualization_msgs::MarkerArray& picture);
+
+/// Adds the near faces, at their present place: the nearer, the more opaque. Adds a line between
+/// the nearest points of tool and organ, and their distance as a text beside it, if it is known.
+void add_surroundings(const SceneOrgan& organ, const ContactArray& answer,
+                      visualization_msgs::MarkerArray& picture);
+
+/// Adds a cone around the shaft for each place where its axis pierces the organ. The cones point
+/// along the axis and stand outside the organ: where the axis enters, the cone ends at the surface,
+/// and where it leaves, it begins there. `radius`: of the shaft [m].
+void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
+                   const ToolPlacement& placement, visualization_msgs::MarkerArray& picture);
+
+/// Adds a text above the organ: its name, a line for each tool, and the query time [s] if it is
+/// above 0.
+void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
+                visualization_msgs::MarkerArray& picture);
+
+/// "probe: 3 contacts, 1.2 mm deep, tip inside"; "probe: no transform: ..." if there is no answer.
+std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer);
+
+// Tools.
+
+/// A mesh of a link with more faces is drawn as its bounding box, because the tools are sent with
+/// each picture.
+inline constexpr std::size_t kMostFacesOfTool = 5000;
+/// The trail of a tool has at most this many legs. The oldest ones are left out.
+inline constexpr std::size_t kMostLegs = 2000;
+
+/// Adds the tool at a pose in the frame of the style: its shaft as a capsule, and the shapes of its
+/// links.
+void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
+              visualization_msgs::MarkerArray& picture);
+
+/// Adds the surface that the tool swept in these steps, the oldest of which come first: that of the
+/// shaft's axis, and of the longest axis of each part of the links. It fades with the age of the
+/// steps.
+void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
+               const std::string& frame, SteadyTime now, visualization_msgs::MarkerArray& picture);
+
+/// The name of a state, as in msg/ProxyState.msg.
+std::string name_of(ProxyStatus state);
+
+/// Adds the proxy as a solid tool. If tissue holds it back, adds the hand as a translucent tool,
+/// the spring between the two as a line, and an arrow for each force on the tissue. Adds the state
+/// as a text above the tool's far end, and nothing else if there is no answer but the hand.
+void add_proxy(const ProxyView& view, visualization_msgs::MarkerArray& picture);
+
+}  // namespace organ_collision
