@@ -158,8 +158,9 @@ bool lengthen(std::vector<Spring>& springs, std::vector<std::size_t>& used, doub
   return true;
 }
 
-/// Balances the used springs by projected Gauss-Seidel sweeps: each spring gets the length that the
-/// others leave uncovered. Ends when all changes in a sweep are less than `tolerance` [m].
+/// Changes the lengths of the springs `used` by projected Gauss-Seidel sweeps. The new length is
+/// the part of the spring's depth that the other springs do not cover. Ends when all changes in a
+/// sweep are less than `tolerance` [m], or after kSweeps sweeps.
 void balance(std::vector<Spring>& springs, const std::vector<std::size_t>& used, double tolerance) {
   double change = tolerance;
   for (int sweep = 0; sweep < kSweeps && change >= tolerance; ++sweep) {

@@ -283,7 +283,8 @@ std::vector<ProxyView> HapticProxyNode::views() const {
   return views;
 }
 
-/// When the node has something to do even if no message comes, as a time of the loop.
+/// The next time at which the node must act without a message, by the loop's clock: a force
+/// changes, or the pose of a hand times out. Empty if there is none.
 std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   const Time now = SteadyClock::now();
   std::optional<Time> next;

@@ -97,7 +97,8 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
   Vector3d unexplained = whole;
   for (const Place& place : places) unexplained -= place.on_hand;
 
-  // Torques are first taken about the point where the pull acts.
+  // Torques are summed about answer.center, where the spring pulls the hand. The last loop moves
+  // them to the frame's origin.
   Vector3d unexplained_torque = stiffness * answer.twist;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Place& place = places[i];

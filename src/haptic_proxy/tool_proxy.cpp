@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// From whole nanoseconds, because ros::Duration overflows for extreme stamps.
+/// `to` minus `from` [s]. Subtracts whole nanoseconds, because ros::Duration overflows for extreme
+/// stamps.
 double seconds_between(ros::Time from, ros::Time to) {
   return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
                                     static_cast<std::int64_t>(from.toNSec()));

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kCellsBehindFace = 8, kCellsOfClearance = 15, kCellsOfPlacement = 7;
 
-// Each function appends cells to a line of CSV that has at least one cell.
+// The line of CSV has at least one cell, so that append_cell() writes a comma before each.
 
 void append_cell(std::string_view text, std::string& csv) { (csv += ',') += text; }
 

@@ -42,13 +42,14 @@ void keep_first_touches(std::vector<FaceContact>& contacts) {
 /// last pose to this one, as in the paper.
 void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                                        std::vector<FaceContact>& contacts) {
-  // Section 4, figures 7 and 8: a viewing volume stands around the space that the part sweeps. The
-  // picker builds it for the faces that it draws (see doc/geometry.md, Conservative wedge). The
-  // paper's own volume misses parts of that space; this one contains all of it.
+  // Section 4, figures 7 and 8: this is the space that the part sweeps. Around it, the picker
+  // builds a viewing volume, as large as the faces that it draws require (doc/geometry.md,
+  // Conservative wedge). The paper's volume misses parts of that space; the picker's contains all
+  // of it.
   const PartSweep swept = sweep_of(step, span, part);
 
-  // Section 2: OpenGL draws the organ in a picking mode. The faces that survive clipping to the
-  // volume are the candidates.
+  // Section 2: OpenGL draws the organ in a picking mode. The candidates are the faces that survive
+  // clipping to the volume, and those that need no drawing, for example with a corner inside.
   picker_.pick(swept, step.organ_motion(span), candidates_);
 
   // Beyond the paper: exact distances confirm the candidates that the part touches, and tell when
@@ -89,6 +90,7 @@ void ContactConfirmer::confirm(const Step& step, const LegSpan& span, const Tool
                                std::vector<FaceContact>& contacts) {
   if (part.number(step) != link_) forget_touched_faces();
   link_ = part.number(step);
+  // The budget grows with all faces of the organ, so that it does not depend on the picker.
   budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
   pending_faces_.clear();
   for (const Candidate& candidate : candidates) {
@@ -174,7 +176,8 @@ void ContactConfirmer::find_touches(const PartLeg& part, const LinkPart* shape, 
   }
 }
 
-/// Whether the present link is not known to touch the face on a leg before `leg`.
+/// Whether the present link may still touch the face for the first time on `leg` or later. If it is
+/// known to touch on a later leg, another part may touch earlier.
 bool ContactConfirmer::is_pending(std::uint32_t face, std::size_t leg) const {
   return touched_leg_[face] == 0 || touched_leg_[face] > leg;
 }

@@ -12,7 +12,8 @@
 namespace organ_collision {
 
 /// Confirms candidate faces by exact distances, leg by leg. A face touches a link once: on the
-/// first leg on which any part of the link comes within its radius. Keeps its memory between steps.
+/// first leg on which any part of the link comes within the part's radius. Keeps its memory between
+/// steps.
 class ContactConfirmer {
  public:
   /// Begins with another step.
@@ -28,7 +29,8 @@ class ContactConfirmer {
   struct PendingFace {
     std::uint32_t face;
     std::size_t leg;
-    /// Unit, from the part to the face where they come near each other. Zero: not known.
+    /// The unit vector from the part to the face where they first come near each other. A plane
+    /// across it separates both on most legs. Zero: not known.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 

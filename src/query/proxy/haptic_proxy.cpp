@@ -17,7 +17,8 @@ namespace {
 
 /// [m] A proxy that is nearer to the hand is where the hand is: this is rounding.
 constexpr double kSamePlace = 1e-12;
-/// [1] The proxy rests on faces whose distance is at most this many times the smallest.
+/// [1] A face can bear load if its distance from the proxy is at most this many times the larger of
+/// two lengths: the clearance, and the distance of the nearest face.
 constexpr double kResting = 1.02;
 
 /// Whether the organ moved from its last shape to this one.

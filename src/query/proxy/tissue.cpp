@@ -139,7 +139,7 @@ double Tissue::growth_of(std::uint32_t link) const {
   return growth_ < 0.0 ? kAxisRadius : growth_;
 }
 
-/// A question about an organ at rest in its shape now, without the tool's path.
+/// A request about an organ that rests in its present shape. The caller adds the tool's path.
 CollisionRequest Tissue::request(const OrganTick& organ, QueryMode mode) const {
   CollisionRequest request;
   request.organ = organ.now;

@@ -16,7 +16,8 @@ constexpr std::chrono::microseconds kPause(125);
 /// [Hz] If markers are switched off, an empty picture is drawn at this rate. It deletes what is
 /// still shown.
 constexpr double kEmptyRate = 1.0;
-/// If so many steps come between two pictures, the earlier ones leave no traces.
+/// [steps] The most that are kept for the next picture. If more come, all that are kept are
+/// dropped, and the picture does not show them.
 constexpr std::size_t kMostSteps = 1000;
 
 }  // namespace

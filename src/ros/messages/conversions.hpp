@@ -29,8 +29,8 @@ Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform);
 /// The same for a pose.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Pose& pose);
 
-/// Whether the length of a quaternion is 1 to within 1e-3, as senders round it. If not, it is no
-/// rotation.
+/// Whether the length of a quaternion differs from 1 by at most 1e-3. Senders round quaternions.
+/// One with a larger difference is no rotation.
 bool is_unit(const geometry_msgs::Quaternion& quaternion);
 
 /// tf2::toMsg() returns a Point unless it is given a Vector3 to write into.

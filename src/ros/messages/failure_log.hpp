@@ -14,8 +14,8 @@ namespace organ_collision {
 /// A message or request that was refused. what() names the illegal value and what is legal.
 class Rejection : public std::runtime_error {
  public:
-  /// `status`: one of ContactArray's. `reason`: a short text that is the same for all refusals of
-  /// one kind. Refusals are counted by reason.
+  /// `status` is one of the statuses of ContactArray. `reason` is a short text that is the same for
+  /// all refusals of one kind: refusals are counted by it.
   Rejection(std::uint8_t status, std::string reason, const std::string& message)
       : std::runtime_error(message), status_(status), reason_(std::move(reason)) {}
 

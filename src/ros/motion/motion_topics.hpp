@@ -40,8 +40,9 @@ class MotionTopics {
   void change_tools(const std::vector<ToolParameters>& tools, const ros::NodeHandle& node);
 
   /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
-  /// ahead of the clock, is counted as rejected; the others are added. One with the stamp of an
-  /// earlier one is left out: senders repeat transforms.
+  /// ahead of the clock, is counted as rejected. A transform whose frame and stamp are known is
+  /// left out and not counted, because senders repeat transforms. `authority` is the sender;
+  /// `resting`: the message is from /tf_static.
   void take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
                        bool resting);
   /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal

@@ -44,7 +44,8 @@ class ToolPoses {
   /// as longest_step(), or has half as many poses as are read.
   bool is_nearly_forgotten(const Tool& tool, const std::string& organ_frame, ros::Time from,
                            ros::Time to) const;
-  /// Half of the time for which TF keeps transforms.
+  /// Half of the time for which TF keeps transforms. If a step went on for longer, TF would soon
+  /// forget where the tool was at its beginning.
   ros::Duration longest_step() const { return buffer_.getCacheLength() * 0.5; }
   /// Whether a step that ended at `stamp` used transforms that are not believed any more
   /// (TransformBuffer::believed_until).

@@ -41,9 +41,10 @@ class TransformBuffer : public tf2::BufferCore {
   bool has_stepped_back() { return std::exchange(has_stepped_back_, false); }
   /// The largest stamp of a transform that is not static; zero if there is none.
   ros::Time latest() const { return latest_; }
-  /// Until when the transforms between `target` and `sources` can be believed; std::nullopt: all of
-  /// them can. A stamp that is ahead of the clock is disproved once its sender sends an earlier
-  /// one, by more than kClockTolerance. Until the sender gets there, what it sent last counts.
+  /// The time up to which the transforms between `target` and `sources` are believed; std::nullopt:
+  /// all are. A stamp ahead of the clock is disproved when its sender later sends one that is
+  /// earlier by more than kClockTolerance. Until the sender reaches the disproved stamp, transforms
+  /// are believed only up to the stamp that it sent last.
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
   /// Whether the record has a transform of the frame.
   bool has_heard(const std::string& frame) const;

@@ -91,8 +91,8 @@ class OrganRegistry {
   double max_ahead_sec_;
   std::map<std::string, DeformableOrgan> organs_;
   std::map<std::string, std::set<Connection>> connections_;  ///< by organ: of its meshes
-  /// By organ: why its last mesh was refused; empty: it was removed. Organs without a mesh are
-  /// here.
+  /// For each organ, why its last mesh was refused; empty if the organ was removed. An accepted
+  /// mesh removes the entry.
   std::map<std::string, std::string> refusals_;
 };
 

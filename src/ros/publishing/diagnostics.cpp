@@ -37,7 +37,8 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
   }
 }
 
-/// "queries", "query time, median [us]" and so on.
+/// Shows how many durations there were, their median, 99th percentile and maximum. `count` and
+/// `time` are the names that are shown, for example "queries" and "query time".
 void show_times(const std::string& count, const std::string& time,
                 const DurationStatistics& statistics, DiagnosticStatusWrapper& status) {
   const DurationStatistics::Summary times = statistics.summary();

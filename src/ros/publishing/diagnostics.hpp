@@ -72,7 +72,8 @@ struct NodeCounters {
 
 // The parts of /diagnostics that the nodes share.
 
-/// What a node has received. All must outlive the updater.
+/// What a node has received, and with which tools. What the references refer to must outlive the
+/// updater.
 struct ReceivedParts {
   const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
   const std::vector<Tool>& tools;
@@ -82,7 +83,7 @@ struct ReceivedParts {
   FailureLog& rejected;  ///< messages that were refused
 };
 
-/// What the collision node has answered. All must outlive the updater.
+/// What the collision node has answered. What the references refer to must outlive the updater.
 struct AnsweredParts {
   const std::vector<std::string>& misspelt;
   const CollisionPipeline& pipeline;

@@ -10,7 +10,8 @@
 
 namespace organ_collision {
 
-// Checks of what the services are asked for.
+// These functions check the requests of the services query and query_batch, and make a
+// CollisionRequest of them.
 
 /// Throws Rejection with the status INVALID_REQUEST. The message is the text of all parts: it names
 /// the illegal value and what is legal.

@@ -262,7 +262,8 @@ void StepScheduler::plan_without_transform(ToolStep step, ros::Time stamp, const
   plan_failure(std::move(step), stamp, ContactArray::NO_TRANSFORM, why);
 }
 
-/// Makes the step the last one of its pair, and publishes it.
+/// Publishes the answer of a step. If it is OK, the next step of the pair begins where this one
+/// ends.
 void StepScheduler::deliver(ToolStep& step) {
   OrganToolPair& pair = *step.pair;
   if (step.is_of_shape) ++counts_.answered;

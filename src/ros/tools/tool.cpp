@@ -66,8 +66,10 @@ LinkPart part_of(const RobotShape& shape) {
     case RobotShape::BOX:
       for (int axis = 0; axis < 3; ++axis) checked_size("a box's side", size[axis]);
       return LinkPart::box(checked_pose(shape), size);
-    default:
+    case RobotShape::MESH:
       return mesh_part(shape);
+    default:
+      refuse("the shape has the unknown kind ", int{shape.kind});
   }
 }
 
