@@ -57,7 +57,6 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
   try {
     publisher_.set_tools(core_.parameters().tools);
     inbox_.subscribe(core_.node(), core_.private_node());
-    organ_services_.advertise(core_.private_node());
     core_.updater().add("proxies", this, &HapticProxyNode::diagnose);
     add_diagnostics(core_.updater(),
                     ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(), inbox_.organs,

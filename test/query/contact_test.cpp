@@ -55,7 +55,9 @@ struct PartTrial {
       const std::size_t kind = (number - shafts) / oracle::kCoreKinds;
       const oracle::LinkTrial trial =
           oracle::make_link_trial(kind, (number - shafts) % oracle::kCoreKinds, random);
-      link.parts = {{trial.core, nullptr, trial.radius, {}}};
+      link.parts.resize(1);  // Its box is not used.
+      link.parts[0].core = trial.core;
+      link.parts[0].radius = trial.radius;
       motion.emplace(moves == Moves::kNothing ? trial.end : trial.start, trial.end);
       Isometry3d end = trial.end;
       if (on) end.linear() *= oracle::random_turn(random.uniform(0.0, 1.0), random);

@@ -45,7 +45,10 @@ std::vector<FaceTouch> faces_around(const Eigen::Isometry3d& pose, std::uint32_t
     Triangle corners;
     for (Vector3d& corner : corners) corner = center + size * random.direction();
     faces.push_back({100 + i, oracle::motion_to(corners, random), {}});
-    if (random.chance(0.3)) faces.back().first = FirstTouch{0.0, ClosestPoints{}};
+    if (random.chance(0.3)) {
+      const ConvexCore core(corners);
+      faces.back().first = first_touch(CoreMotion(core, {pose, pose}), {corners, corners}, 1.0);
+    }
   }
   return faces;
 }

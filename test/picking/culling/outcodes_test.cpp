@@ -102,7 +102,7 @@ TEST(Outcodes, RejectTheFacesOutsideOneHalfSpaceAndKnowThoseWithACornerInside) {
     }
   }
   EXPECT_GT(inside, 1000U);
-  EXPECT_GT(crossing, 100U);
+  EXPECT_GT(crossing, 30U);
 }
 
 }  // namespace

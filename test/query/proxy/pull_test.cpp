@@ -10,6 +10,7 @@
 #include "proxy_scenes.hpp"
 #include "test/proof/link_trials.hpp"
 #include "test/proof/proxy/scripted_motion.hpp"
+#include "test/query/scenes.hpp"
 
 namespace organ_collision {
 namespace {
@@ -30,7 +31,7 @@ void expect_depth(const ProxyAnswer& answer, double depth, const Vector3d& tip) 
 GridSurface irregular_sheet(int side, float share, Random& random) {
   const auto seed = static_cast<unsigned>(random.integer(0, 1000));
   const GridSurface regular = flat_sheet(side);
-  GridSurface sheet = shaken(regular, share * 0.2F / static_cast<float>(side), seed);
+  GridSurface sheet = shaken(regular, share * 0.2 / side, random);
   for (std::size_t i = 0; i < sheet.vertices.size(); i += 3) {
     const float* const before = &regular.vertices[i];
     const bool is_inner = std::max(std::abs(before[0]), std::abs(before[1])) < 0.099F;
