@@ -47,7 +47,7 @@ class ClearanceFinder::Nearest : public Sink {
   const std::optional<Approach>& get() const { return nearest_; }
 
  private:
-  double bound_;  ///< [m]
+  double bound_;  ///< [m] greatest distance of interest
   std::optional<Approach> nearest_;
 };
 
@@ -80,7 +80,7 @@ class ClearanceFinder::Collector : public Sink {
   void add_unresolved(std::uint32_t face) override { places_[face] = kUnresolved; }
 
  private:
-  double margin_;  ///< [m]
+  double margin_;  ///< [m] greatest distance of interest
   std::vector<Approach>& nearest_;
   std::vector<std::uint32_t>& places_;
 };

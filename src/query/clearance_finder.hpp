@@ -31,7 +31,7 @@ class ClearanceFinder {
  private:
   /// The closest approach of a part of the tool and a face on one leg of a step.
   struct Approach {
-    double distance;  ///< [m] between the surfaces; see ToolClearance
+    double distance;  ///< [m] distance between the surfaces; see ToolClearance
     std::uint32_t face;
     ToolPart part;
     std::size_t leg;
@@ -57,7 +57,7 @@ class ClearanceFinder {
   WorkBudget budget_;                  ///< the work of the present search
   std::vector<std::uint32_t> faces_;   ///< faces within the bound of the present chord
   std::vector<Approach> near_faces_;   ///< the nearest approach of each near face
-  std::vector<std::uint32_t> places_;  ///< for each face, what Collector knows of it
+  std::vector<std::uint32_t> places_;  ///< for each face; see Collector
 };
 
 }  // namespace organ_collision

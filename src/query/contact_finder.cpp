@@ -147,7 +147,7 @@ void ContactConfirmer::confirm_on_leg(const Step& step, std::size_t leg, const T
     for (const PendingFace& pending : pending_faces_) {
       if (!is_due(pending)) continue;
       const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
-      // If the tool only trembles, the same plane separates part and face on most legs.
+      // If the tool only trembles, the plane across `normal` separates part and face on most legs.
       const double beyond = on_leg.radius + tolerance::kTouch;
       if (!pending.normal.isZero(0.0) && stays_beyond(pending.normal, on_leg.core, face, beyond)) {
         continue;

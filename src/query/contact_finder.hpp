@@ -55,10 +55,10 @@ class ContactConfirmer {
 /// between steps.
 class ContactFinder {
  public:
-  /// `picker` must outlive it.
+  /// `picker` must outlive this object.
   explicit ContactFinder(Picker& picker) : picker_(picker) {}
 
-  /// Adds the contacts of all parts of the tool: one for each face and link that touch, sorted by
+  /// Adds the contacts of the tool: one for each pair of a face and a link that touch, sorted by
   /// face, then link. Throws GlError if GL did not work.
   void find(const Step& step, std::vector<FaceContact>& contacts);
 

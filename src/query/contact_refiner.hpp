@@ -17,7 +17,7 @@ struct PartEnd {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();  ///< T_organ_link of `link`
 };
 
-/// A convex part of a tool on one leg of a step.
+/// A part of a tool on one leg of a step.
 struct PartLeg {
   CoreMotion core;
   double radius;  ///< [m] radius around the core
@@ -32,7 +32,7 @@ struct FaceLeg {
   Triangle end;          ///< the face at the end of the step
 };
 
-/// The contact that follows from the first touch of a part and a face. The caller sets the face's
+/// The contact that describes the first touch of a part and a face. The caller sets the face's
 /// number and vertices.
 FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceLeg& face);
 

@@ -73,7 +73,7 @@ class WorkerThreads {
   bool stop_ = false;
 };
 
-/// Workers that each have a query, and with it a GL context, of their own.
+/// Worker threads. Each worker has its own query, and so its own GL context.
 template <typename Query>
 class QueryThreads {
  public:

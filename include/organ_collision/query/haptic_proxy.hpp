@@ -38,7 +38,7 @@ enum class ProxyFreedom : std::uint8_t {
   kFree
 };
 
-/// The tool that a proxy stands for.
+/// The tool of the hand. The proxy has the same shape.
 struct ProxyTool {
   double radius = 0.0;           ///< [m] radius of the shaft; 0: the tool has no shaft
   std::vector<Link> links = {};  ///< the links, in the order of ToolPose::links
@@ -118,7 +118,7 @@ struct ProxyAnswer {
   bool is_placed_anew = false;
   /// Why the proxy was placed anew, or why there is no proxy. Otherwise empty.
   std::string message;
-  /// [m] The force on the hand divided by the stiffness: from the hand's `center` to the proxy's.
+  /// [m] The force on the hand divided by the stiffness: from `center` to the centre of the proxy.
   Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   /// [m^2] The torque on the hand about `center`, divided by the stiffness: the rotation vector
   /// from the hand to the proxy times the square of `size`. Zero for a tool through a trocar.
@@ -168,7 +168,7 @@ class HapticProxy {
   /// Forgets the proxy: the next tick places it anew.
   void reset();
 
-  /// Changes the settings. The proxy stays. Throws std::invalid_argument.
+  /// Changes the settings; the proxy keeps its place. Throws std::invalid_argument.
   void set_settings(const ProxySettings& settings);
 
  private:

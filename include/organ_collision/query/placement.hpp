@@ -51,7 +51,7 @@ struct AxisPlacement {
   /// The crossings in their order from trocar to tip, also for a surface that is not closed. Of
   /// faces that lie on each other, the faces through which the axis leaves come first.
   std::vector<AxisCrossing> crossings;
-  /// Whether the sides of tip and trocar are known.
+  /// Whether `length_inside` is known: the sides of tip and trocar must be.
   bool length_known = false;
   /// [m] The length of the axis within the organ; 0 if it is not known.
   double length_inside = 0.0;

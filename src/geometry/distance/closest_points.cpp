@@ -76,8 +76,8 @@ class NearestPair {
   /// that is much longer than the axis. Then only a pair with an end of the axis is near the true
   /// distance, so the two limits below keep the ends for such faces.
   bool is_beside() const {
-    constexpr double kMargin = 1e-3;   // [axis lengths] from the planes through both ends
-    constexpr double kFarthest = 1e3;  // [axis lengths] of a corner from the trocar
+    constexpr double kMargin = 1e-3;   // [axis lengths] distance from the planes through the ends
+    constexpr double kFarthest = 1e3;  // [axis lengths] distance of a corner from the trocar
     const double length2 = axis_.squaredNorm();
     return std::all_of(face_.begin(), face_.end(), [&](const Vector3d& corner) {
       const double along = corner.dot(axis_);

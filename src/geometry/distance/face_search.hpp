@@ -49,8 +49,8 @@ class FaceSearch {
   struct PlacedVertex {
     Eigen::Array4f low, high;
   };
-  /// A group or a block, with a lower bound of the squared distance [m^2] from the box to the faces
-  /// of its clusters.
+  /// A group or a block, with a lower bound of the squared distance [m^2] from the search's box to
+  /// the faces of its clusters.
   struct Ranked {
     float squared_distance;
     std::uint32_t index;
@@ -101,7 +101,7 @@ class FaceSearch {
   double slack_ = 0.0;                  ///< [m] the allowance for rounding
   Ranking groups_;                      ///< groups of all levels
   Ranking blocks_;                      ///< blocks of the present section
-  std::vector<PlacedVertex> placed_;    ///< by the vertex's index in the mesh
+  std::vector<PlacedVertex> placed_;    ///< for each vertex of the mesh
   std::vector<char> block_is_placed_;
 };
 

@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 
 /// A point at which the border of a triangle passes through the plane of another triangle.
 struct BorderPoint {
-  Vector3d point;   ///< [m]
+  Vector3d point;   ///< [m] the place of this point
   int from, to;     ///< the corners of the edge that passes through the plane
   double fraction;  ///< the place on the edge, in [0, 1] from corner `from` to corner `to`
   double along;     ///< place on the line in which both planes meet
@@ -40,8 +40,8 @@ bool is_on_one_side(const Vector3d& heights) {
   return (heights.array() > 0.0).all() || (heights.array() <= 0.0).all();
 }
 
-/// Cuts a triangle by a plane that has corners on both of its sides. `direction` is the direction
-/// of the line in which the triangle's plane meets that plane.
+/// Cuts a triangle by a plane. The triangle must have corners on both sides of the plane.
+/// `direction` is the direction of the line in which the triangle's plane meets that plane.
 Section cut(const Triangle& corners, const Vector3d& heights, const Vector3d& direction,
             const Vector3d& origin) {
   // The lone corner is the only one on its side of the plane.
@@ -137,7 +137,8 @@ class TouchAim {
   TouchAim(const RigidMotion& link, const FaceMotion& face, double radius, double touching)
       : link_(link), face_(face), radius_(radius), least_target_(0.5 * (touching - radius)) {}
 
-  /// How far to look ahead of an instant; infinite if core and face do not approach.
+  /// How much later than `now` the next interval should end; infinite if core and face do not
+  /// approach.
   double ahead_of(const Instant& now) {
     gap_ = now.closest.distance - radius_;
     speed_ = closing_speed(now, link_, face_);
@@ -191,7 +192,7 @@ std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Trian
 
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until) {
-  constexpr int kMaxAdvances = 1000;  // About ten are needed.
+  constexpr int kMaxAdvances = 1000;  // About ten advances are needed.
   if (budget.is_used_up() && !core.start().is_axis()) return unresolved_at_start(core, face);
 
   const double farthest_move = core.farthest_move() + face.farthest_move();

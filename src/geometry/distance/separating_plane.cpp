@@ -17,7 +17,7 @@ struct BernsteinQuadratic {
 /// root.
 double first_root(const BernsteinQuadratic& quadratic) {
   const auto& [start, middle, end] = quadratic;
-  if (middle >= 0.0 && end > 0.0) return 2.0;  // The control polygon stays positive.
+  if (middle >= 0.0 && end > 0.0) return 2.0;  // No coefficient is negative.
   const double half_linear = middle - start;
   const double square = start - 2.0 * middle + end;
   const double discriminant = half_linear * half_linear - square * start;
@@ -77,7 +77,7 @@ Instant::Instant(double time, const CoreMotion& core_motion, const FaceMotion& f
       normal(closest.separation.normalized()) {}
 
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius) {
-  // A plane that would turn by a right angle or more keeps its direction.
+  // If the plane would turn by a right angle or more, its normal stays `from.normal`.
   const bool turns = from.normal.dot(to.normal) > 0.0;
   const Vector3d& normal_from = from.normal;
   const Vector3d& normal_to = turns ? to.normal : from.normal;

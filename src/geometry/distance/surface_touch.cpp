@@ -51,7 +51,7 @@ class MovingTriangle {
 
   bool rests_;
   Triangle start_, end_;
-  Vector3d normal_;   ///< unit, at the start; zero if the triangle is degenerate
+  Vector3d normal_;   ///< unit normal at the start; zero if the triangle is degenerate
   double deviation_;  ///< [m] the chord deviation
 };
 
@@ -92,7 +92,7 @@ class SurfaceTouches::Descent {
         faces_(touches.faces_),
         listed_(touches.listed_) {}
 
-  /// Finds the touches of the faces of a range with the triangles below a node.
+  /// Finds the touches between the faces of a range and the triangles below the node `index`.
   void visit(std::uint32_t index, std::size_t begin, std::size_t end) {
     const SweptBox box(surface_.nodes()[index].box, motion_, radius_);
     budget_.spend(end - begin);
@@ -132,7 +132,7 @@ class SurfaceTouches::Descent {
     }
   }
 
-  /// Finds the touches of the faces of a range with one triangle of the surface.
+  /// Finds the touches between the faces of a range and the triangle `index` of the surface.
   void touch(std::uint32_t index, std::size_t begin, std::size_t end) {
     const MovingTriangle triangle(surface_.triangle(index), motion_);
     std::optional<CoreMotion> core;
@@ -140,7 +140,7 @@ class SurfaceTouches::Descent {
       const auto& [leg, face] = faces_[listed_[place]];
       if (is_settled(*face)) continue;
       if (face->first && budget_.is_used_up()) {
-        face->first->is_resolved = false;  // This triangle may touch earlier.
+        face->first->is_resolved = false;  // This triangle may touch it earlier.
         continue;
       }
       const double until = latest(*face);

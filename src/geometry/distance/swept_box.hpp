@@ -37,7 +37,7 @@ class SweptBox {
   struct Place {
     Eigen::Vector3d center;
     Eigen::Matrix3d half_edges;  ///< columns: from the centre along the half edges
-    Eigen::Vector3d low, high;   ///< projections onto `axes_`
+    Eigen::Vector3d low, high;   ///< ends of the projections onto `axes_`
   };
   Place place(const OrientedBox& box, const Eigen::Isometry3d& pose) const;
 
@@ -45,7 +45,7 @@ class SweptBox {
   bool rests_;
   Place start_, end_;
   Eigen::Vector3d low_, high_;  ///< least of both `low`, greatest of both `high`
-  double reach_;                ///< [m] radius plus chord deviation
+  double reach_;                ///< [m] how far the box grows: radius plus chord deviation
 };
 
 /// A box around all positions of an axis during a leg. The first edge of the box is along the axis

@@ -58,7 +58,7 @@ class CoreMotion {
 
   /// The motion of the link; null if the core is the axis of a shaft.
   const RigidMotion* link() const { return link_; }
-  /// [m] An upper bound of how far any point of the core moves.
+  /// [m] An upper bound of how far any point of the core moves during the leg.
   double farthest_move() const;
   /// [m] An upper bound of how far any point of the core deviates, along `normal` (unit), from
   /// linear motion between its places at the start and at the end of an interval. `duration`, in
@@ -75,8 +75,7 @@ class CoreMotion {
   ConvexCore start_, end_;
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double arm_ = 0.0;  ///< [m] upper bound of the distance of the core's points from the axis of
-                      ///< the link's rotation, which passes through the link's origin
+  double arm_ = 0.0;  ///< [m] upper bound of RigidMotion::arm() for the points of the core
 };
 
 }  // namespace organ_collision

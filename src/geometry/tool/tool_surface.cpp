@@ -63,7 +63,8 @@ void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& face
   vertices.swap(used);
 }
 
-/// Sorts faces by their corners, so that the tree does not depend on the caller's order.
+/// Sorts faces by the places of their corners, so that the tree does not depend on the caller's
+/// order.
 void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
   const auto is_less = [&](const FaceIndices& a, const FaceIndices& b) {
     for (std::size_t corner = 0; corner < a.size(); ++corner) {

@@ -65,8 +65,7 @@ PointRun between(const PointRun& before, const PointRun& after, float fraction) 
           between(before.z, after.z, fraction)};
 }
 
-/// [m] For each box, the sum over x, y and z of the largest magnitude of that coordinate in the
-/// box.
+/// [m] For each box, the sum of the largest magnitudes of x, of y and of z in the box.
 ValueRun magnitude(const BoxRun& boxes) {
   const auto& [low, high] = boxes;
   ValueRun sum;
@@ -104,7 +103,7 @@ BoxRun load_boxes(const BlockBoxes::Box* boxes) {
           load_points([&](std::size_t i) { return boxes[i].max.data(); })};
 }
 
-/// Vertices as boxes without extent.
+/// Loads vertices as boxes without extent.
 BoxRun load_vertices(const TriangleMesh& shape, const std::uint32_t* vertices) {
   const float* const xyz = shape.vertices().data();
   const PointRun points =
@@ -145,7 +144,7 @@ void Outcodes::set_planes(const ViewingVolume& volume) {
   }
 }
 
-/// Finds the outcodes of kGroup groups from `begin` on.
+/// Finds the outcodes of kGroup groups of a level, from the group `begin` on.
 void Outcodes::find_group_codes(std::size_t level, std::size_t begin) {
   find_member_codes(&boxes().groups(level)[begin], &organ_->boxes_before().groups(level)[begin],
                     &group_codes_[level][begin]);

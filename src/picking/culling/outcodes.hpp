@@ -63,7 +63,7 @@ class Outcodes {
   std::vector<Plane> planes_;
   std::vector<std::vector<Code>> group_codes_;  ///< by level, then by group
   std::vector<Code> block_codes_;
-  std::vector<Code> vertex_codes_;  ///< by the vertex's index in the mesh
+  std::vector<Code> vertex_codes_;  ///< for each vertex of the mesh
   std::uint64_t query_ = 0;         ///< the number of the present query, from 1
   /// The last query that found the outcodes of a section's blocks, or of a block's vertices.
   std::vector<std::uint64_t> section_found_for_, block_found_for_;

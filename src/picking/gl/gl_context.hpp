@@ -37,7 +37,7 @@ struct GlFunctions {
 /// or destroys it.
 class GlContext {
  public:
-  /// Throws GlError with all reasons if no platform that is asked for gives a context that works.
+  /// Throws GlError, with the reason of each platform, if no platform gives a context that works.
   explicit GlContext(GlPlatform platform = GlPlatform::kAuto,
                      const GlFramebuffer& framebuffer = {});
 

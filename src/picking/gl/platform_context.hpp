@@ -47,7 +47,7 @@ class SharedLibrary {
     if (handle_ == nullptr) throw GlError(dlerror());
   }
 
-  /// Sets `function` to the library's function of this name. Throws GlError if it has none.
+  /// Sets `function` to the library's function `name`. Throws GlError if there is none.
   template <typename Function>
   void load(const char* name, Function*& function) const {
     function = reinterpret_cast<Function*>(dlsym(handle_, name));

@@ -8,7 +8,7 @@ namespace {
 
 /// The candidate of a face whose part in the volume, in shifted coordinates, is `polygon`.
 Candidate candidate(std::uint32_t face, const ConvexPolygon& polygon, const ViewingVolume& volume) {
-  double nearest = 1.0, farthest = 0.0;  // in window coordinates
+  double nearest = 1.0, farthest = 0.0;  // window depths
   for (const Eigen::Vector3d& corner : polygon) {
     const Eigen::Vector4d clip = volume.clip() * corner.homogeneous();
     const double depth = 0.5 * (clip.z() / clip.w() + 1.0);

@@ -57,7 +57,7 @@ class GlPicker final : public Picker {
     add_witness(volume);
     if (!clip(volume, candidates)) {
       fail_if_blind(context_);
-      take_drawn(candidates);  // No contact may be missed.
+      take_drawn(candidates);  // So no contact is missed.
     }
     for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
     sort(organ.after().face_count(), candidates);

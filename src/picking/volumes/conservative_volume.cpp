@@ -74,7 +74,7 @@ constexpr double kMinNearShare = 1e-3;  // [1] least ratio of near to far
 // cost more than it saves.
 constexpr double kWorthCutting = 0.25;
 
-// Both ends of the axis before and after the leg, relative to the first trocar [m].
+// Both ends of the axis before and after the leg [m], relative to the trocar before the leg.
 struct Ends {
   explicit Ends(const ShaftMotion& motion)
       : origin(motion.start.trocar),

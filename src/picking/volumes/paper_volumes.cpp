@@ -99,7 +99,7 @@ ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius) {
   ViewingVolume volume = ViewingVolume::orthographic(
       {motion.start.trocar, Vector3d::Zero(), solid->axes, std::min(0.0, solid->start) - radius,
        std::max(0.0, solid->end) + radius, -radius, radius, 0, solid->height});
-  // In x and z, a side runs from (outward * radius, 0) to (tip + outward * radius, height).
+  // In x and z, a side goes through (outward * radius, 0) and (tip + outward * radius, height).
   const auto add_side = [&](double tip, double outward) {
     const Vector3d normal = solid->axes * (outward * Vector3d(solid->height, 0, -tip)).normalized();
     volume.add_user_plane({normal, outward * radius * normal.dot(solid->axes.col(0))});

@@ -67,15 +67,15 @@ class ViewingVolume {
   bool perspective_;
 };
 
-/// A camera's axes: orthonormal columns x, y, z. z is along `view` (not zero), and y points towards
-/// the frame axis least aligned with it.
+/// A camera's axes: orthonormal columns x, y, z. z is along `view`, which is not zero. y points
+/// towards the frame axis that is least aligned with z.
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view);
 
 /// A camera's axes with x along the component of `right` that is perpendicular to `view`. If
 /// `right` is parallel to `view`, the axes are camera_axes(view).
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right);
 
-/// A face across the middle of the volume's frustum, in its shifted coordinates [m]. It meets the
+/// A face across the middle of the frustum, in the volume's shifted coordinates [m]. It meets the
 /// volume, because no user plane of a tool's volume cuts off that middle. Exceptions are the
 /// paper's naive volume, and slivers that are so thin for their length that 32-bit clipping loses
 /// the face. See doc/geometry.md, GL's clipping.

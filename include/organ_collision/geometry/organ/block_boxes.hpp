@@ -11,7 +11,7 @@ namespace organ_collision {
 /// sections and larger groups, for one shape of the organ. FaceClusters explains these words.
 class BlockBoxes {
  public:
-  /// The first three coordinates are x, y and z. The fourth is padding for vector registers.
+  /// A box with the coordinates x, y, z and a fourth one that only fills the vector register.
   struct Box {
     Eigen::Array4f min;  ///< the smallest coordinates
     Eigen::Array4f max;  ///< the largest coordinates

@@ -30,7 +30,7 @@ class FaceClusters {
   /// The number of blocks in a section, and of members in each larger group.
   static constexpr std::size_t kGroup = 16;
 
-  /// `vertices`: x y z x y z ... [m], finite. `faces` refer to them.
+  /// `vertices`: x y z x y z ... [m], finite. `faces` refer to these vertices.
   FaceClusters(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
   /// The number of blocks, which is also the number of clusters.
@@ -44,16 +44,16 @@ class FaceClusters {
   template <typename T>
   struct Range {
     const T* first;                           ///< the first item
-    const T* last;                            ///< behind the last item
+    const T* last;                            ///< the place behind the last item
     const T* begin() const { return first; }  ///< for range-based loops
     const T* end() const { return last; }     ///< for range-based loops
   };
   /// A face with its number in the sender's order.
   struct Face {
-    FaceIndices corners;   ///< its vertices
-    std::uint32_t number;  ///< its place among all faces, from 0
+    FaceIndices corners;   ///< indices of the vertices
+    std::uint32_t number;  ///< the place of the face among all faces, from 0
   };
-  /// The faces of a block's cluster, by rising number. There may be none.
+  /// The faces of a block's cluster, by rising number. A cluster may be empty.
   Range<Face> faces(std::size_t block) const {
     return {faces_.data() + face_begin_[block], faces_.data() + face_begin_[block + 1]};
   }
@@ -73,7 +73,7 @@ class FaceClusters {
 
  private:
   using Numbers = std::vector<std::uint32_t>;
-  /// Lists of numbers, stored one after the other.
+  /// Lists of numbers, stored one after the other in `all`. List i starts at begin[i].
   struct Lists {
     Numbers all, begin = {0};
     Range<std::uint32_t> of(std::size_t i) const {

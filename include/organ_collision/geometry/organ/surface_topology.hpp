@@ -26,7 +26,7 @@ class SurfaceTopology {
   /// `faces` refer to `vertices`: x y z x y z ... [m], finite.
   SurfaceTopology(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
-  /// Whether each directed edge occurs as often as its opposite. Only a closed surface has an inner
+  /// Whether each edge occurs equally often in both directions. Only a closed surface has an inner
   /// side and a volume.
   bool is_closed() const { return open_edges_ == 0; }
   /// The number of edges that occur more often in one direction than in the other.

@@ -48,11 +48,11 @@ struct MeshLimits {
   std::size_t max_faces = 2'000'000;
 };
 
-/// Vertex positions, x y z x y z ... [m]. They are constant, so that a mesh can use the array of a
-/// message without a copy.
+/// Vertex positions, x y z x y z ... [m]. They are constant and shared, so that a mesh can use the
+/// array of a message without a copy.
 using SharedVertices = std::shared_ptr<const std::vector<float>>;
 
-/// The triangles of a mesh. Meshes with the same triangles share them.
+/// The triangles of a mesh. Copies of a mesh share them.
 using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
 
 /// The surface of an organ: triangles and the current positions of their vertices, in the organ's
@@ -61,9 +61,9 @@ using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
 /// Copies share triangles and positions.
 class TriangleMesh {
  public:
-  /// `vertices`: at least one; coordinates finite and within tolerance::kFarthest.
-  /// `triangles`: three vertex indices for each face; at least one face.
-  /// `topology`: the sender's revision of `triangles`.
+  /// `vertices`: at least one; coordinates finite and within tolerance::kFarthest. `triangles`:
+  /// three vertex indices for each face; at least one face. `topology`: the number that the sender
+  /// gives to this version of `triangles`.
   TriangleMesh(SharedVertices vertices, const std::vector<std::uint32_t>& triangles,
                std::uint32_t topology = 0, const MeshLimits& limits = {});
   /// \overload
@@ -84,7 +84,7 @@ class TriangleMesh {
   std::size_t face_count() const { return faces().size(); }
   /// The number of vertices, at least one.
   std::size_t vertex_count() const { return vertices_->size() / 3; }
-  /// The sender's revision of the triangles.
+  /// The number that the sender gives to this version of the triangles.
   std::uint32_t topology() const { return topology_->revision; }
 
   /// All faces. The address is unchanged as long as the triangles are the same.

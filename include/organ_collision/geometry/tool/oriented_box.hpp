@@ -6,7 +6,7 @@ namespace organ_collision {
 
 /// A box in any orientation [m].
 struct OrientedBox {
-  Eigen::Vector3d center;     ///< its middle
+  Eigen::Vector3d center;     ///< the middle of the box
   Eigen::Matrix3d axes;       ///< directions of the edges: orthonormal columns, right-handed
   Eigen::Vector3d half_size;  ///< half of the edge lengths along `axes`; not negative
 

@@ -16,8 +16,8 @@ struct ShaftAxis {
 
 /// One leg of a shaft's path: both ends of the axis move linearly from `start` to `end`.
 struct ShaftMotion {
-  ShaftAxis start;  ///< at time 0
-  ShaftAxis end;    ///< at time 1
+  ShaftAxis start;  ///< the axis at time 0
+  ShaftAxis end;    ///< the axis at time 1
 
   /// The axis at `time` in [0, 1] of the leg.
   ShaftAxis at(double time) const {

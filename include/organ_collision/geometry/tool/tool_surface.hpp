@@ -38,7 +38,7 @@ class ToolSurface {
   struct Node {
     OrientedBox box;       ///< the box around the faces
     std::uint32_t begin;   ///< the first face
-    std::uint32_t end;     ///< behind the last face
+    std::uint32_t end;     ///< the place behind the last face
     std::uint32_t second;  ///< the place of the second child; 0 in a leaf
   };
   /// The nodes of the tree in depth-first order; the root is first.
