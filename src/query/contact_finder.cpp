@@ -27,7 +27,7 @@ void keep_first_touches(std::vector<FaceContact>& contacts) {
     return std::tie(a.face, a.link, a.fraction, b.depth, a.point.x(), a.point.y(), a.point.z()) <
            std::tie(b.face, b.link, b.fraction, a.depth, b.point.x(), b.point.y(), b.point.z());
   };
-  // Nothing to sort, for example, if a shaft has moved on one leg.
+  // If a shaft has moved on one leg, for example, its contacts are in order already.
   if (!std::is_sorted(contacts.begin(), contacts.end(), precedes)) {
     std::sort(contacts.begin(), contacts.end(), precedes);
   }

@@ -88,8 +88,8 @@ Piercing piercing(const PartLeg& part, double time, const Triangle& face) {
     const Vector3d normal = piercing_normal(part.core.at(time).axis(), face);
     return {normal, normal.dot(part.end.axis.tip) + part.radius};
   }
-  // The face's own normal, with the sign for which a shorter motion of the link along -normal parts
-  // link and face.
+  // The face's own normal. Two motions across the face part the link from it, forward and backward.
+  // The sign is such that the shorter one is along -normal.
   Vector3d normal = face_normal(face);
   if (normal.isZero(0.0)) normal = perpendicular(longest_edge(face), Vector3d::Zero());
   const Eigen::Isometry3d pose = part.core.link()->at(time);

@@ -46,8 +46,8 @@ class WorkerThreads {
   /// worker works any more, the exception of the first task that failed is thrown. Also throws the
   /// exception of an earlier call of `prepare` that failed.
   void run(std::size_t count, const Work& work, const Deliver& deliver);
-  /// A task or a delivery may call it: no further task is begun. Tasks are begun in their order, so
-  /// those that have been begun are the first ones. Their results are still delivered.
+  /// Lets no further task begin. A task or a delivery may call it. Tasks are begun in their order,
+  /// so those that have been begun are the first ones. Their results are still delivered.
   void skip_rest();
 
  private:
@@ -78,7 +78,7 @@ template <typename Query>
 class QueryThreads {
  public:
   /// Makes at most `count` workers, including the calling thread. Threads are started when there
-  /// are tasks for them. `settle` is called in each of them when its query is made.
+  /// are tasks for them. `settle` is called in each new thread when its query is made.
   QueryThreads(std::size_t count, const PickerSettings& picker, std::function<void()> settle = {})
       : queries_(count), threads_([this, picker, settle](std::size_t worker) {
           queries_[worker] = std::make_unique<Query>(picker);

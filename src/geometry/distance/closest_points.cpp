@@ -23,12 +23,11 @@ double nearest_place(const Vector3d& point, const Vector3d& segment, double if_d
 
 /// Collects pairs of points of an axis and a face. At least one of them is a pair of nearest
 /// points. The pairs are: the point where the axis pierces the face; each end of the axis and its
-/// projection into the face; the nearest points of each edge and the axis, and of each edge and
-/// each end of the axis; each corner and its nearest point on the axis. The pairs with the ends are
-/// left out if the whole face is beside the axis, between the planes through its ends: the axis
-/// then has a point nearest to each point of the face that is not an end. Both points of a pair lie
-/// on axis and face, so rounding never makes a distance too small. All points are relative to the
-/// trocar.
+/// projection into the face; each edge and the axis; each edge and each end of the axis; each
+/// corner and the axis. The pairs with the ends are left out if the whole face is beside the axis,
+/// between the planes through its ends: for each point of the face, the nearest point of the axis
+/// is then not an end. Both points of a pair lie on axis and face, so rounding never makes a
+/// distance too small. All points are relative to the trocar.
 class NearestPair {
  public:
   struct Pair {

@@ -28,9 +28,9 @@ struct FirstTouch {
 };
 
 /// The first time of the leg, up to `until`, at which the distance of face and core is at most
-/// `radius` [m]. Nothing if the core stays farther away until then. The error of the distance is at
-/// most tolerance::kTouch plus kRounding times the largest coordinate. This one routine serves
-/// fixed and moving trocars, links that turn, and faces at rest and in motion.
+/// `radius` [m]. Nothing if the core stays farther away until then. The distance found may exceed
+/// the radius by tolerance::kTouch plus kRounding times the largest coordinate. This one routine
+/// serves fixed and moving trocars, links that turn, and faces at rest and in motion.
 ///
 /// If the budget runs out before the search has decided, the result is a touch with `is_resolved`
 /// false. So no face that touches is missed.

@@ -99,9 +99,9 @@ struct Instant {
 /// distance of core and face stays above `radius` [m]; above 1 if it proves this for the whole
 /// interval. In truth the distance may stay above `radius` for longer.
 ///
-/// The normal of the plane turns linearly from `from.normal` to `to.normal`. Along this normal, the
-/// vector from a point of the core to a corner of the face is a quadratic function of time. See
-/// doc/geometry.md, First touch, and Rims and chord deviation.
+/// The normal of the plane turns linearly from `from.normal` to `to.normal`. The distance along
+/// this normal from a point of the core to a corner of the face is a quadratic function of time.
+/// See doc/geometry.md, First touch, and Rims and chord deviation.
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius);
 
 }  // namespace organ_collision

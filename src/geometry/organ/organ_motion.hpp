@@ -15,7 +15,7 @@ struct FaceMotion {
 
   /// The face at `time` in [0, 1] of the leg.
   Triangle at(double time) const;
-  /// [m] The length of the longest way of a corner.
+  /// [m] The largest distance by which a corner moves during the leg.
   double farthest_move() const;
   /// [m] The largest absolute coordinate of the corners at both ends of the leg.
   double largest_coordinate() const;

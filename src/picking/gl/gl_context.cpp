@@ -15,7 +15,7 @@ namespace {
 // other: EGL says that its context is current even if a context of OSMesa has replaced it.
 thread_local const PlatformContext* latest = nullptr;
 
-/// Throws GlError if GALLIUM_DRIVER names a driver that does not draw on the CPU. Without this
+/// Throws GlError if GALLIUM_DRIVER names another driver than Mesa's two for the CPU. Without this
 /// check, OSMesa would end the process, and EGL would fail without a reason.
 void check_driver() {
   const char* const driver = std::getenv("GALLIUM_DRIVER");

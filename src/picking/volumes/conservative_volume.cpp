@@ -142,8 +142,8 @@ Eigen::Matrix3d box_axes(const Ends& ends) {
   return camera_axes(view, tip_moves_more ? tip_step : ends.trocar_end);
 }
 
-// A box around all positions of the axis, grown by the radius. Seen along y, these positions have a
-// convex hull. User planes cut the box along its edges, moved outward by the radius.
+// A box around all positions of the axis, grown by the radius. User planes, also moved outward by
+// the radius, cut it along the edges of the convex hull of these positions, seen along y.
 ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Rounding& rounding) {
   const double grown = radius + rounding.plane * extent;
   const Eigen::Matrix3d axes = box_axes(ends);

@@ -46,8 +46,8 @@ class PartSweep {
 
   /// [m] The origin of the volumes' shifted coordinates, in the organ's frame.
   const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_.start.trocar; }
-  /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths,
-  /// because the shortest edge of a flat box says nothing about its size.
+  /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths. The
+  /// shortest edge of a flat box says nothing about its size.
   double thickness() const {
     if (!box_) return radius_;
     Eigen::Vector3d edges = box_->high() - box_->low();

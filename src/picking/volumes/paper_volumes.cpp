@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-// [1] A tip that moves less than this share of the axis length or radius, whichever is larger,
-// rests. A trocar that is nearer to the line through the tips than that lies on it. In both cases
-// only rounding would decide the directions of the hexahedron.
+// [1] The tip rests if it moves by at most this share of the axis length or radius, whichever is
+// larger. The trocar lies on the line through the tips if it is at most that far from it. In both
+// cases only rounding would decide the directions of the hexahedron.
 constexpr double kFlat = 1e-9;
 
 // The least length and radius of a shaft [m], and the least radius as a share of the length [1].

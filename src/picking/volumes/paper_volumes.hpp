@@ -12,8 +12,8 @@ namespace organ_collision {
 /// are not grown for 32-bit clipping. Radii are in metres.
 ///
 /// The three functions throw VolumeError for a shaft whose volume would be lost in the rounding of
-/// 32-bit clipping. It is shorter than 1e-9 m, or its radius is below 1e-9 m or below a millionth
-/// of its length.
+/// 32-bit clipping. Such a shaft is shorter than 1e-9 m, or its radius is below 1e-9 m or below a
+/// millionth of its length.
 
 /// The shaft is too short or too thin for the volume. what() names the value and what is legal.
 class VolumeError : public std::invalid_argument {
@@ -28,8 +28,8 @@ ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius);
 /// line, the tool gets the static volume to the farther tip.
 ViewingVolume paper_swept_volume(const ShaftMotion& motion, double radius);
 
-/// The naive swept volume (figure 5): the orthographic box around the hexahedron, and two user
-/// planes along its sides. It contains the same points as paper_swept_volume.
+/// The naive swept volume (figure 5): the orthographic box around the sweep of figure 4, and two
+/// user planes along its sides. It contains the same points as paper_swept_volume.
 ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius);
 
 }  // namespace organ_collision
