@@ -5,7 +5,7 @@
 
 namespace organ_collision {
 
-/// The text of all parts, each as operator<< writes it: for messages that name values.
+/// The text of all parts in a row, each as operator<< writes it. Error messages are made with it.
 template <typename... Parts>
 std::string concatenate(const Parts&... parts) {
   std::ostringstream text;

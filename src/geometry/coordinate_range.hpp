@@ -12,7 +12,7 @@ inline bool is_in_range(double coordinate) {
   return std::abs(coordinate) <= tolerance::kFarthest;  // false for NaN
 }
 
-/// The same for all coordinates of a point.
+/// Whether all coordinates of a point [m] are finite and within tolerance::kFarthest.
 inline bool is_in_range(const Eigen::Vector3d& point) {
   return (point.array().abs() <= tolerance::kFarthest).all();
 }

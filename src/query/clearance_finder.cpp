@@ -18,16 +18,16 @@ OrientedBox box_around(const Step& step, const LegSpan& span, const ToolPart& pa
 
 }  // namespace
 
-/// Receives the approaches that a search finds, and tells it which are of interest.
+/// Receives the approaches that a search finds, and tells the search which ones are of interest.
 class ClearanceFinder::Sink {
  public:
   virtual ~Sink() = default;
-  /// [m] Greater distances are of no interest. May fall during a search.
+  /// [m] The greatest distance that is of interest. It may fall during a search.
   virtual double bound() const = 0;
   virtual bool accepts(std::uint32_t /*face*/) const { return true; }
   virtual void add(const Approach& approach) = 0;
-  /// The work budget was used up before this face was measured. It may come nearer than its
-  /// approaches tell, if there are any.
+  /// Says that the work budget was used up before this face was measured. The face may come nearer
+  /// than all of its approaches that were added.
   virtual void add_unresolved(std::uint32_t /*face*/) {}
 };
 
@@ -47,18 +47,19 @@ class ClearanceFinder::Nearest : public Sink {
   const std::optional<Approach>& get() const { return nearest_; }
 
  private:
-  double bound_;  ///< [m]
+  double bound_;  ///< [m] greatest distance of interest
   std::optional<Approach> nearest_;
 };
 
-/// Keeps for each face the approach with the smallest distance, unless it may come nearer.
+/// Keeps for each face the approach with the smallest distance. Faces that are touched, or that
+/// were not measured to the end, are marked in `places`.
 class ClearanceFinder::Collector : public Sink {
  public:
   static constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
   static constexpr std::uint32_t kTouched = kNothing - 1;
   static constexpr std::uint32_t kUnresolved = kNothing - 2;
 
-  /// `places`: for each face kNothing, kTouched, kUnresolved, or its place in `nearest`.
+  /// `places`: for each face its place in `nearest`, or kNothing, kTouched or kUnresolved.
   Collector(double margin, std::vector<Approach>& nearest, std::vector<std::uint32_t>& places)
       : margin_(margin), nearest_(nearest), places_(places) {}
 
@@ -79,7 +80,7 @@ class ClearanceFinder::Collector : public Sink {
   void add_unresolved(std::uint32_t face) override { places_[face] = kUnresolved; }
 
  private:
-  double margin_;  ///< [m]
+  double margin_;  ///< [m] greatest distance of interest
   std::vector<Approach>& nearest_;
   std::vector<std::uint32_t>& places_;
 };
@@ -112,8 +113,8 @@ ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& re
   return clearance;
 }
 
-/// Sets the smallest distance during the step. The distances at its start and its end are bounds
-/// from which the search begins.
+/// Sets the smallest distance during the step. The search between start and end begins with the
+/// smaller one of the distances at the start and at the end as its bound.
 void ClearanceFinder::set_least(const Step& step, const CollisionRequest& request,
                                 const std::vector<FaceContact>& contacts,
                                 ToolClearance& clearance) {
@@ -174,7 +175,7 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
       static_cast<std::size_t>(std::count(places_.begin(), places_.end(), Collector::kUnresolved));
 }
 
-/// The contact that would follow from an approach.
+/// The contact whose fields describe an approach, as if it were a first touch.
 FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) {
   FaceContact contact;
   with_part_leg(step, step.span_of(near.leg), near.part, [&](const PartLeg& part) {
@@ -187,7 +188,7 @@ FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) 
 }
 
 /// Adds to `sink` an approach for each part, leg and accepted face whose distance falls to the
-/// bound. A face may come nearer on another leg or to another part.
+/// bound. A face may have several approaches.
 void ClearanceFinder::find_approaches(const Step& step, Sink& sink) {
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
     budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
@@ -198,8 +199,9 @@ void ClearanceFinder::find_approaches(const Step& step, Sink& sink) {
   });
 }
 
-/// Measures the faces along the chord of a span. If the span has a single leg, which is its chord,
-/// these are the approaches. Else the faces that come near the chord are kept for its legs.
+/// Measures the faces along the chord of a span. If the span has a single leg, the chord is this
+/// leg, and the approaches are added to `sink`. Otherwise the faces near the chord are kept in
+/// `faces_`, to be measured on each leg.
 void ClearanceFinder::find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part,
                                       Sink& sink) {
   const OrganMotion organ = step.organ_motion(span);
@@ -217,7 +219,7 @@ void ClearanceFinder::find_near_chord(const Step& step, const LegSpan& span, con
   });
 }
 
-/// Measures the faces that come near the chord on one leg.
+/// Measures on one leg the faces that came near the chord.
 void ClearanceFinder::find_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
                                   Sink& sink) {
   const OrganMotion organ = step.organ_motion(step.span_of(leg));
@@ -231,8 +233,8 @@ void ClearanceFinder::find_on_leg(const Step& step, std::size_t leg, const ToolP
   });
 }
 
-/// The closest approach of a part and a face, unless the budget is used up. Tells the sink if it
-/// may be missing or too far.
+/// The closest approach of a part and a face on a leg. If the budget is used up, it may be missing
+/// or too far away. The sink is then told.
 std::optional<ClosestApproach> ClearanceFinder::measure(const ToolPart& part, const PartLeg& leg,
                                                         const OrganMotion& organ,
                                                         std::uint32_t face, double distance_bound,

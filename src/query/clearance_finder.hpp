@@ -12,26 +12,26 @@
 
 namespace organ_collision {
 
-/// Finds how near an organ comes to a tool: the clearance and the near faces. The clusters' boxes
-/// lead to the faces. Measuring a distance needs no clipping, so GL is not used. Keeps its memory
-/// between steps.
+/// Finds how near an organ comes to a tool: the clearance and the near faces. FaceSearch leads to
+/// the nearest faces. GL is not used, because measuring distances needs no clipping. Keeps its
+/// memory between steps.
 class ClearanceFinder {
  public:
   /// How far the tool is from the organ at the end of the step, and how near it came during the
-  /// step, as the request asks. `contacts`: those of the step.
+  /// step, as the request asks. `contacts` are the contacts of the step.
   ToolClearance find(const Step& step, const CollisionRequest& request,
                      const std::vector<FaceContact>& contacts,
                      const WorkBudget& budget = WorkBudget::for_approaches());
 
-  /// Sets what `result` tells about near faces: those within the margin that the tool does not
-  /// touch during the step. The contacts in `result` are those of the step.
+  /// Sets the fields of `result` about near faces: faces within the margin that the tool does not
+  /// touch during the step. `result` must hold the contacts of the step already.
   void find_near(const Step& step, const CollisionRequest& request, CollisionResult& result,
                  const WorkBudget& budget = WorkBudget::for_approaches());
 
  private:
   /// The closest approach of a part of the tool and a face on one leg of a step.
   struct Approach {
-    double distance;  ///< [m] between the surfaces; see ToolClearance
+    double distance;  ///< [m] distance between the surfaces; see ToolClearance
     std::uint32_t face;
     ToolPart part;
     std::size_t leg;
@@ -54,10 +54,10 @@ class ClearanceFinder {
                                          double distance_bound, Sink& sink);
 
   FaceSearch search_;
-  WorkBudget budget_;                  ///< of the present step
-  std::vector<std::uint32_t> faces_;   ///< that come within the bound of the present chord
-  std::vector<Approach> near_faces_;   ///< one for each near face
-  std::vector<std::uint32_t> places_;  ///< for each face, what Collector knows of it
+  WorkBudget budget_;                  ///< the work of the present search
+  std::vector<std::uint32_t> faces_;   ///< faces within the bound of the present chord
+  std::vector<Approach> near_faces_;   ///< the nearest approach of each near face
+  std::vector<std::uint32_t> places_;  ///< for each face; see Collector
 };
 
 }  // namespace organ_collision

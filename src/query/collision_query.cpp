@@ -22,11 +22,12 @@ void clear(CollisionResult& result) {
   result.near_left_out = 0;
   result.near_unresolved = 0;
   result.clearance = {};
-  result.placement.crossings.clear();  // They keep their memory.
+  result.placement.crossings.clear();  // The cleared list keeps its memory.
   result.placement = {{}, {}, std::move(result.placement.crossings), false, 0.0};
 }
 
-/// The volumes that the parts of a link, or the shaft, sweep on a leg. `number`: as in FaceContact.
+/// The volumes that the shaft, or the parts of a link, sweep on a leg. `number` is
+/// FaceContact::link.
 std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::uint32_t number) {
   const LegSpan span = step.span_of(leg);
   if (step.has_shaft() && number == 0) return {tool_volume(step.shaft_motion(span), step.radius())};
@@ -46,8 +47,8 @@ Region region_of(const Triangle& face, const ViewingVolume& volume) {
 }
 
 /// Finds the region of each contact: the polygon in which the contact's face, as it is at the end
-/// of the step, meets the tool's volume on the leg of the first touch. For a link, this is the
-/// volume of its first part whose volume the face meets.
+/// of the step, meets the tool's volume on the leg of the first touch. A link has a volume for each
+/// part; the first one that the face meets counts.
 void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
                   std::vector<Region>& regions) {
   std::vector<ViewingVolume> volumes;
@@ -67,8 +68,8 @@ void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
   }
 }
 
-/// A query that runs. At its end the picker is released, so that any thread may ask the next one. A
-/// result that is not complete then, because of an exception, becomes empty.
+/// A query that runs. At its end it releases the picker, so that any thread may run the next query.
+/// If the query ends by an exception before complete() is called, it empties the result.
 class ScopedQuery {
  public:
   ScopedQuery(Picker& picker, CollisionResult& result) : picker_(picker), result_(result) {}
@@ -119,7 +120,7 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
   query.complete();
 }
 
-/// The pipeline: the contacts, then what else the request asks for.
+/// Finds the contacts first, and then what else the request asks for.
 void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionResult& result) {
   if (is_paper_mode(request.mode)) return contacts.find_in_paper_volume(request, result.contacts);
   const Step step(request, with_subdivided_rotations(request.path, subdivided_path), boxes_before);

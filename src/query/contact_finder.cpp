@@ -10,23 +10,24 @@
 namespace organ_collision {
 namespace {
 
-/// The space that a part sweeps along the chord of a span, grown so that it contains the part on
-/// all legs of the span.
+/// The space that a part sweeps along the chord of a span. It is grown by the deviation of the
+/// span, so that it contains the part on all legs.
 PartSweep sweep_of(const Step& step, const LegSpan& span, const ToolPart& part) {
   if (!part.shape) return {step.shaft_motion(span), step.radius() + span.deviation};
   return PartSweep(SweptBox(part.shape->bounds, step.link_motion(span, part.link),
                             part.shape->radius + span.deviation));
 }
 
-/// Sorts the contacts by face, then link, and keeps one for each face and link: the first touch,
-/// and of several touches at that time the deepest. Parts that pierce a face together have the same
-/// depth. The point decides between them, so that the answer does not depend on the order of parts.
+/// Sorts the contacts by face, then link, and keeps one contact for each face and link: the first
+/// touch, and of several touches at that time the deepest one. Parts of a link that pierce a face
+/// have the same depth. The coordinates of the point then decide, so that the answer does not
+/// depend on the order of the parts.
 void keep_first_touches(std::vector<FaceContact>& contacts) {
   const auto precedes = [](const FaceContact& a, const FaceContact& b) {
     return std::tie(a.face, a.link, a.fraction, b.depth, a.point.x(), a.point.y(), a.point.z()) <
            std::tie(b.face, b.link, b.fraction, a.depth, b.point.x(), b.point.y(), b.point.z());
   };
-  // The contacts of a shaft on one leg are sorted already.
+  // If a shaft has moved on one leg, for example, its contacts are in order already.
   if (!std::is_sorted(contacts.begin(), contacts.end(), precedes)) {
     std::sort(contacts.begin(), contacts.end(), precedes);
   }
@@ -38,22 +39,22 @@ void keep_first_touches(std::vector<FaceContact>& contacts) {
 
 }  // namespace
 
-/// The method, for one part of the tool. The span has one leg if the tool moved straight from its
-/// last pose to this one, as in the paper.
+/// The whole method, for one part of the tool. If the tool moved straight from its last pose to the
+/// present one, as in the paper, the span has one leg.
 void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                                        std::vector<FaceContact>& contacts) {
-  // Section 4, figures 7 and 8: this is the space that the part sweeps. Around it, the picker
-  // builds a viewing volume, as large as the faces that it draws require (doc/geometry.md,
-  // Conservative wedge). The paper's volume misses parts of that space; the picker's contains all
-  // of it.
+  // Section 4 of the paper, figures 7 and 8: the space that the part sweeps. The picker builds a
+  // viewing volume around it, as large as the drawn faces require (doc/geometry.md, Conservative
+  // wedge). The paper's volume misses parts of the space; the picker's volume contains all of it.
   const PartSweep swept = sweep_of(step, span, part);
 
-  // Section 2: OpenGL draws the organ in a picking mode. The candidates are the faces that survive
-  // clipping to the volume, and those that need no drawing, for example with a corner inside.
+  // Section 2 of the paper: OpenGL draws the organ in a picking mode. The candidates are the faces
+  // that survive clipping to the volume. Faces that need no drawing, for example because a corner
+  // is inside, are candidates, too.
   picker_.pick(swept, step.organ_motion(span), candidates_);
 
-  // Beyond the paper: exact distances confirm the candidates that the part touches, and tell when
-  // and where each is touched first.
+  // Not in the paper: exact distances decide which candidates the part touches, and when and where
+  // it first touches each of them.
   confirmer_.confirm(step, span, part, candidates_, contacts);
 }
 
@@ -90,7 +91,7 @@ void ContactConfirmer::confirm(const Step& step, const LegSpan& span, const Tool
                                std::vector<FaceContact>& contacts) {
   if (part.number(step) != link_) forget_touched_faces();
   link_ = part.number(step);
-  // The budget grows with all faces of the organ, so that it does not depend on the picker.
+  // The budget grows with the number of all faces, so that it does not depend on the picker.
   budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
   pending_faces_.clear();
   for (const Candidate& candidate : candidates) {
@@ -105,14 +106,14 @@ void ContactConfirmer::confirm(const Step& step, const LegSpan& span, const Tool
     };
     pending_faces_.erase(std::remove_if(pending_faces_.begin(), pending_faces_.end(), is_decided),
                          pending_faces_.end());
-    // Most faces of a sustained contact touch on the first leg. Only the others are worth testing
-    // against the chord.
+    // Most faces of a lasting contact touch on the first leg already. Only the other faces are
+    // tested against the chord, because this test takes time.
     if (leg == span.begin && span.leg_count() > 1) keep_faces_near_chord(step, span, part);
   }
 }
 
-/// Drops the faces that stay too far from the part's motion along the span's chord to touch on any
-/// of the span's legs. Finds for each of the others the first leg on which it may touch. See
+/// Drops the pending faces that stay too far from the span's chord to be touched on any leg of the
+/// span. For each of the other faces, finds the first leg on which it may be touched. See
 /// doc/geometry.md, Spans of legs.
 void ContactConfirmer::keep_faces_near_chord(const Step& step, const LegSpan& span,
                                              const ToolPart& part) {
@@ -135,7 +136,7 @@ void ContactConfirmer::keep_faces_near_chord(const Step& step, const LegSpan& sp
   }
 }
 
-/// Decides by exact distances which pending faces touch on a leg.
+/// Decides by exact distances which pending faces the part touches on a leg.
 void ContactConfirmer::confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
                                       std::vector<FaceContact>& contacts) {
   const auto is_due = [leg](const PendingFace& pending) { return pending.leg <= leg; };
@@ -146,7 +147,7 @@ void ContactConfirmer::confirm_on_leg(const Step& step, std::size_t leg, const T
     for (const PendingFace& pending : pending_faces_) {
       if (!is_due(pending)) continue;
       const FaceMotion face = organ.face(step.organ().faces()[pending.face]);
-      // If the tool only trembles, the same plane separates part and face on most legs.
+      // If the tool only trembles, the plane across `normal` separates part and face on most legs.
       const double beyond = on_leg.radius + tolerance::kTouch;
       if (!pending.normal.isZero(0.0) && stays_beyond(pending.normal, on_leg.core, face, beyond)) {
         continue;
@@ -164,7 +165,7 @@ void ContactConfirmer::confirm_on_leg(const Step& step, std::size_t leg, const T
   });
 }
 
-/// Finds for each of `touches_` when it first comes within `radius` of the part.
+/// Finds for each face in `touches_` when it first comes within `radius` [m] of the part.
 void ContactConfirmer::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
   if (touches_.empty()) return;
   if (shape && shape->surface) {
@@ -176,8 +177,8 @@ void ContactConfirmer::find_touches(const PartLeg& part, const LinkPart* shape, 
   }
 }
 
-/// Whether the present link may still touch the face for the first time on `leg` or later. If it is
-/// known to touch on a later leg, another part may touch earlier.
+/// Whether the present link may touch the face on the leg `leg` earlier than known. If one part of
+/// the link is known to touch it on a later leg, another part may touch it before.
 bool ContactConfirmer::is_pending(std::uint32_t face, std::size_t leg) const {
   return touched_leg_[face] == 0 || touched_leg_[face] > leg;
 }

@@ -11,26 +11,25 @@
 
 namespace organ_collision {
 
-/// Confirms candidate faces by exact distances, leg by leg. A face touches a link once: on the
-/// first leg on which any part of the link comes within the part's radius. Keeps its memory between
-/// steps.
+/// Confirms candidate faces by exact distances, leg by leg. For each face and link, only the first
+/// leg counts on which a part of the link touches the face. Keeps its memory between steps.
 class ContactConfirmer {
  public:
-  /// Begins with another step.
+  /// Begins another step.
   void start(const Step& step);
 
-  /// Adds the contacts of a part with its candidates on the legs of a span. All parts and spans of
-  /// a link follow one another.
+  /// Adds the contacts of a part with its candidates on the legs of a span. The calls for all parts
+  /// and spans of one link must follow one another.
   void confirm(const Step& step, const LegSpan& span, const ToolPart& part,
                const std::vector<Candidate>& candidates, std::vector<FaceContact>& contacts);
 
  private:
-  /// A candidate face that the part may touch on some leg, but not before `leg`.
+  /// A candidate face that the part may touch on the leg `leg` or later.
   struct PendingFace {
     std::uint32_t face;
     std::size_t leg;
-    /// The unit vector from the part to the face where they first come near each other. A plane
-    /// across it separates both on most legs. Zero: not known.
+    /// The unit vector from the part to the face at the time when they first come near each other.
+    /// A plane at right angles to it separates both on most legs. Zero if it is not known.
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   };
 
@@ -41,30 +40,30 @@ class ContactConfirmer {
   bool is_pending(std::uint32_t face, std::size_t leg) const;
   void forget_touched_faces();
 
-  WorkBudget budget_;  ///< of the present step
+  WorkBudget budget_;  ///< the work of the present step
   std::vector<PendingFace> pending_faces_;
   std::vector<FaceTouch> touches_;
   SurfaceTouches surface_touches_;
   std::uint32_t link_ = 0;  ///< the number of the present link
-  /// For each face, the leg on which the present link first touched it, counted from 1. Zero: it
-  /// has not touched the face so far.
+  /// For each face, the leg on which the present link first touched it, counted from 1. Zero: the
+  /// link has not touched the face so far.
   std::vector<std::uint32_t> touched_leg_;
-  std::vector<std::uint32_t> touched_faces_;  ///< for which touched_leg_ is not zero
+  std::vector<std::uint32_t> touched_faces_;  ///< faces whose touched_leg_ is not zero
 };
 
 /// Finds contacts by the method of Lombardo, Cani and Neyret 1999 ("the paper"). Keeps its memory
 /// between steps.
 class ContactFinder {
  public:
-  /// `picker` must outlive it.
+  /// `picker` must outlive this object.
   explicit ContactFinder(Picker& picker) : picker_(picker) {}
 
-  /// Adds the contacts of all parts of the tool: one for each face and link that touch, sorted by
+  /// Adds the contacts of the tool: one for each pair of a face and a link that touch, sorted by
   /// face, then link. Throws GlError if GL did not work.
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
-  /// Adds the faces in the paper's own volume for a request in one of its modes, with their depth
-  /// ranges and nothing else.
+  /// For a request in one of the paper's modes, adds a contact for each face in the paper's volume.
+  /// Only the number of the face and its range of depths are set.
   void find_in_paper_volume(const CollisionRequest& request, std::vector<FaceContact>& contacts);
 
  private:

@@ -19,7 +19,7 @@ Vector3d longest_edge(const Triangle& face) {
   });
 }
 
-/// The unit face normal by the right-hand rule; zero where the face is degenerate.
+/// The unit normal of a face by the right-hand rule; zero if the face is degenerate.
 Vector3d face_normal(const Triangle& face) {
   const Vector3d normal = twice_area(face);
   const double length = normal.norm();
@@ -27,8 +27,8 @@ Vector3d face_normal(const Triangle& face) {
   return normal / length;
 }
 
-/// A unit vector perpendicular to both. If they are parallel or one of them is zero, a unit vector
-/// perpendicular to the longer one; if both are zero, any.
+/// A unit vector perpendicular to both vectors. If they are parallel or one of them is zero, the
+/// result is perpendicular to the longer one. If both are zero, it is the x axis.
 Vector3d perpendicular(const Vector3d& a, const Vector3d& b) {
   const Vector3d across = a.cross(b);
   if (across.norm() > tolerance::kParallel * a.norm() * b.norm()) return across.normalized();
@@ -47,8 +47,8 @@ bool first_nonzero_is_positive(const Vector3d& v) {
   return true;
 }
 
-/// The normal if the axis pierces the face: the face's own, turned so that normal · (tip - trocar)
-/// >= 0. See doc/geometry.md, Ties and piercing.
+/// The contact's normal if the axis of a shaft pierces the face: the face's own normal, with the
+/// sign for which normal · (tip - trocar) >= 0. See doc/geometry.md, Ties and piercing.
 Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
   const Vector3d direction = axis.tip - axis.trocar;
   Vector3d normal = face_normal(face);
@@ -59,7 +59,7 @@ Vector3d piercing_normal(const ShaftAxis& axis, const Triangle& face) {
   return flip ? Vector3d(-normal) : normal;
 }
 
-/// [m] What a link covers along a unit direction, in the organ's frame.
+/// [m] The interval that a link covers along a unit direction, in the organ's frame.
 ProjectionInterval project_onto(const Vector3d& direction, const Link& link,
                                 const Eigen::Isometry3d& T_organ_link) {
   const Vector3d in_link = T_organ_link.linear().transpose() * direction;
@@ -76,19 +76,20 @@ ProjectionInterval project_onto(const Vector3d& direction, const Link& link,
 
 struct Piercing {
   Vector3d normal;
-  /// [m] How far the tool reaches along the normal at the end of the step: the support value of the
-  /// link, or of the ball around the tip.
+  /// [m] How far the tool reaches along the normal at the end of the step: the greatest normal ·
+  /// point of the link, or of the ball around the tip.
   double reach_at_end;
 };
 
-/// What follows from piercing a face that was there at a time of the leg.
+/// The normal and the reach of a part that pierces a face. `face` is the face at the time `time` of
+/// the leg.
 Piercing piercing(const PartLeg& part, double time, const Triangle& face) {
   if (!part.end.link) {
     const Vector3d normal = piercing_normal(part.core.at(time).axis(), face);
     return {normal, normal.dot(part.end.axis.tip) + part.radius};
   }
-  // The face's own normal, with the sign for which the motion along -normal that parts them is
-  // shorter.
+  // The face's own normal. Two motions across the face part the link from it, forward and backward.
+  // The sign is such that the shorter one is along -normal.
   Vector3d normal = face_normal(face);
   if (normal.isZero(0.0)) normal = perpendicular(longest_edge(face), Vector3d::Zero());
   const Eigen::Isometry3d pose = part.core.link()->at(time);
@@ -97,14 +98,14 @@ Piercing piercing(const PartLeg& part, double time, const Triangle& face) {
   const double forward = covered.high - place, backward = place - covered.low;
   const bool is_tie = std::abs(forward - backward) <= tolerance::kTie;
   const bool flip = is_tie ? !first_nonzero_is_positive(normal) : backward < forward;
-  constexpr double kSamePose = 1e-15;  // [1] but for the rounding that makes it a rotation
+  constexpr double kSamePose = 1e-15;  // [1] RigidMotion changes a pose by rounding only
   if (!pose.isApprox(part.end.pose, kSamePose)) {
     covered = project_onto(normal, *part.end.link, part.end.pose);
   }
   return flip ? Piercing{-normal, -covered.low} : Piercing{normal, covered.high};
 }
 
-/// Where the point of the core that touched is at the end of the step.
+/// The point of the core that touched, where it is at the end of the step.
 Vector3d at_end(const FirstTouch& touch, const PartLeg& part) {
   if (!part.end.link) return part.end.axis.at(touch.closest.shaft);
   const Eigen::Isometry3d pose = part.core.link()->at(touch.time);
@@ -132,7 +133,8 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   } else {
     contact.normal = closest.separation.normalized();
     contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);
-    // Of tied points, those nearest the tip may be farther apart than the least distance.
+    // The pair nearest to the tip may be a little farther apart than the pair with the least
+    // distance.
     const bool is_tied = -tolerance::kTie < contact.depth && contact.depth < 0.0;
     if (is_tied && closest.distance <= part.radius) contact.depth = 0.0;
   }

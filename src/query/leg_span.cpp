@@ -15,7 +15,8 @@ double rotation_cosine(const Eigen::Isometry3d& from, const Eigen::Isometry3d& t
   return 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);
 }
 
-/// The number of equal parts that a leg must be divided into.
+/// The number of equal parts into which a leg is divided, so that no link turns by more than
+/// kMaxRotation.
 int count_parts(const ToolWaypoint& from, const ToolWaypoint& to) {
   double least_cosine = 1.0;
   for (std::size_t i = 0; i < to.links.size(); ++i) {
@@ -58,11 +59,12 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-// [1] The volume of a span may be thicker than those of its legs by at most this share.
+// [1] The largest deviation of a span, as a share of the thickness of the shaft or link.
 constexpr double kAllowedShare = 0.25;
 
-/// [1] A pose of a request may move a point at a distance of 1 by this much more than the rotation
-/// nearest to it, with which legs are evaluated. See doc/geometry.md, Spans of legs.
+/// [1] The poses of a request are rotations only to kRotationTolerance, but legs are evaluated with
+/// the nearest rotation. At a distance of 1, both may differ by this much. See doc/geometry.md,
+/// Spans of legs.
 constexpr double kOffRotation = 2.5 * kRotationTolerance;
 
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
@@ -80,8 +82,8 @@ double time_on_chord(const ToolWaypoint* waypoints, std::size_t begin, std::size
          (waypoints[end].fraction - waypoints[begin].fraction);
 }
 
-/// [m] The largest deviation of the shaft's axis from its chord between two waypoints; kTooFar if
-/// it exceeds `allowed`.
+/// [m] The largest deviation of the shaft's axis from the chord between waypoints `begin` and
+/// `end`; kTooFar if it exceeds `allowed`.
 double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                        double allowed) {
   const ShaftMotion chord{waypoints[begin].axis, waypoints[end].axis};
@@ -96,10 +98,10 @@ double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::si
   return deviation;
 }
 
-/// [m] The same for a link, as an upper bound. At the waypoints the deviation of the ball is known.
-/// Between two waypoints, the leg and the chord each deviate from straight lines by their chord
-/// deviation: at most an eighth of the arm times the squared angle. See doc/geometry.md, Rims and
-/// chord deviation.
+/// [m] An upper bound of the deviation of a link from the chord between two waypoints; kTooFar if
+/// it exceeds `allowed`. At each waypoint, it is the deviation of the ball. Between waypoints, the
+/// leg and the chord each leave a straight line by at most arm * angle^2 / 8. See doc/geometry.md,
+/// Rims and chord deviation.
 double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                       std::size_t link, const LinkBall& ball, double allowed) {
   const Isometry3d& first = waypoints[begin].links[link];
@@ -114,7 +116,7 @@ double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::siz
     const Isometry3d on_chord = chord.at(next_time);
     at_waypoints = std::max(at_waypoints, (pose * ball.center - on_chord * ball.center).norm() +
                                               ball.radius * rotation_chord(pose, on_chord));
-    // An angle of at most pi is at most pi / 2 times its chord.
+    // An angle of at most pi is at most pi / 2 times its rotation_chord().
     const double leg_angle = M_PI_2 * rotation_chord(waypoints[i - 1].links[link], pose);
     const double chord_angle = chord.angle() * (next_time - time);
     between = std::max(between, arm * (leg_angle * leg_angle + chord_angle * chord_angle) / 8.0);
@@ -124,7 +126,7 @@ double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::siz
   return at_waypoints + between + kOffRotation * arm;
 }
 
-/// Tries all remaining legs first, then half of them, and so on.
+/// The span from leg `begin` on. Tries all remaining legs first, then half of them, and so on.
 template <typename Deviation>
 LegSpan longest_span(std::size_t count, std::size_t begin, Deviation deviation) {
   for (std::size_t legs = count > 1 ? count - 1 - begin : 1; legs > 1; legs /= 2) {

@@ -14,16 +14,16 @@ namespace {
 using Eigen::AlignedBox3d;
 using Eigen::Vector3d;
 
-/// [m] The radius of the volume in which faces near an axis are picked. GL draws the faces without
-/// welding, which moves them by up to tolerance::kSeam. A thinner volume than this share of the
-/// organ would be lost in 32-bit clipping, so that DrawList would leave the faces undrawn.
+/// [m] The radius of the volume in which faces near an axis are picked. The faces as drawn are up
+/// to tolerance::kSeam away from the welded faces that count. In a volume that is thinner than
+/// kShare of the organ, DrawList would leave the faces undrawn because of 32-bit clipping.
 double picking_radius(const AlignedBox3d& box) {
   constexpr double kShare = 2e-4;
   return 2.0 * tolerance::kSeam + kShare * box.sizes().maxCoeff();
 }
 
-/// The part of an axis within a box, or nothing. The box is larger than what counts by far more
-/// than rounding.
+/// The part of an axis within a box, or nothing. The box has a margin around the organ that is far
+/// larger than the rounding errors.
 std::optional<ShaftAxis> clip(const ShaftAxis& axis, const AlignedBox3d& box) {
   const Vector3d along = axis.tip - axis.trocar;
   double begin = 0.0, end = 1.0;
@@ -41,7 +41,8 @@ std::optional<ShaftAxis> clip(const ShaftAxis& axis, const AlignedBox3d& box) {
   return ShaftAxis{begin > 0.0 ? axis.at(begin) : axis.trocar, end < 1.0 ? axis.at(end) : axis.tip};
 }
 
-/// The shortest ray, along a coordinate, from a point in a box to a point outside of it.
+/// The shortest ray, along a coordinate axis, from a point in a box to a point outside of the box.
+/// If the point is outside already, `length` is negative.
 struct ExitRay {
   ExitRay(const Vector3d& point, const AlignedBox3d& box) : end(point) {
     const Vector3d below = point - box.min(), above = box.max() - point;
@@ -52,7 +53,7 @@ struct ExitRay {
   }
 
   Vector3d end;
-  double length;  ///< [m] to the box
+  double length;  ///< [m] from the point to the side of the box
 };
 
 int sum_of_directions(const std::vector<AxisCrossing>& crossings) {
@@ -66,7 +67,7 @@ Side side(bool is_on_surface, int winding) {
   return winding != 0 ? Side::kInside : Side::kOutside;
 }
 
-/// [1] The share of the axis about whose points the winding number is not zero.
+/// [1] The share of the axis that is inside: where the winding number is not zero.
 double share_inside(const std::vector<AxisCrossing>& crossings, int trocar_winding) {
   double share = 0.0, place = 0.0;
   int winding = trocar_winding;
@@ -103,8 +104,8 @@ void PlacementFinder::find_tip(const Surface& surface, const Vector3d& tip,
   placement.tip = side(is_on_candidate(surface, tip), winding);
 }
 
-/// The crossings tell how the winding number changes along the axis. So it is needed at one end
-/// only, and it is zero at an end outside of the organ's box.
+/// The crossings tell how the winding number changes along the axis. So the winding number is
+/// needed at one end only. It is zero if that end is outside of the organ's box.
 void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
                                 AxisPlacement& placement) {
   pick_near(axis, surface.organ);
@@ -124,7 +125,7 @@ void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
       share_inside(placement.crossings, trocar_winding) * (axis.tip - axis.trocar).stableNorm();
 }
 
-/// Replaces candidates_ by the faces that may meet an axis.
+/// Replaces candidates_ by the faces that may meet `axis`.
 void PlacementFinder::pick_near(const ShaftAxis& axis, const TriangleMesh& organ) {
   candidates_.clear();
   const AlignedBox3d box = organ.box().cast<double>();
@@ -136,7 +137,8 @@ void PlacementFinder::pick_near(const ShaftAxis& axis, const TriangleMesh& organ
   picker_.pick(PartSweep(at_rest, radius), OrganMotion(organ), candidates_);
 }
 
-/// Finds the crossings, in the order in which the moved axis meets them.
+/// Finds the crossings, in the order in which the axis meets them after its infinitesimal
+/// displacement (see crossing_direction()).
 void PlacementFinder::find_crossings(const Surface& surface, const ShaftAxis& axis,
                                      std::vector<AxisCrossing>& crossings) {
   found_.clear();
@@ -162,9 +164,9 @@ void PlacementFinder::find_crossings(const Surface& surface, const ShaftAxis& ax
   }
 }
 
-/// The winding number of a closed surface about a point, which is moved like the axis. Outside of
-/// the organ's box it is zero. From within, a ray to the outside tells it. The candidates are then
-/// the faces near that ray.
+/// The winding number of a closed surface about a point, after the infinitesimal displacement. It
+/// is zero outside of the organ's box. For a point in the box, the crossings of a ray to the
+/// outside give it. Replaces candidates_ by the faces near that ray.
 int PlacementFinder::winding_number(const Surface& surface, const Vector3d& point) {
   const AlignedBox3d box = surface.organ.box().cast<double>();
   candidates_.clear();
@@ -178,7 +180,7 @@ int PlacementFinder::winding_number(const Surface& surface, const Vector3d& poin
   return -change;
 }
 
-/// Whether the point is exactly on one of the candidates.
+/// Whether the point is exactly on one of the faces in candidates_.
 bool PlacementFinder::is_on_candidate(const Surface& surface, const Vector3d& point) const {
   return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
     return is_on_face(surface.face(candidate.face), point);

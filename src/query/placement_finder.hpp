@@ -13,21 +13,22 @@
 namespace organ_collision {
 
 /// Finds on which side of an organ's surface a tool is, and where its axis crosses the surface. GL
-/// picks the faces near the axis, and exact predicates decide on them. Keeps its memory between
-/// queries. See doc/geometry.md, Sides and crossings.
+/// picks the faces near the axis, and exact predicates decide which of them the axis crosses. Keeps
+/// its memory between queries. See doc/geometry.md, Sides and crossings.
 class PlacementFinder {
  public:
-  /// `picker` must outlive it.
+  /// `picker` must outlive this object.
   explicit PlacementFinder(Picker& picker) : picker_(picker) {}
 
-  /// Fills an empty placement for the end of the step. Throws GlError if GL did not work.
+  /// Fills `placement`, which must be empty, for the end of the step. Throws GlError if GL did not
+  /// work.
   void find(const CollisionRequest& request, AxisPlacement& placement);
 
  private:
-  /// The faces of an organ, between welded vertices if these are at one place.
+  /// The faces of an organ, with the vertices as which their corners count (SurfaceTopology).
   struct Surface {
     const TriangleMesh& organ;
-    const SurfaceTopology* welding;  ///< null: each face has its own vertices
+    const SurfaceTopology* welding;  ///< null: corners count as themselves
     bool has_sides;
 
     Triangle face(std::uint32_t number) const {

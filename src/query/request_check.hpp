@@ -8,16 +8,17 @@
 
 namespace organ_collision {
 
-/// [1] How far the linear part of a legal pose may be from a rotation.
+/// [1] The largest difference, in an element, of R times its transpose from the identity, where R
+/// is the linear part of a legal pose.
 inline constexpr double kRotationTolerance = 1e-9;
 
-// All checks throw std::invalid_argument, naming the value and what is legal.
+// All checks throw std::invalid_argument. Its text names the value and what is legal.
 
 /// Refuses a request that has no answer (see CollisionQuery::evaluate).
 void check(const CollisionRequest& request);
 
-/// The viewing volume of a request in one of the paper's modes. `request` is otherwise legal.
-/// Throws VolumeError if its shaft is too short or too thin for the volume.
+/// The viewing volume of a request in one of the paper's modes, which check() has accepted. Throws
+/// VolumeError if the shaft is too short or too thin for the volume.
 ViewingVolume paper_volume(const CollisionRequest& request);
 
 void check_tool(const ProxyTool& tool);

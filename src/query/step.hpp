@@ -12,22 +12,22 @@
 namespace organ_collision {
 
 /// The step of a request, leg by leg. A leg is the motion of the tool from one waypoint of the path
-/// to the next, and of the organ in the same fraction of the step. The step refers to the request
-/// and the path, which must outlive it.
+/// to the next, and the motion of the organ meanwhile. The step refers to the request and the path,
+/// which must outlive the step.
 class Step {
  public:
-  /// `path` is the request's, or a subdivision of it. `boxes` is memory for the boxes of the
-  /// organ's earlier shape. They are refitted if that shape does not share the clusters of the
-  /// later one.
+  /// `path` is the request's path, or a subdivision of it. `boxes` is memory for the boxes of the
+  /// organ's earlier shape, and must outlive the step. It is used if both shapes do not share
+  /// clusters.
   Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& boxes);
 
-  /// The step of zero duration at the end of this one, or at its start.
+  /// A step without motion at the end of this step, or at its start.
   Step at_end() const { return {organ_, *this, last()}; }
   Step at_start() const { return {organ_before_ ? *organ_before_ : organ_, *this, waypoints_[0]}; }
 
   const TriangleMesh& organ() const { return organ_; }
   bool has_shaft() const { return radius_ > 0.0; }
-  double radius() const { return radius_; }  ///< [m] of the shaft
+  double radius() const { return radius_; }  ///< [m] radius of the shaft
   std::size_t link_count() const { return links_ ? links_->size() : 0; }
   const Link& link(std::size_t link) const { return (*links_)[link]; }
   /// The number of a link, as in FaceContact::link.
@@ -35,18 +35,18 @@ class Step {
     return static_cast<std::uint32_t>(has_shaft() ? link + 1 : link);
   }
 
-  /// Number of legs. A tool at rest has one leg, without motion.
+  /// The number of legs. A tool at rest has one leg, without motion.
   std::size_t leg_count() const { return waypoint_count_ > 1 ? waypoint_count_ - 1 : 1; }
-  /// The fraction of the step at a time of a leg, in [0, 1].
+  /// The fraction of the step at the time `time` of a leg, in [0, 1].
   double fraction_at(std::size_t leg, double time) const {
     return begin(span_of(leg)) + time * (finish(span_of(leg)) - begin(span_of(leg)));
   }
-  /// The leg at a fraction of the step; at a waypoint, the earlier one.
+  /// The leg at a fraction of the step. At a waypoint, it is the leg that ends there.
   std::size_t leg_at(double fraction) const;
 
-  /// The span of a single leg.
+  /// The span that consists of a single leg.
   LegSpan span_of(std::size_t leg) const { return {leg, leg + 1, 0.0}; }
-  /// Long spans that begin with a leg; see leg_span.hpp.
+  /// A span of the shaft or of a link that begins with the leg `leg`; see leg_span.hpp.
   LegSpan shaft_span(std::size_t leg) const;
   LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
 
@@ -58,9 +58,10 @@ class Step {
   /// The motion of the organ during a span.
   OrganMotion organ_motion(const LegSpan& span) const;
   FaceLeg face_leg(std::size_t leg, std::uint32_t face) const;
-  /// The leg of a span at a time of its chord, in [0, 1]; at a waypoint, the earlier one.
+  /// The leg of a span at the time `time` of the chord, in [0, 1]. At a waypoint, it is the leg
+  /// that ends there.
   std::size_t leg_at(const LegSpan& span, double time) const;
-  /// The shaft and the links at the end of the step.
+  /// Where the shaft or a link is at the end of the step.
   PartEnd shaft_end() const { return {last().axis}; }
   PartEnd link_end(std::size_t link) const { return {{}, &(*links_)[link], last().links[link]}; }
 
@@ -89,13 +90,13 @@ class Step {
   const std::vector<Link>* links_;
   const ToolWaypoint* waypoints_;
   std::size_t waypoint_count_;
-  /// The boxes of the earlier shape in the clusters of the later one; null if the organ rests.
+  /// The boxes of the earlier shape for the clusters of the later one; null if the organ rests.
   const BlockBoxes* boxes_before_ = nullptr;
 };
 
 /// The shaft of a tool, or a part of one of its links.
 struct ToolPart {
-  const LinkPart* shape = nullptr;  ///< null: the shaft
+  const LinkPart* shape = nullptr;  ///< the part of a link; null: the shaft
   std::size_t link = 0;
 
   bool is_surface() const { return shape && shape->surface; }
@@ -105,12 +106,12 @@ struct ToolPart {
   double surface_radius(const Step& step) const {
     return shape ? shape->ball_radius() : step.radius();
   }
-  /// A surface counts as one convex part for each of its triangles.
+  /// The number of convex parts: a surface has one for each of its triangles.
   std::size_t convex_count() const { return is_surface() ? shape->surface->faces().size() : 1; }
 };
 
-/// Calls use(part_leg) with a part that moves along the chord of a span. The part leg refers to a
-/// motion that lives only during the call.
+/// Calls use(part_leg), where part_leg is the part as it moves along the chord of a span. part_leg
+/// refers to a motion that lives only during the call.
 template <typename Use>
 void with_part_leg(const Step& step, const LegSpan& span, const ToolPart& part, Use use) {
   if (!part.shape) return use(PartLeg{step.shaft_motion(span), step.radius(), step.shaft_end(), 0});
@@ -121,8 +122,8 @@ void with_part_leg(const Step& step, const LegSpan& span, const ToolPart& part, 
               step.link_number(part.link)});
 }
 
-/// Calls use(part, span) for each part of a tool and each span of legs on which it stays near its
-/// chord. Goes from link to link, then from span to span.
+/// Calls use(part, span) for each part of a tool and each of its spans of legs. The order is: link
+/// by link, then span by span, then part by part.
 template <typename Use>
 void for_each_part(const Step& step, Use use) {
   for (std::size_t leg = 0; step.has_shaft() && leg < step.leg_count();) {

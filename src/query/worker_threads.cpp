@@ -6,10 +6,11 @@ namespace organ_collision {
 
 std::size_t thread_count(int asked_for) {
   if (asked_for > 0) return static_cast<std::size_t>(asked_for);
-  return std::max(1u, std::thread::hardware_concurrency());  // 0: the system does not tell.
+  return std::max(1u, std::thread::hardware_concurrency());  // It is 0 if it is unknown.
 }
 
-/// Does something for a task without the lock. If it throws, the round ends before this task.
+/// Runs `action` for a task while the lock is released. If the action throws, no task from this one
+/// on is begun or delivered any more.
 template <typename Action>
 void WorkerThreads::attempt(std::size_t task, Lock& lock, const Action& action) {
   std::exception_ptr error;
@@ -89,7 +90,7 @@ void WorkerThreads::live(std::size_t worker) {
   }
 }
 
-/// Begins the next task, which must exist.
+/// Begins the next task and does it. There must be a next task.
 void WorkerThreads::do_task(std::size_t worker, Lock& lock) {
   const std::size_t task = next_++;
   ++working_;

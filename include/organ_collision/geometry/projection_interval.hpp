@@ -2,11 +2,11 @@
 
 namespace organ_collision {
 
-/// What a shape covers along a direction: the least and the greatest direction · point of its
-/// points. In metres if the direction is unit.
+/// The interval that a shape covers along a direction: the least and the greatest value of
+/// direction · point over its points. In metres if the direction is a unit vector.
 struct ProjectionInterval {
-  double low;   ///< the least
-  double high;  ///< the greatest
+  double low;   ///< the least value
+  double high;  ///< the greatest value
 };
 
 }  // namespace organ_collision

@@ -10,7 +10,7 @@ namespace organ_collision {
 /// The corners of a triangle, in order [m]. Its outward side is given by the right-hand rule.
 using Triangle = std::array<Eigen::Vector3d, 3>;
 
-/// The point with the given barycentric coordinates, one for each corner, which sum to 1 [m].
+/// [m] The point with the given barycentric coordinates: one for each corner, with the sum 1.
 inline Eigen::Vector3d point_at(const Triangle& triangle, const Eigen::Vector3d& barycentric) {
   return barycentric[0] * triangle[0] + barycentric[1] * triangle[1] + barycentric[2] * triangle[2];
 }

@@ -42,8 +42,8 @@ struct CollisionRequest {
   const std::vector<Link>* links = nullptr;
   /// What is asked: static, swept or one of the paper's modes.
   QueryMode mode = QueryMode::kStatic;
-  /// Whether to clip the face of each contact to the tool's viewing volume as well. Paper modes
-  /// have no regions.
+  /// Asks for the region of each contact: the part of its face in the viewing volume of the tool.
+  /// Paper modes have no regions.
   bool regions = false;
 
   /// [m] Asks for the clearance up to this distance. 0: not asked for.
@@ -55,10 +55,11 @@ struct CollisionRequest {
 
   /// Asks on which side of the surface the tool is, and where its axis pierces the surface.
   bool placement = false;
-  /// How the faces of `organ` join. Make it once for each mesh, not for each shape. Null: the
-  /// placement has crossings, but its sides are unknown.
+  /// How the faces of `organ` join. Make the topology once for each mesh, not for each shape. Null:
+  /// the placement has crossings, but its sides are unknown.
   const SurfaceTopology* surface_topology = nullptr;
-  /// For the placement of a tool without a shaft: its tip at the end of the step, if it has one.
+  /// The tip at the end of the step, of a tool that has a tip but no shaft. Only the placement uses
+  /// it.
   std::optional<Eigen::Vector3d> tip;
 };
 
@@ -71,10 +72,10 @@ inline bool asks_for_clearance(const CollisionRequest& request) {
 struct CollisionResult {
   /// One contact for each face and link that touch, sorted by face, then link.
   std::vector<FaceContact> contacts;
-  /// One region for each contact, or empty if the request did not ask for regions. A region may be
-  /// empty.
+  /// One region for each contact, in the order of `contacts`. No region if the request did not ask
+  /// for regions. A single region may be an empty polygon.
   std::vector<Region> regions;
-  /// Number of contacts with is_resolved == false; see FaceContact.
+  /// The number of contacts whose is_resolved is false; see FaceContact.
   std::size_t unresolved = 0;
 
   /// If asked for: the faces within the margin that the tool does not touch during the step,
@@ -82,10 +83,10 @@ struct CollisionResult {
   /// link that comes nearest to it. The fields are those of a contact, at the time of the closest
   /// approach instead of the first touch. `depth` is minus the distance at that time.
   std::vector<FaceContact> near;
-  /// The number of such faces that are not in `near`, because max_near nearer ones are.
+  /// The number of faces that are left out of `near`, because max_near faces are nearer.
   std::size_t near_left_out = 0;
   /// The number of faces that may be within the margin but were not measured to the end, because
-  /// the query reached its work limit. They are in neither of the two above.
+  /// the query reached its work limit. Neither `near` nor `near_left_out` contains them.
   std::size_t near_unresolved = 0;
   /// If asked for: how far the tool is from the organ.
   ToolClearance clearance;
@@ -93,9 +94,10 @@ struct CollisionResult {
   AxisPlacement placement;
 };
 
-/// Finds the faces of an organ that a tool touches. OpenGL picking finds the candidates, exact
-/// distances confirm them. No face that the tool touches is missed (see doc/exactness.md). The
-/// paper modes are the exception: they return the faces in the paper's volumes, which miss some.
+/// Finds the faces of an organ that a tool touches. OpenGL picking finds the candidate faces. Exact
+/// distances then decide which of them the tool touches. No face that the tool touches is missed
+/// (see doc/exactness.md). The modes of the 1999 paper are the exception: they return the faces in
+/// the paper's volumes, and these volumes miss some faces.
 ///
 /// This example prints the faces that a swept shaft touches (complete: test/install/consumer):
 /// \code
@@ -125,11 +127,11 @@ struct CollisionResult {
 /// a result that is used again keeps its own, so repeated calls rarely allocate.
 class CollisionQuery {
  public:
-  /// `settings` change how candidates are picked, and the speed, but never the contacts. Throws
-  /// GlError if OpenGL picking does not work in this process.
+  /// `settings` decide how candidates are picked and how fast the query is. They never change the
+  /// contacts. Throws GlError if OpenGL picking does not work in this process.
   explicit CollisionQuery(const PickerSettings& settings = {});
   ~CollisionQuery();
-  /// A query from which another one was moved may only be destroyed or assigned to.
+  /// Leaves the other query without state: it may only be destroyed or assigned to.
   CollisionQuery(CollisionQuery&&) noexcept;
   /// Destroys this query's OpenGL context and takes over that of the other query.
   CollisionQuery& operator=(CollisionQuery&&) noexcept;
@@ -153,7 +155,7 @@ class CollisionQuery {
   ///   finite.
   void evaluate(const CollisionRequest& request, CollisionResult& result);
 
-  /// The GL_VERSION and the platform of the query's OpenGL context, or that there is none.
+  /// The GL_VERSION and the platform of the query's OpenGL context, or a text: there is none.
   const std::string& gl_version() const;
 
  private:

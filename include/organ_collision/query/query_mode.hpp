@@ -9,8 +9,8 @@ enum class QueryMode : std::uint8_t {
   kStatic = 0,       ///< what the tool touches at the end of its path
   kSwept = 1,        ///< what the tool touches anywhere on its path
   kPaperStatic = 2,  ///< the faces in the static volume of the 1999 paper, without exact distances
-  kPaperSwept = 3,   ///< the same for the paper's swept volume
-  kPaperNaive = 4    ///< the same for the paper's naive swept volume
+  kPaperSwept = 3,   ///< the faces in the paper's swept volume, without exact distances
+  kPaperNaive = 4    ///< the faces in the paper's naive swept volume, without exact distances
 };
 
 /// Whether a mode looks only at the end of the path.

@@ -8,7 +8,7 @@ namespace organ_collision::names {
 inline constexpr char kNode[] = "organ_collision";
 
 ///@{
-/// A topic.
+/// The name of a topic.
 inline constexpr char kOrganMesh[] = "organ_mesh";
 inline constexpr char kOrganVertices[] = "organ_vertices";
 inline constexpr char kContacts[] = "contacts";
@@ -16,7 +16,7 @@ inline constexpr char kMarkers[] = "markers";
 ///@}
 
 ///@{
-/// A service.
+/// The name of a service.
 inline constexpr char kQuery[] = "query";
 inline constexpr char kQueryBatch[] = "query_batch";
 inline constexpr char kReset[] = "reset";
@@ -25,11 +25,12 @@ inline constexpr char kRemoveOrgan[] = "remove_organ";
 inline constexpr char kReloadTools[] = "reload_tools";
 ///@}
 
-/// A parameter. --help shows all others, whose names stand only in the tables of the nodes.
+/// The name of the parameter that lists the tools. All other parameters are named in the tables of
+/// the nodes, and --help prints them.
 inline constexpr char kTools[] = "tools";
 
 ///@{
-/// A key of the entries of `tools`.
+/// A key of an entry of the parameter `tools`.
 inline constexpr char kToolName[] = "name";
 inline constexpr char kTrocarFrame[] = "trocar_frame";
 inline constexpr char kTipFrame[] = "tip_frame";

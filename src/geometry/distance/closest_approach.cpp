@@ -9,7 +9,7 @@
 namespace organ_collision {
 namespace {
 
-/// Searches one leg of one core and one face.
+/// Searches for the closest approach of one core and one face on one leg.
 class ApproachSearch {
  public:
   ApproachSearch(const CoreMotion& core, const FaceMotion& face, double distance_bound,
@@ -36,7 +36,7 @@ class ApproachSearch {
   }
 
  private:
-  /// [m] Smaller distances than this are still of interest.
+  /// [m] Only smaller distances than this are still of interest.
   double limit() const { return least_ - tolerance::kApproach; }
 
   std::optional<ClosestApproach> find_at_rest() {
@@ -59,10 +59,10 @@ class ApproachSearch {
     return is_too_slow || clear_share(from, to, core_, limit()) > 1.0;
   }
 
-  /// Looks for smaller distances between two instants. Begins in the half whose end is nearer, so
-  /// that the limit falls soon.
+  /// Looks for smaller distances between two instants. Begins with the half of the interval at
+  /// whose end the distance is smaller, so that the limit falls soon.
   void search(const Instant& from, const Instant& to, int halvings) {
-    constexpr int kMaxHalvings = 60;  // The speed alone ends the search earlier.
+    constexpr int kMaxHalvings = 60;  // The bound by speed ends the search earlier.
     if (limit() <= 0.0 || halvings == kMaxHalvings) return;
     budget_.spend(1);
     if (stays_above_limit(from, to)) return;
@@ -78,12 +78,13 @@ class ApproachSearch {
   const CoreMotion& core_;
   const FaceMotion& face_;
   const double farthest_move_;
-  double least_;  ///< [m] the bound, or the smallest distance found
+  double least_;  ///< [m] the smallest distance found so far, first the bound
   std::optional<ClosestApproach> found_;
   WorkBudget& budget_;
 };
 
-/// Takes one face down the tree of a surface.
+/// Searches for the closest approach of one face and the triangles of a surface, down its tree of
+/// boxes.
 class SurfaceSearch {
  public:
   SurfaceSearch(const ToolSurface& surface, const RigidMotion& motion, const FaceMotion& face,
@@ -128,7 +129,7 @@ class SurfaceSearch {
   const ToolSurface& surface_;
   const RigidMotion& motion_;
   const FaceMotion& face_;
-  double least_;  ///< [m] the bound, or the smallest distance found
+  double least_;  ///< [m] the smallest distance found so far, first the bound
   std::optional<ClosestApproach> found_;
   WorkBudget& budget_;
 };

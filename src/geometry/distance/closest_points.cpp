@@ -13,20 +13,21 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// The place in [0, 1] nearest to `point` on a segment that begins at the origin; `if_degenerate`
-/// if the segment has no length.
+/// The place, in [0, 1], that is nearest to `point` on a segment from the origin to `segment`;
+/// `if_degenerate` if the segment has no length.
 double nearest_place(const Vector3d& point, const Vector3d& segment, double if_degenerate) {
   const double length2 = segment.squaredNorm();
   if (!(length2 > 0.0)) return if_degenerate;
   return std::clamp(point.dot(segment) / length2, 0.0, 1.0);
 }
 
-/// Collects pairs of points of an axis and a face. At least one of them is a nearest pair: where
-/// the axis pierces the face, each end of the axis with its projection into the face, each edge
-/// with the axis and with both its ends, each corner with the axis. The ends are left out if the
-/// whole face is beside the axis, between the planes through its ends: each point of the face then
-/// has a nearest point within the axis. Both points of a pair lie on axis and face, so rounding
-/// never makes a distance too small. All points are relative to the trocar.
+/// Collects pairs of points of an axis and a face. At least one of them is a pair of nearest
+/// points. The pairs are: the point where the axis pierces the face; each end of the axis and its
+/// projection into the face; each edge and the axis; each edge and each end of the axis; each
+/// corner and the axis. The pairs with the ends are left out if the whole face is beside the axis,
+/// between the planes through its ends: for each point of the face, the nearest point of the axis
+/// is then not an end. Both points of a pair lie on axis and face, so rounding never makes a
+/// distance too small. All points are relative to the trocar.
 class NearestPair {
  public:
   struct Pair {
@@ -54,9 +55,9 @@ class NearestPair {
         [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
   }
 
-  /// Of the pairs that are tied with the least one, the one nearest the tip. Tied pairs of two
-  /// convex shapes have the same separation vector, so pairs whose vectors differ are not tied,
-  /// however similar their distances.
+  /// Of the pairs that are tied with the least pair, the pair nearest to the tip. Tied pairs of two
+  /// convex shapes have the same separation vector. So pairs whose vectors differ are not tied,
+  /// even if their distances are almost equal.
   const Pair& nearest_tip(const Pair& least) const {
     const Pair* best = &least;
     for (auto pair = pairs_.begin(); pair != pairs_.begin() + count_; ++pair) {
@@ -71,11 +72,11 @@ class NearestPair {
  private:
   /// Whether the whole face lies between the planes through the ends of the axis, so that the ends
   /// need not be tried. Rounding can hide that the axis pierces a face close to an end, or a sliver
-  /// that is much longer than the axis. Only the pair with that end is then near the true distance.
-  /// The two limits keep the ends of such faces.
+  /// that is much longer than the axis. Then only a pair with an end of the axis is near the true
+  /// distance, so the two limits below keep the ends for such faces.
   bool is_beside() const {
-    constexpr double kMargin = 1e-3;   // [axis lengths] from the planes through both ends
-    constexpr double kFarthest = 1e3;  // [axis lengths] of a corner from the trocar
+    constexpr double kMargin = 1e-3;   // [axis lengths] distance from the planes through the ends
+    constexpr double kFarthest = 1e3;  // [axis lengths] distance of a corner from the trocar
     const double length2 = axis_.squaredNorm();
     return std::all_of(face_.begin(), face_.end(), [&](const Vector3d& corner) {
       const double along = corner.dot(axis_);
@@ -84,9 +85,9 @@ class NearestPair {
     });
   }
 
-  /// Adds a pair. The caller sets the barycentric coordinates in the result: passing them as an
-  /// argument would copy a vector just after its components were written one by one, which stalls
-  /// the processor.
+  /// Adds a pair. The caller sets the barycentric coordinates in the result. If they were an
+  /// argument, a vector would be copied just after its components were written one by one, which
+  /// stalls the processor.
   Pair& consider(double shaft, const Vector3d& on_face) {
     Pair& pair = pairs_[count_++];
     const Vector3d separation = on_face - shaft * axis_;
@@ -96,8 +97,8 @@ class NearestPair {
     return pair;
   }
 
-  /// Adds the pairs whose point on the face lies inside it. Edges and corners are considered
-  /// separately.
+  /// Adds the pairs whose point on the face lies inside of the face, and not on an edge or a
+  /// corner.
   void consider_inside() {
     const Vector3d area = twice_area(face_);
     if (!(area.squaredNorm() > 0.0)) return;

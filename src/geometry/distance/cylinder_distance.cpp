@@ -27,7 +27,7 @@ class NearestToCylinder {
   const ClosestPoints& nearest() const { return nearest_; }
 
  private:
-  /// The vector from the nearest point of the solid cylinder to a point; zero inside.
+  /// The vector from the nearest point of the solid cylinder to `point`; zero if `point` is inside.
   Vector3d separation(const Vector3d& point) const {
     const Vector3d from_end = point - cylinder_.points[0];
     const double place = along_.dot(from_end);
@@ -57,7 +57,7 @@ class NearestToCylinder {
     consider(barycentric, on_face, separation(on_face));
   }
 
-  /// Half of the first and half of the second derivative of the squared distance along a line.
+  /// The first and the second derivative of the squared distance along a line, each divided by 2.
   struct Slope {
     double value, rise;
   };
@@ -78,9 +78,10 @@ class NearestToCylinder {
     return slope;
   }
 
-  /// The place on an edge, in [0, 1], with the least distance. The slope rises along the edge, so
-  /// Newton's method finds where it is zero, except for rounding. The bracket is halved instead if
-  /// Newton's step leaves it or makes less progress than halving.
+  /// The place on an edge, in [0, 1], with the least distance: there the slope is zero. The slope
+  /// rises along the edge, so Newton's method finds the place, except for rounding. If a step of it
+  /// leaves the bracket from `low` to `high`, or progresses less than halving would, the bracket is
+  /// halved.
   double nearest_place(const Vector3d& corner, const Vector3d& edge) {
     constexpr int kMaxSteps = 200;  // Halving alone needs about sixty.
     if (slope(corner, edge).value >= 0.0) return 0.0;
@@ -103,8 +104,8 @@ class NearestToCylinder {
     return place;
   }
 
-  /// Considers the cylinder's support point with its projection into the face. If the projection
-  /// lies outside, the nearest point of the face is on an edge.
+  /// Considers the point of the cylinder that is nearest to the face's plane. If its projection
+  /// lies outside of the face, the nearest point of the face is on an edge.
   void consider_inside() {
     const Vector3d area = twice_area(face_);
     if (!(area.squaredNorm() > 0.0)) return;
@@ -116,9 +117,9 @@ class NearestToCylinder {
     } else if (below > 0.0) {
       consider_projection(back, -below * normal, area);
     } else {
-      // The cylinder crosses the face's plane. It suffices to consider any one point of the
-      // section: if it lies outside the face and the section overlaps the face, the section crosses
-      // an edge.
+      // The cylinder crosses the face's plane. One common point of cylinder and plane suffices. If
+      // it lies outside of the face but the cylinder meets the face, the cylinder also meets an
+      // edge.
       const double share = above + below < 0.0 ? below / (above + below) : 0.5;
       consider_projection(back + share * (front - back), Vector3d::Zero(), area);
     }
@@ -137,8 +138,8 @@ class NearestToCylinder {
   const Triangle& face_;
   const Vector3d along_;
   const double length_, radius_;
-  bool is_found_ = false;  ///< no pair can be nearer than `nearest_`
-  int slopes_ = 0;         ///< that Newton's method has computed
+  bool is_found_ = false;  ///< whether no pair can be nearer than `nearest_`
+  int slopes_ = 0;         ///< number of slopes that were computed
   ClosestPoints nearest_{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
 };
 

@@ -8,8 +8,8 @@ namespace {
 
 using Eigen::Array4f;
 
-/// [1] Allowance for rounding, as a share of the largest coordinates. About ten operations in 32
-/// bits, each with a relative error of 2^-24, lead to a squared distance.
+/// [1] The allowance for rounding, as a share of the largest coordinates: about ten operations in
+/// 32 bits lead to a squared distance, each with a relative error of 2^-24.
 constexpr double kRounding = 2e-6;
 
 Array4f padded(const Eigen::Vector3d& v) {
@@ -38,7 +38,7 @@ void FaceSearch::rank_members(const Ranked& group, float squared_bound) {
   rank_groups(group.level - 1, group.index * FaceClusters::kGroup, squared_bound);
 }
 
-/// Ranks at most kGroup groups of a level, from `begin` on.
+/// Ranks up to kGroup groups of a level, from the group `begin` on.
 void FaceSearch::rank_groups(std::uint32_t level, std::size_t begin, float squared_bound) {
   const std::vector<Box>& after = organ_->after().block_boxes().groups(level);
   const std::vector<Box>& before = organ_->boxes_before().groups(level);
@@ -90,7 +90,8 @@ std::optional<FaceSearch::Ranked> FaceSearch::pop_nearest(Ranking& ranking, floa
   return nearest;
 }
 
-/// The box around the faces of a block's cluster during the whole motion. Empty if there are none.
+/// The box around the faces of a block's cluster during the whole motion. Empty if the cluster has
+/// no faces.
 FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
   constexpr float kMost = std::numeric_limits<float>::max();
   const std::vector<Box>& after = organ_->after().block_boxes().blocks();
@@ -103,7 +104,7 @@ FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
   return box;
 }
 
-/// Infinite for an empty box.
+/// [m^2] A lower bound of the squared distance from the search's box; infinite for an empty box.
 float FaceSearch::squared_distance(const Box& box) const {
   if (box.min[0] > box.max[0]) return std::numeric_limits<float>::infinity();
   const Array4f middle = 0.5F * box.min + 0.5F * box.max - center_;

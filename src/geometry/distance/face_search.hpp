@@ -12,17 +12,17 @@
 
 namespace organ_collision {
 
-/// Visits the faces of an organ that may be near a box. It leaves out whole groups, then clusters,
-/// then single faces that are too far away. The nearest groups and clusters come first, so a search
-/// for the nearest face soon has a small bound. See doc/geometry.md, Closest approach.
+/// Visits the faces of an organ that may be near a box. It skips whole groups of faces, then
+/// clusters (see FaceClusters), then single faces that are too far away. The nearest groups and
+/// clusters come first, so a search for the nearest face soon has a small bound. See
+/// doc/geometry.md, Closest approach.
 ///
-/// It computes in 32 bits and allows for their rounding: no face within the bound is left out.
-/// Keeps its memory between searches.
+/// It computes in 32 bits and allows for the rounding: no face within the bound is skipped. Keeps
+/// its memory between searches.
 class FaceSearch {
  public:
-  /// Calls measure(number) for each face that may come within bound() [m] of `box` while the organ
-  /// moves, and for some that do not. `measure` may lower what bound() returns: faces beyond it are
-  /// then left out.
+  /// Calls measure(number) for each face that comes within bound() [m] of `box` while the organ
+  /// moves, and for some other faces. `measure` may lower the value of bound() during the search.
   template <typename Bound, typename Measure>
   void visit(const OrganMotion& organ, const OrientedBox& box, Bound bound, Measure measure) {
     start(organ, box);
@@ -44,23 +44,23 @@ class FaceSearch {
 
  private:
   using Box = BlockBoxes::Box;
-  /// The coordinates of a vertex along the axes of the search's box, relative to its centre, as the
-  /// smallest and largest values [m] during the motion. The fourth values are zero.
+  /// The smallest and largest coordinates [m] of a vertex during the motion, along the axes of the
+  /// search's box and relative to the box's centre. The fourth values are zero.
   struct PlacedVertex {
     Eigen::Array4f low, high;
   };
-  /// A group or a block, with a lower bound of the squared distance [m^2] from the box to the faces
-  /// of its clusters.
+  /// A group or a block, with a lower bound of the squared distance [m^2] from the search's box to
+  /// the faces of its clusters.
   struct Ranked {
     float squared_distance;
     std::uint32_t index;
-    std::uint32_t level;  ///< of the group; 0 for a block
+    std::uint32_t level;  ///< the level of the group; 0 for a block
   };
-  /// Orders a heap whose front is the nearest one.
+  /// The order of a heap whose front is the nearest group or block.
   static bool is_farther(const Ranked& a, const Ranked& b) {
     return a.squared_distance > b.squared_distance;
   }
-  /// Such a heap.
+  /// A heap of groups or blocks, the nearest one in front.
   using Ranking = std::vector<Ranked>;
 
   const FaceClusters& clusters() const { return organ_->after().clusters(); }
@@ -69,7 +69,8 @@ class FaceSearch {
   void rank_members(const Ranked& group, float squared_bound);
   void rank_groups(std::uint32_t level, std::size_t begin, float squared_bound);
   void rank_blocks(std::uint32_t section, float squared_bound);
-  /// Places the vertices of the faces of the block's cluster, unless that is done.
+  /// Finds the PlacedVertex of each vertex of the faces of the block's cluster, unless it is found
+  /// already.
   void place_vertices(std::uint32_t block);
   static void push(const Ranked& ranked, float squared_bound, Ranking& ranking);
   /// Takes out the nearest group or block, unless it is beyond the bound.
@@ -77,14 +78,14 @@ class FaceSearch {
 
   /// [m^2] The square of a bound, with the allowance for rounding.
   float squared(double bound) const {
-    constexpr double kMost = 1e18;  // [m] Its square is still a 32-bit number.
+    constexpr double kMost = 1e18;  // [m] Its square does not overflow a 32-bit number.
     const auto grown = static_cast<float>(std::clamp(bound, 0.0, kMost) + slack_);
     return grown * grown;
   }
-  // Lower bounds [m^2] without that allowance.
+  // The functions below give lower bounds [m^2] without the allowance for rounding.
   float squared_distance(const Box& box) const;
-  /// [m^2] To the box around the face. The edges of that box are parallel to those of the search's
-  /// box.
+  /// [m^2] A lower bound of the squared distance from the search's box to a face: the squared
+  /// distance to the box around the face. Both boxes have parallel edges.
   float squared_distance(const FaceIndices& corners) const {
     const PlacedVertex &a = placed_[corners[0]], &b = placed_[corners[1]], &c = placed_[corners[2]];
     const Eigen::Array4f low = a.low.min(b.low).min(c.low);
@@ -94,13 +95,13 @@ class FaceSearch {
   Box box_around(std::uint32_t block) const;
 
   std::optional<OrganMotion> organ_;
-  // The box [m]. The fourth values are zero.
+  // The search's box [m]. The fourth values are zero.
   Eigen::Array4f center_, half_size_;
-  std::array<Eigen::Array4f, 3> rows_;  ///< of the matrix whose columns are the box's axes
+  std::array<Eigen::Array4f, 3> rows_;  ///< rows of the matrix whose columns are the box's axes
   double slack_ = 0.0;                  ///< [m] the allowance for rounding
-  Ranking groups_;                      ///< of all levels
-  Ranking blocks_;                      ///< of the present section
-  std::vector<PlacedVertex> placed_;    ///< by the vertex's index in the mesh
+  Ranking groups_;                      ///< groups of all levels
+  Ranking blocks_;                      ///< blocks of the present section
+  std::vector<PlacedVertex> placed_;    ///< for each vertex of the mesh
   std::vector<char> block_is_placed_;
 };
 

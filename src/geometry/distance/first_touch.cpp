@@ -16,34 +16,35 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Where the border of a triangle passes through a plane.
+/// A point at which the border of a triangle passes through the plane of another triangle.
 struct BorderPoint {
-  Vector3d point;   ///< [m]
-  int from, to;     ///< the corners of the edge
+  Vector3d point;   ///< [m] the place of this point
+  int from, to;     ///< the corners of the edge that passes through the plane
   double fraction;  ///< the place on the edge, in [0, 1] from corner `from` to corner `to`
-  double along;     ///< the place on the line in which the planes of both triangles meet
+  double along;     ///< place on the line in which both planes meet
 };
 
-/// The segment in which a triangle cuts a plane: its ends, the one with the smaller `along` first.
+/// The segment in which a triangle cuts a plane, by its two ends. The end with the smaller `along`
+/// is first.
 using Section = std::array<BorderPoint, 2>;
 
-/// For each corner, how far it lies in front of a plane through `point`, times the length of
-/// `normal`.
+/// For each corner, its distance in front of the plane through `point` with the normal `normal`,
+/// times the length of `normal`.
 Vector3d heights(const Triangle& corners, const Vector3d& normal, const Vector3d& point) {
   return {normal.dot(corners[0] - point), normal.dot(corners[1] - point),
           normal.dot(corners[2] - point)};
 }
 
-/// Whether no plane passes between corners with these heights.
+/// Whether all three corners are on one side of the plane from which their heights are measured.
 bool is_on_one_side(const Vector3d& heights) {
   return (heights.array() > 0.0).all() || (heights.array() <= 0.0).all();
 }
 
-/// Cuts a triangle by a plane. Not all corners are on one side. `direction`: of the line in which
-/// the triangle's plane meets the other one.
+/// Cuts a triangle by a plane. The triangle must have corners on both sides of the plane.
+/// `direction` is the direction of the line in which the triangle's plane meets that plane.
 Section cut(const Triangle& corners, const Vector3d& heights, const Vector3d& direction,
             const Vector3d& origin) {
-  // The lone corner is the one on its own side of the plane.
+  // The lone corner is the only one on its side of the plane.
   const bool side[] = {heights[0] > 0.0, heights[1] > 0.0, heights[2] > 0.0};
   const int lone = side[1] == side[2] ? 0 : side[0] == side[2] ? 1 : 2;
   Section section;
@@ -68,7 +69,7 @@ Vector3d point_at(const Section& section, double place) {
   return section[0].point + place * (section[1].point - section[0].point);
 }
 
-/// The weights of the triangle's corners at a place of its section.
+/// The barycentric coordinates, in the triangle, of a place on its section.
 Vector3d barycentric_at(const Section& section, double place) {
   Vector3d weights = Vector3d::Zero();
   for (int end = 0; end < 2; ++end) {
@@ -80,13 +81,14 @@ Vector3d barycentric_at(const Section& section, double place) {
   return weights;
 }
 
-/// An unresolved touch at the start. Its pair of points belongs to core and face but need not be
-/// the nearest one, so that it needs no iteration.
+/// An unresolved touch at the start of the leg. Its points are points of core and face, but need
+/// not be the nearest ones. So no iteration is needed.
 FirstTouch unresolved_at_start(const CoreMotion& core, const FaceMotion& face) {
   return {0.0, axis_closest_points(core.start().axis(), face.start), false};
 }
 
-/// As closest_points(). Of triangles that touch when a leg begins, most cross each other.
+/// The result of closest_points(). Triangles that touch when a leg begins mostly cross each other,
+/// so the quick test for a crossing is tried first.
 ClosestPoints closest_at_start(const ConvexCore& core, const Triangle& face,
                                double distance_bound) {
   if (core.is_triangle()) {
@@ -96,15 +98,15 @@ ClosestPoints closest_at_start(const ConvexCore& core, const Triangle& face,
   return closest_points(core, face, distance_bound);
 }
 
-/// [m] Distances up to this count as a touch.
+/// [m] The largest distance that counts as a touch.
 double touching_distance(const CoreMotion& core, const FaceMotion& face, double radius) {
   const double extent = std::max(core.largest_coordinate(), face.largest_coordinate());
   return radius + tolerance::kTouch + tolerance::kRounding * extent;
 }
 
-/// How long the next interval should be, as a multiple of the last one. Nothing touched during the
-/// first `share` of the last interval. The distances [m] are those at the start and at the end of
-/// that share.
+/// How long the next interval should be, as a multiple of the last one. Nothing touches during the
+/// share `share` of the last interval. `distance_before` and `distance` [m] are the distances at
+/// the start and at the end of that share.
 double next_length(double share, double distance_before, double distance, double radius) {
   if (share > 1.0) return 2.0;
   // Twice the time until core and face touch, if they go on approaching as fast as before.
@@ -113,8 +115,8 @@ double next_length(double share, double distance_before, double distance, double
   return length > 0.0 && length < 0.25 ? length : 0.25;
 }
 
-/// [m per leg] How fast the distance of a link's core and a face falls. The closest points follow
-/// from each other at first order, so this is the velocity of these points along the normal.
+/// [m per leg] How fast the distance of a link's core and a face falls. To first order, it is the
+/// difference of the velocities of both closest points along the normal.
 double closing_speed(const Instant& now, const RigidMotion& link, const FaceMotion& face) {
   const Vector3d displacement = link.end().translation() - link.start().translation();
   const Vector3d origin = link.start().translation() + now.time * displacement;
@@ -125,17 +127,18 @@ double closing_speed(const Instant& now, const RigidMotion& link, const FaceMoti
   return now.normal.dot(of_core - organ_collision::point_at(velocities, now.closest.barycentric));
 }
 
-/// Aims at the time at which a link touches, by Newton's method. An interval that ends just before
-/// the touch is clear as a whole. One that ends behind it gives no plane that turns, because no
-/// direction is defined where core and face meet. The aim therefore falls short of the touch by as
-/// much as the last one was wrong.
+/// Predicts, by Newton's method, the time at which a link touches. The next interval of the search
+/// should end just before the touch: it is then clear as a whole. If it ends after the touch, core
+/// and face meet at its end, and no direction for a turning plane is defined there. The prediction
+/// is therefore shortened by as much as the last prediction was wrong.
 class TouchAim {
  public:
   /// `touching` [m] is the distance that counts as a touch.
   TouchAim(const RigidMotion& link, const FaceMotion& face, double radius, double touching)
       : link_(link), face_(face), radius_(radius), least_target_(0.5 * (touching - radius)) {}
 
-  /// How far to look ahead of an instant; infinite if core and face do not approach.
+  /// How much later than `now` the next interval should end; infinite if core and face do not
+  /// approach.
   double ahead_of(const Instant& now) {
     gap_ = now.closest.distance - radius_;
     speed_ = closing_speed(now, link_, face_);
@@ -143,7 +146,7 @@ class TouchAim {
     return (gap_ - std::max(shortfall_ * gap_, least_target_)) / speed_;
   }
 
-  /// Learns from the distance found at this time after the last instant.
+  /// Learns from `distance`, which was found at the time `after` behind the last instant.
   void learn(double after, double distance) {
     const double expected = std::max(gap_ - speed_ * after, 0.0);
     const double found = std::max(distance - radius_, 0.0);
@@ -156,9 +159,9 @@ class TouchAim {
   const RigidMotion& link_;
   const FaceMotion& face_;
   const double radius_, least_target_;  ///< [m]
-  double gap_ = 0.0;                    ///< [m] distance without the radius, at the last instant
-  double speed_ = 0.0;                  ///< [m per leg]
-  double shortfall_ = 0.1;              ///< [1] of the gap
+  double gap_ = 0.0;                    ///< [m] distance minus the radius, at the last instant
+  double speed_ = 0.0;                  ///< [m per leg] closing speed at the last instant
+  double shortfall_ = 0.1;              ///< [1] how much of the gap the aim leaves
 };
 
 }  // namespace
@@ -189,7 +192,7 @@ std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Trian
 
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until) {
-  constexpr int kMaxAdvances = 1000;  // About ten are needed.
+  constexpr int kMaxAdvances = 1000;  // About ten advances are needed.
   if (budget.is_used_up() && !core.start().is_axis()) return unresolved_at_start(core, face);
 
   const double farthest_move = core.farthest_move() + face.farthest_move();
@@ -202,8 +205,9 @@ std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& 
   const double touching = touching_distance(core, face, radius);
   if (stays_beyond(now.normal, core, face, touching)) return std::nullopt;
 
-  // Nothing moves fast enough to touch earlier than after this time. This advances the search even
-  // where the nearest points are too close to each other to give a reliable normal.
+  // Before this time has passed, nothing can touch, because nothing moves that fast. The search
+  // thus advances even where the nearest points are too close to each other to give a reliable
+  // normal.
   const auto clear_time = [&] { return (now.closest.distance - radius) / farthest_move; };
   std::optional<TouchAim> aim;
   if (core.link()) aim.emplace(*core.link(), face, radius, touching);

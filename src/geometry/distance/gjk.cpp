@@ -12,15 +12,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A point of the core, a corner of the face, and the vector from the one to the other: a vertex of
-/// the Minkowski difference.
+/// A vertex of the Minkowski difference of face and core: the vector from a point of the core to a
+/// corner of the face.
 struct Vertex {
   Vector3d on_core;
   Vector3d separation;
   int corner;
 };
 
-/// The hull of up to four vertices, and its point nearest to the origin as a weighted sum of them.
+/// The hull of up to four vertices, and its point that is nearest to the origin, as a weighted sum
+/// of the vertices.
 class Simplex {
  public:
   explicit Simplex(const Vertex& vertex)
@@ -35,8 +36,8 @@ class Simplex {
     return std::any_of(vertices_.begin(), vertices_.begin() + nearest_.count, is_same);
   }
 
-  /// Adds a vertex and drops the vertices that the nearest point no longer depends on. If the
-  /// vertex brings the nearest point no nearer, nothing changes and the result is false.
+  /// Adds a vertex and drops the vertices on which the nearest point no longer depends. If no point
+  /// of the new hull is nearer to the origin, nothing changes and the result is false.
   bool add(const Vertex& vertex) {
     const int added = nearest_.count;
     vertices_[added] = vertex;
@@ -52,8 +53,8 @@ class Simplex {
     return true;
   }
 
-  /// Whether the weights lead to nearest(). Those of a flat tetrahedron, which contains the origin,
-  /// may be noise.
+  /// Whether the weighted sum of the vertices is nearest(). If a tetrahedron seems to contain the
+  /// origin but is flat, its weights may be noise.
   bool is_exact() const {
     Vector3d point = Vector3d::Zero();
     for (int i = 0; i < nearest_.count; ++i) {
@@ -74,9 +75,9 @@ class Simplex {
   }
 
  private:
-  /// A weighted sum of the vertices with these indices. Weights are not negative and sum to 1, so
-  /// every sum is the vector between two points of core and face: rounding never makes it too
-  /// short.
+  /// A weighted sum of the vertices with the given indices. The weights are not negative and sum to
+  /// 1, so the sum is the vector from a point of the core to a point of the face. Rounding
+  /// therefore never makes the distance too small.
   struct Sum {
     std::array<int, 4> indices;
     std::array<double, 4> weights;
@@ -88,8 +89,8 @@ class Simplex {
     if (sum.point.squaredNorm() < best.point.squaredNorm()) best = sum;
   }
 
-  // Each of these considers the point nearest to the origin if it lies inside the edge, triangle or
-  // tetrahedron. Otherwise that point lies on the border, which the other functions cover.
+  // Each of these functions finds the point nearest to the origin if that point lies inside the
+  // edge, triangle or tetrahedron. A nearest point on its border is found by the other functions.
 
   void consider_edge(int i, int j, Sum& best) const {
     const Vector3d &a = vertices_[i].separation, edge = vertices_[j].separation - a;
@@ -131,8 +132,8 @@ class Simplex {
   Sum nearest_;
 };
 
-/// The support vertex of the Minkowski difference against `direction`: no separation of two points
-/// of core and face has a smaller dot product with it.
+/// The vertex of the Minkowski difference that is farthest against `direction`: no vector from a
+/// point of the core to a point of the face has a smaller dot product with `direction`.
 Vertex support_against(const Vector3d& direction, const ConvexCore& core, const Triangle& face) {
   const Vector3d places(direction.dot(face[0]), direction.dot(face[1]), direction.dot(face[2]));
   int corner = 0;
@@ -141,8 +142,8 @@ Vertex support_against(const Vector3d& direction, const ConvexCore& core, const 
   return {on_core, face[corner] - on_core, corner};
 }
 
-/// The nearest points of two triangles, from the nearest points of each edge of one triangle and
-/// the other triangle. This is slower than the iteration, but also exact for slivers.
+/// The nearest points of two triangles: the nearest pair of an edge of one triangle and the other
+/// triangle. This is slower than the iteration, but exact for slivers, too.
 ClosestPoints nearest_of_edges(const Triangle& core, const Triangle& face) {
   ClosestPoints nearest{std::numeric_limits<double>::infinity(), 0.0, {}, {}, {}, {}};
   const auto consider = [&](const ClosestPoints& other) {

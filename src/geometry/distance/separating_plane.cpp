@@ -7,24 +7,24 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A quadratic polynomial over [0, 1] by its Bernstein coefficients: the values at both ends, and
-/// the control value between them.
+/// A quadratic polynomial over [0, 1], given by its Bernstein coefficients: the values at both ends
+/// and the control value between them.
 struct BernsteinQuadratic {
   double start, middle, end;
 };
 
-/// The first root in (0, 1] of a quadratic whose value at the start is positive; 2 if it has no
-/// such root.
+/// The first root in (0, 1] of a quadratic whose value at the start is positive; 2 if there is no
+/// root.
 double first_root(const BernsteinQuadratic& quadratic) {
   const auto& [start, middle, end] = quadratic;
-  if (middle >= 0.0 && end > 0.0) return 2.0;  // The control polygon stays positive.
+  if (middle >= 0.0 && end > 0.0) return 2.0;  // No coefficient is negative.
   const double half_linear = middle - start;
   const double square = start - 2.0 * middle + end;
   const double discriminant = half_linear * half_linear - square * start;
   if (discriminant < 0.0) return 2.0;
   const double root = std::sqrt(discriminant);
-  // The solution has two equivalent forms. The sign of half_linear decides which one does not
-  // cancel digits.
+  // The quadratic formula has two equivalent forms. The sign of half_linear decides which of them
+  // does not subtract numbers of similar size.
   const double place =
       half_linear < 0.0 ? start / (root - half_linear) : -(root + half_linear) / square;
   return place >= 0.0 && place <= 1.0 ? place : 2.0;
@@ -32,7 +32,8 @@ double first_root(const BernsteinQuadratic& quadratic) {
 
 /// [m] How far a corner must be from a point of the core, along the turning normal, to be certainly
 /// farther than `radius` from the core: the radius, the support value of the core's rim, and the
-/// chord deviation. `normal_from` and `normal_to` are the normals at both ends.
+/// chord deviation. `normal_from` and `normal_to` are the unit normals at both ends of the
+/// interval.
 BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const CoreMotion& core,
                                 double radius, const Vector3d& normal_from,
                                 const Vector3d& normal_to) {
@@ -41,8 +42,8 @@ BernsteinQuadratic required_gap(const Instant& from, const Instant& to, const Co
   const double deviation = std::max(core.chord_deviation(duration, normal_from),
                                     core.chord_deviation(duration, normal_to));
   // The length of the turning normal is at most the quadratic with the coefficients 1,
-  // normal_length, 1. The deviation at time t is at most 4 t (1 - t) times the largest deviation, a
-  // quadratic with the coefficients 0, 2, 0 times that deviation.
+  // normal_length, 1. The chord deviation at time t is at most 4 t (1 - t) * deviation. This
+  // quadratic has the coefficients 0, 2 * deviation, 0.
   const double normal_length = 0.5 * (1.0 + normal_from.dot(normal_to));
   return {radius + (rim_from.transpose() * normal_from).norm(),
           normal_length * radius + 2.0 * deviation +
@@ -76,7 +77,7 @@ Instant::Instant(double time, const CoreMotion& core_motion, const FaceMotion& f
       normal(closest.separation.normalized()) {}
 
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius) {
-  // A plane that would turn by a right angle or more keeps its direction.
+  // If the plane would turn by a right angle or more, its normal stays `from.normal`.
   const bool turns = from.normal.dot(to.normal) > 0.0;
   const Vector3d& normal_from = from.normal;
   const Vector3d& normal_to = turns ? to.normal : from.normal;
@@ -90,7 +91,7 @@ double clear_share(const Instant& from, const Instant& to, const CoreMotion& cor
           normal_from.dot(separation_from) - required.start,
           0.5 * (normal_from.dot(separation_to) + normal_to.dot(separation_from)) - required.middle,
           normal_to.dot(separation_to) - required.end};
-      // No corner is nearer than the nearest points, except by rounding.
+      // Except for rounding, no corner is nearer along the normal than the nearest points are.
       gap.start = std::max(gap.start, from.closest.distance - radius);
       share = std::min(share, first_root(gap));
     }

@@ -13,15 +13,15 @@
 
 namespace organ_collision {
 
-/// The direction of a vector, of length 1; zero if the vector is zero. Faster than Eigen's
+/// The unit vector in the direction of a vector; zero if the vector is zero. Faster than Eigen's
 /// stableNormalized(), and as exact.
 inline Eigen::Vector3d unit_vector(const Eigen::Vector3d& vector) {
   const double squared = vector.squaredNorm();
-  const bool is_exact = squared > 1e-200 && squared < 1e200;  // The square has all its digits.
+  const bool is_exact = squared > 1e-200 && squared < 1e200;  // Neither underflow nor overflow.
   return is_exact ? Eigen::Vector3d(vector / std::sqrt(squared)) : vector.stableNormalized();
 }
 
-/// Unit normal of a triangle's plane; zero if the triangle is degenerate.
+/// The unit normal of a triangle's plane; zero if the triangle is degenerate.
 inline Eigen::Vector3d plane_normal(const Triangle& corners) {
   return unit_vector(twice_area(corners));
 }
@@ -33,17 +33,17 @@ inline ProjectionInterval project_onto(const Eigen::Vector3d& direction, const T
 }
 
 /// The first zero, in [0, 1], of the linear function from `start` to `end`: 0 if `start` is not
-/// positive, 2 if the function stays positive. A gap that is never smaller than this function is
-/// positive before that time.
+/// positive, 2 if the function stays positive. If a gap is never smaller than the function, it is
+/// positive before that zero.
 inline double first_zero(double start, double end) {
   if (start <= 0.0) return 0.0;
   return end > 0.0 ? 2.0 : start / (start - end);
 }
 
-/// A time of the leg, in [0, 1], before which a plane with a fixed normal certainly keeps a face
-/// and a part of a tool farther than some distance from each other; 2 if it does so during the
-/// whole leg. The intervals are the projections onto the normal at the start and at the end of the
-/// leg. `reach` [m] is that distance plus the chord deviation.
+/// A time of the leg, in [0, 1], before which a plane with a fixed normal proves that a face and a
+/// part of a tool are farther apart than some distance; 2 if it proves this for the whole leg. The
+/// intervals are the projections of face and part onto the normal, at the start and at the end of
+/// the leg. `reach` [m] is the distance plus the chord deviation.
 inline double clear_until(const ProjectionInterval& face, const ProjectionInterval& face_at_end,
                           const ProjectionInterval& part, const ProjectionInterval& part_at_end,
                           double reach) {
@@ -52,13 +52,14 @@ inline double clear_until(const ProjectionInterval& face, const ProjectionInterv
       first_zero(part.low - face.high - reach, part_at_end.low - face_at_end.high - reach));
 }
 
-/// A face during one leg, with what many tests of it share [m]. It refers to the face's motion,
-/// which must outlive it.
+/// A face during one leg [m], with values that many tests of this face need. Refers to the face's
+/// motion, which must outlive this object.
 struct LegFace {
   explicit LegFace(const FaceMotion& motion)
       : motion(&motion), rests(motion.start == motion.end), normal(plane_normal(motion.start)) {}
 
-  /// The same as above for the face and a part's projections onto the normal of a plane.
+  /// The time that the function clear_until() above gives for this face. `plane` is the normal of
+  /// the plane; `part` and `part_at_end` are the part's projections onto it.
   double clear_until(const Eigen::Vector3d& plane, const ProjectionInterval& part,
                      const ProjectionInterval& part_at_end, double reach) const {
     const ProjectionInterval face = project_onto(plane, motion->start);
@@ -71,35 +72,35 @@ struct LegFace {
   Eigen::Vector3d normal;  ///< unit normal at the start; zero if the face is degenerate
 };
 
-/// Whether the plane with this fixed normal keeps the core farther than `distance` [m] from the
-/// face during the whole leg. `normal` is unit and points from the core to the face. False decides
-/// nothing.
+/// Whether a plane with the fixed normal `normal` proves that the core stays farther than
+/// `distance` [m] from the face during the whole leg. `normal` is unit and points from the core to
+/// the face. If the result is false, the core may stay farther away all the same.
 bool stays_beyond(const Eigen::Vector3d& normal, const CoreMotion& core, const FaceMotion& face,
                   double distance);
 
 /// A core and a face at one time of the leg, with their nearest points and the direction of the
 /// plane that separates them.
 struct Instant {
-  double time;  ///< in [0, 1] of the leg
+  double time;  ///< the time, in [0, 1] of the leg
   ConvexCore core;
   Triangle face;
   ClosestPoints closest;
-  Eigen::Vector3d normal;  ///< unit, from the core to the face; zero where they meet
+  Eigen::Vector3d normal;  ///< unit, from the core to the face; zero if they meet
 
   /// `distance_bound` [m] is as for closest_points().
   Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,
           double distance_bound = std::numeric_limits<double>::infinity());
-  /// With known nearest points.
+  /// For a time at which the nearest points are known already.
   Instant(double time, const CoreMotion& core_motion, const FaceMotion& face_motion,
           const ClosestPoints& closest);
 };
 
-/// The share of the interval between two instants during which the distance of core and face
-/// certainly stays above `radius` [m]; above 1 if it does so during the whole interval. This is a
-/// lower bound: the true share may be larger.
+/// The share of the interval between two instants for which a turning plane proves that the
+/// distance of core and face stays above `radius` [m]; above 1 if it proves this for the whole
+/// interval. In truth the distance may stay above `radius` for longer.
 ///
-/// The bound comes from a plane whose normal turns linearly from `from.normal` to `to.normal`.
-/// Along this normal, the separation of each pair of corner and core point is a quadratic in time.
+/// The normal of the plane turns linearly from `from.normal` to `to.normal`. The distance along
+/// this normal from a point of the core to a corner of the face is a quadratic function of time.
 /// See doc/geometry.md, First touch, and Rims and chord deviation.
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius);
 

@@ -29,7 +29,9 @@ class MovingTriangle {
     deviation_ = arm * link.angle() * link.angle() / 8.0;
   }
 
-  /// As SweptBox::clear_until(). Tests the planes of face and triangle at the start of the leg.
+  /// A time before which the face surely stays farther from the triangle than `reach` [m]; above 1
+  /// if it does so during the whole leg. Tests the planes of face and triangle at the start of the
+  /// leg.
   double clear_until(const LegFace& face, double reach) const {
     double until = 0.0;
     for (const Vector3d* normal : {&normal_, &face.normal}) {
@@ -49,15 +51,15 @@ class MovingTriangle {
 
   bool rests_;
   Triangle start_, end_;
-  Vector3d normal_;   ///< unit, at the start; zero if the triangle is degenerate
+  Vector3d normal_;   ///< unit normal at the start; zero if the triangle is degenerate
   double deviation_;  ///< [m] the chord deviation
 };
 
-/// The time after which further touches of the face do not matter: its first touch so far.
+/// The time after which further touches of the face do not matter: that of its first touch so far.
 double latest(const FaceTouch& face) { return face.first ? face.first->time : 1.0; }
 
-/// [m] How much closer than `radius` another triangle has to be, to matter: only nearer ones do
-/// once the face is touched when the leg begins.
+/// [m] How much nearer than `radius` another triangle must be to matter. Once a triangle touches
+/// the face when the leg begins, only triangles that are nearer to the face matter.
 double closer(const FaceTouch& face, double radius) {
   if (!face.first || face.first->time > 0.0) return 0.0;
   return std::max(0.0, radius - face.first->closest.distance);
@@ -70,7 +72,7 @@ bool is_settled(const FaceTouch& face) {
          face.first->closest.distance <= tolerance::kPierced;
 }
 
-/// Whether `touch` is earlier than `other`, or nearer at the same time. The nearer one is deeper.
+/// Whether `touch` is earlier than `other`, or at the same time but nearer, and so deeper.
 bool precedes(const FirstTouch& touch, const FirstTouch& other) {
   return std::tie(touch.time, touch.closest.distance) <
          std::tie(other.time, other.closest.distance);
@@ -78,7 +80,7 @@ bool precedes(const FirstTouch& touch, const FirstTouch& other) {
 
 }  // namespace
 
-/// Takes faces down the tree of boxes. Faces are given as a range of the list of their numbers.
+/// Takes faces down the tree of boxes. A range [begin, end) of `listed_` says which faces.
 class SurfaceTouches::Descent {
  public:
   Descent(const ToolSurface& surface, const RigidMotion& motion, double radius, WorkBudget& budget,
@@ -90,7 +92,7 @@ class SurfaceTouches::Descent {
         faces_(touches.faces_),
         listed_(touches.listed_) {}
 
-  /// Finds the touches of the faces of a range with the triangles below a node.
+  /// Finds the touches between the faces of a range and the triangles below the node `index`.
   void visit(std::uint32_t index, std::size_t begin, std::size_t end) {
     const SweptBox box(surface_.nodes()[index].box, motion_, radius_);
     budget_.spend(end - begin);
@@ -119,8 +121,8 @@ class SurfaceTouches::Descent {
     }
   }
 
-  /// Marks the touches of the faces of a range as unresolved. A face without a touch gets one with
-  /// the triangle.
+  /// Marks the touches of the faces of a range as unresolved. A face without a touch gets a touch
+  /// with the given triangle.
   void leave_unresolved(std::uint32_t triangle, std::size_t begin, std::size_t end) {
     const CoreMotion core(ConvexCore(surface_.triangle(triangle)), motion_);
     for (std::size_t place = begin; place < end; ++place) {
@@ -130,7 +132,7 @@ class SurfaceTouches::Descent {
     }
   }
 
-  /// Finds the touches of the faces of a range with one triangle of the surface.
+  /// Finds the touches between the faces of a range and the triangle `index` of the surface.
   void touch(std::uint32_t index, std::size_t begin, std::size_t end) {
     const MovingTriangle triangle(surface_.triangle(index), motion_);
     std::optional<CoreMotion> core;
@@ -138,7 +140,7 @@ class SurfaceTouches::Descent {
       const auto& [leg, face] = faces_[listed_[place]];
       if (is_settled(*face)) continue;
       if (face->first && budget_.is_used_up()) {
-        face->first->is_resolved = false;  // This triangle may touch earlier.
+        face->first->is_resolved = false;  // This triangle may touch it earlier.
         continue;
       }
       const double until = latest(*face);

@@ -10,7 +10,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// [m] The same bound as CoreMotion::chord_deviation(), for any point of the box.
+/// [m] An upper bound of the deviation of any point of the box from linear motion, as
+/// CoreMotion::chord_deviation().
 double chord_deviation(const OrientedBox& box, const RigidMotion& motion) {
   if (motion.angle() == 0.0) return 0.0;
   double arm = motion.arm(box.center);
@@ -23,12 +24,12 @@ Vector3d unit_or(const Vector3d& vector, const Vector3d& otherwise) {
   return unit.isZero(0.0) ? otherwise : unit;
 }
 
-/// Columns: orthonormal, right-handed.
+/// The axes of box_around(): orthonormal columns, right-handed.
 Eigen::Matrix3d axes_of(const ShaftMotion& motion) {
   const ShaftAxis middle = motion.at(0.5);
   const Vector3d along = unit_or(middle.tip - middle.trocar, Vector3d::UnitX());
   const Vector3d step = motion.end.tip - motion.start.tip;
-  // Removes the part along the axis twice: the first time leaves a rounding error of it.
+  // Removes the component along the axis twice: the first time leaves a rounding error.
   Vector3d across = unit_or(step - along.dot(step) * along, along.unitOrthogonal());
   across = unit_or(across - along.dot(across) * along, along.unitOrthogonal());
   Eigen::Matrix3d axes;

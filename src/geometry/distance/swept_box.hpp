@@ -19,13 +19,13 @@ class SweptBox {
   const Eigen::Vector3d& origin() const { return start_.center; }
   /// The axes of the box in the middle of the leg: columns, orthonormal, right-handed.
   const Eigen::Matrix3d& axes() const { return axes_; }
-  /// Bounds of the covered space along each of axes(), as axis · point.
+  /// The least and the greatest axis · point of the covered space, for each of axes().
   Eigen::Vector3d low() const { return low_.array() - reach_; }
   Eigen::Vector3d high() const { return high_.array() + reach_; }
 
-  /// A time of the leg before which the face surely stays farther from the box than the radius less
-  /// `closer` [m]; above 1 if it does so during the whole leg. Tests fixed planes: those at right
-  /// angles to axes(), and the face's own plane at the start.
+  /// A time of the leg before which the face surely stays farther from the box than the radius
+  /// minus `closer` [m]; above 1 if it does so during the whole leg. Tests planes with fixed
+  /// normals: each of axes(), and the face's own normal at the start.
   double clear_until(const LegFace& face, double closer = 0.0) const;
   /// [m] A lower bound of the distance between the covered space and the face during the leg.
   double distance_bound(const FaceMotion& face) const;
@@ -36,20 +36,21 @@ class SweptBox {
   /// The box at one end of the leg.
   struct Place {
     Eigen::Vector3d center;
-    Eigen::Matrix3d half_edges;  ///< columns
-    Eigen::Vector3d low, high;   ///< projections onto `axes_`
+    Eigen::Matrix3d half_edges;  ///< columns: from the centre along the half edges
+    Eigen::Vector3d low, high;   ///< ends of the projections onto `axes_`
   };
   Place place(const OrientedBox& box, const Eigen::Isometry3d& pose) const;
 
   Eigen::Matrix3d axes_;
   bool rests_;
   Place start_, end_;
-  Eigen::Vector3d low_, high_;  ///< of both places together
-  double reach_;                ///< [m] radius plus chord deviation
+  Eigen::Vector3d low_, high_;  ///< least of both `low`, greatest of both `high`
+  double reach_;                ///< [m] how far the box grows: radius plus chord deviation
 };
 
-/// A box around all positions of an axis during a leg. Its first edge is along the axis, the second
-/// one along the motion of the tip. An axis at rest has a box without width.
+/// A box around all positions of an axis during a leg. The first edge of the box is along the axis
+/// in the middle of the leg, the second one along the motion of the tip. The box of an axis at rest
+/// has no width.
 OrientedBox box_around(const ShaftMotion& motion);
 
 }  // namespace organ_collision

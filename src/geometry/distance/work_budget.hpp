@@ -6,27 +6,27 @@
 namespace organ_collision {
 
 /// Limits the work of one query's exact tests. Work is counted in steps, not timed, so that the
-/// same query always gets the same answer. A step takes 0.1 to 0.15 us. The distance between an
-/// axis and a face costs two steps, that of a cylinder three and one more for six slopes of
-/// Newton's method, any other distance about one for each iteration, and a test against a box one.
-/// The quick tests that sort out faces before these are not counted.
+/// same query always gets the same answer. A step takes 0.1 to 0.15 us. The distance of a face from
+/// an axis costs two steps. The distance from a cylinder costs three steps, and one more for six
+/// slopes of Newton's method. Any other distance costs about one step for each iteration, and a
+/// test against a box one step. The quick tests that exclude faces beforehand are not counted.
 class WorkBudget {
  public:
-  /// The budget is this many steps for each pair of a face and a convex part in the query, whether
-  /// they are near each other or not.
+  /// The budget is this many steps for each pair of a face and a convex part on each leg, whether
+  /// they are near each other or not. A tool mesh has a convex part for each triangle.
   static constexpr std::uint64_t kStepsForEachPair = 2;
-  /// Queries with fewer pairs get the budget of this many.
+  /// A query with fewer pairs gets the budget for kLeastPairs.
   static constexpr std::uint64_t kLeastPairs = 100'000;
-  /// Queries with more pairs get the budget of this many: two to three seconds.
+  /// A query with more pairs gets the budget for kMostPairs: two to three seconds.
   static constexpr std::uint64_t kMostPairs = 10'000'000;
 
-  /// Closest approaches get this many steps for each pair, because each takes several distances.
-  /// The most that a query gets is the same.
+  /// The steps for each pair in searches for the closest approach, because each search computes
+  /// several distances. The largest budget is the same as above.
   static constexpr std::uint64_t kApproachStepsForEachPair = 20;
 
   explicit WorkBudget(std::uint64_t steps_for_each_pair = kStepsForEachPair)
       : steps_for_each_pair_(steps_for_each_pair) {}
-  /// The budget of a query's closest approaches.
+  /// The budget for searches for the closest approach.
   static WorkBudget for_approaches() { return WorkBudget(kApproachStepsForEachPair); }
   /// A budget that is never used up.
   static WorkBudget unlimited() {
@@ -37,7 +37,7 @@ class WorkBudget {
 
   void add_pairs(std::uint64_t count) { pairs_ += count; }
   void spend(std::uint64_t steps) { spent_ += steps; }
-  /// The number of steps so far.
+  /// The number of steps that were spent so far.
   std::uint64_t spent() const { return spent_; }
   bool is_used_up() const {
     constexpr std::uint64_t kMostSteps = kStepsForEachPair * kMostPairs;

@@ -13,13 +13,15 @@
 namespace organ_collision {
 namespace {
 
-/// A piece with its place [m]. Both together are moved faster than the place is looked up.
+/// Some consecutive vertices, and the place [m] of the first one: sorting is faster if the place is
+/// stored here and not looked up in the mesh.
 struct Piece {
   Eigen::Vector3f place;
   std::uint32_t first_vertex;
 };
 
-/// The size of the first part: the largest power of 2 below a count above 1.
+/// How many of `count` pieces go into the first of two parts: the largest power of 2 below `count`,
+/// which is above 1.
 std::ptrdiff_t first_part(std::ptrdiff_t count) {
   std::ptrdiff_t size = 1;
   while (2 * size < count) size *= 2;
@@ -40,16 +42,17 @@ void order(Piece* begin, Piece* end, std::ptrdiff_t together) {
   order(middle, end, together);
 }
 
-/// Orders pieces of a surface so that those that follow each other lie near each other: each
-/// aligned group of 2^k pieces is compact. A piece is `piece` consecutive vertices; its place is
-/// that of the first one. Returns these first vertices. Within each aligned group of `together`
-/// pieces, a power of 2, they are in any order. `vertices`: x y z x y z ... [m], finite.
+/// Orders the pieces of a surface so that pieces that follow each other lie near each other: each
+/// aligned group of 2^k pieces is compact. A piece is `piece` consecutive vertices, and its place
+/// is that of its first vertex. Returns the first vertices of the pieces, in the new order. Within
+/// each aligned group of `together` pieces, a power of 2, the order is arbitrary. `vertices`: x y z
+/// x y z ... [m], finite.
 ///
-/// As in a k-d tree, the places are parted across the longest side of the box around them, and the
-/// parts again. The first part has the largest power of 2 of places, and not half of them, so that
-/// each part but the last consists of whole groups. Source: Bentley 1975. A curve through a grid,
-/// such as Morton's, would be found in a third to half of the time, but its parts are not compact:
-/// queries would take up to seven times as long.
+/// As in a k-d tree, the places are divided in two across the longest side of the box around them,
+/// and each part is divided again. The size of the first part is a power of 2, and not half of the
+/// places, so that each part except the last consists of whole groups. Source: Bentley 1975. A
+/// curve through a grid, such as Morton's, would be found in a third to half of the time, but its
+/// parts are not compact: queries would take up to seven times as long.
 std::vector<std::uint32_t> compact_order(const std::vector<float>& vertices, std::size_t piece,
                                          std::size_t together) {
   std::vector<Piece> pieces;
@@ -71,8 +74,8 @@ Eigen::Vector3f vertex(const std::vector<float>& vertices, std::size_t i) {
   return Eigen::Map<const Eigen::Vector3f>(&vertices[3 * i]);
 }
 
-/// Whether vertices that follow each other in the sender's order are neighbours in space: on
-/// average over a sample, their distance is at most kFar times the length of an edge.
+/// Whether vertices that follow each other in the sender's order are neighbours in space: the mean
+/// distance of such vertices in a sample is at most kFar times the mean length of an edge.
 bool is_coherent(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
   constexpr std::size_t kMostSamples = 4096;
   constexpr double kFar = 4.0;
@@ -118,7 +121,8 @@ void FaceClusters::order_pieces(const std::vector<float>& vertices) {
   order_.resize((order_.size() + kBlock - 1) / kBlock * kBlock, order_.back());
 }
 
-/// Sorts the faces by their first block. Counting sort keeps the numbers within a cluster rising.
+/// Sorts the faces by their cluster: the first block that holds one of their vertices. This
+/// counting sort keeps the faces of a cluster in the order of their numbers.
 void FaceClusters::sort_faces(const std::vector<FaceIndices>& faces, const Numbers& block_of) {
   const auto home = [&](const FaceIndices& face) {
     return std::min({block_of[face[0]], block_of[face[1]], block_of[face[2]]});
@@ -175,12 +179,12 @@ Box empty_box() {
   return {Array4f::Constant(kMost), Array4f::Constant(-kMost)};
 }
 
-/// Loads a vertex as one vector. load() also reads the x of the next vertex, so the last vertex
-/// needs load_last().
+/// Loads the coordinates of a vertex as one vector. load() also reads one coordinate of the next
+/// vertex, so the last vertex of the mesh needs load_last().
 Array4f load(const float* xyz) { return Eigen::Map<const Array4f>(xyz); }
 Array4f load_last(const float* xyz) { return {xyz[0], xyz[1], xyz[2], 0.0F}; }
 
-/// The box around the first `count` vertices. Adds their coordinates to `sum`.
+/// The box around the first `count` vertices. Adds the coordinates of these vertices to `sum`.
 inline Box box_around(const float* xyz, std::size_t count, Array4f& sum) {
   Box box = empty_box();
   Array4f own_sum = Array4f::Zero();
@@ -193,12 +197,12 @@ inline Box box_around(const float* xyz, std::size_t count, Array4f& sum) {
   return box;
 }
 
-/// Fits the boxes of blocks that are consecutive vertices. Iterates over the vertices in the
-/// sender's order, because the boxes fit into the cache and the vertices may not. Returns the sum
-/// of all coordinates.
+/// Fits the boxes of blocks of consecutive vertices. Iterates over the vertices in the sender's
+/// order, because the boxes fit into the cache and the vertices may not. `block_of`: for each
+/// piece, the number of its block. Returns the sum of all coordinates.
 float fit_blocks(const std::vector<float>& vertices, const std::vector<std::uint32_t>& block_of,
                  std::vector<Box>& blocks) {
-  // The processor's own prefetching stops at the end of a page.
+  // Prefetches, because the processor's own prefetching stops at the end of a memory page.
   constexpr std::size_t kAhead = 128, kBlock = FaceClusters::kBlock;
   const float* const xyz = vertices.data();
   const std::size_t last = vertices.size() / 3 - 1, last_block = last / kBlock;
@@ -214,7 +218,8 @@ float fit_blocks(const std::vector<float>& vertices, const std::vector<std::uint
   return (sum + vertex).sum();
 }
 
-/// The same for blocks of any vertices.
+/// Fits the boxes of blocks of arbitrary vertices. `block_of`: for each vertex, the number of its
+/// block. Returns the sum of all coordinates.
 float fit_vertices(const std::vector<float>& vertices, const std::vector<std::uint32_t>& block_of,
                    std::vector<Box>& blocks) {
   std::fill(blocks.begin(), blocks.end(), empty_box());
@@ -233,7 +238,7 @@ float fit_vertices(const std::vector<float>& vertices, const std::vector<std::ui
 /// `count`, rounded up to a multiple of kGroup.
 std::size_t padded(std::size_t count) { return (count + kGroup - 1) / kGroup * kGroup; }
 
-/// The box around kGroup members of a group.
+/// The box around the boxes of the kGroup members of a group.
 Box join_members(const std::vector<Box>& members, std::size_t group) {
   Box box = members[group * kGroup];
   for (std::size_t i = 1; i < kGroup; ++i) box = box.join(members[group * kGroup + i]);
@@ -255,7 +260,7 @@ bool BlockBoxes::refit(const FaceClusters& clusters, const std::vector<float>& v
   fit_groups(clusters);
   const Box all = join_members(groups_[clusters.level_count() - 1], 0);
   all_ = {all.min.head<3>().matrix(), all.max.head<3>().matrix()};
-  // If the sum is finite, so are all coordinates. If it is not, it may merely have overflowed.
+  // If the sum is finite, all coordinates are finite. Otherwise the sum may only have overflowed.
   return std::isfinite(sum) || all_finite(vertices);
 }
 
@@ -271,7 +276,8 @@ void BlockBoxes::fit_groups(const FaceClusters& clusters) {
   }
 }
 
-/// Extends the boxes of the sections by their borders.
+/// Extends the box of each section by the boxes of its border: the blocks of other sections that
+/// hold vertices of its faces.
 void BlockBoxes::add_borders(const FaceClusters& clusters) {
   for (std::size_t section = 0; section < clusters.group_count(0); ++section) {
     for (const std::uint32_t block : clusters.border(section)) {

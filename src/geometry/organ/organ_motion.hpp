@@ -15,22 +15,22 @@ struct FaceMotion {
 
   /// The face at `time` in [0, 1] of the leg.
   Triangle at(double time) const;
-  /// [m] How far the corner that moves farthest moves.
+  /// [m] The largest distance by which a corner moves during the leg.
   double farthest_move() const;
   /// [m] The largest absolute coordinate of the corners at both ends of the leg.
   double largest_coordinate() const;
 };
 
-/// The surface of an organ during a share of a step, in its frame [m]. The organ rests, or each
-/// vertex moves linearly. This is a view of meshes that must outlive it.
+/// The surface of an organ during a part of a step, in the organ's frame [m]. The organ rests, or
+/// each vertex moves linearly. This object refers to meshes that must outlive it.
 class OrganMotion {
  public:
   /// An organ at rest.
   explicit OrganMotion(const TriangleMesh& organ)
       : before_(&organ), boxes_before_(&organ.block_boxes()), after_(&organ) {}
-  /// The share from `begin` to `finish`, fractions in [0, 1], of a step in which the organ moves
-  /// from the shape `before` to the shape `after`. Both meshes have the same faces. `boxes_before`
-  /// are the boxes of the shape `before` in the clusters of `after`.
+  /// The part from fraction `begin` to fraction `finish`, in [0, 1], of a step in which the organ
+  /// moves from the shape `before` to the shape `after`. Both meshes have the same faces.
+  /// `boxes_before` are the boxes of the shape `before` for the clusters of `after`.
   OrganMotion(const TriangleMesh& before, const BlockBoxes& boxes_before, const TriangleMesh& after,
               double begin, double finish)
       : before_(&before),
@@ -44,14 +44,14 @@ class OrganMotion {
   const TriangleMesh& before() const { return *before_; }
   const BlockBoxes& boxes_before() const { return *boxes_before_; }
   const TriangleMesh& after() const { return *after_; }
-  /// The share of the step, in fractions.
+  /// The fractions of the step at which this part of it begins and ends.
   double begin() const { return begin_; }
   double finish() const { return finish_; }
 
-  /// The motion of one face during the share.
+  /// The motion of one face during this part of the step.
   FaceMotion face(const FaceIndices& corners) const;
-  /// [m] The largest absolute coordinate, relative to `origin`, of any vertex at any time of the
-  /// step.
+  /// [m] The largest absolute coordinate of any vertex at any time of the whole step, relative to
+  /// `origin`.
   double extent(const Eigen::Vector3d& origin) const;
 
  private:

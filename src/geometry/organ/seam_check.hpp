@@ -10,23 +10,24 @@
 
 namespace organ_collision {
 
-/// Checks whether vertices that count as one are still at one place. Remembers the last shape of
-/// each of some organs, so that only the first query of a shape looks at all seams.
+/// Checks whether vertices that count as one vertex (SurfaceTopology) are still at one place.
+/// Remembers the last shape of up to 32 organs, so that only the first query of a shape looks at
+/// all seams.
 class SeamCheck {
  public:
   /// Whether each vertex is within tolerance::kSeam of the first vertex that was at its place when
-  /// the topology was made. The topology is one of the mesh's faces.
+  /// the topology was made. The topology must be that of the mesh's faces.
   bool seams_hold(const SurfaceTopology& topology, const TriangleMesh& mesh);
 
  private:
-  /// The last check of one topology. The weak pointers keep no organ alive, and match nothing when
-  /// it is gone.
+  /// The last check of one topology. The weak pointers do not keep an organ alive, and when the
+  /// organ is gone, they match no other one.
   struct Checked {
     std::weak_ptr<const std::vector<SeamVertex>> seams;
     std::weak_ptr<const std::vector<float>> vertices;
     bool hold = true;
   };
-  /// The entry of a topology in `checked_`. A new topology replaces the oldest one.
+  /// The entry of a topology in `checked_`. A new topology replaces the oldest entry.
   Checked& checked(const std::shared_ptr<const std::vector<SeamVertex>>& seams);
 
   std::array<Checked, 32> checked_;

@@ -11,14 +11,15 @@ namespace {
 
 using Numbers = std::vector<std::uint32_t>;
 
-/// Each vertex for itself.
+/// The list in which each vertex counts as itself.
 Numbers unwelded(std::size_t count) {
   Numbers numbers(count);
   std::iota(numbers.begin(), numbers.end(), 0U);
   return numbers;
 }
 
-/// For each vertex that a face uses, the first such vertex at its place.
+/// For each vertex that a face uses, the first used vertex at its place. Others count as
+/// themselves.
 Numbers weld(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices) {
   struct Place {
     float x, y, z;
@@ -55,14 +56,14 @@ std::vector<SeamVertex> find_seams(const Numbers& welded) {
   return seams;
 }
 
-/// An edge as its end with the lower number sees it.
+/// An edge, in the list of its end with the lower number.
 struct Edge {
-  std::uint32_t higher;    ///< the other end
-  std::int32_t direction;  ///< 1 if the edge leads to the other end, -1 if it comes from there
+  std::uint32_t higher;    ///< the end with the higher number
+  std::int32_t direction;  ///< 1 if the edge leads to `higher`, -1 if it comes from there
 };
 
-/// Calls visit(lower, edge) for the three edges of each face. An edge from a vertex to itself is
-/// its own opposite, and is left out.
+/// Calls visit(lower, edge) for the three edges of each face. `lower` is the end with the lower
+/// number. An edge from a vertex to itself is its own opposite, and is left out.
 template <typename Visit>
 void for_each_edge(const std::vector<FaceIndices>& faces, const Numbers& welded,
                    const Visit& visit) {
@@ -75,8 +76,8 @@ void for_each_edge(const std::vector<FaceIndices>& faces, const Numbers& welded,
   }
 }
 
-/// The number of different edges in a range, sorted by their other ends, whose directions do not
-/// cancel.
+/// The number of edges that do not occur equally often in both directions. The range is sorted by
+/// `higher`, and all its edges have the same lower end.
 std::size_t count_open(const Edge* edge, const Edge* end) {
   std::size_t open = 0;
   while (edge != end) {
@@ -88,7 +89,8 @@ std::size_t count_open(const Edge* edge, const Edge* end) {
   return open;
 }
 
-/// Groups the edges by their lower ends (counting sort), so that opposite edges are in one group.
+/// The number of open edges of all faces (count_open()). A counting sort by the lower ends brings
+/// opposite edges together.
 std::size_t count_open_edges(const std::vector<FaceIndices>& faces, const Numbers& welded) {
   std::vector<std::size_t> begin(welded.size() + 1, 0);
   for_each_edge(faces, welded, [&](std::uint32_t lower, Edge) { ++begin[lower + 1]; });
@@ -123,8 +125,8 @@ SurfaceTopology::SurfaceTopology(const std::vector<FaceIndices>& faces,
   seams_ = std::make_shared<std::vector<SeamVertex>>(find_seams(welded_));
 }
 
-/// The sum of the tetrahedra between the faces and one vertex. A vertex of the surface is taken,
-/// and not the origin, so that little is lost to rounding if the organ is far from the origin.
+/// Sums the signed volumes of the tetrahedra between the faces and an apex. The apex is a vertex of
+/// the surface: with the origin, rounding would be coarse if the organ is far from it.
 double signed_volume(const SurfaceTopology& topology, const std::vector<FaceIndices>& faces,
                      const std::vector<float>& vertices) {
   if (faces.empty() || !topology.is_closed()) return 0.0;

@@ -13,7 +13,7 @@ namespace {
 
 using Reason = MeshError::Reason;
 
-/// Throws if a coordinate is not finite or too large; names the first one.
+/// Throws if a coordinate is not finite or too large. The message names the first bad coordinate.
 void check_coordinates(const std::vector<float>& vertices) {
   const auto bad = std::find_if_not(vertices.begin(), vertices.end(),
                                     [](float coordinate) { return is_in_range(coordinate); });
@@ -83,8 +83,8 @@ void TriangleMesh::move_vertices(SharedVertices vertices) {
                                        " vertex coordinates; this topology has " +
                                        std::to_string(vertices_->size()));
   }
-  // Fitting the boxes also shows whether all coordinates are legal. Only if one is illegal, a
-  // second pass finds it.
+  // Fitting the boxes also shows whether all coordinates are legal. A second pass finds the illegal
+  // coordinate, if there is one.
   const bool finite = spare_boxes_.refit(topology_->clusters, *vertices);
   const Eigen::AlignedBox3f& box = spare_boxes_.all();
   if (!finite || !is_in_range(box.min().cast<double>()) || !is_in_range(box.max().cast<double>())) {

@@ -12,7 +12,7 @@ double ratio(const ExactInteger& numerator, const ExactInteger& denominator) {
   constexpr int kDigits = 62;
   if (numerator.is_zero()) return 0.0;
   const ExactInteger magnitude = abs(numerator);
-  // The quotient of both, shifted like this, has kDigits or one more.
+  // With this shift, the integer quotient has kDigits or kDigits + 1 binary digits.
   int shift = kDigits - static_cast<int>(msb(magnitude)) + static_cast<int>(msb(denominator));
   const ExactInteger quotient = shift >= 0 ? ExactInteger((magnitude << shift) / denominator)
                                            : ExactInteger(magnitude / (denominator << -shift));
@@ -27,7 +27,7 @@ double ratio(const ExactInteger& numerator, const ExactInteger& denominator) {
 
 namespace {
 
-/// A double as digits * 2^exponent. The last one of the digits is 1, except for zero.
+/// A double as digits * 2^exponent. `digits` is odd unless the number is zero.
 struct BinaryNumber {
   explicit BinaryNumber(double number) {
     constexpr int kDigits = std::numeric_limits<double>::digits;
@@ -42,11 +42,12 @@ struct BinaryNumber {
   int exponent = 0;
 };
 
-// [1] At most eight roundings lead to each of the six products and to their sum, so the error is
-// below 10 * 2^-53 of the sum of their absolute values.
+// [1] An upper bound of the error of the triple product, as a share of the sum of the absolute
+// values of its six products. At most eight roundings lead to each product and to the sum, so the
+// error is below 10 * 2^-53 of it.
 constexpr double kRoundingShare = 16.0 / (1LL << 53);
-// [m^3] Products below the smallest normal number lose up to 2^-1074, which later factors below
-// 2^22 enlarge.
+// [m^3] An upper bound of the error that underflow adds. A product below the smallest normal number
+// loses up to 2^-1074, and the factors that follow, which are below 2^22, enlarge this loss.
 constexpr double kUnderflow = 1e-300;
 
 }  // namespace

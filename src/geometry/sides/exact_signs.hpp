@@ -8,14 +8,14 @@
 namespace organ_collision {
 
 /// An integer of any size, for the exact predicates. Only a number of more than 512 bits allocates
-/// memory. That takes points whose coordinates span 40 orders of magnitude.
+/// memory. Numbers become that long only if coordinates span 40 orders of magnitude.
 using ExactInteger = boost::multiprecision::number<
     boost::multiprecision::cpp_int_backend<512, 0, boost::multiprecision::signed_magnitude,
                                            boost::multiprecision::unchecked>,
     boost::multiprecision::et_off>;
 
-/// A quotient to 62 binary digits, then rounded to a double. Equal fractions give equal numbers.
-/// The denominator is positive.
+/// The quotient of two integers, computed to 62 binary digits and then rounded to a double. Equal
+/// fractions give equal doubles. The denominator must be positive.
 double ratio(const ExactInteger& numerator, const ExactInteger& denominator);
 
 /// The exact vector between two points of an ExactGrid, in units of its spacing.
@@ -29,14 +29,14 @@ inline IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// A grid with a power of two as its spacing, on which given points lie exactly. Vectors between
-/// them are integers in units of the spacing.
+/// A grid on which given points lie exactly. Its spacing is a power of two, so vectors between the
+/// points have integer coordinates in units of the spacing.
 class ExactGrid {
  public:
-  /// The points are finite.
+  /// The coarsest grid with a spacing of at most 1 m for these points, which must be finite.
   ExactGrid(std::initializer_list<Eigen::Vector3d> points);
 
-  /// The vector from one of the points to another.
+  /// The vector from one of the given points to another one.
   IntegerVector difference(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
     return {integer(to.x()) - integer(from.x()), integer(to.y()) - integer(from.y()),
             integer(to.z()) - integer(from.z())};
@@ -45,19 +45,19 @@ class ExactGrid {
  private:
   ExactInteger integer(double coordinate) const;
 
-  int exponent_ = 0;  ///< the spacing is 2 to the power of this [m]
+  int exponent_ = 0;  ///< the spacing is 2 to the power of exponent_ [m]
 };
 
-/// The exact vector from one point to another [m]. It is kept as the two points, because their
-/// difference would be rounded. Coordinates are finite and within tolerance::kFarthest, or little
-/// beyond; they may be as small as the smallest double.
+/// The exact vector from one point to another [m]. It is stored as two points, because their
+/// difference would be rounded. Coordinates must be finite and at most a little beyond
+/// tolerance::kFarthest. They may be as small as the smallest double.
 struct ExactVector {
   Eigen::Vector3d from;
   Eigen::Vector3d to;
 };
 
-/// The sign (-1, 0 or 1) of u · (v × w), exactly. 32-bit vertices and random axes are decided in
-/// double precision. Only if the rounding errors could change the sign, integers decide. See
+/// The sign (-1, 0 or 1) of u · (v × w), exactly. Double precision usually suffices. If its
+/// rounding errors could change the sign, the sign is computed with integers instead. See
 /// doc/geometry.md, Sides and crossings.
 int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactVector& w);
 

@@ -15,15 +15,16 @@ bool is_on_segment(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
          cross_product_sign({from, to}, {from, point}) == 0;
 }
 
-/// On which side of the face's plane the moved point is: 1 on the outer side. 0 if the face is
-/// degenerate.
+/// On which side of the face's plane the point is after the infinitesimal displacement (see
+/// crossing_direction()): 1 on the outer side, -1 on the inner side. 0 if the face is degenerate.
 int side_of_plane(const Triangle& face, const Eigen::Vector3d& point) {
   const ExactVector first{face[0], face[1]}, second{face[0], face[2]};
   const int side = triple_product_sign(first, second, {face[0], point});
   return side != 0 ? side : cross_product_sign(first, second);
 }
 
-/// On which side of an edge the line along the moved axis passes. 0 if they are parallel.
+/// On which side (1 or -1) the line along the axis passes the edge after the infinitesimal
+/// displacement. 0 if axis and edge are parallel.
 int side_of_edge(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const ShaftAxis& axis) {
   const ExactVector along{axis.trocar, axis.tip};
   const int side = triple_product_sign(along, {axis.trocar, from}, {from, to});
@@ -44,7 +45,7 @@ bool is_on_face(const Triangle& face, const Eigen::Vector3d& point) {
     if (normal == 0) {
       if (is_on_segment(from, to, point)) return true;
     } else if (cross_product_sign({from, to}, {from, point}) == -normal) {
-      // Both products are parallel to the normal, so their first components decide.
+      // Both cross products are parallel to the normal: the signs tell if they point the same way.
       return false;
     }
   }
@@ -55,14 +56,14 @@ int crossing_direction(const Triangle& face, const ShaftAxis& axis) {
   const int tip = side_of_plane(face, axis.tip);
   if (tip == 0 || tip == side_of_plane(face, axis.trocar)) return 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    // An axis that goes the way of the normal has all edges on its left.
+    // An axis that crosses the face passes all three edges on one side: the sign of `tip`.
     if (side_of_edge(face[i], face[(i + 1) % 3], axis) != tip) return 0;
   }
   return -tip;
 }
 
-/// The solution of trocar + shaft (tip - trocar) = corner 0 + barycentric 1 (corner 1 - corner 0) +
-/// barycentric 2 (corner 2 - corner 0), by Cramer's rule.
+/// Solves, by Cramer's rule, trocar + shaft (tip - trocar) = corner 0 + barycentric 1 (corner 1 -
+/// corner 0) + barycentric 2 (corner 2 - corner 0).
 FaceCrossing face_crossing(const Triangle& face, const ShaftAxis& axis) {
   const ExactGrid grid{face[0], face[1], face[2], axis.trocar, axis.tip};
   const IntegerVector along = grid.difference(axis.trocar, axis.tip);

@@ -5,13 +5,13 @@
 namespace organ_collision {
 namespace {
 
-/// Makes the linear part an exact rotation; otherwise the link would change its size on its path.
+/// Replaces the linear part of a pose by the nearest rotation, so that the link keeps its size.
 Eigen::Isometry3d orthonormal(Eigen::Isometry3d pose) {
   pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
   return pose;
 }
 
-/// [m] Upper bound; see CoreMotion::arm_.
+/// [m] An upper bound of the distance of the core's points from the axis of the link's rotation.
 double longest_arm(const ConvexCore& core, const RigidMotion& motion) {
   double arm = 0.0;
   if (motion.angle() == 0.0) return arm;
@@ -62,7 +62,7 @@ double CoreMotion::farthest_move() const {
 
 double CoreMotion::chord_deviation(double duration) const {
   if (!link_) return 0.0;
-  // A curve leaves its chord by at most an eighth of its acceleration.
+  // A curve deviates from its chord by at most an eighth of its acceleration, arm * angle^2.
   const double angle = duration * link_->angle();
   return arm_ * angle * angle / 8.0;
 }

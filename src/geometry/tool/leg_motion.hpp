@@ -11,7 +11,7 @@ namespace organ_collision {
 /// turns about a fixed direction at constant speed, by at most half a turn (slerp).
 class RigidMotion {
  public:
-  /// T_organ_link at both ends of the leg.
+  /// `start`, `end`: T_organ_link at both ends of the leg.
   RigidMotion(const Eigen::Isometry3d& start, const Eigen::Isometry3d& end);
 
   const Eigen::Isometry3d& start() const { return start_; }
@@ -29,24 +29,24 @@ class RigidMotion {
   double angle() const { return angle_; }
   /// The direction about which the link turns: unit, in the organ's frame.
   Eigen::Vector3d axis() const { return start_.linear() * axis_; }
-  /// [m] Distance of a point in the link's frame from the axis of the rotation, which passes
-  /// through the link's origin.
+  /// [m] The distance of a point, given in the link's frame, from the axis of the rotation. This
+  /// axis passes through the link's origin.
   double arm(const Eigen::Vector3d& p_link) const { return axis_.cross(p_link).norm(); }
   /// [m] How far the link's origin moves.
   double origin_displacement() const { return (end_.translation() - start_.translation()).norm(); }
 
  private:
   Eigen::Isometry3d start_, end_;
-  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  ///< unit, in the link's frame
+  Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();  ///< of the rotation: unit, in the link's frame
   double angle_ = 0.0;
   Eigen::Matrix3d mid_orientation_;
 };
 
-/// One leg of the path of a part's core, in the organ's frame [m]. The core is the axis of a shaft,
-/// whose ends move linearly, or belongs to a link, which moves rigidly.
+/// One leg of the path of a part's core, in the organ's frame [m]. If the core is the axis of a
+/// shaft, its ends move linearly. If it belongs to a link, it moves rigidly with the link.
 class CoreMotion {
  public:
-  // An axis is a core. NOLINTNEXTLINE(google-explicit-constructor)
+  // The core of a shaft. NOLINTNEXTLINE(google-explicit-constructor)
   CoreMotion(const ShaftMotion& shaft) : start_(shaft.start), end_(shaft.end) {}
   /// `core` is in the link's frame. `motion` must outlive this object.
   CoreMotion(const ConvexCore& core, const RigidMotion& motion);
@@ -58,25 +58,24 @@ class CoreMotion {
 
   /// The motion of the link; null if the core is the axis of a shaft.
   const RigidMotion* link() const { return link_; }
-  /// [m] An upper bound of how far any point of the core moves.
+  /// [m] An upper bound of how far any point of the core moves during the leg.
   double farthest_move() const;
   /// [m] An upper bound of how far any point of the core deviates, along `normal` (unit), from
   /// linear motion between its places at the start and at the end of an interval. `duration`, in
   /// [0, 1] of the leg, is the length of the interval. See doc/geometry.md, Rims and chord
   /// deviation.
   double chord_deviation(double duration, const Eigen::Vector3d& normal) const;
-  /// The same along any direction.
+  /// [m] An upper bound of this deviation in any direction.
   double chord_deviation(double duration) const;
   /// [m] The largest absolute coordinate of the core's points at both ends of the leg. The rim of a
-  /// cylinder is left out.
+  /// cylinder is not considered.
   double largest_coordinate() const;
 
  private:
   ConvexCore start_, end_;
   ConvexCore in_link_;
   const RigidMotion* link_ = nullptr;
-  double arm_ = 0.0;  ///< [m] upper bound of the distance of the core's points from the axis of
-                      ///< the link's rotation, which passes through the link's origin
+  double arm_ = 0.0;  ///< [m] upper bound of RigidMotion::arm() for the points of the core
 };
 
 }  // namespace organ_collision

@@ -15,13 +15,13 @@ namespace {
 using Eigen::Vector3d;
 using Reason = MeshError::Reason;
 
-/// The largest number of faces in a leaf. Testing boxes around fewer faces costs more than it
+/// The largest number of faces in a leaf. To test boxes around fewer faces costs more than it
 /// saves.
 constexpr std::uint32_t kLeafFaces = 4;
-/// If a node has at most this many faces, they are projected by scanning their corners, without the
-/// boxes below it.
+/// If a node has at most this many faces, project_onto() goes through all their corners, and not
+/// through the boxes below the node.
 constexpr std::uint32_t kScannedFaces = 512;
-/// The corners that are projected together.
+/// The number of corners that are projected together, in vector registers.
 constexpr Eigen::Index kRows = 8;
 
 template <typename... Parts>
@@ -63,7 +63,8 @@ void drop_unused(std::vector<Vector3d>& vertices, std::vector<FaceIndices>& face
   vertices.swap(used);
 }
 
-/// Sorts faces by their corners, so that the tree does not depend on the caller's order.
+/// Sorts faces by the places of their corners, so that the tree does not depend on the caller's
+/// order.
 void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndices>& faces) {
   const auto is_less = [&](const FaceIndices& a, const FaceIndices& b) {
     for (std::size_t corner = 0; corner < a.size(); ++corner) {
@@ -77,7 +78,7 @@ void sort_by_corners(const std::vector<Vector3d>& vertices, std::vector<FaceIndi
   std::sort(faces.begin(), faces.end(), is_less);
 }
 
-/// The principal axes of points: columns, orthonormal, right-handed.
+/// The principal axes of the points, as orthonormal, right-handed columns.
 Eigen::Matrix3d principal_axes(const std::vector<Vector3d>& points) {
   Vector3d mean = Vector3d::Zero();
   for (const Vector3d& point : points) mean += point / static_cast<double>(points.size());
@@ -140,7 +141,8 @@ void ToolSurface::build(std::uint32_t begin, std::uint32_t end) {
   build(half, end);
 }
 
-/// Lists the corners below a node, in one list for each of the highest nodes that have few faces.
+/// Lists the corners of the faces below a node. The highest nodes with at most kScannedFaces faces
+/// have one list each.
 void ToolSurface::list_corners(std::uint32_t node, std::vector<Vector3d>& corners) {
   const auto& [box, begin, end, second] = nodes_[node];
   if (end - begin > kScannedFaces) {
@@ -166,8 +168,8 @@ ProjectionInterval ToolSurface::project_onto(const Vector3d& direction) const {
   return interval;
 }
 
-/// Extends `interval` by the node's faces. A child is visited only if its box reaches beyond the
-/// interval; the one that reaches farther comes first.
+/// Extends `interval` by the projections of the node's faces. A child is visited only if its box
+/// reaches beyond the interval. The child that reaches farther comes first.
 void ToolSurface::extend(ProjectionInterval& interval, std::uint32_t node,
                          const Vector3d& direction) const {
   const CornerList& list = corner_lists_[node];
@@ -190,7 +192,7 @@ void ToolSurface::extend(ProjectionInterval& interval, std::uint32_t node,
   const auto high = [&](std::uint32_t child) { return nodes_[child].box.support_value(direction); };
   if (high(children[1]) > high(children[0])) std::swap(children[0], children[1]);
   for (const std::uint32_t child : children) {
-    constexpr double kBoxRounding = 1e-12;  // A box may be too small by this share.
+    constexpr double kBoxRounding = 1e-12;  // Rounding may make a box too small by this.
     const double low = -nodes_[child].box.support_value(-direction);
     if (high(child) >= interval.high - kBoxRounding * std::abs(interval.high) ||
         low <= interval.low + kBoxRounding * std::abs(interval.low)) {

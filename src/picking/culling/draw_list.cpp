@@ -7,9 +7,9 @@ namespace organ_collision {
 namespace {
 
 // [1] A face is not drawn if it moves by more than kMostMove times the part's thickness, or if one
-// of its coordinates exceeds kMostExtent times that thickness. The volume would have to grow so
-// much for such a face that many other faces would survive clipping. With kMostExtent the volume
-// grows by 1% of the thickness, since 32-bit clipping loses a millionth of the largest coordinate.
+// of its coordinates exceeds kMostExtent times that thickness. For such a face, the volume would
+// grow so much that many other faces would survive clipping. With kMostExtent the volume grows by
+// 1% of the thickness, since 32-bit clipping loses a millionth of the largest coordinate.
 constexpr double kMostMove = 0.5;
 constexpr double kMostExtent = 0.01 / 1e-6;
 

@@ -12,15 +12,15 @@
 
 namespace organ_collision {
 
-/// The face's number from its lower and upper 16 bits.
+/// The number of a face from its lower and its upper 16 bits, as DrawnFaces::Number holds them.
 std::uint32_t face_number(float lower, float upper);
 
-/// Faces as GL reads them. Each corner has the number of its face, which GL returns as a texture
-/// coordinate. Positions and numbers are two arrays with different strides: see prepare_to_draw().
+/// Faces as GL reads them. Each corner has the number of its face as a texture coordinate, which GL
+/// returns. Positions and numbers are two arrays with different strides: see prepare_to_draw().
 class DrawnFaces {
  public:
   using Position = std::array<float, 3>;  ///< in the volume's shifted coordinates [m]
-  using Number = std::array<float, 2>;    ///< the lower and upper 16 bits, exact
+  using Number = std::array<float, 2>;    ///< the lower and upper 16 bits; floats hold both exactly
 
   void clear();
   /// Adds a face in the volume's shifted coordinates.
@@ -30,7 +30,7 @@ class DrawnFaces {
   std::size_t size() const { return positions_.size(); }
   std::uint32_t number(std::size_t face) const;
 
-  /// Of the three corners of each face. There must be some faces.
+  /// The arrays for GL, with an element for each corner. There must be some faces.
   const Position& first_position() const { return positions_.front().front(); }
   const Number& first_number() const { return numbers_.front().front(); }
 
@@ -52,18 +52,18 @@ class DrawList {
   void assign_all(const ViewingVolume& volume, const TriangleMesh& mesh);
 
   /// Replaces the list by the faces of an organ that may meet a part during their motion. Each face
-  /// is drawn where it is half way. Returns the volume to clip them to: it contains the space that
-  /// the part sweeps, and has grown by the largest distance of a drawn face from its place half
-  /// way, and for 32-bit clipping. Faces with a corner inside need not be drawn.
-  /// Faces that move far, or that reach far from the part, would make the volume large. Both are
-  /// listed in undrawn().
+  /// is drawn where it is half way. Returns the volume to which GL has to clip them. It contains
+  /// the space that the part sweeps, grown by the largest distance of a drawn face from its place
+  /// half way, and grown for 32-bit clipping. Some faces are listed in undrawn() instead: those
+  /// with a corner inside, which meet the volume anyway, and those that move or reach so far that
+  /// the volume would become large.
   ViewingVolume assign_sweep(const PartSweep& part, const OrganMotion& organ);
 
   /// Adds a face in the volume's shifted coordinates.
   void add(const Triangle& face, std::uint32_t number) { faces_.add(face, number); }
 
   const DrawnFaces& faces() const { return faces_; }
-  /// Numbers of the faces that may meet the part and that GL does not decide on.
+  /// The numbers of the faces that may meet the part but are not drawn.
   const std::vector<std::uint32_t>& undrawn() const { return undrawn_; }
 
  private:

@@ -8,14 +8,14 @@
 namespace organ_collision {
 namespace {
 
-// The compiler's vector types. Four floats fit the registers of every 64-bit processor.
+// Vector types of the compiler. Four floats fit the registers of every 64-bit processor.
 constexpr std::size_t kLanes = 4;
 using Lanes = float __attribute__((vector_size(sizeof(float) * kLanes)));
-/// Results of comparisons, in which all bits of a lane are equal, or outcodes.
+/// Outcodes, or results of comparisons: all bits of a lane are then equal.
 using LaneCodes = std::int32_t __attribute__((vector_size(sizeof(float) * kLanes)));
 
-/// The points, or boxes, that one loop processes together: the vertices of a block, or a part of a
-/// group's members.
+/// The number of points or boxes that one loop processes together (a run): the vertices of a block,
+/// or half of the members of a group.
 constexpr std::size_t kRun = FaceClusters::kBlock;
 static_assert(FaceClusters::kGroup % kRun == 0);
 
@@ -23,12 +23,12 @@ static_assert(FaceClusters::kGroup % kRun == 0);
 using ValueRun = std::array<Lanes, kRun / kLanes>;
 using CodeRun = std::array<LaneCodes, kRun / kLanes>;
 
-/// Coordinates of a run of points [m].
+/// The coordinates of a run of points [m].
 struct PointRun {
   ValueRun x, y, z;
 };
 
-/// A run of boxes; points are boxes without extent.
+/// A run of boxes, each with its lowest and its highest corner.
 struct BoxRun {
   PointRun low, high;
 };
@@ -65,8 +65,7 @@ PointRun between(const PointRun& before, const PointRun& after, float fraction) 
           between(before.z, after.z, fraction)};
 }
 
-/// [m] For each box, the sum over x, y and z of the largest magnitude of that coordinate in the
-/// box.
+/// [m] For each box, the sum of the largest magnitudes of x, of y and of z in the box.
 ValueRun magnitude(const BoxRun& boxes) {
   const auto& [low, high] = boxes;
   ValueRun sum;
@@ -77,7 +76,7 @@ ValueRun magnitude(const BoxRun& boxes) {
   return sum;
 }
 
-/// Element by element, the greater value.
+/// The greater value of each pair of elements.
 ValueRun greater(const ValueRun& a, const ValueRun& b) {
   ValueRun run;
   for (std::size_t i = 0; i < run.size(); ++i) run[i] = a[i] > b[i] ? a[i] : b[i];
@@ -92,9 +91,9 @@ ValueRun scaled(const ValueRun& values, float factor) {
 
 constexpr std::size_t kGroup = FaceClusters::kGroup;
 
-// [1] Bounds on the rounding error of a dot product with a unit normal in 32 bits, as shares of the
-// sum of the magnitudes of the point's coordinates. The error is at most four roundings, and seven
-// more for a point interpolated between two others. The rest is a safety margin. See
+// [1] Bounds of the rounding error of a dot product of a point and a unit normal in 32 bits, as
+// shares of the sum of the magnitudes of the point's coordinates. The error is at most four
+// roundings, and seven more for an interpolated point. The rest is a safety margin. See
 // doc/geometry.md, Outcodes and 32-bit clipping.
 constexpr float kSlack = 8.0F / (1 << 24);
 constexpr float kSlackBetween = 16.0F / (1 << 24);
@@ -104,7 +103,7 @@ BoxRun load_boxes(const BlockBoxes::Box* boxes) {
           load_points([&](std::size_t i) { return boxes[i].max.data(); })};
 }
 
-/// Vertices as boxes without extent.
+/// Loads vertices as boxes without extent.
 BoxRun load_vertices(const TriangleMesh& shape, const std::uint32_t* vertices) {
   const float* const xyz = shape.vertices().data();
   const PointRun points =
@@ -145,14 +144,14 @@ void Outcodes::set_planes(const ViewingVolume& volume) {
   }
 }
 
-/// Finds the outcodes of kGroup groups from `begin` on.
+/// Finds the outcodes of kGroup groups of a level, from the group `begin` on.
 void Outcodes::find_group_codes(std::size_t level, std::size_t begin) {
   find_member_codes(&boxes().groups(level)[begin], &organ_->boxes_before().groups(level)[begin],
                     &group_codes_[level][begin]);
 }
 
-/// Whether all faces of a block's cluster are outside the same half-space. Finds the outcodes of
-/// the blocks that contain vertices of these faces, a section at a time.
+/// Whether all blocks that contain vertices of a block's cluster are outside the same half-space.
+/// Finds the outcodes of these blocks, a section at a time.
 bool Outcodes::cluster_is_outside(std::size_t block) {
   unsigned code = ~0U;
   for (const std::uint32_t part : clusters().blocks(block)) {
@@ -163,7 +162,7 @@ bool Outcodes::cluster_is_outside(std::size_t block) {
   return true;
 }
 
-/// Finds the outcodes of a section's blocks, unless that is done.
+/// Finds the outcodes of a section's blocks, unless this query has found them already.
 void Outcodes::find_block_codes(std::size_t section) {
   if (std::exchange(section_found_for_[section], query_) == query_) return;
   const std::size_t begin = section * kGroup;
@@ -171,8 +170,8 @@ void Outcodes::find_block_codes(std::size_t section) {
                     &block_codes_[begin]);
 }
 
-/// Finds the outcodes of a group's kGroup boxes, which begin at `after` in the organ's later shape
-/// and at `before` in the earlier one.
+/// Finds the outcodes of the kGroup members of a group. Their boxes begin at `after` for the
+/// organ's later shape and at `before` for the earlier one.
 void Outcodes::find_member_codes(const BlockBoxes::Box* after, const BlockBoxes::Box* before,
                                  Code* codes) const {
   for (std::size_t i = 0; i < kGroup; i += kRun) {
@@ -181,8 +180,8 @@ void Outcodes::find_member_codes(const BlockBoxes::Box* after, const BlockBoxes:
   }
 }
 
-/// Finds the outcodes of the vertices that the faces of the block's cluster have. These vertices
-/// may be in other blocks. A block is looked at once in a query.
+/// Finds the outcodes of the vertices of a cluster's faces, which may be in several blocks. Each
+/// block is looked at once in a query.
 void Outcodes::add_vertices(std::size_t block) {
   for (const std::uint32_t part : clusters().blocks(block)) {
     if (std::exchange(block_found_for_[part], query_) == query_) continue;
@@ -195,11 +194,11 @@ void Outcodes::add_vertices(std::size_t block) {
 }
 
 /// Finds the outcodes of boxes that rest, or whose corners move linearly. A moving box is outside a
-/// half-space all the time if it is outside at both ends of the organ's motion. `load_before()`
-/// returns the boxes of the organ's earlier shape.
+/// half-space all the time if it is outside at both ends of the organ's motion. `load_after` and
+/// `load_before` give the boxes of the organ's later and earlier shape.
 template <typename LoadAfter, typename LoadBefore>
 void Outcodes::find_codes(LoadAfter load_after, LoadBefore load_before, Code* codes) const {
-  // `slack` [m]: a bound on the rounding error of each box along a normal.
+  // `slack` [m]: for each box, a bound of the rounding error along a normal.
   const auto codes_of = [&](const BoxRun& boxes, const ValueRun& slack) {
     const auto& [low, high] = boxes;
     CodeRun run{};

@@ -13,26 +13,25 @@
 namespace organ_collision {
 
 /// Outcodes of an organ's vertices with respect to a viewing volume. An outcode has a bit for each
-/// half-space of the volume. The bit is set if the vertex is outside that half-space during the
-/// whole motion of the organ. For a box, it is set if the whole box is outside. Faces do not meet
-/// the volume if the box around their group has a bit. Neither do they if their corners have a bit
-/// in common, or the boxes of the blocks that contain these.
+/// half-space of the volume. The bit is set if the vertex, or the whole box, is outside that
+/// half-space during the whole motion of the organ. A face does not meet the volume if the box of
+/// its group has a bit, if its corners have a bit in common, or if the blocks of its corners do.
 ///
-/// Outcodes are found from coarse to fine: those of the members of a group only if the group's box
-/// cannot reject its faces, and those of vertices only where the blocks cannot. See
-/// doc/geometry.md, Words and Outcodes and 32-bit clipping. Keeps its memory between queries.
+/// Outcodes are found from coarse to fine. The members of a group are looked at only if the group's
+/// box has no bit, and vertices only if their blocks do not reject the faces. See doc/geometry.md,
+/// Words and Outcodes and 32-bit clipping. Keeps its memory between queries.
 class Outcodes {
  public:
   /// Starts with a new volume and organ, and finds the outcodes of the top level's groups. Computes
-  /// in 32 bits and allows for their rounding: a face that meets the volume is never rejected.
+  /// in 32 bits and allows for the rounding: no face that meets the volume is rejected.
   void assign(const ViewingVolume& volume, const OrganMotion& organ);
 
   /// Calls visit(face) for each FaceClusters::Face that outcodes do not reject, cluster by cluster.
   template <typename Visit>
   void for_each_face(Visit visit);
 
-  /// Whether some corner of a visited face is in each half-space at the start or at the end of the
-  /// organ's motion, except for rounding. The face is then a candidate without being drawn.
+  /// Whether a visited face has a corner that is in each half-space at the start or at the end of
+  /// the organ's motion, except for rounding. Such a face is a candidate and need not be drawn.
   bool has_corner_inside(const FaceIndices& corners) const {
     return vertex_codes_[corners[0]] == 0 || vertex_codes_[corners[1]] == 0 ||
            vertex_codes_[corners[2]] == 0;
@@ -62,11 +61,11 @@ class Outcodes {
 
   std::optional<OrganMotion> organ_;
   std::vector<Plane> planes_;
-  std::vector<std::vector<Code>> group_codes_;  ///< by level
+  std::vector<std::vector<Code>> group_codes_;  ///< by level, then by group
   std::vector<Code> block_codes_;
-  std::vector<Code> vertex_codes_;  ///< by the vertex's index in the mesh
+  std::vector<Code> vertex_codes_;  ///< for each vertex of the mesh
   std::uint64_t query_ = 0;         ///< the number of the present query, from 1
-  /// The query for which the outcodes of a section's blocks, or of a block's vertices, were found.
+  /// The last query that found the outcodes of a section's blocks, or of a block's vertices.
   std::vector<std::uint64_t> section_found_for_, block_found_for_;
 };
 
@@ -78,7 +77,7 @@ void Outcodes::for_each_face(Visit visit) {
   }
 }
 
-/// The same for the faces of a group.
+/// Calls visit(face) for each face of a group that outcodes do not reject.
 template <typename Visit>
 void Outcodes::visit_group(std::size_t level, std::size_t group, const Visit& visit) {
   if (group_codes_[level][group] != 0) return;

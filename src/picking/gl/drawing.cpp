@@ -9,13 +9,13 @@ namespace organ_collision {
 
 namespace {
 
-// The whole matrix is loaded as the modelview matrix, and the projection stays the identity. GL's
-// eye coordinates are then clip coordinates, in which the user planes are given. With a projection,
-// GL would transform the planes by its inverse in 32 bits and lose the precision that the shift to
-// the origin has gained.
+// The matrix clip() is loaded as the modelview matrix, and the projection stays the identity. GL's
+// eye coordinates are then clip coordinates, in which the user planes are given. Otherwise GL would
+// transform the planes by the inverse of the projection, in 32 bits, and lose the precision that
+// shifted coordinates give.
 //
 // All user planes stay enabled, because Mesa takes some 20 ms to compile its vertex pipeline for
-// each new number of them. A plane of zeros clips nothing.
+// each new number of them. Unused planes are zero, so they clip nothing.
 void clip_to(const ViewingVolume& volume, const GlFunctions& gl) {
   gl.LoadIdentity();
   const Eigen::Matrix4d clip_inverse = volume.clip().inverse();
@@ -27,10 +27,9 @@ void clip_to(const ViewingVolume& volume, const GlFunctions& gl) {
   gl.LoadMatrixd(volume.clip().data());
 }
 
-// Mesa joins arrays that are interleaved, with the same stride, to one vertex buffer. It stops
-// doing so when the pointers have changed a few times, as they do when the arrays grow. It then
-// compiles its vertex pipeline anew, for some 20 ms in the middle of a step. Arrays with different
-// strides are never joined, so that one pipeline is enough.
+// Positions and numbers have different strides on purpose. Mesa joins interleaved arrays of the
+// same stride to one vertex buffer. It stops doing so when the pointers have changed a few times,
+// as when arrays grow, and compiles its vertex pipeline anew: some 20 ms in the middle of a step.
 void draw_from(const DrawnFaces& faces, const GlFunctions& gl) {
   using Position = DrawnFaces::Position;
   using Number = DrawnFaces::Number;
@@ -39,11 +38,11 @@ void draw_from(const DrawnFaces& faces, const GlFunctions& gl) {
   gl.TexCoordPointer(2, GL_FLOAT, sizeof(Number), faces.first_number().data());
 }
 
-// [1] GL counts the floats of a buffer with an integer.
+// [1] The size of the largest buffer: GL counts its floats with an integer.
 constexpr std::size_t kMostFloats = std::numeric_limits<GLsizei>::max();
 
-/// [1] What GL can return at most for a number of faces. Each plane adds at most one corner to a
-/// face, and GL may return a polygon of n corners as n - 2 triangles, each with two floats of its
+/// [1] How many floats GL can return at most for `faces` faces. Each plane adds at most one corner
+/// to a face. GL may return a polygon of n corners as n - 2 triangles, each with two floats of its
 /// own.
 std::size_t most_floats(std::size_t faces) {
   constexpr std::size_t kPlanes = 6 + ViewingVolume::kMaxUserPlanes;

@@ -10,36 +10,35 @@
 
 namespace organ_collision {
 
-/// Makes the context current, GL clip to `volume`, and GL's DrawArrays draw the corners of `faces`
-/// with their numbers as texture coordinates, until the next call. There must be some faces, and
-/// they must stay where they are. Of the earlier GL state, it relies only on the matrix mode and
-/// the projection of a new GlContext, and on its user planes, which are all enabled. Throws
-/// GlError.
+/// Makes the context current. Until the next call, GL clips to `volume`, and DrawArrays draws the
+/// corners of `faces`, with the faces' numbers as texture coordinates. `faces` must not be empty
+/// and must not change meanwhile. Relies on the matrix mode, the projection and the enabled user
+/// planes of a new GlContext. Throws GlError.
 const GlFunctions& prepare_to_draw(GlContext& context, const ViewingVolume& volume,
                                    const DrawnFaces& faces);
 
-/// Draws `faces` in GL_FEEDBACK mode, clipped to `volume`. There must be some. Makes the context
-/// current. Enlarges `buffer` until everything fits. Returns the number of floats written to it.
-/// Throws GlError if GL did not work.
+/// Draws `faces`, which must not be empty, in GL_FEEDBACK mode, clipped to `volume`. Makes the
+/// context current. Enlarges `buffer` until everything fits. Returns the number of floats that GL
+/// wrote. Throws GlError if GL did not work.
 std::size_t draw_feedback(GlContext& context, const ViewingVolume& volume, const DrawnFaces& faces,
                           std::vector<float>& buffer);
 
-/// The floats of a vertex in a feedback buffer, as GL writes it for GL_3D_COLOR_TEXTURE: window
-/// x y z, color r g b a, texture coordinate s t r q.
+/// The number of floats of a vertex in a feedback buffer. GL_3D_COLOR_TEXTURE gives window x y z,
+/// color r g b a, texture coordinate s t r q.
 inline constexpr std::size_t kVertexFloats = 11;
 
-/// The number of the face to which a vertex belongs, as in DrawnFaces. Throws GlError if it cannot
-/// be one.
+/// The number of the face to which a vertex in a feedback buffer belongs. Throws GlError if the
+/// vertex holds no legal number.
 std::uint32_t face_of(const float* vertex);
 
 /// The number of vertices that follow the token at `place` < `size`. Advances `place` to the first
-/// of them. All of them are within the first `size` floats, otherwise throws GlError.
+/// vertex. Throws GlError if the vertices do not end within the first `size` floats.
 std::size_t read_token(const std::vector<float>& buffer, std::size_t size, std::size_t& place);
 
 /// Calls visit(face, depth) for each vertex in the first `size` floats of a feedback buffer, in the
-/// order drawn. The depth is GL's, in [0, 1]. Throws GlError for a token that clipped triangles
-/// cannot produce, for an illegal face, and if the buffer ends within a primitive. `size` is at
-/// most that of the buffer.
+/// order drawn. `depth` is GL's window depth, in [0, 1]. Throws GlError for a token that clipped
+/// triangles cannot produce, for an illegal face, and if the buffer ends within a primitive. `size`
+/// is at most that of the buffer.
 template <typename Visit>
 void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit visit) {
   std::size_t place = 0;
@@ -51,14 +50,13 @@ void for_each_vertex(const std::vector<float>& buffer, std::size_t size, Visit v
   }
 }
 
-/// Each draw has one more face last, which is in view: the witness. Where GL does not return it, GL
-/// may be blind, and that it returned no other face means nothing. This is the number of the
-/// witness, which no face of an organ has.
+/// The number of the witness. The witness is a face in view that is drawn last. If GL does not
+/// return it, GL may be blind: its answer then means nothing. No face of an organ has this number.
 inline constexpr std::uint32_t kWitness = 0xffffffff;
 
-/// To be called if GL has not returned the witness. Fails unless GL, in the context as it is,
-/// returns a face across a volume of 2 m by 2 m by 2 m. If it does, either something disturbed only
-/// that draw, or the volume is so thin that the witness was lost in rounding.
+/// To be called if GL has not returned the witness. Fails if GL, in the present context, does not
+/// return a face across a volume of 2 m by 2 m by 2 m. Does not fail if only the last draw was
+/// disturbed, or if its volume was so thin that the witness was lost in rounding.
 void fail_if_blind(GlContext& context);
 
 }  // namespace organ_collision

@@ -13,7 +13,7 @@
 #include "organ_collision/picking/gl_error.hpp"
 #include "platform_context.hpp"
 
-// Every EGL function that we call, without its egl prefix.
+// All EGL functions that this file calls, without the prefix egl.
 #define ORGAN_COLLISION_EGL_FUNCTIONS(F)                                                       \
   F(BindAPI)                                                                                   \
   F(ChooseConfig) F(CreateContext) F(CreatePbufferSurface) F(DestroyContext) F(DestroySurface) \
@@ -22,8 +22,8 @@
 namespace organ_collision {
 namespace {
 
-/// Pointers to the functions of libEGL. Only their types come from the prototypes in egl.h; libEGL
-/// is loaded and never linked.
+/// Pointers to the functions of libEGL. Their types come from egl.h. libEGL is not linked, but
+/// loaded when it is first needed.
 struct EglFunctions {
   EglFunctions() {
     const SharedLibrary library("libEGL.so.1");
@@ -43,7 +43,7 @@ const EglFunctions& egl() {
   return functions;
 }
 
-/// An error with EGL's code of the last call.
+/// An error whose text ends with EGL's error code of the last call.
 GlError egl_error(const std::string& what) {
   std::array<char, 16> code{};
   std::snprintf(code.data(), code.size(), "0x%04x", egl().GetError());
@@ -55,7 +55,7 @@ Function extension_function(const char* name) {
   return reinterpret_cast<Function>(egl().GetProcAddress(name));
 }
 
-/// The devices that draw on the CPU.
+/// The EGL devices that draw on the CPU.
 std::vector<EGLDeviceEXT> software_devices() {
   const auto query_devices = extension_function<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
   const auto query_string =
@@ -76,10 +76,10 @@ std::vector<EGLDeviceEXT> software_devices() {
   return found;
 }
 
-/// The displays on which EGL may draw without a window and without a graphics card, the surest one
-/// first: those of devices that draw on the CPU, where no driver of a graphics card can come first,
-/// and that of Mesa's platform without surfaces, where Mesa may draw on a graphics card. None is
-/// initialized. Throws GlError if there is no libEGL.
+/// The displays on which EGL may draw without a window, not initialized. First come the displays of
+/// devices that draw on the CPU: no driver of a graphics card can serve them. Last comes the
+/// display of Mesa's platform without surfaces, where Mesa may use a graphics card. Throws GlError
+/// if there is no libEGL.
 std::vector<EGLDisplay> software_displays() {
   const auto platform_display =
       extension_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
@@ -109,7 +109,7 @@ class EglContext final : public PlatformContext {
 
   bool is_current() const override { return egl().GetCurrentContext() == context_; }
   bool make_current() override {
-    // Which kind of API the thread uses is a state of the thread.
+    // Each thread has its own choice of the API (OpenGL or OpenGL ES), so it is set here.
     return egl().BindAPI(EGL_OPENGL_API) == EGL_TRUE &&
            egl().MakeCurrent(display_, surface_, surface_, context_) == EGL_TRUE;
   }
@@ -119,7 +119,8 @@ class EglContext final : public PlatformContext {
   AnyFunction find_function(const char* name) const override { return egl().GetProcAddress(name); }
 
  private:
-  /// If create() throws, the destructor destroys what it has made.
+  /// The public constructor delegates to this one. The destructor therefore runs if create()
+  /// throws.
   explicit EglContext(EGLDisplay display) : display_(display) {}
 
   void create(const GlFramebuffer& framebuffer) {
@@ -147,8 +148,8 @@ class EglContext final : public PlatformContext {
     check_renderer();
   }
 
-  /// Faces are picked with the precision and the speed that are known of Mesa's renderers on the
-  /// CPU. Other drivers may implement GL_SELECT and GL_FEEDBACK in other ways, or not at all.
+  /// Throws GlError unless a Mesa renderer on the CPU draws: its precision and its speed are known.
+  /// Other drivers may implement GL_SELECT and GL_FEEDBACK in other ways, or not at all.
   void check_renderer() {
     const auto get_string = reinterpret_cast<decltype(&glGetString)>(find_function("glGetString"));
     const GLubyte* const name = get_string != nullptr ? get_string(GL_RENDERER) : nullptr;
@@ -168,7 +169,7 @@ class EglContext final : public PlatformContext {
 std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffer) {
   std::string reason = "EGL knows neither devices without hardware nor a platform without surfaces";
   for (EGLDisplay display : software_displays()) {
-    // A display stays initialized until the process ends: others may use the same one.
+    // A display stays initialized until the process ends, because other code may use it, too.
     if (egl().Initialize(display, nullptr, nullptr) != EGL_TRUE) {
       reason = egl_error("EGL cannot start Mesa's renderer on the CPU").what();
       continue;

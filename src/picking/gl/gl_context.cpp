@@ -11,12 +11,12 @@
 namespace organ_collision {
 namespace {
 
-// What this package has made current last in this thread. Platforms do not know of each other: EGL
-// says that its context is current even if OSMesa's has taken its place.
+// The context that this package has made current last in this thread. Platforms do not know of each
+// other: EGL says that its context is current even if a context of OSMesa has replaced it.
 thread_local const PlatformContext* latest = nullptr;
 
-/// Throws GlError if the environment names a driver that Mesa does not know as one for the CPU.
-/// OSMesa would end the process, and EGL would give no reason.
+/// Throws GlError if GALLIUM_DRIVER names another driver than Mesa's two for the CPU. Without this
+/// check, OSMesa would end the process, and EGL would fail without a reason.
 void check_driver() {
   const char* const driver = std::getenv("GALLIUM_DRIVER");
   if (driver == nullptr) return;
@@ -30,7 +30,7 @@ void check_driver() {
 }
 
 bool make_latest(PlatformContext& context) {
-  // EGL does nothing for a context that it takes for current.
+  // Otherwise EGL would do nothing for a context that it believes to be current.
   if (context.is_current()) context.release();
   latest = &context;
   return context.make_current();
@@ -42,7 +42,7 @@ PlatformContext::AnyFunction find_in(const PlatformContext& context, const char*
   return function;
 }
 
-/// Throws GlError, naming the first function that is missing.
+/// Loads all functions. Throws GlError that names the first missing one.
 GlFunctions load_functions(const PlatformContext& context) {
   GlFunctions functions;
 #define ORGAN_COLLISION_LOAD(name) \
@@ -65,7 +65,7 @@ GlContext::GlContext(GlPlatform platform, const GlFramebuffer& framebuffer)
   make();
 }
 
-/// Makes a context of the first platform whose contexts work.
+/// Makes a context of the first platform that gives a context which works.
 void GlContext::make() {
   static constexpr std::array<Source, 2> kSources = {
       {{GlPlatform::kOsmesa, "OSMesa", new_osmesa_context},
@@ -85,7 +85,8 @@ void GlContext::make() {
                 "without OpenGL (picker: cpu)");
 }
 
-/// Leaves the context current. Throws GlError if it does not work, and changes nothing.
+/// Makes a context of a platform and leaves it current. If it does not work, throws GlError and
+/// changes nothing in this object.
 void GlContext::make(const Source& source) {
   std::unique_ptr<PlatformContext> context = source.create(framebuffer_);
   if (!make_latest(*context)) throw GlError("the new context cannot be made current");
@@ -96,7 +97,7 @@ void GlContext::make(const Source& source) {
         "OpenGL gives no version string, so its calls do nothing: another OpenGL library took its "
         "place; start this process without preloading libGL");
   }
-  // They stay enabled, because each switch costs as much time as a face.
+  // Arrays and planes stay enabled, because each switch costs as much time as a face.
   gl.EnableClientState(GL_VERTEX_ARRAY);
   gl.EnableClientState(GL_TEXTURE_COORD_ARRAY);
   for (GLenum i = 0; i < ViewingVolume::kMaxUserPlanes; ++i) gl.Enable(GL_CLIP_PLANE0 + i);
@@ -117,7 +118,8 @@ void GlContext::make_current() {
 }
 
 void GlContext::release() {
-  // Even if another one has taken its place: EGL gives no other thread what it takes for current.
+  // Release it even if another context has replaced it: EGL gives no other thread a context that it
+  // believes to be current.
   if (context_->is_current()) context_->release();
 }
 

@@ -9,7 +9,7 @@
 #include "organ_collision/picking/gl_platform.hpp"
 #include "platform_context.hpp"
 
-// Every GL function that picking and snapshot call, without its gl prefix.
+// All GL functions that picking and snapshot call, without the prefix gl.
 // clang-format off
 #define ORGAN_COLLISION_GL_FUNCTIONS(F)                                                       \
   F(BlendFunc) F(Clear) F(ClearColor) F(ClipPlane) F(ColorPointer) F(DepthMask) F(DepthRange) \
@@ -20,44 +20,43 @@
 
 namespace organ_collision {
 
-/// Pointers to the GL functions that a context provides. Only the types come from the prototypes in
-/// gl.h; libGL is not linked.
+/// Pointers to the GL functions that a context provides. Their types come from gl.h. libGL is not
+/// linked.
 struct GlFunctions {
 #define ORGAN_COLLISION_DECLARE(name) decltype(&gl##name) name = nullptr;
   ORGAN_COLLISION_GL_FUNCTIONS(ORGAN_COLLISION_DECLARE)
 #undef ORGAN_COLLISION_DECLARE
 };
 
-/// A compatibility context without a window, its framebuffer, and the GL functions loaded from it.
-/// The functions are loaded and never linked: in a process that loaded libGL first, linked
-/// functions silently do nothing.
+/// An OpenGL context (compatibility profile) without a window, its framebuffer, and its GL
+/// functions. The functions are loaded from the context: in a process that loaded libGL first,
+/// linked functions silently do nothing.
 ///
 /// Move-only. Belongs to one thread at a time. The constructor, make_current and every picker leave
-/// the context current in the calling thread. Release it there before another thread uses or
-/// destroys it.
+/// the context current in the calling thread. Release the context there before another thread uses
+/// or destroys it.
 class GlContext {
  public:
-  /// Throws GlError with all reasons if no platform that is asked for gives a context that works.
+  /// Throws GlError, with the reason of each platform, if no platform gives a context that works.
   explicit GlContext(GlPlatform platform = GlPlatform::kAuto,
                      const GlFramebuffer& framebuffer = {});
 
-  /// Makes this context current in the calling thread; cheap when it already is. Makes it anew if
-  /// it has failed before. Throws GlError.
+  /// Makes this context current in the calling thread; this is cheap if it is current already. If
+  /// the context has failed before, a new one replaces it. Throws GlError.
   void make_current();
   bool is_current() const;
-  /// If this context is current in the calling thread, the thread has no current context
-  /// afterwards.
+  /// If this context is current in the calling thread, the thread then has no current context.
   void release();
 
   /// GL_VERSION and the platform, as "4.5 (Compatibility Profile) Mesa 22.3.6 on OSMesa". Valid as
   /// long as this object is not moved.
   const std::string& version() const { return version_; }
-  /// The functions of this context. Valid until it is made anew.
+  /// The functions of this context. Valid until a new context replaces it.
   const GlFunctions& functions() const { return functions_; }
 
   /// If GL reports an error, fails with `where` and the error's code.
   void check(const char* where);
-  /// Throws GlError, and has the next make_current() make this context anew.
+  /// Throws GlError. The next make_current() replaces this context by a new one.
   [[noreturn]] void fail(const std::string& what);
 
  private:

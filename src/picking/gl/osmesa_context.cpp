@@ -10,8 +10,8 @@
 namespace organ_collision {
 namespace {
 
-/// The functions of libOSMesa that we call, as in GL/osmesa.h. They are declared here because
-/// systems without OSMesa do not have that header.
+/// The functions of libOSMesa that this file calls, as in GL/osmesa.h. They are declared here
+/// because systems without OSMesa do not have that header.
 struct OsmesaFunctions {
   using Context = struct OsmesaContextHandle*;  // opaque
 

@@ -10,14 +10,14 @@
 
 namespace organ_collision {
 
-/// What a context draws into. Picking draws nothing, but GL requires a framebuffer.
+/// The framebuffer of a context. Picking draws no pixels, but GL requires a framebuffer.
 struct GlFramebuffer {
-  int width = 4, height = 4;  ///< [pixel]
+  int width = 4, height = 4;  ///< [pixel] size
   int depth_bits = 0;         ///< 0: without depth buffer
 };
 
-/// A compatibility context of one platform, and its framebuffer: rows from bottom to top, with four
-/// bytes (red, green, blue, alpha) a pixel.
+/// An OpenGL context (compatibility profile) of one platform, and its framebuffer: rows from bottom
+/// to top, with four bytes (red, green, blue, alpha) for each pixel.
 class PlatformContext {
  public:
   using AnyFunction = void (*)();
@@ -25,15 +25,15 @@ class PlatformContext {
   virtual ~PlatformContext() = default;
 
   virtual bool is_current() const = 0;
-  /// Returns whether the context is current in the calling thread now.
+  /// Returns whether the context is then current in the calling thread.
   virtual bool make_current() = 0;
-  /// Leaves the calling thread without a current context. Requires that this one is current.
+  /// Leaves the calling thread without a current context. This context must be current.
   virtual void release() = 0;
   /// The GL function of this name, for example "glBegin", or null.
   virtual AnyFunction find_function(const char* name) const = 0;
 };
 
-// Each throws GlError if the platform gives no context.
+// Both functions throw GlError if the platform gives no context.
 std::unique_ptr<PlatformContext> new_osmesa_context(const GlFramebuffer& framebuffer);
 std::unique_ptr<PlatformContext> new_egl_context(const GlFramebuffer& framebuffer);
 
@@ -47,7 +47,7 @@ class SharedLibrary {
     if (handle_ == nullptr) throw GlError(dlerror());
   }
 
-  /// Sets `function` to the library's function of this name. Throws GlError if it has none.
+  /// Sets `function` to the library's function `name`. Throws GlError if there is none.
   template <typename Function>
   void load(const char* name, Function*& function) const {
     function = reinterpret_cast<Function*>(dlsym(handle_, name));

@@ -6,9 +6,9 @@
 namespace organ_collision {
 namespace {
 
-/// The range of depths of a polygon in the volume's shifted coordinates.
+/// The candidate of a face whose part in the volume, in shifted coordinates, is `polygon`.
 Candidate candidate(std::uint32_t face, const ConvexPolygon& polygon, const ViewingVolume& volume) {
-  double nearest = 1.0, farthest = 0.0;  // in window coordinates
+  double nearest = 1.0, farthest = 0.0;  // window depths
   for (const Eigen::Vector3d& corner : polygon) {
     const Eigen::Vector4d clip = volume.clip() * corner.homogeneous();
     const double depth = 0.5 * (clip.z() / clip.w() + 1.0);
@@ -18,9 +18,9 @@ Candidate candidate(std::uint32_t face, const ConvexPolygon& polygon, const View
   return {face, volume.view_depth(nearest), volume.view_depth(farthest)};
 }
 
-/// Picks without OpenGL. The candidates of a part are the faces that outcodes do not reject: some
-/// more than GL leaves of them, and exact distances decide in any case. Faces in a volume are
-/// clipped in double precision.
+/// Picks without OpenGL. For a part, the candidates are all faces that outcodes do not reject. GL
+/// would leave fewer of them, but exact distances decide in any case. For a given volume, the faces
+/// are clipped in double precision.
 class CpuPicker final : public Picker {
  public:
   void pick(const ViewingVolume& volume, const TriangleMesh& mesh,

@@ -9,15 +9,16 @@
 namespace organ_collision {
 namespace {
 
-/// The entries of a hit record with one name: number of names, least and greatest depth, name.
+/// The number of entries of a hit record: number of names (1), least depth, greatest depth, name.
 constexpr std::size_t kRecord = 4;
 
-/// Window depths of the near and the far plane in GL_SELECT mode. Mesa converts depths to 32-bit
-/// integers. The conversion wraps around for depths that rounding puts at 1 or outside [0, 1].
+/// The window depths of the near and the far plane in GL_SELECT mode. They are not 0 and 1, because
+/// Mesa's conversion to 32-bit integers overflows for depths that rounding puts at 1 or outside
+/// [0, 1].
 constexpr double kNearDepth = 0.25;
 constexpr double kFarDepth = 0.75;
 
-/// The window depth of an entry of a hit record, in [0, 1] from near to far.
+/// The depth in a hit record as a share of the range from near to far plane, in [0, 1].
 double window_depth(std::uint32_t recorded) {
   const double depth = recorded / static_cast<double>(std::numeric_limits<std::uint32_t>::max());
   return (depth - kNearDepth) / (kFarDepth - kNearDepth);
@@ -27,8 +28,9 @@ class GlPicker final : public Picker {
  public:
   explicit GlPicker(const PickerSettings& settings)
       : context_(settings.gl), selects_(settings.kind == PickerKind::kSelect) {
-    // Mesa compiles another vertex pipeline for the first draw in GL_FEEDBACK mode, which
-    // fail_if_blind() may do in any query. Here it stalls no loop.
+    // Mesa compiles another vertex pipeline for the first draw in GL_FEEDBACK mode. Any later query
+    // may call fail_if_blind(), which draws in that mode. It is called here, where it delays no
+    // loop.
     if (selects_) fail_if_blind(context_);
   }
 
@@ -42,8 +44,8 @@ class GlPicker final : public Picker {
     add_witness(volume);
     if (!clip(volume, candidates)) {
       fail_if_blind(context_);
-      // A second loss of the witness is no failure: the volume is thin, and the paper's modes
-      // report what GL returns.
+      // If the witness is lost again, the volume is thin. The paper's modes then report what GL
+      // returns.
       clip(volume, candidates);
     }
     sort(mesh.face_count(), candidates);
@@ -55,7 +57,7 @@ class GlPicker final : public Picker {
     add_witness(volume);
     if (!clip(volume, candidates)) {
       fail_if_blind(context_);
-      take_drawn(candidates);  // No contact may be missed.
+      take_drawn(candidates);  // So no contact is missed.
     }
     for (const std::uint32_t face : draw_list_.undrawn()) candidates.push_back({face, 0.0, 0.0});
     sort(organ.after().face_count(), candidates);
@@ -67,13 +69,13 @@ class GlPicker final : public Picker {
  private:
   const DrawnFaces& faces() const { return draw_list_.faces(); }
 
-  /// Lets GL draw the witness last, a face in view: if GL does not return it, GL may be blind.
+  /// Adds the witness (see kWitness) as the last face that GL draws.
   void add_witness(const ViewingVolume& volume) {
     if (!faces().empty()) draw_list_.add(middle_face(volume), kWitness);
   }
 
   /// Replaces `candidates` by the faces of the draw list that meet the volume. Returns whether GL
-  /// also returned the witness, which is the last one in the list, or nothing had to be drawn.
+  /// returned the witness, too, or had nothing to draw.
   bool clip(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
     candidates.clear();
     if (faces().empty()) return true;
@@ -87,8 +89,8 @@ class GlPicker final : public Picker {
     return true;
   }
 
-  /// Adds the faces that GL returns in GL_FEEDBACK mode, in the order drawn. If GL has split a face
-  /// into several primitives, they follow each other.
+  /// Adds the faces that GL returns in GL_FEEDBACK mode, in the order drawn. GL may split a face
+  /// into several primitives, which follow each other.
   void feed_back(const ViewingVolume& volume, std::vector<Candidate>& candidates) {
     const std::size_t size = draw_feedback(context_, volume, faces(), feedback_);
     try {
@@ -117,8 +119,8 @@ class GlPicker final : public Picker {
     }
   }
 
-  /// Draws each face under its own name. Not by glBegin and glEnd: in GL_SELECT mode, Mesa 22.3
-  /// loses a buffer of 512 KB whenever such vertices have filled it. Returns the number of hits.
+  /// Draws each face under its own name, and returns the number of hits. Does not use glBegin and
+  /// glEnd: in GL_SELECT mode, Mesa 22.3 then leaks buffers of 512 KB.
   std::size_t draw_named(const ViewingVolume& volume) {
     const GlFunctions& gl = prepare_to_draw(context_, volume, faces());
     gl.DepthRange(kNearDepth, kFarDepth);
@@ -139,7 +141,7 @@ class GlPicker final : public Picker {
                   std::to_string(faces().size()));
   }
 
-  /// Replaces `candidates` by all faces that GL was to decide on.
+  /// Replaces `candidates` by all faces of the draw list, except the witness.
   void take_drawn(std::vector<Candidate>& candidates) const {
     candidates.clear();
     for (std::size_t i = 0; i < faces().size(); ++i) {
@@ -148,7 +150,7 @@ class GlPicker final : public Picker {
     }
   }
 
-  /// Sorts what GL returned. Fails if the mesh has no face of a returned number.
+  /// Sorts the candidates. Fails if a candidate's number is that of no face of the mesh.
   void sort(std::size_t face_count, std::vector<Candidate>& candidates) {
     sort_by_face(candidates);
     if (candidates.empty() || candidates.back().face < face_count) return;
@@ -157,7 +159,7 @@ class GlPicker final : public Picker {
   }
 
   GlContext context_;
-  const bool selects_;  ///< in GL_SELECT mode
+  const bool selects_;  ///< whether it draws in GL_SELECT mode
   DrawList draw_list_;
   std::vector<float> feedback_ = std::vector<float>(4096);
   std::vector<std::uint32_t> hits_;

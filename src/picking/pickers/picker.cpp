@@ -23,7 +23,7 @@ std::unique_ptr<Picker> new_picker(const PickerSettings& settings) {
   throw std::invalid_argument("unknown kind of picker");
 }
 
-// A box of 2 m by 2 m by 2 m. A user plane cuts off one edge.
+// A box of 2 m by 2 m by 2 m, of which a user plane cuts off one edge.
 ViewingVolume check_volume() {
   ViewingVolume volume =
       ViewingVolume::orthographic({Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
@@ -32,7 +32,8 @@ ViewingVolume check_volume() {
   return volume;
 }
 
-// Face 0 passes by a corner of the box, face 1 lies at the edge that is cut off, face 2 is in view.
+// Face 0 passes beside a corner of the box, face 1 is at the edge that is cut off, face 2 is in
+// view.
 TriangleMesh check_mesh() {
   return {{-3,    0,    0, 0,     -3,   0,    -3,    -3,   1,     //
            0.9F,  0.6F, 0, 0.6F,  0.9F, 0,    0.9F,  0.9F, 0.5F,  //

@@ -15,8 +15,8 @@
 
 namespace organ_collision {
 
-/// A face that meets a viewing volume, with the range of its depths behind the near plane, along
-/// the view [m].
+/// A face that meets a viewing volume. `view_min` and `view_max` [m] are the least and the greatest
+/// depth of the part in the volume, along the view from the near plane.
 struct Candidate {
   std::uint32_t face;
   double view_min;
@@ -38,15 +38,15 @@ class Picker {
 
   /// Replaces `candidates` by the faces of `organ` that may meet the space that `part` sweeps, each
   /// once, sorted by number. Contains every face that does. The depth ranges have no meaning.
-  /// Throws as above.
+  /// Throws GlError.
   virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
 
-  /// To pick may leave a GL context current in the calling thread. Releases it, so that another
-  /// thread may use or destroy the picker next.
+  /// Releases the GL context that pick() leaves current in the calling thread. Another thread may
+  /// then use or destroy the picker.
   virtual void release() = 0;
 
-  /// The version of OpenGL that draws, and its platform; or that there is none.
+  /// The version and the platform of OpenGL, or a text which says that there is none.
   virtual const std::string& gl_version() const = 0;
 };
 
@@ -54,12 +54,12 @@ class Picker {
 /// OpenGL gives no context or picks wrongly. No context is current afterwards.
 std::unique_ptr<Picker> make_picker(const PickerSettings& settings);
 
-/// The same for the kinds with OpenGL, without the test. It picks the faces that outcodes do not
-/// decide. PickerKind::kFeedback draws all of them with one call in GL_FEEDBACK mode.
-/// PickerKind::kSelect draws in GL_SELECT mode, as the 1999 paper does: each face under its own
-/// name, and for a given volume every face of the mesh.
+/// Makes a picker that uses OpenGL, without testing it. It draws the faces that outcodes do not
+/// decide. PickerKind::kFeedback draws them with one call in GL_FEEDBACK mode. PickerKind::kSelect
+/// draws in GL_SELECT mode, as the 1999 paper does: each face under its own name. For a given
+/// volume, it draws all faces of the mesh.
 std::unique_ptr<Picker> new_gl_picker(const PickerSettings& settings);
-/// PickerKind::kCpu.
+/// Makes a picker of PickerKind::kCpu.
 std::unique_ptr<Picker> new_cpu_picker();
 
 }  // namespace organ_collision

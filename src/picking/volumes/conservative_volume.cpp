@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Up to four corners in the plane, counterclockwise. No corner lies inside an edge.
+/// A convex polygon with up to four corners, counterclockwise. No corner lies inside an edge.
 struct ConvexHull {
   std::array<Vector2d, 4> corners;
   std::size_t count = 0;
@@ -25,7 +25,7 @@ bool turns_left(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return ab.x() * ac.y() - ab.y() * ac.x() > 0;
 }
 
-// Adds the corners on one side of the hull, from the first point to the last. The last is left out.
+// Adds the corners on one side of the hull, from the first point to the last one, without the last.
 template <typename Iterator>
 void add_chain(Iterator first, Iterator last, ConvexHull& hull) {
   std::array<Vector2d, 4> chain;
@@ -37,7 +37,7 @@ void add_chain(Iterator first, Iterator last, ConvexHull& hull) {
   for (std::size_t i = 0; i + 1 < count; ++i) hull.corners[hull.count++] = chain[i];
 }
 
-/// One corner if all points coincide, two if they lie on a line. Allocates nothing. Follows Andrew,
+/// The hull of the points: one corner if all coincide, two if they lie on a line. Follows Andrew,
 /// "Another efficient algorithm for convex hulls in two dimensions" (1979).
 ConvexHull convex_hull(std::array<Vector2d, 4> points) {
   std::sort(points.begin(), points.end(), [](const Vector2d& a, const Vector2d& b) {
@@ -51,30 +51,30 @@ ConvexHull convex_hull(std::array<Vector2d, 4> points) {
   return hull;
 }
 
-/// [1] How far 32-bit clipping may misplace the planes of a volume, as shares of the largest
+/// [1] How far 32-bit clipping may displace the planes of a volume, as shares of the largest
 /// coordinate. See doc/geometry.md, Outcodes and 32-bit clipping.
 struct Rounding {
-  double plane;     ///< any plane; for a wedge, this times 1 plus its steeper slope
-  double division;  ///< the far plane of a perspective camera in addition: this times far / near
+  double plane;     ///< for any plane; in a wedge, times 1 plus its steeper slope
+  double division;  ///< for the far plane of a wedge in addition, times far / near
 };
 
-// For frustum planes, the derived bound of both is 14.4 / (1 << 24). In tests, faces aimed at the
-// boundary were missed with a tenth of the first value, and with a sixteenth of the second.
+// For frustum planes, the derived bound of both values is 14.4 / (1 << 24). In tests, faces at the
+// boundary were missed with a tenth of the first value, and with a sixteenth of the second one.
 constexpr Rounding kClippingRounding{1e-6, 16.0 / (1 << 24)};
 constexpr Rounding kNoRounding{0.0, 0.0};
 
-// The wedge serves a triangle of trocar and tips that is neither too thin nor too oblique for it.
-// The box serves all other motions.
-constexpr double kMinSine = 1e-3;       // [1] of the angle at the trocar
-constexpr double kMinStep = 1e-3;       // [1] tip motion as a share of the axis length
-constexpr double kMinForward = 0.3;     // [1] cosine between either axis and the view
-constexpr double kMinNearShare = 1e-3;  // [1] near, as a share of far
+// The wedge is used if the triangle of trocar and tips is not too thin and not too oblique. All
+// other motions get the box.
+constexpr double kMinSine = 1e-3;       // [1] least sine of the angle at the trocar
+constexpr double kMinStep = 1e-3;       // [1] least way of the tip, as a share of the longer axis
+constexpr double kMinForward = 0.3;     // [1] least cosine between either axis and the view
+constexpr double kMinNearShare = 1e-3;  // [1] least ratio of near to far
 
 // [1] A user plane that cuts off less than this share of the radius is left out, because it would
 // cost more than it saves.
 constexpr double kWorthCutting = 0.25;
 
-// Both ends of the axis before and after the leg, relative to the first trocar [m].
+// Both ends of the axis before and after the leg [m], relative to the trocar before the leg.
 struct Ends {
   explicit Ends(const ShaftMotion& motion)
       : origin(motion.start.trocar),
@@ -89,10 +89,9 @@ struct Ends {
   Vector3d origin, trocar_end, tip_start, tip_end;
 };
 
-// The wedge of the paper's section 4. Its sides are moved outward by the radius at right angles,
-// its ends by the radius along the view. Returns nothing if the triangle is too thin or too
-// oblique, or if the trocar moves. `extent` [m] is the largest coordinate of the motion and of the
-// drawn faces.
+// The wedge of the paper's section 4, but its sides and its ends are moved outward by the radius at
+// right angles. Returns nothing if the triangle is too thin or too oblique, or if the trocar moves.
+// `extent` [m] is the largest coordinate of the motion and of the drawn faces.
 std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double extent,
                                    const Rounding& rounding) {
   const double longest = std::max(ends.tip_start.norm(), ends.tip_end.norm());
@@ -109,11 +108,10 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   const double left = axes.col(0).dot(start) / view.dot(start);
   const double right = axes.col(0).dot(end) / view.dot(end);
 
-  // The sides meet on the bisector of the angle at the trocar, this many radii behind the trocar.
+  // The sides meet on the bisector of the angle at the trocar, `back` radii behind the trocar.
   const Vector3d bisector = (start + end).normalized();
   const double back = 2 / (end - start).norm();
-  // A side's equation contains the depth times the side's slope, so the rounding of the depth
-  // counts in proportion to the slope.
+  // The equation of a side contains depth times slope, so the rounding of the depth grows with it.
   const double slant = 1 + std::max(std::abs(left), std::abs(right));
   const double reach = std::max(extent, back * radius);
   const double grown = radius + rounding.plane * slant * reach;
@@ -130,8 +128,8 @@ std::optional<ViewingVolume> wedge(const Ends& ends, double radius, double exten
   return volume;
 }
 
-// Camera axes of the box: z along the longer axis, x along the largest motion across it. The hull
-// of a resting trocar and both tips is then flat in y.
+// The camera axes of the box: z along the longer axis, x along the largest motion across z. If the
+// trocar rests, all positions of the axis then lie in the x-z plane.
 Eigen::Matrix3d box_axes(const Ends& ends) {
   const Vector3d later = ends.tip_end - ends.trocar_end;
   Vector3d view = later.stableNorm() > ends.tip_start.stableNorm() ? later : ends.tip_start;
@@ -144,8 +142,8 @@ Eigen::Matrix3d box_axes(const Ends& ends) {
   return camera_axes(view, tip_moves_more ? tip_step : ends.trocar_end);
 }
 
-// A box around all positions of the axis, grown by the radius. User planes cut it along the edges
-// of the hull of these positions, seen along y, each moved outward by the radius.
+// A box around all positions of the axis, grown by the radius. User planes, also moved outward by
+// the radius, cut it along the edges of the convex hull of these positions, seen along y.
 ViewingVolume cut_box(const Ends& ends, double radius, double extent, const Rounding& rounding) {
   const double grown = radius + rounding.plane * extent;
   const Eigen::Matrix3d axes = box_axes(ends);
@@ -181,7 +179,7 @@ ViewingVolume swept_volume(const ShaftMotion& motion, double radius, double exte
   return cut_box(ends, radius, reach, rounding);
 }
 
-/// The box, grown by margin.motion and for rounding.
+/// The volume of a swept box, grown by margin.motion and for rounding.
 ViewingVolume box_volume(const SweptBox& box, const VolumeMargin& margin,
                          const Rounding& rounding) {
   const Eigen::Vector3d origin = box.axes().transpose() * box.origin();

@@ -14,8 +14,8 @@ namespace organ_collision {
 
 /// How far a conservative volume grows beyond the space that the tool sweeps.
 struct VolumeMargin {
-  double motion = 0.0;  ///< [m] largest distance of a face, at any time, from where it is drawn
-  double extent = 0.0;  ///< [m] largest coordinate of any drawn vertex relative to the origin
+  double motion = 0.0;  ///< [m] largest distance of a face from where it is drawn, at any time
+  double extent = 0.0;  ///< [m] largest coordinate of a drawn vertex, relative to the origin
 };
 
 /// A volume that contains every point within `radius` + margin.motion [m] of the axis at some time
@@ -26,18 +26,18 @@ struct VolumeMargin {
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin);
 
-/// The conservative volume without its margins. Regions of contacts are clipped to it.
+/// The conservative volume of a shaft without margins. Regions of contacts are clipped to it.
 ViewingVolume tool_volume(const ShaftMotion& motion, double radius);
 
-/// An orthographic box that contains a link's box, grown by its radius and by margin.motion, at
-/// every time of the leg. It is grown for 32-bit clipping like the conservative volume of a shaft.
+/// An orthographic box that contains the swept box, grown by margin.motion, at every time of the
+/// leg. It is also grown for 32-bit clipping, like the conservative volume of a shaft.
 ViewingVolume conservative_volume(const SweptBox& box, const VolumeMargin& margin);
 
-/// The same without margins. Regions of contacts are clipped to it.
+/// The volume of a swept box without margins. Regions of contacts are clipped to it.
 ViewingVolume tool_volume(const SweptBox& box);
 
-/// The space that a part of a tool sweeps on one leg, or on the chord of a span of legs. It builds
-/// the conservative volumes around that space once the margins are known.
+/// The space that a part of a tool sweeps on one leg, or on the chord of a span of legs. volume()
+/// gives a conservative volume around it as soon as the margin is known.
 class PartSweep {
  public:
   /// A shaft with its radius [m].
@@ -46,7 +46,7 @@ class PartSweep {
 
   /// [m] The origin of the volumes' shifted coordinates, in the organ's frame.
   const Eigen::Vector3d& origin() const { return box_ ? box_->origin() : shaft_.start.trocar; }
-  /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths: the
+  /// [m] The radius of the shaft, or half of the middle one of the box's three edge lengths. The
   /// shortest edge of a flat box says nothing about its size.
   double thickness() const {
     if (!box_) return radius_;

@@ -11,13 +11,13 @@ namespace {
 
 using Eigen::Vector3d;
 
-// [1] A step counts as no motion if it is shorter than this share of the axis length or radius,
-// whichever is larger. A trocar within the same distance of the line through the tips counts as on
-// it. In both cases only rounding would decide the directions of the hexahedron.
+// [1] The tip rests if it moves by at most this share of the axis length or radius, whichever is
+// larger. The trocar lies on the line through the tips if it is at most that far from it. In both
+// cases only rounding would decide the directions of the hexahedron.
 constexpr double kFlat = 1e-9;
 
-// The least length and radius of a shaft [m], and its least radius as a share of its length [1].
-// The volume of a smaller shaft is lost in the rounding of 32-bit clipping.
+// The least length and radius of a shaft [m], and the least radius as a share of the length [1].
+// Rounding in 32-bit clipping would lose the volume of a smaller shaft.
 constexpr double kLeastSize = 1e-9;
 constexpr double kThinnest = 1e-6;
 
@@ -37,13 +37,13 @@ void check_size(double length, double radius) {
 // The hexahedron of figure 4, seen from the trocar along z, with x along the tip's motion.
 struct Hexahedron {
   Eigen::Matrix3d axes;
-  double height;      // [m] from the trocar to the line of the tips, along z
-  double start, end;  // [m] the previous and current tip along x
+  double height;      // [m] depth of the line through the tips, along z
+  double start, end;  // [m] x of the previous and of the current tip
   double travel() const { return end - start; }
 };
 
-// Follows section 4 of the paper. Returns nothing without motion, or if the trocar lies on the line
-// through the tips.
+// Follows section 4 of the paper. Returns nothing if the tip rests, or if the trocar lies on the
+// line through the tips.
 std::optional<Hexahedron> hexahedron(const ShaftMotion& motion, double radius) {
   const Vector3d previous = motion.start.tip - motion.start.trocar;
   const Vector3d current = motion.end.tip - motion.start.trocar;
@@ -78,8 +78,8 @@ ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius) {
 ViewingVolume paper_swept_volume(const ShaftMotion& motion, double radius) {
   const auto solid = hexahedron(motion, radius);
   if (!solid) return static_to_farther_tip(motion, radius);
-  // By the intercept theorem, the distance from the trocar back to where the sides meet is this
-  // share of the distance from the trocar to the tips.
+  // The sides meet behind the trocar. By the intercept theorem, their meeting point is `share`
+  // times as far from the trocar, along z, as the tips are.
   const double share = 2 * radius / solid->travel();
   const double near = share * solid->height;
   const double left = share * solid->start;
@@ -99,7 +99,7 @@ ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius) {
   ViewingVolume volume = ViewingVolume::orthographic(
       {motion.start.trocar, Vector3d::Zero(), solid->axes, std::min(0.0, solid->start) - radius,
        std::max(0.0, solid->end) + radius, -radius, radius, 0, solid->height});
-  // In x and z, a side runs from (outward * radius, 0) to (tip + outward * radius, height).
+  // In x and z, a side goes through (outward * radius, 0) and (tip + outward * radius, height).
   const auto add_side = [&](double tip, double outward) {
     const Vector3d normal = solid->axes * (outward * Vector3d(solid->height, 0, -tip)).normalized();
     volume.add_user_plane({normal, outward * radius * normal.dot(solid->axes.col(0))});

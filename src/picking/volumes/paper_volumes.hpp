@@ -12,24 +12,24 @@ namespace organ_collision {
 /// are not grown for 32-bit clipping. Radii are in metres.
 ///
 /// The three functions throw VolumeError for a shaft whose volume would be lost in the rounding of
-/// 32-bit clipping: one shorter than 1e-9 m, or with a radius below 1e-9 m or below a millionth of
-/// its length.
+/// 32-bit clipping. Such a shaft is shorter than 1e-9 m, or its radius is below 1e-9 m or below a
+/// millionth of its length.
 
-/// The motion has no such volume. what() names the value and what is legal.
+/// The shaft is too short or too thin for the volume. what() names the value and what is legal.
 class VolumeError : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// Static (section 3): a box of half-width `radius` around the axis, flat at both ends.
+/// The static volume (section 3): a box of half-width `radius` around the axis, flat at both ends.
 ViewingVolume paper_static_volume(const ShaftAxis& axis, double radius);
 
-/// Swept (section 4, figures 7 and 8): a perspective camera and two user planes. The trocar rests
-/// at `motion.start.trocar`. A tool without motion gets the static volume. If the trocar and both
-/// tips lie on a line, the tool gets the static volume to the farther tip.
+/// The swept volume (section 4, figures 7 and 8): a perspective camera and two user planes. The
+/// trocar rests at `motion.start.trocar`. If the tip rests, or if trocar and both tips lie on a
+/// line, the tool gets the static volume to the farther tip.
 ViewingVolume paper_swept_volume(const ShaftMotion& motion, double radius);
 
-/// Swept, naive (figure 5): the orthographic box around the same hexahedron, and two user planes
-/// along its sides. It contains the same points as paper_swept_volume.
+/// The naive swept volume (figure 5): the orthographic box around the sweep of figure 4, and two
+/// user planes along its sides. It contains the same points as paper_swept_volume.
 ViewingVolume paper_naive_volume(const ShaftMotion& motion, double radius);
 
 }  // namespace organ_collision

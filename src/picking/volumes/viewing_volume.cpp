@@ -7,7 +7,7 @@
 namespace organ_collision {
 namespace {
 
-// A camera coordinate as a row. The product of the row and (p, 1) is axis · (p - eye).
+// A camera coordinate as a row: the row times (p, 1) is axis · (p - eye).
 Eigen::RowVector4d coordinate(const ViewingVolume::Camera& camera, int axis) {
   const Eigen::Vector3d direction = camera.axes.col(axis);
   return {direction.x(), direction.y(), direction.z(), -direction.dot(camera.eye)};
@@ -15,15 +15,15 @@ Eigen::RowVector4d coordinate(const ViewingVolume::Camera& camera, int axis) {
 
 const Eigen::RowVector4d kOne{0, 0, 0, 1};
 
-// [1] A vector counts as parallel to the view below this sine of the angle between them: its part
-// at right angles to the view is then only rounding.
+// [1] A vector counts as parallel to the view below this sine of the angle between both. Its
+// component across the view is then only rounding.
 constexpr double kParallel = 1e-12;
 
-// The unit vector, or zero for a zero vector.
+// The unit vector along a vector; zero for a zero vector.
 Eigen::Vector3d direction(const Eigen::Vector3d& vector) { return vector.stableNormalized(); }
 
-// [1] Rounding leaves corners of a polygon that were one this far from each other, as a share of
-// their largest coordinate.
+// [1] Corners of a polygon count as one corner if they differ by at most this share of their
+// largest coordinate: only rounding separates them.
 constexpr double kSameCorner = 1e-15;
 
 void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
@@ -35,8 +35,8 @@ void add_corner(const Eigen::Vector3d& corner, ConvexPolygon& polygon) {
   }
 }
 
-/// Clips a convex polygon to a half-space: Sutherland and Hodgman, "Reentrant polygon clipping"
-/// (1974).
+/// Clips a convex polygon to a half-space. Source: Sutherland and Hodgman, "Reentrant polygon
+/// clipping" (1974).
 ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfSpace& half_space) {
   const auto height = [&](const Eigen::Vector3d& corner) {
     return half_space.normal.dot(corner) - half_space.offset;
@@ -56,7 +56,7 @@ ConvexPolygon clipped(const ConvexPolygon& polygon, const HalfSpace& half_space)
 
 }  // namespace
 
-// The rows of glOrtho, for a camera that looks along +z.
+// The rows of the matrix of glOrtho, for a camera that looks along +z.
 ViewingVolume ViewingVolume::orthographic(const Camera& camera) {
   const auto& [origin, eye, axes, left, right, bottom, top, near, far] = camera;
   ViewingVolume volume;
@@ -71,8 +71,8 @@ ViewingVolume ViewingVolume::orthographic(const Camera& camera) {
   return volume;
 }
 
-// The rows of glFrustum, for a camera that looks along +z, divided by `near`. w is then 1 at the
-// near plane, and no entry becomes very large or small, however far away the eye is.
+// The rows of the matrix of glFrustum, for a camera that looks along +z, divided by `near`. So w is
+// 1 at the near plane, and no entry becomes very large or small, however far away the eye is.
 ViewingVolume ViewingVolume::perspective(const Camera& camera) {
   const auto& [origin, eye, axes, left, right, bottom, top, near, far] = camera;
   ViewingVolume volume;
@@ -111,7 +111,7 @@ double ViewingVolume::view_depth(double window_depth) const {
   const double range = far_ - near_;
   const double depth = std::clamp(window_depth, 0.0, 1.0);
   if (!perspective_) return depth * range;
-  // Equals far near / (far - depth range) - near, without cancellation.
+  // This equals far near / (far - depth range) - near, but subtracts no similar numbers.
   return near_ * depth * range / (near_ + (1.0 - depth) * range);
 }
 
@@ -130,7 +130,7 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& 
   Eigen::Vector3d x = direction(right);
   x -= z * z.dot(x);
   if (x.norm() < kParallel) return camera_axes(view);
-  // This is repeated because the first subtraction cancels most digits of a nearly parallel vector.
+  // This is repeated because the first subtraction loses most digits of a nearly parallel vector.
   x = direction(x);
   x = direction(x - z * z.dot(x));
   Eigen::Matrix3d axes;

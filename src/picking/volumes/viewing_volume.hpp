@@ -24,22 +24,22 @@ class ViewingVolume {
  public:
   static constexpr std::size_t kMaxUserPlanes = 8;
 
-  /// [m] In the organ's frame: subtract it from a point to get shifted coordinates.
+  /// [m] The origin of the shifted coordinates, in the organ's frame.
   const Eigen::Vector3d& origin() const { return origin_; }
-  /// From shifted coordinates to GL's clip coordinates. A point is inside if -w <= x, y, z <= w.
+  /// The matrix from shifted coordinates to GL's clip coordinates. Inside, -w <= x, y, z <= w.
   const Eigen::Matrix4d& clip() const { return clip_; }
-  /// The coefficients a b c d of a x + b y + c z + d >= 0 in shifted coordinates, as glClipPlane
-  /// takes them.
+  /// The user planes as glClipPlane takes them: a b c d of a x + b y + c z + d >= 0 in shifted
+  /// coordinates.
   const Eigen::Vector4d* user_planes() const { return user_planes_.data(); }
   std::size_t user_plane_count() const { return user_plane_count_; }
 
-  /// The same volume as half-spaces in shifted coordinates: first the six frustum planes (left,
-  /// right, bottom, top, near, far), which follow from the rows of clip(), then the user planes.
+  /// The half-spaces of the volume in shifted coordinates: first the six frustum planes (left,
+  /// right, bottom, top, near, far), from the rows of clip(), then the user planes.
   std::size_t half_space_count() const { return 6 + user_plane_count_; }
   HalfSpace half_space(std::size_t index) const;
 
   /// [m] How far a point lies behind the near plane, along the view. `window_depth` is its depth in
-  /// GL's window coordinates, in [0, 1]. Values that rounding has put outside are clamped.
+  /// GL's window coordinates, clamped to [0, 1] because of rounding.
   double view_depth(double window_depth) const;
 
   /// A camera at `eye` (shifted coordinates) with orthonormal axes x (right), y (up) and
@@ -53,7 +53,7 @@ class ViewingVolume {
   static ViewingVolume orthographic(const Camera& camera);
   static ViewingVolume perspective(const Camera& camera);
 
-  /// Clips at { x : normal · x <= offset } as well; x is relative to origin(). Throws
+  /// Adds a half-space, in shifted coordinates, to which the volume is clipped as well. Throws
   /// std::out_of_range if there are kMaxUserPlanes already.
   void add_user_plane(const HalfSpace& half_space);
 
@@ -67,26 +67,26 @@ class ViewingVolume {
   bool perspective_;
 };
 
-/// A camera's axes: orthonormal columns x, y, z. z is along `view` (not zero), and y points towards
-/// the frame axis least aligned with it.
+/// A camera's axes: orthonormal columns x, y, z. z is along `view`, which is not zero. y points
+/// towards the frame axis that is least aligned with z.
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view);
 
-/// The same with x along the part of `right` that is perpendicular to `view`. If `right` is
-/// parallel to `view`, as above.
+/// A camera's axes with x along the component of `right` that is perpendicular to `view`. If
+/// `right` is parallel to `view`, the axes are camera_axes(view).
 Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& right);
 
-/// A face across the middle of the volume's frustum, in its shifted coordinates [m]. It meets the
+/// A face across the middle of the frustum, in the volume's shifted coordinates [m]. It meets the
 /// volume, because no user plane of a tool's volume cuts off that middle. Exceptions are the
 /// paper's naive volume, and slivers that are so thin for their length that 32-bit clipping loses
 /// the face. See doc/geometry.md, GL's clipping.
 Triangle middle_face(const ViewingVolume& volume);
 
-/// The corners of a convex polygon, in their order along its border. One or two corners are a point
-/// or a segment. None: it is empty.
+/// The corners of a convex polygon, in their order along its border. One corner is a point, two are
+/// a segment, and none is the empty polygon.
 using ConvexPolygon = std::vector<Eigen::Vector3d>;
 
 /// The part of a face in a viewing volume, in double precision. The face and its part are in the
-/// volume's shifted coordinates [m]. A face that only touches the volume has a part, too.
+/// volume's shifted coordinates [m]. A face that only touches the volume has such a part, too.
 ConvexPolygon clipped(const Triangle& face, const ViewingVolume& volume);
 
 }  // namespace organ_collision

@@ -11,24 +11,24 @@ namespace organ_collision {
 /// sections and larger groups, for one shape of the organ. FaceClusters explains these words.
 class BlockBoxes {
  public:
-  /// The first three coordinates are x, y and z. The fourth is padding for vector registers.
+  /// A box with the coordinates x, y, z and a fourth one that only fills the vector register.
   struct Box {
     Eigen::Array4f min;  ///< the smallest coordinates
     Eigen::Array4f max;  ///< the largest coordinates
 
-    /// The smallest box around both.
+    /// The smallest box around this box and the other one.
     Box join(const Box& other) const { return {min.min(other.min), max.max(other.max)}; }
   };
 
   /// Fits the boxes to new vertices (x y z x y z ... [m]) in one pass over them. Returns false if a
-  /// coordinate is not finite; the boxes are then unspecified. Allocates only if `clusters` has
-  /// more blocks than before.
+  /// coordinate is not finite; the boxes are then unspecified. Allocates memory only if `clusters`
+  /// has more blocks than the clusters of an earlier call.
   bool refit(const FaceClusters& clusters, const std::vector<float>& vertices);
 
-  /// The boxes of the blocks, padded with empty boxes to a multiple of FaceClusters::kGroup.
+  /// The boxes of the blocks, with empty boxes up to a multiple of FaceClusters::kGroup.
   const std::vector<Box>& blocks() const { return blocks_; }
-  /// The boxes around the vertices of a level's groups and of the faces of their clusters, padded
-  /// in the same way. Level 0 is the sections.
+  /// The boxes of the groups of a level. Each contains the blocks of its group and all faces of
+  /// their clusters. Empty boxes follow as for blocks(). The groups of level 0 are the sections.
   const std::vector<Box>& groups(std::size_t level) const { return groups_[level]; }
   /// The box around all vertices.
   const Eigen::AlignedBox3f& all() const { return all_; }
@@ -38,7 +38,7 @@ class BlockBoxes {
   void add_borders(const FaceClusters& clusters);
 
   std::vector<Box> blocks_;
-  std::vector<std::vector<Box>> groups_;  ///< by level; there may be levels of earlier clusters
+  std::vector<std::vector<Box>> groups_;  ///< by level; may have more levels than the clusters
   Eigen::AlignedBox3f all_;
 };
 

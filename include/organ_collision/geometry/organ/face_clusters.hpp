@@ -10,32 +10,32 @@ namespace organ_collision {
 /// The three vertex indices of a face. Its outward side is given by the right-hand rule.
 using FaceIndices = std::array<std::uint32_t, 3>;
 
-/// Sorts an organ's vertices and faces so that neighbours in space are together. It is made when
-/// the triangles change. The boxes around them are fitted to each new shape (BlockBoxes). See
-/// doc/geometry.md, Words.
+/// Sorts an organ's vertices and faces so that neighbours in space are together. Made anew when the
+/// triangles change. For each new shape, only boxes are fitted (BlockBoxes). See doc/geometry.md,
+/// Words.
 ///
 /// - A block is kBlock vertices that lie near each other. If vertices that follow each other in the
 ///   sender's order are also neighbours in space, a block is consecutive vertices of that order.
-///   One pass over the vertices then fits the boxes faster.
+///   The boxes are then fitted faster, in one pass over the vertices.
 /// - The cluster of a block is the faces that have a vertex in this block and none in an earlier
 ///   block.
-/// - A section is kGroup blocks that follow each other. These, too, lie near each other.
+/// - A section is kGroup blocks that follow each other. Its blocks lie near each other, too.
 /// - Sections are the lowest level of a tree: a group of each further level is kGroup groups of the
 ///   level below it. The top level has at most kGroup groups.
 class FaceClusters {
  public:
-  /// The vertices in a block. Boxes around 16 are fewer and less tight; doc/benchmarks.md, The
-  /// order of blocks, has the times.
+  /// The number of vertices in a block. With 16, there would be fewer boxes, which are less tight.
+  /// The times are in doc/benchmarks.md, The order of blocks.
   static constexpr std::uint32_t kBlock = 8;
-  /// The blocks in a section, and the members of each larger group.
+  /// The number of blocks in a section, and of members in each larger group.
   static constexpr std::size_t kGroup = 16;
 
-  /// `vertices`: x y z x y z ... [m], finite. `faces` refer to them.
+  /// `vertices`: x y z x y z ... [m], finite. `faces` refer to these vertices.
   FaceClusters(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
   /// The number of blocks, which is also the number of clusters.
   std::size_t block_count() const { return order_.size() / kBlock; }
-  /// The number of levels of groups. Level 0 is the sections.
+  /// The number of levels of groups. The groups of level 0 are the sections.
   std::size_t level_count() const { return group_counts_.size(); }
   /// The number of groups of a level. The last one may have fewer than kGroup members.
   std::size_t group_count(std::size_t level) const { return group_counts_[level]; }
@@ -44,16 +44,16 @@ class FaceClusters {
   template <typename T>
   struct Range {
     const T* first;                           ///< the first item
-    const T* last;                            ///< behind the last item
+    const T* last;                            ///< the place behind the last item
     const T* begin() const { return first; }  ///< for range-based loops
     const T* end() const { return last; }     ///< for range-based loops
   };
   /// A face with its number in the sender's order.
   struct Face {
-    FaceIndices corners;   ///< its vertices
-    std::uint32_t number;  ///< its place among all faces, from 0
+    FaceIndices corners;   ///< indices of the vertices
+    std::uint32_t number;  ///< the place of the face among all faces, from 0
   };
-  /// The faces of a block's cluster, by rising number. There may be none.
+  /// The faces of a block's cluster, by rising number. A cluster may be empty.
   Range<Face> faces(std::size_t block) const {
     return {faces_.data() + face_begin_[block], faces_.data() + face_begin_[block + 1]};
   }
@@ -62,18 +62,18 @@ class FaceClusters {
   /// The blocks of other sections that contain vertices of the faces of a section's clusters.
   Range<std::uint32_t> border(std::size_t section) const { return borders_.of(section); }
 
-  /// The kBlock vertices of a block. In an incomplete block a vertex is repeated.
+  /// The indices of the kBlock vertices of a block. An incomplete block repeats the last vertex.
   const std::uint32_t* vertices(std::size_t block) const { return &order_[kBlock * block]; }
-  /// The consecutive vertices that stay together: kBlock, or 1 if the sender's order does not
-  /// follow space.
+  /// The number of consecutive vertices that stay together (a piece): kBlock, or 1 if vertices that
+  /// follow each other in the sender's order are not neighbours in space.
   std::uint32_t piece_size() const { return piece_size_; }
-  /// The number of the block of each piece. A piece is piece_size() consecutive vertices in the
-  /// sender's order; the last one may be shorter.
+  /// For each piece, the number of its block. A piece is piece_size() consecutive vertices in the
+  /// sender's order; the last piece may be shorter.
   const std::vector<std::uint32_t>& block_of_piece() const { return block_of_piece_; }
 
  private:
   using Numbers = std::vector<std::uint32_t>;
-  /// Lists of numbers, stored one after the other.
+  /// Lists of numbers, stored one after the other in `all`. List i starts at begin[i].
   struct Lists {
     Numbers all, begin = {0};
     Range<std::uint32_t> of(std::size_t i) const {
@@ -90,7 +90,7 @@ class FaceClusters {
   std::vector<Face> faces_;
   Numbers face_begin_;
   Lists blocks_, borders_;
-  std::vector<std::size_t> group_counts_;  ///< by level
+  std::vector<std::size_t> group_counts_;  ///< number of groups, by level
 };
 
 }  // namespace organ_collision

@@ -9,14 +9,15 @@
 
 namespace organ_collision {
 
-/// A vertex that counts as another one at the same place.
+/// A vertex that counts as another vertex at the same place.
 struct SeamVertex {
-  std::uint32_t vertex;  ///< its index
-  std::uint32_t first;   ///< the first vertex at that place
+  std::uint32_t vertex;  ///< its own index
+  std::uint32_t first;   ///< index of the first vertex at that place, as which it counts
 };
 
-/// How the faces of a mesh join. If the surface is not closed by its indices alone, vertices that
-/// are at the same place when this is made count as one vertex, and stay one when the mesh deforms.
+/// How the faces of a mesh join. If the indices alone do not close the surface, vertices that are
+/// at the same place when this object is made count as one vertex. They still do so when the mesh
+/// deforms.
 ///
 /// Any triangles are allowed: several components, cavities, degenerate faces and faces that occur
 /// more than once.
@@ -25,17 +26,17 @@ class SurfaceTopology {
   /// `faces` refer to `vertices`: x y z x y z ... [m], finite.
   SurfaceTopology(const std::vector<FaceIndices>& faces, const std::vector<float>& vertices);
 
-  /// Whether each directed edge occurs as often as its opposite. Only a closed surface has an inner
+  /// Whether each edge occurs equally often in both directions. Only a closed surface has an inner
   /// side and a volume.
   bool is_closed() const { return open_edges_ == 0; }
   /// The number of edges that occur more often in one direction than in the other.
   std::size_t open_edge_count() const { return open_edges_; }
 
-  /// For each vertex, the first one of those that count as one: itself, if there is no other. Where
-  /// a deformed mesh has them at different places, the first one counts. Vertices that no face uses
-  /// are left out.
+  /// For each vertex, the index of the vertex as which it counts: the first vertex at its place,
+  /// which may be itself. If they are at different places in a deformed mesh, the place of the
+  /// first one counts. A vertex that no face uses counts as itself.
   const std::vector<std::uint32_t>& welded() const { return welded_; }
-  /// The same face, between welded vertices.
+  /// The face, with the vertices as which its corners count.
   FaceIndices welded(const FaceIndices& face) const {
     return {welded_[face[0]], welded_[face[1]], welded_[face[2]]};
   }
@@ -48,9 +49,9 @@ class SurfaceTopology {
   std::size_t open_edges_;
 };
 
-/// [m^3] The volume that a closed surface encloses. Negative if its faces point inward. Parts that
-/// are enclosed several times count as often. 0 if the surface is not closed. `faces` are those of
-/// `topology`, and `vertices` are their present positions [m].
+/// [m^3] The volume that a closed surface encloses. Negative if its faces point inward. Space that
+/// is enclosed several times counts several times. 0 if the surface is not closed. `faces` are
+/// those of `topology`, and `vertices` are their present positions [m].
 double signed_volume(const SurfaceTopology& topology, const std::vector<FaceIndices>& faces,
                      const std::vector<float>& vertices);
 

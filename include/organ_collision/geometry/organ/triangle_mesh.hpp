@@ -22,7 +22,7 @@ class MeshError : public std::invalid_argument {
  public:
   /// What was wrong.
   enum class Reason {
-    kSize,            ///< the arrays have no legal length, or not that of the mesh so far
+    kSize,            ///< an array has an illegal length, or another length than in the mesh so far
     kIndex,           ///< a triangle refers to a vertex that does not exist
     kNotFinite,       ///< a coordinate is NaN or infinite
     kTooFar,          ///< a coordinate is beyond tolerance::kFarthest
@@ -41,18 +41,18 @@ class MeshError : public std::invalid_argument {
   Reason reason_;
 };
 
-/// The largest mesh that is accepted. It may have up to three vertices for each of the faces
-/// allowed.
+/// The size of the largest mesh that is accepted. A mesh may have up to three times as many
+/// vertices as `max_faces`.
 struct MeshLimits {
   /// The largest number of faces.
   std::size_t max_faces = 2'000'000;
 };
 
-/// Vertex positions, x y z x y z ... [m]. They are constant, so that a mesh can use the array of a
-/// message without a copy.
+/// Vertex positions, x y z x y z ... [m]. They are constant and shared, so that a mesh can use the
+/// array of a message without a copy.
 using SharedVertices = std::shared_ptr<const std::vector<float>>;
 
-/// The triangles of a mesh. Meshes with the same triangles share them.
+/// The triangles of a mesh. Copies of a mesh share them.
 using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
 
 /// The surface of an organ: triangles and the current positions of their vertices, in the organ's
@@ -61,9 +61,9 @@ using SharedFaces = std::shared_ptr<const std::vector<FaceIndices>>;
 /// Copies share triangles and positions.
 class TriangleMesh {
  public:
-  /// `vertices`: at least one; coordinates finite and within tolerance::kFarthest.
-  /// `triangles`: three vertex indices for each face; at least one face.
-  /// `topology`: the sender's revision of `triangles`.
+  /// `vertices`: at least one; coordinates finite and within tolerance::kFarthest. `triangles`:
+  /// three vertex indices for each face; at least one face. `topology`: the number that the sender
+  /// gives to this version of `triangles`.
   TriangleMesh(SharedVertices vertices, const std::vector<std::uint32_t>& triangles,
                std::uint32_t topology = 0, const MeshLimits& limits = {});
   /// \overload
@@ -73,7 +73,7 @@ class TriangleMesh {
                      limits) {}
 
   /// Sets new positions for the same triangles. The number of vertices must be unchanged. Reads the
-  /// positions once and does not copy them. Only the first call allocates.
+  /// positions once and does not copy them. Only the first call allocates memory.
   void move_vertices(SharedVertices vertices);
   /// \overload
   void move_vertices(std::vector<float> vertices) {
@@ -84,20 +84,20 @@ class TriangleMesh {
   std::size_t face_count() const { return faces().size(); }
   /// The number of vertices, at least one.
   std::size_t vertex_count() const { return vertices_->size() / 3; }
-  /// The sender's revision of the triangles.
+  /// The number that the sender gives to this version of the triangles.
   std::uint32_t topology() const { return topology_->revision; }
 
   /// All faces. The address is unchanged as long as the triangles are the same.
   const std::vector<FaceIndices>& faces() const { return topology_->faces; }
-  /// The same faces. They stay as they are even if the mesh ends.
+  /// All faces, for those who need them longer than the mesh exists.
   SharedFaces shared_faces() const { return {topology_, &topology_->faces}; }
-  /// The same faces in spatially coherent clusters.
+  /// The faces, sorted into clusters of neighbours in space.
   const FaceClusters& clusters() const { return topology_->clusters; }
-  /// The boxes around their blocks and groups in the present shape [m].
+  /// The boxes [m] around the blocks and groups of clusters(), in the present shape.
   const BlockBoxes& block_boxes() const { return boxes_; }
-  /// x y z x y z ... [m]
+  /// The positions of all vertices: x y z x y z ... [m]
   const std::vector<float>& vertices() const { return *vertices_; }
-  /// The same positions, to share them without a copy.
+  /// The positions of all vertices, to be shared without a copy.
   const SharedVertices& shared_vertices() const { return vertices_; }
   /// The smallest axis-aligned box around all vertices [m].
   const Eigen::AlignedBox3f& box() const { return boxes_.all(); }
@@ -113,8 +113,8 @@ class TriangleMesh {
     return {vertex(corners[0]), vertex(corners[1]), vertex(corners[2])};
   }
 
-  /// Whether both meshes have the same triangles and the same number of vertices. One can then be
-  /// an earlier shape of the other.
+  /// Whether both meshes have the same triangles and the same number of vertices. One mesh can then
+  /// be an earlier shape of the other one.
   bool same_faces(const TriangleMesh& other) const {
     return vertex_count() == other.vertex_count() &&
            (topology_ == other.topology_ || faces() == other.faces());
@@ -123,7 +123,7 @@ class TriangleMesh {
   bool has_triangles(const std::vector<std::uint32_t>& triangles) const;
 
  private:
-  /// The constant part, shared by all shapes.
+  /// What does not change with the shape. Copies of a mesh share it.
   struct Topology {
     std::uint32_t revision;
     std::vector<FaceIndices> faces;
@@ -132,7 +132,7 @@ class TriangleMesh {
   std::shared_ptr<const Topology> topology_;
   SharedVertices vertices_;
   BlockBoxes boxes_;
-  BlockBoxes spare_boxes_;  ///< receives the boxes of new vertices until these are accepted
+  BlockBoxes spare_boxes_;  ///< boxes of new vertices, until these vertices are accepted
 };
 
 }  // namespace organ_collision

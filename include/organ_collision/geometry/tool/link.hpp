@@ -11,13 +11,13 @@
 
 namespace organ_collision {
 
-/// A rigid piece of a link, in the link's frame: all points within `radius` of the core or, if it
-/// has one, of the surface.
+/// A part of a link, in the link's frame: all points within `radius` of the core. If the part has a
+/// surface, it is all points within `radius` of the surface.
 struct LinkPart {
-  ConvexCore core;                             ///< unused if there is a surface
-  std::shared_ptr<const ToolSurface> surface;  ///< null if the part is convex
-  double radius;                               ///< [m] > 0
-  OrientedBox bounds;                          ///< around core or surface, without the radius
+  ConvexCore core;                             ///< the convex core; unused if there is a surface
+  std::shared_ptr<const ToolSurface> surface;  ///< the triangle mesh; null if the part is convex
+  double radius;                               ///< [m] radius around core or surface, > 0
+  OrientedBox bounds;                          ///< box around core or surface, without the radius
 
   // The shapes of URDF, at a pose in the link's frame. Sizes are in metres and positive. Shapes
   // with flat faces get the radius tolerance::kConvexMargin.
@@ -31,17 +31,17 @@ struct LinkPart {
   /// A mesh whose vertices are in the link's frame.
   static LinkPart mesh(ToolSurface surface);
 
-  /// [m] The radius of a ball. 0 for the other shapes, whose radius is only the convex margin: the
-  /// clearance is measured from these shapes themselves.
+  /// [m] The radius of a ball. 0 for the other shapes: their radius is only the convex margin, and
+  /// the clearance is measured without it.
   double ball_radius() const { return !surface && core.count == 1 ? radius : 0.0; }
 
-  /// The least and the greatest direction · point of the core or the surface, without the radius.
+  /// The least and the greatest direction · point of core or surface, without the radius.
   ProjectionInterval project_onto(const Eigen::Vector3d& direction) const;
 };
 
-/// A rigid link of a tool.
+/// A link of a tool: several parts that move rigidly together.
 struct Link {
-  std::string name;             ///< as in the robot's URDF
+  std::string name;             ///< the name, as in the robot's URDF
   std::vector<LinkPart> parts;  ///< the link touches what one of its parts touches
 };
 

@@ -4,20 +4,20 @@
 
 namespace organ_collision {
 
-/// The axis of a tool's shaft at one time, in the organ's frame [m]. The tool is the capsule around
-/// it: all points within the shaft radius of the axis. If trocar and tip coincide, it is a ball.
+/// The axis of a tool's shaft at one time, in the organ's frame [m]. The shaft is a capsule: all
+/// points within its radius of the axis. If trocar and tip coincide, the shaft is a ball.
 struct ShaftAxis {
   Eigen::Vector3d trocar;  ///< where the axis begins
   Eigen::Vector3d tip;     ///< where the axis ends
 
-  /// The point at `place` in [0, 1], from trocar to tip.
+  /// The point of the axis at `place` in [0, 1], from trocar to tip.
   Eigen::Vector3d at(double place) const { return trocar + place * (tip - trocar); }
 };
 
 /// One leg of a shaft's path: both ends of the axis move linearly from `start` to `end`.
 struct ShaftMotion {
-  ShaftAxis start;  ///< at time 0
-  ShaftAxis end;    ///< at time 1
+  ShaftAxis start;  ///< the axis at time 0
+  ShaftAxis end;    ///< the axis at time 1
 
   /// The axis at `time` in [0, 1] of the leg.
   ShaftAxis at(double time) const {

@@ -10,15 +10,15 @@ namespace organ_collision {
 
 /// The pose of a tool at one time, in the organ's frame [m].
 struct ToolPose {
-  ShaftAxis axis;                             ///< of the shaft; unused if the tool has none
+  ShaftAxis axis;                             ///< the shaft's axis; unused if there is no shaft
   std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each link
-  std::optional<Eigen::Vector3d> tip = {};    ///< of a tool without a shaft, if it has one
+  std::optional<Eigen::Vector3d> tip = {};  ///< the tip of a tool without a shaft, if it has a tip
 };
 
 /// The pose of a tool at `fraction` in [0, 1] of the step, in the organ's frame [m].
 struct ToolWaypoint {
-  double fraction;                            ///< when, as a fraction of the step
-  ShaftAxis axis;                             ///< of the shaft; unused if the tool has none
+  double fraction;                            ///< the time, as a fraction of the step
+  ShaftAxis axis;                             ///< the shaft's axis; unused if there is no shaft
   std::vector<Eigen::Isometry3d> links = {};  ///< T_organ_link of each link
 };
 
