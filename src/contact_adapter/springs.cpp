@@ -37,8 +37,8 @@ struct Corner {
   }
 };
 
-/// The vertices and edges of all contacts' faces. Those that faces of a link share follow each
-/// other.
+/// The vertices and edges of all contacts' faces. If faces that one link touches share a vertex or
+/// an edge, its entries follow each other.
 std::vector<Corner> corners_of(const std::vector<Contact>& contacts) {
   std::vector<Corner> corners;
   corners.reserve(6 * contacts.size());

@@ -15,17 +15,17 @@ namespace organ_collision {
 /// are given move the block.
 class FemBlock {
  public:
-  /// At rest.
+  /// The block at rest.
   FemBlock();
   ~FemBlock();
 
   /// The faces of the closed surface, oriented outwards.
   const std::vector<FaceIndices>& faces() const { return faces_; }
-  /// x y z x y z ... [m] of all nodes, also of those inside.
+  /// The places x y z x y z ... [m] of all nodes, also of those inside.
   std::vector<float> vertices() const;
   std::size_t vertex_count() const;
 
-  /// What the nodes were given: the sum of the impulses [N s], and of their moments about the
+  /// What push() gave to nodes: the sum of the impulses [N s], and of their moments about the
   /// origin [N m s].
   struct Impulse {
     Eigen::Vector3d linear = Eigen::Vector3d::Zero();

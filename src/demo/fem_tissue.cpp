@@ -23,16 +23,16 @@ namespace organ_collision {
 namespace {
 
 constexpr char kProgram[] = "fem_tissue";
-constexpr char kOrgan[] = "tissue";  // its name and its frame
+constexpr char kOrgan[] = "tissue";  // the name and the frame of the organ
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kForces[] = "vertex_forces";
 constexpr char kImpulse[] = "impulse";
 constexpr double kStep = 0.004;     // [s]
-constexpr double kPeriod = 4.0;     // [s] in which the probe presses once
-constexpr double kHighest = 0.012;  // [m] of the tip above the tissue at rest
-constexpr double kLowest = -0.008;  // [m]
+constexpr double kPeriod = 4.0;     // [s] the probe presses once in this time
+constexpr double kHighest = 0.012;  // [m] the tip's highest z; the tissue at rest ends at z = 0
+constexpr double kLowest = -0.008;  // [m] the tip's lowest z
 const ros::WallDuration kTfLead(0.5);
-const ros::WallDuration kPatience(0.1);  // then the shape is sent again, with a new stamp
+const ros::WallDuration kPatience(0.1);  // after it, the shape is sent again with a new stamp
 
 ProgramHelp help() {
   ProgramHelp help{kProgram,

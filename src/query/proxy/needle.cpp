@@ -17,7 +17,7 @@ constexpr double kShortestLever = 0.02;
 
 Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
 
-/// [m] The needle pierces a face when the hand's tip is this far beyond its own along the axis.
+/// [m] A needle pierces a face when the hand's tip is this far ahead of its tip, along the axis.
 double threshold(const ProxySettings& settings) {
   return settings.puncture.value_or(std::numeric_limits<double>::infinity());
 }

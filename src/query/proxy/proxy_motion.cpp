@@ -10,7 +10,7 @@
 namespace organ_collision {
 namespace {
 
-/// If a proxy cannot give way to a motion of the organs as a whole, it tries this many parts of it.
+/// If a proxy cannot give way to a whole motion of the organs, it tries this many pieces of it.
 constexpr int kPieces = 4;
 /// How many bent motions a proxy tries before it does not give way.
 constexpr int kMostAttempts = 5;
