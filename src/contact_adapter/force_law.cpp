@@ -80,7 +80,7 @@ double ContactMotion::path_length_between(const Place& before, const Place& now)
 double ContactMotion::path_length_to(const Contact& contact, const Place& now) {
   // If the face was not touched when the step began, its whole depth arose in this step.
   if (contact.fraction > 0.0) return contact.depth;
-  // A face that pierces a link at once may be as deep as the link is thick.
+  // A face that pierces a link at once may have the link's whole thickness as its depth.
   return now.offset ? now.depth : 0.0;
 }
 

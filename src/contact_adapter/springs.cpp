@@ -25,11 +25,11 @@ constexpr double kOnEdge = 1e-9;
 /// [m] Smaller differences between the distances of two faces count as rounding errors.
 constexpr double kNearer = 1e-9;
 
-/// A vertex or an edge of a contact's face: two of its vertices in rising order, which are the same
+/// A vertex or an edge of a contact's face: two of its vertices in rising order, which are equal
 /// for a vertex.
 struct Corner {
   std::uint32_t link, low, high;
-  std::size_t contact;  ///< its index
+  std::size_t contact;  ///< the contact's index
   bool has_point;       ///< the contact's point is on it, and depends on no other vertex
 
   bool is_same(const Corner& other) const {

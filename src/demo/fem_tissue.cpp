@@ -121,7 +121,7 @@ class FemTissue {
     mesh_publisher_.publish(mesh);
   }
 
-  /// The probe moves up and down above the middle of the tissue, and leans a little.
+  /// The probe leans a little. It presses into the middle of the tissue and moves up again in turn.
   void publish_probe(const ros::Time& stamp) {
     const double share = 0.5 - 0.5 * std::cos(2.0 * M_PI * steps_ * kStep / kPeriod);
     const Eigen::Vector3d tip(0.0031, -0.0017, kHighest + share * (kLowest - kHighest));

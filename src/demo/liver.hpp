@@ -81,7 +81,7 @@ struct ScriptedTool {
 /// [m] Radius of both tools.
 inline constexpr double kToolRadius = 0.005;
 
-/// [s] The stabber passes through the left lobe at each full second, within this time.
+/// [s] At each full second, the stabber passes through the left lobe in this time.
 inline constexpr double kStabDuration = 0.005;
 
 /// A hand holds this tool. It moves the tool slowly over the front of the right lobe, and presses

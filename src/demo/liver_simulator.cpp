@@ -26,11 +26,11 @@ namespace {
 constexpr char kOrgan[] = "liver";    // the name and the frame of the organ
 constexpr double kYield = 0.5;        // [1] share of the depth by which tissue yields in one step
 constexpr double kMostYield = 0.008;  // [m] the most that tissue yields in one step
-/// [m/N] by which a vertex yields in one step to the force of a proxy
+/// [m/N] How far a vertex yields in one step for each newton of the force of a proxy.
 constexpr double kCompliance = 1e-3;
 /// [s] At first, no shape is sent for this long, so that listeners have TF before the first shape.
 constexpr double kTfLeadSec = 0.5;
-constexpr double kRate = 125.0;  // [Hz] of shapes, by default
+constexpr double kRate = 125.0;  // [Hz] how often a shape is sent, by default
 constexpr int kHandPoses = 8;    // poses of the hand for each shape: 1 kHz by default
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kHapticNode[] = "/haptic_proxy";

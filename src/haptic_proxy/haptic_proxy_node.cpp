@@ -120,7 +120,7 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
   let_go("the node ends");
 }
 
-/// Lets all forces fade, and tells each hand why. Returns when the last messages have left.
+/// Lets all forces fade, and publishes why. Returns when the last messages have left.
 void HapticProxyNode::let_go(const std::string& why) {
   bool is_fading = true;
   while (is_fading && core_.private_node().ok()) {
@@ -179,7 +179,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   }
 }
 
-/// Throws Rejection if the pose of the tool's hand is not known.
+/// The latest pose of the tool's hand. Throws Rejection if it is not known.
 Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
   if (!hands_[tool].proxy) {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),

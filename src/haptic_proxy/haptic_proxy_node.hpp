@@ -34,7 +34,7 @@ class HapticProxyNode {
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
   /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
-  /// is published for each tool, if ROS still works.
+  /// is published for each tool that has a proxy, if ROS still works.
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:

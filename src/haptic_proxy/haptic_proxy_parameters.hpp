@@ -39,7 +39,7 @@ struct HapticProxyParameters : OrganNodeParameters {
   double puncture_force = 0.0;                   ///< [N] at this force, a needle pierces; 0: never
   double friction = 0.0;                         ///< [N] along a needle that has pierced tissue
   double pose_timeout_sec = 0.1;
-  double frame_timeout_sec = 0.5;  ///< of the organs' frames that are not static; 0: never stale
+  double frame_timeout_sec = 0.5;  ///< most age of an organ's frame, unless static; 0: any
   bool publish_tf = true;
 };
 

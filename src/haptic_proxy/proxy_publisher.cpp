@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The message has the numbers of the enumeration.
+// The constants of the message have the values of the enumeration.
 static_assert(ProxyState::NO_ANSWER == static_cast<int>(ProxyStatus::kNoAnswer) &&
               ProxyState::FREE == static_cast<int>(ProxyStatus::kFree) &&
               ProxyState::TOUCHING == static_cast<int>(ProxyStatus::kTouching) &&

@@ -28,7 +28,7 @@ struct ProxyCounters {
   FailureLog rejected;             ///< messages that were refused
   FailureLog failed;               ///< ticks without an answer
   FailureLog clipped;              ///< forces that were reduced
-  FailureLog placed_anew;          ///< proxies that left their place otherwise than by a motion
+  FailureLog placed_anew;          ///< proxies that jumped to a new place, without a motion
 };
 
 /// Publishes reports about tools. Wrenches come first, because a hand waits for them.

@@ -16,7 +16,7 @@ namespace {
 /// How old the newest transform of a frame may be.
 struct FrameLimit {
   double seconds;
-  const char* parameter;  ///< its name
+  const char* parameter;  ///< the name of the parameter with this limit
 };
 
 FrameLimit frame_limit(const AgeLimits& limits) {

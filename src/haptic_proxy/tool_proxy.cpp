@@ -95,7 +95,7 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
 }
 
 /// The forces of the organs on the hand. If a limit is exceeded, the whole wrench shrinks by one
-/// factor. Throws Rejection.
+/// factor. Throws Rejection if the wrench is not finite.
 ToolProxy::LimitedForces ToolProxy::limited_forces(const ProxyAnswer& answer,
                                                    const ProxyScene& scene,
                                                    const Vector3d& damping_force) const {

@@ -31,7 +31,7 @@ struct ProxyReport {
   const ProxyAnswer* answer = nullptr;  ///< null: there is no answer
   const ProxyScene* scene = nullptr;    ///< the organs of the answer
   std::vector<OrganForce> forces = {};  ///< as published: limited, and faded in or out
-  /// The parameter whose limit reduced the forces. Null: they are whole.
+  /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
   double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
 };

@@ -62,7 +62,7 @@ class OrganMeshAdapter {
         diagnostics_(node, private_node, parameters_.diagnostic_period_sec) {
     for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
-    // [messages] A new subscriber gets the meshes of all organs in one go.
+    // [messages] The queue must hold the meshes of all organs, which a new subscriber gets at once.
     const std::uint32_t queue = std::max<std::uint32_t>(100, 2 * parameters_.organs.size());
     // Not latched: a latched topic keeps only the last message. A new subscriber would get only one
     // organ, and in an old shape.

@@ -26,7 +26,7 @@ Quaterniond turn(const ShaftAxis& from, const ShaftAxis& to) {
   return Quaterniond::FromTwoVectors(along(from), along(to));
 }
 
-/// The pose moved rigidly.
+/// The pose after a rigid motion of the whole tool.
 ToolPose operator*(const Isometry3d& motion, const ToolPose& pose) {
   ToolPose result{{motion * pose.axis.trocar, motion * pose.axis.tip}, {}, {}};
   for (const Isometry3d& link : pose.links) {

@@ -12,7 +12,7 @@ namespace {
 
 /// If a proxy cannot give way to a whole motion of the organs, it tries this many pieces of it.
 constexpr int kPieces = 4;
-/// How many bent motions a proxy tries before it does not give way.
+/// The most bent motions that a proxy tries in order to give way.
 constexpr int kMostAttempts = 5;
 /// [1] A proxy gives way by at most this many times the depth to which tissue would enter it.
 constexpr double kLongestGiveWay = 10.0;

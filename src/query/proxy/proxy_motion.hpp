@@ -31,7 +31,7 @@ struct ProxyClearance {
 /// touches nothing. Each function makes a bounded number of queries.
 class ProxyMotion {
  public:
-  /// The references must outlive this.
+  /// `mobility` and `tissue` must outlive this object.
   ProxyMotion(const Mobility& mobility, Tissue& tissue) : mobility_(mobility), tissue_(tissue) {}
 
   void set_clearance(double clearance) { clearance_ = {clearance}; }

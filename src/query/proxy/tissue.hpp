@@ -12,7 +12,7 @@ namespace organ_collision {
 struct OrganTick {
   const TriangleMesh* before = nullptr;  ///< null: the organ has no earlier shape to move from
   const TriangleMesh* now = nullptr;
-  const SurfaceTopology* topology = nullptr;  ///< of `now`; null: nobody knows what is inside
+  const SurfaceTopology* topology = nullptr;  ///< of `now`; null: inside and outside are unknown
   Eigen::Isometry3d T_before = Eigen::Isometry3d::Identity();  ///< T_organ_proxy at the start
   Eigen::Isometry3d T_now = Eigen::Isometry3d::Identity();     ///< T_organ_proxy at the end
 
