@@ -23,7 +23,8 @@ bool has_geometry(const ContactArray& contacts);
 /// Of these, the collision node itself sends only unresolved contacts.
 void check_contacts(const ContactArray& contacts);
 
-/// The numbers of the touched faces in rising order, each once, in one dimension called "faces".
+/// The numbers of the touched faces, each once, in rising order. The one dimension of the array is
+/// called "faces".
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
 
 /// [m] The radius of a tool's shaft. Unset if it is not known, or if the tool has no shaft.

@@ -187,7 +187,8 @@ void find_lacks(std::vector<Spring>& springs, const std::vector<std::size_t>& us
   }
 }
 
-/// Finds the lengths of all springs. Returns the indices of those whose length may not be zero.
+/// Finds the lengths of all springs. Returns the indices of the springs whose length can differ
+/// from zero.
 std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
   double greatest = 0.0;
   for (const Spring& spring : springs) greatest = std::max(greatest, spring.depth);

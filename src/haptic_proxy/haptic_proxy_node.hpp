@@ -45,7 +45,7 @@ class HapticProxyNode {
   struct Hand {
     std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
     ros::Time stamp = {};  ///< of the last pose; zero: the pose is valid at any time
-    /// ProxyScene::stamps at the last look at the organs. Empty: there was no scene then.
+    /// ProxyScene::stamps at the last look at the organs. Empty: there was no ProxyScene then.
     std::optional<std::vector<ros::Time>> organs = {};
     std::optional<Time> heard = {};         ///< when the last pose came; empty: none came yet
     bool is_waiting = false;                ///< a pose came on its topic, and needs a tick

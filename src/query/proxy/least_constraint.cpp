@@ -41,8 +41,8 @@ void LeastConstraint::solve(const Displacement& goal, const std::vector<Wall>& w
   violation_ = point_[6] / kSlackScale;
 }
 
-/// Moves the point to the wall, and keeps it on the active walls. Active walls whose loads would
-/// become negative are dropped on the way.
+/// Moves the solution onto the wall, and keeps it on the active walls. Active walls whose loads
+/// would become negative are dropped on the way.
 void LeastConstraint::add(const Point& row, double bound, std::size_t wall) {
   double load = 0.0;
   while (true) {

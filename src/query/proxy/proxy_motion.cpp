@@ -14,7 +14,7 @@ namespace {
 constexpr int kPieces = 4;
 /// The most bent motions that a proxy tries in order to give way.
 constexpr int kMostAttempts = 5;
-/// [1] A proxy gives way by at most this many times the depth to which tissue would enter it.
+/// [1] A proxy gives way by at most this many times the depth of tissue in its clearance.
 constexpr double kLongestGiveWay = 10.0;
 /// How often a proxy that slides along curved tissue looks for walls, at most.
 constexpr int kMostLooks = 8;
