@@ -25,7 +25,7 @@ namespace organ_collision {
 namespace {
 
 constexpr char kProgram[] = "contact_adapter";
-/// A topic of a pair, below ~ORGAN/TOOL.
+/// The topic of the face list of an organ and a tool, below ~ORGAN/TOOL.
 constexpr char kFaces[] = "faces";
 
 // [messages] Late forces would be wrong, so only a few messages may wait, for all organs and tools.

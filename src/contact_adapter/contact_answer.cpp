@@ -29,8 +29,8 @@ void refuse_illegal_name(const char* what, const std::string& name) {
   if (!fault.empty()) refuse(what, " ", fault);
 }
 
-/// Refuses a value that is not `legal`. `what`: the parts of its name, which are put together only
-/// for a refusal.
+/// Refuses a value unless `is_legal`. `legal`: what is legal. `what`: the parts of the value's
+/// name, which are put together only for a refusal.
 template <typename Value, typename... What>
 void check(bool is_legal, const Value& value, const char* legal, const What&... what) {
   if (!is_legal) refuse(what..., " is ", value, "; must be ", legal);

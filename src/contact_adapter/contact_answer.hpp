@@ -20,16 +20,17 @@ bool has_geometry(const ContactArray& contacts);
 /// - contacts with geometry: a depth, point or end point that is not finite, or a normal whose
 ///   length is not 1 (to 1e-6);
 /// - a known clearance whose distance or `on_organ` is not finite, or whose normal is not unit.
-/// The collision node sends only the first of these.
+/// Of these, the collision node itself sends only unresolved contacts.
 void check_contacts(const ContactArray& contacts);
 
-/// The numbers of the touched faces in rising order, each once, in one dimension called "faces".
+/// The numbers of the touched faces, each once, in rising order. The one dimension of the array is
+/// called "faces".
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
 
 /// [m] The radius of a tool's shaft. Unset if it is not known, or if the tool has no shaft.
 using ShaftRadius = std::optional<double>;
 
-/// The radius from the collision node's parameter `tools`.
+/// The radius of this tool in the collision node's parameter `tools`.
 ShaftRadius shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
 
 /// Whether this link of the answer's tool is its shaft.

@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 /// normal turned more, one of the two contacts is from before the face was pierced, and their
 /// depths cannot be compared.
 constexpr double kSame = 0.999;
-/// [1] The same for links, after the first touch. Then the face pierces the link, and the contact's
-/// normal is that of the face. Only if this changes nothing, the depths can be compared.
+/// [1] The cosine of this angle for a link, in the step after first touch. The face then pierces
+/// the link, and the normal becomes that of the face. Depths can be compared only if this changes
+/// nothing.
 constexpr double kExactlySame = 1.0 - 1e-9;
 
 /// [1] The allowed change of force, as a multiple of stiffness * motion. A flat surface needs 1, a
@@ -30,7 +31,7 @@ std::optional<double> known_distance(const Clearance& clearance) {
   return clearance.distance;
 }
 
-/// The contacts' faces, and then the clearance's face if there is a push for it. Without forces.
+/// The contacts' faces, and the clearance's face if there is a push for it. All forces are zero.
 std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Push>& pushes) {
   std::vector<FaceForce> faces;
   faces.reserve(pushes.size());
@@ -79,7 +80,7 @@ double ContactMotion::path_length_between(const Place& before, const Place& now)
 double ContactMotion::path_length_to(const Contact& contact, const Place& now) {
   // If the face was not touched when the step began, its whole depth arose in this step.
   if (contact.fraction > 0.0) return contact.depth;
-  // A face that pierces a link at once may be as deep as the link is thick.
+  // A face that pierces a link at once may have the link's whole thickness as its depth.
   return now.offset ? now.depth : 0.0;
 }
 
@@ -104,7 +105,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
   const bool follows = last_.has_value();
   if (follows) {
     for (const auto& [face, left] : *last_) {
-      // How far a face that the tool passed through is from it is not known.
+      // If the tool passed through the face, its distance from the face is not known.
       if (left.offset && !left.offset->isZero(0.0)) way = std::max(way, left.depth);
     }
   }
@@ -117,8 +118,9 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
   return follows ? std::optional<double>(way) : std::nullopt;
 }
 
-/// Interpolates from the last forces to `forces`. `share`: 0 gives the last ones, 1 gives `forces`.
-/// What was lost with faces is shared in proportion to `forces`, or equally if these are zero.
+/// Interpolates from the last forces to `forces`. `share`: 0 gives the last forces, 1 gives
+/// `forces`. The last forces of faces that are gone are shared in proportion to `forces`, or
+/// equally if these are zero.
 void ForceLaw::blend_with_last(std::vector<FaceForce>& forces, double share) {
   std::vector<double> weights;
   for (FaceForce& at : forces) {

@@ -14,7 +14,7 @@ namespace organ_collision {
 ///
 /// The vector from the axis to the nearest point of a face changes by at most the motion of the
 /// tool relative to the face, because a projection onto a convex set does not expand distances.
-/// Therefore each face gives a lower bound of the motion, and the result is the greatest of them.
+/// Therefore each face gives a lower bound of the motion. The result is the greatest lower bound.
 /// Sliding along a plane does not change the vector and is not found.
 ///
 /// - A contact's normal is from first touch in its step, and its depth is from the end of the step.
@@ -24,12 +24,12 @@ namespace organ_collision {
 /// - A face that the axis pierces in both answers counts with the change of the tip's depth.
 /// - For links, and for a shaft of unknown radius, only the change of depth counts, and only while
 ///   the contact's normal stays: otherwise the depth may have become that of the whole link.
-/// - If the clearance is known, so does its change.
+/// - The change of the clearance's distance counts, too, if it is known.
 class ContactMotion {
  public:
   /// [m] A lower bound of the motion since the answer of the last call, which has the same
-  /// topology. std::nullopt if this answer is the first one. `pushes`: one for each contact of the
-  /// answer; others may follow them.
+  /// topology. std::nullopt if this answer is the first one. `pushes`: first one for each contact
+  /// of the answer, in the same order; further ones are ignored.
   std::optional<double> follow(const ContactArray& answer, const std::vector<Push>& pushes,
                                const ShaftRadius& shaft_radius);
 
@@ -41,8 +41,8 @@ class ContactMotion {
   struct Place {
     Eigen::Vector3d normal;                 ///< Contact.normal
     double depth;                           ///< [m] Contact.depth, for a shaft at most its radius
-    bool is_new;                            ///< touched in this step, not when it began
-    std::optional<Eigen::Vector3d> offset;  ///< [m] axis to face; unset: the radius is unknown
+    bool is_new;                            ///< first touched in the step, after it began
+    std::optional<Eigen::Vector3d> offset;  ///< [m] from axis to face; unset: unknown radius
     std::optional<Pierced> pierced;         ///< if the axis is past the face and the push counts
   };
   using Places = std::map<FaceAndLink, Place>;
@@ -63,7 +63,7 @@ class ContactMotion {
 /// step by at most
 ///   stiffness * (4 * motion + 0.05 m/s * seconds),
 /// with the motion that ContactMotion finds. If there is no push, the force becomes zero at once.
-/// The last force of a face that is no longer in the answer is shared among those that are.
+/// The last force of a face that is no longer in the answer is shared among its faces.
 class ForceLaw {
  public:
   /// `way_out`: whether a tool that is wholly inside is pushed out.
@@ -84,7 +84,7 @@ class ForceLaw {
   std::uint32_t topology_ = 0;
   PushTracker pushes_{way_out_};
   ContactMotion motion_;
-  std::map<FaceAndLink, Eigen::Vector3d> last_;  ///< [N]
+  std::map<FaceAndLink, Eigen::Vector3d> last_;  ///< [N] the forces of the last answer
 };
 
 }  // namespace organ_collision

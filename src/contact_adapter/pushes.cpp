@@ -96,7 +96,7 @@ PushTracker::Side PushTracker::Side::first_touch_from_inside(const Contact& cont
   return side;
 }
 
-/// For links, and for a shaft of unknown radius.
+/// Follows the next contact of a link, or of a shaft of unknown radius.
 void PushTracker::Side::move_on(const Contact& contact) {
   const Vector3d now = to_eigen(contact.normal);
   const bool was_past = is_past;
@@ -136,7 +136,7 @@ void PushTracker::Side::move_on(const Contact& contact, double radius) {
   depth = depth_in_plane - distance * normal.dot(now);
 }
 
-/// Null: the contact's face was not touched at the last answer.
+/// The kept side of the contact's face. Null if the last answer did not touch this face.
 const PushTracker::Side* PushTracker::find(const Contact& contact) const {
   const auto side = sides_.find({contact.face, contact.link});
   return side == sides_.end() ? nullptr : &side->second;
@@ -156,7 +156,7 @@ PushTracker::Side PushTracker::side_now(const Contact& contact, const ContactArr
   return Side::first_touch_from_inside(contact, depth_inside(contact.link, answer, shaft_radius));
 }
 
-/// The pushes of the contacts.
+/// Keeps the sides of the answer's faces. Returns the pushes of its contacts.
 std::vector<Push> PushTracker::keep_sides(const ContactArray& answer,
                                           const ShaftRadius& shaft_radius, bool began_inside) {
   const std::vector<Contact>& contacts = answer.contacts;

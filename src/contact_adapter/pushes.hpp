@@ -25,14 +25,15 @@ using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
 ///   axis is closer to the face than half the radius, the normal lags: see greatest_angle().
 /// - Past the face, the normal stays. The depth is s - r (n . m), with the shaft's radius s, the
 ///   kept normal n, the contact's distance r = s - Contact.depth, and its normal m.
-/// - A face that the axis pierces has the contact's depth if the tip pierced it and the two normals
-///   agree. If the axis moved into the face from the side, the depth is s: the distance of the tip
-///   beyond the face does not matter.
+/// - A face that the axis pierces has the contact's depth if the tip pierced it and n and m agree.
+///   If the axis moved into the face from the side, the depth is s: the distance of the tip beyond
+///   the face does not matter.
 /// - For links, and for a shaft of unknown radius, half the sum of the depths just before and after
 ///   passing the face takes the place of s. For a sphere, this is its radius. For a link with flat
 ///   faces, it is half its thickness.
-/// - A face that is first touched from inside, by a link that was inside the organ, has the outer
-///   side. There the depth is the link's depth just below the surface, less the contact's depth.
+/// - If a link inside the organ touches a face first from inside, the outer side of the face is
+///   kept. The depth is the depth that the link has just below the surface, less the contact's
+///   depth.
 ///
 /// A tool that is wholly inside a closed organ touches no face, and is pushed along the nearest way
 /// out ("Wholly inside" in doc/forces.md says when). The depth is the clearance's distance plus the
@@ -54,11 +55,11 @@ class PushTracker {
   std::vector<Push> follow(const ContactArray& answer, const ShaftRadius& shaft_radius);
 
  private:
-  /// A side of a face that is kept.
+  /// The side of first touch of a face.
   struct Side {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< as in Push
     double depth = 0.0;                                ///< [m] as in Push
-    double depth_in_plane = 0.0;                       ///< [m] with the axis in the face's plane
+    double depth_in_plane = 0.0;                       ///< [m] if the axis is in the face's plane
     std::optional<bool> behind = {};  ///< Contact.behind on the kept side; unset: not known yet
     bool by_tip = false;      ///< the tip was nearest when the axis was last on the kept side
     bool is_nearest = false;  ///< a local minimum by basins_of()
@@ -82,8 +83,8 @@ class PushTracker {
 
   bool pushes_out_;
   std::map<FaceAndLink, Side> sides_;
-  std::map<std::uint32_t, double> depths_;  ///< [m] of the links, when they were last touched
-  std::optional<bool> was_inside_;  ///< at the end of the last step; unset: nothing is known of it
+  std::map<std::uint32_t, double> depths_;  ///< [m] by link: its depth at its last touch
+  std::optional<bool> was_inside_;  ///< the tool, when the last step ended; unset: not known
 };
 
 }  // namespace organ_collision

@@ -25,11 +25,11 @@ constexpr double kOnEdge = 1e-9;
 /// [m] Smaller differences between the distances of two faces count as rounding errors.
 constexpr double kNearer = 1e-9;
 
-/// A vertex or an edge of a contact's face: two of its vertices in rising order, which are the same
+/// A vertex or an edge of a contact's face: two of its vertices in rising order, which are equal
 /// for a vertex.
 struct Corner {
   std::uint32_t link, low, high;
-  std::size_t contact;  ///< its index
+  std::size_t contact;  ///< the contact's index
   bool has_point;       ///< the contact's point is on it, and depends on no other vertex
 
   bool is_same(const Corner& other) const {
@@ -37,8 +37,8 @@ struct Corner {
   }
 };
 
-/// The vertices and edges of all contacts' faces. Those that faces of a link share follow each
-/// other.
+/// The vertices and edges of all contacts' faces. If faces that one link touches share a vertex or
+/// an edge, its entries follow each other.
 std::vector<Corner> corners_of(const std::vector<Contact>& contacts) {
   std::vector<Corner> corners;
   corners.reserve(6 * contacts.size());
@@ -187,7 +187,8 @@ void find_lacks(std::vector<Spring>& springs, const std::vector<std::size_t>& us
   }
 }
 
-/// Finds the lengths of all springs. Returns the indices of those whose length may not be zero.
+/// Finds the lengths of all springs. Returns the indices of the springs whose length can differ
+/// from zero.
 std::vector<std::size_t> find_lengths(std::vector<Spring>& springs) {
   double greatest = 0.0;
   for (const Spring& spring : springs) greatest = std::max(greatest, spring.depth);

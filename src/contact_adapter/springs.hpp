@@ -11,8 +11,9 @@ namespace organ_collision {
 /// Finds the local minima of the distance between the tool and the surface, and the basin of each.
 ///
 /// Returns for each contact the index of the contact at the bottom of its basin. Both are of the
-/// same link. A path leads to the bottom: from each face to a face that contains its contact point
-/// and extends nearer to the tool. A contact that is itself a local minimum has its own index.
+/// same link. A path leads to the bottom. Each step of the path goes from a face to another face
+/// that contains its contact point and extends nearer to the tool. A contact that is itself a local
+/// minimum has its own index.
 ///
 /// The local minima do not depend on how finely the surface is divided. The normals of the other
 /// contacts show where on its face the nearest point is, not how the surface is oriented.
@@ -21,11 +22,11 @@ std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts);
 
 /// How a point of the tissue pushes the tool. Lengths in metres, vectors in the organ's frame.
 struct Push {
-  Eigen::Vector3d place;   ///< of the point, at the end of the step
+  Eigen::Vector3d place;   ///< the point, at the end of the step
   Eigen::Vector3d normal;  ///< unit, into the tissue; the tool is pushed against it
   double depth;            ///< along the normal; negative if the tool has left the face
-  /// Whether it has a spring: it is nearest the tool in its surroundings, or it belongs to another
-  /// side of a crease.
+  /// Whether the push has a spring: its face is nearest the tool in its surroundings, or it belongs
+  /// to another side of a crease.
   bool counts;
 };
 

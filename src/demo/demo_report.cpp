@@ -66,7 +66,7 @@ double percentile(std::vector<double> values, double percent) {
   return *nth;
 }
 
-/// " (7 8 9 10 ...)"; empty if there are none.
+/// The first faces as " (7 8 9 10 ...)"; empty if there are none.
 std::string first_of(const std::set<std::uint32_t>& faces) {
   std::string text;
   std::size_t listed = 0;
@@ -92,13 +92,13 @@ struct ProxyTally {
   }
 
   ProxyState latest;
-  // Since the last line.
-  std::size_t poses = 0;      ///< that had an answer
-  double recent_force = 0.0;  ///< [N] the greatest
-  // In all.
+  // What happened since the last printed line.
+  std::size_t poses = 0;      ///< poses that had an answer
+  double recent_force = 0.0;  ///< [N] the greatest force
+  // What happened since the start.
   std::size_t answered = 0, held = 0;
   double greatest_force = 0.0;  ///< [N]
-  double tick_sec = 0.0;        ///< [s] of all ticks
+  double tick_sec = 0.0;        ///< [s] the sum of all ticks
 };
 
 /// Counts the contacts that a static test at the same instants would have missed. These are the
@@ -136,7 +136,7 @@ class StaticComparison {
     compare_waiting();
   }
 
-  /// By name of the tool, for the answers compared so far.
+  /// The tallies of the answers compared so far, by name of the tool.
   const std::map<std::string, Tally>& tallies() const { return tallies_; }
   /// The number of answers whose shape or pose has not arrived yet.
   std::size_t waiting() const { return waiting_.size(); }
@@ -153,7 +153,7 @@ class StaticComparison {
     waiting_.erase(compared, waiting_.end());
   }
 
-  /// Returns false if the shape or the pose has not arrived yet.
+  /// Compares an answer. Returns false if its shape or its pose has not arrived yet.
   bool compare(const ContactArray& answer) {
     const auto tool = std::find_if(tools_.begin(), tools_.end(), [&](const Tool& tool) {
       return tool.parameters.name == answer.tool;
@@ -307,14 +307,14 @@ class DemoReport {
   tf2_ros::TransformListener transform_listener_;
   StaticComparison comparison_;
 
-  std::map<std::string, std::set<std::uint32_t>> touched_;  ///< by tool, since the last line
+  std::map<std::string, std::set<std::uint32_t>> touched_;  ///< faces by tool, since the last line
   std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
-  std::vector<double> delays_;                              ///< [s]
+  std::vector<double> delays_;                              ///< [s] from shape to answer
   struct {
     double median = 0.0, percentile_99 = 0.0, worst = 0.0;
-  } query_time_;  ///< [us] the node's, as published on /diagnostics
+  } query_time_;  ///< [us] the collision node's, from /diagnostics
   ros::WallTime last_answer_;
-  std::string failure_;  ///< the latest one since the last line
+  std::string failure_;  ///< the latest failure since the last line
 
   std::vector<ros::Subscriber> subscribers_;
 };

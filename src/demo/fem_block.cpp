@@ -1,6 +1,6 @@
 #include "fem_block.hpp"
 
-// GCC 12 warns of code in Bullet's headers, where it inlines it.
+// GCC 12 warns of code in Bullet's headers wherever it inlines this code.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
@@ -49,7 +49,7 @@ struct Grid {
   std::vector<Tetrahedron> tetrahedra;
 };
 
-/// [m^3] Negative if the corners are in the other order.
+/// [m^3] The volume. It is negative if two corners are swapped.
 double volume_of(const Tetrahedron& t, const std::vector<Vector3d>& nodes) {
   const Vector3d& a = nodes[t[0]];
   return (nodes[t[1]] - a).cross(nodes[t[2]] - a).dot(nodes[t[3]] - a) / 6.0;
@@ -61,8 +61,8 @@ std::uint32_t number_of(const Vector3i& at) {
   return (at.z() * kNodes.y() + at.y()) * kNodes.x() + at.x();
 }
 
-/// Six tetrahedra for each cell, around its diagonal (Kuhn): one for each order of the axes. The
-/// diagonals of neighbouring cells fit together.
+/// Cuts each cell into six tetrahedra around its diagonal (Kuhn): one for each order of the axes.
+/// The diagonals of neighbouring cells fit together.
 Grid make_grid() {
   Grid grid;
   std::vector<Vector3i> lows;  // the lowest corners of the cells

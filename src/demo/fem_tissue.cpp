@@ -23,16 +23,16 @@ namespace organ_collision {
 namespace {
 
 constexpr char kProgram[] = "fem_tissue";
-constexpr char kOrgan[] = "tissue";  // its name and its frame
+constexpr char kOrgan[] = "tissue";  // the name and the frame of the organ
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kForces[] = "vertex_forces";
 constexpr char kImpulse[] = "impulse";
 constexpr double kStep = 0.004;     // [s]
-constexpr double kPeriod = 4.0;     // [s] in which the probe presses once
-constexpr double kHighest = 0.012;  // [m] of the tip above the tissue at rest
-constexpr double kLowest = -0.008;  // [m]
+constexpr double kPeriod = 4.0;     // [s] the probe presses once in this time
+constexpr double kHighest = 0.012;  // [m] the tip's highest z; the tissue at rest ends at z = 0
+constexpr double kLowest = -0.008;  // [m] the tip's lowest z
 const ros::WallDuration kTfLead(0.5);
-const ros::WallDuration kPatience(0.1);  // then the shape is sent again, with a new stamp
+const ros::WallDuration kPatience(0.1);  // after it, the shape is sent again with a new stamp
 
 ProgramHelp help() {
   ProgramHelp help{kProgram,
@@ -121,7 +121,7 @@ class FemTissue {
     mesh_publisher_.publish(mesh);
   }
 
-  /// The probe moves up and down above the middle of the tissue, and leans a little.
+  /// The probe leans a little. It presses into the middle of the tissue and moves up again in turn.
   void publish_probe(const ros::Time& stamp) {
     const double share = 0.5 - 0.5 * std::cos(2.0 * M_PI * steps_ * kStep / kPeriod);
     const Eigen::Vector3d tip(0.0031, -0.0017, kHighest + share * (kLowest - kHighest));

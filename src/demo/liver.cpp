@@ -58,7 +58,7 @@ Vector3d onto_surface(Vector3d point, double morph) {
   return point;
 }
 
-/// The surface of a box of cubic cells with edge 1 around the origin.
+/// The surface of a box around the origin that consists of cubic cells with edge 1.
 ClosedSurface make_lattice_box(const std::array<int, 3>& cells) {
   ClosedSurface box;
   std::map<std::array<int, 3>, std::uint32_t> index_of;
@@ -143,7 +143,8 @@ Vector3d palpator_tip(double seconds) {
   return {x, y, front_of_liver(x, y) + kToolRadius + kLift - press * (kLift + kPress)};
 }
 
-/// 0 in front of the lobe, 1 behind it. The tool passes from one to the other at each full second.
+/// 0 if the tool is in front of the lobe, 1 if it is behind it. It passes through the lobe at each
+/// full second.
 double stab_progress(double seconds) {
   const double second = std::floor(seconds);
   const double share = std::min((seconds - second) / kStabDuration, 1.0);

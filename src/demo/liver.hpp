@@ -34,7 +34,7 @@ double liver_level(const Eigen::Vector3d& point);
 /// onto liver_level = 0 and spread evenly there.
 ClosedSurface make_liver_surface();
 
-/// How far a vertex yields.
+/// How far a push moves a vertex.
 struct VertexPush {
   std::uint32_t vertex;
   Eigen::Vector3d displacement;  ///< [m]
@@ -44,7 +44,7 @@ struct VertexPush {
 /// its shape. The ligaments at its back move it with the breath.
 class LiverSoftBody {
  public:
-  /// At rest, exhaled.
+  /// The liver at rest, exhaled.
   explicit LiverSoftBody(const ClosedSurface& surface);
   ~LiverSoftBody();
 
@@ -52,7 +52,7 @@ class LiverSoftBody {
   /// displaced by their mean.
   void step(double seconds, const std::vector<VertexPush>& pushes);
 
-  /// x y z x y z ... [m], in the order of the surface.
+  /// The vertices x y z x y z ... [m], in the order of the surface.
   std::vector<float> vertices() const;
 
  private:
@@ -81,13 +81,13 @@ struct ScriptedTool {
 /// [m] Radius of both tools.
 inline constexpr double kToolRadius = 0.005;
 
-/// [s] The stabber passes through the left lobe at each full second, within this time.
+/// [s] At each full second, the stabber passes through the left lobe in this time.
 inline constexpr double kStabDuration = 0.005;
 
-/// Held by a hand that moves slowly over the front of the right lobe, and presses into it and lifts
-/// in turn.
+/// A hand holds this tool. It moves the tool slowly over the front of the right lobe, and presses
+/// it into the lobe and lifts it in turn.
 extern const ScriptedTool kPalpator;
-/// Stabs through the left lobe, and rests in front of it and behind it in turn.
+/// This tool stabs through the left lobe, and rests in front of it and behind it in turn.
 extern const ScriptedTool kStabber;
 
 }  // namespace organ_collision

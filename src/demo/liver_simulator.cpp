@@ -23,15 +23,15 @@
 namespace organ_collision {
 namespace {
 
-constexpr char kOrgan[] = "liver";    // its name and its frame
+constexpr char kOrgan[] = "liver";    // the name and the frame of the organ
 constexpr double kYield = 0.5;        // [1] share of the depth by which tissue yields in one step
-constexpr double kMostYield = 0.008;  // [m] in one step
-/// [m/N] by which a vertex yields in one step to the force of a proxy
+constexpr double kMostYield = 0.008;  // [m] the most that tissue yields in one step
+/// [m/N] How far a vertex yields in one step for each newton of the force of a proxy.
 constexpr double kCompliance = 1e-3;
-/// [s] Only TF is sent so long, so that listeners have it before the first shape.
+/// [s] At first, no shape is sent for this long, so that listeners have TF before the first shape.
 constexpr double kTfLeadSec = 0.5;
-constexpr double kRate = 125.0;  // [Hz] of shapes, by default
-constexpr int kHandPoses = 8;    // for each shape: 1 kHz by default
+constexpr double kRate = 125.0;  // [Hz] how often a shape is sent, by default
+constexpr int kHandPoses = 8;    // poses of the hand for each shape: 1 kHz by default
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kHapticNode[] = "/haptic_proxy";
 
@@ -56,8 +56,8 @@ ProgramHelp help() {
   return help;
 }
 
-/// How a tool's contacts push the tissue: each place yields along the contact's normal. With these
-/// weights, the vertices move the place by that way.
+/// How a tool's contacts push the tissue: each place yields along the contact's normal. The weights
+/// of the vertices are chosen so that the place moves by exactly this way.
 std::vector<VertexPush> pushes_of(const std::vector<Contact>& contacts) {
   std::vector<VertexPush> pushes;
   for (const Contact& contact : contacts) {
@@ -121,8 +121,8 @@ class LiverSimulator {
     trocar_broadcaster_.sendTransform(trocars);
   }
 
-  /// To be called kHandPoses times for each shape: the hand moves at each call. Begins with the
-  /// tools alone, so that their frames are known before the first shape.
+  /// Call this kHandPoses times for each shape: the hand moves at each call. The first calls send
+  /// only the tools, so that their frames are known before the first shape.
   void step() {
     const bool is_shape_due = calls_++ % kHandPoses == 0;
     if (is_shape_due && lead_steps_ < kTfLeadSec * rate_) {
@@ -135,7 +135,7 @@ class LiverSimulator {
     send_hand(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
   }
 
-  /// At `stamp`. Alone, without steps, it shows a liver at rest.
+  /// Publishes the liver with its triangles. If step() was never called, the liver is at rest.
   void publish_mesh(const ros::Time& stamp) {
     auto mesh = shape<OrganMesh>(stamp);
     for (const FaceIndices& face : surface_.faces) {
@@ -157,14 +157,14 @@ class LiverSimulator {
     vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
-  /// On /tf, at `seconds` since the start. The z axis of a tip points along the shaft.
+  /// Sends the stabber's tip at `seconds` since the start. Its z axis points along the shaft.
   void send_stabber(double seconds, const ros::Time& stamp) {
     const Eigen::Vector3d shaft = kStabber.tip(seconds) - kStabber.trocar;
     tip_broadcaster_.sendTransform(
         transform(stamp, kStabber.name + "_trocar", kStabber.name + "_tip", pose_at(shaft, shaft)));
   }
 
-  /// As the driver of a haptic device does.
+  /// Publishes the hand's pose at `seconds` since the start, as a haptic device's driver does.
   void send_hand(double seconds, const ros::Time& stamp) {
     const Eigen::Vector3d tip = kPalpator.tip(seconds);
     geometry_msgs::PoseStamped hand;
@@ -194,7 +194,7 @@ class LiverSimulator {
   double rate_;
   ClosedSurface surface_;
   LiverSoftBody liver_;
-  std::map<std::string, std::vector<VertexPush>> pushes_;  ///< by sender, since the last shape
+  std::map<std::string, std::vector<VertexPush>> pushes_;  ///< by sender; since the last shape
   long calls_ = 0;
   long lead_steps_ = 0;
   long steps_ = 0;

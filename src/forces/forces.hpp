@@ -11,14 +11,14 @@
 #include <utility>
 #include <vector>
 
-/// The names that all nodes with forces have in the ROS graph.
+/// The names in the ROS graph that all nodes that publish forces share.
 namespace organ_collision::names {
 
-/// Topics of a pair, below ~ORGAN/TOOL.
+/// The topics of an organ and a tool, below ~ORGAN/TOOL.
 inline constexpr char kWrench[] = "wrench";
 inline constexpr char kVertexForces[] = "vertex_forces";
 
-/// Parameters.
+/// Names of parameters.
 inline constexpr char kStiffness[] = "stiffness";
 inline constexpr char kMaxForce[] = "max_force";
 
@@ -26,17 +26,17 @@ inline constexpr char kMaxForce[] = "max_force";
 
 namespace organ_collision {
 
-/// A force of the tissue on the tool. It acts at a point of a face. In the organ's frame.
+/// A force of the tissue on the tool, at a point of a face. In the organ's frame unless noted.
 struct FaceForce {
   std::uint32_t face;                       ///< Contact.face
   std::uint32_t link;                       ///< Contact.link
-  Contact::_vertices_type vertices;         ///< the face's corners
+  Contact::_vertices_type vertices;         ///< the indices of the face's corners
   Contact::_barycentric_type barycentric;   ///< of the point, in the order of `vertices`
   Eigen::Vector3d place;                    ///< [m] the point, at the end of the step
   Eigen::Vector3d force = {0.0, 0.0, 0.0};  ///< [N]
 };
 
-/// [N]
+/// The sum of the forces [N].
 Eigen::Vector3d sum_of(const std::vector<FaceForce>& forces);
 
 /// The sum of the forces [N], and of their torques about the origin of the organ's frame [N m].
@@ -56,8 +56,8 @@ bool limit_force(std::vector<FaceForce>& forces, double max_force);
 /// rounding. Vertices without a force are left out. `contacts`: the answer that the forces are
 /// from.
 ///
-/// Throws Rejection if the barycentric coordinates of a point with a force are not finite, or if
-/// their sum is not 1 (to 1e-6).
+/// Throws Rejection if the barycentric coordinates of a point with a force are negative or not
+/// finite, or if their sum is not 1 (to 1e-6).
 VertexForces vertex_forces(const ContactArray& contacts, const std::vector<FaceForce>& forces);
 
 /// The name of a tool in the ROS graph: `_` replaces each character other than ASCII letters,
@@ -67,12 +67,12 @@ std::string tool_graph_name(const std::string& tool);
 /// Gives each pair of organ and tool its name in the ROS graph.
 class PairNames {
  public:
-  /// "ORGAN/TOOL", a relative name. Both parts are made as by tool_graph_name(), that of the organ
-  /// with the prefix "organ_". Throws Rejection if another pair already has the name.
+  /// "ORGAN/TOOL", a relative name. Both names are made as tool_graph_name() does it, but the
+  /// prefix of the organ's name is "organ_". Throws Rejection if another pair already has the name.
   std::string of(const std::string& organ, const std::string& tool);
 
  private:
-  std::map<std::string, std::pair<std::string, std::string>> owners_;  ///< by name in the graph
+  std::map<std::string, std::pair<std::string, std::string>> owners_;  ///< pairs, by their names
 };
 
 }  // namespace organ_collision

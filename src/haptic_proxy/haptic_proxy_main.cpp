@@ -28,7 +28,8 @@ namespace {
 
 std::atomic<bool> is_to_stop{false};
 
-/// ROS would take the topics away before the forces have faded. The second signal ends at once.
+/// Replaces the handler of ROS, which would end the topics before the forces have faded. A second
+/// signal ends the program at once.
 void on_signal(int signal) {
   is_to_stop = true;
   std::signal(signal, SIG_DFL);

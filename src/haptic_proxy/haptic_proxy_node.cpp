@@ -18,19 +18,20 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// Nodes that start together need this long until hands and organs are there.
+/// For this long after its start, the node does not complain that hands or organs are missing:
+/// other nodes may still be starting.
 constexpr std::chrono::seconds kStart(2);
 /// In a batch of messages, the node makes ticks for at most this long. Poses that come while it
 /// lags behind are merged: one tick covers them.
 constexpr std::chrono::milliseconds kLongestLag(1);
-/// While a force fades or rises, it is published this often.
+/// While a force fades or rises, it is published with this period.
 constexpr std::chrono::milliseconds kFadeStep(1);
-/// After its last message about a tool, the node waits this long for it to leave, before the topic
-/// ends.
+/// The node waits this long after its last message about a tool before it ends the topic, so that
+/// the message still leaves.
 const ros::WallDuration kFarewell(0.1);
-/// How often it is repeated that there is no answer, for subscribers that came later.
+/// The node repeats with this period that there is no answer, for subscribers that came later.
 constexpr std::chrono::milliseconds kRepetition(100);
-/// ToolPoses::path() is not used.
+/// These values do not matter: the node does not call ToolPoses::path().
 constexpr PathSampling kNoPaths{1.0, 1};
 
 SteadyClock::duration duration(double seconds) {
@@ -118,7 +119,7 @@ void HapticProxyNode::run(const std::function<bool()>& stop) {
   let_go("the node ends");
 }
 
-/// Lets all forces fade, and tells each hand why. Returns when the last messages have left.
+/// Lets all forces fade, and publishes why. Returns when the last messages have left.
 void HapticProxyNode::let_go(const std::string& why) {
   bool is_fading = true;
   while (is_fading && core_.private_node().ok()) {
@@ -134,7 +135,7 @@ void HapticProxyNode::let_go(const std::string& why) {
   if (core_.private_node().ok()) kFarewell.sleep();
 }
 
-/// After each message: a tick for each pose of a topic, as long as the node keeps up with them.
+/// Called after each message. Makes a tick for each pose of a topic, unless the node lags behind.
 void HapticProxyNode::follow_waiting_hands() {
   const Time now = SteadyClock::now();
   if (!batch_began_) batch_began_ = now;
@@ -144,7 +145,7 @@ void HapticProxyNode::follow_waiting_hands() {
   }
 }
 
-/// After a batch of messages: a tick for each hand with a new pose.
+/// Called after a batch of messages. Makes a tick for each hand with a new pose.
 void HapticProxyNode::follow_hands() {
   batch_began_.reset();
   if (frame_.update(inbox_.organs)) reset_proxies("the proxy's frame changed");
@@ -177,7 +178,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   }
 }
 
-/// Throws Rejection if the pose of the tool's hand is not known.
+/// The latest pose of the tool's hand. Throws Rejection if it is not known.
 Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
   if (!hands_[tool].proxy) {
     throw Rejection(ContactArray::INVALID_TOOL, reason_of(ContactArray::INVALID_TOOL),
@@ -192,9 +193,9 @@ Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
   return std::move(*pose.found);
 }
 
-/// Whether there is to be a tick for the tool's hand: its pose is new, or the force fades or rises.
-/// A pose that is valid at any time counts as new whenever an organ moves. Throws Rejection if the
-/// pose is too old, or the frame in which it is given.
+/// Whether the tool's hand needs a tick, because its pose is new, or its force fades or rises. A
+/// pose that is valid at any time counts as new whenever an organ moves. Throws Rejection if the
+/// pose or the newest transform of the proxy's frame is too old.
 bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now) {
   Hand& hand = hands_[tool];
   const bool is_at_any_time = stamp.isZero();
@@ -240,12 +241,12 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyS
   }
 }
 
-/// Lets the force fade, and says why: at once, while the force fades, and then from time to time.
+/// Lets the force fade, and publishes why: at once, while it fades, and then each kRepetition.
 void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   Hand& hand = hands_[tool];
   const bool is_fading = hand.proxy && hand.proxy->is_ramping();
   const bool is_recent = now - hand.told < kRepetition;
-  // The age in a message goes on; that alone is no news.
+  // A reason may name an age, which grows. Within kRepetition, such a new text is no news.
   const bool is_known = hand.why_not && hand.why_not->reason() == why.reason() &&
                         (is_recent || std::string(hand.why_not->what()) == why.what());
   if (is_known && !is_fading && is_recent) return;
@@ -298,8 +299,8 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   return core_.loop().now() + (*next - now);
 }
 
-/// One for each tool. Kept tools keep theirs. A tool whose proxy cannot be made gets a fault.
-/// Throws GlError.
+/// Makes a hand for each tool. A tool that stays keeps its hand. A tool whose proxy cannot be made
+/// gets a fault. Throws GlError.
 std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>& tools,
                                                                const KeptTools& kept) {
   std::vector<Hand> hands(tools.size());
@@ -317,7 +318,7 @@ std::vector<HapticProxyNode::Hand> HapticProxyNode::make_hands(std::vector<Tool>
   return hands;
 }
 
-/// The next poses place the proxies anew. Until they come, forces fade.
+/// Forgets all proxies. The next pose of a hand places its proxy anew. Until then, its force fades.
 void HapticProxyNode::reset_proxies(const std::string& why) {
   has_new_shape_ = true;  // So that poses that are valid at any time count as new.
   for (Hand& hand : hands_) {
@@ -329,8 +330,8 @@ void HapticProxyNode::reset_proxies(const std::string& why) {
   }
 }
 
-/// The forces of tools that will be removed or changed fade. Runs in the background thread. The
-/// node's thread lets the forces fade meanwhile.
+/// Waits until the forces of tools that will be removed or changed have faded. Runs in the
+/// background thread. The node's thread lets the forces fade meanwhile.
 void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
   bool is_fading = false;
   core_.in_node_thread([&] {
@@ -338,7 +339,7 @@ void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
       if (std::find(kept.begin(), kept.end(), tool) != kept.end()) continue;
       Hand& hand = hands_[tool];
       hand.is_leaving = is_fading = true;
-      hand.told = {};  // It is to be told at once.
+      hand.told = {};  // So that the reason is published at once.
       hand.why_not =
           Rejection(ContactArray::UNKNOWN_TOOL, "tool removed", "the tool was removed or changed");
     }

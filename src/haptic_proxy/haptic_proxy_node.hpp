@@ -20,11 +20,12 @@
 
 namespace organ_collision {
 
-/// The node: one proxy for each tool, against all organs. Its inbox is that of the collision node.
-/// Each pose of a hand gives one tick of its proxy, unless the node lags behind. Poses on TF are
-/// looked up after each batch of messages. While a force fades or rises, further ticks follow the
-/// last pose. One thread does all this (node_core.hpp) and owns the GL contexts. The background
-/// thread inspects surfaces, and loads new tools and parameters.
+/// The node haptic_proxy. It moves one proxy for each tool, against all organs. It has the same
+/// Inbox for messages as the collision node. Each pose of a hand causes one tick of its proxy,
+/// unless the node lags behind. Poses on TF are looked up after each batch of messages. While a
+/// force fades or rises, the node makes more ticks with the last pose. One thread does all this
+/// (node_core.hpp) and owns the GL contexts. The background thread inspects surfaces, and loads new
+/// tools and parameters.
 class HapticProxyNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
@@ -33,7 +34,7 @@ class HapticProxyNode {
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
   /// recover from, such as std::bad_alloc. Before it returns or throws, forces fade and NO_ANSWER
-  /// is published for each tool, if ROS still works.
+  /// is published for each tool that has a proxy, if ROS still works.
   void run(const std::function<bool()>& stop = [] { return false; });
 
  private:
@@ -43,15 +44,15 @@ class HapticProxyNode {
   /// A tool's proxy, and what the node knows of its hand.
   struct Hand {
     std::unique_ptr<ToolProxy> proxy = {};  ///< null: the tool has a fault
-    ros::Time stamp = {};                   ///< of the last pose; zero: it is valid at any time
-    /// ProxyScene::stamps; empty: there is no scene.
+    ros::Time stamp = {};  ///< of the last pose; zero: the pose is valid at any time
+    /// ProxyScene::stamps at the last look at the organs. Empty: there was no ProxyScene then.
     std::optional<std::vector<ros::Time>> organs = {};
-    std::optional<Time> heard = {};         ///< when that pose came; empty: no pose came yet
-    bool is_waiting = false;                ///< a pose came on its topic, and is to be followed
-    bool is_leaving = false;                ///< its tool will be removed or changed soon
-    bool had_answer = false;                ///< since the start
+    std::optional<Time> heard = {};         ///< when the last pose came; empty: none came yet
+    bool is_waiting = false;                ///< a pose came on its topic, and needs a tick
+    bool is_leaving = false;                ///< the hand's tool will be removed or changed soon
+    bool had_answer = false;                ///< there was an answer since the start
     std::optional<Rejection> why_not = {};  ///< why there is no answer now; empty: there is one
-    Time told = {};                         ///< when something was last published
+    Time told = {};                         ///< when something about the hand was last published
   };
 
   Core::Callbacks callbacks();
@@ -79,8 +80,8 @@ class HapticProxyNode {
   Inbox inbox_;
   ToolPoses poses_;
   ProxyFrame frame_;
-  std::vector<Hand> hands_;    ///< by tool
-  bool has_new_shape_ = true;  ///< of an organ, since the last tick
+  std::vector<Hand> hands_;    ///< in the order of the tools
+  bool has_new_shape_ = true;  ///< an organ got a new shape since follow_hands()
   Time started_;
   std::optional<Time> batch_began_;  ///< when the first message of this batch came
   ProxyPublisher publisher_;

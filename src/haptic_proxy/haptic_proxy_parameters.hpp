@@ -15,9 +15,9 @@ namespace organ_collision::names {
 inline constexpr char kHapticProxy[] = "haptic_proxy";
 /// The topics of a tool, below ~TOOL.
 inline constexpr char kProxy[] = "proxy", kState[] = "state";
-/// The proxy's TF frame is TOOL and this.
+/// The name of a proxy's TF frame is the name of its tool and this suffix.
 inline constexpr char kProxyFrame[] = "_proxy";
-/// Parameters that messages name.
+/// The names of parameters that messages to the user mention.
 inline constexpr char kMaxTorque[] = "max_torque";
 inline constexpr char kMeshTimeoutSec[] = "mesh_timeout_sec";
 inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
@@ -26,19 +26,20 @@ inline constexpr char kFrameTimeoutSec[] = "frame_timeout_sec";
 
 namespace organ_collision {
 
-/// The parameters of haptic_proxy, with the documented defaults. `markers` is without the depth.
+/// The parameters of haptic_proxy, with the documented defaults. This node does not read
+/// `markers.markers_depth`.
 struct HapticProxyParameters : OrganNodeParameters {
   std::string frame;               ///< the proxy's frame; empty: that of the first organ
   double stiffness = 300.0;        ///< [N/m] of the spring between hand and proxy
-  double damping = 0.0;            ///< [N s/m] of the hand's velocity relative to the proxy's
+  double damping = 0.0;            ///< [N s/m] on the hand's velocity relative to the proxy
   double max_force = kUnlimited;   ///< [N] larger forces are scaled down to it
-  double max_torque = kUnlimited;  ///< [N m] of a free tool, about its centre; the same
+  double max_torque = kUnlimited;  ///< [N m] about a free tool's centre; larger ones shrink
   double clearance = ProxySettings().clearance;  ///< [m]
   double jump = ProxySettings().jump;            ///< [m]
-  double puncture_force = 0.0;                   ///< [N] a needle pierces tissue at it; 0: never
+  double puncture_force = 0.0;                   ///< [N] at this force, a needle pierces; 0: never
   double friction = 0.0;                         ///< [N] along a needle that has pierced tissue
   double pose_timeout_sec = 0.1;
-  double frame_timeout_sec = 0.5;  ///< of the organs' frames that are not static; 0: never stale
+  double frame_timeout_sec = 0.5;  ///< most age of an organ's frame, unless static; 0: any
   bool publish_tf = true;
 };
 
@@ -48,7 +49,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       names::kTools, "required",
       [&p](const ParameterGroup& all) {
         p.tools = parse_tools(all, p.misspelt);
-        std::map<std::string, std::string> owners;  // of the topics, by their names in the graph
+        std::map<std::string, std::string> owners;  // tools, by the names of their topics
         for (const ToolParameters& tool : p.tools) {
           const auto& owner = owners.insert({tool_graph_name(tool.name), tool.name}).first->second;
           if (owner == tool.name) continue;
@@ -102,13 +103,13 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
   return t;
 }
 
-/// How the proxy of a tool behaves: forces become lengths.
+/// The settings of a tool's proxy. A force becomes a length: it is divided by the stiffness.
 inline ProxySettings proxy_settings(const HapticProxyParameters& parameters,
                                     const ToolParameters& tool) {
   ProxySettings settings;
   settings.clearance = parameters.clearance;
   settings.jump = parameters.jump;
-  if (tool.freedom != ProxyFreedom::kTrocar) return settings;  // It pierces nothing.
+  if (tool.freedom != ProxyFreedom::kTrocar) return settings;  // A free tool pierces nothing.
   if (parameters.puncture_force > 0.0) {
     settings.puncture = parameters.puncture_force / parameters.stiffness;
   }

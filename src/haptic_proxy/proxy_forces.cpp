@@ -8,11 +8,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// A contact or a crossing.
+/// A contact or a crossing, with its force.
 struct Place {
   std::size_t organ;
   FaceForce on_face;  ///< in the proxy's frame; `force`: stiffness times load, on the proxy
-  Vector3d on_hand;   ///< [N] the part of that force that acts at the point of the pull
+  Vector3d on_hand;   ///< [N] the part of this force that acts on the hand at answer.center
 };
 
 template <typename Indices>
@@ -24,8 +24,8 @@ FaceForce on_face(std::uint32_t face, std::uint32_t link, const Indices& vertice
   return at;
 }
 
-/// What a force on the axis [N] does at the tip. The axis is a lever about the trocar for the part
-/// across it. The part along the axis acts whole.
+/// The force at the tip [N] that comes from a force at the place `shaft` on the axis. Across the
+/// axis, the axis is a lever about the trocar. Along the axis, the force acts in full.
 Vector3d at_tip(const Vector3d& force, double shaft, const ShaftAxis& axis) {
   const Vector3d direction = (axis.tip - axis.trocar).normalized();
   const Vector3d lengthwise = direction.dot(force) * direction;
@@ -55,7 +55,7 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
   return places;
 }
 
-/// The share of each place in what the loads do not explain. Their sum is 1.
+/// The share of each place in the force that the loads do not explain. The sum of the shares is 1.
 std::vector<double> shares_of(const std::vector<Place>& places) {
   std::vector<double> shares;
   double sum = 0.0;

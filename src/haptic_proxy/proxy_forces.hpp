@@ -11,28 +11,29 @@
 
 namespace organ_collision {
 
-/// What one organ does to the hand, and the proxy to the organ.
+/// The force of one organ on the hand, and the forces at the organ's faces that it comes from.
 struct OrganForce {
   std::string organ;
-  std::string frame = {};      ///< of the organ; proxy_forces() does not set it
-  std::uint32_t topology = 0;  ///< of the shape that `on_faces` belongs to
+  std::string frame = {};      ///< the organ's frame; proxy_forces() does not set it
+  std::uint32_t topology = 0;  ///< OrganMesh.topology of the shape that `on_faces` refers to
   Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< [N] on the hand, in the proxy's frame
-  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m] of it about the frame's origin
-  std::vector<FaceForce> on_faces = {};  ///< of the tissue on the proxy, in the organ's frame
+  Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< [N m] about the proxy frame's origin
+  std::vector<FaceForce> on_faces = {};  ///< the tissue's forces on the proxy, in the organ's frame
 
   void scale(double factor);
 };
 
-/// The force on the hand divided among the organs, in their order. The sum over the organs is
-/// stiffness times pull plus `damping`, and the torque that goes with it. A proxy that is still on
-/// its way may have no contact: then all organs have the same share, and no face bears it.
+/// Divides the force on the hand among the organs. Returns one OrganForce for each organ, in their
+/// order. Together they are stiffness times pull plus `damping`, and the torque of this force. A
+/// proxy that is still on its way may have no contact. Then all organs have the same share, and no
+/// face bears it.
 ///
-/// Each contact and crossing pushes with stiffness times its load. In a tool through a trocar, the
-/// load of a contact along the shaft acts on the tip with the lever of its place, contact.shaft.
-/// The load of a crossing does so only across the axis; along the axis it acts whole.
-/// What the loads do not explain is divided among the contacts in proportion to the loads: the
-/// damping, and the pull of a proxy that is still on its way. For a free tool, the forces on the
-/// faces of an organ therefore add up to its force on the hand.
+/// Each contact and crossing pushes with stiffness times its load. A shaft through a trocar is a
+/// lever: a contact at the place contact.shaft acts on the tip with this share of its load. A
+/// crossing does so only with the part of its load across the axis. The part along the axis acts in
+/// full. The loads do not explain the damping, and the pull of a proxy that is still on its way.
+/// These are divided among contacts and crossings in proportion to the loads. For a free tool, the
+/// forces at the faces of an organ therefore add up to its force on the hand.
 ///
 /// `stiffness` in N/m; `damping`: a force on the hand [N].
 std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
@@ -46,13 +47,13 @@ class ForceRamp {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// [s]
+  /// [s] The time in which the share rises from 0 to 1.
   static constexpr double kDuration = 0.01;
 
   /// From `now` on, the share rises or falls. Return the share at `now`.
   double rise(Time now) { return turn(now, 1.0); }
   double fall(Time now) { return turn(now, -1.0); }
-  /// In [0, 1], at the time of the last call.
+  /// The share in [0, 1] at the last call of rise() or fall().
   double share() const { return share_; }
 
  private:

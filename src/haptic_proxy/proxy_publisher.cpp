@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// The message has the numbers of the enumeration.
+// The constants of the message have the values of the enumeration.
 static_assert(ProxyState::NO_ANSWER == static_cast<int>(ProxyStatus::kNoAnswer) &&
               ProxyState::FREE == static_cast<int>(ProxyStatus::kFree) &&
               ProxyState::TOUCHING == static_cast<int>(ProxyStatus::kTouching) &&
@@ -53,7 +53,7 @@ FaceContact transformed(FaceContact contact, const Eigen::Isometry3d& T_target_s
   return contact;
 }
 
-/// What the proxy is near of one organ of the scene, in the organ's frame.
+/// The contacts of the proxy with one organ of the scene, in the organ's frame.
 ContactArrayPtr contacts_of(const ProxyReport& report, std::size_t organ) {
   const DeformableOrgan& source = *report.scene->sources[organ];
   auto contacts = boost::make_shared<ContactArray>(
@@ -201,7 +201,7 @@ void ProxyPublisher::publish_contacts(const ProxyReport& report) {
   }
 }
 
-/// Null if the pair's topics have no free name.
+/// The topics of an organ and a tool. Null if no name is free for them.
 ProxyPublisher::PairTopics* ProxyPublisher::pair_of(const std::string& organ,
                                                     const std::string& tool) {
   const auto known = pairs_.find({tool, organ});

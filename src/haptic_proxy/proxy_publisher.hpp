@@ -28,25 +28,26 @@ struct ProxyCounters {
   FailureLog rejected;             ///< messages that were refused
   FailureLog failed;               ///< ticks without an answer
   FailureLog clipped;              ///< forces that were reduced
-  FailureLog placed_anew;          ///< proxies that left their place otherwise than by a motion
+  FailureLog placed_anew;          ///< proxies that jumped to a new place, without a motion
 };
 
-/// Publishes what there is to say about tools: wrenches first, because a hand waits for them.
+/// Publishes reports about tools. Wrenches come first, because a hand waits for them.
 class ProxyPublisher {
  public:
-  /// `organs` and `failed` must outlive this. `failed` gets organs whose topics have no free name.
+  /// `organs` and `failed` must outlive this. `failed` counts organs whose topics have no free
+  /// name.
   ProxyPublisher(ros::NodeHandle private_node, const OrganRegistry& organs, FailureLog& failed,
                  bool publishes_tf);
 
-  /// The topics of these tools exist from now on, and those of no other tools.
+  /// Makes the topics of these tools, and ends the topics of all other tools.
   void set_tools(const std::vector<ToolParameters>& tools);
-  /// `report`: about one of these tools.
+  /// `report`: about one of the tools of set_tools().
   void publish(const ProxyReport& report);
 
  private:
   struct ToolTopics {
     ros::Publisher proxy, state;
-    ros::Time framed = {};  ///< the stamp of the last transform: TF warns of a second one
+    ros::Time framed = {};  ///< the last transform's stamp; TF warns if it is repeated
   };
   struct PairTopics {
     ros::Publisher wrench, vertex_forces;

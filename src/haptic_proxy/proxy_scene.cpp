@@ -16,7 +16,7 @@ namespace {
 /// How old the newest transform of a frame may be.
 struct FrameLimit {
   double seconds;
-  const char* parameter;  ///< its name
+  const char* parameter;  ///< the name of the parameter with this limit
 };
 
 FrameLimit frame_limit(const AgeLimits& limits) {
@@ -27,7 +27,7 @@ FrameLimit frame_limit(const AgeLimits& limits) {
   return is_first ? of_meshes : of_frames;
 }
 
-/// [s] A stamp that is ahead of the clock has no age, and neither has zero, that of static frames.
+/// [s] The age of a stamp. It is 0 if the stamp is ahead of the clock, or zero as in static frames.
 double age(ros::Time stamp, ros::Time now) {
   return stamp.isZero() ? 0.0 : std::max(0.0, now.toSec() - stamp.toSec());
 }
@@ -43,7 +43,8 @@ Rejection stale_frame(const NewestTransform& newest, const FrameLimit& limit, ro
                       " s are allowed (", limit.parameter, ")")};
 }
 
-/// The frame between these two whose newest transform is the oldest; the first if there is none.
+/// Of the frames between `a` and `b`, the one whose newest transform is the oldest. It is `a` if
+/// all of them are static.
 std::string oldest_between(const TransformBuffer& transforms, const std::string& a,
                            const std::string& b) {
   const auto of_a = transforms.oldest_transform(a, {b}), of_b = transforms.oldest_transform(b, {a});
@@ -99,7 +100,7 @@ void check_age(const TransformBuffer& transforms, const std::string& frame,
                const TransformBuffer::Frames& tool_frames, ros::Time stamp, const AgeLimits& limits,
                ros::Time now) {
   const FrameLimit limit = frame_limit(limits);
-  // No transform behind the pose is older than the pose.
+  // No transform behind the pose is older than the pose, so all are recent if the pose is.
   if (!is_old(stamp, limit, now)) return;
   const auto oldest = transforms.oldest_transform(frame, tool_frames);
   if (oldest && is_old(oldest->stamp, limit, now)) throw stale_frame(*oldest, limit, now);

@@ -62,7 +62,7 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
   hand_ = hand.value;
   answer_ = &answer;
   held_ = answer.proxy;
-  if (frame_ != scene.frame) {  // The last force has another direction there.
+  if (frame_ != scene.frame) {  // The last force has another direction in this frame.
     ramp_ = {};
     is_released_ = false;
     frame_ = scene.frame;
@@ -95,7 +95,7 @@ ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
 }
 
 /// The forces of the organs on the hand. If a limit is exceeded, the whole wrench shrinks by one
-/// factor. Throws Rejection.
+/// factor. Throws Rejection if the wrench is not finite.
 ToolProxy::LimitedForces ToolProxy::limited_forces(const ProxyAnswer& answer,
                                                    const ProxyScene& scene,
                                                    const Vector3d& damping_force) const {
@@ -138,14 +138,14 @@ void ToolProxy::set_forces(ProxyReport& report, double share) const {
   report.clipped_by = forces_.clipped_by;
 }
 
-/// The damping force on the hand [N]. It is at most as large as the spring's, so it never turns
-/// that around, because tissue only pushes.
+/// The damping force on the hand [N]. It is at most as large as the spring's force, so that it
+/// never reverses that force: tissue only pushes.
 Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
   if (answer.is_placed_anew) velocity_ = {};
   // Where a needle pierces a face, the pull falls at once.
   const std::size_t before = std::exchange(crossings_, answer.crossings.size());
   const bool leaps = before != crossings_;
-  // The pull is from the hand to the proxy.
+  // The pull points from the hand to the proxy. Its change therefore opposes the hand's motion.
   const Vector3d force = parameters_.damping * velocity_.update(answer.pull, stamp, leaps);
   return share_within_limit(force, parameters_.stiffness * answer.pull.norm()) * force;
 }

@@ -22,22 +22,22 @@ namespace organ_collision {
 /// What is published about a tool at one moment.
 struct ProxyReport {
   const ToolParameters& tool;
-  std::string frame;    ///< the proxy's; empty: not known yet
-  ros::Time stamp;      ///< of the hand's pose; now if there is no answer, or if the pose has none
-  std::uint8_t status;  ///< ContactArray's: OK, or why there is no answer
+  std::string frame;    ///< the proxy's frame; empty: not known yet
+  ros::Time stamp;      ///< of the hand's pose; the time now if there is no answer or no stamp
+  std::uint8_t status;  ///< ContactArray.status: OK, or why there is no answer
   std::string message;  ///< why there is no answer, or why the proxy was placed anew
-  std::optional<ToolPose> hand = {};    ///< the last one that had an answer
-  std::optional<ToolPose> proxy = {};   ///< the last one
+  std::optional<ToolPose> hand = {};    ///< the hand's last pose that had an answer
+  std::optional<ToolPose> proxy = {};   ///< the proxy's last pose
   const ProxyAnswer* answer = nullptr;  ///< null: there is no answer
-  const ProxyScene* scene = nullptr;    ///< of the answer
+  const ProxyScene* scene = nullptr;    ///< the organs of the answer
   std::vector<OrganForce> forces = {};  ///< as published: limited, and faded in or out
-  /// The parameter whose limit reduced the forces. Null: they are whole.
+  /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
-  double tick_sec = 0.0;  ///< [s] that the tick took in the core
+  double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
 };
 
-/// The pose of the tip of a shaft, with the z axis along the shaft, from trocar to tip; or of the
-/// first link of a tool without a shaft.
+/// A tool's pose as messages give it: the pose of the tip of its shaft, with the z axis from trocar
+/// to tip. For a tool without a shaft, it is the pose of the first link.
 geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose);
 
 /// The velocity [m/s] at which a pull [m] changes, from its values at the stamps of the poses:
@@ -45,24 +45,25 @@ geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose);
 /// controllers (Astrom and Murray, Feedback Systems, 2008, section 10.5).
 class PullVelocity {
  public:
-  /// [s] Of poses that are closer together, the displacements add up until it is over: the
-  /// difference of two such poses says more about their stamps than about the hand.
+  /// [s] The shortest time of a finite difference. Displacements between closer poses add up until
+  /// this time is over. A difference of two close poses tells more of their stamps than of the
+  /// hand.
   static constexpr double kLeastInterval = 5e-4;
   /// [s] The time constant of the low-pass, 80 Hz.
   static constexpr double kTimeConstant = 2e-3;
 
-  /// The velocity behind a pose. `leaps`: the pull changed at once, not by a motion. Neither such a
-  /// change nor a stamp that is not later than the last one changes the velocity.
+  /// Returns the velocity after the next pose. `leaps`: the pull changed at once, not by a motion.
+  /// Then the velocity stays, and also if the stamp is not later than the last one.
   const Eigen::Vector3d& update(const Eigen::Vector3d& pull, ros::Time stamp, bool leaps);
 
  private:
   std::optional<Eigen::Vector3d> since_;  ///< the pull from which the displacement counts
-  ros::Time begun_;                       ///< when it was that
+  ros::Time begun_;                       ///< the stamp of `since_`
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
 };
 
-/// The proxy of one tool and its force. The force is limited, and it is faded out when there is no
-/// answer any more, and in when there is one again.
+/// The proxy of one tool and its force. The force is limited. It fades out when answers end, and
+/// fades in when they begin again.
 class ToolProxy {
  public:
   using Time = ForceRamp::Time;
@@ -71,12 +72,12 @@ class ToolProxy {
   /// illegal.
   ToolProxy(const Tool& tool, const HapticProxyParameters& parameters);
 
-  /// A tick: the hand is at a new pose. Its time may be zero, if the pose is valid at any time.
-  /// Throws GlError and std::invalid_argument as HapticProxy::follow(), and Rejection if there is
-  /// no proxy, or if its force is not finite. After an exception, call lose().
+  /// Makes a tick with a new pose of the hand. A stamp of zero means that the pose is valid at any
+  /// time. Throws GlError and std::invalid_argument as HapticProxy::follow(), and Rejection if
+  /// there is no proxy, or if its force is not finite. After an exception, call lose().
   ProxyReport follow(const Timed<ToolPose>& hand, const ProxyScene& scene, Time now);
-  /// There is no answer: the force fades. `status`: why, one of ContactArray's. `frame` is told if
-  /// there never was an answer.
+  /// Lets the force fade, because there is no answer. `status`: the reason, a constant of
+  /// ContactArray. `frame`: the report's frame if there never was an answer.
   ProxyReport lose(std::uint8_t status, const std::string& message, const std::string& frame,
                    Time now);
   /// Whether the share of the force that is published changes with time. Then follow() or lose()
@@ -87,7 +88,7 @@ class ToolProxy {
 
   /// The last pose of the hand that had an answer.
   const std::optional<ToolPose>& hand() const { return hand_; }
-  /// To the last pose; null if there is none. Valid until the next call of follow() or reset().
+  /// The answer to the last pose; null if there is none. Valid until the next follow() or reset().
   const ProxyAnswer* answer() const { return is_lost_ ? nullptr : answer_; }
   /// [N] The magnitude of the force on the hand, as it was published last.
   double force() const;
@@ -115,10 +116,10 @@ class ToolProxy {
   bool is_lost_ = true;       ///< there was no answer at the last call
   bool is_released_ = false;  ///< the proxy was placed anew; the force of its last place fades
   const ProxyAnswer* answer_ = nullptr;
-  LimitedForces forces_;  ///< of the last answer, or of the last place while that force fades
-  std::string frame_;     ///< of forces_, hand_ and held_
+  LimitedForces forces_;  ///< of the last answer, or of the last place until they have faded
+  std::string frame_;     ///< the frame of forces_, hand_ and held_
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
-  PullVelocity velocity_;                ///< of the hand against the proxy
+  PullVelocity velocity_;                ///< of the proxy relative to the hand
   std::size_t crossings_ = 0;            ///< how many faces the proxy had pierced at the last tick
 };
 

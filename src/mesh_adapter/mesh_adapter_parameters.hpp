@@ -5,7 +5,7 @@
 
 #include "ros/parameters/parameter_table.hpp"
 
-/// The keys of the entries of `organs` that messages and --help name.
+/// The keys of an entry of the parameter `organs` that error messages and --help name.
 namespace organ_collision::names {
 
 inline constexpr char kTopic[] = "topic";

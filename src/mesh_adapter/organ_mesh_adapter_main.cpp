@@ -62,7 +62,7 @@ class OrganMeshAdapter {
         diagnostics_(node, private_node, parameters_.diagnostic_period_sec) {
     for (const std::string& sentence : parameters_.misspelt) ROS_WARN("%s", sentence.c_str());
 
-    // [messages] A new subscriber gets the meshes of all organs in one go.
+    // [messages] The queue must hold the meshes of all organs, which a new subscriber gets at once.
     const std::uint32_t queue = std::max<std::uint32_t>(100, 2 * parameters_.organs.size());
     // Not latched: a latched topic keeps only the last message. A new subscriber would get only one
     // organ, and in an old shape.
@@ -83,12 +83,12 @@ class OrganMeshAdapter {
   using Message = topic_tools::ShapeShifter;
   using Event = ros::MessageEvent<const Message>;
 
-  /// An organ, and what came of it.
+  /// An organ, and the numbers of its messages.
   struct Organ {
     OrganSource source;
     std::uint64_t received = 0;  ///< messages
     std::uint64_t converted = 0;
-    std::chrono::steady_clock::time_point latest = {};  ///< when the last one was converted
+    std::chrono::steady_clock::time_point latest = {};  ///< when the last message was converted
   };
   using Take = void (OrganSource::*)(const Message& message, ros::Time arrival);
 
@@ -148,8 +148,9 @@ class OrganMeshAdapter {
     show_failures("refused", refused_, status);
   }
 
-  /// Sends a new subscriber all organs in their latest shape. roscpp numbers only the messages to
-  /// all subscribers, from 0; these get the number of the last one, so that none seems to be lost.
+  /// Sends a new subscriber all organs in their latest shape. roscpp numbers only messages to all
+  /// subscribers, from 0. The messages to a new subscriber get the number of the last such message,
+  /// so that no message seems to be lost.
   void welcome(const ros::SingleSubscriberPublisher& newcomer) const {
     for (const Organ& organ : organs_) {
       const OrganMeshPtr mesh = organ.source.mesh();

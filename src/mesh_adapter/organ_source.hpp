@@ -18,32 +18,35 @@
 namespace organ_collision {
 
 /// One organ: reads its messages, of any supported type, and sends its surface to the collision
-/// node. Sends only vertices if the triangles are unchanged. Remembers the last legal mesh. Only
-/// the collision node limits the size of meshes. A message that is refused changes nothing.
+/// node. Sends only vertices if the triangles and the frame are unchanged. Remembers the last legal
+/// mesh. Does not limit the size of meshes: the collision node does. A message that is refused
+/// changes nothing.
 class OrganSource {
  public:
-  /// What sends the messages.
+  /// The functions that send messages to the collision node.
   struct Callbacks {
     std::function<void(const OrganMeshPtr&)> mesh;
     std::function<void(const OrganVerticesPtr&)> vertices;
   };
-  /// `last_topology`: the first mesh is sent with the next number. If a new source replaces an old
-  /// one while the collision node keeps running, its first mesh must not have the number of the old
-  /// source's last mesh: the collision node could refuse it, because it has other triangles under
-  /// the same number.
+  /// The first mesh is sent with the topology number after `last_topology`. If a new source
+  /// replaces an old one while the collision node keeps running, the number must differ from that
+  /// of the old source's last mesh. The collision node could otherwise refuse the new mesh, because
+  /// it knows other triangles under this number.
   OrganSource(OrganParameters parameters, std::uint32_t last_topology, Callbacks callbacks);
 
   const OrganParameters& parameters() const { return parameters_; }
 
-  /// Takes a message of `topic`. `arrival` replaces a missing stamp. Throws MessageError.
+  /// Takes a message of OrganParameters::topic. `arrival` replaces a missing stamp. Throws
+  /// MessageError.
   ///
-  /// Sends vertices if the triangles are those of the last mesh, otherwise a mesh with the next
-  /// topology number. An empty surface removes the organ. Illegal surfaces are sent too, so that
-  /// the collision node reports what is wrong with them, but they are not remembered: like the
-  /// collision node, the source keeps the last legal mesh.
+  /// Sends only vertices if the triangles and the frame are those of the last mesh. If only the
+  /// frame is new, sends a mesh with the same topology number, otherwise one with the next number.
+  /// An empty surface removes the organ. Illegal surfaces are sent too, so that the collision node
+  /// reports what is wrong with them, but they are not remembered: like the collision node, the
+  /// source keeps the last legal mesh.
   void take_surface(const topic_tools::ShapeShifter& message, ros::Time arrival);
-  /// Takes a message of `vertices_topic`, in the same way. Throws MessageError also if there is no
-  /// mesh, or if the mesh has another number of vertices.
+  /// Takes a message of OrganParameters::vertices_topic, and sends its vertices. Throws
+  /// MessageError also if there is no mesh, or if the mesh has another number of vertices.
   void take_vertices(const topic_tools::ShapeShifter& message, ros::Time arrival);
 
   /// The last legal mesh with the last legal vertices; null if there is none.
@@ -62,8 +65,8 @@ class OrganSource {
   bool has_warned_ = false;
 
   std::optional<TriangleMesh> mesh_;  ///< shares the vertices of the message that was sent
-  std::string frame_;                 ///< of mesh_
-  ros::Time stamp_;                   ///< of mesh_
+  std::string frame_;                 ///< the frame of mesh_
+  ros::Time stamp_;                   ///< the stamp of mesh_
 };
 
 }  // namespace organ_collision

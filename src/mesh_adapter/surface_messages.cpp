@@ -25,7 +25,8 @@ std::size_t size_of(const PointField& field) {
   return field.datatype == PointField::FLOAT64 ? sizeof(double) : sizeof(float);
 }
 
-/// The field with this name. Refuses it if its type is illegal or it lies outside of the point.
+/// The field with this name. Throws MessageError if there is none, if its type or its count is
+/// illegal, or if it ends beyond the point.
 const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
   const auto field = std::find_if(cloud.fields.begin(), cloud.fields.end(),
                                   [&](const PointField& field) { return field.name == name; });
@@ -39,7 +40,7 @@ const PointField& field_of(const PointCloud2& cloud, const std::string& name) {
     throw MessageError("wrong field type", "field ", name, " has datatype ", int{field->datatype},
                        "; must be 7 (float32) or 8 (float64)");
   }
-  if (field->count > 1) {  // Old PCL versions write 0 for 1.
+  if (field->count > 1) {  // Old PCL versions write 0 instead of 1.
     throw MessageError("wrong field count", "field ", name, " has count ", field->count,
                        "; must be 1");
   }

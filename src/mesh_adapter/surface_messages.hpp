@@ -22,7 +22,7 @@ struct ReceivedSurface {
   std::vector<float> vertices;           ///< x y z x y z ... [m]
   std::vector<std::uint32_t> triangles;  ///< three vertex indices for each face
 
-  /// Whether the organ was removed.
+  /// Whether the surface is empty, which means that the organ was removed.
   bool empty() const { return vertices.empty() && triangles.empty(); }
 };
 
@@ -30,7 +30,7 @@ struct ReceivedSurface {
 class MessageError : public std::runtime_error {
  public:
   /// `reason`: a short text that is the same for all errors of one kind. Errors are counted by
-  /// reason. `parts`: of what().
+  /// reason. `parts` make up the text of what().
   template <typename... Parts>
   explicit MessageError(const char* reason, const Parts&... parts)
       : std::runtime_error(concatenate(parts...)), reason_(reason) {}
@@ -63,8 +63,8 @@ ReceivedSurface convert(const pcl_msgs::PolygonMesh& mesh);
 /// The first marker that is kept becomes the organ's marker, until it is deleted.
 class MarkerReader {
  public:
-  /// DELETE and DELETEALL are an empty surface. An orientation of four zeros means no rotation, as
-  /// in RViz. Throws MessageError, also if the marker is not the organ's.
+  /// The actions DELETE and DELETEALL give an empty surface. An orientation of four zeros means no
+  /// rotation, as in RViz. Throws MessageError, also if the marker is not the organ's.
   ReceivedSurface read(const visualization_msgs::Marker& marker);
   /// Accepts the marker that was read last as the organ's. If it deleted the organ's marker, the
   /// next marker that is kept becomes the organ's.

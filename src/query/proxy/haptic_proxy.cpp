@@ -15,13 +15,13 @@
 namespace organ_collision {
 namespace {
 
-/// [m] A proxy that is nearer to the hand is where the hand is: this is rounding.
+/// [m] A proxy nearer to the hand than this counts as being where the hand is.
 constexpr double kSamePlace = 1e-12;
 /// [1] A face can bear load if its distance from the proxy is at most this many times the larger of
 /// two lengths: the clearance, and the distance of the nearest face.
 constexpr double kResting = 1.02;
 
-/// Whether the organ moved from its last shape to this one.
+/// Whether both shapes have the same triangles, so that the organ moved from `before` to `now`.
 bool is_same_organ(const TriangleMesh& before, const TriangleMesh& now) {
   return before.topology() == now.topology() && before.same_faces(now);
 }
@@ -39,7 +39,7 @@ struct HapticProxy::State {
 
   ProxyTool tool;
   ProxySettings settings;
-  // As the last tick left them.
+  // The result of the last tick.
   std::optional<ProxyPlace> place;
   std::optional<Needle> needle;  ///< if the proxy has pierced tissue
   ProxyAnswer answer;
@@ -52,7 +52,7 @@ struct HapticProxy::State {
     double jump = 0.0;     ///< as ProxySettings::jump counts it
     double longest = 0.0;  ///< no point of the tool moved farther
   };
-  /// What is known of a tick, until all of it has worked.
+  /// The data of a tick. The results become those of the State only if the whole tick succeeds.
   struct Tick {
     const ToolPose& hand;
     const std::vector<ProxyOrgan>& organs;
@@ -61,7 +61,7 @@ struct HapticProxy::State {
     ProxyAnswer answer = {};
     std::optional<ProxyPlace> place = {};
     std::optional<Needle> needle = {};
-    double way = 0.0;  ///< [m] of the proxy
+    double way = 0.0;  ///< [m] how far the proxy moved
   };
   bool move_needle(Tick& tick);
   void hold(Tick& tick, Needle&& held) const;
@@ -78,7 +78,7 @@ struct HapticProxy::State {
   LeastConstraint solver;
 
   ToolPose last_hand;
-  double last_way = 0.0;  ///< [m] of the proxy
+  double last_way = 0.0;  ///< [m] how far the proxy moved in the last tick
   std::vector<ProxyOrgan> last_organs;
 };
 
@@ -118,8 +118,8 @@ void HapticProxy::State::set_settings(const ProxySettings& its_settings) {
   motion.set_clearance(settings.clearance);
 }
 
-/// One tick. A needle in tissue moves with it. Any other proxy gives way to the tissue that moved,
-/// and then follows the hand.
+/// One tick. A needle in tissue moves with the tissue. Any other proxy gives way to the tissue that
+/// moved, and then follows the hand.
 void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrgan>& organs) {
   Tick tick{hand, organs, match(organs), place ? way_of(hand) : HandWay{}};
   tissue.set_organs(tick.motions);
@@ -140,7 +140,7 @@ void HapticProxy::State::follow(const ToolPose& hand, const std::vector<ProxyOrg
   last_organs = organs;
 }
 
-/// Returns whether a needle is in tissue.
+/// Moves a needle that is in tissue. Returns whether it is still in tissue.
 bool HapticProxy::State::move_needle(Tick& tick) {
   tick.place = place;
   if (!needle || tick.hand_way.jump > settings.jump) return false;
@@ -233,8 +233,8 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
   return ticks;
 }
 
-/// Whether the proxy is inside an organ or across its surface, because an organ is new or has new
-/// faces. If it is not, its clearance becomes that from the new tissue, if that is nearer.
+/// Whether the proxy is inside an organ that is new or has new faces, or crosses its surface. If
+/// such an organ is nearer than the proxy's clearance, its distance becomes the clearance.
 bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
   std::vector<OrganTick> new_organs;
   std::copy_if(tick.motions.begin(), tick.motions.end(), std::back_inserter(new_organs),
@@ -273,7 +273,8 @@ void HapticProxy::State::describe(Tick& tick) {
   said.twist -= said.size * back.tail<3>();
   double nearest = now.clearance;
   for (const TissueContact& near : motion.contacts()) nearest = std::min(nearest, near.distance);
-  // What the proxy rests on: it may hover a little if it did not reach its place in this tick.
+  // The greatest distance of a face that bears load. It exceeds the clearance if the proxy hovers
+  // because it did not reach its place in this tick.
   const double resting = kResting * std::max(settings.clearance, nearest);
   const double told = std::max(2.0 * settings.clearance, resting);
   std::vector<Wall> holding;

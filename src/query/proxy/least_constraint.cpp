@@ -7,12 +7,13 @@
 namespace organ_collision {
 namespace {
 
-/// [1] The seventh coordinate is the slack times this. The slack is then the sum of the loads
-/// divided by the square of this.
+/// [1] The seventh coordinate is the slack times this factor. The slack of the solution is then the
+/// sum of the loads divided by the square of this factor.
 constexpr double kSlackScale = 1e3;
-/// [m] Smaller violations of a wall are rounding errors.
+/// [m] Violations of a wall that are smaller than this count as rounding errors.
 constexpr double kSmallestViolation = 1e-12;
-/// [1] A row whose part across the active rows is a smaller share of it depends on them.
+/// [1] A row counts as linearly dependent on the active rows if the square of its part at right
+/// angles to them is at most this share of the row's own square.
 constexpr double kDependent = 1e-12;
 
 }  // namespace
@@ -40,15 +41,15 @@ void LeastConstraint::solve(const Displacement& goal, const std::vector<Wall>& w
   violation_ = point_[6] / kSlackScale;
 }
 
-/// Moves the point to the wall, and keeps it on the active walls. Active walls whose loads would
-/// become negative are dropped on the way.
+/// Moves the solution onto the wall, and keeps it on the active walls. Active walls whose loads
+/// would become negative are dropped on the way.
 void LeastConstraint::add(const Point& row, double bound, std::size_t wall) {
   double load = 0.0;
   while (true) {
     const double violation = row.dot(point_) - bound;
     const auto active = rows_.leftCols(count_);
-    Point change = Point::Zero();  // of the active loads, for each unit of the new load
-    Point across = row;  // the direction that leaves the active walls' equations as they are
+    Point change = Point::Zero();  // how the active loads fall for each unit of the new load
+    Point across = row;            // the part of `row` at right angles to the active rows
     if (count_ > 0) {
       using Gram =
           Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostActive, kMostActive>;
@@ -67,7 +68,7 @@ void LeastConstraint::add(const Point& row, double bound, std::size_t wall) {
         dropped = i;
       }
     }
-    if (!std::isfinite(step)) return;  // Only rounding brings it here: the slack satisfies all.
+    if (!std::isfinite(step)) return;  // Only rounding leads here: the slack can satisfy all walls.
     if (!is_dependent) point_ -= step * across;
     loads_.head(count_) -= step * change.head(count_);
     load += step;

@@ -6,8 +6,8 @@
 
 namespace organ_collision {
 
-/// Coordinates of a small motion of a tool [m], in a space whose metric is the identity. Mobility
-/// says what they mean.
+/// The coordinates of a small motion of a tool [m]. Their Euclidean norm measures how large the
+/// motion is. Mobility says what each coordinate means.
 using Displacement = Eigen::Matrix<double, 6, 1>;
 
 /// A half-space that a motion must stay in: row · displacement <= bound.
@@ -20,20 +20,23 @@ struct Wall {
 /// constraint): a small convex quadratic problem, solved by the dual method of Goldfarb and Idnani
 /// (1983), which begins at the goal and adds the walls that are violated one by one.
 ///
-/// If no motion stays in all of them, the solution violates them by the least possible distance.
-/// For this, a slack that all walls share is a seventh coordinate. It costs so much that it is a
-/// millionth of the sum of the loads if it need not be used.
+/// If no motion stays in all half-spaces, the solution violates the worst one as little as
+/// possible. For this, all walls share a slack, which is a seventh coordinate (doc/geometry.md,
+/// Haptic proxy). The slack costs so much that it is only a millionth of the sum of the loads if
+/// some motion stays in all half-spaces.
 class LeastConstraint {
  public:
-  /// Takes O(walls) time for each of at most kMostChanges changes of the active walls. If that is
-  /// not enough, which only rounding can cause, the solution may violate some walls.
+  /// Makes at most kMostChanges rounds of O(walls) time. Each round adds a violated wall to the
+  /// active walls, on which the solution lies. Only rounding errors can make more rounds necessary.
+  /// The solution may then violate some walls.
   void solve(const Displacement& goal, const std::vector<Wall>& walls);
 
   /// The solution [m].
   const Displacement& displacement() const { return displacement_; }
-  /// [m] By how much the solution violates the walls.
+  /// [m] The slack: the solution violates no wall by more than this.
   double violation() const { return violation_; }
-  /// [m] The load of a wall: goal - displacement() = sum of load * row. Not negative.
+  /// [m] The load of the wall with this index. Not negative. The sum of load * row over all walls
+  /// is goal - displacement().
   double load(std::size_t wall) const;
   /// Whether a wall keeps the solution from the goal.
   bool is_held() const { return count_ > 0; }
@@ -49,7 +52,7 @@ class LeastConstraint {
   Point point_;  ///< the displacement and the scaled slack
   int count_ = 0;
   Eigen::Matrix<double, kMostActive, kMostActive> rows_;  ///< a column for each active wall
-  Point loads_;                                           ///< of the active walls
+  Point loads_;                                           ///< the load of each active wall
   std::size_t walls_[kMostActive] = {};
   Displacement displacement_ = Displacement::Zero();
   double violation_ = 0.0;

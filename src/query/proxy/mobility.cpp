@@ -13,7 +13,7 @@ using Eigen::Quaterniond;
 using Eigen::Translation3d;
 using Eigen::Vector3d;
 
-/// [m] A shorter axis has no direction: it is a ball.
+/// [m] An axis shorter than this counts as a point without a direction.
 constexpr double kShortestAxis = 1e-9;
 
 Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
@@ -26,7 +26,7 @@ Quaterniond turn(const ShaftAxis& from, const ShaftAxis& to) {
   return Quaterniond::FromTwoVectors(along(from), along(to));
 }
 
-/// The pose moved rigidly.
+/// The pose after a rigid motion of the whole tool.
 ToolPose operator*(const Isometry3d& motion, const ToolPose& pose) {
   ToolPose result{{motion * pose.axis.trocar, motion * pose.axis.tip}, {}, {}};
   for (const Isometry3d& link : pose.links) {
@@ -38,7 +38,7 @@ ToolPose operator*(const Isometry3d& motion, const ToolPose& pose) {
   return result;
 }
 
-/// [m] The farthest distance of a link's points from a point in the organ's frame.
+/// [m] No point of a link at `pose` is farther from `center` than this.
 double farthest(const Link& link, const Isometry3d& pose, const Vector3d& center) {
   double most = 0.0;
   for (const LinkPart& part : link.parts) {
@@ -48,7 +48,7 @@ double farthest(const Link& link, const Isometry3d& pose, const Vector3d& center
   return most;
 }
 
-/// A tool through a trocar. The coordinates are those of the tip; the last three are unused.
+/// A tool through a trocar. Its coordinates are the displacement of its tip, and three zeros.
 class TrocarMobility : public Mobility {
  public:
   explicit TrocarMobility(const ProxyTool& tool) : tool_(tool) {}
@@ -70,7 +70,7 @@ class TrocarMobility : public Mobility {
     if (contact.link == 0) {
       result.head<3>() = contact.shaft * contact.normal;
     } else {
-      // The links turn with the shaft by (along x displacement) / length^2.
+      // The rotation vector of shaft and links is (axis x displacement) / length^2.
       result.head<3>() = contact.normal;
       if (has_direction(pose.axis)) {
         const Vector3d arm = contact.point - pose.axis.tip;
@@ -91,7 +91,7 @@ class TrocarMobility : public Mobility {
   Vector3d center(const ToolPose& pose) const override { return pose.axis.tip; }
 
  private:
-  /// The hand's tool, turned and moved along so that its tip is there.
+  /// The hand's pose, turned about its trocar and moved along its axis until its tip is at `tip`.
   static ToolPose at(const Vector3d& tip, const ToolPose& hand) {
     const ShaftAxis axis{hand.axis.trocar, tip};
     if (tip == hand.axis.tip) return hand;
@@ -110,8 +110,9 @@ class FreeMobility : public Mobility {
  public:
   explicit FreeMobility(const ProxyTool& tool) : tool_(tool) {}
 
-  /// The centre is the middle of the shaft or, of a tool of links, the mean of the middles of its
-  /// links. The size is the radius of gyration of a rod, or about that of the links.
+  /// The centre of a shaft alone is its middle. The centre of a tool with links is the mean of the
+  /// middles of the links' parts. The size is the radius of gyration of a rod that reaches as far
+  /// from the centre as the tool.
   void measure(const ToolPose& hand) override {
     if (tool_.links.empty()) {
       extent_ = 0.5 * along(hand.axis).norm() + tool_.radius;
@@ -144,7 +145,7 @@ class FreeMobility : public Mobility {
   Displacement between(const ToolPose& from, const ToolPose& to) const override {
     const Eigen::AngleAxisd turned(rotation(from, to));
     Displacement result;
-    // The shorter of both ways round.
+    // The remainder is the shorter of the two ways round.
     const double angle = std::remainder(turned.angle(), 2.0 * M_PI);
     result << center(to) - center(from), size_ * angle * turned.axis();
     return result;
@@ -172,13 +173,13 @@ class FreeMobility : public Mobility {
   double size() const override { return size_; }
 
  private:
-  /// The rotation from the base of one pose to that of another: its first link or, for a shaft
-  /// alone, its axis.
+  /// The rotation of the tool's base from one pose to another. The base is the first link or, for a
+  /// shaft alone, the axis.
   Quaterniond rotation(const ToolPose& from, const ToolPose& to) const {
     if (tool_.links.empty()) return turn(from.axis, to.axis);
     return Quaterniond(to.links[0].linear() * from.links[0].linear().transpose()).normalized();
   }
-  /// The hand's tool, turned about its centre, and moved so that the centre is there.
+  /// The hand's pose, rotated by `turned` about its centre, which is then moved to `where`.
   ToolPose at(const Vector3d& where, const Quaterniond& turned, const ToolPose& hand) const {
     return Translation3d(where) * Isometry3d(turned) * Translation3d(-center(hand)) * hand;
   }

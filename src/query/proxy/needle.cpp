@@ -9,15 +9,15 @@ namespace {
 using Eigen::Vector3d;
 
 /// [1] The tip presses on a face if the cosine of the angle between the axis and the contact's
-/// normal is larger.
+/// normal is larger than this.
 constexpr double kPressing = 0.5;
-/// [1] The needle loses its hold if the entry comes nearer to the trocar than this share of the
-/// hand's length: the load of the tissue would grow without bound.
+/// [1] The needle is lost if the distance from trocar to entry is less than this share of the
+/// length of the hand's shaft. If it went on, the load at the entry would grow without bound.
 constexpr double kShortestLever = 0.02;
 
 Vector3d along(const ShaftAxis& axis) { return axis.tip - axis.trocar; }
 
-/// [m] How far the hand's tip is beyond the needle's, along the axis, when it pierces a face.
+/// [m] A needle pierces a face when the hand's tip is this far ahead of its tip, along the axis.
 double threshold(const ProxySettings& settings) {
   return settings.puncture.value_or(std::numeric_limits<double>::infinity());
 }
@@ -75,7 +75,7 @@ Needle::Fate Needle::follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>
   return Fate::kHeld;
 }
 
-/// Finds the point that was entered in the organ's shape now. Returns false if its face is gone.
+/// Moves the entry to its place in the organ's present shape. Returns false if its face is gone.
 bool Needle::find_entry(const std::vector<ProxyOrgan>& organs) {
   const auto organ = std::find_if(organs.begin(), organs.end(), [&](const ProxyOrgan& candidate) {
     return candidate.name == organ_;
@@ -89,8 +89,8 @@ bool Needle::find_entry(const std::vector<ProxyOrgan>& organs) {
   return true;
 }
 
-/// [m] From the trocar to the tip, if the tip moves from `from` to that of axis_, and stops at each
-/// face on its way that it does not pierce.
+/// [m] The distance from the trocar at which the tip ends. The tip moves from the distance `from`
+/// to the tip of axis_, but stops at the first face that it does not pierce.
 double Needle::stop_at_faces(double from, double hand_tip, const ProxySettings& settings,
                              Tissue& tissue) const {
   const double to = along(axis_).norm();
@@ -117,7 +117,7 @@ void Needle::describe(const ShaftAxis& hand, Tissue& tissue) {
   entry_.shaft = (entry_.point - axis_.trocar).norm() / length;
   const Vector3d pull = axis_.tip - hand.tip;
   const Vector3d lengthwise = direction.dot(pull) * direction;
-  // The axis is a lever about the trocar.
+  // Across its direction, the axis is a lever about the trocar.
   entry_.load = -(lengthwise + (pull - lengthwise) / entry_.shaft);
   crossings_ = {entry_};
   std::vector<TissueCrossing> found;

@@ -10,14 +10,15 @@
 
 namespace organ_collision {
 
-/// A needle in tissue: the shaft of a proxy through a trocar whose tip has pierced a face. The
-/// point of the face that it entered holds it sideways: the axis goes from the trocar through that
-/// point, wherever the tissue moves it. Along the axis it sticks and slides with friction. Its tip
-/// stops at the next face, until it pierces that as well. Faces beside the needle do not touch it.
+/// A needle in tissue: the shaft of a proxy through a trocar, after its tip has pierced a face. The
+/// point of the face where the needle entered, the entry, moves with the tissue and holds the
+/// needle sideways: the axis always goes from the trocar through the entry. Along the axis, the
+/// needle sticks and slides with friction. Its tip stops at the next face until it pierces this
+/// face as well. Faces beside the needle do not act on it.
 class Needle {
  public:
-  /// A needle if the proxy's tip presses on tissue hard enough to pierce it. `contacts`: what holds
-  /// the proxy.
+  /// Returns a needle if the proxy's tip presses on tissue hard enough to pierce it, else nothing.
+  /// `contacts`: the contacts that hold the proxy.
   static std::optional<Needle> pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
                                       const std::vector<ProxyContact>& contacts,
                                       const std::vector<ProxyOrgan>& organs,
@@ -26,15 +27,15 @@ class Needle {
   /// What became of the needle.
   enum class Fate {
     kHeld,       ///< tissue holds it
-    kPulledOut,  ///< its tip is out of the tissue, at axis()
-    kLost        ///< the face that it entered is gone, or has come to the trocar
+    kPulledOut,  ///< the tip has left the tissue; axis() says where it is
+    kLost        ///< the face of the entry is gone, or the entry is too near the trocar
   };
   /// Moves the needle with the hand and the tissue.
   Fate follow(const ShaftAxis& hand, const std::vector<ProxyOrgan>& organs,
               const ProxySettings& settings, Tissue& tissue);
 
   const ShaftAxis& axis() const { return axis_; }
-  /// From the entry to the tip. The whole load is at the entry.
+  /// Where the needle goes through faces, from the entry to the tip. Only the entry has a load.
   const std::vector<ProxyCrossing>& crossings() const { return crossings_; }
 
  private:
@@ -46,10 +47,10 @@ class Needle {
                        Tissue& tissue) const;
   void describe(const ShaftAxis& hand, Tissue& tissue);
 
-  std::string organ_;  ///< the name of the organ that it entered
+  std::string organ_;  ///< the name of the organ that the needle entered
   ProxyCrossing entry_;
-  FaceIndices corners_ = {};  ///< of the face that it entered
-  double inserted_ = 0.0;     ///< [m] from the entry to the tip, along the axis
+  FaceIndices corners_ = {};  ///< the corners of the face of the entry
+  double inserted_ = 0.0;     ///< [m] the distance from the entry to the tip
   ShaftAxis axis_;
   std::vector<ProxyCrossing> crossings_;
 };

@@ -10,24 +10,24 @@
 namespace organ_collision {
 namespace {
 
-/// A proxy that cannot give way in one piece tries it in this many.
+/// If a proxy cannot give way to a whole motion of the organs, it tries this many pieces of it.
 constexpr int kPieces = 4;
-/// How often a motion may meet a new wall before it is given up.
+/// The most bent motions that a proxy tries in order to give way.
 constexpr int kMostAttempts = 5;
-/// [1] A proxy gives way by at most this many times the depth to which tissue would enter it.
+/// [1] A proxy gives way by at most this many times the depth of tissue in its clearance.
 constexpr double kLongestGiveWay = 10.0;
-/// How often the walls are looked at anew on the way along curved tissue.
+/// How often a proxy that slides along curved tissue looks for walls, at most.
 constexpr int kMostLooks = 8;
 
-// All as shares of the clearance at rest.
+// [1] The next three constants are shares of the clearance at rest.
 
-/// A smaller motion is none.
+/// A proxy that would slide by less than this has arrived.
 constexpr double kConverged = 0.01;
-/// How far around the proxy walls are looked for.
+/// How far beyond the clearance the proxy looks for walls, at least and at most.
 constexpr double kShortestReach = 1.0;
 constexpr double kLongestReach = 20.0;
 
-/// [m] A motion keeps this much less distance than its start has, because of rounding.
+/// [m] A motion may come nearer to tissue than its start by this allowance for rounding.
 constexpr double kRoundingRoom = 1e-9;
 /// [m] Poses that differ by less are the same: far below any clearance, and far above rounding.
 constexpr double kSamePose = 1e-12;
@@ -41,7 +41,7 @@ bool is_same(const ToolPose& a, const ToolPose& b) {
                     [&](const auto& x, const auto& y) { return is_near(x.matrix(), y.matrix()); });
 }
 
-/// The pose at a fraction of a way, whose legs take equally long.
+/// The pose at a fraction in [0, 1] of a way. All legs of the way take equally long.
 ToolPose pose_at(const std::vector<ToolPose>& way, double fraction) {
   const std::size_t legs = way.size() - 1;
   const double along = fraction * static_cast<double>(legs);
@@ -84,7 +84,7 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   return std::nullopt;
 }
 
-/// Cuts the motion of the organs into pieces of equal duration, in which they move linearly.
+/// Gives way to the motion of the organs in pieces of equal duration, one after the other.
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
                                                 const std::vector<OrganTick>& organs, Level level,
                                                 int pieces) {
@@ -114,8 +114,8 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   return place;
 }
 
-/// Sweeps the proxy while the organs move. What it meets becomes a wall, and the motion is bent so
-/// that it ends beyond all walls.
+/// Sweeps the proxy while the organs move. Each face that the proxy touches becomes a wall, and the
+/// motion is bent so that it ends on the free side of all walls.
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
                                                 Level level) {
   const ToolPose given = mobility_.combine(start.pose, hand);
@@ -138,8 +138,8 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
   return std::nullopt;
 }
 
-/// [1] How much of the solution is still giving way. Walls that nearly contradict each other have a
-/// solution far away: the tool would leap out of the tissue, although tissue squeezes it.
+/// [1] By which share of the solution the proxy gives way. If walls nearly contradict each other,
+/// the solution is far away: the tool would leap out of tissue that squeezes it.
 double ProxyMotion::share_of_give_way(const ToolPose& given) const {
   double deepest = 0.0;
   for (const Wall& wall : walls_) deepest = std::max(deepest, -wall.bound);
@@ -191,7 +191,8 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
   const auto touch = first_touch(growth);
   if (touch) place.pose = pose_at(way_, *touch);
   if (!touch && is_there) return;
-  // A proxy on its way may hover. What holds it is the nearest tissue.
+  // A proxy that has not arrived may hover far from tissue. Look for the faces that hold it farther
+  // and farther away, until there is one.
   reach = kShortestReach * clearance_.rest;
   do {
     look_around(place, reach);
@@ -211,8 +212,8 @@ void ProxyMotion::look_around(ProxyPlace& place, double reach) {
   }
 }
 
-/// Adds a wall for each contact: the tool must be at the clearance from the face at the end.
-/// `given`: where displacements begin; `pose`: the end of the motion that met the contacts.
+/// Adds a wall for each contact: when the motion ends, the tool must be the clearance away from the
+/// face. `given`: where displacements begin. `pose`: the end of the motion that met the contacts.
 void ProxyMotion::add_walls(const ToolPose& given, const ToolPose& pose,
                             const std::vector<TissueContact>& contacts) {
   const Displacement so_far = mobility_.between(given, pose);
@@ -222,13 +223,13 @@ void ProxyMotion::add_walls(const ToolPose& given, const ToolPose& pose,
   }
 }
 
-/// [m] By how much the tool is grown for motions from a place with a clearance.
+/// [m] By how much the tool is grown when a motion from a place with this clearance is swept.
 double ProxyMotion::growth_from(double clearance) const {
   return std::max(tissue_.least_growth(), std::min(clearance_.swept(), clearance - kRoundingRoom));
 }
 
 /// When the last motion first touched tissue, in [0, 1]. With the least growth, the faces that the
-/// tool touches from the start do not count: it could not leave them otherwise.
+/// tool touches from the start do not count: otherwise the tool could not leave them.
 std::optional<double> ProxyMotion::first_touch(double growth) const {
   std::optional<double> first;
   for (const TissueContact& met : met_) {

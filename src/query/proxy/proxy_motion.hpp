@@ -11,34 +11,34 @@
 
 namespace organ_collision {
 
-/// A place of a proxy.
+/// Where a proxy is, and how far it is from tissue there.
 struct ProxyPlace {
   ToolPose pose;
-  /// [m] No face is nearer than this, as far as is known. Negative infinity: nothing is known.
+  /// [m] The proxy is at least this far from every face. Negative infinity: it is unknown.
   double clearance = -std::numeric_limits<double>::infinity();
 };
 
-/// How near a proxy comes to tissue [m], beyond its own radius.
+/// The distances that a proxy keeps from tissue [m], measured from the surface of its tool.
 struct ProxyClearance {
-  double rest;  ///< where it stops
-  /// Motions keep this distance. It is smaller, so that a motion along a curved surface need not
-  /// follow each curve.
+  double rest;  ///< the proxy stops at this distance
+  /// A moving proxy keeps this distance. It is smaller than `rest`, so that a motion along a curved
+  /// surface need not follow each curve.
   double swept() const { return 0.6 * rest; }
-  double least() const { return 0.5 * rest; }  ///< a nearer proxy is squeezed
+  double least() const { return 0.5 * rest; }  ///< a proxy nearer than this is squeezed
 };
 
-/// Moves a proxy, and only along motions that were swept and touched nothing. Each function does a
-/// bounded number of queries.
+/// Moves a proxy. A swept collision query checks each motion, and the proxy moves only as far as it
+/// touches nothing. Each function makes a bounded number of queries.
 class ProxyMotion {
  public:
-  /// The references must outlive this.
+  /// `mobility` and `tissue` must outlive this object.
   ProxyMotion(const Mobility& mobility, Tissue& tissue) : mobility_(mobility), tissue_(tissue) {}
 
   void set_clearance(double clearance) { clearance_ = {clearance}; }
 
-  /// The organs move from their shapes before to those now, and what the hand prescribes moves to
-  /// the hand's. The proxy gives way as little as possible. Nothing if tissue cannot but move
-  /// through it.
+  /// Moves the proxy while the organs move from their last shapes to their present ones, and its
+  /// joints and its trocar move to those of the hand. The proxy gives way to tissue as little as
+  /// possible. Returns nothing if tissue would pass through the proxy in each motion that it tries.
   std::optional<ProxyPlace> give_way(const ProxyPlace& start, const ToolPose& hand,
                                      const std::vector<OrganTick>& organs);
 
@@ -46,13 +46,13 @@ class ProxyMotion {
   bool fly(ProxyPlace& place, const ToolPose& hand) { return fly(place, hand, clearance_.rest); }
 
   /// The proxy slides along the tissue to the place nearest the hand. `reach` [m]: about how far
-  /// that may be. The hand prescribes the same as before.
+  /// away this place may be. The joints and the trocar of `place` must be those of `hand`.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// What is near the proxy after slide(): all within at least twice the clearance at rest. Empty
-  /// after fly() has reached the hand.
+  /// The faces near the proxy after slide(): all faces within at least twice the clearance at rest.
+  /// Empty after fly() has reached the hand.
   const std::vector<TissueContact>& contacts() const { return contacts_; }
-  /// The walls that the contacts are.
+  /// The walls that belong to contacts(), in the same order.
   const std::vector<Wall>& walls() const { return walls_; }
 
  private:
@@ -75,14 +75,14 @@ class ProxyMotion {
   LeastConstraint solver_;
   std::vector<TissueContact> contacts_;
   std::vector<Wall> walls_;
-  std::vector<TissueContact> met_;  ///< on the last motion
+  std::vector<TissueContact> met_;  ///< what the last motion touched
   std::vector<ToolPose> way_, straight_;
 };
 
-/// Where a proxy comes from when it is placed anew. From there it moves to the hand like any proxy.
-/// A tool through a trocar enters along its axis: it begins with its tip at the trocar. A free tool
-/// begins where the hand is or, if it touches tissue there or is inside an organ, beyond all
-/// organs, on the hand's side. Nothing if there is tissue, too; `why_not` then becomes a sentence.
+/// The place where a proxy starts when it is placed anew. From there it moves to the hand like any
+/// proxy. A tool through a trocar starts with its tip at the trocar. A free tool starts where the
+/// hand is. If it touches tissue there or is inside an organ, it starts beyond all organs, on the
+/// hand's side. If there is tissue, too, the result is empty, and `why_not` says why.
 std::optional<ProxyPlace> enter(const ProxyTool& tool, const Mobility& mobility,
                                 const ToolPose& hand, double clearance,
                                 const std::vector<OrganTick>& organs, Tissue& tissue,

@@ -7,10 +7,10 @@
 namespace organ_collision {
 namespace {
 
-/// [m] The radius of a shaft that stands for its axis, and of a middle line.
+/// [m] The radius of a middle line, and of a shaft that is made as thin as its axis.
 constexpr double kAxisRadius = 1e-6;
 
-/// The part that is only the segment through the box of another part, along its longest side.
+/// The middle line of a part: the segment through the middle of its box, along the longest side.
 LinkPart middle_line(const LinkPart& part) {
   const OrientedBox& box = part.bounds;
   Eigen::Index longest = 0;
@@ -40,8 +40,8 @@ Tissue::Tissue(const ProxyTool& tool, const PickerSettings& picker)
 
 double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius - kAxisRadius); }
 
-/// Asks the same of all organs with the tool grown. `set_path(tick, question)` sets how the tool
-/// moves in an organ's frame. The contacts are in the proxy's frame.
+/// Asks the same question about each organ, with the tool grown. `set_path(tick, question)` sets
+/// how the tool moves in an organ's frame. The contacts are in the proxy's frame.
 template <typename SetPath>
 void Tissue::ask(QueryMode mode, double growth, std::vector<TissueContact>& contacts,
                  const SetPath& set_path) {
@@ -133,7 +133,7 @@ void Tissue::grow(double growth) {
   }
 }
 
-/// [m] By how much a link has grown. A middle line has grown by its radius.
+/// [m] By how much the radius of a link has grown. A middle line has grown by its whole radius.
 double Tissue::growth_of(std::uint32_t link) const {
   if (tool_.radius > 0.0 && link == 0) return radius_ - tool_.radius;
   return growth_ < 0.0 ? kAxisRadius : growth_;

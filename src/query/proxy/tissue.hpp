@@ -8,43 +8,44 @@
 
 namespace organ_collision {
 
-/// How an organ moves in one tick. The organ does not own its shapes.
+/// How an organ moves in one tick. The caller owns the shapes.
 struct OrganTick {
   const TriangleMesh* before = nullptr;  ///< null: the organ has no earlier shape to move from
   const TriangleMesh* now = nullptr;
-  const SurfaceTopology* topology = nullptr;  ///< of the shape now; null: its sides are unknown
-  Eigen::Isometry3d T_before = Eigen::Isometry3d::Identity();  ///< T_organ_proxy
-  Eigen::Isometry3d T_now = Eigen::Isometry3d::Identity();
+  const SurfaceTopology* topology = nullptr;  ///< of `now`; null: inside and outside are unknown
+  Eigen::Isometry3d T_before = Eigen::Isometry3d::Identity();  ///< T_organ_proxy at the start
+  Eigen::Isometry3d T_now = Eigen::Isometry3d::Identity();     ///< T_organ_proxy at the end
 
   bool is_moving() const {
     return (before && before != now) || T_before.matrix() != T_now.matrix();
   }
 };
 
-/// A contact in the proxy's frame, and whose it is.
+/// A contact in the proxy's frame. `organ` is the index of the touched organ in set_organs().
 struct TissueContact {
   std::size_t organ = 0;
   FaceContact contact;
-  /// [m] From the tool, without its growth, to the face at the end of the motion, along the normal.
-  /// From the middle line of a part if the growth was negative.
+  /// [m] The distance along the normal from the tool to the face when the motion ends. The tool
+  /// counts without its growth. If the growth is negative, a link's part counts as its middle line.
   double distance = 0.0;
 };
 
-/// Where an axis crosses an organ's surface, in the proxy's frame, and whose it is.
+/// Where an axis crosses an organ's surface, in the proxy's frame. `organ`: as in TissueContact.
 struct TissueCrossing {
   std::size_t organ = 0;
   AxisCrossing crossing;
 };
 
-/// Answers what a tool touches of all organs. The tool may be grown: then it touches whatever comes
-/// within that distance of it. A negative growth makes the shaft thinner, and each part of a link
-/// becomes the middle line of its box. All poses and contacts are in the proxy's frame.
+/// Finds which faces of all organs a tool touches. The tool may be grown by a distance [m]. It then
+/// touches each face that comes within this distance of it. A negative growth makes the shaft
+/// thinner, and replaces each part of a link by the middle line of its box. All poses and contacts
+/// are in the proxy's frame.
 class Tissue {
  public:
   /// `tool` must outlive this. Throws GlError.
   Tissue(const ProxyTool& tool, const PickerSettings& picker);
 
-  /// The organs at this tick; they must stay as long as this is used.
+  /// The organs of this tick. `organs` must stay valid until the next call of set_organs().
   void set_organs(const std::vector<OrganTick>& organs) { organs_ = &organs; }
 
   /// What the tool touches at a pose, against the organs' shapes now. `growth` [m].
@@ -55,14 +56,14 @@ class Tissue {
   void sweep_with_organs(const ToolPose& from, const ToolPose& to, double growth,
                          std::vector<TissueContact>& contacts);
 
-  /// Whether the shaft or a point of the tool is inside an organ, as far as that is known, or the
-  /// shaft's axis crosses a surface.
+  /// Whether `point` or the shaft's trocar is known to be inside an organ, or the shaft's axis
+  /// crosses the surface of an organ.
   bool is_inside(const ToolPose& pose, const Eigen::Vector3d& point);
 
-  /// Where an axis crosses the organs' surfaces, from its trocar to its tip.
+  /// Finds where an axis crosses the organs' surfaces. Sorted from its trocar to its tip.
   void cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings);
 
-  /// [m] The most negative growth. The shaft is then its axis.
+  /// [m] The most negative growth. It makes the shaft as thin as its axis.
   double least_growth() const;
 
  private:
@@ -75,9 +76,9 @@ class Tissue {
 
   const ProxyTool& tool_;
   double growth_ = 0.0;  ///< [m]
-  double radius_ = 0.0;  ///< [m] of the grown shaft; 0: no shaft
+  double radius_ = 0.0;  ///< [m] the radius of the grown shaft; 0: no shaft
   std::vector<Link> grown_links_;
-  std::vector<Link> middle_lines_;  ///< of the parts of each link
+  std::vector<Link> middle_lines_;  ///< the links, each part replaced by its middle line
   const std::vector<OrganTick>* organs_ = nullptr;
   CollisionQuery query_;
   CollisionResult result_;
