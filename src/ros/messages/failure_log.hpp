@@ -35,8 +35,8 @@ std::string reason_of(std::uint8_t status);
 /// `what`: the thing that has the name, for example "organ". An empty name is accepted.
 void check_name(const std::string& what, const std::string& name);
 
-/// Counts failures by reason. Logs each reason at most once a second of the steady clock. Any
-/// thread may use it at any time.
+/// Counts failures by reason. For each reason, it logs at most one failure a second (steady clock).
+/// Any thread may use a FailureLog at any time.
 class FailureLog {
  public:
   using Time = std::chrono::steady_clock::time_point;

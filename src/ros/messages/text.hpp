@@ -15,7 +15,7 @@ inline constexpr std::size_t kLongestName = 256;
 /// [bytes] The longest message of an answer, and of a failure in the log and on /diagnostics.
 inline constexpr std::size_t kLongestMessage = 2000;
 
-/// The text as plain text of at most `most` bytes (64 or more). A space replaces each control
+/// Turns a text into plain text of at most `most` bytes (64 or more). A space replaces each control
 /// character, and a question mark each byte that is not UTF-8. A shortened text ends with the
 /// number of bytes that were left out.
 std::string plain_text(const std::string& text, std::size_t most);

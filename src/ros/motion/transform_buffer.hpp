@@ -34,7 +34,7 @@ class TransformBuffer : public tf2::BufferCore {
            bool resting = false);
   /// Whether the record has a transform of this frame, not a static one, with this stamp.
   bool has(const std::string& frame, ros::Time stamp) const;
-  /// Forgets all transforms but the static ones, which are not sent again.
+  /// Forgets all transforms but the static ones, because their senders do not repeat them.
   void clear();
   /// Whether the stamps of a frame have stepped back since the last call, while the frame's latest
   /// stamp was ahead of the clock.
@@ -42,17 +42,17 @@ class TransformBuffer : public tf2::BufferCore {
   /// The largest stamp of a transform that is not static; zero if there is none.
   ros::Time latest() const { return latest_; }
   /// The time up to which the transforms between `target` and `sources` are believed; std::nullopt:
-  /// all are believed. A stamp ahead of the clock is disproved when the next stamp of its frame is
-  /// earlier by more than kClockTolerance. Until the frame's stamps reach the disproved stamp, its
-  /// transforms are believed only up to the stamp that came last.
+  /// all are believed. A stamp ahead of the clock is disproved when its frame later gets a stamp
+  /// that is earlier by more than kClockTolerance. Until the frame's stamps reach the disproved
+  /// stamp, its transforms are believed only up to the stamp that came last.
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
   /// Whether the record has a transform of this frame. Static transforms are not recorded.
   bool has_heard(const std::string& frame) const;
   /// The stamps of the transforms between a target frame and some sources.
   struct Stamps {
-    std::vector<ros::Time> rising;  ///< in rising order, each once
-    /// The latest stamp of a transform that was forgotten, because it is older than TF keeps it, or
-    /// because there were too many; zero if there is none.
+    std::vector<ros::Time> rising;  ///< stamps in rising order, each once
+    /// The latest stamp that was forgotten, because TF keeps no transform for so long, or because
+    /// its frame had too many stamps; zero if there is none.
     ros::Time forgotten;
   };
   /// The stamps, after `from` and before `to`, of all transforms between `target` and any of

@@ -94,8 +94,8 @@ class DeformableOrgan {
   const std::string& name() const { return name_; }
   const std::string& frame() const { return frame_; }
   const OrganShape& latest() const { return latest_; }
-  /// The shape before the latest one. It has no mesh if the latest one is the first of its
-  /// topology, or after forget_previous().
+  /// The shape before the latest one. It has no mesh if the latest shape is the first one with its
+  /// triangles, and after forget_previous() or set_frame().
   const OrganShape& previous() const { return previous_; }
   /// What is known of the surface. It is another object after the triangles have changed.
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
@@ -159,7 +159,7 @@ class SurfaceLog {
   struct Next {
     Time summary{}, doubts{};  ///< earliest times of the next messages
   };
-  std::map<std::string, Next> next_;  ///< by organ
+  std::map<std::string, Next> next_;  ///< for each organ
 };
 
 }  // namespace organ_collision

@@ -37,7 +37,7 @@ enum class OrganChange {
 /// Whether a mesh message says that its organ is gone: it has neither vertices nor triangles.
 bool is_removal(const OrganMesh& mesh);
 
-/// All known organs by name. A message that is refused changes nothing.
+/// All known organs by name. A message that is refused changes no organ.
 class OrganRegistry {
  public:
   /// Refuses meshes above `limits`, and stamps more than `max_ahead_sec` ahead of the clock.

@@ -29,7 +29,7 @@ void yield_to_all_threads();
 /// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
 std::string scheduling_of_this_thread();
 
-/// The threads that the process has now.
+/// The ids of all threads that the process has now.
 std::vector<pid_t> threads_of_this_process();
 
 /// Keeps all memory of the process in RAM until the process ends. Memory that the process has now
