@@ -19,15 +19,16 @@ namespace organ_collision {
 
 /// Reads a message of roscpp from bytes of a peer that may be wrong. ros::serialization::IStream
 /// makes room for as many elements as a list claims to have, before it looks whether the bytes are
-/// there: a message of 50 bytes can take 16 GB. This stream looks first. What it reads needs at
-/// most about ten times the memory of the bytes.
+/// there: a message of 50 bytes can take 16 GB. CheckedStream looks for the bytes first. A message
+/// that it reads takes at most about ten times the memory of its bytes.
 class CheckedStream : public ros::serialization::Stream {
  public:
   // roscpp asks for this name. NOLINTNEXTLINE(readability-identifier-naming)
   static constexpr ros::serialization::StreamType stream_type =
       ros::serialization::stream_types::Input;
 
-  /// Only reads the bytes, which must outlive this.
+  /// The stream only reads the bytes, in spite of the const_cast. The bytes must outlive the
+  /// stream.
   CheckedStream(const std::uint8_t* bytes, std::uint32_t size)
       : Stream(const_cast<std::uint8_t*>(bytes), size) {}
 
@@ -43,10 +44,11 @@ class CheckedStream : public ros::serialization::Stream {
   }
 
  private:
-  /// `least`: bytes of the shortest element.
+  /// Throws if fewer bytes are left than the list claims to have. `least`: [bytes] the size of the
+  /// shortest possible element.
   void check_count(std::uint32_t least) {
     std::uint32_t count = 0;
-    if (getLength() < sizeof count) return;  // deserialize() refuses it.
+    if (getLength() < sizeof count) return;  // deserialize() refuses these bytes.
     std::memcpy(&count, getData(), sizeof count);
     const std::uint64_t there = getLength() - sizeof count;
     if (std::uint64_t{count} * least <= there) return;
@@ -56,10 +58,10 @@ class CheckedStream : public ros::serialization::Stream {
   }
 };
 
-// Subscribers and services that read with CheckedStream what peers send. Otherwise they are those
-// of roscpp.
+// Subscribers and services like those of roscpp, except that they read what peers send with
+// CheckedStream.
 
-/// A subscription that refuses a message whose bytes are not one, and counts it.
+/// A subscription that refuses and counts bytes that are no complete message of its type.
 template <typename Message>
 class CheckedSubscription
     : public ros::SubscriptionCallbackHelperT<const ros::MessageEvent<const Message>&> {
@@ -69,7 +71,7 @@ class CheckedSubscription
   CheckedSubscription(const typename Base::Callback& callback, FailureLog& rejected)
       : Base(callback), rejected_(rejected) {}
 
-  /// Returns null if the bytes are no message. roscpp then drops them.
+  /// Returns null if the bytes are no complete message. roscpp then drops them.
   ros::VoidConstPtr deserialize(
       const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
     const auto message = boost::make_shared<Message>();
@@ -93,8 +95,8 @@ class CheckedSubscription
   FailureLog& rejected_;
 };
 
-/// A service that refuses a request whose bytes are not one: the caller gets an error, which roscpp
-/// logs.
+/// A service that refuses bytes that are no complete request. The caller then gets an error, which
+/// roscpp logs.
 template <typename Service>
 class CheckedService : public ros::ServiceCallbackHelper {
  public:
@@ -121,8 +123,8 @@ class CheckedService : public ros::ServiceCallbackHelper {
   Answer answer_;
 };
 
-/// As NodeHandle::subscribe() with TCP_NODELAY. `rejected` counts unreadable messages, and must
-/// outlive the subscriber.
+/// Subscribes as NodeHandle::subscribe() with TCP_NODELAY does, but reads messages with
+/// CheckedStream. `rejected` counts unreadable messages, and must outlive the subscriber.
 template <typename Message>
 ros::Subscriber subscribe_checked(
     ros::NodeHandle node, const std::string& topic, std::uint32_t queue,
@@ -135,7 +137,7 @@ ros::Subscriber subscribe_checked(
   return node.subscribe(options);
 }
 
-/// As NodeHandle::advertiseService().
+/// Advertises as NodeHandle::advertiseService() does, but reads requests with CheckedStream.
 template <typename Service>
 ros::ServiceServer advertise_checked(ros::NodeHandle node, const std::string& service,
                                      const typename CheckedService<Service>::Answer& answer) {
@@ -145,12 +147,12 @@ ros::ServiceServer advertise_checked(ros::NodeHandle node, const std::string& se
   return node.advertiseService(options);
 }
 
-/// The message whose bytes something holds, such as topic_tools::ShapeShifter or
-/// rosbag::MessageInstance. It is read with CheckedStream, which their own instantiate() does not
-/// use. The types must agree. Throws ros::serialization::StreamOverrunException.
+/// Reads the message whose bytes `holder` has, for example a topic_tools::ShapeShifter or a
+/// rosbag::MessageInstance. It reads with CheckedStream, unlike their own instantiate(). `holder`
+/// must have a message of this type. Throws ros::serialization::StreamOverrunException.
 template <typename Message, typename Holder>
 boost::shared_ptr<Message> held_message(const Holder& holder) {
-  std::vector<std::uint8_t> bytes(holder.size() + 1);  // One more, because Stream needs an address.
+  std::vector<std::uint8_t> bytes(holder.size() + 1);  // One byte more: Stream needs an address.
   ros::serialization::OStream copy(bytes.data(), holder.size());
   holder.write(copy);
   auto message = boost::make_shared<Message>();

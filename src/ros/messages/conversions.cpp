@@ -11,14 +11,15 @@
 namespace organ_collision {
 namespace {
 
-/// [m] The longest side of the box around an organ: of a whole body, and of a small vessel.
+/// [m] Plausible lengths of the longest side of the box around an organ: from a small vessel to a
+/// whole body.
 constexpr double kLargestOrgan = 3.0;
 constexpr double kSmallestOrgan = 1e-3;
-/// [m] The radius of a shaft: of something much thicker than any instrument, and of a hair.
+/// [m] Plausible radii of a shaft: from that of a hair to one much above that of any instrument.
 constexpr double kLargestRadius = 0.1;
 constexpr double kSmallestRadius = 2e-5;
 
-/// `what`: names the length [m]. Empty if the length is plausible.
+/// The sentence "WHAT; plausible are ..." about a length [m]. Empty if the length is plausible.
 std::string doubt_about(const std::string& what, double length, double smallest, double largest) {
   if (length >= smallest && length <= largest) return {};
   return concatenate(

@@ -13,7 +13,8 @@
 
 namespace organ_collision {
 
-// Conversions between messages and Eigen, in the same units. Those of tf2 write into an argument.
+// Conversions between messages and Eigen, in the same units. They return the result, while those of
+// tf2 write it into an argument.
 
 inline Eigen::Vector3d to_eigen(const geometry_msgs::Point& point) {
   return {point.x, point.y, point.z};
@@ -26,36 +27,36 @@ inline Eigen::Quaterniond to_eigen(const geometry_msgs::Quaternion& rotation) {
 }
 /// Normalises the rotation, because senders round it. tf2::transformToEigen() does not normalise.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform);
-/// The same for a pose.
+/// Normalises the rotation, too.
 Eigen::Isometry3d to_eigen(const geometry_msgs::Pose& pose);
 
-/// Whether the length of a quaternion differs from 1 by at most 1e-3. Senders round quaternions.
-/// One with a larger difference is no rotation.
+/// Whether the length of a quaternion differs from 1 by at most 1e-3. Senders round quaternions. A
+/// quaternion with a larger difference is not a rounded rotation.
 bool is_unit(const geometry_msgs::Quaternion& quaternion);
 
-/// tf2::toMsg() returns a Point unless it is given a Vector3 to write into.
+/// Needed because tf2::toMsg() returns a Point unless it is given a Vector3 to write into.
 geometry_msgs::Vector3 to_vector(const Eigen::Vector3d& vector);
 
 /// The frame's name for tf2, which accepts no leading slash: "/liver" becomes "liver".
 std::string tf_frame(const std::string& frame_id);
 
-/// [s] Clocks of several hosts differ by less, and messages overtake each other by less. A clock
-/// that goes back by more has jumped, for example because a simulator was reset.
+/// [s] If a clock goes back by more than this, it has jumped, for example because a simulator was
+/// reset. The clocks of several hosts differ by less, and messages overtake each other by less.
 inline constexpr double kClockTolerance = 0.02;
 
 /// [s] How far a stamp may be ahead of the clock, unless the parameter max_ahead_sec says
 /// otherwise.
 inline constexpr double kMaxAheadDefault = 1.0;
 
-/// Why a stamp is not believed: it is ahead of the clock by more than `max_ahead_sec`. Empty if it
-/// is believed. Before simulated time begins (`now` is zero), every stamp is.
+/// Why a stamp is refused: it is ahead of the clock by more than `max_ahead_sec`. Empty if the
+/// stamp is accepted. Before simulated time begins, `now` is zero and every stamp is accepted.
 std::string ahead_fault(ros::Time stamp, ros::Time now, double max_ahead_sec);
 
 /// Notices when ROS time jumps back.
 class ClockWatch {
  public:
-  /// Compares `now` with the latest time of the calls before. Returns true, and logs a warning, if
-  /// it is earlier by more than kClockTolerance.
+  /// Compares `now` with the latest time of the calls before. If `now` is earlier by more than
+  /// kClockTolerance, logs a warning and returns true.
   bool has_jumped_back(ros::Time now);
 
  private:
@@ -65,13 +66,13 @@ class ClockWatch {
 /// The lengths of the sides of a box, in the unit of the box, for example "0.12 x 0.09 x 0.06".
 std::string sides_of(const Eigen::AlignedBox3d& box);
 
-// Sizes beyond which a unit is probably wrong. Nothing is refused for its size: the node warns, and
-// answers all the same. These return a sentence that names the size and what is plausible; empty if
-// the size is plausible.
+// These functions find sizes that suggest a wrong unit. They return a sentence that names the size
+// and what is plausible, or an empty text if the size is plausible. Nothing is refused for its
+// size: the node warns, and answers all the same.
 
-/// `box`: around the organ [m].
+/// `box`: the box around the organ [m].
 std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3d& box);
-/// `radius`: of the tool's shaft [m].
+/// `radius`: the radius of the tool's shaft [m].
 std::string doubt_about_radius(const std::string& tool, double radius);
 
 }  // namespace organ_collision

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::chrono::seconds kLogPeriod(1);
 
-/// By status of ContactArray.
+/// The reason for each status of ContactArray, at the index of its number.
 constexpr std::array<const char*, ContactArray::INVALID_TOOL + 1> kReasons = {
     "ok",           "no mesh",         "no transform",
     "stale mesh",   "invalid request", "unknown organ",
@@ -45,7 +45,7 @@ void FailureLog::add(const std::string& reason, const std::string& message, Time
     if (is_recent) return;
     entry.logged = now;
   }
-  // Without the lock, because the log may take long, and the other threads need the lock.
+  // Logs without the lock, because logging may take long, and other threads need the lock.
   const std::string counted = count == 1 ? "" : " (" + std::to_string(count) + " times)";
   ROS_WARN("%s%s", plain.c_str(), counted.c_str());
 }

@@ -31,12 +31,12 @@ class Rejection : public std::runtime_error {
 /// "no mesh".
 std::string reason_of(std::uint8_t status);
 
-/// Throws Rejection, with the message "WHAT 'NAME' ...", if `name` is not legal (legal_name.hpp).
+/// Throws Rejection, with the message "WHAT 'NAME' ...", if `name` is not legal (name_fault()).
 /// `what`: the thing that has the name, for example "organ". An empty name is accepted.
 void check_name(const std::string& what, const std::string& name);
 
-/// Counts failures by reason. Logs each reason at most once a second of the steady clock. Any
-/// thread may use it at any time.
+/// Counts failures by reason. For each reason, it logs at most one failure a second (steady clock).
+/// Any thread may use a FailureLog at any time.
 class FailureLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -44,7 +44,7 @@ class FailureLog {
   struct Entry {
     std::uint64_t count = 0;
     std::uint64_t not_yet_reported = 0;  ///< failures since the last call of take_report()
-    std::string latest;                  ///< message, plain text of at most kLongestMessage bytes
+    std::string latest;                  ///< plain text of the last message
     Time logged;                         ///< when a failure with this reason was last logged
   };
 
@@ -56,7 +56,7 @@ class FailureLog {
 
   using Entries = std::map<std::string, Entry>;
   Entries by_reason() const;
-  /// The same for a report to the user: the entries then count as reported.
+  /// Returns all entries for a report to the user, and then counts their failures as reported.
   Entries take_report();
 
  private:
@@ -64,8 +64,9 @@ class FailureLog {
   Entries entries_;  ///< guarded by mutex_
 };
 
-/// Adds the count of each reason to `status`, with the key "WHAT, REASON". If failures were added
-/// since the last call, their latest message becomes a warning, or an error if the picker failed.
+/// Adds the count of each reason to `status`, with the key "WHAT, REASON". If a reason has failures
+/// that are not yet reported, its latest message becomes a warning, or an error if the picker
+/// failed.
 void show_failures(const std::string& what, FailureLog& log,
                    diagnostic_updater::DiagnosticStatusWrapper& status);
 

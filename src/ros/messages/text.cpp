@@ -10,7 +10,7 @@
 namespace organ_collision {
 namespace {
 
-/// [bytes] Reserved for the note at the end of a shortened text.
+/// [bytes] The room that plain_text() keeps for its note at the end of a shortened text.
 constexpr std::size_t kNote = 40;
 
 /// Whether a code point is a control character: in the set C0 or C1, or DEL.

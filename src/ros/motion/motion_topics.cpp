@@ -18,11 +18,11 @@ namespace {
 using geometry_msgs::PoseStamped;
 using geometry_msgs::TransformStamped;
 
-/// [messages] If more messages wait, the oldest are dropped, and the sweep connects the poses of
-/// the others directly.
+/// [messages] If more messages wait, the oldest are dropped. The tool is then swept on a straight
+/// way between the poses that are left.
 constexpr std::uint32_t kQueue = 1000;
 
-/// What tf2 may have refused: a parent, a stamp, or numbers.
+/// Everything in a transform that tf2 may have refused, because tf2 does not say what is wrong.
 std::string contents(const TransformStamped& transform) {
   const auto& p = transform.transform.translation;
   const auto& q = transform.transform.rotation;
@@ -95,7 +95,7 @@ void MotionTopics::subscribe(Stream& stream, ros::NodeHandle node) {
             (this->*take)(stream.index, *pose);
           },
           {}, ros::TransportHints().tcpNoDelay());
-    } catch (const ros::Exception& error) {  // For example, this process knows it by another type.
+    } catch (const ros::Exception& error) {  // For example, this process uses it with another type.
       throw std::runtime_error("cannot subscribe to '" + topic + "': " + error.what());
     }
   };
@@ -107,7 +107,7 @@ void MotionTopics::change_tools(const std::vector<ToolParameters>& tools,
                                 const ros::NodeHandle& node) {
   std::vector<std::shared_ptr<Stream>> streams;
   for (const ToolParameters& tool : tools) {
-    // Names of tools are unique, so no two tools have the same stream.
+    // Names of tools are unique, so no two of the new tools get the same stream.
     const auto known = std::find_if(streams_.begin(), streams_.end(), [&](const auto& stream) {
       const ToolParameters& old = stream->tool;
       return old.name == tool.name && old.tip_frame == tool.tip_frame &&
@@ -152,7 +152,7 @@ void MotionTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   if (!check(pose, stream.tool.tip_frame)) return;
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
-  // Several poses may arrive within one tick of simulated time. Each gets a different stamp.
+  // Poses without a stamp may arrive within one tick of simulated time: each gets another stamp.
   if (stamp.isZero()) stamp = arrival(stream);
   const bool is_taken = transforms_.add(to_transform(stamped, stream.tool.tip_frame), "pose");
   if (!is_taken && !came_for_another_tool(stream, stamp)) {
@@ -166,8 +166,8 @@ void MotionTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   arrived_(tool);
 }
 
-/// A stamp for a pose without one: now, but behind the last one. A last stamp that is ahead of the
-/// clock is of another sender, and may be wrong.
+/// A stamp for a pose without a stamp: now, or 1 ns after the tool's last pose if that is later. A
+/// last pose that is ahead of the clock came with its stamp, which may be wrong; it does not count.
 ros::Time MotionTopics::arrival(const Stream& stream) {
   const ros::Time now = ros::Time::now();
   const bool is_ahead = stream.latest.toSec() > now.toSec() + kClockTolerance;
@@ -176,8 +176,8 @@ ros::Time MotionTopics::arrival(const Stream& stream) {
   return std::max(now, next.fromNSec(stream.latest.toNSec() + 1));
 }
 
-/// Whether a tool with the same topic and tip frame has already taken the pose with this stamp, and
-/// this one has not.
+/// Whether another tool with the same topic and tip frame has already added the pose with this
+/// stamp to TF, while the tool of `stream` has not taken the pose yet.
 bool MotionTopics::came_for_another_tool(const Stream& stream, ros::Time stamp) const {
   return stamp != stream.latest && transforms_.has(stream.tool.tip_frame, stamp) &&
          std::any_of(streams_.begin(), streams_.end(), [&](const auto& other) {
@@ -193,7 +193,8 @@ void MotionTopics::take_base(std::size_t tool, const PoseStamped& pose) {
   place_base(stream);
 }
 
-/// Base poses are sent only once, or rarely. Therefore each is valid until the next one.
+/// Adds the base pose as a static transform, which is valid until the next one comes: base poses
+/// are sent only once, or rarely.
 void MotionTopics::place_base(const Stream& stream) {
   if (!stream.base || stream.frame.empty() || !check(*stream.base, stream.frame)) return;
   transforms_.add(to_transform(*stream.base, stream.frame), "pose", true);
@@ -203,7 +204,7 @@ void MotionTopics::forget_stamps() {
   for (const auto& stream : streams_) stream->latest = ros::Time();
 }
 
-/// Returns false, and counts the pose as rejected, if it cannot be the pose of `frame`.
+/// Returns false, and counts the pose as rejected, if `pose` cannot be the pose of `frame`.
 bool MotionTopics::check(const PoseStamped& pose, const std::string& frame) {
   const std::string wrong = tf_frame(pose.header.frame_id) == frame && !frame.empty()
                                 ? "is in its own frame"
@@ -212,7 +213,7 @@ bool MotionTopics::check(const PoseStamped& pose, const std::string& frame) {
   return wrong.empty();
 }
 
-/// `why` continues the sentence.
+/// Counts a rejected `what`. `why` continues the sentence that begins with "WHAT of 'FRAME'".
 void MotionTopics::reject(const std::string& what, const std::string& frame,
                           const std::string& why) {
   const std::string of = frame.empty() && what == "pose" ? "a base" : "'" + frame + "'";

@@ -26,8 +26,8 @@ class MotionTopics {
   /// Called with a tool's index after each pose of its tip from a topic.
   using Arrived = std::function<void(std::size_t tool)>;
 
-  /// `transforms` and `rejected` must outlive this. What has a stamp further ahead of the clock
-  /// than `max_ahead_sec` is refused.
+  /// `transforms` and `rejected` must outlive this object. Transforms and poses whose stamps are
+  /// more than `max_ahead_sec` ahead of the clock are refused.
   MotionTopics(const std::vector<ToolParameters>& tools, TransformBuffer& transforms,
                FailureLog& rejected, Arrived arrived, double max_ahead_sec = kMaxAheadDefault);
   MotionTopics(const MotionTopics&) = delete;  ///< The subscriptions refer to this.
@@ -41,25 +41,25 @@ class MotionTopics {
 
   /// Adds the transforms of a message. A transform that tf2 refuses, or whose stamp is too far
   /// ahead of the clock, is counted as rejected. A transform whose frame and stamp are known is
-  /// left out and not counted, because senders repeat transforms. `authority` is the sender;
+  /// left out and not counted, because senders repeat transforms. `authority`: the sender.
   /// `resting`: the message is from /tf_static.
   void take_transforms(const tf2_msgs::TFMessage& message, const std::string& authority,
                        bool resting);
-  /// Take a pose of the tool's tip, or of the frame in which the tip's poses are given. An illegal
-  /// pose is counted as rejected, and the last pose stays.
+  /// Takes a pose of the tool's tip (take_tip()), or of the frame in which the tip's poses are
+  /// given (take_base()). An illegal pose is counted as rejected, and the last legal pose stays.
   void take_tip(std::size_t tool, const geometry_msgs::PoseStamped& pose);
   void take_base(std::size_t tool, const geometry_msgs::PoseStamped& pose);
 
-  /// For a clock that jumped back: earlier stamps are legal again.
+  /// To be called when the clock has jumped back: forgets the stamps of the last poses.
   void forget_stamps();
 
  private:
   struct Stream {
-    std::size_t index;  ///< of the tool
+    std::size_t index;  ///< index of the tool
     ToolParameters tool;
-    std::string frame = {};  ///< in which the tip's poses are given; empty: no pose came yet
+    std::string frame = {};  ///< frame of the tip's poses; empty: no pose came yet
     ros::Time latest = {};   ///< stamp of the tip's last pose; zero: no pose came yet
-    std::optional<geometry_msgs::PoseStamped> base = {};  ///< pose of that frame, if it came
+    std::optional<geometry_msgs::PoseStamped> base = {};  ///< last pose of `frame`
     ros::Subscriber tips = {}, bases = {};
   };
   void subscribe(Stream& stream, ros::NodeHandle node);
@@ -73,7 +73,7 @@ class MotionTopics {
   FailureLog& rejected_;
   Arrived arrived_;
   double max_ahead_sec_;
-  /// By tool. Subscriptions refer to them, so their addresses must not change.
+  /// The streams by tool. Subscriptions refer to streams, so their addresses must not change.
   std::vector<std::shared_ptr<Stream>> streams_;
   std::vector<ros::Subscriber> tf_;
 };

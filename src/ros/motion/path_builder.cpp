@@ -12,10 +12,10 @@ namespace {
 
 /// [m] Smaller deviations of an axis and smaller motions of a trocar count as rounding errors.
 constexpr double kStraight = 1e-9;
-/// [m] The same for points of links.
+/// [m] Smaller deviations of the points of links count as rounding errors.
 constexpr double kStraightLink = 1e-6;
 
-/// [m] An upper bound for the distance of the link's points from its origin.
+/// [m] An upper bound of the distance of the link's points from the origin of the link's frame.
 double reach(const Link& link) {
   double farthest = 0.0;
   for (const LinkPart& part : link.parts) {
@@ -31,23 +31,23 @@ double distance(const ShaftAxis& a, const ShaftAxis& b) {
   return std::max((a.trocar - b.trocar).norm(), (a.tip - b.tip).norm());
 }
 
-/// [m] An upper bound for the distance between the positions of a point in two poses, for all
-/// points within `reach` of the origin. A rotation by an angle moves such a point by at most
-/// 2 reach sin(angle / 2). The Frobenius norm of the difference of the rotation matrices is
-/// sqrt(8) sin(angle / 2).
+/// [m] An upper bound of the distance between the places of a point of a link in two poses, for all
+/// points within `reach` of the link's origin. A rotation by an angle moves such a point by at most
+/// 2 reach sin(angle / 2). The Frobenius norm of the difference of the rotation matrices is sqrt(8)
+/// sin(angle / 2).
 double distance(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, double reach) {
   return (a.translation() - b.translation()).norm() +
          reach * std::sqrt(0.5) * (a.linear() - b.linear()).norm();
 }
 
-/// The distance of a waypoint from a straight motion at the same time [m].
+/// [m] The distance between a waypoint and a straight motion at the time of the waypoint.
 struct Deviation {
   double axis;   ///< the larger deviation of the two ends of the axis
   double links;  ///< an upper bound for all points of the links
 };
 
-/// From the straight motion between two other waypoints: the ends of the axis move linearly, and
-/// each link moves as a RigidMotion. `to` has a larger fraction than `from`.
+/// The deviation of a waypoint from the straight motion between `from` and `to`: the ends of the
+/// axis move linearly, and each link moves as a RigidMotion. `to` is later than `from`.
 Deviation deviation_of(const ToolWaypoint& waypoint, const ToolWaypoint& from,
                        const ToolWaypoint& to, const std::vector<double>& reaches) {
   const double time = (waypoint.fraction - from.fraction) / (to.fraction - from.fraction);
@@ -59,10 +59,11 @@ Deviation deviation_of(const ToolWaypoint& waypoint, const ToolWaypoint& from,
   return deviation;
 }
 
-/// The straight motion between two waypoints, and the waypoint in between that deviates most.
+/// The straight motion between the waypoints `begin` and `end`, and the waypoint in between that
+/// deviates most from it. Waypoints are indices into the path.
 struct Leg {
   std::size_t begin, end, farthest;
-  double deviation = 0.0;  ///< [m]
+  double deviation = 0.0;  ///< [m] of the waypoint `farthest`
 
   bool operator<(const Leg& other) const { return deviation < other.deviation; }
 };
@@ -81,8 +82,8 @@ Leg straight_leg(const ToolPath& path, const std::vector<double>& reaches, std::
   return leg;
 }
 
-/// Stops a trocar that moves only by rounding errors: the viewing volumes of a resting trocar are
-/// tighter.
+/// If the trocar moves only by rounding errors, lets it rest, because the viewing volumes for a
+/// resting trocar are tighter.
 void rest_trocar(ToolPath& path) {
   const Eigen::Vector3d trocar = path.back().axis.trocar;
   const auto is_there = [&](const ToolWaypoint& waypoint) {
@@ -105,8 +106,8 @@ void PathBuilder::add(double fraction, const ToolPose& pose) {
   const std::size_t size = path_.size();
   if (size > 1) {
     const Deviation deviation = deviation_of(path_[size - 1], path_[size - 2], next, reaches_);
-    // Each dropped sample changes the leg by at most its own deviation, so the sum bounds the
-    // change. It is a multiple of the tolerance.
+    // Each dropped sample changes the leg by at most its own deviation, so the sum of the
+    // deviations bounds the change. The sum counts multiples of the tolerances.
     dropped_deviation_ += std::max(deviation.axis / kStraight, deviation.links / kStraightLink);
     if (dropped_deviation_ <= 1.0) {
       path_.back() = std::move(next);

@@ -9,38 +9,38 @@
 
 namespace organ_collision {
 
-/// A tool's path, and what it lost because it had too many samples.
+/// A tool's path, and what was left out because the motion had too many samples.
 struct SampledPath {
   ToolPath path = {};
   std::size_t samples_cut = 0;
-  /// [m] the largest distance of a dropped pose from the path; infinite if some were not even read
+  /// [m] The largest distance of a dropped pose from the path; infinite if a pose was not read.
   double deviation_cut = 0.0;
-  std::string unknown = {};  ///< what is not known of the tool's way; empty: all is known
+  std::string unknown = {};  ///< which part of the motion is not known; empty: all is known
 };
 
-/// Builds a path from samples of a tool's motion, without redundant waypoints, because each leg of
-/// a path costs a query. TF interpolates between transforms, so that many samples lie on the
-/// straight motion between their neighbours. Samples are dropped as long as this changes the path
-/// by at most 1e-9 m at the ends of the axis and by at most 1e-6 m at all points of the links. The
-/// straight motion of a link is RigidMotion; chains of joints follow it only roughly.
+/// Builds a path from samples of a tool's motion. Each leg, from one waypoint to the next, costs
+/// time in a query, so redundant samples are dropped: TF interpolates between transforms, so that
+/// many samples lie on the straight motion between their neighbours. What is dropped changes the
+/// path by at most 1e-9 m at the ends of the axis and by at most 1e-6 m at all points of the links.
+/// A link moves straight if it moves as a RigidMotion; chains of joints do so only roughly.
 class PathBuilder {
  public:
-  /// Starts at fraction 0.
+  /// The path starts at fraction 0 with the pose `begin`.
   PathBuilder(const std::vector<Link>& links, const ToolPose& begin);
 
-  /// Fractions rise from call to call, up to 1.
+  /// Adds a sample. `fraction`: rises from call to call, up to 1.
   void add(double fraction, const ToolPose& pose);
 
   /// The path through all samples. Its first and last waypoints are as given, except that a trocar
-  /// that moved by at most 1e-9 m is at rest. If it has more than `legs_max` legs, at least 1, the
-  /// waypoints that matter least are dropped, as Douglas and Peucker (1973) do, but waypoint and
-  /// path are compared at the same time. The waypoint with the largest deviation is kept first.
+  /// that moved by at most 1e-9 m is at rest. If there are more than `legs_max` legs (at least 1),
+  /// the waypoints that deviate least are dropped, with the algorithm of Douglas and Peucker
+  /// (1973). Here, the deviation of a waypoint is its distance from the path at the same time.
   SampledPath take(std::size_t legs_max);
 
  private:
-  std::vector<double> reaches_;  ///< [m] of each link: an upper bound of its points' distances
+  std::vector<double> reaches_;  ///< [m] of each link: no point is farther from its origin
   ToolPath path_;
-  double dropped_deviation_ = 0.0;  ///< sum over the samples dropped from the last leg
+  double dropped_deviation_ = 0.0;  ///< sum of those dropped from the last leg, in tolerances
 };
 
 }  // namespace organ_collision

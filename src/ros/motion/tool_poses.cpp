@@ -12,8 +12,9 @@
 namespace organ_collision {
 namespace {
 
-/// [poses] For each pose, TF searches through all later transforms. Without this limit, a step of
-/// many seconds would take up to a second.
+/// [poses] The most poses that are read for a step, or samples_max if that is more. For each pose,
+/// TF searches through all later transforms: without a limit, a step of many seconds would take up
+/// to a second.
 constexpr std::size_t kMostRead = 1000;
 
 std::string without_link(const Tool& tool, std::size_t link,
@@ -29,7 +30,8 @@ bool is_near(const ToolPose& pose) {
                      [](const auto& link) { return is_in_range(link.translation()); });
 }
 
-/// [ns] In whole nanoseconds, because ros::Duration overflows for extreme stamps.
+/// [ns] The time between two stamps, in whole nanoseconds, because ros::Duration overflows for
+/// extreme stamps.
 std::int64_t elapsed(ros::Time from, ros::Time to) {
   return static_cast<std::int64_t>(to.toNSec()) - static_cast<std::int64_t>(from.toNSec());
 }
@@ -38,7 +40,8 @@ double seconds(ros::Time from, ros::Time to) {
   return 1e-9 * static_cast<double>(elapsed(from, to));
 }
 
-/// How many samples with this spacing lie strictly between two times with this gap.
+/// How many samples, one each `spacing_sec`, lie strictly between two times that are `gap_sec`
+/// apart.
 double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
@@ -76,9 +79,9 @@ void ToolPoses::set_answered(const Tool& tool, const std::string& organ_frame, r
   buffer_.set_answered(organ_frame, swept_frames(tool), time);
 }
 
-/// The stamps that TF received, and evenly spaced times between stamps that are further apart than
-/// sample_sec. Notes in `lost` how many more there would be without samples_max, and which of them
-/// are not known.
+/// The stamps of the received transforms and, where these are further apart than sample_sec, evenly
+/// spaced times between them. Notes in `lost` how many times samples_max has left out, and what is
+/// not known of the motion.
 std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::string& organ_frame,
                                                ros::Time from, ros::Time to,
                                                SampledPath& lost) const {
@@ -152,8 +155,8 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
     }
     pose.tip = tip.found->value.translation();
   }
-  // For time zero, each frame was looked up at its own latest time, but all poses must be of the
-  // same time.
+  // For time zero, each frame was looked up at its own latest time. All poses must be of the same
+  // time, so they are looked up again at the earliest of these times.
   if (earliest != latest) return this->pose(tool, organ_frame, earliest, with_tip_of_links);
   return {{{std::move(pose), earliest}}, ""};
 }

@@ -11,13 +11,13 @@
 
 namespace organ_collision {
 
-/// How densely motion is sampled from TF.
+/// How densely the motion of tools is sampled from TF.
 struct PathSampling {
   double sample_sec;
-  int samples_max;  ///< in one step, including its end
+  int samples_max;  ///< most samples in one step, with its end
 };
 
-/// The frames that determine the pose of what is swept.
+/// The frames that determine the poses of the shaft and the links, which are what is swept.
 TransformBuffer::Frames swept_frames(const Tool& tool);
 
 /// The poses of tools in the frame of an organ, from TF.
@@ -27,21 +27,22 @@ class ToolPoses {
   ToolPoses(TransformBuffer& buffer, const PathSampling& sampling)
       : buffer_(buffer), sampling_(sampling) {}
 
-  /// The pose at a time. Time zero means the latest time at which all its frames are known. The tip
-  /// of links is not swept: a sample of their motion does not need it.
+  /// The pose of a tool at a time. Time zero means the latest time at which all frames of the tool
+  /// are known. `with_tip_of_links`: not needed for samples of a motion, because that tip is not
+  /// swept.
   Lookup<ToolPose> pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
                         bool with_tip_of_links = true) const;
 
   /// The path from one known pose to another. It is sampled at each stamp that TF received between
-  /// the two poses. If stamps are further apart than sample_sec, it is also sampled between them.
-  /// Samples that TF cannot give are dropped. PathBuilder drops redundant ones, and reduces the
-  /// rest to samples_max. At most max(1000, samples_max) of the stamps are read, evenly spread; if
-  /// there are more, or if TF has forgotten some, the path is not wholly known.
+  /// the two poses and, where stamps are further apart than sample_sec, also between them. Samples
+  /// that TF cannot give are dropped. PathBuilder drops redundant samples, and reduces the others
+  /// to samples_max. At most max(1000, samples_max) of the stamps are read, evenly spread. If there
+  /// are more stamps, or if TF has forgotten some, a part of the path is unknown.
   SampledPath path(const Tool& tool, const std::string& organ_frame, const Timed<ToolPose>& from,
                    const Timed<ToolPose>& to) const;
 
-  /// Whether a step from `from` should end at `to`, so that its path is wholly known: it is as long
-  /// as longest_step(), or has half as many poses as are read.
+  /// Whether a step from `from` should end at `to`, so that no part of its path is unknown: the
+  /// step is as long as longest_step(), or has half as many poses as path() reads.
   bool is_nearly_forgotten(const Tool& tool, const std::string& organ_frame, ros::Time from,
                            ros::Time to) const;
   /// Half of the time for which TF keeps transforms. If a step went on for longer, TF would soon
@@ -56,7 +57,8 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// Why a tool's pose is not known: `why_not`, unless no message ever came on its pose topic.
+  /// Why a tool's pose is not known. If no message ever came on the tool's pose topic, this is the
+  /// reason; otherwise the reason is `why_not`.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
                                       ros::Time from, ros::Time to, SampledPath& lost) const;

@@ -14,9 +14,10 @@ namespace organ_collision {
 
 namespace {
 
-/// [parents] A frame rarely changes its parent, for example when an instrument is handed over.
+/// [parents] How many recent parents of a frame are kept. A frame rarely changes its parent, for
+/// example when an instrument is handed over.
 constexpr std::size_t kMostParents = 8;
-/// [stamps] As many transforms of a frame as TF keeps at 1 kHz.
+/// [stamps] How many stamps of a frame are kept: those of the 10 s that TF keeps, at 1 kHz.
 constexpr std::size_t kMostStamps = 10'000;
 
 template <typename Frame>
@@ -40,7 +41,7 @@ NotFound late(const std::string& target, const std::string& source, ros::Time la
   return {std::nullopt, text, true};
 }
 
-/// `error`: what tf2 threw.
+/// Says why TF has no transform at `time`. `error`: what tf2 threw.
 NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
                    const std::string& source, ros::Time time, const std::runtime_error& error) {
   for (const std::string& frame : {source, target}) {
@@ -55,7 +56,7 @@ NotFound not_found(const tf2::BufferCore& buffer, const std::string& target,
     const ros::Time newest = buffer.lookupTransform(target, source, ros::Time(0)).header.stamp;
     if (!newest.isZero() && newest < time) return late(target, source, newest, time);
   }
-  // The text may be long: for a loop, tf2 lists all frames.
+  // The text of tf2 may be long: for a loop of frames, it lists all frames.
   return {std::nullopt, "no transform from " + source + " to " + target + ": " +
                             plain_text(error.what(), kLongestMessage)};
 }
@@ -85,8 +86,8 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   return true;
 }
 
-/// Finds out whether a new stamp of the frame disproves an earlier one, or reaches the one that was
-/// disproved.
+/// Finds out whether a new stamp of the frame disproves the latest one (believed_until()), or
+/// reaches the stamp that was disproved before.
 void TransformBuffer::judge(Frame& frame, ros::Time stamp) {
   const ros::Time latest = frame.stamps.empty() ? ros::Time() : frame.stamps.back();
   const bool was_disproved = !frame.disproved.isZero();
@@ -100,7 +101,7 @@ void TransformBuffer::judge(Frame& frame, ros::Time stamp) {
   disproved_ -= static_cast<std::size_t>(was_disproved);
 }
 
-/// A stamp is forgotten when TF forgets the transform, or when there are too many.
+/// Records a stamp. A stamp is forgotten when TF forgets its transform, or when there are too many.
 void TransformBuffer::note(Frame& frame, ros::Time stamp) {
   std::deque<ros::Time>& stamps = frame.stamps;
   frame.heard = stamp;
@@ -187,7 +188,7 @@ std::optional<NewestTransform> TransformBuffer::oldest_transform(const std::stri
   return oldest;
 }
 
-/// Null if nothing came of the frame, nor of one that it carries.
+/// The record of a frame. Null if no transform of the frame came, nor of a frame below it.
 TransformBuffer::Frame* TransformBuffer::find(const std::string& frame) const {
   const auto known = frames_.find(frame);
   return known == frames_.end() ? nullptr : known->second.get();
@@ -199,8 +200,8 @@ TransformBuffer::Frame& TransformBuffer::obtain(const std::string& frame) {
   return *known;
 }
 
-/// The frames whose transforms determine the poses of `sources` in the target frame. If one of them
-/// changed its parent recently, further frames above it may be included.
+/// The frames whose transforms determine the poses of `sources` in the target frame. If one of
+/// these frames changed its parent recently, further frames above it may be included.
 TransformBuffer::Nodes TransformBuffer::chain(const std::string& target,
                                               const Frames& sources) const {
   const Nodes above_target = upward(target, kMostParents);
@@ -218,7 +219,7 @@ TransformBuffer::Nodes TransformBuffer::chain(const std::string& target,
   return found;
 }
 
-/// The frame and all its ancestors, each once, through at most so many recent parents of each.
+/// The frame and all its ancestors, each once, through at most `most` recent parents of each frame.
 TransformBuffer::Nodes TransformBuffer::upward(const std::string& frame, std::size_t most) const {
   Nodes found;
   if (Frame* const known = find(frame)) found = {known};

@@ -16,14 +16,14 @@
 
 namespace organ_collision {
 
-/// A frame, and the stamp of the newest transform to its parent.
+/// The name of a frame, and the stamp of the newest transform to its parent.
 struct NewestTransform {
   std::string frame;
   ros::Time stamp;
 };
 
-/// TF's buffer, with a record of the stamps of each frame's transforms, because tf2 does not give
-/// them. Transforms that are set with setTransform instead of add are not in the record.
+/// TF's buffer with a record of the stamps of each frame's transforms, because tf2 does not tell
+/// the stamps. Transforms that are set with setTransform() instead of add() are not in the record.
 class TransformBuffer : public tf2::BufferCore {
  public:
   using Frames = std::vector<std::string>;
@@ -32,27 +32,27 @@ class TransformBuffer : public tf2::BufferCore {
   /// Throws std::runtime_error for extreme stamps, as tf2 does.
   bool add(const geometry_msgs::TransformStamped& transform, const std::string& authority,
            bool resting = false);
-  /// Whether a transform of this frame with this stamp was added that is not static.
+  /// Whether the record has a transform of this frame, not a static one, with this stamp.
   bool has(const std::string& frame, ros::Time stamp) const;
-  /// Forgets all transforms but the static ones, which are not sent again.
+  /// Forgets all transforms but the static ones, because their senders do not repeat them.
   void clear();
-  /// Whether, since the last call, the stamps of a frame stepped back while its latest one was
-  /// ahead of the clock.
+  /// Whether the stamps of a frame have stepped back since the last call, while the frame's latest
+  /// stamp was ahead of the clock.
   bool has_stepped_back() { return std::exchange(has_stepped_back_, false); }
   /// The largest stamp of a transform that is not static; zero if there is none.
   ros::Time latest() const { return latest_; }
   /// The time up to which the transforms between `target` and `sources` are believed; std::nullopt:
-  /// all are. A stamp ahead of the clock is disproved when its sender later sends one that is
-  /// earlier by more than kClockTolerance. Until the sender reaches the disproved stamp, transforms
-  /// are believed only up to the stamp that it sent last.
+  /// all are believed. A stamp ahead of the clock is disproved when its frame later gets a stamp
+  /// that is earlier by more than kClockTolerance. Until the frame's stamps reach the disproved
+  /// stamp, its transforms are believed only up to the stamp that came last.
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
-  /// Whether the record has a transform of the frame.
+  /// Whether the record has a transform of this frame. Static transforms are not recorded.
   bool has_heard(const std::string& frame) const;
   /// The stamps of the transforms between a target frame and some sources.
   struct Stamps {
-    std::vector<ros::Time> rising;  ///< in rising order, each once
-    /// The latest stamp of a transform that was forgotten, because it is older than TF keeps it, or
-    /// because there were too many; zero if there is none.
+    std::vector<ros::Time> rising;  ///< stamps in rising order, each once
+    /// The latest stamp that was forgotten, because TF keeps no transform for so long, or because
+    /// its frame had too many stamps; zero if there is none.
     ros::Time forgotten;
   };
   /// The stamps, after `from` and before `to`, of all transforms between `target` and any of
@@ -60,15 +60,14 @@ class TransformBuffer : public tf2::BufferCore {
   Stamps stamps_between(const std::string& target, const Frames& sources, ros::Time from,
                         ros::Time to) const;
 
-  /// Notes that the poses of `sources` in the target frame have been used, up to `stamp`.
+  /// Notes that the poses of `sources` in the target frame have been used up to the time `stamp`.
   void set_answered(const std::string& target, const Frames& sources, ros::Time stamp);
   /// How many transforms came late, after poses at or past their stamp had already been used.
   std::size_t late() const { return late_; }
 
-  /// Of the frames that carry `frame`, the one whose newest transform is the oldest; a static one
-  /// has no age. These are `frame` and those above it, without those that also carry each of
-  /// `others`: what they do, moves none against the other. Empty if nothing but static transforms
-  /// is left.
+  /// The frame in the chain from `frame` upwards whose newest transform is the oldest. Frames with
+  /// only static transforms are left out. The chain ends below the first frame that also carries
+  /// all of `others`, because from there on, both sides move together. Empty if no frame is left.
   std::optional<NewestTransform> oldest_transform(const std::string& frame,
                                                   const Frames& others) const;
 
@@ -77,11 +76,11 @@ class TransformBuffer : public tf2::BufferCore {
   using Nodes = std::vector<Frame*>;
   struct Frame {
     std::string name;
-    Nodes parents = {};                 ///< recent parents, the last one last
-    std::deque<ros::Time> stamps = {};  ///< of recent transforms, in rising order
+    Nodes parents = {};                 ///< recent parents, the latest at the end
+    std::deque<ros::Time> stamps = {};  ///< stamps of recent transforms, in rising order
     ros::Time heard = {};               ///< the stamp that came last; zero: none came
     ros::Time forgotten = {};           ///< the latest stamp that was forgotten; zero: none was
-    /// A stamp that its sender showed to be wrong, until later ones come; zero: there is none.
+    /// A stamp that was disproved (see believed_until()); zero: there is none.
     ros::Time disproved = {};
     ros::Time answered = {};  ///< poses were used up to this stamp; zero: never
 
@@ -96,31 +95,32 @@ class TransformBuffer : public tf2::BufferCore {
   Nodes upward(const std::string& frame, std::size_t most) const;
   static bool is_line(const Nodes& frames);
 
-  std::map<std::string, std::unique_ptr<Frame>> frames_;  ///< by name
+  std::map<std::string, std::unique_ptr<Frame>> frames_;  ///< record of each frame by name
   ros::Time latest_;                                      ///< the largest stamp of all frames
   std::size_t disproved_ = 0;  ///< how many frames have a disproved stamp
   bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };
 
-/// A value and its time. Time zero: it is valid at any time, because all its transforms are static.
+/// A value and its time. Time zero means that the value is valid at any time, because it comes from
+/// static transforms alone.
 template <typename T>
 struct Timed {
   T value;
   ros::Time stamp;
 };
 
-/// A value, or why TF does not have it. There is never a stand-in value.
+/// A value, or why TF does not have it. If TF does not have it, no other value takes its place.
 template <typename T>
 struct Lookup {
   std::optional<Timed<T>> found;
   std::string why_not;
-  bool is_late = false;  ///< the transforms are known, but the newest is older than the time
+  bool is_late = false;  ///< the newest transform is older than the time asked for
 };
 
-/// T_target_source at a time; time zero means the latest common time. Transforms that are not
-/// believed any more (TransformBuffer::believed_until) count as not yet known. The frame names must
-/// have no leading slash.
+/// The transform T_target_source at a time. Time zero means the latest time at which all transforms
+/// are known. Transforms that are not believed any more (TransformBuffer::believed_until) count as
+/// not yet known. The frame names must have no leading slash.
 Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,
                                   const std::string& source, ros::Time time);
 

@@ -14,8 +14,8 @@
 namespace organ_collision {
 namespace {
 
-/// [1] A smaller share of the cube of the organ's size is no volume but rounding, as between the
-/// two sides of a sheet.
+/// [1] A volume below this share of the cube of the organ's longest side counts as a rounding
+/// error. The two sides of a sheet enclose such a volume.
 constexpr double kNoVolume = 1e-9;
 
 constexpr char kNotYetKnown[] = "not yet known";
@@ -44,11 +44,11 @@ void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time r
   latest_ = {shape, stamp, received, previous_.surface};
 }
 
-/// A shape that nobody else uses. Without it, boxes for a large organ would be allocated again for
-/// each shape.
+/// Returns a shape that nobody else uses, or makes one. Reuse saves a large organ the allocation of
+/// its boxes for each shape.
 std::shared_ptr<TriangleMesh> DeformableOrgan::unused_shape() {
   for (const std::shared_ptr<TriangleMesh>& shape : shapes_) {
-    // Another thread may have been the last user. The new reference synchronises with its release.
+    // Another thread may have been the last user. The copied pointer synchronises with that thread.
     if (shape.use_count() == 1) return shape;
   }
   return shapes_.emplace_back(std::make_shared<TriangleMesh>(*latest_.mesh));
@@ -57,7 +57,7 @@ std::shared_ptr<TriangleMesh> DeformableOrgan::unused_shape() {
 void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time received) {
   const auto shape = std::make_shared<TriangleMesh>(std::move(mesh));
   auto surface = std::make_shared<OrganSurface>(*shape);
-  shapes_ = {shape};  // The last statement that may fail for lack of memory.
+  shapes_ = {shape};  // Last, as it may fail for lack of memory.
   previous_ = {};
   latest_ = {shape, stamp, received, std::move(surface)};
 }

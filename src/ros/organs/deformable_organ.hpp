@@ -19,16 +19,17 @@ namespace organ_collision {
 /// takes tens of milliseconds to find out, so that a background thread does it (organ_intake.hpp).
 class OrganSurface {
  public:
-  /// `mesh`: as its message describes it. The vertices of this shape are welded. Takes no time.
+  /// `mesh`: the shape that came with the triangles. Vertices that are at the same place in this
+  /// shape count as one (SurfaceTopology). find() does the work.
   explicit OrganSurface(const TriangleMesh& mesh)
       : faces_(mesh.shared_faces()),
         vertices_(mesh.shared_vertices()),
         box_(mesh.box().cast<double>()) {}
 
-  /// Finds out everything. Does nothing if that is done. Only one thread may call this.
+  /// Finds out how the faces join, and their orientation, once. Only one thread may call find().
   void find();
 
-  // For any thread.
+  // Any thread may call these functions at any time.
 
   /// Whether find() is done.
   bool is_found() const { return wait_until_found(std::chrono::milliseconds(0)); }
@@ -37,15 +38,15 @@ class OrganSurface {
     return found_.wait_for(longest) == std::future_status::ready;
   }
   std::size_t face_count() const { return faces_->size(); }
-  /// [m] Around the mesh as its message described it.
+  /// [m] The box around the mesh that the constructor was given.
   const Eigen::AlignedBox3d& box() const { return box_; }
 
-  // For any thread, once is_found().
+  // Any thread may call these functions once is_found() is true.
 
   const SurfaceTopology& topology() const { return found_.get().topology; }
   /// Whether the surface is closed and its faces point inward.
   bool is_inward() const { return found_.get().is_inward; }
-  /// [m^3] Signed, see signed_volume(). `vertices`: the present positions [m].
+  /// [m^3] The enclosed volume with a sign, see signed_volume(). `vertices`: present positions [m].
   double volume(const std::vector<float>& vertices) const {
     return signed_volume(topology(), *faces_, vertices);
   }
@@ -57,7 +58,7 @@ class OrganSurface {
   };
 
   SharedFaces faces_;
-  SharedVertices vertices_;  ///< of the message; released when everything is found
+  SharedVertices vertices_;  ///< those of the constructor's mesh; null when found
   Eigen::AlignedBox3d box_;
   std::promise<Found> promise_;
   std::shared_future<Found> found_ = promise_.get_future().share();
@@ -66,18 +67,18 @@ class OrganSurface {
 /// An organ's surface at one time. Its users share it, and it does not change while they use it.
 struct OrganShape {
   std::shared_ptr<const TriangleMesh> mesh;  ///< null: no shape
-  ros::Time stamp;                           ///< as sent; zero: unstamped
+  ros::Time stamp;                           ///< the stamp of the message; zero: it has none
   ros::Time received;
-  std::shared_ptr<OrganSurface> surface = {};  ///< of the mesh's triangles; null: no shape
+  std::shared_ptr<OrganSurface> surface = {};  ///< what is known of the triangles; null: no shape
 
-  /// How the mesh's faces join. Null as long as that is not found.
+  /// How the mesh's faces join. Null until OrganSurface::find() is done.
   const SurfaceTopology* topology() const {
     return surface->is_found() ? &surface->topology() : nullptr;
   }
 
-  /// [s] The time since the stamp, or since the message came if it has no stamp, or one that was in
-  /// the future then. (Before the first /clock, messages come at time zero, and every stamp
-  /// counts.)
+  /// [s] The time since the stamp. If the message had no stamp, or its stamp was in the future when
+  /// the message came, the time since the message came. (Before the first /clock, messages come at
+  /// time zero, and every stamp counts.)
   double age(ros::Time now) const {
     const bool is_of_future = received < stamp && !received.isZero();
     return now.toSec() - (stamp.isZero() || is_of_future ? received : stamp).toSec();
@@ -93,26 +94,26 @@ class DeformableOrgan {
   const std::string& name() const { return name_; }
   const std::string& frame() const { return frame_; }
   const OrganShape& latest() const { return latest_; }
-  /// The shape before the latest one. It has no mesh if the latest one is the first of its
-  /// topology, or after forget_previous().
+  /// The shape before the latest one. It has no mesh if the latest shape is the first one with its
+  /// triangles, and after forget_previous() or set_frame().
   const OrganShape& previous() const { return previous_; }
-  /// What is known of the surface. Another object if the triangles change.
+  /// What is known of the surface. It is another object after the triangles have changed.
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
-  /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if they do
-  /// not fit. Takes over the memory of a shape that nobody uses any more, if there is one.
+  /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if the
+  /// vertices do not fit. Reuses the memory of a shape that nobody uses any more, if there is one.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
   /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
 
-  /// The previous shape, which was in another frame, is forgotten.
+  /// Also forgets the previous shape, which was in another frame.
   void set_frame(std::string frame) {
     frame_ = std::move(frame);
     previous_ = {};
   }
   void forget_previous() { previous_ = {}; }
-  /// For a clock that jumped back to `now`, or began: the latest shape counts as received then at
-  /// the latest.
+  /// To be called when the clock has jumped back to `now`, or has begun. If the latest shape was
+  /// received later, or before the clock began, that shape counts as received at `now`.
   void receive_anew(ros::Time now);
 
  private:
@@ -122,43 +123,43 @@ class DeformableOrgan {
   std::string frame_;
   OrganShape latest_;
   OrganShape previous_;
-  std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< of the present topology
+  std::vector<std::shared_ptr<TriangleMesh>> shapes_;  ///< all with the present triangles
 };
 
-// What users are told about an organ.
+// These functions tell users about an organ.
 
-/// "closed", "open (12 edges)", or "not yet known". An edge is open if it has no opposite.
+/// "closed", "open (12 edges)", or "not yet known". An open edge has no opposite edge.
 std::string closedness(const OrganSurface& surface);
-/// "outward" or "inward" for a closed surface, otherwise "none". "not yet known" if it is not
-/// found.
+/// "outward" or "inward" for a closed surface, "none" for an open one. "not yet known" until find()
+/// is done.
 std::string orientation(const OrganSurface& surface);
-/// For example "organ 'kidney': 2208 faces, closed, 0.12 x 0.09 x 0.06 m".
+/// A summary, for example "organ 'kidney': 2208 faces, closed, 0.12 x 0.09 x 0.06 m".
 std::string summary(const std::string& organ, const OrganSurface& surface);
-/// Whole sentences about what is legal, but probably a mistake: the organ's size, and faces that
-/// point inward. `box`: around the organ [m].
+/// Sentences about things that are legal, but probably mistakes: the organ's size, and faces that
+/// point inward. `box`: the box around the organ [m].
 std::vector<std::string> doubts(const std::string& organ, const Eigen::AlignedBox3d& box,
                                 const OrganSurface& surface);
-/// Everything about the organ's latest shape. Takes milliseconds for a large mesh, because it finds
-/// out what is not yet known.
+/// Everything about the organ's latest shape. Takes milliseconds for the volume of a large mesh.
+/// Calls OrganSurface::find(), which only one thread may do.
 OrganInfo info_of(const DeformableOrgan& organ);
 
-/// Tells the user in the log which surfaces came.
+/// Logs which surfaces came.
 class SurfaceLog {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// An organ whose triangles change all the time, as in cutting, is told about at most once in
-  /// this time. The same holds for what is doubtful about it.
+  /// The shortest time between two summaries of an organ in the log, and between two warnings about
+  /// it. In cutting, for example, the triangles of an organ change all the time.
   static constexpr std::chrono::seconds kPeriod{5};
 
-  /// Logs the summary of a surface that is found, and the doubts about it.
+  /// Logs the summary of a surface, and what is doubtful about it. The surface must be found.
   void tell(const std::string& organ, const OrganSurface& surface, Time now);
 
  private:
   struct Next {
-    Time summary{}, doubts{};  ///< not before these
+    Time summary{}, doubts{};  ///< earliest times of the next messages
   };
-  std::map<std::string, Next> next_;  ///< by organ
+  std::map<std::string, Next> next_;  ///< for each organ
 };
 
 }  // namespace organ_collision

@@ -18,11 +18,11 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// [messages] For all organs together. If more wait while the node's thread is busy, roscpp drops
-/// the oldest.
+/// [messages] The queue of each topic, for all organs together. If more messages wait while the
+/// node's thread is busy, roscpp drops the oldest.
 constexpr std::uint32_t kQueue = 100;
 
-/// Vertices may come this long before the mesh of their organ.
+/// During this time after the start, vertices without a mesh of their organ are no failure.
 constexpr std::chrono::seconds kStart(2);
 
 bool is_large(const OrganMesh& mesh) {
@@ -34,8 +34,8 @@ bool is_ready(const OrganMessage& message) {
          message.built.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// Whether the organ ends in the same state without a message that `next` follows, if `next` is
-/// accepted. Without its removal, an organ might refuse the mesh behind it.
+/// Whether the organ ends in the same state if `message` is dropped, and `next` follows. A removal
+/// before a mesh stays: without the removal, the organ might refuse the mesh.
 bool is_replaced(const OrganMessage& message, const OrganMessage& next) {
   if (message.vertices) return true;
   return next.mesh && (!is_removal(*message.mesh) || is_removal(*next.mesh));
@@ -88,8 +88,8 @@ void OrganIntake::add(OrganMessage message) {
   if (waiting.size() == 1) begin(waiting.front());
 }
 
-/// Has the mesh of a message built if it must be. All earlier messages of the organ must have been
-/// applied: only then is it known whether its triangles are new.
+/// Lets another thread build the mesh of a message, if the mesh is large and its triangles are new.
+/// All earlier messages of the organ must have been applied, because they decide what is new.
 void OrganIntake::begin(OrganMessage& message) {
   if (!threads_ || !message.mesh || !is_large(*message.mesh) || message.built.valid()) return;
   if (!organs_.is_new(*message.mesh, message.connection)) return;
@@ -182,7 +182,8 @@ OrganChange OrganIntake::apply(OrganMessage& message) {
   return change;
 }
 
-/// Has the surface of an organ found out. A surface that nobody needs any more by then is left out.
+/// Lets the inspector's thread find out the surface of an organ; without threads, this thread. A
+/// surface that nobody uses any more by then is left out.
 void OrganIntake::inspect(const DeformableOrgan& organ) {
   if (!threads_) return organ.surface()->find();
   const std::weak_ptr<OrganSurface> needed = organ.surface();
@@ -192,7 +193,7 @@ void OrganIntake::inspect(const DeformableOrgan& organ) {
     try {
       surface->find();
       log_.tell(name, *surface, SteadyClock::now());
-    } catch (...) {  // Usually std::bad_alloc. It ends the node as if it were of the node's thread.
+    } catch (...) {  // Usually std::bad_alloc. It ends the node: its thread rethrows it.
       call_later(threads_->node,
                  [error = std::current_exception()] { std::rethrow_exception(error); });
     }

@@ -16,12 +16,12 @@ std::string quoted(const std::string& name) { return "'" + name + "'"; }
   throw Rejection(ContactArray::INVALID_REQUEST, reason, message);
 }
 
-/// By MeshError::Reason.
+/// The reason for each MeshError::Reason, at the index of its number.
 constexpr const char* kReasons[] = {"wrong size",       "index out of range", "not finite",
                                     "too far",          "no triangles",       "too many faces",
                                     "too many vertices"};
 
-/// What an exception refuses. `named`: the message in words.
+/// The Rejection that an exception leads to. `named`: the message, as in "mesh of organ 'liver'".
 Rejection rejection_of(const std::exception& error, const std::string& named) {
   if (const auto* rejection = dynamic_cast<const Rejection*>(&error)) return *rejection;
   if (const auto* fault = dynamic_cast<const MeshError*>(&error)) {
@@ -55,7 +55,8 @@ bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connectio
          is_another_organ(known->second, message, connection);
 }
 
-/// Whether a mesh with the organ's present topology number is of another organ of the same name.
+/// Whether a mesh with the organ's present topology number belongs to another organ of the same
+/// name: it has other triangles, and came over a connection that is new to the organ.
 bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
                                      const Connection& connection) const {
   const auto known = connections_.find(organ.name());

@@ -19,14 +19,14 @@
 namespace organ_collision {
 
 /// The connection over which a message came from a publisher to this node, identified by its
-/// header: roscpp makes one header for each connection, also within a process, and keeps it while
-/// the connection is open. A restarted publisher has a new connection, even under the same name.
-/// Connections are compared by the owner of the header, so that a new one is never mistaken for a
-/// closed one whose header had the same address.
+/// header: roscpp makes one header for each connection, also within a process, and keeps the header
+/// while the connection is open. A restarted publisher has a new connection, even under the same
+/// name. Connections are compared by the owner of the header, and not by its address, which a later
+/// header may get again.
 using Connection = boost::weak_ptr<const ros::M_string>;
 
 /// What a message changed. After kFrame and kOrgan, the new shape cannot be compared with earlier
-/// ones.
+/// shapes of this organ.
 enum class OrganChange {
   kShape,   ///< the organ has a new shape
   kFrame,   ///< the organ has a new shape in another frame
@@ -37,45 +37,45 @@ enum class OrganChange {
 /// Whether a mesh message says that its organ is gone: it has neither vertices nor triangles.
 bool is_removal(const OrganMesh& mesh);
 
-/// All known organs by name. A message that is refused changes nothing.
+/// All known organs by name. A message that is refused changes no organ.
 class OrganRegistry {
  public:
-  /// Refuses larger meshes, and shapes whose stamps are further ahead of the clock.
+  /// Refuses meshes above `limits`, and stamps more than `max_ahead_sec` ahead of the clock.
   explicit OrganRegistry(const MeshLimits& limits, double max_ahead_sec = kMaxAheadDefault)
       : limits_(limits), max_ahead_sec_(max_ahead_sec) {}
 
-  /// The surface that a mesh message describes. Throws MeshError. May be called from any thread.
+  /// Builds the surface that a mesh message describes. Throws MeshError. Any thread may call it.
   TriangleMesh build(const OrganMeshConstPtr& message) const;
 
-  /// Apply a message. All throw Rejection. The vertices become the organ's shape without a copy:
-  /// the message lives as long as that shape is used. `built` is called only if the triangles are
-  /// new, and must return what `build` would return.
+  /// These functions apply a message. They throw Rejection. The vertices become the organ's shape
+  /// without a copy: the message lives as long as that shape is used. `built` is called only if the
+  /// triangles are new. It must return what build(message) would return.
   ///
-  /// A mesh may have other triangles under the topology number that the organ already has. If it
-  /// came over a connection that is new to this organ, for example from a restarted simulator, it
-  /// is another organ. Over a known connection it is refused.
+  /// A mesh may have other triangles under the topology number that the organ already has. If the
+  /// mesh came over a connection that is new to this organ, for example from a restarted simulator,
+  /// it is another organ. Over a known connection, such a mesh is refused.
   OrganChange apply(const OrganMeshConstPtr& message, const Connection& connection, ros::Time now,
                     const std::function<TriangleMesh()>& built);
   OrganChange apply(const OrganMeshConstPtr& message, ros::Time now) {
     return apply(message, {}, now, [&] { return build(message); });
   }
   OrganChange apply(const OrganVerticesConstPtr& message, ros::Time now);
-  /// Whether `apply` would call `built`.
+  /// Whether `apply` would call `built` for this message.
   bool is_new(const OrganMesh& message, const Connection& connection) const;
 
-  /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH for an organ that was removed or whose meshes were
-  /// all refused. The message of NO_MESH says which, and why the last mesh was refused.
+  /// Throws Rejection: UNKNOWN_ORGAN, or NO_MESH if the organ was removed or if all its meshes were
+  /// refused. The message of NO_MESH says which of the two, and why the last mesh was refused.
   const DeformableOrgan& at(const std::string& name) const;
   const std::map<std::string, DeformableOrgan>& organs() const { return organs_; }
 
-  /// Why the organ's last mesh was refused. Empty if it was accepted, or if none came.
+  /// Why the organ's last mesh was refused. Empty if the mesh was accepted, or if none came.
   std::string last_refusal(const std::string& organ) const;
 
-  /// For a clock that jumped back to `now`: the latest shapes count as received then at the latest,
-  /// so that they can become stale.
+  /// To be called when the clock has jumped back to `now`. Shapes that were received later count as
+  /// received at `now`, so that they can become stale.
   void receive_anew(ros::Time now);
-  /// Makes each organ keep only its latest shape. Treats all connections as new: the next mesh of
-  /// each organ may be another organ.
+  /// Each organ keeps only its latest shape. All connections count as new, so that the next mesh of
+  /// a name may be another organ.
   void forget_history();
 
  private:
@@ -90,7 +90,7 @@ class OrganRegistry {
   MeshLimits limits_;
   double max_ahead_sec_;
   std::map<std::string, DeformableOrgan> organs_;
-  std::map<std::string, std::set<Connection>> connections_;  ///< by organ: of its meshes
+  std::map<std::string, std::set<Connection>> connections_;  ///< each organ's mesh connections
   /// For each organ, why its last mesh was refused; empty if the organ was removed. An accepted
   /// mesh removes the entry.
   std::map<std::string, std::string> refusals_;

@@ -13,7 +13,7 @@ using XmlRpc::XmlRpcValue;
 
 const std::string kShaft = "trocar_frame, tip_frame and radius";
 
-/// The name of a topic; empty if the parameter is not set.
+/// The name of a topic that a tool's parameter gives; empty if the parameter is not set.
 std::string topic(const ParameterGroup& tool, const char* name) {
   if (!tool.has(name)) return {};
   std::string topic = tool.text(name), error;
@@ -45,7 +45,7 @@ void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> n
 }
 
 /// Parses where the pose of the tip comes from: a frame on TF, or a topic. A tool without a shaft
-/// may have such a topic, too. `unnamed`: the tip frame if the parameters name only a topic.
+/// may have such a topic, too. `unnamed`: names the tip's frame if there is only a topic.
 void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParameters& parsed) {
   parsed.tip_pose_topic = topic(tool, names::kTipPoseTopic);
   parsed.base_pose_topic = topic(tool, names::kBasePoseTopic);
@@ -87,7 +87,8 @@ void parse_clearance(const ParameterGroup& tool, ToolParameters& parsed) {
   }
 }
 
-/// A shaft goes through a trocar unless the parameters say otherwise.
+/// How a haptic proxy may move the tool. By default, a tool with a shaft moves through a trocar,
+/// and any other tool is free.
 ProxyFreedom parse_freedom(const ParameterGroup& tool, bool has_shaft) {
   const std::string fallback = has_shaft ? "trocar" : "free";
   const std::string freedom = tool.choice(names::kFreedom, fallback, {"trocar", "free"});
@@ -124,12 +125,13 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   return parsed;
 }
 
-/// Slower timers are refused, because their period is longer than ROS accepts.
+/// Lower rates are refused, except 0: ROS limits the length of a timer's period.
 constexpr double kSlowest = 0.001;  // [Hz]
 
 constexpr NumberRange kRates{0.0, 10'000.0, true, false, kSlowest};
 constexpr NumberRange kFrameRates{0.0, 1000.0, true, false, kSlowest};
-/// [s] At most half of what TF keeps: a stamp ahead by more would make TF forget all others.
+/// [s] At most half of the time for which TF keeps transforms. TF counts this time back from the
+/// latest stamp, so one stamp far ahead of the clock would make TF forget all others.
 constexpr NumberRange kMaxAhead{0.0, 5.0};
 /// [faces] With more, a message would be too large: each face has three indices of four bytes.
 constexpr NumberRange kMaxFaces{1, 83'333'333};

@@ -12,8 +12,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// Writes 12 digits. With fewer, a number that is slightly too large would be rounded to one that
-/// looks legal.
+/// Writes a number with 12 digits. With fewer digits, a number that is slightly too large would be
+/// rounded to one that looks legal.
 std::string written(double number) {
   std::ostringstream text;
   text.precision(12);

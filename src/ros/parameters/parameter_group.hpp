@@ -25,13 +25,13 @@ struct NumberRange {
   double highest = kUnlimited;
   bool lowest_is_legal = true;
   bool infinity_is_legal = false;
-  double least_above_zero = 0.0;  ///< smaller numbers are refused, except zero
+  double least_above_zero = 0.0;  ///< smaller numbers are refused, except 0
 };
 
 inline constexpr NumberRange kNotNegative{};
 inline constexpr NumberRange kPositive{0.0, kUnlimited, false};
 inline constexpr NumberRange kPositiveOrInfinite{0.0, kUnlimited, false, true};
-/// [s] Legal periods of timers. ROS timers do not accept much longer ones.
+/// [s] The legal periods of timers. ROS timers do not accept periods that are much longer.
 inline constexpr NumberRange kTimerPeriod{0.0, 1e6, false};
 
 /// A group of parameters, as the parameter server holds it. The functions that read a member check
@@ -45,9 +45,9 @@ class ParameterGroup {
 
   bool has(const std::string& name) const { return value_.hasMember(name); }
 
-  /// Members with a default. Each returns the value of the member, or `fallback` if there is no
-  /// such member. Each throws ParameterError if the value is illegal, or if there is neither a
-  /// value nor a fallback.
+  /// These functions read members with a default. Each returns the value of the member, or
+  /// `fallback` if there is no such member. Each throws ParameterError if the value is illegal, or
+  /// if there is neither a value nor a fallback.
   bool flag(const std::string& name, bool fallback) const;
   std::string choice(const std::string& name, const std::string& fallback,
                      const std::vector<std::string>& legal_values) const;
@@ -57,12 +57,12 @@ class ParameterGroup {
     return static_cast<int>(number(name, fallback, range, true));
   }
 
-  /// Required members. Each throws ParameterError if the member is missing or illegal.
-  /// A text that is not empty.
+  /// These functions read required members. Each throws ParameterError if the member is missing or
+  /// illegal. text() returns a text that is not empty.
   std::string text(const std::string& name) const;
   /// The name of a TF frame, without a leading slash.
   std::string frame(const std::string& name) const;
-  /// A list of anything; `of_what` is for the error message.
+  /// A list of anything. `of_what`: what the list holds, for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
   /// A non-empty list of different, non-empty texts.
   std::vector<std::string> texts(const std::string& name) const;
@@ -73,10 +73,10 @@ class ParameterGroup {
   /// Throws ParameterError if `text`, the value of the member `name`, is not a legal name
   /// (name_fault()).
   void check_name(const std::string& name, const std::string& text) const;
-  /// Throws ParameterError: "~path/name is VALUE; LEGAL".
+  /// Throws ParameterError with the message "~path/name is VALUE; LEGAL".
   [[noreturn]] void refuse(const std::string& name, const std::string& legal) const;
-  /// Throws ParameterError: "~path/name is missing; LEGAL". The message lists the misspelt members,
-  /// because the user may have meant one of them.
+  /// Throws ParameterError with the message "~path/name is missing; LEGAL". The message also lists
+  /// the misspelt members, because the user may have meant one of them.
   [[noreturn]] void refuse_missing(const std::string& name, const std::string& legal) const;
   std::string path_of(const std::string& name) const;
 

@@ -15,7 +15,7 @@ namespace {
 using dynamic_reconfigure::Config;
 using XmlRpc::XmlRpcValue;
 
-/// One of the values of each parameter, as a message.
+/// A message with one value of each parameter, for example the lowest one (`which`).
 Config config(const std::vector<LiveParameter>& parameters, XmlRpcValue LiveParameter::*which) {
   using dynamic_reconfigure::ConfigTools;
   Config message;
@@ -52,7 +52,7 @@ dynamic_reconfigure::ConfigDescription description(const std::vector<LiveParamet
   return message;
 }
 
-/// The values of a request, by name.
+/// The values in a request, by name.
 XmlRpcValue requested(const Config& request) {
   XmlRpcValue changes;
   changes.begin();  // Makes it an empty group.
@@ -154,8 +154,8 @@ void LiveParameters::advertise() {
       [this](auto& request, auto& response) { return on_set(request, response); });
 }
 
-/// A value that has changed goes to the parameter server, too. If a value is illegal, nothing
-/// changes, and the log says what is legal.
+/// Serves changes. A changed value also goes to the parameter server. If a value is illegal,
+/// nothing changes, and the log says what is legal.
 bool LiveParameters::on_set(Service::Request& request, Service::Response& response) {
   try {
     const std::vector<LiveParameter> now = apply_(requested(request.config));

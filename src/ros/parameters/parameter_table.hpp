@@ -17,7 +17,7 @@ struct HelpEntry {
   std::string text;
 };
 
-/// A default value, as --help shows it.
+/// The text of a default value, as --help shows it.
 template <typename Value>
 std::string shown(const Value& value) {
   std::ostringstream text;
@@ -25,47 +25,49 @@ std::string shown(const Value& value) {
   return text.str();
 }
 
-/// The parameters of a node, one row each. All that is known of a parameter stands in its row: its
-/// name, its member of the node's parameters, its default, its range, whether it can be changed
-/// while the node runs, and what it means. Reading, refusals, --help, and the interface of
+/// The parameters of a node, one row each. A row has all that is known of a parameter: its name,
+/// its member of the node's parameters, its default, its range, whether it can be changed while the
+/// node runs, and what it means. Reading, refusals, --help, and the interface of
 /// dynamic_reconfigure are made from the table.
 ///
-/// The function table_of(PARAMETERS&) of each node makes its table. The default of a parameter is
-/// the value that its member has then. The parameters must outlive the table.
+/// Each node has a function table_of(PARAMETERS&), which makes its table. A parameter's default is
+/// the value that its member of PARAMETERS has at that time. PARAMETERS must outlive the table.
 class ParameterTable {
  public:
   struct Row {
-    HelpEntry help;  ///< with its name, its default as --help shows it, and its meaning
-    std::function<void(const ParameterGroup&)> read;  ///< without such a member, changes nothing
-    std::function<XmlRpc::XmlRpcValue()> value = {};  ///< of a number or a flag; null: of another
-    NumberRange range = {};                           ///< of a number
+    HelpEntry help;  ///< the name, the default as --help shows it, and the meaning
+    std::function<void(const ParameterGroup&)> read;  ///< reads the parameter, if it is there
+    std::function<XmlRpc::XmlRpcValue()> value = {};  ///< value of a number or flag; else null
+    NumberRange range = {};                           ///< legal values of a number
     bool is_live = false;                             ///< it can be changed while the node runs
 
     void live() { is_live = true; }
   };
 
-  /// Each adds a row. `text`: what the parameter means, beginning with its unit: "[s] ...".
+  /// Each of these adds a row. `text`: what the parameter means, after its unit: "[s] ...".
   Row& number(const std::string& name, double& value, const NumberRange& range,
               const std::string& text);
   Row& flag(const std::string& name, bool& value, const std::string& text);
   void whole_number(const std::string& name, int& value, const NumberRange& range,
                     const std::string& text);
-  /// `set`: takes the value, one of `legal`, of which `fallback` is the default.
+  /// Adds a parameter with one of the values `legal`, by default `fallback`. `set` gets the value.
   void choice(const std::string& name, const std::string& fallback,
               const std::vector<std::string>& legal,
               const std::function<void(const std::string&)>& set, const std::string& text);
-  /// `read`: reads the parameter from all of them. `fallback`: what --help shows as its default.
+  /// Adds any other parameter. `read` reads it from the group of all parameters. `fallback`: what
+  /// --help shows as its default.
   void other(const std::string& name, const std::string& fallback,
              const std::function<void(const ParameterGroup&)>& read, const std::string& text);
 
-  /// The node's parameters as a group, in which other names are misspelt. Throws ParameterError if
-  /// `private_namespace` is no group.
+  /// The node's parameters as a group. Names that have no row count as misspelt. Throws
+  /// ParameterError if `private_namespace` is no group.
   ParameterGroup group(const XmlRpc::XmlRpcValue& private_namespace) const;
-  /// Reads all parameters. Missing ones keep their values. Throws ParameterError.
+  /// Reads all parameters. A missing parameter keeps its value. Throws ParameterError if a value is
+  /// illegal or a required parameter is missing.
   void read(const ParameterGroup& all) const;
-  /// Reads one parameter alone. Throws ParameterError.
+  /// Reads one parameter alone. Throws ParameterError if its value is illegal.
   void read(const ParameterGroup& all, const std::string& name) const;
-  /// Reads changes while the node runs. Throws ParameterError if one is illegal, or if the
+  /// Applies changes while the node runs. Throws ParameterError if a value is illegal, or if a
   /// parameter cannot be changed then. Some members may have changed before it throws.
   void change(const XmlRpc::XmlRpcValue& changes) const;
 
@@ -80,8 +82,8 @@ class ParameterTable {
   std::vector<Row> rows_;
 };
 
-/// The parameters of a node from the value of its private namespace. `misspelt`, a member of all
-/// parameters, gets a sentence for each unknown name. Throws ParameterError.
+/// Reads the parameters of a node from the value of its private namespace. Their member `misspelt`
+/// gets a sentence for each unknown name. Throws ParameterError.
 template <typename Parameters>
 Parameters parse_parameters(const XmlRpc::XmlRpcValue& private_namespace) {
   Parameters parameters;
@@ -92,14 +94,14 @@ Parameters parse_parameters(const XmlRpc::XmlRpcValue& private_namespace) {
   return parameters;
 }
 
-/// The same from the parameter server.
+/// Reads the parameters of a node from the parameter server. Throws ParameterError.
 template <typename Parameters>
 Parameters load_parameters(const ros::NodeHandle& private_node) {
   return parse_parameters<Parameters>(all_parameters(private_node));
 }
 
-/// The parameters after these changes. Throws ParameterError if a change is illegal, or if the
-/// parameter cannot be changed while the node runs.
+/// The parameters after the changes. Throws ParameterError if a value is illegal, or if a parameter
+/// cannot be changed while the node runs.
 template <typename Parameters>
 Parameters changed(Parameters parameters, const XmlRpc::XmlRpcValue& changes) {
   table_of(parameters).change(changes);
@@ -113,16 +115,16 @@ std::vector<HelpEntry> parameter_help() {
   return table_of(defaults).help();
 }
 
-/// A number or a flag that can be changed while the program runs. Its values are all a double, or
-/// all a bool.
+/// A number or a flag that can be changed while the program runs. Its four values are all of the
+/// type double, or all of the type bool.
 struct LiveParameter {
   std::string name;
   std::string text;                     ///< what it means, for people
-  XmlRpc::XmlRpcValue value, fallback;  ///< now, and by default
+  XmlRpc::XmlRpcValue value, fallback;  ///< present value, and default
   XmlRpc::XmlRpcValue lowest, highest;  ///< shown to people, not checked here
 };
 
-/// Those of a node's parameters, with their present values.
+/// All parameters of a node that can be changed while it runs, with their present values.
 template <typename Parameters>
 std::vector<LiveParameter> live_parameters(Parameters parameters) {
   Parameters defaults;
@@ -147,8 +149,8 @@ std::vector<LiveParameter> live_parameters(Parameters parameters) {
 /// the start.
 class LiveParameters {
  public:
-  /// Applies changes: a group of new values by name. Returns the values that hold then. Throws
-  /// ParameterError if one is illegal. Then nothing has changed.
+  /// Applies changes, which are a group of new values by name. Returns all live parameters with
+  /// their present values. Throws ParameterError, and changes nothing, if a new value is illegal.
   using Apply = std::function<std::vector<LiveParameter>(const XmlRpc::XmlRpcValue& changes)>;
 
   LiveParameters(const ros::NodeHandle& private_node, std::vector<LiveParameter> parameters,

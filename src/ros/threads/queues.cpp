@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-/// A function as a callback of roscpp.
+/// Wraps a function as a callback of roscpp.
 class FunctionCallback : public ros::CallbackInterface {
  public:
   explicit FunctionCallback(std::function<void()> function) : function_(std::move(function)) {}
@@ -34,7 +34,8 @@ void call_later(ros::CallbackQueueInterface& queue, std::function<void()> functi
 void run_in_thread_of(ros::CallbackQueue& queue, const std::function<void()>& action) {
   auto task = std::make_shared<std::packaged_task<void()>>(action);
   std::future<void> end = task->get_future();
-  // The callback alone owns the task. If the queue drops it, the task ends, and with it the wait.
+  // Only the callback owns the task. If the queue drops the callback, the task is destroyed, and
+  // end.get() throws instead of waiting for ever.
   call_later(queue, [task = std::move(task)] { (*task)(); });
   try {
     end.get();
@@ -54,7 +55,7 @@ void QueueThread::stop() {
 }
 
 void QueueThread::work() {
-  const ros::WallDuration stop_period(0.05);  // How soon it notices that it is to end.
+  const ros::WallDuration stop_period(0.05);  // [s] How long the thread may take to notice stop_.
   lower_priority_of_this_thread();
   while (!stop_) queue_.callOne(stop_period);
 }

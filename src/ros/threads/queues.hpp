@@ -9,20 +9,21 @@
 
 namespace organ_collision {
 
-/// Lets the thread that owns `queue` call `function`, once. The function must not throw, unless an
-/// exception is to end that thread's work.
+/// Lets the thread that owns `queue` call `function`, once. If the function throws, it ends the
+/// work of that thread.
 void call_later(ros::CallbackQueueInterface& queue, std::function<void()> function);
 
-/// Runs an action in the thread that calls the callbacks of a queue, and waits for its end. Must be
-/// called in another thread. Rethrows what the action throws. Throws std::runtime_error if the
-/// queue is cleared or disabled before the action begins, as when its node ends.
+/// Runs an action in the thread that calls the callbacks of `queue`, and waits for the action's
+/// end. Must be called in another thread. Rethrows what the action throws. Throws
+/// std::runtime_error if the queue is cleared or disabled before the action begins, as when its
+/// node ends.
 void run_in_thread_of(ros::CallbackQueue& queue, const std::function<void()>& action);
 
-/// The same node handle, with its callbacks in `queue`.
+/// A copy of the node handle whose callbacks go to `queue`.
 ros::NodeHandle on_queue(ros::NodeHandle node, ros::CallbackQueue& queue);
 
-/// A thread that calls the callbacks of its own queue, with lowered priority: for work that no step
-/// waits for. It ends with this object at the latest.
+/// A thread with lowered priority that calls the callbacks of its own queue: for work that no step
+/// waits for. The destructor ends the thread.
 class QueueThread {
  public:
   QueueThread() : thread_([this] { work(); }) {}
@@ -30,9 +31,9 @@ class QueueThread {
   QueueThread(const QueueThread&) = delete;
   QueueThread& operator=(const QueueThread&) = delete;
 
-  /// Ends the thread after the callback that it is calling. What else is in the queue stays there.
+  /// Ends the thread after its present callback. Callbacks that still wait are not called.
   void stop();
-  /// What is added to this queue is called in the thread.
+  /// The queue whose callbacks the thread calls.
   ros::CallbackQueue& queue() { return queue_; }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 constexpr pid_t kThisThread = 0;
 
-/// [niceness] The system makes it at most 19.
+/// [niceness] How much the niceness of background threads grows. Linux limits the sum to 19.
 constexpr int kBackgroundNiceness = 10;
 constexpr int kMostNiceness = 19;
 
@@ -27,7 +27,7 @@ bool make_realtime(pid_t thread, int priority) {
   return sched_setscheduler(thread, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0;
 }
 
-/// Whether the calling thread may lock more memory than the limit.
+/// Whether the calling thread may lock more memory than RLIMIT_MEMLOCK says (CAP_IPC_LOCK).
 bool is_above_limits() {
   __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
   __user_cap_data_struct sets[_LINUX_CAPABILITY_U32S_3]{};
@@ -35,7 +35,7 @@ bool is_above_limits() {
   return (sets[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-/// [bytes] How much memory of the process is locked.
+/// [bytes] How much memory of the process is locked in RAM.
 double locked_memory() {
   std::ifstream status("/proc/self/status");
   constexpr double kBytesOfUnit = 1024.0;
@@ -52,7 +52,7 @@ std::string make_this_thread_realtime(int priority) {
   return make_realtime(kThisThread, priority) ? std::string() : std::strerror(errno);
 }
 
-// On Linux, each thread has a niceness of its own.
+// On Linux, each thread has its own niceness: these calls change that of the calling thread alone.
 
 void lower_priority_of_this_thread() {
   setpriority(PRIO_PROCESS, kThisThread,
@@ -84,8 +84,8 @@ std::string lock_memory() {
   if (limit.rlim_cur != RLIM_INFINITY && !is_above_limits()) {
     return "locked memory is limited to " + std::to_string(limit.rlim_cur / 1024) + " kB";
   }
-  // What the process takes later is locked page by page, as it is used: roscpp reserves as much
-  // memory as a peer announces, up to a gigabyte for each connection.
+  // Memory that the process takes later is locked page by page, when a page is first used.
+  // Otherwise a peer could lock a gigabyte: roscpp reserves as much memory as a peer announces.
   const bool is_locked = mlockall(MCL_CURRENT) == 0 && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0;
   return is_locked ? std::string() : std::strerror(errno);
 }
@@ -124,7 +124,7 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const std::string scheduling = scheduling_of_this_thread();
   status.summary(DiagnosticStatus::OK, scheduling);
   status.add("scheduling", scheduling);
-  if (parameters_.lock_memory) {  // Only on request, because the system takes time to find it out.
+  if (parameters_.lock_memory) {  // Shown only then, because reading it takes time.
     status.add("locked memory of the process [MiB]", locked_memory() / kMebibyte);
   }
   if (awake_cores_.is_open() && awake_cores_) status.add("idle cores", "awake");
@@ -133,9 +133,9 @@ void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
 
 void make_ros_realtime(const ros::NodeHandle& node, int priority) {
   if (priority == 0) return;
-  // roscpp starts the thread of its timers with the first timer. It stays.
+  // roscpp starts its timer thread with the first timer, and keeps it when that timer ends.
   node.createTimer(ros::Duration(1.0), [](const ros::TimerEvent&) {});
-  // If it is refused, class Realtime says so.
+  // If the system refuses, nothing is said here, because class Realtime reports it.
   for (const pid_t thread : threads_of_this_process()) make_realtime(thread, priority);
 }
 

@@ -11,8 +11,8 @@
 namespace organ_collision {
 
 /// Puts the calling thread under SCHED_FIFO: it runs as soon as it can, before all ordinary
-/// threads. Threads that it starts later are ordinary ones. `priority`: from 1 (lowest) to 99.
-/// Returns why the system refuses; empty: it did not. If it refuses, the thread stays as it was.
+/// threads. Threads that it starts later are ordinary threads. `priority`: from 1 (lowest) to 99.
+/// Returns an empty text, or why the system refused; then the thread stays as it was.
 std::string make_this_thread_realtime(int priority);
 
 /// Lowers the priority of the calling thread: its niceness grows by 10, to at most 19. If all
@@ -21,31 +21,32 @@ std::string make_this_thread_realtime(int priority);
 void lower_priority_of_this_thread();
 
 /// Gives the calling thread the lowest ordinary priority (niceness 19): if all processors are busy,
-/// it gets about a hundredth of one. Not SCHED_IDLE: such a thread might hold a lock of Mesa or of
-/// malloc and get no processor. With niceness 19, every wait for such a lock is short.
+/// it gets about a hundredth of a processor. SCHED_IDLE would be too low: a thread that holds a
+/// lock of Mesa or malloc might get no processor. With niceness 19, every wait for such a lock is
+/// short.
 void yield_to_all_threads();
 
 /// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
 std::string scheduling_of_this_thread();
 
-/// The threads that the process has now.
+/// The ids of all threads that the process has now.
 std::vector<pid_t> threads_of_this_process();
 
-/// Keeps all memory of the process in RAM until the process ends: what it has now at once, and what
-/// it takes later page by page, when a page is first used.
-/// Returns why the system refuses; empty: it did not. A limit of locked memory counts as a refusal:
-/// beyond it, the process would get no more memory at all.
+/// Keeps all memory of the process in RAM until the process ends. Memory that the process has now
+/// is locked at once, and later memory page by page, when a page is first used. Returns an empty
+/// text, or why the system refused. If the user's locked memory is limited, that counts as a
+/// refusal: beyond the limit, the process would get no more memory at all.
 std::string lock_memory();
 
-/// While `request` stays open, no core of the machine enters an idle state from which it takes time
-/// to wake: idle cores wait in a loop instead. A core that slept wakes late, and deep states empty
-/// its caches. `request` becomes Linux's PM QoS interface, /dev/cpu_dma_latency. Returns why the
-/// system refuses; empty: it did not.
+/// Keeps all cores of the machine awake while `request` stays open: idle cores wait in a loop and
+/// enter no idle state. A core that slept wakes late, and deep idle states empty its caches.
+/// `request` becomes Linux's PM QoS interface, /dev/cpu_dma_latency. Returns an empty text, or why
+/// the system refused.
 std::string keep_cores_awake(std::fstream& request);
 
 /// What a node asks of the system, so that nothing else delays its steps.
 struct RealtimeParameters {
-  int priority = 0;          ///< of SCHED_FIFO, from 1 to 99; 0: ordinary scheduling
+  int priority = 0;          ///< priority under SCHED_FIFO, from 1 to 99; 0: ordinary scheduling
   bool lock_memory = false;  ///< true: the memory of the process stays in RAM
   bool awake_cores = false;  ///< true: no core of the machine sleeps while the node runs
 };
@@ -54,8 +55,8 @@ struct RealtimeParameters {
 /// usual: a warning says what to change, in the log and on /diagnostics.
 class Realtime {
  public:
-  /// Construct it in the node's thread: this thread gets the priority. Other threads ask for
-  /// theirs.
+  /// Must be constructed in the node's thread, which gets the priority. Other threads call
+  /// make_this_thread_realtime() themselves.
   explicit Realtime(const RealtimeParameters& parameters);
 
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -63,12 +64,12 @@ class Realtime {
  private:
   RealtimeParameters parameters_;
   std::fstream awake_cores_;
-  std::vector<std::string> refusals_;  ///< and what to do about each
+  std::vector<std::string> refusals_;  ///< sentences, each with what to do about it
 };
 
-/// Gives a priority to roscpp's threads, through which messages and ticks come. For programs that
-/// have one node, before they construct it: all threads of the process get the priority. 0: does
-/// nothing.
+/// Gives a priority to roscpp's threads, through which messages and ticks come. All threads that
+/// the process has now get it. So it is meant for programs with one node, before they construct
+/// that node. 0: does nothing.
 void make_ros_realtime(const ros::NodeHandle& node, int priority);
 
 }  // namespace organ_collision

@@ -29,8 +29,8 @@ using Clock = std::chrono::steady_clock;
   throw std::system_error(error, std::generic_category(), what);
 }
 
-/// A file in memory, for a standard stream of the program. With pipes, somebody would have to read
-/// and to write while the program runs.
+/// A file in memory that is a standard stream of the started program. Unlike a pipe, it needs
+/// nobody to read or write while the program runs.
 using MemoryFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 MemoryFile open_in_memory() {
@@ -45,7 +45,7 @@ std::size_t size_of(std::FILE* file) {
   return static_cast<std::size_t>(status.st_size);
 }
 
-/// Starts a process with these standard streams. No signal is blocked or ignored in it.
+/// Starts a process with these standard streams. The process neither blocks nor ignores a signal.
 pid_t start_process(const std::vector<std::string>& command, std::FILE* input, std::FILE* output) {
   std::vector<char*> arguments;
   for (const std::string& argument : command) {
@@ -82,9 +82,9 @@ std::string describe(int status) {
   return code == 0 ? "" : "ended with exit code " + std::to_string(code);
 }
 
-/// Waits until the process ends, and kills it if it exceeds a limit. Returns why it failed, or an
-/// empty text. If the host process took its status, because it ignores SIGCHLD or waits for all
-/// children, it counts as ended well.
+/// Waits until the process ends, and kills it if it exceeds a limit. Returns why the process
+/// failed, or an empty text. If other code of this program has already taken the exit status (it
+/// ignores SIGCHLD or waits for all children), the process counts as successful.
 std::string wait_for_end(pid_t process, std::FILE* output, const ProcessLimits& limits) {
   const Clock::time_point end = Clock::now() + limits.time;
   const auto kill_because = [process](const std::string& why) {
@@ -122,9 +122,9 @@ std::filesystem::path folder_of_this_code() {
   return file.parent_path();
 }
 
-/// The program is in the folder organ_collision below this library. In Debian packages that folder
-/// is beside the library's: lib/x86_64-linux-gnu is for libraries alone. If the library is linked
-/// into a program, robot_reader is beside that program.
+/// The path of robot_reader. It is in the folder organ_collision beside this library. In Debian
+/// packages that folder is one level higher: lib/x86_64-linux-gnu is for libraries alone. If this
+/// library is linked into a program, robot_reader is beside that program.
 std::string find_program() {
   const std::filesystem::path folder = folder_of_this_code();
   const std::filesystem::path below = folder / "organ_collision" / kProgram;

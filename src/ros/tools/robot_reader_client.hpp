@@ -10,13 +10,13 @@
 namespace organ_collision {
 
 struct ProcessLimits {
-  std::chrono::milliseconds time;  ///< of real time, after which the process is killed
-  std::size_t output_bytes;        ///< a process that writes more is killed soon after that
+  std::chrono::milliseconds time;  ///< real time after which the process is killed
+  std::size_t output_bytes;        ///< most output; a process that writes more is soon killed
 };
 
 /// How a process ended.
 struct ProcessResult {
-  std::string output;   ///< what it wrote on standard output, up to the limit
+  std::string output;   ///< what the process wrote on standard output, up to the limit
   std::string failure;  ///< "was ended by signal 11 (Segmentation fault)"; empty: exit code 0
 };
 
@@ -29,11 +29,11 @@ struct ProcessResult {
 ProcessResult run_process(const std::vector<std::string>& command, const std::string& input,
                           const ProcessLimits& limits);
 
-/// Links of a robot, in the order of `links`, from its URDF and the mesh files that the URDF names.
-/// A separate program, robot_reader, reads these files, because the libraries that parse them crash
-/// or hang on broken ones. `urdf`: an absolute path, or a URL (package://, file://); "-": `input`
-/// is the text itself. Throws ToolError, which names the file, if a link does not exist, if a shape
-/// or mesh cannot be read, or if the program fails or exceeds reader_limits.
+/// Reads links of a robot, in the order of `links`, from its URDF and the mesh files that the URDF
+/// names. A separate program, robot_reader, reads these files, because the libraries that parse
+/// them crash or hang on broken ones. `urdf`: an absolute path, a URL (package://, file://), or "-"
+/// if `input` is the text of the URDF. Throws ToolError, which names the file, if a link does not
+/// exist, if a shape or mesh cannot be read, or if the program fails or exceeds reader_limits.
 std::vector<RobotLink> read_robot(const std::string& urdf, const std::string& input,
                                   const std::vector<std::string>& links);
 

@@ -75,7 +75,7 @@ LinkPart part_of(const RobotShape& shape) {
 
 std::string find_text(const std::string& parameter, const ros::NodeHandle& private_node) {
   std::string resolved, text;
-  // For a/b, searchParam looks only for a: a/b may be missing there.
+  // For the name a/b, searchParam() looks only for a. So the parameter a/b may be missing there.
   if (!private_node.searchParam(parameter, resolved) || !private_node.hasParam(resolved)) {
     throw ToolError("is set neither in " + private_node.getNamespace() +
                     " nor in a namespace above; load the robot's URDF there, name the parameter "

@@ -14,15 +14,15 @@
 
 namespace organ_collision {
 
-/// The link with its collision geometry. Throws ToolError, which names the link and the illegal
-/// size, pose or mesh.
+/// Makes a link from its description. Throws ToolError, which names the link and the illegal size,
+/// pose or mesh.
 Link build_link(const std::string& name, const RobotLink& description);
 
-/// A tool as the node uses it.
+/// A tool with its links, as the node uses it.
 struct Tool {
   ToolParameters parameters;
   std::vector<Link> links;          ///< in the order of parameters.links
-  std::vector<std::string> joints;  ///< of each link: the joint that moves it, or empty
+  std::vector<std::string> joints;  ///< for each link: the joint that moves it, or empty
   std::size_t fingerprint = 0;      ///< a hash of what the robot's files say of links and joints
   std::string fault;  ///< why the links could not be loaded; empty if there was no error
 };
@@ -32,29 +32,29 @@ inline constexpr char kNoTools[] =
     "~tools is empty: no contacts are published, and only queries that give a motion are answered; "
     "set ~tools and call ~reload_tools, or start the node anew";
 
-/// The tool, with its links from its URDF, which is a file, or the value of a parameter. A bad
-/// description is not thrown: the tool gets a `fault`, a sentence that begins with the tool's name.
-/// `find_text` returns the value of a parameter, or throws ToolError.
+/// Loads the links of a tool from its URDF, which is a file or the value of a parameter. Does not
+/// throw if the description is bad: the tool then has a `fault`, a sentence that begins with the
+/// tool's name. `find_text` returns the value of a parameter, or throws ToolError.
 Tool load_tool(const ToolParameters& parameters,
                const std::function<std::string(const std::string& parameter)>& find_text);
 
-/// The same for all tools of a node. Parameters are searched in the node's private namespace and
-/// upwards from there.
+/// Loads all tools of a node. Parameters are searched in the node's private namespace and upwards
+/// from there.
 std::vector<Tool> load_tools(const std::vector<ToolParameters>& parameters,
                              const ros::NodeHandle& private_node);
 
-/// For each tool of a new list: its index in the old list if it is unchanged; std::nullopt if it is
-/// new or changed.
+/// For each tool of a new list: its index in the old list if the tool is unchanged; std::nullopt if
+/// it is new or changed.
 using KeptTools = std::vector<std::optional<std::size_t>>;
 
-/// How one list of tools differs from another.
+/// How a new list of tools differs from the old one.
 struct ToolChanges {
   KeptTools kept;
   std::string summary;  ///< names the unchanged, changed, new and removed tools
 };
 
-/// Tools are the same if their parameters, the shapes and joints of their links, and their faults
-/// are.
+/// A tool is unchanged if its name, its parameters, the shapes and joints of its links, and its
+/// fault are the same in both lists.
 ToolChanges compare_tools(const std::vector<Tool>& old_tools, const std::vector<Tool>& new_tools);
 
 }  // namespace organ_collision
