@@ -5,9 +5,11 @@
 namespace organ_collision {
 namespace {
 
-/// [s] of ROS time: what was on its way during a jump has arrived by then.
+/// [s] After a jump of the clock, transforms from before the jump may still arrive for this long,
+/// in ROS time.
 constexpr double kArrival = 2.0;
-/// No more often after a jump: a frame with two senders may step back again and again.
+/// After one jump of the clock, late transforms make the node forget all history at most this many
+/// times. A frame with two senders may step back again and again.
 constexpr int kMostForgotten = 3;
 
 }  // namespace
