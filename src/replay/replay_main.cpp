@@ -53,8 +53,9 @@ is shown on stderr.
 /// The command line.
 struct ReplayOptions {
   std::string in, out;
-  std::string parameters;                              ///< the yaml file
-  std::string node = std::string("/") + names::kNode;  ///< under which its topics were recorded
+  std::string parameters;  ///< the yaml file
+  /// The name under which the topics were recorded.
+  std::string node = std::string("/") + names::kNode;
   bool with_input = false;
 };
 
@@ -89,7 +90,7 @@ std::string incomplete(const std::string& file) { return file + ".incomplete"; }
 /// back would mix the times before and after the jump.
 class RecordedMessages : private rosbag::View {
  public:
-  /// Those of the connections for which `is_wanted` returns true. `bag` must outlive this.
+  /// The messages of the connections for which `is_wanted` returns true. `bag` must outlive this.
   RecordedMessages(const rosbag::Bag& bag,
                    const std::function<bool(const rosbag::ConnectionInfo&)>& is_wanted)
       : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
@@ -98,7 +99,7 @@ class RecordedMessages : private rosbag::View {
         places_.push_back({*entry, range->connection_info});
       }
     }
-    // A bag is written from its beginning to its end.
+    // A bag is written from its beginning to its end, so positions in the file tell the order.
     std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
       return std::tie(a.entry.chunk_pos, a.entry.offset) <
              std::tie(b.entry.chunk_pos, b.entry.offset);
@@ -131,9 +132,9 @@ class RecordedMessages : private rosbag::View {
   std::vector<Place> places_;
 };
 
-/// The bag that gets the answers. It has its name only when it is complete: before that it is
-/// NAME.incomplete, and a bag that is never completed is removed. The functions throw
-/// std::runtime_error if the file cannot be written.
+/// The bag that gets the answers. Until it is complete, its file is NAME.incomplete. A bag that is
+/// never completed is removed. The functions throw std::runtime_error if the file cannot be
+/// written.
 class AnswerBag {
  public:
   /// Throws InputError if the file cannot be written.
@@ -159,7 +160,7 @@ class AnswerBag {
 
   void add(const ContactArray& answer, ros::Time time) {
     ++counts_[answer.status];
-    write(topic_, std::max(time, ros::TIME_MIN), answer);  // No time is zero.
+    write(topic_, std::max(time, ros::TIME_MIN), answer);  // rosbag refuses time zero.
   }
 
   void copy(const rosbag::MessageInstance& message) {
@@ -198,13 +199,14 @@ class AnswerBag {
   std::string topic_;
   std::string incomplete_;
   rosbag::Bag bag_;
-  std::map<std::uint8_t, std::size_t> counts_;  ///< of answers, by status
+  std::map<std::uint8_t, std::size_t> counts_;  ///< the number of answers, by status
 };
 
-/// Throws InputError if something is there that the output must not replace.
+/// Throws InputError if a file that is written would replace the input, or what is no regular file.
 void check_files(const ReplayOptions& options) {
   for (const std::string& written : {options.out, incomplete(options.out)}) {
-    std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
+    // A file that cannot be examined cannot be written, which is reported then.
+    std::error_code ignored;
     const auto status = std::filesystem::symlink_status(written, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
       throw InputError("replay: " + written +

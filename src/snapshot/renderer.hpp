@@ -39,7 +39,7 @@ inline constexpr double kFieldOfView = 0.785;
 Eigen::Vector3d centre(const PictureTriangles& triangles);
 
 /// The smallest distance of the eye from `target` at which all triangles are in the picture, with a
-/// margin around them. `aspect`: width of the picture by its height.
+/// margin around them. `aspect`: the width of the picture divided by its height.
 double framing_distance(const PictureTriangles& triangles, const Eigen::Vector3d& target,
                         const Eigen::Matrix3d& axes, double aspect);
 

@@ -80,7 +80,7 @@ void CollisionNode::work() {
   markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
 }
 
-/// Also called when the rate has changed.
+/// Starts the ticks of the parameter `rate`, again when the rate has changed.
 void CollisionNode::start_ticks() {
   tick_ = ros::Timer();
   const double rate = core_.parameters().rate_hz;

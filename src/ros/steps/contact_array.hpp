@@ -45,8 +45,7 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
 void set_incomplete(ContactArray& answer, const std::string& unknown);
 
 /// The answer about an organ that could not be evaluated at all, for example because its mesh was
-/// refused. `header`: that of the refused message. If it has no stamp, the answer gets the present
-/// time.
+/// refused. `header`: the frame and the stamp of the answer; a zero stamp becomes the present time.
 ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
                            const std_msgs::Header& header, std::uint8_t status,
                            const std::string& message);

@@ -92,7 +92,7 @@ bool StepScheduler::evaluate_due() {
     if (!due_[step].answer) evaluator_.evaluate(due_[step], workers_.query(worker));
   };
   const auto take = [this](std::size_t step) { deliver(due_[step]); };
-  // Std::ref() saves the memory that a copy of a lambda would need.
+  // With std::ref(), run() copies no lambda, and allocates no memory for it.
   workers_.run(due_.size(), std::ref(work), std::ref(take));
   due_.clear();
   return true;
