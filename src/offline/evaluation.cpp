@@ -14,8 +14,7 @@ namespace {
 
 constexpr std::size_t kCellsBehindFace = 8, kCellsOfClearance = 15, kCellsOfPlacement = 7;
 
-// append_cell() writes a comma before each cell, because a line of CSV begins with the query's
-// name.
+// append_cell() writes its comma first, because a line of CSV begins with the query's name.
 
 void append_cell(std::string_view text, std::string& csv) { (csv += ',') += text; }
 

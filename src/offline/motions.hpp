@@ -92,7 +92,7 @@ class MotionList : public MotionSource {
   std::string file_;
   std::deque<Motion> motions_;      ///< in the order of the file
   std::vector<std::size_t> order_;  ///< the indices of the motions in the order asked for
-  std::size_t next_ = 0;  ///< the place in order_ of the next motion; at the end, their number
+  std::size_t next_ = 0;  ///< the next motion's place in order_; at the end, order_.size()
 };
 
 }  // namespace organ_collision

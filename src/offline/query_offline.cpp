@@ -101,7 +101,7 @@ struct Options {
   std::string mesh;         ///< an OBJ file; empty: the folder `shapes` is used
   std::string mesh_before;  ///< an OBJ file; empty: the organ rests
   std::string shapes;       ///< a folder with an OBJ file for each motion; empty: `mesh` is used
-  std::string motions;      ///< a file, or kStandardInput
+  std::string motions;      ///< a CSV file, or kStandardInput
   Questions questions;
 };
 
@@ -189,7 +189,7 @@ void answer(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  // Without this signal, a closed pipe on stdout is reported like any other failed write.
+  // If SIGPIPE is ignored, a closed pipe on stdout is reported like any other failed write.
   std::signal(SIGPIPE, SIG_IGN);
   return exit_code("query_offline", [&] {
     const std::optional<Options> options = parse_options({argv + 1, argv + argc});

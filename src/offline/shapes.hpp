@@ -45,8 +45,9 @@ using QueryWorkers = QueryThreads<CollisionQuery>;
 
 /// The organ that a motion meets.
 struct OrganShapes {
-  const TriangleMesh* now = nullptr;     ///< at the end of the motion
-  const TriangleMesh* before = nullptr;  ///< at its start; null: the organ rests
+  const TriangleMesh* now = nullptr;  ///< the shape at the end of the motion
+  /// The shape at the start of the motion; null: the organ rests.
+  const TriangleMesh* before = nullptr;
 };
 
 /// The shapes of the organ for motions that are answered in rounds. All motions meet the same
@@ -85,11 +86,10 @@ class ShapeSource {
 
   std::vector<std::filesystem::path> files_;  ///< recorded shapes; empty: all motions meet first_
   TriangleMesh first_;
-  std::optional<TriangleMesh> before_;  ///< at the start of each motion; never for recorded shapes
-  std::size_t next_ = 0;                ///< the file of the first motion of the next round
-  /// The shape before the present round, then the shapes of the round.
-  std::vector<TriangleMesh> shapes_;
-  std::size_t count_ = 0;  ///< the number of shapes of the round
+  std::optional<TriangleMesh> before_;  ///< at the start of each motion; not for recorded shapes
+  std::size_t next_ = 0;              ///< the place in files_ of the first shape of the next round
+  std::vector<TriangleMesh> shapes_;  ///< the shape before the round, then the shapes of the round
+  std::size_t count_ = 0;             ///< the number of shapes of the round
 };
 
 }  // namespace organ_collision

@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 16;  // [bytes]
+constexpr std::size_t kPiece = 1 << 16;  // [bytes] read at once, at most
 constexpr int kForEver = -1;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 

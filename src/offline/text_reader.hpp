@@ -26,8 +26,8 @@ class TextReader {
   TextReader(const TextReader&) = delete;
   TextReader& operator=(const TextReader&) = delete;
 
-  /// Goes to the next line, and waits for it. Returns false after the last one. Throws InputError
-  /// when reading fails, or if the line is longer than kLongestLine.
+  /// Goes to the next line that is not blank, and waits for it. Returns false after the last one.
+  /// Throws InputError when reading fails, or if the line is longer than kLongestLine.
   bool next();
   /// Whether next() returns without waiting: a whole line, or the end of the input, has arrived.
   /// Throws what next() throws.
@@ -44,7 +44,7 @@ class TextReader {
 
   /// The file, or "standard input".
   const std::string& name() const { return file_; }
-  /// An error in the current line.
+  /// An error that names the current line.
   InputError error(const std::string& message) const { return {file_, number(), message}; }
 
  private:

@@ -48,8 +48,8 @@ std::optional<double> parse_number(std::string_view text);
 /// The integer that the whole `text` stands for. None if it is not an integer of 64 bits.
 std::optional<long long> parse_integer(std::string_view text);
 
-/// The options of a program. An option is given as `--name value` or `--name=value`, and a flag as
-/// `--name`. Each program has --help. Names are given without dashes.
+/// The options of a program. A user gives an option as `--name value` or `--name=value`, and a flag
+/// as `--name`. Each program has --help. The functions take names without dashes.
 class CommandLine {
  public:
   /// Takes the text of an option. Returns false if it is illegal, or throws std::invalid_argument,

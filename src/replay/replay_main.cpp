@@ -53,9 +53,8 @@ is shown on stderr.
 /// The command line.
 struct ReplayOptions {
   std::string in, out;
-  std::string parameters;  ///< the yaml file
-  /// The name under which the topics were recorded.
-  std::string node = std::string("/") + names::kNode;
+  std::string parameters;                              ///< the yaml file
+  std::string node = std::string("/") + names::kNode;  ///< the node's name in the bag
   bool with_input = false;
 };
 
@@ -173,7 +172,7 @@ class AnswerBag {
     incomplete_.clear();
   }
 
-  /// "1840 answers on /organ_collision/contacts: 1836 ok, 4 no transform"
+  /// For example "1840 answers on /organ_collision/contacts: 1836 ok, 4 no transform".
   std::string summary() const {
     std::size_t all = 0;
     std::string by_status;
@@ -202,10 +201,10 @@ class AnswerBag {
   std::map<std::uint8_t, std::size_t> counts_;  ///< the number of answers, by status
 };
 
-/// Throws InputError if a file that is written would replace the input, or what is no regular file.
+/// Throws InputError if the output would replace the input, or something that is no regular file.
 void check_files(const ReplayOptions& options) {
   for (const std::string& written : {options.out, incomplete(options.out)}) {
-    // A file that cannot be examined cannot be written, which is reported then.
+    // If a file cannot be examined here, an error is reported when it is written.
     std::error_code ignored;
     const auto status = std::filesystem::symlink_status(written, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {

@@ -229,7 +229,7 @@ class Drawing {
     }
   }
 
-  /// Adds a line from point i to point i + 1, for each `step`-th point i.
+  /// Adds a line from point i to point i + 1, for each multiple i of `step`.
   void add_lines(std::size_t step) {
     check_colours();
     for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
@@ -281,8 +281,7 @@ void add_marker(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
 
 std::vector<Vector3d> smooth_normals(const TrianglePoints& triangles) {
   const auto key = [](const Vector3d& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
-  // The normal of each face. Its length is twice the area of the face.
-  std::vector<Vector3d> areas;
+  std::vector<Vector3d> areas;  // A normal for each face, as long as twice its area.
   std::map<std::array<double, 3>, std::vector<std::size_t>> faces_at;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     for (std::size_t corner = i; corner < i + 3; ++corner) {

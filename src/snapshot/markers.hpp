@@ -24,7 +24,7 @@ class MarkerStore {
   struct Entry {
     visualization_msgs::Marker marker;
     ros::Time received;
-    std::optional<Eigen::Isometry3d> T_fixed_header;  ///< none: its transform is not known yet
+    std::optional<Eigen::Isometry3d> T_fixed_header;  ///< none: the transform is not known yet
   };
 
   /// Returns the pose of a frame in the fixed frame at a stamp (0: the latest pose), or none if it

@@ -28,7 +28,7 @@ double half_height() { return std::tan(0.5 * kFieldOfView); }
 
 // The light comes from above the viewer's left shoulder.
 const Vector3d kToLight = Vector3d(-0.35, 0.55, 0.75).normalized();
-const Vector3d kHalfway = (kToLight + Vector3d::UnitZ()).normalized();  // between light and viewer
+const Vector3d kHalfway = (kToLight + Vector3d::UnitZ()).normalized();  // halfway to both
 constexpr double kAmbient = 0.30;
 constexpr double kDiffuse = 0.75;
 constexpr double kSpecular = 0.18;
@@ -51,7 +51,7 @@ using GlTriangle = std::array<GlVertex, 3>;
 
 struct CameraTriangles {
   std::vector<GlTriangle> opaque, transparent;
-  /// [m] the depths of all vertices lie between.
+  /// [m] The nearest and the farthest visible depth.
   double near = std::numeric_limits<double>::infinity(), far = 0.0;
 };
 

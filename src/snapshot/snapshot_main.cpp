@@ -335,7 +335,7 @@ class Snapshot {
 
   const SnapshotOptions& options_;
   Eigen::Matrix3d axes_;  ///< the axes of the camera
-  std::string frame_;     ///< the fixed frame; empty: no marker has come, whose frame it becomes
+  std::string frame_;     ///< the fixed frame; empty until the first marker gives it
   ros::NodeHandle node_;
   MarkerStore markers_;
   std::map<std::string, std::string> missing_transforms_;  ///< by frame: the error of TF

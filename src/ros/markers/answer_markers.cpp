@@ -95,8 +95,7 @@ void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerAr
   constexpr double kLineWidth = 4e-3;
   // The text is beside the line and away from the organ, so that neither tool nor organ hides it.
   constexpr double kTextDistance = 0.10;  // The distance of the text from the line.
-  // The distance by which the text is moved away from the organ.
-  constexpr double kTextLift = 0.06;
+  constexpr double kTextLift = 0.06;      // The shift of the text away from the organ.
   if (clearance.state != Clearance::KNOWN) return;
   const Vector3d on_tool = to_eigen(clearance.on_tool), on_organ = to_eigen(clearance.on_organ);
   const MarkerStyle style{"clearance", organ.frame, colours::kClearance};
@@ -146,9 +145,8 @@ void add_surroundings(const SceneOrgan& organ, const ContactArray& answer, Marke
 void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
                    const ToolPlacement& placement, MarkerArray& picture) {
   constexpr double kRadius = 2.5;  // The radius of a cone, as a multiple of the shaft's radius.
-  // The least radius of a cone, as a share of the organ's size.
-  constexpr double kLeastRadius = 0.02;
-  constexpr double kLength = 2.0;  // The length of a cone, as a multiple of its radius.
+  constexpr double kLeastRadius = 0.02;  // Its least radius, as a share of the organ's size.
+  constexpr double kLength = 2.0;        // The length of a cone, as a multiple of its radius.
   // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
   const ArrowShape shape{0.01, 2.0 / kLength, 0.999};
   const double length = kLength * std::max(kRadius * radius, kLeastRadius * organ.size());

@@ -9,8 +9,8 @@
 namespace organ_collision {
 
 /// The topic of a node's markers. The node's thread only notes what there is to see. A thread of
-/// lower priority draws it, so that the node's thread does not wait. Without subscribers, both do
-/// nothing.
+/// lower priority draws it, so that the node's thread does not wait. Without subscribers, both
+/// threads do nothing.
 ///
 /// Only one thread may call these functions: the node's.
 class MarkerPublisher {

@@ -34,10 +34,10 @@ struct SceneOrgan {
 /// What is known of one tool in relation to one organ.
 struct ScenePair {
   std::string organ;
-  std::size_t tool;  ///< index into Scene::tools
-  /// The latest answer about the organ's present triangles; null: none yet.
-  ContactArrayConstPtr answer;
-  std::optional<ToolPose> pose;  ///< in the organ's frame, at the last successful step
+  std::size_t tool;             ///< index into Scene::tools
+  ContactArrayConstPtr answer;  ///< the latest answer about the present triangles; null: none yet
+  /// The tool's pose in the organ's frame, at the last successful step.
+  std::optional<ToolPose> pose;
 };
 
 /// A step since the last picture.
@@ -70,7 +70,7 @@ struct Scene {
   std::vector<SceneStep> steps;  ///< the oldest first
   std::vector<ProxyView> proxies;
 
-  /// Null if there is no such organ.
+  /// The organ with this name. Null if there is none.
   const SceneOrgan* organ(const std::string& name) const {
     for (const SceneOrgan& organ : organs) {
       if (organ.name == name) return &organ;
@@ -180,9 +180,10 @@ inline constexpr std::size_t kMostNearFaces = 2000;
 /// At most this many crossings of a tool and an organ are drawn: the first ones from the trocar.
 inline constexpr std::size_t kMostCrossings = 100;
 
-/// Adds the outlines of the regions, an arrow for each contact, along its normal, and the name of
-/// each link that touches, at its deepest contact. The arrow ends at the contact's end point. The
-/// name of a shaft is that of its tool. `share`: how visible arrows and names are, in [0, 1].
+/// Adds the outlines of the regions, and an arrow for each of the deepest contacts. The arrow
+/// points along the contact's normal and ends at its end point. Adds the name of each link that
+/// touches, at its deepest contact. A shaft has the name of its tool. `share`: how visible arrows
+/// and names are, in [0, 1].
 void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
                   visualization_msgs::MarkerArray& picture);
 
@@ -230,8 +231,8 @@ void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
 std::string name_of(ProxyStatus state);
 
 /// Adds the proxy as a solid tool. If tissue holds it back, adds the hand as a translucent tool,
-/// the spring between the two as a line, and an arrow for each force on the tissue. Adds the state
-/// as a text above the tool's far end, and nothing else if there is no answer but the hand.
+/// the spring between the two as a line, and an arrow for each force on the tissue. If there is no
+/// answer, adds only the hand. Always adds the state as a text above the tool's far end.
 void add_proxy(const ProxyView& view, visualization_msgs::MarkerArray& picture);
 
 }  // namespace organ_collision

@@ -37,8 +37,8 @@ void MessageLoop::receive(std::optional<SteadyTime> deadline) {
     before = clock_.now();
     called = call_one(ros::WallDuration(0.0));
   }
-  // A transform may be among the callbacks that are left. heard_until_ then waits for them, so that
-  // no deadline passes because they take time, but it waits for kLongestBacklog at most.
+  // If callbacks are left, a transform may be among them. heard_until_ then stays as it is, so that
+  // no shape misses its transform, but it stays at most kLongestBacklog behind.
   heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
 }
 

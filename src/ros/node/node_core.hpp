@@ -92,8 +92,7 @@ class NodeCore {
     MessageLoop::Callbacks loop;
     /// Called after each batch of messages.
     std::function<void()> work;
-    /// When `work` has something to do even if no message comes, on the clock of
-    /// MessageLoop::now().
+    /// When `work` must be called even if no message comes, on the clock of the loop.
     std::function<std::optional<SteadyTime>()> next_deadline;
     std::function<void()> reset;
     std::function<void(const Parameters& before)> parameters_changed;
@@ -101,8 +100,7 @@ class NodeCore {
     std::function<void(const KeptTools& kept)> release_tools = [](const KeptTools&) {};
     /// Gets the parameters of the new tools. If it throws, the tools stay as they were.
     std::function<void(const std::vector<ToolParameters>& tools)> prepare_tools;
-    /// Called when tools() returns the new tools. If it throws, the node cannot go on, and breaks
-    /// down.
+    /// Called when tools() returns the new tools. If it throws, the node breaks down.
     std::function<void(const KeptTools& kept)> tools_changed;
     /// Called before the node ends because of an exception: tells the subscribers.
     std::function<void(const std::string& why)> break_down;

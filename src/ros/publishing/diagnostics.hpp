@@ -38,8 +38,7 @@ class DurationStatistics {
   static constexpr std::size_t kCapacity = 4096;
 
   struct Summary {
-    /// The number of events since the start; if it is 0, so are the other members.
-    std::size_t count = 0;
+    std::size_t count = 0;  ///< number of events since the start; if it is 0, all members are 0
     double median = 0.0;
     double percentile_99 = 0.0;
     double worst = 0.0;

@@ -72,7 +72,7 @@ void read_tool_motion(const NodeState& node, const QuerySubject& subject,
     snapshot.path = resting_path(end.found->value);
     return;
   }
-  // If all transforms are static, the pose is that of now. The node may have taken its last step
+  // If all transforms are static, the query's step ends now. The node may have ended its last step
   // after the answer got its stamp.
   const bool is_now = end.found->stamp.isZero() && subject.header.stamp.isZero();
   if (is_now) answer.header.stamp = std::max(answer.header.stamp, last->stamp);

@@ -5,8 +5,7 @@
 namespace organ_collision {
 namespace {
 
-/// [s] After a jump of the clock, transforms from before the jump may still arrive for this long,
-/// in ROS time.
+/// [s] Transforms from before a jump of the clock arrive within this ROS time after the jump.
 constexpr double kArrival = 2.0;
 /// After one jump of the clock, late transforms make the node forget all history at most this many
 /// times. A frame with two senders may step back again and again.

@@ -25,11 +25,11 @@ class Inbox {
   /// Subscribes to the topics of organs, of TF and of poses.
   void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// Forgets all history and returns true in three cases: ROS time jumped back since the last call.
-  /// Stamps of transforms step back soon after a jump, because transforms from before the jump had
-  /// arrived after it. Transforms are far ahead of the clock, because they came before simulated
-  /// time began. Call it before and after each message, so that no message and no step meets state
-  /// from before the jump.
+  /// Forgets all history and returns true in three cases. First, ROS time jumped back since the
+  /// last call. Second, stamps step back soon after a jump, because transforms from before the jump
+  /// had arrived after it. Third, transforms are far ahead of the clock, because they came before
+  /// simulated time began. Call it before and after each message, so that no message and no step
+  /// meets state from before the jump.
   bool watch_clock();
   /// Forgets all transforms but the static ones, and all that is known of the past of the organs.
   void forget_history();
@@ -42,8 +42,7 @@ class Inbox {
  private:
   double max_ahead_sec_;
   double jumped_ = 0.0;  ///< [s] the ROS time to which the clock last jumped back
-  /// How many more times late transforms may make the node forget all history.
-  int may_forget_ = 0;
+  int may_forget_ = 0;   ///< how often late transforms may still make the node forget history
   ClockWatch clock_;
 };
 

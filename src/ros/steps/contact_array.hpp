@@ -25,8 +25,7 @@ namespace organ_collision {
 
 /// An answer without contacts, about one organ and one tool. Its `links` are those of a tool that
 /// has a shaft and no links. Its header.stamp and step_start are `stamp`. The names may come from a
-/// message and be illegal: the answer has them as plain text of at most kLongestName bytes
-/// (plain_text()).
+/// message and be illegal: the answer has them as plain text of at most kLongestName bytes.
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
 
@@ -78,9 +77,8 @@ class ContactQuery {
   /// steps. Throws GlError if GL picking does not work on this machine.
   explicit ContactQuery(const PickerSettings& picker);
 
-  /// Sets the status of `answer`, and its results from `contacts` to `placement`. If the query
-  /// fails, sets the message instead of results. Returns how long the query took [s], or 0 if it
-  /// failed.
+  /// Sets the status of `answer`, and its results from `contacts` to `placement`, or its message if
+  /// the query fails. Returns how long the query took [s], or 0 if it failed.
   double evaluate(const CollisionRequest& request, ContactArray& answer);
 
   const std::string& gl_version() const { return query_.gl_version(); }

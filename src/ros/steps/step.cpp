@@ -13,7 +13,7 @@ SteadyTime WaitClock::now() {
 SteadyTime WaitClock::now(std::optional<ros::Time> simulated, SteadyTime wall) {
   if (!simulated) return wall;
   if (*simulated != simulated_) {
-    // The first simulated time follows no earlier one, so that no duration is known.
+    // Simulated time is counted from its first value, which therefore adds nothing.
     if (*simulated > simulated_ && !simulated_.isZero()) {
       time_ += std::chrono::nanoseconds(simulated->toNSec() - simulated_.toNSec());
     }

@@ -93,16 +93,15 @@ struct ToolStep {
   // What the evaluation finds.
 
   ContactArrayPtr answer = nullptr;
-  /// Its path is empty if the step failed before the path was known.
-  CollisionRequest request = {};
-  std::size_t samples_cut = 0;  ///< see SampledPath
-  double deviation_cut = 0.0;   ///< [m] see SampledPath
-  double query_sec = 0.0;       ///< [s] how long the query took; 0 if there was no query
+  CollisionRequest request = {};  ///< its path is empty if none was known when the step failed
+  std::size_t samples_cut = 0;    ///< see SampledPath
+  double deviation_cut = 0.0;     ///< [m] see SampledPath
+  double query_sec = 0.0;         ///< [s] how long the query took; 0 if there was no query
 };
 
-/// Finds the answers of steps. It changes nothing but the step that it is given. Several threads
-/// may therefore evaluate different steps at the same time, as long as nobody changes what the
-/// steps refer to.
+/// Finds the answers of steps. Changes only the step that it is given. Several threads may
+/// therefore evaluate different steps at the same time, as long as nobody changes what the steps
+/// refer to.
 class StepEvaluator {
  public:
   /// All arguments must outlive this.
@@ -110,8 +109,7 @@ class StepEvaluator {
                 const ToolPoses& poses)
       : parameters_(parameters), tools_(tools), poses_(poses) {}
 
-  /// Sets the step's request, its answer and the time of its query. `query` belongs to the calling
-  /// thread.
+  /// Sets the step's request, answer and query time. `query` belongs to the calling thread.
   void evaluate(ToolStep& step, ContactQuery& query) const;
   /// Sets an answer whose status and message say why the step failed.
   void set_failed(ToolStep& step, ros::Time stamp, std::uint8_t status,

@@ -9,8 +9,8 @@
 namespace organ_collision {
 namespace {
 
-/// How long the transforms of a tool and an organ may be missing before their first step without a
-/// warning. Nodes that are started together need this long.
+/// Before their first step, the transforms of a tool and an organ may be missing for this long
+/// without a warning: nodes that are started together need so long to start.
 constexpr std::chrono::seconds kStart(2);
 
 /// The node looks once in this time for steps that become too long.
@@ -27,12 +27,11 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 StepWorkers::StepWorkers(const NodeParameters& parameters)
     : QueryThreads(thread_count(parameters.threads), parameters.picker,
                    [priority = parameters.realtime.priority] {
-                     // If the system refuses the priority, it has refused it to the node's thread,
-                     // too, and the node has said so.
+                     // If it is refused, the node's thread was refused it, too, and the node has
+                     // said so.
                      if (priority > 0) make_this_thread_realtime(priority);
                    }) {
-  // The threads start here and not with the first steps: if memory is locked, each start takes
-  // milliseconds.
+  // Already here: if memory is locked, the start of a thread takes milliseconds.
   start_for(parameters.tools.size());
 }
 
@@ -92,8 +91,7 @@ bool StepScheduler::evaluate_due() {
     if (!due_[step].answer) evaluator_.evaluate(due_[step], workers_.query(worker));
   };
   const auto take = [this](std::size_t step) { deliver(due_[step]); };
-  // With std::ref(), run() copies no lambda, and allocates no memory for it.
-  workers_.run(due_.size(), std::ref(work), std::ref(take));
+  workers_.run(due_.size(), std::ref(work), std::ref(take));  // std::ref() allocates no memory.
   due_.clear();
   return true;
 }
@@ -188,7 +186,7 @@ void StepScheduler::plan_long_steps() {
   }
 }
 
-/// Forgets the last step of a pair if its end had a stamp that turned out to be wrong
+/// Forgets the last step of a pair if it ended at a stamp that turned out to be wrong
 /// (ToolPoses::is_disproved()). The next step is then static. Otherwise, the tool would be held at
 /// the pose of that stamp.
 bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,

@@ -47,13 +47,11 @@ class StepWorkers : public QueryThreads<ContactQuery> {
 /// does not depend on the number of workers.
 class StepScheduler {
  public:
-  /// Gets a step with its answer. The pair of the step is already in the state from which the next
-  /// step begins.
+  /// Gets a step with its answer. The step's pair is already prepared for the next step.
   using Publish = std::function<void(const ToolStep&)>;
 
-  /// The references must outlive this. `publish` gets the steps of a round in their order, in the
-  /// calling thread. A finished step waits for at most one evaluation in that thread
-  /// (worker_threads.hpp).
+  /// The references must outlive this. `publish` gets the steps of a round in order. A finished
+  /// step waits for at most one evaluation by the calling thread (worker_threads.hpp).
   StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools,
                 const OrganRegistry& organs, ToolPoses& poses, StepWorkers& workers,
                 Publish publish)
@@ -94,8 +92,7 @@ class StepScheduler {
   /// organ's latest shape.
   void start_anew();
 
-  /// The time at which evaluate() has something to do even if no transform comes. std::nullopt:
-  /// never.
+  /// The time at which evaluate() has work even if no transform comes. std::nullopt: never.
   std::optional<SteadyTime> next_deadline() const;
   const StepHistory& history() const { return history_; }
 
