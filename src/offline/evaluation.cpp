@@ -233,7 +233,7 @@ class Evaluation {
   const Questions& questions_;
   MotionSource& source_;
   ShapeSource& shapes_;
-  std::optional<SurfaceTopology> topology_;  ///< only if the placement is asked for
+  std::optional<SurfaceTopology> topology_;  ///< set only if the placement is asked for
   std::vector<Motion> motions_;              ///< the motions of the present round
   bool is_last_ = false;                     ///< whether no round follows this one
   std::exception_ptr error_;                 ///< why no round follows, if that is an error

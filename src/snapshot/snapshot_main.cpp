@@ -73,14 +73,14 @@ struct SnapshotOptions {
   std::vector<std::string> hidden;  ///< namespaces of markers
   std::string output = "snapshot.png";
   Eigen::Vector2i size{800, 600};          ///< [pixel] width and height
-  Eigen::Vector3d to_eye{1.0, -1.0, 0.8};  ///< direction from the target to the viewer
+  Eigen::Vector3d to_eye{1.0, -1.0, 0.8};  ///< the direction from the target to the viewer
   std::optional<Eigen::Vector3d> target;   ///< [m] none: the centre of the scene
   double distance = 0.0;                   ///< [m] 0: the whole scene is in the picture
   std::string frame;                       ///< empty: the frame of the first marker
   Colour background{0.157F, 0.176F, 0.212F, 1.0F};
   double after_sec = 0.5;     ///< the time from the first marker to the first picture
   std::size_t frames = 0;     ///< 0: one picture, which is no sequence
-  double rate = 10.0;         ///< [Hz] pictures of a sequence
+  double rate = 10.0;         ///< [Hz] the rate of the pictures of a sequence
   double timeout_sec = 10.0;  ///< the longest time to wait for a marker, by the wall clock
 };
 
@@ -338,7 +338,7 @@ class Snapshot {
   std::string frame_;     ///< the fixed frame; empty until the first marker gives it
   ros::NodeHandle node_;
   MarkerStore markers_;
-  std::map<std::string, std::string> missing_transforms_;  ///< by frame: the error of TF
+  std::map<std::string, std::string> missing_transforms_;  ///< for each frame, the error of TF
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};
   std::vector<ros::Subscriber> subscribers_;

@@ -145,7 +145,7 @@ void add_surroundings(const SceneOrgan& organ, const ContactArray& answer, Marke
 void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
                    const ToolPlacement& placement, MarkerArray& picture) {
   constexpr double kRadius = 2.5;  // The radius of a cone, as a multiple of the shaft's radius.
-  constexpr double kLeastRadius = 0.02;  // Its least radius, as a share of the organ's size.
+  constexpr double kLeastRadius = 0.02;  // The least radius, as a share of the organ's size.
   constexpr double kLength = 2.0;        // The length of a cone, as a multiple of its radius.
   // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
   const ArrowShape shape{0.01, 2.0 / kLength, 0.999};

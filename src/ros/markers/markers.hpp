@@ -34,10 +34,9 @@ struct SceneOrgan {
 /// What is known of one tool in relation to one organ.
 struct ScenePair {
   std::string organ;
-  std::size_t tool;             ///< index into Scene::tools
-  ContactArrayConstPtr answer;  ///< the latest answer about the present triangles; null: none yet
-  /// The tool's pose in the organ's frame, at the last successful step.
-  std::optional<ToolPose> pose;
+  std::size_t tool;              ///< index into Scene::tools
+  ContactArrayConstPtr answer;   ///< the latest answer about the present triangles; null: none yet
+  std::optional<ToolPose> pose;  ///< the pose in the organ's frame at the last successful step
 };
 
 /// A step since the last picture.

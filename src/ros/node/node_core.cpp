@@ -46,8 +46,8 @@ void MessageLoop::receive(std::optional<SteadyTime> deadline) {
 ros::WallDuration MessageLoop::wait(std::optional<SteadyTime> deadline, SteadyTime now) const {
   std::chrono::nanoseconds wait = kLongestWait;
   if (deadline) wait = std::min<std::chrono::nanoseconds>(wait, *deadline - now);
-  // Simulated time advances in jumps, and no callback tells of them. The minimum keeps the node
-  // from looking for the next jump without a pause.
+  // Simulated time advances in jumps, and no callback tells of them. The node must look for them:
+  // `shortest` is the pause between two looks.
   const auto shortest = ros::Time::isSimTime() ? kShortestSimulatedWait : 0ms;
   return ros::WallDuration().fromNSec(std::max<std::chrono::nanoseconds>(wait, shortest).count());
 }

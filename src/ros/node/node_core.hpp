@@ -98,7 +98,8 @@ class NodeCore {
     std::function<void(const Parameters& before)> parameters_changed;
     /// Called in the background thread, before the tools that are not kept are replaced.
     std::function<void(const KeptTools& kept)> release_tools = [](const KeptTools&) {};
-    /// Gets the parameters of the new tools. If it throws, the tools stay as they were.
+    /// Gets the parameters of the new tools before they replace the old ones. If it throws, the old
+    /// tools stay.
     std::function<void(const std::vector<ToolParameters>& tools)> prepare_tools;
     /// Called when tools() returns the new tools. If it throws, the node breaks down.
     std::function<void(const KeptTools& kept)> tools_changed;
@@ -159,7 +160,7 @@ class NodeCore {
     }
   }
 
-  /// Ends the waits of other threads for the node's thread, and then the background threads, which
+  /// Releases the threads that wait for the node's thread. Then ends the background threads, which
   /// use members. A node must call it before it destroys what the callbacks use.
   void end() {
     loop_.end();

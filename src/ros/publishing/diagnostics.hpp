@@ -49,7 +49,7 @@ class DurationStatistics {
   Summary summary() const;
 
  private:
-  mutable std::mutex mutex_;  ///< guards all that follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::array<double, kCapacity> seconds_{};
   std::size_t count_ = 0;
 };

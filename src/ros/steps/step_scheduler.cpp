@@ -27,11 +27,10 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 StepWorkers::StepWorkers(const NodeParameters& parameters)
     : QueryThreads(thread_count(parameters.threads), parameters.picker,
                    [priority = parameters.realtime.priority] {
-                     // If it is refused, the node's thread was refused it, too, and the node has
-                     // said so.
+                     // If this is refused, the node's thread was refused, too, and logged it.
                      if (priority > 0) make_this_thread_realtime(priority);
                    }) {
-  // Already here: if memory is locked, the start of a thread takes milliseconds.
+  // Threads start here: if memory is locked, the start of a thread takes milliseconds.
   start_for(parameters.tools.size());
 }
 
@@ -103,8 +102,7 @@ StepCounts StepScheduler::counts() const {
   return counts;
 }
 
-/// Plans the step against the first waiting shape of a pair. Plans nothing if that shape may still
-/// wait for its transforms.
+/// Plans a step against the first waiting shape, unless it may still wait for its transforms.
 void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
                                OrganToolPair& pair) {
   WaitingShape& front = pair.waiting.front();
