@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::size_t kCellsBehindFace = 8, kCellsOfClearance = 15, kCellsOfPlacement = 7;
 
-// The line of CSV has at least one cell, so that append_cell() writes a comma before each.
+// append_cell() writes its comma first, because a line of CSV begins with the query's name.
 
 void append_cell(std::string_view text, std::string& csv) { (csv += ',') += text; }
 
@@ -134,7 +134,7 @@ void append_contacts(const Motion& motion, const CollisionResult& result,
 namespace {
 
 /// How many motions a thread answers before it takes the next ones. Small blocks keep all threads
-/// busy until the end of a round; each costs a few microseconds.
+/// busy until the end of a round. Each block costs a few microseconds.
 std::size_t block_size(std::size_t motions, std::size_t threads) {
   return std::clamp<std::size_t>(motions / (4 * threads), 1, 8);
 }
@@ -160,7 +160,8 @@ class Evaluation {
   }
 
  private:
-  /// Whether there are further motions. Waits for the first one only.
+  /// Gets the motions of the next round, and waits for the first of them only. Returns false if
+  /// there are no further motions.
   bool next_round() {
     motions_.clear();
     if (is_last_) return false;
@@ -182,7 +183,7 @@ class Evaluation {
     return !motions_.empty();
   }
 
-  /// Leaves only the motions that have shapes.
+  /// Gets the shapes of the round's motions, and drops the motions that have no shape.
   void get_shapes() {
     std::exception_ptr error;
     const std::size_t count = shapes_.get(motions_.size(), threads_, error);
@@ -232,10 +233,10 @@ class Evaluation {
   const Questions& questions_;
   MotionSource& source_;
   ShapeSource& shapes_;
-  std::optional<SurfaceTopology> topology_;  ///< only if the placement is asked for
-  std::vector<Motion> motions_;              ///< of the present round
-  bool is_last_ = false;                     ///< whether no round follows
-  std::exception_ptr error_;                 ///< why not, if motions are left
+  std::optional<SurfaceTopology> topology_;  ///< set only if the placement is asked for
+  std::vector<Motion> motions_;              ///< the motions of the present round
+  bool is_last_ = false;                     ///< whether no round follows this one
+  std::exception_ptr error_;                 ///< why no round follows, if that is an error
   QueryWorkers threads_;
 };
 

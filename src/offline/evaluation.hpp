@@ -12,9 +12,9 @@ namespace organ_collision {
 
 /// What is asked about each motion, and how it is answered.
 struct Questions {
-  double margin = 0.0;       ///< [m] up to which the clearance is asked for; 0: not asked for
-  bool clearance = false;    ///< whether the clearance is asked for without a limit
-  bool placement = false;    ///< whether sides and crossings are asked for
+  double margin = 0.0;     ///< [m] the clearance is asked for up to this distance; 0: not asked for
+  bool clearance = false;  ///< whether the clearance is asked for without a limit
+  bool placement = false;  ///< whether sides and crossings are asked for
   bool blank_lines = false;  ///< whether a blank line follows the answer to each motion
   PickerSettings picker;
   std::size_t jobs = 1;  ///< the number of threads
@@ -27,10 +27,11 @@ struct Questions {
 std::string contacts_header(const Questions& questions);
 
 /// Appends the lines of a motion, with the columns of contacts_header(): a line for each contact.
-/// With added columns, which are the same in all lines of a motion, a motion without contact has
-/// one line, too. Numbers except those of faces have 17 significant digits, from which the same
-/// doubles can be read. In the paper modes the columns after the face are empty. If the clearance
-/// is beyond the margin, its columns after the first one are empty.
+/// The columns of the clearance and of the placement are the same in all lines of a motion. If
+/// there are such columns, a motion without contact has one line, too. Floating-point numbers have
+/// 17 significant digits, from which the same doubles can be read. In the paper modes, the columns
+/// after the face are empty. If the clearance is beyond the margin, its columns after the first one
+/// are empty.
 void append_contacts(const Motion& motion, const CollisionResult& result,
                      const Questions& questions, std::string& csv);
 
@@ -38,10 +39,11 @@ void append_contacts(const Motion& motion, const CollisionResult& result,
 using Print = std::function<void(const std::string& csv, std::size_t motions)>;
 
 /// Answers all motions in rounds. A round has the motions that are there without waiting, up to a
-/// number that bounds the memory. The threads share it, and their answers are printed in the order
-/// of the motions while the round is still being answered. The header line is printed first, for no
-/// motion. If a motion or its shape is not legal, throws InputError when the answers to the motions
-/// before it are printed. Throws GlError if OpenGL picking does not work.
+/// number that bounds the memory. The threads share a round. Answers are printed in the order of
+/// the motions, while later motions of the round are still being answered. The header line is
+/// printed first, with 0 motions. If a motion or its shape is not legal, throws InputError after
+/// the answers to the motions before it are printed. Throws GlError if OpenGL picking does not
+/// work.
 void evaluate(const Questions& questions, MotionSource& motions, ShapeSource& shapes,
               const Print& print);
 

@@ -33,8 +33,8 @@ constexpr std::pair<std::string_view, QueryMode> kModes[] = {
     {"paper_swept", QueryMode::kPaperSwept},
     {"paper_naive", QueryMode::kPaperNaive}};
 
-/// Throws std::invalid_argument, naming the value and what is legal, if CollisionQuery has no
-/// answer to a motion, whatever the organ is.
+/// Throws std::invalid_argument if CollisionQuery would refuse the motion, whatever the organ is.
+/// The message names the value and what is legal.
 void check_motion(const Motion& motion) {
   static const TriangleMesh any_organ({0.0F, 0.0F, 0.0F}, {0, 0, 0});
   CollisionRequest request;
@@ -116,7 +116,7 @@ bool MotionReader::is_header() const {
 
 MotionList::MotionList(std::string file, Order order) : file_(std::move(file)) {
   MotionReader reader(file_);
-  std::vector<long long> values;  // of the queries that are integers
+  std::vector<long long> values;  // the values of those queries that are integers
   while (std::optional<Motion> motion = reader.next()) {
     if (const auto value = parse_integer(motion->query)) values.push_back(*value);
     motions_.push_back(std::move(*motion));

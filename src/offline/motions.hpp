@@ -15,13 +15,13 @@ namespace organ_collision {
 
 /// The motion of a tool with a resting trocar, and the kind of query: one line of a motions file.
 struct Motion {
-  std::string query;     ///< its name, which is printed with its contacts
-  std::size_t line = 0;  ///< where it was read, from 1
+  std::string query;     ///< the name of the query, which is printed with its contacts
+  std::size_t line = 0;  ///< the line from which it was read, from 1
   QueryMode mode = QueryMode::kStatic;
-  Eigen::Vector3d trocar;    ///< in the mesh's frame [m], as the two that follow
-  Eigen::Vector3d previous;  ///< the tip at the start; the same as `tip` in the static modes
-  Eigen::Vector3d tip;       ///< at the end
-  double radius = 0.0;       ///< [m]
+  Eigen::Vector3d trocar;    ///< [m] in the mesh's frame, as `previous` and `tip`
+  Eigen::Vector3d previous;  ///< [m] the tip at the start; the same as `tip` in the static modes
+  Eigen::Vector3d tip;       ///< [m] the tip at the end
+  double radius = 0.0;       ///< [m] the radius of the shaft
 };
 
 /// Where a tool was during its motion: one waypoint in the static modes, else two.
@@ -66,8 +66,8 @@ class MotionReader : public MotionSource {
   bool is_header() const;
 
   TextReader text_;
-  std::vector<std::string_view> cells_;  ///< of the current line
-  bool at_first_ = true;                 ///< whether no line was read
+  std::vector<std::string_view> cells_;  ///< the cells of the current line
+  bool at_first_ = true;                 ///< whether no line was read yet
   bool has_motion_ = false;              ///< whether a motion was read
 };
 
@@ -75,7 +75,7 @@ class MotionReader : public MotionSource {
 /// each motion, because a file is checked to its end before the first motion is answered.
 class MotionList : public MotionSource {
  public:
-  /// kByQuery: by value if all queries are integers, else as text.
+  /// kByQuery: sorted by the queries, as numbers if all are integers, else as text.
   enum class Order { kByQuery, kAsInFile };
 
   /// Throws InputError if the file is missing, is not legal or has no motion, or if two motions
@@ -90,9 +90,9 @@ class MotionList : public MotionSource {
 
  private:
   std::string file_;
-  std::deque<Motion> motions_;      ///< as in the file
-  std::vector<std::size_t> order_;  ///< their indices in the order asked for
-  std::size_t next_ = 0;            ///< a place in order_, or the number of motions
+  std::deque<Motion> motions_;      ///< in the order of the file
+  std::vector<std::size_t> order_;  ///< the indices of the motions in the order asked for
+  std::size_t next_ = 0;  ///< the next motion's place in order_; at the end, order_.size()
 };
 
 }  // namespace organ_collision

@@ -98,10 +98,10 @@ first.
 constexpr char kStandardInput[] = "-";
 
 struct Options {
-  std::string mesh;         ///< empty: the shapes of a folder
-  std::string mesh_before;  ///< empty: the organ rests
-  std::string shapes;       ///< a folder with a mesh for each motion; empty: one mesh for all
-  std::string motions;      ///< a file, or kStandardInput
+  std::string mesh;         ///< an OBJ file; empty: the folder `shapes` is used
+  std::string mesh_before;  ///< an OBJ file; empty: the organ rests
+  std::string shapes;       ///< a folder with an OBJ file for each motion; empty: `mesh` is used
+  std::string motions;      ///< a CSV file, or kStandardInput
   Questions questions;
 };
 
@@ -142,14 +142,14 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments) 
   return options;
 }
 
-/// Writes at once, so that a reader who waits for an answer gets it.
+/// Writes to stdout at once, so that a reader who waits for an answer gets it.
 void print(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   if (written && std::fflush(stdout) == 0) return;
   throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
 }
 
-/// Reads a file to its end, so that an illegal one is refused before anything is printed.
+/// Reads a motions file to its end, so that an illegal file is refused before anything is printed.
 MotionList read_motions(const Options& options, const ShapeSource& shapes) {
   using Order = MotionList::Order;
   MotionList motions(options.motions, options.shapes.empty() ? Order::kByQuery : Order::kAsInFile);
@@ -159,7 +159,7 @@ MotionList read_motions(const Options& options, const ShapeSource& shapes) {
                                " OBJ files, and each needs one motion"));
 }
 
-/// `count`: of the motions, if it is known.
+/// `count`: the number of motions, if it is known.
 void answer_all(const Options& options, MotionSource& motions, std::optional<std::size_t> count,
                 ShapeSource& shapes) {
   Progress progress("query_offline", "motions", count);
@@ -189,7 +189,7 @@ void answer(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  // A closed pipe on stdout is then reported like any other failed write.
+  // If SIGPIPE is ignored, a closed pipe on stdout is reported like any other failed write.
   std::signal(SIGPIPE, SIG_IGN);
   return exit_code("query_offline", [&] {
     const std::optional<Options> options = parse_options({argv + 1, argv + argc});

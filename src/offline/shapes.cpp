@@ -199,10 +199,10 @@ OrganShapes ShapeSource::shapes_of(std::size_t motion) const {
   return {&shapes_[motion + 1], is_first_step ? nullptr : &shapes_[motion]};
 }
 
-/// Moves `shape` to the vertices of a file. A file that is missing, is not legal or has other faces
-/// than the first one is an error.
+/// Moves `shape` to the vertices of a file. Throws InputError if the file is missing, is not legal
+/// or has other faces than the first file.
 void ShapeSource::read(std::size_t file, TriangleMesh& shape) const {
-  if (file == 0) return;  // It is first_, which all shapes are copies of.
+  if (file == 0) return;  // The first file is first_, of which all shapes are copies.
   ObjFile obj = read_obj(files_[file]);
   check_same_faces(obj, first_, files_[0]);
   shape.move_vertices(std::move(obj.vertices));

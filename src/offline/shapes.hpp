@@ -19,7 +19,7 @@ struct ObjFile {
   std::string file;
   std::vector<float> vertices;           ///< x y z x y z ... [m]; finite, within 1e6 m
   std::vector<std::uint32_t> triangles;  ///< three vertex indices for each face, all legal
-  std::vector<std::size_t> face_lines;   ///< line of each face, from 1
+  std::vector<std::size_t> face_lines;   ///< the line of each face, from 1
   std::size_t line_count = 0;
 };
 
@@ -45,38 +45,40 @@ using QueryWorkers = QueryThreads<CollisionQuery>;
 
 /// The organ that a motion meets.
 struct OrganShapes {
-  const TriangleMesh* now = nullptr;     ///< at the end of the motion
-  const TriangleMesh* before = nullptr;  ///< at its start; null: the organ rests
+  const TriangleMesh* now = nullptr;  ///< the shape at the end of the motion
+  /// The shape at the start of the motion; null: the organ rests.
+  const TriangleMesh* before = nullptr;
 };
 
-/// The shapes of the organ for motions that are answered in rounds: the same for all motions, or
-/// those of a recorded simulation, of which only those of a round are in memory.
+/// The shapes of the organ for motions that are answered in rounds. All motions meet the same
+/// shapes, or those of a recorded simulation. Of a simulation, only the shapes of one round are in
+/// memory.
 class ShapeSource {
  public:
   /// Each motion meets the organ in the same shape, or while it moves from one shape to another.
-  /// `mesh`, `mesh_before`: OBJ files of the shapes at the end and at the start of each motion; an
-  /// empty name: the organ rests. Throws InputError if a file is missing or is not legal, or if
-  /// their faces differ.
+  /// `mesh`: the OBJ file of the shape at the end of each motion. `mesh_before`: that of the shape
+  /// at the start; empty: the organ rests. Throws InputError if a file is missing or is not legal,
+  /// or if the files differ in their faces.
   ShapeSource(const std::string& mesh, const std::string& mesh_before);
   /// A recorded simulation: an OBJ file for each step, with the same faces. During the motion of a
   /// step, the organ moves from the shape of the step before to that of the step. In the first step
   /// it rests. The files are those of the folder whose names end in .obj or .OBJ and begin with no
   /// dot, in the order of strverscmp(), in which step_2 comes before step_10. Throws InputError if
-  /// the folder cannot be read or has none, or if the first one is not legal.
+  /// the folder cannot be read or has no such file, or if its first file is not legal.
   explicit ShapeSource(const std::string& folder);
 
   /// The most motions of a round for each thread, so that the shapes and answers of a round do not
   /// take too much memory.
   std::size_t most_for_each_thread() const { return files_.empty() ? 512 : 4; }
   /// Gets the shapes of a round of `count` motions, which follow those of the last round. Returns
-  /// how many motions have their shapes. Further ones have none if there are no more shapes, or
-  /// because the next shape is not legal; `error` is then set to its InputError.
+  /// how many motions have a shape. The others have none because there are no more shapes, or
+  /// because the next shape is not legal. In the latter case, `error` is set to its InputError.
   std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error);
   /// The shapes that a motion of the present round meets.
   OrganShapes shapes_of(std::size_t motion) const;
   /// How many recorded shapes need motions after this round.
   std::size_t remaining() const { return files_.size() - next_; }
-  /// A shape that has the faces of all others.
+  /// The first shape. All others have the same faces.
   const TriangleMesh& first() const { return first_; }
 
  private:
@@ -84,10 +86,10 @@ class ShapeSource {
 
   std::vector<std::filesystem::path> files_;  ///< recorded shapes; empty: all motions meet first_
   TriangleMesh first_;
-  std::optional<TriangleMesh> before_;  ///< only without recorded shapes
-  std::size_t next_ = 0;                ///< the file of the first motion of the next round
-  std::vector<TriangleMesh> shapes_;    ///< that before the present round, then those of the round
-  std::size_t count_ = 0;               ///< of the shapes of the round
+  std::optional<TriangleMesh> before_;  ///< at the start of each motion; not for recorded shapes
+  std::size_t next_ = 0;              ///< the place in files_ of the first shape of the next round
+  std::vector<TriangleMesh> shapes_;  ///< the shape before the round, then the shapes of the round
+  std::size_t count_ = 0;             ///< the number of shapes of the round
 };
 
 }  // namespace organ_collision

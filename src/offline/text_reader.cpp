@@ -11,7 +11,7 @@
 namespace organ_collision {
 namespace {
 
-constexpr std::size_t kPiece = 1 << 16;  // [bytes]
+constexpr std::size_t kPiece = 1 << 16;  // [bytes] read at once, at most
 constexpr int kForEver = -1;
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
@@ -44,8 +44,8 @@ bool TextReader::is_ready() {
   return true;
 }
 
-/// Takes the next line that is not blank. Returns false if its end has not been read. At the end of
-/// the file, there is no such line.
+/// Makes the next line that is not blank the current one. Returns false if more must be read first.
+/// At the end of the file, returns true without such a line.
 bool TextReader::find_line() {
   while (true) {
     end_ = std::min(buffer_.find('\n', end_), buffer_.size());
@@ -69,7 +69,7 @@ void TextReader::go_behind_line() {
   begin_ = end_ = std::min(end_ + 1, buffer_.size());
 }
 
-/// Waits at most so long [ms].
+/// Whether there is input to read. Waits for it, but at most for `wait` [ms].
 bool TextReader::has_input(int wait) const {
   pollfd wanted{descriptor_, POLLIN, 0};
   const int ready = TEMP_FAILURE_RETRY(poll(&wanted, 1, wait));
@@ -78,7 +78,7 @@ bool TextReader::has_input(int wait) const {
 }
 
 void TextReader::read_piece() {
-  has_input(kForEver);  // So read() does not fail if the pipe is one that does not block.
+  has_input(kForEver);  // Otherwise, read() fails if the pipe does not block.
   buffer_.erase(0, begin_);
   end_ -= begin_;
   begin_ = 0;

@@ -26,25 +26,25 @@ class TextReader {
   TextReader(const TextReader&) = delete;
   TextReader& operator=(const TextReader&) = delete;
 
-  /// Goes to the next line, and waits for it. Returns false after the last one. Throws InputError
-  /// when reading fails, or if the line is longer than kLongestLine.
+  /// Goes to the next line that is not blank, and waits for it. Returns false after the last one.
+  /// Throws InputError when reading fails, or if the line is longer than kLongestLine.
   bool next();
-  /// Whether next() returns without waiting: a whole line has arrived, or the end. Throws as
-  /// next().
+  /// Whether next() returns without waiting: a whole line, or the end of the input, has arrived.
+  /// Throws what next() throws.
   bool is_ready();
 
   /// The current line, without its line end and without blanks around it, until the next call of
   /// next() or is_ready().
   std::string_view line() const { return line_; }
-  /// The number of the current line, from 1. After the end: of the last line, or 1 in an empty
-  /// file.
+  /// The number of the current line, from 1. After the end, it is that of the last line, or 1 if
+  /// the file is empty.
   std::size_t number() const { return std::max<std::size_t>(number_, 1); }
   /// Whether the current line is the last one and has no line feed.
   bool ends_within_line() const { return ends_within_line_; }
 
   /// The file, or "standard input".
   const std::string& name() const { return file_; }
-  /// An error in the current line.
+  /// An error that names the current line.
   InputError error(const std::string& message) const { return {file_, number(), message}; }
 
  private:
@@ -56,10 +56,10 @@ class TextReader {
 
   std::string file_;
   int descriptor_;
-  std::string buffer_;     ///< what was read, without the lines before begin_
-  std::size_t begin_ = 0;  ///< of the first line that is not yet taken
-  std::size_t end_ = 0;    ///< Between begin_ and here, there is no line feed.
-  bool at_end_ = false;    ///< whether all is read
+  std::string buffer_;     ///< what was read; the next read erases the lines before begin_
+  std::size_t begin_ = 0;  ///< where the first line begins that is not yet taken
+  std::size_t end_ = 0;    ///< from begin_ to here, there is no line feed
+  bool at_end_ = false;    ///< whether the input is read to its end
   std::string_view line_;
   std::size_t number_ = 0;
   bool ends_within_line_ = false;

@@ -56,8 +56,9 @@ void split_cells(std::string_view line, std::vector<std::string_view>& cells, ch
 
 std::optional<double> parse_number(std::string_view text) {
 #ifdef __cpp_lib_to_chars
-  // This reads what is usual, in a quarter of the time. It leaves the rest to strtod: signs and
-  // bases that it does not know, and numbers that are too large or too small.
+  // std::from_chars() reads the usual numbers in a quarter of the time. The rest is left to
+  // strtod(): signs and bases that from_chars() does not know, and numbers that are too large or
+  // too small.
   double usual = 0.0;
   const char* const last = text.data() + text.size();
   const auto [stopped, refusal] = std::from_chars(text.data(), last, usual);

@@ -48,18 +48,18 @@ std::optional<double> parse_number(std::string_view text);
 /// The integer that the whole `text` stands for. None if it is not an integer of 64 bits.
 std::optional<long long> parse_integer(std::string_view text);
 
-/// The options of a program. An option is given as `--name value` or `--name=value`, and a flag as
-/// `--name`. Each program has --help. Names are given without dashes.
+/// The options of a program. A user gives an option as `--name value` or `--name=value`, and a flag
+/// as `--name`. Each program has --help. The functions take names without dashes.
 class CommandLine {
  public:
   /// Takes the text of an option. Returns false if it is illegal, or throws std::invalid_argument,
   /// whose message says what is legal.
   using Take = std::function<bool(const std::string& text)>;
 
-  /// `program`: named in each refusal.
+  /// `program`: the name that begins each refusal.
   explicit CommandLine(std::string program);
 
-  // The options that the program has. What is not given stays as it is.
+  // These add an option of the program. If the user does not give it, its variable stays as it is.
   void flag(const std::string& name, bool& is_given);
   /// A text that is not empty.
   void text(const std::string& name, std::string& value);
@@ -72,10 +72,10 @@ class CommandLine {
   /// A finite number from `least` to `most`.
   void number(const std::string& name, double& value, double least, double most);
 
-  /// Reads the words behind the program's name. The words that belong to no option go to `files`,
-  /// or are refused if it is null. Returns false if --help or -h is among the words: the others are
-  /// then not read. Throws InputError for options that are unknown, repeated, without value or
-  /// illegal.
+  /// Reads the words behind the program's name. The words that belong to no option go to `files`.
+  /// If `files` is null, they are refused. Returns false if --help or -h is among the words, and
+  /// then reads no other word. Throws InputError for options that are unknown, repeated, without
+  /// value or illegal.
   bool read(const std::vector<std::string>& words, std::vector<std::string>* files = nullptr) const;
 
   /// Throws InputError with this message.

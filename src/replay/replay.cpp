@@ -16,12 +16,13 @@
 namespace organ_collision {
 namespace {
 
-/// rosbag record writes with several threads, so the times of recording may go back by a little
-/// although no clock jumped.
+/// The times of recording may go back by this much although no clock jumped, because rosbag record
+/// writes with several threads.
 const ros::Duration kDisorder(0.1);
-/// Through a longer gap in the bag, the node does not tick.
+/// If no message was recorded for longer than this, no ticks are replayed in the gap.
 const ros::Duration kLongestGap(10.0);
-/// After a longer silence, the node may have taken a step before the next message.
+/// If no message was recorded for longer than this, the node may have taken a step of its own
+/// before the next message.
 const ros::Duration kSilence(1.0);
 
 }  // namespace
@@ -95,7 +96,7 @@ void Replay::take(const rosbag::MessageInstance& message) {
   const auto [first, last] = handlers_.equal_range(message.getTopic());
   for (auto handler = first; handler != last; ++handler) handler->second(message);
   pipeline_.watch_clock();
-  // A shape whose time ends now may still get its transform from another message of this time.
+  // A shape whose deadline is now may still get its transform from another message of this time.
   pipeline_.steps.evaluate(steady(now_) - std::chrono::nanoseconds(1));
 }
 
@@ -145,8 +146,8 @@ void Replay::evaluate_deadlines(ros::Time time) {
   }
 }
 
-/// The time that shapes wait. It begins with the first time of the bag: messages before the first
-/// /clock do not wait until then.
+/// The time by which shapes wait: it counts from the first time of the bag. It is 0 before that, so
+/// that shapes before the first /clock do not seem to have waited since the year 1970.
 SteadyTime Replay::steady(ros::Time time) const {
   if (start_.isZero()) return {};
   return SteadyTime(std::chrono::nanoseconds(time.toNSec() - start_.toNSec()));

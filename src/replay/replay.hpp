@@ -21,9 +21,9 @@ class Replay {
   /// Gets each answer, with the time at which it was given.
   using Answer = std::function<void(const ContactArray&, ros::Time)>;
 
-  /// `node`: the full name under which the node's topics were recorded. `follows_clock`: the bag
-  /// has /clock, which is the time; otherwise the time is that at which messages were recorded.
-  /// `parameters` and `tools` must outlive this. Throws GlError.
+  /// `node`: the full name under which the node's topics were recorded. `follows_clock`: if true,
+  /// the time is that of /clock in the bag; otherwise, it is the time at which messages were
+  /// recorded. `parameters` and `tools` must outlive this. Throws GlError.
   Replay(const NodeParameters& parameters, const std::vector<Tool>& tools, const std::string& node,
          bool follows_clock, Answer answer);
 

@@ -54,7 +54,7 @@ is shown on stderr.
 struct ReplayOptions {
   std::string in, out;
   std::string parameters;                              ///< the yaml file
-  std::string node = std::string("/") + names::kNode;  ///< under which its topics were recorded
+  std::string node = std::string("/") + names::kNode;  ///< the node's name in the bag
   bool with_input = false;
 };
 
@@ -89,7 +89,7 @@ std::string incomplete(const std::string& file) { return file + ".incomplete"; }
 /// back would mix the times before and after the jump.
 class RecordedMessages : private rosbag::View {
  public:
-  /// Those of the connections for which `is_wanted` returns true. `bag` must outlive this.
+  /// The messages of the connections for which `is_wanted` returns true. `bag` must outlive this.
   RecordedMessages(const rosbag::Bag& bag,
                    const std::function<bool(const rosbag::ConnectionInfo&)>& is_wanted)
       : View(bag, [&](const rosbag::ConnectionInfo* info) { return is_wanted(*info); }), bag_(bag) {
@@ -98,7 +98,7 @@ class RecordedMessages : private rosbag::View {
         places_.push_back({*entry, range->connection_info});
       }
     }
-    // A bag is written from its beginning to its end.
+    // A bag is written from its beginning to its end, so positions in the file tell the order.
     std::sort(places_.begin(), places_.end(), [](const Place& a, const Place& b) {
       return std::tie(a.entry.chunk_pos, a.entry.offset) <
              std::tie(b.entry.chunk_pos, b.entry.offset);
@@ -131,9 +131,9 @@ class RecordedMessages : private rosbag::View {
   std::vector<Place> places_;
 };
 
-/// The bag that gets the answers. It has its name only when it is complete: before that it is
-/// NAME.incomplete, and a bag that is never completed is removed. The functions throw
-/// std::runtime_error if the file cannot be written.
+/// The bag that gets the answers. Until it is complete, its file is NAME.incomplete. A bag that is
+/// never completed is removed. The functions throw std::runtime_error if the file cannot be
+/// written.
 class AnswerBag {
  public:
   /// Throws InputError if the file cannot be written.
@@ -159,7 +159,7 @@ class AnswerBag {
 
   void add(const ContactArray& answer, ros::Time time) {
     ++counts_[answer.status];
-    write(topic_, std::max(time, ros::TIME_MIN), answer);  // No time is zero.
+    write(topic_, std::max(time, ros::TIME_MIN), answer);  // rosbag refuses time zero.
   }
 
   void copy(const rosbag::MessageInstance& message) {
@@ -172,7 +172,7 @@ class AnswerBag {
     incomplete_.clear();
   }
 
-  /// "1840 answers on /organ_collision/contacts: 1836 ok, 4 no transform"
+  /// For example "1840 answers on /organ_collision/contacts: 1836 ok, 4 no transform".
   std::string summary() const {
     std::size_t all = 0;
     std::string by_status;
@@ -198,13 +198,14 @@ class AnswerBag {
   std::string topic_;
   std::string incomplete_;
   rosbag::Bag bag_;
-  std::map<std::uint8_t, std::size_t> counts_;  ///< of answers, by status
+  std::map<std::uint8_t, std::size_t> counts_;  ///< the number of answers, by status
 };
 
-/// Throws InputError if something is there that the output must not replace.
+/// Throws InputError if the output would replace the input, or something that is no regular file.
 void check_files(const ReplayOptions& options) {
   for (const std::string& written : {options.out, incomplete(options.out)}) {
-    std::error_code ignored;  // What cannot be looked at cannot be written, which is told then.
+    // If a file cannot be examined here, an error is reported when it is written.
+    std::error_code ignored;
     const auto status = std::filesystem::symlink_status(written, ignored);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
       throw InputError("replay: " + written +

@@ -15,7 +15,8 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// A file may contain itself, or contain one part very often.
+/// The most levels and values of a file. By aliases, a yaml file may contain itself, or one part
+/// very often.
 constexpr int kMostLevels = 50;
 constexpr int kMostNodes = 1'000'000;
 
@@ -52,7 +53,7 @@ class Converter {
     bool flag = false;
     int whole = 0;
     double number = 0.0;
-    // The parameter server takes y and n, which YAML::convert takes for flags, as texts.
+    // YAML::convert takes y and n for flags, and the parameter server takes them for texts.
     if (is_plain && text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
     if (is_plain && YAML::convert<int>::decode(node, whole)) return whole;
     if (is_plain && YAML::convert<double>::decode(node, number)) return number;
@@ -131,7 +132,7 @@ NodeParameters YamlParameters::node_parameters() const {
   const XmlRpcValue& group = *find(tree_, node_);
   NodeParameters parameters = parse_parameters<NodeParameters>(group);
   if (!node_.empty()) return parameters;
-  // The descriptions of robots, which stand beside the node's parameters, are not misspelt.
+  // The descriptions of robots stand beside the node's parameters. They are no misspelt parameters.
   std::set<std::string> robots;
   for (const ToolParameters& tool : parameters.tools) {
     robots.insert(first_part(without_slash(tool.robot_description)));

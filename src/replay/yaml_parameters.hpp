@@ -24,7 +24,7 @@ class YamlParameters {
  private:
   std::string file_;
   XmlRpc::XmlRpcValue tree_;
-  std::string node_;  ///< the node's namespace in the tree; empty: the tree is that namespace
+  std::string node_;  ///< the node's namespace in the tree; empty: it is the whole tree
 };
 
 }  // namespace organ_collision

@@ -105,20 +105,21 @@ void remove_byte_order_mark(const std::string& file, std::string& content) {
   content.erase(0, kMark.size());
 }
 
-/// assimp reads PLY files also if their first line is in capitals.
+/// Whether assimp reads the file as PLY. The first line may also be in capitals.
 bool is_ply(const std::string& content) { return boost::istarts_with(content, "ply"); }
 
-/// If the header of a PLY file has no end, as in a truncated file, assimp never stops reading.
+/// Refuses a PLY file whose header has no end, as in a truncated file: assimp never stops reading
+/// it.
 void check_ply_header(const std::string& content) {
   if (is_ply(content) && !has_line(content, "end_header")) {
     throw ToolError("its header has no line end_header; the file may be cut off");
   }
 }
 
-/// Checks what not all importers of assimp check, but its post-processing relies on: the vertex
-/// indices, and the number of corners. In a PLY file, each triangle takes at least a byte: the
-/// index of one more corner. assimp gives each face as many corners as it claims, even if the file
-/// ends before them.
+/// Checks the vertex indices and the number of triangles. The post-processing of assimp relies on
+/// them, but not all of its importers check them. In a PLY file, each triangle takes at least a
+/// byte: the index of one more corner. assimp gives each face as many corners as the file claims,
+/// even if the file ends before them.
 void check_faces(const aiScene& scene, const std::string& content) {
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene.mNumMeshes; ++i) {
@@ -150,7 +151,7 @@ RobotShape parse(const std::string& file, const std::string& content, const Affi
   importer.SetIOHandler(
       std::make_unique<NoOtherFiles>().release());  // The importer becomes the owner.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  // Otherwise assimp would add triangles in the shape of the nodes to a file without triangles.
+  // Otherwise, assimp would add triangles that depict the skeleton to a file without triangles.
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   const aiScene* scene =
       importer.ReadFileFromMemory(content.data(), content.size(), 0, extension(file).c_str());

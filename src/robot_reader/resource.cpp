@@ -31,7 +31,8 @@ void limit(Resource resource, rlim_t value) {
   throw std::system_error(errno, std::generic_category(), "setrlimit");
 }
 
-/// Zero: never. Returns whether it succeeded.
+/// Makes SIGPROF end the process after this processor time; zero: never. Returns false if that
+/// fails.
 bool set_timer(std::chrono::milliseconds time) {
   itimerval timer{};
   timer.it_value.tv_sec = time.count() / 1000;
@@ -46,7 +47,7 @@ const std::string kFile = "file://";
   throw ToolError("cannot read '" + name + "': " + why);
 }
 
-/// Follows symbolic links.
+/// The content of a regular file. Follows symbolic links. Throws ToolError.
 std::string read_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -116,7 +117,7 @@ void limit_process() {
 #ifndef ORGAN_COLLISION_SANITIZED  // Sanitizers reserve terabytes of address space.
   limit(RLIMIT_AS, reader_limits::kMemoryBytes);
 #endif
-  // Not RLIMIT_CORE: it has no effect where the kernel pipes core dumps to a program.
+  // RLIMIT_CORE is not enough: it has no effect where the kernel pipes core dumps to a program.
   prctl(PR_SET_DUMPABLE, 0);
 }
 

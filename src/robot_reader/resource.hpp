@@ -8,8 +8,9 @@ namespace organ_collision {
 /// Applies reader_limits to this process, and stops it from dumping core. Throws std::system_error.
 void limit_process();
 
-/// Ends this process, by the signal SIGPROF, if it takes so much processor time from now on until
-/// this is destroyed. There may be only one at a time. The constructor throws std::system_error.
+/// While an object of this class lives, this process may take at most `time` of processor time. The
+/// signal SIGPROF ends it after that. Only one such object may exist at a time. The constructor
+/// throws std::system_error.
 class ScopedTimeLimit {
  public:
   explicit ScopedTimeLimit(std::chrono::milliseconds time);

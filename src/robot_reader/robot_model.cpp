@@ -17,7 +17,7 @@ using Eigen::Vector3d;
 Vector3d to_eigen(const urdf::Vector3& vector) { return {vector.x, vector.y, vector.z}; }
 
 /// While an object of this class lives, collects the errors that urdfdom logs through
-/// console_bridge. What else it logs is left out.
+/// console_bridge. Everything else that urdfdom logs is dropped.
 class ScopedErrorCollector : public console_bridge::OutputHandler {
  public:
   explicit ScopedErrorCollector(std::vector<std::string>& errors) : errors_(errors) {
@@ -82,7 +82,7 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
   return shape;
 }
 
-/// The shapes of collision or visual elements.
+/// The shapes of a link's collision elements, or of its visual elements.
 template <typename Elements>
 std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& about_to_read) {
   std::vector<RobotShape> shapes;
@@ -92,8 +92,8 @@ std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& a
   return shapes;
 }
 
-/// Throws ToolError if there is no such link, or a shape or mesh cannot be read. `errors`: those of
-/// urdfdom, also about links that it read in part.
+/// Throws ToolError if there is no such link, or a shape or mesh cannot be read. `errors`: all
+/// errors of urdfdom, also about links that it read only in part.
 RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::string>& errors,
                     const std::string& name, const AboutToRead& about_to_read) {
   const urdf::LinkConstSharedPtr link = model.getLink(name);

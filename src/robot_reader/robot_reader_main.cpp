@@ -1,5 +1,5 @@
-// Reads links of a robot for the node. A broken file may end this program, but not the node. For
-// standard output, see robot_reply.hpp.
+// Reads links of a robot for the node. A broken file may end this program, but not the node.
+// robot_reply.hpp describes what it writes to standard output.
 
 #include <unistd.h>
 

@@ -60,7 +60,7 @@ using Eigen::Vector3d;
 /// Each three consecutive points are a triangle, with its outward normal by the right-hand rule.
 using TrianglePoints = std::vector<Vector3d>;
 
-/// [1] Length of the head of RViz's arrows, by that of the arrow.
+/// [1] The length of the head of an arrow in RViz, divided by the length of the arrow.
 constexpr double kArrowHead = 0.23;
 constexpr int kMeridians = 48;
 constexpr int kRings = 24;
@@ -72,8 +72,8 @@ struct ProfilePoint {
   double radius, z;
 };
 
-/// The solid whose profile goes from its lowest point to its highest one. The first meridian is at
-/// the angle `first` [rad] from x.
+/// The surface of a solid of revolution. `profile`: from its lowest point to its highest one. The
+/// first meridian is at the angle `first` [rad] from x.
 TrianglePoints solid_of_revolution(const std::vector<ProfilePoint>& profile,
                                    int meridians = kMeridians, double first = 0.0) {
   const auto revolved = [&](const ProfilePoint& point, int meridian) {
@@ -92,7 +92,7 @@ TrianglePoints solid_of_revolution(const std::vector<ProfilePoint>& profile,
   return points;
 }
 
-// Around the origin, with length, width and height 1.
+// Shapes around the origin, with length, width and height 1.
 
 TrianglePoints unit_cube() {
   const double radius = std::sqrt(0.5);
@@ -114,16 +114,16 @@ TrianglePoints unit_sphere() {
   return solid_of_revolution(profile);
 }
 
-/// The header's frame is the target.
+/// The pose of a marker in the frame of its header.
 Eigen::Isometry3d pose_of(const Marker& marker) {
   const geometry_msgs::Quaternion& q = marker.pose.orientation;
   const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
-  const bool is_empty = rotation.norm() == 0.0;  // RViz accepts it, too.
+  const bool is_empty = rotation.norm() == 0.0;  // RViz accepts a zero quaternion, too.
   return Eigen::Translation3d(to_eigen(marker.pose.position)) *
          (is_empty ? Eigen::Quaterniond::Identity() : rotation.normalized());
 }
 
-/// One marker on its way into the picture.
+/// Turns one marker into the triangles of a picture.
 class Drawing {
  public:
   Drawing(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
@@ -175,7 +175,7 @@ class Drawing {
         concatenate("it has ", marker_.points.size(), " points; must be a multiple of ", size));
   }
 
-  /// Of a point of a list.
+  /// The colour of a point of a list.
   Colour colour_at(std::size_t point) const {
     return colour_of(marker_.colors.empty() ? marker_.color : marker_.colors[point]);
   }
@@ -193,11 +193,12 @@ class Drawing {
     return {channel(colour.r), channel(colour.g), channel(colour.b), channel(colour.a)};
   }
 
-  /// A shape in the marker's frame, lit, in one colour.
+  /// Adds a shape that is lit and has one colour. `points`: the triangles of the shape, in its own
+  /// frame.
   void add_solid(TrianglePoints points, const Affine3d& T_marker_shape) {
     const Affine3d T_picture_shape = T_picture_marker_ * T_marker_shape;
     for (Vector3d& point : points) point = T_picture_shape * point;
-    if (T_picture_shape.linear().determinant() < 0.0) {  // It would be inside out.
+    if (T_picture_shape.linear().determinant() < 0.0) {  // A mirrored shape would be inside out.
       for (std::size_t i = 0; i + 2 < points.size(); i += 3)
         std::swap(points[i + 1], points[i + 2]);
     }
@@ -228,7 +229,7 @@ class Drawing {
     }
   }
 
-  /// Lines from point i to i + 1, for each `step`-th point i.
+  /// Adds a line from point i to point i + 1, for each multiple i of `step`.
   void add_lines(std::size_t step) {
     check_colours();
     for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
@@ -242,8 +243,8 @@ class Drawing {
     }
   }
 
-  /// From the first point to the second one. scale: diameters of shaft and head, length of the
-  /// head.
+  /// Adds an arrow from the first point to the second one. The scale of an arrow marker has the
+  /// diameters of its shaft and of its head, and the length of its head.
   void add_arrow() {
     const std::size_t count = marker_.points.size();
     if (count != 2) throw InputError(concatenate("it has ", count, " points; must be 2"));
@@ -280,7 +281,7 @@ void add_marker(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
 
 std::vector<Vector3d> smooth_normals(const TrianglePoints& triangles) {
   const auto key = [](const Vector3d& p) { return std::array<double, 3>{p.x(), p.y(), p.z()}; };
-  std::vector<Vector3d> areas;  // Of each face: its normal, as long as twice its area.
+  std::vector<Vector3d> areas;  // A normal for each face, as long as twice its area.
   std::map<std::array<double, 3>, std::vector<std::size_t>> faces_at;
   for (std::size_t i = 0; i + 2 < triangles.size(); i += 3) {
     for (std::size_t corner = i; corner < i + 3; ++corner) {

@@ -24,10 +24,11 @@ class MarkerStore {
   struct Entry {
     visualization_msgs::Marker marker;
     ros::Time received;
-    std::optional<Eigen::Isometry3d> T_fixed_header;  ///< none: its transform is not known yet
+    std::optional<Eigen::Isometry3d> T_fixed_header;  ///< none: the transform is not known yet
   };
 
-  /// T_fixed_frame at a stamp (0: the latest one), or none if it is not known.
+  /// Returns the pose of a frame in the fixed frame at a stamp (0: the latest pose), or none if it
+  /// is not known.
   using Lookup = std::function<std::optional<Eigen::Isometry3d>(const std::string& frame,
                                                                 const ros::Time& stamp)>;
 
@@ -49,11 +50,11 @@ class MarkerStore {
 };
 
 /// Adds the triangles of a marker, as RViz shows it: a list of triangles with a colour for each
-/// corner has no light, and lines face the viewer. Unlike in RViz, surfaces are smooth. Draws the
-/// types that the nodes and examples of the package publish, except texts, which add nothing.
-/// `T_picture_header`: the pose of the marker's header frame in the picture's frame. `axes`: of the
-/// camera, as in Camera. Throws InputError if the marker is illegal or of another type; then
-/// nothing is added.
+/// corner is not lit, and lines face the viewer. Unlike in RViz, surfaces are smooth. Draws the
+/// types of markers that the nodes and examples of the package publish, except texts, which add
+/// nothing. `T_picture_header`: the pose of the marker's header frame in the picture's frame.
+/// `axes`: the camera's axes, as in Camera. Throws InputError if the marker is illegal or of
+/// another type; then nothing is added.
 void add_marker(const visualization_msgs::Marker& marker, const Eigen::Isometry3d& T_picture_header,
                 const Eigen::Matrix3d& axes, PictureTriangles& picture);
 

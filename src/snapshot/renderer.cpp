@@ -19,16 +19,16 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// [1] The part of the picture that automatic framing uses.
+/// [1] Automatic framing fills this share of the picture.
 constexpr double kFilled = 0.94;
-/// [m] The eye never comes closer to the target.
+/// [m] The least distance of the eye from the target in automatic framing.
 constexpr double kClosest = 1e-3;
 
 double half_height() { return std::tan(0.5 * kFieldOfView); }
 
 // The light comes from above the viewer's left shoulder.
 const Vector3d kToLight = Vector3d(-0.35, 0.55, 0.75).normalized();
-const Vector3d kHalfway = (kToLight + Vector3d::UnitZ()).normalized();  // between light and viewer
+const Vector3d kHalfway = (kToLight + Vector3d::UnitZ()).normalized();  // halfway to both
 constexpr double kAmbient = 0.30;
 constexpr double kDiffuse = 0.75;
 constexpr double kSpecular = 0.18;
@@ -36,8 +36,8 @@ constexpr double kShininess = 30.0;
 
 /// [1] Each pixel has this number of samples along each side.
 constexpr int kSamples = 3;
-/// [1] Without triangles close to the eye, the nearest visible depth by the farthest one. The depth
-/// buffer is finer for larger values.
+/// [1] The least ratio of the nearest visible depth to the farthest one. What is nearer is cut off.
+/// With a larger ratio, the depth buffer is finer.
 constexpr double kNearByFar = 1e-3;
 
 /// A vertex as GL reads it, in camera coordinates. Their origin is the eye, so 32 bits are enough
@@ -51,7 +51,8 @@ using GlTriangle = std::array<GlVertex, 3>;
 
 struct CameraTriangles {
   std::vector<GlTriangle> opaque, transparent;
-  double near = std::numeric_limits<double>::infinity(), far = 0.0;  ///< depths [m]
+  /// [m] The nearest and the farthest visible depth.
+  double near = std::numeric_limits<double>::infinity(), far = 0.0;
 };
 
 GlTriangle seen(const PictureVertex* corners, const Camera& camera) {
@@ -145,7 +146,8 @@ Eigen::Matrix4d projection(double aspect, double near, double far) {
 }
 
 Colour lit(const Colour& colour, const Vector3d& normal) {
-  // Half of Lambert's light also reaches what faces away, so that no part becomes flat and black.
+  // Unlike in Lambert's law, some light reaches faces that are turned away, so that no part becomes
+  // flat and black.
   const double facing = 0.5 + 0.5 * normal.dot(kToLight);
   const double gloss = std::pow(std::max(0.0, normal.dot(kHalfway)), kShininess);
   const auto light = static_cast<float>(kAmbient + kDiffuse * facing * facing);

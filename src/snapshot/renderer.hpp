@@ -24,7 +24,7 @@ using PictureTriangles = std::vector<PictureVertex>;
 /// A perspective camera. Camera coordinates: x to the right, y upwards, z towards the viewer.
 struct Camera {
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: camera's x, y, z in the frame
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< columns: the camera's x, y and z axes
 
   Eigen::Vector3d to_camera(const Eigen::Vector3d& point) const {
     return axes.transpose() * (point - eye);
@@ -34,12 +34,12 @@ struct Camera {
 /// [rad] The vertical field of view, as in RViz.
 inline constexpr double kFieldOfView = 0.785;
 
-/// The centre of the box around the triangles, which is aligned with the frame. There must be a
-/// triangle.
+/// The centre of the box around the triangles, with its sides along the axes of the frame. There
+/// must be a triangle.
 Eigen::Vector3d centre(const PictureTriangles& triangles);
 
 /// The smallest distance of the eye from `target` at which all triangles are in the picture, with a
-/// margin around them. `aspect`: width of the picture by its height.
+/// margin around them. `aspect`: the width of the picture divided by its height.
 double framing_distance(const PictureTriangles& triangles, const Eigen::Vector3d& target,
                         const Eigen::Matrix3d& axes, double aspect);
 

@@ -73,15 +73,15 @@ struct SnapshotOptions {
   std::vector<std::string> hidden;  ///< namespaces of markers
   std::string output = "snapshot.png";
   Eigen::Vector2i size{800, 600};          ///< [pixel] width and height
-  Eigen::Vector3d to_eye{1.0, -1.0, 0.8};  ///< direction from the target to the viewer
+  Eigen::Vector3d to_eye{1.0, -1.0, 0.8};  ///< the direction from the target to the viewer
   std::optional<Eigen::Vector3d> target;   ///< [m] none: the centre of the scene
   double distance = 0.0;                   ///< [m] 0: the whole scene is in the picture
   std::string frame;                       ///< empty: the frame of the first marker
   Colour background{0.157F, 0.176F, 0.212F, 1.0F};
-  double after_sec = 0.5;     ///< from the first marker to the first picture
+  double after_sec = 0.5;     ///< the time from the first marker to the first picture
   std::size_t frames = 0;     ///< 0: one picture, which is no sequence
-  double rate = 10.0;         ///< [Hz] pictures of a sequence
-  double timeout_sec = 10.0;  ///< of the wall clock
+  double rate = 10.0;         ///< [Hz] the rate of the pictures of a sequence
+  double timeout_sec = 10.0;  ///< the longest time to wait for a marker, by the wall clock
 };
 
 constexpr int kShortestSide = 16;       // [pixel]
@@ -107,7 +107,7 @@ std::optional<Eigen::Vector3d> vector(const std::string& text) {
   return Eigen::Vector3d(parts[0], parts[1], parts[2]);
 }
 
-/// AZIMUTH,ELEVATION in degrees, or X,Y,Z.
+/// The unit vector to the viewer, from a text AZIMUTH,ELEVATION in degrees, or X,Y,Z.
 std::optional<Eigen::Vector3d> view(const std::string& text) {
   const std::vector<double> parts = numbers(text);
   if (parts.size() == 2) {
@@ -135,7 +135,8 @@ std::optional<Colour> colour(const std::string& text) {
   return Colour(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255, 255) / 255.0F;
 }
 
-/// Sets `value` to what `read` makes of the text of an option, if it makes something of it.
+/// Takes the text of an option: sets `value` to the result of `read`. The text is illegal if there
+/// is none.
 template <typename Value, typename Read>
 CommandLine::Take set(Value& value, Read read) {
   return [&value, read](const std::string& text) {
@@ -165,7 +166,7 @@ std::optional<SnapshotOptions> parse_options(const std::vector<std::string>& arg
               set(options.size, size));
   line.option("background", "#RRGGBB in hexadecimal digits, for example '#ffffff'",
               set(options.background, colour));
-  line.count("frames", options.frames, 9999);  // Their files have four digits.
+  line.count("frames", options.frames, 9999);  // The names of the files have four digits.
   line.number("rate", options.rate, 0.01, 1000.0);
   if (!line.read(arguments)) return std::nullopt;
   if (!topics.empty()) options.topics = topics;
@@ -268,7 +269,7 @@ class Snapshot {
     return "the markers of frame '" + frame + "' have no transform: " + error;
   }
 
-  /// Simulated time may be slow, but it must go on.
+  /// Waits until a time. Simulated time may be slow, but it must go on.
   void wait_for(const ros::Time& time) {
     ros::Time now = ros::Time::now();
     ros::SteadyTime changed = ros::SteadyTime::now();
@@ -327,24 +328,24 @@ class Snapshot {
     is_framed_ = true;
   }
 
-  /// Says everything only once.
+  /// Prints each warning only once.
   void warn(const std::string& message) {
     if (said_.insert(message).second) std::cerr << "snapshot: " << message << std::endl;
   }
 
   const SnapshotOptions& options_;
-  Eigen::Matrix3d axes_;  ///< of the camera
-  std::string frame_;     ///< the fixed frame; empty: that of the first marker
+  Eigen::Matrix3d axes_;  ///< the axes of the camera
+  std::string frame_;     ///< the fixed frame; empty until the first marker gives it
   ros::NodeHandle node_;
   MarkerStore markers_;
-  std::map<std::string, std::string> missing_transforms_;  ///< by frame: the error of TF
+  std::map<std::string, std::string> missing_transforms_;  ///< for each frame, the error of TF
   tf2_ros::Buffer buffer_;
   tf2_ros::TransformListener listener_{buffer_};
   std::vector<ros::Subscriber> subscribers_;
   Renderer renderer_;
   Camera camera_;
   bool is_framed_ = false;
-  double latest_ = 0.0;  ///< [s] by which a picture was taken too late
+  double latest_ = 0.0;  ///< [s] the largest delay of a picture
   std::set<std::string> said_;
 };
 

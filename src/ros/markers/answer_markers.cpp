@@ -11,7 +11,7 @@ using Eigen::Vector3d;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-// Lengths are shares of the organ's size.
+// In this file, lengths are shares of the organ's size.
 constexpr double kTextHeight = 0.03;
 constexpr std::size_t kLongestReason = 100;  // [bytes]
 
@@ -58,7 +58,7 @@ void add_normals(const SceneOrgan& organ, const ContactArray& answer, double sha
 
 void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
                MarkerArray& picture) {
-  constexpr double kDistance = 0.15;  // From the contact.
+  constexpr double kDistance = 0.15;  // The distance of a name from its contact.
   std::map<std::uint32_t, const Contact*> by_link;
   for (const Contact& contact : answer.contacts) {
     const Contact*& known = by_link[contact.link];
@@ -94,8 +94,8 @@ Vector3d upward(const Vector3d& normal) {
 void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerArray& picture) {
   constexpr double kLineWidth = 4e-3;
   // The text is beside the line and away from the organ, so that neither tool nor organ hides it.
-  constexpr double kTextDistance = 0.10;  // From the line, at right angles to it.
-  constexpr double kTextLift = 0.06;      // From the organ.
+  constexpr double kTextDistance = 0.10;  // The distance of the text from the line.
+  constexpr double kTextLift = 0.06;      // The shift of the text away from the organ.
   if (clearance.state != Clearance::KNOWN) return;
   const Vector3d on_tool = to_eigen(clearance.on_tool), on_organ = to_eigen(clearance.on_organ);
   const MarkerStyle style{"clearance", organ.frame, colours::kClearance};
@@ -107,7 +107,7 @@ void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerAr
            picture);
 }
 
-/// ", 3.2 mm away"; empty if nothing is known.
+/// For example ", 3.2 mm away". Empty if the clearance was not asked for.
 std::string distance_text(const Clearance& clearance) {
   if (clearance.state == Clearance::KNOWN) {
     return rounded(", %.1f mm away", 1e3 * clearance.distance);
@@ -116,7 +116,8 @@ std::string distance_text(const Clearance& clearance) {
   return rounded(", more than %.1f mm away", 1e3 * clearance.margin);
 }
 
-/// ", tip inside, 32.1 mm of its axis inside"; empty if nothing is inside, or known to be.
+/// For example ", tip inside, 32.1 mm of its axis inside". Empty if nothing is known to be inside,
+/// or on the surface.
 std::string side_text(const ToolPlacement& placement) {
   std::string text;
   if (placement.tip == ToolPlacement::INSIDE) text += ", tip inside";
@@ -143,9 +144,9 @@ void add_surroundings(const SceneOrgan& organ, const ContactArray& answer, Marke
 
 void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
                    const ToolPlacement& placement, MarkerArray& picture) {
-  constexpr double kRadius = 2.5;        // Of a cone, as a multiple of the shaft's.
-  constexpr double kLeastRadius = 0.02;  // Of a cone, as a share of the organ's size.
-  constexpr double kLength = 2.0;        // Of a cone, as a multiple of its radius.
+  constexpr double kRadius = 2.5;  // The radius of a cone, as a multiple of the shaft's radius.
+  constexpr double kLeastRadius = 0.02;  // The least radius, as a share of the organ's size.
+  constexpr double kLength = 2.0;        // The length of a cone, as a multiple of its radius.
   // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
   const ArrowShape shape{0.01, 2.0 / kLength, 0.999};
   const double length = kLength * std::max(kRadius * radius, kLeastRadius * organ.size());
@@ -161,7 +162,7 @@ void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius
 
 void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
                 MarkerArray& picture) {
-  constexpr double kDistance = 0.15;  // Of the text from the organ's box.
+  constexpr double kDistance = 0.15;  // The distance of the text from the organ's box.
   constexpr double kLineSpacing = 0.09;
   std::string text = organ.name + ": " + counted(organ.mesh->face_count(), "face");
   bool failed = false;
@@ -191,7 +192,7 @@ std::string status_line(const std::string& tool, const ContactArrayConstPtr& ans
     return tool + ": touches nothing" + distance_text(answer->clearance) +
            side_text(answer->placement);
   }
-  // is_deeper() sorts the deepest first.
+  // By is_deeper(), the deepest contact is the least one.
   const double depth = std::min_element(contacts.begin(), contacts.end(), is_deeper)->depth;
   return tool + ": " + counted(contacts.size(), "contact") +
          rounded(", %.1f mm deep", 1e3 * depth) + side_text(answer->placement);

@@ -11,7 +11,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 constexpr char kSurface[] = "surface/";
-/// Markers that were not sent again for this many refresh times disappear: the node has ended.
+/// A marker disappears if it is not sent again within this many refresh times: the node has ended.
 constexpr double kLifetimes = 5.0;
 
 /// [s] A surface that rests is sent again after this time. Refreshing takes at most a tenth of what
@@ -24,7 +24,8 @@ int surface_marker_count(const SceneOrgan& organ) {
   return static_cast<int>((organ.mesh->face_count() + kFacesPerMarker - 1) / kFacesPerMarker);
 }
 
-/// The marker of a surface with this id. `number`: the organ's place among the organs.
+/// A marker with some of the faces of a surface: those for this id. `number`: the organ's place
+/// among the organs.
 Marker surface_marker(const SceneOrgan& organ, std::size_t number, int id) {
   const TriangleMesh& mesh = *organ.mesh;
   Marker surface = make_marker({kSurface + organ.name, organ.frame, colours::tissue(number)},
@@ -68,7 +69,8 @@ void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
   if (!picture->markers.empty()) publish(picture);
 }
 
-/// The new subscriber may still show what an earlier run of the node has published.
+/// Deletes all markers, and forgets which were sent. A new subscriber may still show what an
+/// earlier run of the node published.
 void MarkerPainter::start_anew(const Scene& scene, const Publish& publish) {
   shown_.clear();
   surfaces_.clear();
@@ -141,7 +143,7 @@ void MarkerPainter::add_tools(const Scene& scene, MarkerArray& picture) const {
 }
 
 /// Adds the faces that are touched or were touched lately, coloured by depth, at their present
-/// place. Of contacts at the same time, the deepest counts.
+/// place. If a face has several contacts at the same time, the deepest one counts.
 void MarkerPainter::add_touched(const Scene& scene, const SceneOrgan& organ,
                                 MarkerArray& picture) const {
   struct Touch {
@@ -170,7 +172,8 @@ void MarkerPainter::add_touched(const Scene& scene, const SceneOrgan& organ,
   add_marker(std::move(faces), picture);
 }
 
-/// Adds what the latest answer tells. If it has no contacts, the latest ones fade.
+/// Adds what the latest answer tells. If it has no contacts, the contacts of the last step that had
+/// any are shown, and fade.
 void MarkerPainter::add_answer(const Scene& scene, const ScenePair& pair,
                                MarkerArray& picture) const {
   const SceneOrgan* organ = scene.organ(pair.organ);
@@ -191,7 +194,8 @@ void MarkerPainter::add_answer(const Scene& scene, const ScenePair& pair,
   add_contacts(*organ, *step->answer, visibility(step->time, scene.time), picture);
 }
 
-/// Adds a DELETE for each marker that subscribers have beyond this picture and the surfaces.
+/// Adds a DELETE for each marker that subscribers have, and that is neither in this picture nor
+/// part of a surface that is shown.
 void MarkerPainter::delete_rest(const Scene& scene, MarkerArray& picture) {
   decltype(shown_) now;
   for (Marker& marker : picture.markers) {

@@ -6,12 +6,12 @@
 
 namespace organ_collision {
 
-/// The faces in one marker. A large surface consists of several markers, so that no message keeps
-/// for long a socket, with the messages of others, or roscpp's lock of all topics, which it holds
-/// while it writes a message into bytes.
+/// The most faces in one marker. A large surface consists of several markers, because a large
+/// message would block others for long: it occupies the socket, and roscpp holds its lock of all
+/// topics while it writes a message into bytes.
 inline constexpr std::size_t kFacesPerMarker = 2048;
-/// Surfaces with so many faces are sent once a second, and larger ones less often, whatever
-/// `surface_rate` is.
+/// A surface of this many faces is sent at most once a second, and a larger one less often,
+/// whatever `surface_rate` is.
 inline constexpr double kFacesPerSecond = 1e6;
 /// [s] A surface that rests is sent again after this time, for viewers that could not place it
 /// before. Large surfaces wait longer.
@@ -23,8 +23,8 @@ class MarkerPainter {
  public:
   using Publish = std::function<void(const visualization_msgs::MarkerArrayConstPtr&)>;
 
-  /// Publishes the markers of a scene, which is later than the one before: an array for each marker
-  /// of a surface that is due, then one with all other markers.
+  /// Publishes the markers of a scene: an array for each marker of a surface that is due, and then
+  /// an array with all other markers. The scene must be later than the one before.
   void paint(const Scene& scene, const Publish& publish);
 
  private:
@@ -46,13 +46,14 @@ class MarkerPainter {
                   visualization_msgs::MarkerArray& picture) const;
   void delete_rest(const Scene& scene, visualization_msgs::MarkerArray& picture);
 
-  std::map<std::string, Surface> surfaces_;  ///< by organ
-  /// What subscribers have: frames by namespace and id. RViz ignores a DELETE without a frame.
+  std::map<std::string, Surface> surfaces_;  ///< by the organ's name
+  /// The markers that subscribers have: the frame of each, by namespace and id. RViz ignores a
+  /// DELETE without a frame.
   std::map<std::pair<std::string, int>, std::string> shown_;
   std::deque<SceneStep> trail_;  ///< the recent steps, which fade
 
-  // The mean time of the queries of about a second, which changes once a second so that people can
-  // read it.
+  // The mean time of the queries within about a second. It changes only once a second, so that
+  // people can read it.
   SteadyTime mean_since_;
   double query_sec_sum_ = 0.0;
   std::size_t query_count_ = 0;

@@ -8,15 +8,15 @@
 namespace organ_collision {
 namespace {
 
-/// [messages] For each subscriber. A surface of two million faces has 977.
+/// [messages] The queue of each subscriber. A surface of two million faces takes 977 messages.
 constexpr std::uint32_t kQueue = 1200;
-/// After each message, so that roscpp's thread, which also receives organs and transforms, is never
-/// busy with markers for long.
+/// The pause after each message, so that roscpp's thread, which also receives organs and
+/// transforms, is never busy with markers for long.
 constexpr std::chrono::microseconds kPause(125);
 /// [Hz] If markers are switched off, an empty picture is drawn at this rate. It deletes what is
 /// still shown.
 constexpr double kEmptyRate = 1.0;
-/// [steps] The most that are kept for the next picture. If more come, all that are kept are
+/// The most steps that are kept for the next picture. If more come, all steps that are kept are
 /// dropped, and the picture does not show them.
 constexpr std::size_t kMostSteps = 1000;
 
@@ -25,7 +25,7 @@ constexpr std::size_t kMostSteps = 1000;
 MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const MarkerSettings& settings,
                                  const std::vector<Tool>& tools)
     : settings_(settings), tools_(std::make_shared<std::vector<Tool>>(tools)) {
-  // roscpp calls both through the node's queue, in the node's thread.
+  // roscpp calls both functions through the node's queue, in the node's thread.
   const ros::SubscriberStatusCallback come = [this](const ros::SingleSubscriberPublisher&) {
     ++subscribers_;
     anew_ = true;
@@ -85,7 +85,7 @@ void MarkerPublisher::update(const OrganRegistry& organs, const Views& views) {
   draw(std::move(*scene));
 }
 
-/// The scene of the next picture with the organs and tools, if one is due.
+/// The scene of the next picture, with organs and tools. std::nullopt if no picture is due.
 std::optional<Scene> MarkerPublisher::next_scene(const OrganRegistry& organs) {
   const SteadyTime now = std::chrono::steady_clock::now();
   if (subscribers_ == 0 || now < due_ || is_drawing_) return std::nullopt;

@@ -9,8 +9,8 @@
 namespace organ_collision {
 
 /// The topic of a node's markers. The node's thread only notes what there is to see. A thread of
-/// lower priority draws it, so that the node's thread does not wait. Without subscribers, both do
-/// nothing.
+/// lower priority draws it, so that the node's thread does not wait. Without subscribers, both
+/// threads do nothing.
 ///
 /// Only one thread may call these functions: the node's.
 class MarkerPublisher {
@@ -26,13 +26,13 @@ class MarkerPublisher {
   /// Notes a step: its contacts and its path leave traces in the next pictures.
   void add(const ToolStep& step);
 
-  // These draw a picture if one is due: somebody looks, the last picture is finished, and the time
-  // since it was due has passed. If markers are switched off, an empty picture is due now and then.
+  // These draw a picture if one is due: there is a subscriber, the last picture is finished, and it
+  // is time for the next one. If markers are switched off, an empty picture is due now and then.
 
   /// What the collision node has to show: organs, tools and answers.
   void update(const OrganRegistry& organs, const StepHistory& history);
-  /// What haptic_proxy has to show: hands, proxies and organs. Only if a picture is due, `views` is
-  /// called: it makes a view of each proxy. Their `size` is set here.
+  /// What haptic_proxy has to show: hands, proxies and organs. `views` makes a view of each proxy.
+  /// It is called only if a picture is due. The `size` of each view is set here.
   void update(const OrganRegistry& organs, const Views& views);
 
  private:
@@ -42,13 +42,13 @@ class MarkerPublisher {
 
   MarkerSettings settings_;
   std::shared_ptr<const std::vector<Tool>> tools_;
-  std::vector<SceneStep> steps_;  ///< since the last picture
+  std::vector<SceneStep> steps_;  ///< the steps since the last picture
   int subscribers_ = 0;
-  bool anew_ = false;  ///< there is a subscriber that knows nothing yet
+  bool anew_ = false;  ///< a subscriber has come that has received nothing yet
   SteadyTime due_;
   ros::Publisher markers_;
 
-  MarkerPainter painter_;  ///< of the drawing thread
+  MarkerPainter painter_;  ///< used by the drawing thread only
   std::atomic<bool> is_drawing_{false};
   QueueThread thread_;
 };

@@ -67,7 +67,7 @@ void add_point(Marker& list, const Vector3d& point) { list.points.push_back(tf2:
 
 void add_lifted_face(const SceneOrgan& organ, std::size_t face, const std_msgs::ColorRGBA& colour,
                      Marker& list) {
-  constexpr double kLift = 1e-3;  // A share of the organ's size.
+  constexpr double kLift = 1e-3;  // The distance from the surface, as a share of the organ's size.
   const Triangle corners = organ.mesh->triangle(face);
   const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
   for (const double lift : {kLift, -kLift}) {

@@ -27,23 +27,23 @@ struct SceneOrgan {
   std::string frame;
   std::shared_ptr<const TriangleMesh> mesh;
 
-  /// [m] The diagonal of its box. Widths of lines and heights of texts are shares of it.
+  /// [m] The diagonal of the organ's box. Widths of lines and heights of texts are shares of it.
   double size() const { return mesh->box().diagonal().cast<double>().norm(); }
 };
 
-/// What is known of a tool and an organ.
+/// What is known of one tool in relation to one organ.
 struct ScenePair {
   std::string organ;
   std::size_t tool;              ///< index into Scene::tools
-  ContactArrayConstPtr answer;   ///< the latest about the organ's present triangles; null: none yet
-  std::optional<ToolPose> pose;  ///< in the organ's frame, at the last successful step
+  ContactArrayConstPtr answer;   ///< the latest answer about the present triangles; null: none yet
+  std::optional<ToolPose> pose;  ///< the pose in the organ's frame at the last successful step
 };
 
 /// A step since the last picture.
 struct SceneStep {
   SteadyTime time;
   ContactArrayConstPtr answer;
-  SharedFaces faces;  ///< of the organ at that time
+  SharedFaces faces;  ///< the organ's triangles at that time
   ToolPath path;      ///< empty if the step failed
   double query_sec;
 };
@@ -52,24 +52,24 @@ struct SceneStep {
 struct ProxyView {
   Tool tool;
   std::string frame;             ///< the proxy's frame
-  std::optional<ToolPose> hand;  ///< in this frame; not set: it is not known
-  ProxyAnswer answer;            ///< to this hand
+  std::optional<ToolPose> hand;  ///< the hand's pose in this frame; not set: it is not known
+  ProxyAnswer answer;            ///< the answer to this pose of the hand
   double force = 0.0;            ///< [N] the magnitude of the force on the hand
-  double size = 0.1;             ///< [m] of the scene: widths and heights of texts are shares of it
+  double size = 0.1;  ///< [m] the scene's size: widths and heights of texts are shares of it
 };
 
 /// What one picture shows. It shares or copies everything, so that another thread can draw it.
 struct Scene {
   SteadyTime time;
   MarkerSettings settings;
-  bool anew = false;  ///< a subscriber has come that knows nothing yet
+  bool anew = false;  ///< a subscriber has come that has received nothing yet
   std::shared_ptr<const std::vector<Tool>> tools;
   std::vector<SceneOrgan> organs;
   std::vector<ScenePair> pairs;  ///< sorted by organ, then tool
   std::vector<SceneStep> steps;  ///< the oldest first
   std::vector<ProxyView> proxies;
 
-  /// Null if there is no such organ.
+  /// The organ with this name. Null if there is none.
   const SceneOrgan* organ(const std::string& name) const {
     for (const SceneOrgan& organ : organs) {
       if (organ.name == name) return &organ;
@@ -86,7 +86,7 @@ struct Scene {
   }
 };
 
-// What it is drawn with.
+// The colours.
 
 namespace colours {
 
@@ -105,10 +105,11 @@ inline const std_msgs::ColorRGBA kRegion = rgba(0.05F, 0.05F, 0.05F);
 inline const std_msgs::ColorRGBA kNormal = rgba(0.20F, 0.85F, 0.45F);
 inline const std_msgs::ColorRGBA kNearFace = rgba(0.35F, 0.85F, 0.95F, 0.80F);
 inline const std_msgs::ColorRGBA kClearance = rgba(0.35F, 0.95F, 1.00F);
-/// Where a shaft's axis enters and leaves an organ. Both differ also for the colour-blind.
+/// The places where a shaft's axis enters and leaves an organ. Colour-blind people can tell these
+/// colours apart, too.
 inline const std_msgs::ColorRGBA kEntering = rgba(1.00F, 0.65F, 0.10F);
 inline const std_msgs::ColorRGBA kLeaving = rgba(0.25F, 0.45F, 1.00F);
-/// A tool where the hand has it, while tissue holds its proxy back.
+/// The tool at the hand's pose, while tissue holds the proxy back.
 inline const std_msgs::ColorRGBA kHand = rgba(0.45F, 0.75F, 1.00F, 0.40F);
 /// The force of a proxy on the tissue.
 inline const std_msgs::ColorRGBA kLoad = rgba(1.00F, 0.80F, 0.15F);
@@ -118,18 +119,19 @@ inline const std_msgs::ColorRGBA kFailure = rgba(1.00F, 0.45F, 0.35F);
 /// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
 /// that the map distinguishes (dark violet). Values beyond are clamped.
 std_msgs::ColorRGBA depth(double share);
-/// The surface of an organ. `number`: its place among the organs; neighbours differ.
+/// The colour of an organ's surface. `number`: the organ's place among the organs. Consecutive
+/// organs have different colours.
 std_msgs::ColorRGBA tissue(std::size_t number);
-/// What a proxy does: its text, and the line between hand and proxy.
+/// The colour for the state of a proxy: for its text, and for the line between hand and proxy.
 std_msgs::ColorRGBA proxy(ProxyStatus state);
 /// The colour with its opacity multiplied by `share` in [0, 1].
 std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share);
 
 }  // namespace colours
 
-/// [s] What is no longer so fades within this time.
+/// [s] The trace of something that has ended, such as a contact, fades within this time.
 inline constexpr double kFadeSec = 0.5;
-/// How visible something is, `now`, that was new at `time`: from 1 down to 0.
+/// How visible the trace of something that happened at `time` is `now`: from 1 down to 0.
 double visibility(SteadyTime time, SteadyTime now);
 
 /// What markers of one kind have in common.
@@ -177,9 +179,10 @@ inline constexpr std::size_t kMostNearFaces = 2000;
 /// At most this many crossings of a tool and an organ are drawn: the first ones from the trocar.
 inline constexpr std::size_t kMostCrossings = 100;
 
-/// Adds the outlines of the regions, an arrow for each contact, along its normal, and the name of
-/// each link that touches, at its deepest contact. The arrow ends at the contact's end point. The
-/// name of a shaft is that of its tool. `share`: how visible arrows and names are, in [0, 1].
+/// Adds the outlines of the regions, and an arrow for each of the deepest contacts. The arrow
+/// points along the contact's normal and ends at its end point. Adds the name of each link that
+/// touches, at its deepest contact. A shaft has the name of its tool. `share`: how visible arrows
+/// and names are, in [0, 1].
 void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
                   visualization_msgs::MarkerArray& picture);
 
@@ -190,7 +193,7 @@ void add_surroundings(const SceneOrgan& organ, const ContactArray& answer,
 
 /// Adds a cone around the shaft for each place where its axis pierces the organ. The cones point
 /// along the axis and stand outside the organ: where the axis enters, the cone ends at the surface,
-/// and where it leaves, it begins there. `radius`: of the shaft [m].
+/// and where it leaves, it begins there. `radius`: the shaft's radius [m].
 void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
                    const ToolPlacement& placement, visualization_msgs::MarkerArray& picture);
 
@@ -199,15 +202,17 @@ void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius
 void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
                 visualization_msgs::MarkerArray& picture);
 
-/// "probe: 3 contacts, 1.2 mm deep, tip inside"; "probe: no transform: ..." if there is no answer.
+/// For example "probe: 3 contacts, 1.2 mm deep, tip inside". If the step failed, for example
+/// "probe: no transform: ...", with the message.
 std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer);
 
 // Tools.
 
-/// A mesh of a link with more faces is drawn as its bounding box, because the tools are sent with
-/// each picture.
+/// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
+/// with each picture.
 inline constexpr std::size_t kMostFacesOfTool = 5000;
-/// The trail of a tool has at most this many legs. The oldest ones are left out.
+/// The surface that a tool swept is drawn for at most this many legs (doc/geometry.md, Words). The
+/// oldest legs are left out.
 inline constexpr std::size_t kMostLegs = 2000;
 
 /// Adds the tool at a pose in the frame of the style: its shaft as a capsule, and the shapes of its
@@ -215,18 +220,18 @@ inline constexpr std::size_t kMostLegs = 2000;
 void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
               visualization_msgs::MarkerArray& picture);
 
-/// Adds the surface that the tool swept in these steps, the oldest of which come first: that of the
-/// shaft's axis, and of the longest axis of each part of the links. It fades with the age of the
-/// steps.
+/// Adds the surface that the tool swept in `steps`, which are sorted from the oldest to the newest.
+/// It consists of the surfaces swept by the shaft's axis, and by the longest axis of each part of
+/// the links. It fades with the age of the steps.
 void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
                const std::string& frame, SteadyTime now, visualization_msgs::MarkerArray& picture);
 
-/// The name of a state, as in msg/ProxyState.msg.
+/// The name of a proxy's state, as in msg/ProxyState.msg.
 std::string name_of(ProxyStatus state);
 
 /// Adds the proxy as a solid tool. If tissue holds it back, adds the hand as a translucent tool,
-/// the spring between the two as a line, and an arrow for each force on the tissue. Adds the state
-/// as a text above the tool's far end, and nothing else if there is no answer but the hand.
+/// the spring between the two as a line, and an arrow for each force on the tissue. If there is no
+/// answer, adds only the hand. Always adds the state as a text above the tool's far end.
 void add_proxy(const ProxyView& view, visualization_msgs::MarkerArray& picture);
 
 }  // namespace organ_collision

@@ -62,7 +62,7 @@ Marker link_part(const MarkerStyle& style, const Isometry3d& T_frame_link, const
                2.0 * (part.bounds.half_size + Vector3d::Constant(part.radius)));
 }
 
-/// The line in a link whose motion stands for that of a part.
+/// The longest axis of the box around a part. Its motion is drawn in place of the part's motion.
 ShaftAxis longest_axis(const LinkPart& part) {
   Eigen::Index longest = 0;
   part.bounds.half_size.maxCoeff(&longest);
@@ -70,7 +70,7 @@ ShaftAxis longest_axis(const LinkPart& part) {
   return {part.bounds.center - half, part.bounds.center + half};
 }
 
-/// The lines of a tool at a waypoint.
+/// The lines whose motion is drawn for a tool, at a waypoint.
 std::vector<ShaftAxis> lines_of(const Tool& tool, const ToolWaypoint& waypoint) {
   std::vector<ShaftAxis> lines;
   if (tool.parameters.has_shaft()) lines.push_back(waypoint.axis);
@@ -105,7 +105,7 @@ void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
 /// greatest force.
 void add_loads(const ProxyView& view, MarkerArray& picture) {
   constexpr double kLongest = 0.10;                  // A share of the scene's size.
-  std::vector<std::pair<Vector3d, Vector3d>> loads;  // Points and forces, divided by the stiffness.
+  std::vector<std::pair<Vector3d, Vector3d>> loads;  // Points, and forces divided by the stiffness.
   for (const ProxyContact& at : view.answer.contacts) {
     loads.emplace_back(at.contact.point, at.load * at.contact.normal);
   }
@@ -119,15 +119,16 @@ void add_loads(const ProxyView& view, MarkerArray& picture) {
   }
 }
 
-/// Where the hand's tool is far from tissue: the trocar of a shaft, else the origin of the first
-/// link. The origin of the frame if there is no hand.
+/// The end of the hand's tool that is far from tissue: the trocar of a shaft, else the origin of
+/// the first link. The origin of the frame if there is no hand.
 Vector3d far_end(const ProxyView& view) {
   if (!view.hand) return Vector3d::Zero();
   if (view.tool.parameters.has_shaft()) return view.hand->axis.trocar;
   return view.hand->links.front().translation();
 }
 
-/// "probe: TOUCHING, 1.2 N"; "probe: NO_ANSWER: ..." with the reason if there is no answer.
+/// For example "probe: TOUCHING, 1.2 N". If there is no answer, for example "probe: NO_ANSWER:
+/// ...", with the reason.
 std::string state_line(const ProxyView& view) {
   constexpr std::size_t kLongestReason = 100;  // [bytes]
   const std::string line = view.tool.parameters.name + ": " + name_of(view.answer.state);
@@ -181,7 +182,7 @@ void add_proxy(const ProxyView& view, MarkerArray& picture) {
   // Shares of the scene's size.
   constexpr double kSpringWidth = 6e-3;
   constexpr double kTextHeight = 0.03;
-  constexpr double kTextLift = 0.06;  // From the far end of the tool.
+  constexpr double kTextLift = 0.06;  // The distance of the text from the far end of the tool.
   const ProxyAnswer& answer = view.answer;
   const std_msgs::ColorRGBA colour = colours::proxy(answer.state);
   if (view.hand && answer.state != ProxyStatus::kFree) {

@@ -67,7 +67,7 @@ void CollisionNode::start() {
            pipeline_.workers.gl_version().c_str());
 }
 
-/// Ends the other threads, which use members.
+/// Ends the threads that use members, before the members are destroyed.
 void CollisionNode::end() {
   core_.end();
   services_.end();
@@ -80,7 +80,7 @@ void CollisionNode::work() {
   markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
 }
 
-/// Also called when the rate has changed.
+/// Starts ticks at the parameter `rate`. Called again when the rate has changed.
 void CollisionNode::start_ticks() {
   tick_ = ros::Timer();
   const double rate = core_.parameters().rate_hz;

@@ -37,7 +37,8 @@ void MessageLoop::receive(std::optional<SteadyTime> deadline) {
     before = clock_.now();
     called = call_one(ros::WallDuration(0.0));
   }
-  // A transform may be among the callbacks that are left. The time that they take does not count.
+  // If callbacks are left, a transform may be among them. heard_until_ then stays as it is, so that
+  // no shape misses its transform, but it stays at most kLongestBacklog behind.
   heard_until_ = called ? std::max(heard_until_, before - kLongestBacklog) : before;
 }
 
@@ -45,12 +46,13 @@ void MessageLoop::receive(std::optional<SteadyTime> deadline) {
 ros::WallDuration MessageLoop::wait(std::optional<SteadyTime> deadline, SteadyTime now) const {
   std::chrono::nanoseconds wait = kLongestWait;
   if (deadline) wait = std::min<std::chrono::nanoseconds>(wait, *deadline - now);
-  // Simulated time goes on in jumps, and no callback tells of them.
+  // Simulated time advances in jumps, and no callback tells of them. The node must look for them:
+  // `shortest` is the pause between two looks.
   const auto shortest = ros::Time::isSimTime() ? kShortestSimulatedWait : 0ms;
   return ros::WallDuration().fromNSec(std::max<std::chrono::nanoseconds>(wait, shortest).count());
 }
 
-/// Returns false if there was no callback.
+/// Calls one callback, and the node's own functions around it. Returns false if there was none.
 bool MessageLoop::call_one(ros::WallDuration wait) {
   callbacks_.watch_clock();
   const bool called = queue_.callOne(wait) == ros::CallbackQueue::Called;
@@ -84,7 +86,7 @@ std_srvs::Trigger::Response reload_tools(
   try {
     LoadedTools loaded = load();
     const ToolChanges changes = compare_tools(tools, loaded.tools);
-    // A tool that would stop working is refused. One that did not work before may go on so.
+    // A new or changed tool with a fault is refused. An unchanged tool may keep its fault.
     for (std::size_t tool = 0; tool < loaded.tools.size(); ++tool) {
       const std::string& fault = loaded.tools[tool].fault;
       if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);

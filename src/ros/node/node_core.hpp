@@ -23,14 +23,14 @@
 
 namespace organ_collision {
 
-/// The callback queue of a node, whose callbacks one thread calls in batches. That thread owns all
+/// The callback queue of a node. One thread calls its callbacks in batches. That thread owns all
 /// state of the node, so that the state needs no locks.
 class MessageLoop {
  public:
   /// What the node does around the callbacks.
   struct Callbacks {
     std::function<void()> watch_clock;           ///< before and after each callback
-    std::function<void(SteadyTime now)> handle;  ///< after each callback; `now`: of now()
+    std::function<void(SteadyTime now)> handle;  ///< after each callback; `now`: see now()
   };
 
   explicit MessageLoop(Callbacks callbacks) : callbacks_(std::move(callbacks)) {}
@@ -40,15 +40,17 @@ class MessageLoop {
 
   ros::CallbackQueue& queue() { return queue_; }
 
-  /// Waits for the first callback, but not beyond `deadline`, a time of now(). Then calls all
-  /// callbacks that are there, for at most 2 ms. Throws what they throw.
+  /// Waits for the first callback until `deadline` on the clock of now(), but at most 10 ms. Then
+  /// calls all callbacks that are there, for at most 2 ms. Throws what the callbacks throw.
   void receive(std::optional<SteadyTime> deadline);
-  /// All messages that came before this time of now() have been handled.
+  /// All messages that came before this time, on the clock of now(), have been handled, unless the
+  /// node is more than 1 s behind its messages.
   SteadyTime heard_until() const { return heard_until_; }
-  /// The time of deadlines.
+  /// The present time on the clock of the deadlines.
   SteadyTime now() { return clock_.now(); }
 
-  /// Drops the callbacks, and all that come later. A thread that waits for one of them goes on.
+  /// Drops all callbacks in the queue, and those that come later. A thread that waits for a
+  /// callback goes on.
   void end();
 
  private:
@@ -72,8 +74,9 @@ struct LoadedTools {
 /// implausible sizes.
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt);
 
-/// What `reload_tools` does. `exchange` exchanges the node's tools for `loaded`. Call it in a
-/// background thread: robots' files may take seconds to load.
+/// Does the work of the service reload_tools. `load` loads the new tools, and `exchange` exchanges
+/// the node's tools for `loaded`. Call it in a background thread: robots' files may take seconds to
+/// load.
 std_srvs::Trigger::Response reload_tools(
     const std::vector<Tool>& tools, const std::function<LoadedTools()>& load,
     const std::function<void(LoadedTools& loaded, const KeptTools& kept)>& exchange);
@@ -84,22 +87,23 @@ std_srvs::Trigger::Response reload_tools(
 template <typename Parameters>
 class NodeCore {
  public:
-  /// What the node does. All are called in the node's thread, unless they say otherwise.
+  /// What the node does. All functions are called in the node's thread, unless they say otherwise.
   struct Callbacks {
     MessageLoop::Callbacks loop;
-    /// After each batch of messages.
+    /// Called after each batch of messages.
     std::function<void()> work;
-    /// When `work` has something to do even if no message comes, as a time of the loop.
+    /// When `work` must be called even if no message comes, on the clock of the loop.
     std::function<std::optional<SteadyTime>()> next_deadline;
     std::function<void()> reset;
     std::function<void(const Parameters& before)> parameters_changed;
-    /// In the background thread, before the tools that are not kept are exchanged.
+    /// Called in the background thread, before the tools that are not kept are replaced.
     std::function<void(const KeptTools& kept)> release_tools = [](const KeptTools&) {};
-    /// Gets the parameters of the new tools. If it throws, the tools stay as they were.
+    /// Gets the parameters of the new tools before they replace the old ones. If it throws, the old
+    /// tools stay.
     std::function<void(const std::vector<ToolParameters>& tools)> prepare_tools;
-    /// tools() are the new ones. If it throws, the node cannot go on, and breaks down.
+    /// Called when tools() returns the new tools. If it throws, the node breaks down.
     std::function<void(const KeptTools& kept)> tools_changed;
-    /// Before the node ends because of an exception: tells the subscribers.
+    /// Called before the node ends because of an exception: tells the subscribers.
     std::function<void(const std::string& why)> break_down;
   };
 
@@ -123,7 +127,7 @@ class NodeCore {
   OrganIntake::Threads organ_threads() {
     return {loop_.queue(), builder_.queue(), background_.queue()};
   }
-  /// Their callbacks are called in the node's thread.
+  /// The callbacks of both node handles are called in the node's thread.
   const ros::NodeHandle& node() const { return node_; }
   ros::NodeHandle& private_node() { return private_node_; }
   const Parameters& parameters() const { return parameters_; }
@@ -142,7 +146,7 @@ class NodeCore {
   }
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
-  /// recover from, such as std::bad_alloc, after the node's last words.
+  /// recover from, such as std::bad_alloc, after Callbacks::break_down was called.
   void run(const std::function<bool()>& stop) {
     try {
       while (private_node_.ok() && !stop()) {
@@ -156,7 +160,7 @@ class NodeCore {
     }
   }
 
-  /// Ends the waits of other threads for the node's thread, and then the background threads, which
+  /// Releases the threads that wait for the node's thread. Then ends the background threads, which
   /// use members. A node must call it before it destroys what the callbacks use.
   void end() {
     loop_.end();
@@ -164,7 +168,7 @@ class NodeCore {
     builder_.stop();
   }
 
-  /// In the background thread: runs an action in the node's thread, and waits for its end.
+  /// Runs an action in the node's thread, and waits for its end. Call it in another thread.
   void in_node_thread(const std::function<void()>& action) {
     run_in_thread_of(loop_.queue(), action);
   }
@@ -225,7 +229,7 @@ class NodeCore {
       updater().force_update();
     } catch (const std::exception&) {  // The exception that ends the node is more important.
     }
-    ros::WallDuration(1.0).sleep();  // The last messages leave.
+    ros::WallDuration(1.0).sleep();  // Time for the last messages to be sent.
   }
 
   Callbacks callbacks_;
@@ -238,7 +242,7 @@ class NodeCore {
   std::vector<Tool> tools_;
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
   Diagnostics diagnostics_;
-  LiveParameters live_parameters_;  ///< work in the background thread
+  LiveParameters live_parameters_;  ///< its callbacks run in the background thread
   ros::ServiceServer reload_, reset_;
 };
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kLineLength = 90;
 
-/// The words of a text in lines that begin with `indent`.
+/// The text, broken into lines that begin with `indent`.
 std::string wrapped(const std::string& text, const std::string& indent) {
   std::istringstream words(text);
   std::string lines, line;
@@ -127,8 +127,9 @@ Diagnostics::Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& pri
              .createWallTimer(kMasterPeriod, [this](const ros::WallTimerEvent&) { ask_master(); });
 }
 
-/// A restart is noticed once. What registers later, such as the topics of a new tool, makes the
-/// master list the node again, but without the rest.
+/// Asks the master whether it lists this node, until a restart of the master is noticed. Later
+/// answers would mislead: a topic that registers after the restart, such as that of a new tool,
+/// makes the master list the node again, but without its older topics.
 void Diagnostics::ask_master() {
   if (master_ == Master::kForgotNode) return;
   XmlRpc::XmlRpcValue arguments, response, uri;

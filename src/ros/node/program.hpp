@@ -28,10 +28,10 @@ struct ProgramHelp {
   std::string further = {};  ///< how to start the program, or where to read on
 };
 
-/// Prints the help for --help and -h, and one line on standard error for any other argument that is
-/// not for ROS, such as NAME:=VALUE. Returns the exit code with which the program ends then: 0 or
-/// 2; std::nullopt if there is no such argument. Call this before ros::init(), so that the program
-/// does not wait for a master.
+/// Prints the help for --help and -h. Prints one line on standard error for any other argument that
+/// is not for ROS, such as NAME:=VALUE is. Returns the exit code, 0 or 2, with which the program
+/// must then end, or std::nullopt if there is no such argument. Call this before ros::init(), so
+/// that the program does not wait for a master.
 std::optional<int> answer_arguments(int argc, char** argv, const ProgramHelp& help);
 
 /// The type of a topic, as --help shows it.
@@ -46,9 +46,9 @@ std::string service_type() {
   return ros::service_traits::datatype<Service>();
 }
 
-/// The main function of a node. Answers arguments; else starts ROS and calls `run`. Logs an
-/// exception that `run` throws. Returns the exit code. `name`: the node's default name. `options`:
-/// of ros::init_options.
+/// The main function of a node. If there are arguments to answer, it answers them. Otherwise, it
+/// starts ROS, calls `run`, and logs an exception that `run` throws. Returns the exit code. `name`:
+/// the node's default name. `options`: flags of ros::init_options.
 int run_program(int argc, char** argv, const ProgramHelp& help, const std::string& name,
                 const std::function<void(const ros::NodeHandle& node,
                                          const ros::NodeHandle& private_node)>& run,
@@ -61,11 +61,12 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
 void guard_parameter_updates();
 
 /// What a node publishes on /diagnostics: the tasks that its parts add, and whether the ROS master
-/// still lists this process. After a restart of the master it does not, because roscpp does not
-/// register again. The master is asked once a second, in a thread of its own.
+/// still lists this process. A restarted master does not list it, because roscpp does not register
+/// again. The master is asked once a second, in a thread of its own.
 class Diagnostics {
  public:
-  /// `period_sec`: of wall time. The thread that calls the callbacks of `private_node` publishes.
+  /// `period_sec`: the wall time between two messages. They are published in the thread that calls
+  /// the callbacks of `private_node`.
   Diagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node, double period_sec);
 
   diagnostic_updater::Updater& updater() { return updater_; }

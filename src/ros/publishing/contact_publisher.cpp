@@ -12,7 +12,7 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// [messages] Kept for each subscriber that reads more slowly than the node publishes.
+/// [messages] The queue of a subscriber that reads more slowly than the node publishes.
 constexpr std::uint32_t kQueue = 100;
 
 }  // namespace

@@ -72,7 +72,7 @@ DurationStatistics::Summary DurationStatistics::summary() const {
   if (times.empty()) return {};
   const auto percentile = [&](std::size_t percent) {
     const auto place = times.begin() + static_cast<std::ptrdiff_t>((kept * percent + 99) / 100 - 1);
-    std::nth_element(times.begin(), place, times.end());  // Sorting all would delay a step.
+    std::nth_element(times.begin(), place, times.end());  // Sorting all times would delay a step.
     return *place;
   };
   return {count, percentile(50), percentile(99), *std::max_element(times.begin(), times.end())};

@@ -38,7 +38,7 @@ class DurationStatistics {
   static constexpr std::size_t kCapacity = 4096;
 
   struct Summary {
-    std::size_t count = 0;  ///< of all events since the start; without events, all members are 0
+    std::size_t count = 0;  ///< number of events since the start; if it is 0, all members are 0
     double median = 0.0;
     double percentile_99 = 0.0;
     double worst = 0.0;
@@ -49,7 +49,7 @@ class DurationStatistics {
   Summary summary() const;
 
  private:
-  mutable std::mutex mutex_;  ///< guards all that follows
+  mutable std::mutex mutex_;  ///< guards the members below
   std::array<double, kCapacity> seconds_{};
   std::size_t count_ = 0;
 };
@@ -59,21 +59,21 @@ struct NodeCounters {
   EventRate meshes{std::chrono::steady_clock::now()};    ///< accepted shapes of organs
   EventRate contacts{std::chrono::steady_clock::now()};  ///< answers to steps
   std::uint64_t published = 0;       ///< answers on `contacts`, also those about refused messages
-  std::uint64_t starting = 0;        ///< steps without TF that may be starting
-  DurationStatistics query_times;    ///< of the answered steps
-  DurationStatistics service_times;  ///< of single queries, without the time in which they waited
-  std::atomic<std::uint64_t> batches{0};  ///< that were answered to the end
-  std::atomic<std::uint64_t> motions{0};  ///< of all batches, also of the present one
+  std::uint64_t starting = 0;        ///< steps that failed because TF may still be starting
+  DurationStatistics query_times;    ///< how long the queries of answered steps took
+  DurationStatistics service_times;  ///< how long single service queries took, without waiting
+  std::atomic<std::uint64_t> batches{0};  ///< batches that were answered to the end
+  std::atomic<std::uint64_t> motions{0};  ///< motions that were answered, also in the present batch
   FailureLog rejected;                    ///< messages that were refused
   FailureLog failed;                      ///< steps without an answer
-  FailureLog incomplete;                  ///< steps with an answer whose path is not wholly known
-  FailureLog refused;                     ///< service calls without an answer
+  FailureLog incomplete;                  ///< answered steps whose path is not wholly known
+  FailureLog refused;                     ///< service calls, and motions of batches, that failed
 };
 
-// The parts of /diagnostics that the nodes share.
+// What nodes show on /diagnostics.
 
-/// What a node has received, and with which tools. What the references refer to must outlive the
-/// updater.
+/// The tools of a node, and what the node has received. Every node with organs shows these. What
+/// the references refer to must outlive the updater.
 struct ReceivedParts {
   const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
   const std::vector<Tool>& tools;
@@ -90,9 +90,9 @@ struct AnsweredParts {
   NodeCounters& counters;
 };
 
-/// Adds "tools", "organs" and "messages".
+/// Adds the tasks "tools", "organs" and "messages".
 void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts);
-/// Adds "queries".
+/// Adds the task "queries".
 void add_diagnostics(diagnostic_updater::Updater& updater, const AnsweredParts& parts);
 
 void show_tools(const ReceivedParts& parts, diagnostic_updater::DiagnosticStatusWrapper& status);

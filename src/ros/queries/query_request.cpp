@@ -80,7 +80,7 @@ void check_links_of(const Tool& tool, const LinkMotion* motion, QueryMode mode) 
   if (!is_static_mode(mode)) check_poses("previous", motion->previous, tool);
 }
 
-/// The path of a legal motion, in the organ's frame.
+/// The path of a legal motion, in the organ's frame. `at_end_only`: the path has only its end.
 ToolPath path_of(const GivenMotion& motion, bool at_end_only,
                  const Eigen::Isometry3d& T_organ_motion) {
   ToolWaypoint start{0.0, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}, end = start;
@@ -102,7 +102,8 @@ ToolPath path_of(const GivenMotion& motion, bool at_end_only,
   return {std::move(start), std::move(end)};
 }
 
-/// Where the tip of the links is, if it is the origin of a link's frame.
+/// The tip of the links at the end of a motion. It is known only if it is the origin of a link's
+/// frame.
 std::optional<Eigen::Vector3d> tip_of_links(const ToolParameters& tool, const ToolWaypoint& end) {
   if (!tool.has_tip_of_links()) return std::nullopt;
   for (std::size_t i = 0; i < tool.links.size(); ++i) {
@@ -124,7 +125,7 @@ CollisionRequest checked_request(const QueryCollision::Request& request) {
   collision.max_near = request.max_near;
   collision.clearance = request.clearance != 0;
   collision.placement = request.placement != 0;
-  // CollisionQuery would refuse the same, but for each motion of a batch.
+  // CollisionQuery refuses these values, too, but separately for each motion of a batch.
   const double margin = collision.margin;
   if (!std::isfinite(margin) || margin < 0.0) {
     refuse("margin is ", margin,

@@ -20,34 +20,36 @@ template <typename... Parts>
   throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", concatenate(parts...));
 }
 
-/// Throws Rejection if the tool has a fault, or if it cannot be asked about in this mode.
+/// Throws Rejection if the tool has a fault, or if this mode is not possible with the tool.
 void check_tool(const Tool& tool, QueryMode mode);
 
-/// What a request asks, besides the organ and the motion of the tool. Throws Rejection. A batch has
-/// neither regions nor near faces.
+/// A CollisionRequest with what a request asks, in which organ, tool and motion are not set yet.
+/// Throws Rejection if a value is illegal. A batch asks for neither regions nor near faces.
 CollisionRequest checked_request(const QueryCollision::Request& request);
 CollisionRequest checked_request(const QueryCollisionBatch::Request& request);
 
-/// Sets the organ, which moves on request, and the tool. `collision` then refers to the snapshot,
-/// which must outlive it. If it asks for sides, waits for at most 0.2 s until a new surface is
-/// inspected.
+/// Sets the organ and the tool of `collision`, which then refers to the snapshot: the snapshot must
+/// outlive it. `organ_motion`: in the mode SWEPT, the organ moves from its previous shape to its
+/// latest one. If `collision` asks for the placement, waits for at most 0.2 s until a new surface
+/// is inspected.
 void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequest& collision);
 
-/// A motion that a request gives, in its own frame.
+/// A motion that a request gives, in the frame of the request's header.
 struct GivenMotion {
   const ToolMotion* shaft;  ///< null: not given
   const LinkMotion* links;  ///< null: not given
 };
 
-/// Checks the motion of a shaft that is no tool of the node. Throws Rejection.
+/// Checks the motion of a shaft that belongs to no tool of the node. Throws Rejection.
 void check_shaft(const ToolMotion& motion, QueryMode mode);
 
-/// Checks that a batch has the motions of the tool's parts, as many of each. Throws Rejection.
+/// Checks that a batch gives motions only for what the tool has: shaft, links or both. If it has
+/// both, the lists must be equally long. Throws Rejection.
 void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool);
 
-/// Sets path, radius and tip of `collision`, whose mode must be set. The tip of links is known if
-/// the tool's tip_frame is the frame of one of them. Throws Rejection if the motion is illegal, or
-/// if it is not one of the tool's parts.
+/// Sets the path of `collision`, whose mode must be set already. Also sets the radius of a shaft
+/// that belongs to no tool, and the tip of links if the tool's tip_frame is the frame of one of
+/// them. Throws Rejection if the motion is illegal, or if it does not fit the parts of the tool.
 void set_motion(const GivenMotion& motion, const QuerySnapshot& snapshot,
                 CollisionRequest& collision);
 

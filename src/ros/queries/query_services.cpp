@@ -12,7 +12,7 @@
 namespace organ_collision {
 namespace {
 
-/// The guard against exhausted memory, too, so the results are released.
+/// Also releases the memory of the results, because the batch may have failed for lack of memory.
 void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
                  const std::string& message) {
   response.results = {};
@@ -30,13 +30,14 @@ void check_names(const QuerySubject& subject) {
   if (!subject.moves_as_in_tf) check_name("header.frame_id", tf_frame(subject.header.frame_id));
 }
 
-/// Whether a single query sets the field. In a batch, each motion of the lists is given.
+/// Whether a single query gives this motion: an empty message gives none. In a batch, each motion
+/// in the lists counts as given.
 bool is_given(const ToolMotion& motion) { return motion != ToolMotion(); }
 bool is_given(const LinkMotion& motion) {
   return !motion.previous.empty() || !motion.links.empty();
 }
 
-/// Runs a function that answers. Its exception becomes the failure of the answer.
+/// Runs `function`, which sets `answer`. If it throws, the exception becomes a failure of `answer`.
 template <typename Answer, typename Function>
 void or_failure(Answer& answer, const Function& function) {
   try {
@@ -68,7 +69,7 @@ void QueryServices::advertise(const ros::NodeHandle& query_node,
   const auto on_batch = [this](const auto& request, auto& response) {
     or_failure(response, [&] {
       start_batches();
-      yield_to_all_threads();  // This thread is one of those that answer the batch.
+      yield_to_all_threads();  // This thread answers motions, too, and all steps come first.
     });
     if (response.status == ContactArray::OK) response = query_batch(request);
     count_failure(counters_.refused, response.status, response.message);
@@ -81,11 +82,12 @@ void QueryServices::advertise(const ros::NodeHandle& query_node,
               advertise_checked<QueryCollisionBatch>(batch_node, names::kQueryBatch, on_batch)};
 }
 
-/// Also makes the GL context of the thread that answers batches.
+/// Makes the threads that answer batches, if there are none yet. The calling thread is one of them
+/// and gets a GL context, too.
 void QueryServices::start_batches() {
   if (batch_threads_) return;
-  // Each thread lowers its priority only when its GL context is made, because that holds locks for
-  // long that the node's thread may want, too.
+  // Each thread lowers its priority only when it has made its GL context. To make a context, a
+  // thread holds locks for long that the node's thread may want, too.
   batch_threads_.emplace(thread_count(node_.parameters.threads), node_.parameters.picker,
                          yield_to_all_threads);
 }
@@ -167,7 +169,7 @@ std::vector<ContactArray> QueryServices::answer_batch(const QueryCollisionBatch:
   return answer_motions(request, motions, answer_motion, unanswered);
 }
 
-/// `unanswered`: what all answers have in common.
+/// Answers the motions with several threads. `unanswered`: the fields that all answers share.
 std::vector<ContactArray> QueryServices::answer_motions(
     const QueryCollisionBatch::Request& request, std::size_t motions,
     const std::function<void(std::size_t motion, ContactQuery&, ContactArray&)>& answer_motion,

@@ -28,7 +28,7 @@ class QueryServices {
 
   /// Each node handle must have a callback queue with a thread of its own.
   void advertise(const ros::NodeHandle& query_node, const ros::NodeHandle& batch_node);
-  /// For any thread: the present batch and all later ones end soon, without an answer.
+  /// Makes the present batch and all later ones end soon, without results. Any thread may call it.
   void end() { ended_ = true; }
 
   // Do not call these in the node's thread: they wait for it. (In tests, `in_node_thread` runs its
@@ -36,13 +36,13 @@ class QueryServices {
 
   ContactArray query(const QueryCollision::Request& request);
   /// One snapshot and one look-up in TF serve the whole batch. A batch that fails as a whole has a
-  /// status and a message but no results. It fails as a whole, among other reasons, if it has more
-  /// motions than max_batch or if its results exceed max_batch_bytes. While they are made, they
-  /// exceed it by at most one answer for each thread.
+  /// status and a message but no results. Among other reasons, it fails if it has more motions than
+  /// max_batch, or if its results exceed max_batch_bytes. While the results are made, they exceed
+  /// max_batch_bytes by at most one answer for each thread.
   ///
-  /// The results are in the order of the motions, whatever the number of threads. They end with the
-  /// first motion that touches if the request asks for that. The result of an illegal motion says
-  /// so.
+  /// The results are in the order of the motions, whatever the number of threads. If the request
+  /// says so, they end with the first motion that touches. The result of an illegal motion says why
+  /// it is illegal.
   QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
 
  private:
@@ -62,8 +62,8 @@ class QueryServices {
   NodeCounters& counters_;
   ContactQuery query_;
   std::atomic<bool> ended_{false};
-  /// Threads that answer batches together with that of the service, from the first batch on. They
-  /// have the lowest ordinary priority, because all steps come first.
+  /// Threads that answer batches, together with the thread of the service. They start with the
+  /// first batch. They have the lowest ordinary priority, because all steps come first.
   std::optional<QueryThreads<ContactQuery>> batch_threads_;
   std::vector<ros::ServiceServer> servers_;
 };

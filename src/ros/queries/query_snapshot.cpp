@@ -37,7 +37,7 @@ void check_age(const NodeState& node, const DeformableOrgan& organ) {
                   stale_message(organ.name(), organ.latest(), now, timeout_sec));
 }
 
-/// For a motion that the request gives.
+/// Sets what a snapshot needs if the request gives the motion: the transform of the motion's frame.
 void read_motion_frame(const NodeState& node, const QuerySubject& subject,
                        const DeformableOrgan& organ, QuerySnapshot& snapshot,
                        ContactArray& answer) {
@@ -52,7 +52,8 @@ void read_motion_frame(const NodeState& node, const QuerySubject& subject,
   set_end(T_organ_motion.found->stamp, answer);
 }
 
-/// For a tool that moves as in TF.
+/// Sets what a snapshot needs if the tool moves as in TF: its path since its last step, and its
+/// tip.
 void read_tool_motion(const NodeState& node, const QuerySubject& subject,
                       const DeformableOrgan& organ, const Tool& tool, QuerySnapshot& snapshot,
                       ContactArray& answer) {
@@ -71,7 +72,8 @@ void read_tool_motion(const NodeState& node, const QuerySubject& subject,
     snapshot.path = resting_path(end.found->value);
     return;
   }
-  // Poses that rest are of the present, which the last step may have reached meanwhile.
+  // If all transforms are static, the query's step ends now. The node may have ended its last step
+  // after the answer got its stamp.
   const bool is_now = end.found->stamp.isZero() && subject.header.stamp.isZero();
   if (is_now) answer.header.stamp = std::max(answer.header.stamp, last->stamp);
   if (answer.header.stamp < last->stamp) {

@@ -20,15 +20,15 @@ namespace organ_collision {
 /// any thread may evaluate the query while the node goes on.
 struct QuerySnapshot {
   OrganShape latest;
-  OrganShape previous;       ///< without a mesh if there is none, see DeformableOrgan::previous()
-  std::optional<Tool> tool;  ///< the tool that is asked about; empty: a shaft of the request
+  OrganShape previous;       ///< without a mesh if there is no previous shape
+  std::optional<Tool> tool;  ///< the tool that is asked about; empty: the request describes a shaft
   /// The tool's path in TF. Empty if the request itself gives the motion.
   ToolPath path;
-  /// What is not known of that path; empty: all is known.
+  /// What is not known of `path`; empty: all is known.
   std::string unknown = {};
-  /// Where the tip of links is in TF at the end of that path, if they have one.
+  /// The tip of the tool's links at the end of `path`, if they have one, in the organ's frame.
   std::optional<Eigen::Vector3d> tip;
-  /// From the frame of the request's motions to the organ's.
+  /// From the frame of the request's motions to the organ's frame.
   Eigen::Isometry3d T_organ_motion = Eigen::Isometry3d::Identity();
 };
 
@@ -36,8 +36,8 @@ struct QuerySnapshot {
 struct QuerySubject {
   const std_msgs::Header& header;
   const std::string& organ;
-  const std::string& tool;  ///< empty: a shaft of the request
-  bool moves_as_in_tf;      ///< the tool; else the request gives the motion
+  const std::string& tool;  ///< empty: the request describes a shaft
+  bool moves_as_in_tf;      ///< true: the tool moves as in TF; false: the request gives the motion
   QueryMode mode;
 };
 
@@ -48,9 +48,9 @@ struct NodeState {
   const CollisionPipeline& pipeline;
 };
 
-/// Takes a snapshot. Call it in the node's thread. Sets what is known of `answer` before there is
-/// an answer: tool, frame, shape and stamps. Throws Rejection; what was known before is set then,
-/// too. The mode must be legal.
+/// Takes a snapshot. Call it in the node's thread. Sets the fields of `answer` that are known
+/// before the query: links, frame, shape and stamps. If it throws Rejection, `answer` has those
+/// fields that were known until then. The mode must be legal.
 QuerySnapshot take_snapshot(const NodeState& node, const QuerySubject& subject,
                             ContactArray& answer);
 

@@ -5,9 +5,10 @@
 namespace organ_collision {
 namespace {
 
-/// [s] of ROS time: what was on its way during a jump has arrived by then.
+/// [s] Transforms from before a jump of the clock arrive within this ROS time after the jump.
 constexpr double kArrival = 2.0;
-/// No more often after a jump: a frame with two senders may step back again and again.
+/// After one jump of the clock, late transforms make the node forget all history at most this many
+/// times. A frame with two senders may step back again and again.
 constexpr int kMostForgotten = 3;
 
 }  // namespace

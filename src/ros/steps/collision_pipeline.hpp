@@ -6,14 +6,14 @@
 
 namespace organ_collision {
 
-/// What a node knows of organs and of motion, and the receivers of its topics, which also take
-/// messages from elsewhere. Without subscribe(), it needs no ROS master. All functions must be
-/// called in one thread.
+/// The organs and the motion that a node knows of, and the receivers of its topics. The receivers
+/// also take messages from elsewhere, such as a bag. Without subscribe(), no ROS master is needed.
+/// All functions must be called in one thread.
 class Inbox {
  public:
-  /// Refuses what exceeds the limits of the parameters. `rejected` counts the messages that were
-  /// refused, and must outlive this. `arrived` is called after each pose of a tip from a topic.
-  /// `threads`: see OrganIntake.
+  /// Messages that exceed the limits of `parameters` are refused. `rejected` counts them, and must
+  /// outlive this. `arrived` is called after each pose of a tip from a topic. `threads`: see
+  /// OrganIntake.
   Inbox(const OrganNodeParameters& parameters, FailureLog& rejected, MotionTopics::Arrived arrived,
         std::optional<OrganIntake::Threads> threads = {})
       : organs({static_cast<std::size_t>(parameters.max_faces)}, parameters.max_ahead_sec),
@@ -25,46 +25,47 @@ class Inbox {
   /// Subscribes to the topics of organs, of TF and of poses.
   void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// If ROS time jumped back since the last call, forgets all history and returns true. The same if
-  /// stamps step back soon after a jump (what was taken before was on its way during the jump), and
-  /// if simulated time begins long before the stamps of what was taken. Call it before and after
-  /// each message, so that no message and no step meets state from before the jump.
+  /// Forgets all history and returns true in three cases. First, ROS time jumped back since the
+  /// last call. Second, stamps step back soon after a jump, because transforms from before the jump
+  /// had arrived after it. Third, transforms are far ahead of the clock, because they came before
+  /// simulated time began. Call it before and after each message, so that no message and no step
+  /// meets state from before the jump.
   bool watch_clock();
   /// Forgets all transforms but the static ones, and all that is known of the past of the organs.
   void forget_history();
 
   OrganRegistry organs;
-  OrganIntake intake;  ///< into organs
+  OrganIntake intake;  ///< applies messages to `organs`
   TransformBuffer transforms;
-  MotionTopics motion;  ///< into transforms
+  MotionTopics motion;  ///< adds the motion to `transforms`
 
  private:
   double max_ahead_sec_;
-  double jumped_ = 0.0;  ///< [s] when the clock jumped back last
-  int may_forget_ = 0;   ///< how often transforms that were on their way may still be forgotten
+  double jumped_ = 0.0;  ///< [s] the ROS time to which the clock last jumped back
+  int may_forget_ = 0;   ///< how often late transforms may still make the node forget history
   ClockWatch clock_;
 };
 
-/// The way from messages to answers: organs and motion -> steps (doc/architecture.md). The node
-/// feeds it from topics, the program replay from a bag. Without a subscription, it needs no ROS
-/// master. All functions must be called in one thread. The workers evaluate steps side by side
-/// while the scheduler waits for them.
+/// Turns messages about organs and motion into steps with their answers (doc/architecture.md). The
+/// node feeds it from topics, and the program replay feeds it from a bag. Without a subscription,
+/// it needs no ROS master. All functions must be called in one thread. The workers evaluate steps
+/// side by side while the scheduler waits for them.
 class CollisionPipeline {
  public:
   struct Callbacks {
-    StepScheduler::Publish step;                     ///< gets the steps in their order
+    StepScheduler::Publish step;                     ///< gets each step with its answer, in order
     std::function<void(const OrganUpdate&)> update;  ///< gets what each organ message did
   };
 
-  /// `parameters`, `tools`, and `rejected`, which counts the messages that were refused, must
+  /// `rejected` counts the messages that were refused. `parameters`, `tools` and `rejected` must
   /// outlive this. `threads`: see OrganIntake. Throws GlError.
   CollisionPipeline(const NodeParameters& parameters, const std::vector<Tool>& tools,
                     FailureLog& rejected, Callbacks callbacks,
                     std::optional<OrganIntake::Threads> threads = {});
 
-  /// Inbox::watch_clock(), also for the steps.
+  /// Calls Inbox::watch_clock(). If the inbox forgets its history, the scheduler starts anew, too.
   void watch_clock();
-  /// Applies the organ messages that can be applied now. Their shapes become due.
+  /// Applies the organ messages that can be applied now. Each new shape becomes due for all tools.
   void apply_organ_messages(SteadyTime now);
   /// Forgets all history: the next step of every tool is static.
   void reset();

@@ -10,7 +10,7 @@
 namespace organ_collision {
 namespace {
 
-// The messages have the numbers of the enumerations.
+// The constants of the messages equal the enumerators, so that a cast converts them.
 static_assert(Clearance::NOT_ASKED == static_cast<int>(ClearanceState::kNotAsked) &&
               Clearance::BEYOND_MARGIN == static_cast<int>(ClearanceState::kBeyondMargin) &&
               Clearance::KNOWN == static_cast<int>(ClearanceState::kKnown));
@@ -19,7 +19,7 @@ static_assert(ToolPlacement::UNKNOWN == static_cast<int>(Side::kUnknown) &&
               ToolPlacement::INSIDE == static_cast<int>(Side::kInside) &&
               ToolPlacement::ON_SURFACE == static_cast<int>(Side::kOnSurface));
 
-/// Sets the fields that name a place on a face.
+/// Copies a place on a face: the face, its vertices and the barycentric coordinates.
 template <typename Source, typename Message>
 void set_place(const Source& source, Message& message) {
   message.face = source.face;

@@ -23,28 +23,28 @@
 
 namespace organ_collision {
 
-/// An answer without contacts, about one organ and one tool. The tool has a shaft but no links.
-/// header.stamp and step_start are `stamp`. The names may come from a message and be illegal: the
-/// answer has them as plain text of at most kLongestName bytes (plain_text.hpp).
+/// An answer without contacts, about one organ and one tool. Its `links` are those of a tool that
+/// has a shaft and no links. Its header.stamp and step_start are `stamp`. The names may come from a
+/// message and be illegal: the answer has them as plain text of at most kLongestName bytes.
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
 
-/// Sets `links`: the names of the tool's shaft and links.
+/// Sets `links`: an empty name for the shaft, if the tool has one, and then the names of its links.
 void set_links(ContactArray& answer, const ToolParameters& tool);
 
 /// Sets frame, topology and mesh stamp to those of the shape that the answer is about.
 void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape);
 
-/// Sets status and message, and drops all that was found. The message becomes plain text of at most
-/// kLongestMessage bytes.
+/// Sets the status and the message, and drops all results. The message becomes plain text of at
+/// most kLongestMessage bytes.
 void set_failure(ContactArray& answer, std::uint8_t status, const std::string& message);
 
-/// Sets `path_incomplete` and the message of an answer that is OK. `unknown`: what is not known of
-/// the tool's way; empty: nothing changes.
+/// Sets `path_incomplete` and the message of an answer whose status is OK. `unknown`: what is not
+/// known of the tool's path. If it is empty, nothing changes.
 void set_incomplete(ContactArray& answer, const std::string& unknown);
 
 /// The answer about an organ that could not be evaluated at all, for example because its mesh was
-/// refused. `header`: of the message that brought no shape; an unstamped one becomes now.
+/// refused. `header`: the frame and the stamp of the answer; a zero stamp becomes the present time.
 ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
                            const std_msgs::Header& header, std::uint8_t status,
                            const std::string& message);
@@ -52,16 +52,16 @@ ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
 /// Counts an answer that failed. An answer with the status OK is not counted.
 void count_failure(FailureLog& log, std::uint8_t status, const std::string& message);
 
-/// Whether the shape is older than `timeout_sec`; false if that is 0.
+/// Whether the shape is older than `timeout_sec`. If `timeout_sec` is 0, no shape is stale.
 bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
-/// The message of STALE_MESH, with the age and the limit.
+/// The message for the status STALE_MESH, with the age and the limit.
 std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
                           double timeout_sec);
 
 // Conversions between messages and the requests and results of CollisionQuery. All lengths are in
 // metres.
 
-// These copy all fields; the frame is the same.
+// These copy all fields. Positions and directions stay in the same frame.
 Contact to_message(const FaceContact& contact);
 Clearance to_message(const ToolClearance& clearance);
 Crossing to_message(const AxisCrossing& crossing);
@@ -69,16 +69,16 @@ ToolPlacement to_message(const AxisPlacement& placement);
 /// The corners in the same order and frame, rounded to 32-bit floats.
 geometry_msgs::Polygon to_message(const Region& region);
 
-/// Runs collision queries whose answers are ContactArray messages. Illegal requests and failures of
-/// GL become statuses.
+/// Runs collision queries and writes their results into ContactArray messages. Illegal requests and
+/// failures of GL become statuses of these messages.
 class ContactQuery {
  public:
   /// Runs each kind of query once, so that GL compiles its programs now and not within the first
   /// steps. Throws GlError if GL picking does not work on this machine.
   explicit ContactQuery(const PickerSettings& picker);
 
-  /// Sets the status and the message of `answer`, and all that the query finds: from contacts to
-  /// placement. Returns how long the query took [s], or 0 if there is no answer.
+  /// Sets the status of `answer`, and its results from `contacts` to `placement`, or its message if
+  /// the query fails. Returns how long the query took [s], or 0 if it failed.
   double evaluate(const CollisionRequest& request, ContactArray& answer);
 
   const std::string& gl_version() const { return query_.gl_version(); }

@@ -13,7 +13,7 @@ SteadyTime WaitClock::now() {
 SteadyTime WaitClock::now(std::optional<ros::Time> simulated, SteadyTime wall) {
   if (!simulated) return wall;
   if (*simulated != simulated_) {
-    // The first time of the simulator is no duration.
+    // Simulated time is counted from its first value, which therefore adds nothing.
     if (*simulated > simulated_ && !simulated_.isZero()) {
       time_ += std::chrono::nanoseconds(simulated->toNSec() - simulated_.toNSec());
     }
@@ -32,7 +32,8 @@ QueryMode mode_of(const OrganToolPair& pair) {
   return pair.last ? QueryMode::kSwept : QueryMode::kStatic;
 }
 
-/// The shape from which the organ moves during a step; null if it rests.
+/// The organ's shape at the start of a step, from which it moves to `now`. Null if the organ rests,
+/// or if its triangles have changed.
 const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
   const bool moved = last.mesh.get() != &now && last.mesh->topology() == now.topology() &&
                      last.mesh->same_faces(now);
@@ -81,7 +82,8 @@ ContactArrayPtr StepEvaluator::answer_about(const ToolStep& step, ros::Time end)
   return answer;
 }
 
-/// The path from the last pose to the end of the step. Notes what it lost.
+/// The tool's path during the step. Sets `unknown` to what is not known of the path. Notes in the
+/// step what was cut from the path.
 ToolPath StepEvaluator::take_path(ToolStep& step, std::string& unknown) const {
   if (!step.moves) return resting_path(step.end->value);
   const LastStep& last = *step.pair->last;

@@ -11,30 +11,30 @@
 
 namespace organ_collision {
 
-/// The time that a shape waits for its transforms. It never goes back.
+/// A time of a clock that never goes back: of the steady clock, or of WaitClock.
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// The time that shapes wait for their transforms: simulated time if the node has it, and otherwise
-/// the steady clock, which never jumps. Simulated time may stand still, because the simulator is
-/// paused, or waits for the answer. After kStandstill of wall time, wall time counts in its place,
-/// so that no shape waits for ever.
+/// The clock by which shapes wait for their transforms. It follows simulated time if there is any,
+/// and otherwise the steady clock, which never jumps. Simulated time may stand still, because the
+/// simulator is paused, or waits for the answer. After kStandstill of wall time, this clock goes on
+/// with wall time, so that no shape waits for ever.
 class WaitClock {
  public:
   static constexpr std::chrono::seconds kStandstill{2};
 
-  /// Never goes back, even if simulated time does.
+  /// The time of this clock. It never goes back, even if simulated time does.
   SteadyTime now();
-  /// The same for given clocks. `simulated`: std::nullopt if time is not simulated; zero if
-  /// simulated time has not begun.
+  /// The time of this clock if its sources show the given times. `simulated`: std::nullopt if time
+  /// is not simulated; zero if simulated time has not begun.
   SteadyTime now(std::optional<ros::Time> simulated, SteadyTime wall);
 
  private:
-  ros::Time simulated_;  ///< at the last call
-  SteadyTime counted_;   ///< the wall time up to which a standstill is judged
+  ros::Time simulated_;  ///< simulated time at the last call
+  SteadyTime counted_;   ///< the wall time up to which `time_` has been counted
   SteadyTime time_;
 };
 
-/// The end of the last successful step, where the next one begins.
+/// The end of the last successful step of an organ and a tool. The next step begins there.
 struct LastStep {
   ToolPose pose;
   ros::Time stamp;
@@ -51,63 +51,65 @@ struct WaitingShape {
 /// The state of one pair of organ and tool.
 struct OrganToolPair {
   std::optional<LastStep> last;
-  /// The organ's shape at the last step of this tool, whether that step succeeded or failed.
+  /// The organ's shape against which ticks and poses are evaluated: that of the last step, whether
+  /// it succeeded or failed. Before the first step, it may be the organ's latest shape.
   OrganShape current;
-  /// To the last step, whether it succeeded or failed; null if there was none.
+  /// The answer to the last step, whether the step succeeded or failed. Null if there is none.
   ContactArrayConstPtr answer;
-  /// The shape that waits for its transform, and the newest one behind it, or all of them. A newer
-  /// shape does not replace the one that waits. Otherwise no shape would ever be evaluated if
-  /// transforms lag by more than the time between two shapes. (There are few. A vector needs no
-  /// memory for each step, as a deque does.)
+  /// The first shape waits for its transforms. Behind it is the newest shape, or, in a replay, all
+  /// newer shapes. A newer shape never replaces the first one. Otherwise no shape would ever be
+  /// evaluated if transforms lag by more than the time between two shapes. (There are few shapes. A
+  /// vector does not allocate memory for each step, as a deque does.)
   std::vector<WaitingShape> waiting;
-  /// When a step was tried because the last one was long ago; empty once it succeeded.
+  /// When the node last tried a step because the last successful step was long ago. Empty if a step
+  /// has succeeded since.
   std::optional<SteadyTime> tried;
-  /// When a step first had no transform; empty before that.
+  /// When a step of this pair first lacked a transform. Empty if none has lacked one.
   std::optional<SteadyTime> first_without_transform;
 };
 
 /// The history of each pair of organ and tool, by the organ's name and the tool's index.
 using StepHistory = std::map<std::pair<std::string, std::size_t>, OrganToolPair>;
 
-/// A step of one tool against one organ. The scheduler decides from where to where it goes,
-/// evaluate() finds the answer, and the scheduler publishes it. A step that failed has an answer
-/// from the beginning.
+/// A step of one tool against one organ. The scheduler decides where the step begins and ends,
+/// StepEvaluator finds the answer, and the scheduler publishes it. If a step fails before it is
+/// evaluated, the scheduler sets its answer at once.
 struct ToolStep {
   const DeformableOrgan* organ;
   std::size_t tool;
   OrganToolPair* pair;
-  /// From its last pose to `end`, on the way that TF tells. Else there is no last pose, or the tool
-  /// is held at it: it rests at `end`.
+  /// True: the tool moves from its last pose to `end`, on the path that TF knows. False: the tool
+  /// rests at `end`, because it has no last pose, or because no newer pose is known.
   bool moves = false;
-  std::optional<Timed<ToolPose>> end = {};  ///< not set: the step has failed
-  /// Of the organ's triangles, if they were inspected when the step was planned; else null. Another
-  /// thread inspects them, so that workers must not look for themselves.
+  std::optional<Timed<ToolPose>> end = {};  ///< not set if the step failed before it was evaluated
+  /// How the organ's faces join. Null if that was not known when the step was planned. Another
+  /// thread finds it out meanwhile, so the workers use only this pointer.
   const SurfaceTopology* topology = nullptr;
-  /// The step has no transform, and none had one before, but TF may still be starting: there is
-  /// nothing to warn of yet.
+  /// True: the step has no transform, but TF may still be starting, because the pair has had no
+  /// successful step yet. Nobody is warned in that case.
   bool is_starting = false;
-  bool is_of_shape = false;  ///< a new shape made it due, and not a pose or a tick
+  bool is_of_shape = false;  ///< a new shape made the step due, and not a pose or a tick
 
   // What the evaluation finds.
 
   ContactArrayPtr answer = nullptr;
-  CollisionRequest request = {};  ///< its path is empty if the step failed before that was known
-  std::size_t samples_cut = 0;    ///< of the path, as in SampledPath
-  double deviation_cut = 0.0;     ///< [m] as in SampledPath
-  double query_sec = 0.0;         ///< [s] that the query took; 0 if there was none
+  CollisionRequest request = {};  ///< its path is empty if none was known when the step failed
+  std::size_t samples_cut = 0;    ///< see SampledPath
+  double deviation_cut = 0.0;     ///< [m] see SampledPath
+  double query_sec = 0.0;         ///< [s] how long the query took; 0 if there was no query
 };
 
-/// Finds the answers of steps. Changes nothing but the step that it is given. Several threads may
+/// Finds the answers of steps. Changes only the step that it is given. Several threads may
 /// therefore evaluate different steps at the same time, as long as nobody changes what the steps
 /// refer to.
 class StepEvaluator {
  public:
-  /// All must outlive this.
+  /// All arguments must outlive this.
   StepEvaluator(const NodeParameters& parameters, const std::vector<Tool>& tools,
                 const ToolPoses& poses)
       : parameters_(parameters), tools_(tools), poses_(poses) {}
 
-  /// Sets the request, the answer and the time of the query. `query` belongs to the calling thread.
+  /// Sets the step's request, answer and query time. `query` belongs to the calling thread.
   void evaluate(ToolStep& step, ContactQuery& query) const;
   /// Sets an answer whose status and message say why the step failed.
   void set_failed(ToolStep& step, ros::Time stamp, std::uint8_t status,

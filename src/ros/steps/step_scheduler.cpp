@@ -9,11 +9,11 @@
 namespace organ_collision {
 namespace {
 
-/// How long the transforms of a tool and an organ may be missing before the first step. Nodes that
-/// start together need that long.
+/// Before their first step, the transforms of a tool and an organ may be missing for this long
+/// without a warning: nodes that are started together need so long to start.
 constexpr std::chrono::seconds kStart(2);
 
-/// How often the node looks for steps that become too long.
+/// The node looks once in this time for steps that become too long.
 constexpr std::chrono::milliseconds kLookout(100);
 
 /// Whether the last step already ended at this pose, against this shape.
@@ -27,10 +27,10 @@ bool is_answered(const OrganToolPair& pair, ros::Time pose) {
 StepWorkers::StepWorkers(const NodeParameters& parameters)
     : QueryThreads(thread_count(parameters.threads), parameters.picker,
                    [priority = parameters.realtime.priority] {
-                     // If the system refuses, the node's thread was refused, too, and has said so.
+                     // If this is refused, the node's thread was refused, too, and logged it.
                      if (priority > 0) make_this_thread_realtime(priority);
                    }) {
-  // Already here, because a thread costs milliseconds if memory is locked.
+  // Threads start here: if memory is locked, the start of a thread takes milliseconds.
   start_for(parameters.tools.size());
 }
 
@@ -59,12 +59,12 @@ void StepScheduler::add_pose(std::size_t tool) {
 
 void StepScheduler::evaluate(SteadyTime now) {
   now_ = now;
-  due_.clear();  // An exception may have ended the last round.
+  due_.clear();  // If an exception ended the last round, its steps are still there.
   do {
     for (auto& [key, pair] : history_) {
       if (!pair.waiting.empty()) plan_front(organs_.at(key.first), key.second, pair);
     }
-  } while (evaluate_due());  // Behind each shape, another one may wait.
+  } while (evaluate_due());  // Behind an evaluated shape, a newer one may wait.
   for (std::size_t tool = 0; tool < tool_is_due_.size(); ++tool) {
     if (!std::exchange(tool_is_due_[tool], false)) continue;
     for (const auto& [name, organ] : organs_.organs()) plan_latest(organ, tool, true);
@@ -90,7 +90,7 @@ bool StepScheduler::evaluate_due() {
     if (!due_[step].answer) evaluator_.evaluate(due_[step], workers_.query(worker));
   };
   const auto take = [this](std::size_t step) { deliver(due_[step]); };
-  workers_.run(due_.size(), std::ref(work), std::ref(take));  // References spare allocations.
+  workers_.run(due_.size(), std::ref(work), std::ref(take));  // std::ref() allocates no memory.
   due_.clear();
   return true;
 }
@@ -102,7 +102,7 @@ StepCounts StepScheduler::counts() const {
   return counts;
 }
 
-/// Plans nothing if the shape still waits for its transform.
+/// Plans a step against the first waiting shape, unless it may still wait for its transforms.
 void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
                                OrganToolPair& pair) {
   WaitingShape& front = pair.waiting.front();
@@ -134,7 +134,8 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   }
 }
 
-/// With the latest poses. `only_new`: unless they are answered already.
+/// Plans a step against the pair's current shape, with the latest pose. `only_new`: plans no step
+/// if the last one already ended at this pose.
 void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new) {
   OrganToolPair& pair = history_[{organ.name(), tool}];
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
@@ -158,7 +159,8 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   }
 }
 
-/// The pairs whose last step was so long ago that TF would soon forget how the tool moved since.
+/// Plans steps for the pairs whose last step was so long ago that TF would soon forget how the tool
+/// moved since then.
 void StepScheduler::plan_long_steps() {
   const auto longest = std::chrono::nanoseconds(poses_.longest_step().toNSec());
   for (auto& [key, pair] : history_) {
@@ -182,8 +184,9 @@ void StepScheduler::plan_long_steps() {
   }
 }
 
-/// The step is then static. A tool would otherwise be held at the pose of a stamp that turned out
-/// to be wrong.
+/// Forgets the last step of a pair if it ended at a stamp that turned out to be wrong
+/// (ToolPoses::is_disproved()). The next step is then static. Otherwise, the tool would be held at
+/// the pose of that stamp.
 bool StepScheduler::forget_if_disproved(const DeformableOrgan& organ, std::size_t tool,
                                         OrganToolPair& pair) {
   if (!pair.last) return false;
@@ -237,7 +240,8 @@ std::optional<SteadyTime> StepScheduler::next_deadline() const {
   return next;
 }
 
-/// Without an end, or if no pose is newer than the last one, the tool rests at its last pose.
+/// Plans a step that ends at `end`. Without an end, or if `end` is not newer than the last pose,
+/// the tool rests at its last pose.
 void StepScheduler::plan_step(ToolStep step, std::optional<Timed<ToolPose>> end) {
   const std::optional<LastStep>& last = step.pair->last;
   const bool is_of_now = end && end->stamp.isZero();

@@ -9,29 +9,29 @@
 
 namespace organ_collision {
 
-/// What became of the accepted shapes since the start, each counted once for each tool, and of the
-/// poses: due = answered + superseded + forgotten + waiting.
+/// Counts of shapes and poses since the start. Each accepted shape is counted once for each tool:
+/// due = answered + superseded + forgotten + waiting.
 struct StepCounts {
   std::uint64_t due = 0;
-  std::uint64_t answered = 0;    ///< a step was published, also if it failed
-  std::uint64_t superseded = 0;  ///< a newer shape came before the step
-  /// Before the step, the organ, the tool or all history was gone, or the organ got another frame,
-  /// or an exception ended the round.
+  std::uint64_t answered = 0;    ///< shapes whose step was published, also if it failed
+  std::uint64_t superseded = 0;  ///< shapes that were replaced by a newer one before their step
+  /// Shapes without a step, because the organ, the tool or all history was gone first, the organ
+  /// got another frame, or an exception ended the round.
   std::uint64_t forgotten = 0;
-  std::uint64_t waiting = 0;       ///< now, for transforms
-  std::uint64_t poses_merged = 0;  ///< came while an earlier one was due: one step covers both
-  std::uint64_t samples_cut = 0;   ///< of motion, dropped because of motion_samples_max
+  std::uint64_t waiting = 0;       ///< shapes that wait for transforms now
+  std::uint64_t poses_merged = 0;  ///< poses that share a step with an earlier pose
+  std::uint64_t samples_cut = 0;   ///< samples of motion, dropped because of motion_samples_max
   /// [m] The largest distance of a dropped sample from the path that was swept instead.
   double deviation_cut = 0.0;
 };
 
-/// Evaluate steps side by side. The calling thread is one of the workers. There are as many as
-/// there are tools, or more if more steps are due at once, but at most `threads`. A new worker
-/// joins in when its GL context is made, after about 30 ms.
+/// Threads that evaluate steps side by side. The calling thread is one of these workers. There are
+/// as many workers as tools, or more if more steps are due at once, but at most `threads`. A new
+/// worker joins in when its GL context is made, after about 30 ms.
 class StepWorkers : public QueryThreads<ContactQuery> {
  public:
-  /// Takes picker, threads and priority. Throws GlError if GL picking does not work on this
-  /// machine, and std::system_error if the system refuses a thread.
+  /// Uses the parameters for picker, threads, priority and tools. Throws GlError if GL picking does
+  /// not work on this machine, and std::system_error if the system refuses a thread.
   explicit StepWorkers(const NodeParameters& parameters);
 
   const std::string& gl_version() const { return query(0).gl_version(); }
@@ -47,11 +47,11 @@ class StepWorkers : public QueryThreads<ContactQuery> {
 /// does not depend on the number of workers.
 class StepScheduler {
  public:
-  /// Gets an answer, in a step whose pair is that of the next step already.
+  /// Gets a step with its answer. The step's pair is already prepared for the next step.
   using Publish = std::function<void(const ToolStep&)>;
 
-  /// The references must outlive this. `publish` gets the steps of a round in their
-  /// order. One that is ready waits for at most one task (worker_threads.hpp).
+  /// The references must outlive this. `publish` gets the steps of a round in order. A finished
+  /// step waits for at most one evaluation by the calling thread (worker_threads.hpp).
   StepScheduler(const NodeParameters& parameters, const std::vector<Tool>& tools,
                 const OrganRegistry& organs, ToolPoses& poses, StepWorkers& workers,
                 Publish publish)
@@ -75,24 +75,24 @@ class StepScheduler {
   /// From now on, no shape is replaced by a newer one before it was evaluated.
   void keep_all_shapes() { keeps_all_shapes_ = true; }
 
-  /// Evaluates what is due: first the shapes whose transforms have come or are past their deadline,
-  /// then the tools whose tips moved, then, at a tick, all tools. The latter two use the latest
-  /// poses. At last, the tools whose ways TF would soon forget: no step is longer than half of what
-  /// it keeps.
+  /// Evaluates what is due, in this order: the shapes whose transforms have come or whose deadline
+  /// has passed; the tools whose tips moved; at a tick, all tools; and the tools whose motion TF
+  /// would soon forget, because half of the time for which TF keeps transforms has passed since
+  /// their last step. All but the shapes are evaluated with the latest poses.
   void evaluate(SteadyTime now);
 
-  /// For a new list of tools, which must be in place already. The kept tools keep their history and
-  /// what is due. The other tools become due, with a static step against each organ's latest shape.
+  /// Call it when the list of tools has been exchanged. The kept tools keep their history and what
+  /// is due. The other tools become due, with a static step against each organ's latest shape.
   void change_tools(const KeptTools& kept);
 
   /// Forgets all history: the next step of every tool is static. Waiting shapes go on waiting.
   void reset();
-  /// For a clock that jumped back: forgets all history, and drops the shapes that wait, because
-  /// their transforms will not come. Ticks and poses are evaluated against each organ's latest
-  /// shape.
+  /// Call it when the clock jumped back. Forgets all history, and drops the shapes that wait,
+  /// because their transforms will not come. Ticks and poses are then evaluated against each
+  /// organ's latest shape.
   void start_anew();
 
-  /// When evaluate() has something to do even if no transform comes; std::nullopt: never.
+  /// The time at which evaluate() has work even if no transform comes. std::nullopt: never.
   std::optional<SteadyTime> next_deadline() const;
   const StepHistory& history() const { return history_; }
 
@@ -124,12 +124,12 @@ class StepScheduler {
   Publish publish_;
   StepHistory history_;
   std::vector<ToolStep> due_;      ///< the steps of one round
-  std::vector<char> tool_is_due_;  ///< by tool: its tip has moved
+  std::vector<char> tool_is_due_;  ///< for each tool, whether its tip has moved
   bool tick_is_due_ = false;
-  SteadyTime now_;           ///< of the last call of evaluate()
-  SteadyTime next_lookout_;  ///< for steps that become too long
+  SteadyTime now_;           ///< the time of the last call of evaluate()
+  SteadyTime next_lookout_;  ///< when to look again for steps that become too long
   bool keeps_all_shapes_ = false;
-  StepCounts counts_;  ///< without forgotten and waiting
+  StepCounts counts_;  ///< except `forgotten` and `waiting`, which counts() computes
 };
 
 }  // namespace organ_collision
