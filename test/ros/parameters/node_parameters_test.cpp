@@ -66,7 +66,7 @@ TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
   const std::vector<Row> rows = {
       {"motion_sample_sec", 0.0, "'0'; must be a number, more than 0"},
       {"motion_sample_sec", "2.5", "'2.5'; must be a number, more than 0"},
-      {"tf_timeout_sec", 60.0000001, "'60'; must be a number, at least 0, at most 60"},
+      {"tf_timeout_sec", 60.0000001, "'60.0000001'; must be a number, at least 0, at most 60"},
       {"markers_depth", kUnlimited, "'inf'; must be a number, more than 0"},
       {"threads", 1025, "'1025'; must be a whole number, at least 0, at most 1024"},
       {"threads", 2.0, "'2'; must be a whole number, at least 0, at most 1024"},

@@ -173,7 +173,7 @@ TEST_F(DiagnosticsTest, WhatStepsAndServicesCount) {
                            {"queries", "1"},
                            {"query time, median [us]", "2000"},
                            {"query time, worst [us]", "2000"},
-                           {"motion samples cut", "0"},
+                           {"motion samples cut", "900"},
                            {"motion samples cut, farthest from the swept way [m]", "0"},
                            {"transforms after their step", "1"},
                            {"poses merged into later ones", "1"},

@@ -213,6 +213,7 @@ TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
   std::thread inspector([&] { organs.at("liver").surface()->find(); });
   organs.at("liver").surface()->wait_until_found(std::chrono::minutes(1));
   inspector.join();
+  request.motion.tip.z = -0.6;
   EXPECT_EQ(services.query(request).placement.tip, ToolPlacement::INSIDE);
 }
 
@@ -688,6 +689,7 @@ TEST_F(LinkQueriesTest, TheTipIsKnownIfALinkHasItsFrame) {
   send_mesh(1.1, tetrahedron);
   organs.at("liver").surface()->find();
   request.link_motion.links[0].position.z = 5.0;  // The wrist is outside, and the jaw inside.
+  request.link_motion.links[1].position.z = -0.6;
   for (const auto& [frame, side] :
        std::map<std::string, std::uint8_t>{{"", ToolPlacement::UNKNOWN},
                                            {"arm/point", ToolPlacement::UNKNOWN},

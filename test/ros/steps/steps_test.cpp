@@ -33,6 +33,7 @@ class ScriptedNode : public NodeParts {
   explicit ScriptedNode(bool has_needle = false)
       : NodeParts(1, has_needle ? hook_and_needle() : std::vector{shaft_tool("hook", 0.01)}) {
     set_point(transforms, "liver_frame", "needle_trocar", 0.0, {0.0, 0.0, 1.0}, true);
+    clock(50.0);
   }
 
   /// Commands, each with its arguments, separated by semicolons. A height, of the tip or the sheet,
@@ -284,7 +285,7 @@ const std::vector<Case> kCases = {
      kBegin + "tip 50.8 up; mesh 50.8 0; run; tip 50.01 down; mesh 50.01 0; run; hook static 1; "
               "tip 50.02 up; mesh 50.02 0; run; hook swept 1 50.02"},
     {"AShapeDoesNotGetAPoseBetweenAnEarlierOneAndTheOneThatWasAhead",
-     kBegin + "tip 50.8 up; tip 50.01 up; mesh 50.1 0; run; of 50.1; needle swept 0; "
+     kBegin + "tip 50.8 up; tip 50.01 up; mesh 50.1 0; run; none; "
               "tip 50.1 down; run; hook swept 1; of 50.1"},
     {"NorDoesAPoseOfATopicHoldIt",
      kBegin + "pose 50.8 up; pose 50.01 down; needle static 1; pose 50.02 up; needle swept 1"},
@@ -294,8 +295,8 @@ const std::vector<Case> kCases = {
               "hook static 1; tip 50.79 up; tip 50.8 up; tip 50.9 up; clock 50.9; tick; "
               "hook swept 1"},
     {"ADisprovedStampIsNotBelievedAgainWhenTheClockReachesIt",
-     kBegin + "tip 50.9 up; tip 50.5 down; clock 50.91; mesh 50.75 0; run; needle swept 0; "
-              "of 50.75; tick; hook swept 1 50.5"},
+     kBegin + "tip 50.9 up; tip 50.5 down; clock 50.91; mesh 50.75 0; run; none; "
+              "tick; hook swept 1 50.5"},
     {"MessagesThatOvertakeEachOtherChangeNothing",
      kBegin + "tip 50.03 up; tip 50.02 up; tip 50.05 up; tip 50.04 up; tick; hook swept 0 50.05; "
               "tip 50.045 up; tip 50.06 down; tick; hook swept 1"},
@@ -379,9 +380,9 @@ TEST(StepScheduler, AfterAChangeOfToolsAKeptToolSweepsOnAndANewOneIsStatic) {
   set_point(node.transforms, "liver_frame", "needle_tip", 1.0, kBelow);
   node.tools = {shaft_tool("needle", 0.01), shaft_tool("hook", 0.01)};
   node.steps.change_tools({std::nullopt, 0});
-  node.play("run; of 1.1; status no transform");  // Only the needle is due: the hook still waits.
+  node.play("run; needle static 1 1 1; of 1.1");  // Only the needle is due: the hook still waits.
   set_point(node.transforms, "liver_frame", "needle_tip", 1.1, kAbove);
-  node.play("tick; needle static 0 1.1; tip 1.1 down; run; hook swept 1 1.1 1; of 1.1");
+  node.play("tick; needle swept 1 1.1 1; tip 1.1 down; run; hook swept 1 1.1 1; of 1.1");
 }
 
 /// The shape that waits is older than the organ's newest triangles, whose surface is known already.
