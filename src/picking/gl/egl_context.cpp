@@ -14,10 +14,12 @@
 #include "platform_context.hpp"
 
 // All EGL functions that this file calls, without the prefix egl.
-#define ORGAN_COLLISION_EGL_FUNCTIONS(F)                                                       \
-  F(BindAPI)                                                                                   \
-  F(ChooseConfig) F(CreateContext) F(CreatePbufferSurface) F(DestroyContext) F(DestroySurface) \
-      F(GetCurrentContext) F(GetError) F(GetProcAddress) F(Initialize) F(MakeCurrent)
+// clang-format off
+#define ORGAN_COLLISION_EGL_FUNCTIONS(F)                                                    \
+  F(BindAPI) F(ChooseConfig) F(CreateContext) F(CreatePbufferSurface) F(DestroyContext)     \
+  F(DestroySurface) F(GetCurrentContext) F(GetError) F(GetProcAddress) F(Initialize)        \
+  F(MakeCurrent)
+// clang-format on
 
 namespace organ_collision {
 namespace {

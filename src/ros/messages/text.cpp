@@ -86,11 +86,13 @@ std::string nearest_name(const std::string& name, const std::vector<std::string>
 }
 
 std::string duration_text(double seconds) {
+  // What three digits would round to 1e+03 is written in seconds, or as a whole number.
   const double size = std::abs(seconds);
+  const bool is_short = size < 0.9995, is_long = size >= 999.5;
   std::ostringstream text;
-  text.precision(size < 1000.0 ? 3 : 0);
-  if (size >= 1000.0) text << std::fixed;
-  text << (size < 1.0 ? 1e3 * seconds : seconds) << (size < 1.0 ? " ms" : " s");
+  text.precision(is_long ? 0 : 3);
+  if (is_long) text << std::fixed;
+  text << (is_short ? 1e3 * seconds : seconds) << (is_short ? " ms" : " s");
   return text.str();
 }
 

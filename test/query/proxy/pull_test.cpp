@@ -10,7 +10,6 @@
 #include "proxy_scenes.hpp"
 #include "test/proof/link_trials.hpp"
 #include "test/proof/proxy/scripted_motion.hpp"
-#include "test/query/scenes.hpp"
 
 namespace organ_collision {
 namespace {
@@ -27,18 +26,25 @@ void expect_depth(const ProxyAnswer& answer, double depth, const Vector3d& tip) 
   EXPECT_LE(answer.pull.head<2>().norm(), 5e-6) << "the hand is at " << tip.transpose();
 }
 
-/// The flat sheet with its inner vertices moved within it by up to `share` of a cell.
-GridSurface irregular_sheet(int side, float share, Random& random) {
-  const auto seed = static_cast<unsigned>(random.integer(0, 1000));
-  const GridSurface regular = flat_sheet(side);
-  GridSurface sheet = shaken(regular, share * 0.2 / side, random);
-  for (std::size_t i = 0; i < sheet.vertices.size(); i += 3) {
-    const float* const before = &regular.vertices[i];
-    const bool is_inner = std::max(std::abs(before[0]), std::abs(before[1])) < 0.099F;
-    if (!is_inner) std::copy_n(before, 2, &sheet.vertices[i]);
-    sheet.vertices[i + 2] = 0.0F;
+/// The flat sheet with its inner vertices moved within it by up to `share` of a cell, and some of
+/// its squares cut along the other diagonal.
+GridSurface irregular_sheet(int side, double share, Random& random) {
+  GridSurface sheet = flat_sheet(side);
+  const double cell = 0.2 / side;
+  for (int row = 1; row < side; ++row) {
+    for (int column = 1; column < side; ++column) {
+      float* const at = &sheet.vertices[3 * static_cast<std::size_t>(row * (side + 1) + column)];
+      for (int k = 0; k < 2; ++k) at[k] += static_cast<float>(random.uniform(-share, share) * cell);
+    }
   }
-  return shuffled(sheet, seed);
+  for (std::size_t i = 0; i < sheet.faces.size(); i += 2) {
+    if (!random.chance(0.5)) continue;
+    const auto [a, b, c] = sheet.faces[i];
+    const std::uint32_t d = sheet.faces[i + 1][2];
+    sheet.faces[i] = {a, b, d};
+    sheet.faces[i + 1] = {b, c, d};
+  }
+  return shuffled(sheet, static_cast<unsigned>(random.integer(0, 1000)));
 }
 
 /// A place of a hand above the sheet: anywhere, above a vertex, or above an edge.
@@ -60,8 +66,8 @@ class ProxyDepth : public ProxyWith {};
 TEST_P(ProxyDepth, IsThePull) {
   Random random(1);
   for (const GridSurface& sheet :
-       {flat_sheet(1), flat_sheet(7), flat_sheet(50), irregular_sheet(3, 0.45F, random),
-        irregular_sheet(20, 0.45F, random), unwelded(irregular_sheet(8, 0.4F, random))}) {
+       {flat_sheet(1), flat_sheet(7), flat_sheet(50), irregular_sheet(3, 0.45, random),
+        irregular_sheet(20, 0.45, random), unwelded(irregular_sheet(8, 0.4, random))}) {
     HapticProxy proxy(tool_, {});
     const std::vector<ProxyOrgan> organs = {organ_of(sheet)};
     Vector3d tip(0.0, 0.0, 0.02);

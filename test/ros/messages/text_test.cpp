@@ -63,7 +63,10 @@ TEST(Text, DurationsHaveThreeDigitsOrAllBeforeThePoint) {
   EXPECT_EQ(duration_text(0.0), "0 ms");
   EXPECT_EQ(duration_text(0.0073), "7.3 ms");
   EXPECT_EQ(duration_text(0.020004), "20 ms");
+  EXPECT_EQ(duration_text(0.9994), "999 ms");
+  EXPECT_EQ(duration_text(0.9999), "1 s");
   EXPECT_EQ(duration_text(2.4123), "2.41 s");
+  EXPECT_EQ(duration_text(999.9), "1000 s");
   EXPECT_EQ(duration_text(123456.7), "123457 s");
 }
 
