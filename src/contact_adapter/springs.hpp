@@ -25,8 +25,10 @@ struct Push {
   Eigen::Vector3d place;   ///< the point, at the end of the step
   Eigen::Vector3d normal;  ///< unit, into the tissue; the tool is pushed against it
   double depth;            ///< along the normal; negative if the tool has left the face
-  /// Whether the push has a spring: its face is nearest the tool in its surroundings, or it belongs
-  /// to another side of a crease.
+  /// Whether the push has a spring of its own; see penalty_forces(). It has one if no face around
+  /// its face extends nearer to the tool; see basins_of(). It also has one if a shaft's axis has
+  /// passed a crease, and its face is on another side of the crease than the face nearest to the
+  /// tool.
   bool counts;
 };
 

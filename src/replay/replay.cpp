@@ -146,8 +146,9 @@ void Replay::evaluate_deadlines(ros::Time time) {
   }
 }
 
-/// The time by which shapes wait: it counts from the first time of the bag. It is 0 before that, so
-/// that shapes before the first /clock do not seem to have waited since the year 1970.
+/// The time since the first time of the bag, or 0 if that has not come yet. The waiting times of
+/// shapes are measured with it. With times since 1970, a shape that came before the first /clock
+/// would seem to have waited for decades.
 SteadyTime Replay::steady(ros::Time time) const {
   if (start_.isZero()) return {};
   return SteadyTime(std::chrono::nanoseconds(time.toNSec() - start_.toNSec()));

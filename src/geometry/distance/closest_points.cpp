@@ -70,10 +70,10 @@ class NearestPair {
   }
 
  private:
-  /// Whether the whole face lies between the planes through the ends of the axis, so that the ends
-  /// need not be tried. Rounding can hide that the axis pierces a face close to an end, or a sliver
-  /// that is much longer than the axis. Then only a pair with an end of the axis is near the true
-  /// distance, so the two limits below keep the ends for such faces.
+  /// Whether the whole face lies between the planes through the ends of the axis. Then no end of
+  /// the axis is nearest to the face, and the ends need not be tried. Also false for a face close
+  /// to one of these planes, and for a face with a corner far from the axis: if the axis pierces
+  /// such a face, rounding can hide it, and only a pair with an end is near the true distance.
   bool is_beside() const {
     constexpr double kMargin = 1e-3;   // [axis lengths] distance from the planes through the ends
     constexpr double kFarthest = 1e3;  // [axis lengths] distance of a corner from the trocar

@@ -90,8 +90,9 @@ std::optional<FaceSearch::Ranked> FaceSearch::pop_nearest(Ranking& ranking, floa
   return nearest;
 }
 
-/// The box around the faces of a block's cluster during the whole motion. Empty if the cluster has
-/// no faces.
+/// A box that contains the faces of a block's cluster (see FaceClusters) during the whole motion:
+/// it joins the boxes of all blocks that hold a vertex of these faces. Empty if the cluster has no
+/// faces.
 FaceSearch::Box FaceSearch::box_around(std::uint32_t block) const {
   constexpr float kMost = std::numeric_limits<float>::max();
   const std::vector<Box>& after = organ_->after().block_boxes().blocks();

@@ -20,8 +20,9 @@ class WorkBudget {
   /// A query with more pairs gets the budget for kMostPairs: two to three seconds.
   static constexpr std::uint64_t kMostPairs = 10'000'000;
 
-  /// The steps for each pair in searches for the closest approach, because each search computes
-  /// several distances. The largest budget is the same as above.
+  /// Like kStepsForEachPair, but for searches for the closest approach. It is larger because each
+  /// of these searches computes several distances. The largest budget of a query is the same for
+  /// both: kStepsForEachPair * kMostPairs.
   static constexpr std::uint64_t kApproachStepsForEachPair = 20;
 
   explicit WorkBudget(std::uint64_t steps_for_each_pair = kStepsForEachPair)

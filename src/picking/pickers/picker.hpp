@@ -37,8 +37,8 @@ class Picker {
                     std::vector<Candidate>& candidates) = 0;
 
   /// Replaces `candidates` by the faces of `organ` that may meet the space that `part` sweeps, each
-  /// once, sorted by number. Contains every face that does. The depth ranges have no meaning.
-  /// Throws GlError.
+  /// once, sorted by number. Contains every face that does. The view_min and view_max of the
+  /// candidates have no meaning. Throws GlError.
   virtual void pick(const PartSweep& part, const OrganMotion& organ,
                     std::vector<Candidate>& candidates) = 0;
 

@@ -97,7 +97,7 @@ class DeformableOrgan {
   /// The shape before the latest one. It has no mesh if the latest shape is the first one with its
   /// triangles, and after forget_previous() or set_frame().
   const OrganShape& previous() const { return previous_; }
-  /// What is known of the surface. It is another object after the triangles have changed.
+  /// What is known of the surface. After the triangles have changed, this returns another object.
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
   /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if the

@@ -54,8 +54,8 @@ class ParameterTable {
   void choice(const std::string& name, const std::string& fallback,
               const std::vector<std::string>& legal,
               const std::function<void(const std::string&)>& set, const std::string& text);
-  /// Adds any other parameter. `read` reads it from the group of all parameters. `fallback`: what
-  /// --help shows as its default.
+  /// Adds a parameter of a kind that none of the functions above can add. `read` reads it from the
+  /// group of all parameters. `fallback`: what --help shows as its default.
   void other(const std::string& name, const std::string& fallback,
              const std::function<void(const ParameterGroup&)>& read, const std::string& text);
 

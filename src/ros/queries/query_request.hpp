@@ -23,7 +23,7 @@ template <typename... Parts>
 /// Throws Rejection if the tool has a fault, or if this mode is not possible with the tool.
 void check_tool(const Tool& tool, QueryMode mode);
 
-/// A CollisionRequest with what a request asks, in which organ, tool and motion are not set yet.
+/// Makes a CollisionRequest from a service request. Its organ, tool and motion are not set yet.
 /// Throws Rejection if a value is illegal. A batch asks for neither regions nor near faces.
 CollisionRequest checked_request(const QueryCollision::Request& request);
 CollisionRequest checked_request(const QueryCollisionBatch::Request& request);
