@@ -109,6 +109,15 @@ class Subject:
         programs = {self.kind: self.node, 'judge': self.judge, 'simulator': self.simulator}
         return {name: process.poll() for name, process in programs.items() if process.poll() is not None}
 
+    def wait_until_judged(self):
+        """On a busy machine, the judge may have had no time yet. Without disturbances, it gets some."""
+        give_up = time.monotonic() + SETTLED
+        while not self.ended() and time.monotonic() < give_up:
+            judged = json.loads(self._ask(self.judge, 'report'))
+            if all(judged[what] for what in verdict.WANTED):
+                return
+            time.sleep(1.0)
+
     def end(self):
         """Returns all that was measured, for verdict.py."""
         run = {'kind': self.kind, 'ended': self.ended(), 'memory': list(self.memory),
@@ -319,6 +328,7 @@ def run_kind(kind, master, options):
             Subject(master, options.devel.resolve(), kind, options.seed, log) as subject:
         disturbances, users = Disturbances(subject, random.Random('%d %s' % (options.seed, kind))), Users(options.seed)
         disturbances.run(0.5 * 60.0 * options.minutes / len(KINDS))
+        subject.wait_until_judged()
         users.stop()
         run = subject.end()
     run.update({'disturbances': {**disturbances.counts, **users.counts}, 'users': sorted(users.findings),

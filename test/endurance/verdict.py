@@ -13,6 +13,8 @@ MOST_GROWTH, MOST_GROWTH_OF_SHORT_RUN = 24 * MEBIBYTE, 200 * MEBIBYTE
 SHORT_RUN = 120.0  # [s]
 # What a node may answer whose transforms have gaps, whose organs come and go, and some of whose shapes are illegal.
 LEGAL = {ContactArray.OK, ContactArray.NO_MESH, ContactArray.NO_TRANSFORM, ContactArray.INVALID_REQUEST}
+# Counts of the judge that are above zero in a run that has proven something.
+WANTED = ('ok', 'rechecked', 'rechecked contacts')
 
 
 def lowest(samples, begin, end):
@@ -90,8 +92,7 @@ def findings(run):
               if int(status) not in LEGAL]
     if not is_short(run):
         wrong += missing(run)
-    return wrong + ['nothing was judged: %s is 0' % what for what in ('ok', 'rechecked', 'rechecked contacts')
-                    if judged[what] == 0]
+    return wrong + ['nothing was judged: %s is 0' % what for what in WANTED if judged[what] == 0]
 
 
 def column(run):
