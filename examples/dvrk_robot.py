@@ -75,8 +75,11 @@ if __name__ == '__main__':
     argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
     rospy.init_node('dvrk_robot')
     arms = [Arm(name, *places) for name, places in ARMS.items()]
-    rate = rospy.Rate(100)
-    while not rospy.is_shutdown():
+
+    def publish(_):
         for arm in arms:
             arm.publish(rospy.Time.now())
-        rate.sleep()
+
+    # Not in the main thread: SIGINT interrupts that one, and rospy waits for ever for what it was publishing.
+    rospy.Timer(rospy.Duration(0.01), publish)
+    rospy.spin()
