@@ -128,7 +128,7 @@ class Drawing {
  public:
   Drawing(const Marker& marker, const Eigen::Isometry3d& T_picture_header,
           const Eigen::Matrix3d& axes)
-      : marker_(marker), T_picture_marker_(T_picture_header * pose_of(marker)), axes_(axes) {}
+      : marker_(marker), marker_pose_(T_picture_header * pose_of(marker)), axes_(axes) {}
 
   PictureTriangles draw() {
     switch (marker_.type) {
@@ -196,7 +196,7 @@ class Drawing {
   /// Adds a shape that is lit and has one colour. `points`: the triangles of the shape, in its own
   /// frame.
   void add_solid(TrianglePoints points, const Affine3d& T_marker_shape) {
-    const Affine3d T_picture_shape = T_picture_marker_ * T_marker_shape;
+    const Affine3d T_picture_shape = marker_pose_ * T_marker_shape;
     for (Vector3d& point : points) point = T_picture_shape * point;
     if (T_picture_shape.linear().determinant() < 0.0) {  // A mirrored shape would be inside out.
       for (std::size_t i = 0; i + 2 < points.size(); i += 3)
@@ -223,7 +223,7 @@ class Drawing {
     TrianglePoints points;
     for (const geometry_msgs::Point& point : marker_.points) points.push_back(to_eigen(point));
     if (marker_.colors.empty()) return add_scaled(std::move(points));
-    const Affine3d T_picture_points = T_picture_marker_ * Eigen::Scaling(to_eigen(marker_.scale));
+    const Affine3d T_picture_points = marker_pose_ * Eigen::Scaling(to_eigen(marker_.scale));
     for (std::size_t i = 0; i < points.size(); ++i) {
       add_flat(T_picture_points * points[i], colour_at(i));
     }
@@ -233,8 +233,8 @@ class Drawing {
   void add_lines(std::size_t step) {
     check_colours();
     for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
-      const Vector3d a = T_picture_marker_ * to_eigen(marker_.points[i]);
-      const Vector3d b = T_picture_marker_ * to_eigen(marker_.points[i + 1]);
+      const Vector3d a = marker_pose_ * to_eigen(marker_.points[i]);
+      const Vector3d b = marker_pose_ * to_eigen(marker_.points[i + 1]);
       const Vector3d side = 0.5 * marker_.scale.x * (b - a).cross(axes_.col(2)).stableNormalized();
       const std::array<Vector3d, 4> corners{a - side, a + side, b + side, b - side};
       for (const int corner : {0, 1, 2, 0, 2, 3}) {
@@ -266,7 +266,7 @@ class Drawing {
   }
 
   const Marker& marker_;
-  const Affine3d T_picture_marker_;
+  const Affine3d marker_pose_;
   const Eigen::Matrix3d& axes_;
   PictureTriangles picture_;
 };
