@@ -80,6 +80,6 @@ if __name__ == '__main__':
         for arm in arms:
             arm.publish(rospy.Time.now())
 
-    # Not in the main thread: SIGINT interrupts that one, and rospy waits for ever for what it was publishing.
+    # In a thread of its own: when the main thread published, the program did not always end at SIGINT.
     rospy.Timer(rospy.Duration(0.01), publish)
     rospy.spin()

@@ -120,6 +120,20 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
   return times;
 }
 
+bool ToolPoses::has_pose(const Tool& tool, const std::string& organ_frame, ros::Time time) const {
+  TransformBuffer::Frames frames = swept_frames(tool);
+  if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
+  const std::optional<ros::Time> until = buffer_.believed_until(organ_frame, frames);
+  if (until && time > *until) return false;
+  try {
+    return std::all_of(frames.begin(), frames.end(), [&](const std::string& frame) {
+      return frame == organ_frame || buffer_.canTransform(organ_frame, frame, time);
+    });
+  } catch (const std::runtime_error&) {  // From ros::Time for extreme stamps.
+    return false;
+  }
+}
+
 Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_frame, ros::Time time,
                                  bool with_tip_of_links) const {
   const ToolParameters& parameters = tool.parameters;

@@ -113,6 +113,7 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
   if (!late && !faulty) {
+    if (may_wait && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
     end = poses_.pose(tools_[tool], organ.frame(), stamp);
     if (!end.found && may_wait) return;
   }

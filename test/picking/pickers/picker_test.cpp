@@ -155,7 +155,7 @@ TEST_P(PickerTest, PicksTheSameOnBothPlatformsBitForBit) {
     }
   };
   std::size_t picked = 0;
-  for (int i = 0; i < 700; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     const ShaftMotion motion = random_motion(motion_kind(i), i % 2 == 0 ? 0.3 : 200, random);
     const double radius = random.scale(5e-4, 0.01);
     const TriangleMesh mesh = faces_near(motion, 60, 3 * radius, random);
@@ -163,7 +163,7 @@ TEST_P(PickerTest, PicksTheSameOnBothPlatformsBitForBit) {
     expect_same(conservative_volume(motion, radius, {}), mesh);
     picked += found.size();
   }
-  EXPECT_GT(picked, 10'000u);
+  EXPECT_GT(picked, 20'000u);
 }
 
 /// Expects that parse(name) throws, and names the value and what is legal.

@@ -110,6 +110,9 @@ TEST_F(ToolPosesTest, ShaftLinksAndTipInTheOrgansFrame) {
   expect_links(both.found->value.links, 1.0);
   EXPECT_FALSE(both.found->value.tip);
   EXPECT_EQ(both.found->stamp, ros::Time(1.0));
+  EXPECT_TRUE(poses_.has_pose(with_links(hook_), "liver", ros::Time(1.0)));
+  EXPECT_TRUE(poses_.has_pose(tipped_, "liver", ros::Time(1.0)));
+  EXPECT_FALSE(poses_.has_pose(tipped_, "liver", ros::Time(2.001)));
   const auto tipped = poses_.pose(tipped_, "liver", ros::Time(1.0));
   ASSERT_TRUE(tipped.found && tipped.found->value.tip) << tipped.why_not;
   EXPECT_LT((*tipped.found->value.tip - kWorldLiver.inverse() * jaw_tip(1.0)).norm(), 1e-9);
@@ -144,6 +147,8 @@ TEST_F(ToolPosesTest, WhatIsMissingIsNamed) {
             "frame 'arm/jaw' is unknown to TF");
   send_jaw(1.0);
   EXPECT_EQ(why_not(tipped_, 1.0), "tip of tool 'grasper': frame 'jaw_tip' is unknown to TF");
+  EXPECT_TRUE(poses_.has_pose(grasper_, "liver", ros::Time(1.0)));
+  EXPECT_FALSE(poses_.has_pose(tipped_, "liver", ros::Time(1.0)));
   EXPECT_EQ(why_not(grasper_, 1.0, "kidney"),
             "link 'wrist' of tool 'grasper': frame 'kidney' is unknown to TF");
   send_wrist(1.1);
