@@ -29,8 +29,11 @@ endif()
 # Other compilers and libraries than ours may warn of more, so only `./run_tests --strict` takes warnings for errors.
 option(ORGAN_COLLISION_STRICT "Take the compiler's warnings for errors" OFF)
 
-# organ_collision_target(TARGET): sets the warnings that every target of the package is built with.
+# organ_collision_target(TARGET): sets the warnings that every target of the package is built with. Programs are compiled
+# as position-independent as libraries are, because only then can they use the libraries' precompiled headers.
 function(organ_collision_target target)
+  set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+  target_compile_options(${target} PRIVATE -fPIC)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic $<$<BOOL:${ORGAN_COLLISION_STRICT}>:-Werror>)
 endfunction()
 
@@ -50,12 +53,17 @@ function(organ_collision_layer name)
   organ_collision_target(organ_collision_${name})
 endfunction()
 
-# organ_collision_precompile(LAYER OWNER): the library of LAYER uses the precompiled headers of the library of OWNER.
-# If both are one, it compiles the headers that most sources include.
-function(organ_collision_precompile layer owner)
-  if(NOT layer STREQUAL owner)
-    target_precompile_headers(organ_collision_${layer} REUSE_FROM organ_collision_${owner})
-    return()
-  endif()
-  target_precompile_headers(organ_collision_${layer} PRIVATE ${ARGN})
+# organ_collision_precompiled(LAYER TARGETS...): the targets use the precompiled headers of the layer's library.
+function(organ_collision_precompiled layer)
+  foreach(target ${ARGN})
+    target_precompile_headers(${target} REUSE_FROM organ_collision_${layer})
+  endforeach()
+endfunction()
+
+# organ_collision_program(NAME SOURCE LIBRARIES...): a program that is installed.
+function(organ_collision_program name source)
+  add_executable(${name} ${source})
+  target_link_libraries(${name} ${ARGN})
+  organ_collision_target(${name})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()

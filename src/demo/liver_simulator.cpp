@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <map>
 
+#include "geometry/tool/least_rotation.hpp"
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
@@ -83,7 +84,7 @@ std::vector<VertexPush> pushes_of(const VertexForces& forces) {
 /// A pose whose z axis points along the shaft.
 Eigen::Isometry3d pose_at(const Eigen::Vector3d& place, const Eigen::Vector3d& shaft) {
   Eigen::Isometry3d pose(Eigen::Translation3d{place});
-  pose.rotate(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), shaft));
+  pose.rotate(least_rotation(Eigen::Vector3d::UnitZ(), shaft));
   return pose;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "geometry/tool/least_rotation.hpp"
+
 namespace organ_collision {
 namespace {
 
@@ -24,8 +26,7 @@ geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
   Eigen::Isometry3d tip = Eigen::Isometry3d::Identity();
   tip.translation() = pose.axis.tip;
   tip.linear() =
-      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), pose.axis.tip - pose.axis.trocar)
-          .toRotationMatrix();
+      least_rotation(Vector3d::UnitZ(), pose.axis.tip - pose.axis.trocar).toRotationMatrix();
   return tf2::toMsg(tip);
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry/concatenate.hpp"
+#include "geometry/tool/least_rotation.hpp"
 #include "offline/user_input.hpp"
 #include "ros/messages/conversions.hpp"
 
@@ -261,8 +262,7 @@ class Drawing {
                                                  {0.0, shaft + head}});
     for (Vector3d& point : points) point = Vector3d(point.z(), point.x(), point.y());
     add_solid(std::move(points),
-              Eigen::Translation3d(start) *
-                  Affine3d(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), along)));
+              Eigen::Translation3d(start) * Affine3d(least_rotation(Vector3d::UnitX(), along)));
   }
 
   const Marker& marker_;

@@ -13,7 +13,6 @@
 #include <iostream>
 #include <map>
 #include <optional>
-#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -130,7 +129,10 @@ std::optional<Eigen::Vector2i> size(const std::string& text) {
 }
 
 std::optional<Colour> colour(const std::string& text) {
-  if (!std::regex_match(text, std::regex("#[[:xdigit:]]{6}"))) return std::nullopt;
+  if (text.size() != 7 || text[0] != '#' ||
+      text.find_first_not_of("0123456789abcdefABCDEF", 1) != std::string::npos) {
+    return std::nullopt;
+  }
   const unsigned long rgb = std::stoul(text.substr(1), nullptr, 16);
   return Colour(rgb >> 16 & 255, rgb >> 8 & 255, rgb & 255, 255) / 255.0F;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/tool/least_rotation.hpp"
 #include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
@@ -23,7 +24,7 @@ bool has_direction(const ShaftAxis& axis) { return along(axis).norm() > kShortes
 /// The smallest rotation that turns one axis into the direction of another.
 Quaterniond turn(const ShaftAxis& from, const ShaftAxis& to) {
   if (!has_direction(from) || !has_direction(to)) return Quaterniond::Identity();
-  return Quaterniond::FromTwoVectors(along(from), along(to));
+  return least_rotation(along(from), along(to));
 }
 
 /// The pose after a rigid motion of the whole tool.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "geometry/tool/least_rotation.hpp"
 #include "markers.hpp"
 #include "ros/messages/text.hpp"
 
@@ -34,7 +35,7 @@ Marker cylinder(const MarkerStyle& style, const ShaftAxis& axis, double radius) 
   const Vector3d along = axis.tip - axis.trocar;
   Isometry3d pose(Eigen::Translation3d(axis.at(0.5)));
   if (!along.isZero(0.0)) {
-    pose.rotate(Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), along));
+    pose.rotate(least_rotation(Vector3d::UnitZ(), along));
   }
   return shape(style, Marker::CYLINDER, pose, {2.0 * radius, 2.0 * radius, along.norm()});
 }

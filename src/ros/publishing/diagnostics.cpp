@@ -1,5 +1,7 @@
 #include "diagnostics.hpp"
 
+#include <diagnostic_updater/diagnostic_updater.h>
+
 #include <algorithm>
 
 #include "ros/messages/text.hpp"

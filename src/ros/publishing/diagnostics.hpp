@@ -1,6 +1,6 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 
 #include <array>
 #include <atomic>
@@ -14,6 +14,10 @@
 #include "ros/messages/failure_log.hpp"
 #include "ros/steps/collision_pipeline.hpp"
 #include "ros/tools/tool.hpp"
+
+namespace diagnostic_updater {
+class Updater;  // Its header takes a compiler 3 s.
+}
 
 namespace organ_collision {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <diagnostic_updater/diagnostic_updater.h>
+#include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
 #include <sys/types.h>
 
