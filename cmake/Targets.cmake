@@ -18,6 +18,7 @@ elseif(ORGAN_COLLISION_SANITIZE)
   set(sanitizers ${ORGAN_COLLISION_SANITIZE})
   if(sanitizers STREQUAL "address")
     set(sanitizers address,undefined)
+    add_compile_options(-O1)  # With -O3, GCC needs three times as long.
   endif()
   # In code with checks in it, GCC 12 takes values for uninitialized that are not.
   add_compile_options(-fsanitize=${sanitizers} -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1
