@@ -5,7 +5,7 @@
 
 #include "geometry/distance/separating_plane.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
-#include "picking/volumes/paper_volumes.hpp"
+#include "request_check.hpp"
 
 namespace organ_collision {
 namespace {
@@ -16,14 +16,6 @@ PartSweep sweep_of(const Step& step, const LegSpan& span, const ToolPart& part) 
   if (!part.shape) return {step.shaft_motion(span), step.radius() + span.deviation};
   return PartSweep(SweptBox(part.shape->bounds, step.link_motion(span, part.link),
                             part.shape->radius + span.deviation));
-}
-
-/// The viewing volume of a request in one of the paper's modes.
-ViewingVolume paper_volume(const CollisionRequest& request) {
-  const ShaftMotion motion{request.path.front().axis, request.path.back().axis};
-  if (request.mode == QueryMode::kPaperSwept) return paper_swept_volume(motion, request.radius);
-  if (request.mode == QueryMode::kPaperNaive) return paper_naive_volume(motion, request.radius);
-  return paper_static_volume(motion.end, request.radius);
 }
 
 /// Sorts the contacts by face, then link, and keeps one contact for each face and link: the first

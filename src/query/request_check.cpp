@@ -9,6 +9,7 @@
 #include "geometry/concatenate.hpp"
 #include "geometry/coordinate_range.hpp"
 #include "organ_collision/geometry/tolerances.hpp"
+#include "picking/volumes/paper_volumes.hpp"
 
 namespace organ_collision {
 namespace {
@@ -123,6 +124,13 @@ void check(const CollisionRequest& request) {
            " other faces than the present one, which has ", request.organ->face_count());
   }
   if (request.placement) check_placement(request);
+}
+
+ViewingVolume paper_volume(const CollisionRequest& request) {
+  const ShaftMotion motion{request.path.front().axis, request.path.back().axis};
+  if (request.mode == QueryMode::kPaperSwept) return paper_swept_volume(motion, request.radius);
+  if (request.mode == QueryMode::kPaperNaive) return paper_naive_volume(motion, request.radius);
+  return paper_static_volume(motion.end, request.radius);
 }
 
 void check_tool(const ProxyTool& tool) {

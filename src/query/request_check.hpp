@@ -4,6 +4,7 @@
 
 #include "organ_collision/query/collision_query.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
+#include "picking/volumes/viewing_volume.hpp"
 
 namespace organ_collision {
 
@@ -15,6 +16,10 @@ inline constexpr double kRotationTolerance = 1e-9;
 
 /// Refuses a request that has no answer (see CollisionQuery::evaluate).
 void check(const CollisionRequest& request);
+
+/// The viewing volume of a request in one of the paper's modes, which check() has accepted. Throws
+/// VolumeError if the shaft is too short or too thin for the volume.
+ViewingVolume paper_volume(const CollisionRequest& request);
 
 void check_tool(const ProxyTool& tool);
 void check_settings(const ProxyTool& tool, const ProxySettings& settings);
