@@ -39,12 +39,6 @@ std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::ui
   return volumes;
 }
 
-Region region_of(const Triangle& face, const ViewingVolume& volume) {
-  Region region = clipped(shifted(face, volume.origin()), volume);
-  for (Eigen::Vector3d& corner : region) corner += volume.origin();
-  return region;
-}
-
 /// Finds the region of each contact: the polygon in which the contact's face, as it is at the end
 /// of the step, meets the tool's volume on the leg of the first touch. A link has a volume for each
 /// part; the first one that the face meets counts.
@@ -60,9 +54,11 @@ void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
       link = contact.link;
       volumes = volumes_of(step, leg, link);
     }
+    const Triangle face = step.organ().triangle(contact.face);
     Region& region = regions.emplace_back();
     for (auto volume = volumes.begin(); region.empty() && volume != volumes.end(); ++volume) {
-      region = region_of(step.organ().triangle(contact.face), *volume);
+      region = clipped(shifted(face, volume->origin()), *volume);
+      for (Eigen::Vector3d& corner : region) corner += volume->origin();
     }
   }
 }

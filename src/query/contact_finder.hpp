@@ -23,8 +23,7 @@ class ContactFinder {
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
   /// For a request in one of the paper's modes, adds a contact for each face in the paper's volume.
-  /// Only the number of the face and its range of depths are set. Throws VolumeError if the shaft
-  /// is too short or too thin for the volume.
+  /// Only the number of the face and its range of depths are set.
   void find_in_paper_volume(const CollisionRequest& request, std::vector<FaceContact>& contacts);
 
  private:
