@@ -32,15 +32,12 @@ std::optional<double> known_distance(const Clearance& clearance) {
 std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Push>& pushes) {
   std::vector<FaceForce> faces;
   faces.reserve(pushes.size());
-  for (const Contact& contact : answer.contacts) {
-    faces.push_back({contact.face, contact.link, contact.vertices, contact.barycentric,
-                     to_eigen(contact.end_point)});
-  }
-  if (pushes.size() > faces.size()) {
-    const Clearance& clearance = answer.clearance;
-    faces.push_back({clearance.face, clearance.link, clearance.vertices, clearance.barycentric,
-                     to_eigen(clearance.on_organ)});
-  }
+  const auto add = [&faces](const auto& at, const geometry_msgs::Point& place) {
+    const auto &v = at.vertices, &b = at.barycentric;
+    faces.push_back({at.face, at.link, {v[0], v[1], v[2]}, {b[0], b[1], b[2]}, to_eigen(place)});
+  };
+  for (const Contact& contact : answer.contacts) add(contact, contact.end_point);
+  if (pushes.size() > faces.size()) add(answer.clearance, answer.clearance.on_organ);
   return faces;
 }
 
