@@ -72,7 +72,9 @@ using ForceOf = std::function<Eigen::Vector3d(const ContactArray&)>;
 struct ForceStep {
   ToolWaypoint pose;
   Eigen::Vector3d force;
-  ContactArray answer;
+  std::size_t contacts;  ///< their number
+  bool is_inside;        ///< nothing is touched, and the tip is inside
+  double distance;       ///< [m] of the clearance
 };
 
 /// The forces on a tool that moves through `poses`, with the organ at rest. The queries are those
@@ -96,7 +98,9 @@ inline std::vector<ForceStep> forces_along(const std::vector<ToolWaypoint>& pose
     for (const FaceContact& at : result.contacts) answer.contacts.push_back(to_message(at));
     answer.clearance = to_message(result.clearance);
     answer.placement = to_message(result.placement);
-    steps.push_back({pose, law(answer), answer});
+    const bool is_tip_inside = answer.placement.tip == ToolPlacement::INSIDE;
+    steps.push_back({pose, law(answer), answer.contacts.size(),
+                     answer.contacts.empty() && is_tip_inside, answer.clearance.distance});
   }
   return steps;
 }

@@ -44,10 +44,6 @@ double way_between(const ToolWaypoint& from, const ToolWaypoint& to) {
   return most;
 }
 
-bool is_inside(const ForceStep& step) {
-  return step.answer.contacts.empty() && step.answer.placement.tip == ToolPlacement::INSIDE;
-}
-
 /// The forces on a tool that moves in steps of about kStep through `corners`, and rests for
 /// `resting_steps` at each. Expects that no change of the force exceeds the limit. A tool for which
 /// clearance and placement are asked has no force at once when it leaves the last face.
@@ -68,14 +64,16 @@ std::vector<ForceStep> expect_limited(const std::string& what, const CollisionRe
   });
   for (std::size_t i = 1; i < steps.size(); ++i) {
     const ForceStep &last = steps[i - 1], &step = steps[i];
-    if (request.clearance && step.answer.contacts.empty() && !is_inside(step)) continue;
+    if (request.clearance && step.contacts == 0 && !step.is_inside) continue;
     const double most = kStiffness * (4.0 * way_between(last.pose, step.pose) + 0.05 * kSeconds);
     EXPECT_LE((step.force - last.force).norm(), most * (1.0 + 1e-6))
         << what << ", step " << i << ", tip at " << step.pose.axis.tip.transpose() << ": force "
-        << step.force.transpose() << " after " << last.force.transpose() << ", "
-        << step.answer.contacts.size() << " contacts";
+        << step.force.transpose() << " after " << last.force.transpose() << ", " << step.contacts
+        << " contacts";
   }
-  if (request.clearance) EXPECT_TRUE(steps.back().force.isZero(0.0)) << what;
+  if (request.clearance) {
+    EXPECT_TRUE(steps.back().force.isZero(0.0)) << what;
+  }
   return steps;
 }
 
@@ -325,8 +323,7 @@ TEST(ForceInside, OfASunkToolItGrowsOnAlongTheNearestWayOut) {
       for (const ForceStep& step : steps) {
         // While the contacts end, the force of a tilted shaft goes from its deeper end, which they
         // report, to the way out of its higher end.
-        if (!is_inside(step) || (row.tilt != 0.0 && step.answer.clearance.distance < 0.003))
-          continue;
+        if (!step.is_inside || (row.tilt != 0.0 && step.distance < 0.003)) continue;
         ++inside;
         const double highest = std::max(step.pose.axis.trocar.z(), step.pose.axis.tip.z());
         EXPECT_LE((step.force - Vector3d(0.0, 0.0, kStiffness * (row.half - highest))).norm(),
@@ -345,9 +342,8 @@ TEST(ForceInside, OfAShaftThatIsPushedInWhollyItEndsOnTheNearestWayOut) {
       expect_limited(shaft(0.03), {at(0.04), at(-0.029), at(0.04)}, closed_block(7), 2000);
   const auto deepest = std::min_element(
       steps.rbegin(), steps.rend(), [](auto& a, auto& b) { return lowest_end(a) < lowest_end(b); });
-  EXPECT_TRUE(is_inside(*deepest));
-  EXPECT_NEAR(deepest->force.norm(),
-              kStiffness * (2.0 * kRadius + deepest->answer.clearance.distance), 1e-6);
+  EXPECT_TRUE(deepest->is_inside);
+  EXPECT_NEAR(deepest->force.norm(), kStiffness * (2.0 * kRadius + deepest->distance), 1e-6);
 }
 
 TEST(ForceInside, OnRandomWaysItDoesNotJump) {
@@ -366,7 +362,7 @@ TEST(ForceInside, OnRandomWaysItDoesNotJump) {
         random_pose(random.uniform(-0.05, -0.01)), random_pose(0.04)};
     for (const ForceStep& step :
          expect_limited(tools[i % 3], corners, organs[random.integer(0, 1)])) {
-      inside += is_inside(step);
+      inside += step.is_inside;
     }
   }
   EXPECT_GT(inside, 1000);
