@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -22,21 +23,23 @@ struct GridSurface {
   }
 };
 
-/// A wavy sheet of 2 * side * side faces, 0.2 m wide, vertices row by row; `phase` deforms it.
-inline GridSurface grid_surface(int side, double phase = 0.0) {
+/// A surface over a grid whose vertices are place(row, column) [m]. `closed`: the last column is
+/// followed by the first. The faces point along the cross product of the directions of a row and a
+/// column.
+template <typename Place>
+GridSurface grid_of(int rows, int columns, bool closed, const Place& place) {
   GridSurface grid;
-  for (int row = 0; row <= side; ++row) {
-    for (int column = 0; column <= side; ++column) {
-      const double x = 0.2 * column / side - 0.1, y = 0.2 * row / side - 0.1;
-      const double z = 0.02 * std::sin(37.0 * x + phase) * std::cos(29.0 * y - 0.7 * phase);
-      for (const double value : {x, y, z}) grid.vertices.push_back(static_cast<float>(value));
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      const Eigen::Vector3d at = place(row, column);
+      for (const double value : at) grid.vertices.push_back(static_cast<float>(value));
     }
   }
-  const auto vertex = [side](int row, int column) {
-    return static_cast<std::uint32_t>(row * (side + 1) + column);
+  const auto vertex = [columns](int row, int column) {
+    return static_cast<std::uint32_t>(row * columns + column % columns);
   };
-  for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
+  for (int row = 0; row + 1 < rows; ++row) {
+    for (int column = 0; column + (closed ? 0 : 1) < columns; ++column) {
       const std::uint32_t a = vertex(row, column), b = vertex(row, column + 1);
       const std::uint32_t c = vertex(row + 1, column + 1), d = vertex(row + 1, column);
       grid.faces.push_back({a, b, c});
@@ -44,6 +47,15 @@ inline GridSurface grid_surface(int side, double phase = 0.0) {
     }
   }
   return grid;
+}
+
+/// A wavy sheet of 2 * side * side faces, 0.2 m wide, vertices row by row; `phase` deforms it.
+inline GridSurface grid_surface(int side, double phase = 0.0) {
+  return grid_of(side + 1, side + 1, false, [&](int row, int column) {
+    const double x = 0.2 * column / side - 0.1, y = 0.2 * row / side - 0.1;
+    const double z = 0.02 * std::sin(37.0 * x + phase) * std::cos(29.0 * y - 0.7 * phase);
+    return Eigen::Vector3d(x, y, z);
+  });
 }
 
 /// The same surface with its vertices and faces in random order.

@@ -23,7 +23,7 @@ def deviation(fraction, way, begin, end):
 
 
 def longest_span(fraction, way, begin):
-    """All legs that are left, then half of them, and so on; as leg_span.cpp."""
+    """All legs that are left, then half of them, and so on; as step.cpp."""
     legs = len(way) - 1 - begin
     while legs > 1 and deviation(fraction, way, begin, begin + legs) > ALLOWED:
         legs //= 2

@@ -1,5 +1,7 @@
 #include "contact_answer.hpp"
 
+#include <xmlrpcpp/XmlRpcException.h>
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -63,21 +65,6 @@ void check_geometry(const ContactArray& answer) {
   check_normal(clearance.normal, "normal of the clearance");
 }
 
-ShaftRadius positive_number(const XmlRpcValue& value) {
-  double number = 0.0;
-  if (value.getType() == XmlRpcValue::TypeInt) number = static_cast<int>(value);
-  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<double>(value);
-  if (number > 0.0) return number;
-  return std::nullopt;
-}
-
-bool is_named(const XmlRpcValue& entry, const std::string& tool) {
-  if (entry.getType() != XmlRpcValue::TypeStruct || !entry.hasMember(names::kToolName))
-    return false;
-  const XmlRpcValue& name = entry[names::kToolName];
-  return name.getType() == XmlRpcValue::TypeString && static_cast<std::string>(name) == tool;
-}
-
 }  // namespace
 
 bool has_geometry(const ContactArray& contacts) {
@@ -119,11 +106,15 @@ std_msgs::UInt32MultiArray face_list(const ContactArray& contacts) {
 }
 
 ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {
-  if (tools.getType() != XmlRpcValue::TypeArray) return std::nullopt;
-  for (int i = 0; i < tools.size(); ++i) {
-    if (!is_named(tools[i], tool)) continue;
-    return tools[i].hasMember(names::kRadius) ? positive_number(tools[i][names::kRadius])
-                                              : std::nullopt;
+  try {
+    for (int i = 0; i < tools.size(); ++i) {
+      const XmlRpcValue &name = tools[i][names::kToolName], &radius = tools[i][names::kRadius];
+      if (static_cast<std::string>(name) != tool) continue;
+      const bool is_integer = radius.getType() == XmlRpcValue::TypeInt;
+      const double number = is_integer ? static_cast<int>(radius) : static_cast<double>(radius);
+      return number > 0.0 ? ShaftRadius(number) : std::nullopt;
+    }
+  } catch (const XmlRpc::XmlRpcException&) {  // This is no list of tools, or the radius is missing.
   }
   return std::nullopt;
 }

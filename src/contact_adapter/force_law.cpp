@@ -1,10 +1,7 @@
 #include "force_law.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
-
-#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {
@@ -35,53 +32,39 @@ std::optional<double> known_distance(const Clearance& clearance) {
 std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Push>& pushes) {
   std::vector<FaceForce> faces;
   faces.reserve(pushes.size());
-  for (const Contact& contact : answer.contacts) {
-    faces.push_back({contact.face, contact.link, contact.vertices, contact.barycentric,
-                     to_eigen(contact.end_point)});
-  }
-  if (pushes.size() > faces.size()) {
-    const Clearance& clearance = answer.clearance;
-    faces.push_back({clearance.face, clearance.link, clearance.vertices, clearance.barycentric,
-                     to_eigen(clearance.on_organ)});
-  }
+  const auto add = [&faces](const auto& at, const geometry_msgs::Point& place) {
+    const auto &v = at.vertices, &b = at.barycentric;
+    faces.push_back({at.face, at.link, {v[0], v[1], v[2]}, {b[0], b[1], b[2]}, to_eigen(place)});
+  };
+  for (const Contact& contact : answer.contacts) add(contact, contact.end_point);
+  if (pushes.size() > faces.size()) add(answer.clearance, answer.clearance.on_organ);
   return faces;
 }
 
 }  // namespace
 
-ContactMotion::Place ContactMotion::place_of(const Contact& contact, const Push& push,
-                                             const ShaftRadius& radius) {
-  Place place{to_eigen(contact.normal), contact.depth, contact.fraction > 0.0, std::nullopt,
-              std::nullopt};
-  if (!radius) return place;
-  place.depth = std::min(contact.depth, *radius);
-  place.offset = (*radius - place.depth) * place.normal;
-  if (contact.depth >= *radius && push.counts) place.pierced = Pierced{contact.depth, push.depth};
-  return place;
-}
-
 double ContactMotion::path_length_between(const Place& before, const Place& now) {
-  const double agreement = before.normal.dot(now.normal);
-  if (!before.offset || !now.offset) {
-    const bool is_same = agreement > (before.is_new ? kExactlySame : kSame);
-    return is_same ? std::abs(now.depth - before.depth) : 0.0;
+  const double agreement = before.normal().dot(now.normal());
+  const double nearer = now.depth() - before.depth();
+  if (!before.radius || !now.radius) {
+    const bool was_new = before.contact.fraction > 0.0;
+    return agreement > (was_new ? kExactlySame : kSame) ? std::abs(nearer) : 0.0;
   }
-  if (before.pierced && now.pierced && agreement > kSame) {
-    return std::min(std::abs(now.pierced->depth - before.pierced->depth),
-                    std::abs(now.pierced->push - before.pierced->push));
+  if (before.is_pierced() && now.is_pierced() && agreement > kSame) {
+    return std::min(std::abs(now.contact.depth - before.contact.depth),
+                    std::abs(now.push.depth - before.push.depth));
   }
-  const Vector3d change = *now.offset - *before.offset;
-  const double nearer = now.depth - before.depth;
-  const double farther = change.dot(before.offset->normalized());
+  const Vector3d change = now.offset() - before.offset();
+  const double farther = change.dot(before.offset().normalized());
   return std::max({0.5 * change.norm(), nearer, farther});
 }
 
 /// [m] A lower bound of the motion if the face was not touched in the last answer.
-double ContactMotion::path_length_to(const Contact& contact, const Place& now) {
+double ContactMotion::path_length_to(const Place& now) {
   // If the face was not touched when the step began, its whole depth arose in this step.
-  if (contact.fraction > 0.0) return contact.depth;
+  if (now.contact.fraction > 0.0) return now.contact.depth;
   // A face that pierces a link at once may have the link's whole thickness as its depth.
-  return now.offset ? now.depth : 0.0;
+  return now.radius ? now.depth() : 0.0;
 }
 
 std::optional<double> ContactMotion::follow(const ContactArray& answer,
@@ -91,12 +74,12 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
   Places places;
   for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
     const Contact& contact = answer.contacts[i];
-    const Place now = place_of(contact, pushes[i], radius_at(contact, answer, shaft_radius));
+    const Place now{contact, pushes[i], radius_at(contact, answer, shaft_radius)};
     places.insert({{contact.face, contact.link}, now});
     if (!last_) continue;
     const auto before = last_->find({contact.face, contact.link});
     if (before == last_->end()) {
-      way = std::max(way, path_length_to(contact, now));
+      way = std::max(way, path_length_to(now));
     } else {
       way = std::max(way, path_length_between(before->second, now));
       last_->erase(before);
@@ -106,7 +89,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
   if (follows) {
     for (const auto& [face, left] : *last_) {
       // If the tool passed through the face, its distance from the face is not known.
-      if (left.offset && !left.offset->isZero(0.0)) way = std::max(way, left.depth);
+      if (left.radius && !left.offset().isZero(0.0)) way = std::max(way, left.depth());
     }
   }
   const std::optional<double> distance = known_distance(answer.clearance);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -7,6 +8,7 @@
 
 #include "forces/forces.hpp"
 #include "pushes.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 
@@ -34,22 +36,24 @@ class ContactMotion {
                                const ShaftRadius& shaft_radius);
 
  private:
-  struct Pierced {
-    double depth;  ///< [m] Contact.depth
-    double push;   ///< [m] Push.depth: at most the radius if the axis came from the side
-  };
+  /// A touched face.
   struct Place {
-    Eigen::Vector3d normal;                 ///< Contact.normal
-    double depth;                           ///< [m] Contact.depth, for a shaft at most its radius
-    bool is_new;                            ///< first touched in the step, after it began
-    std::optional<Eigen::Vector3d> offset;  ///< [m] from axis to face; unset: unknown radius
-    std::optional<Pierced> pierced;         ///< if the axis is past the face and the push counts
+    Contact contact;
+    Push push;           ///< its depth is at most the radius if the axis came from the side
+    ShaftRadius radius;  ///< unset: a link touches, or the radius is not known
+
+    Eigen::Vector3d normal() const { return to_eigen(contact.normal); }
+    /// [m] Contact.depth, for a shaft at most its radius.
+    double depth() const { return radius ? std::min(contact.depth, *radius) : contact.depth; }
+    /// [m] From the axis to the face, if the radius is known.
+    Eigen::Vector3d offset() const { return (*radius - depth()) * normal(); }
+    /// Whether the axis is past the face, and the push counts.
+    bool is_pierced() const { return radius && contact.depth >= *radius && push.counts; }
   };
   using Places = std::map<FaceAndLink, Place>;
 
-  static Place place_of(const Contact& contact, const Push& push, const ShaftRadius& radius);
   static double path_length_between(const Place& before, const Place& now);
-  static double path_length_to(const Contact& contact, const Place& now);
+  static double path_length_to(const Place& now);
 
   std::optional<Places> last_;
   std::optional<double> last_distance_;  ///< [m] Clearance.distance; unset: not known

@@ -36,10 +36,7 @@ using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
 ///   depth.
 ///
 /// A tool that is wholly inside a closed organ touches no face, and is pushed along the nearest way
-/// out ("Wholly inside" in doc/forces.md says when). The depth is the clearance's distance plus the
-/// depth just below the surface: twice the radius for a shaft. For a link it is the depth with
-/// which the link was last pushed before it lost touch, or 0 if it was never seen to enter. So the
-/// depth continues where the contacts end.
+/// out. "Wholly inside" in doc/forces.md says when, and with which depth.
 class PushTracker {
  public:
   /// `pushes_out`: false if tools inside shall not be pushed out, for example in a hollow organ.

@@ -95,33 +95,6 @@ void follow_to_the_end(std::vector<std::size_t>& next) {
   }
 }
 
-}  // namespace
-
-std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts) {
-  std::vector<std::size_t> next(contacts.size());
-  std::iota(next.begin(), next.end(), 0);
-  const std::vector<Corner> corners = corners_of(contacts);
-  for (auto begin = corners.begin(); begin != corners.end();) {
-    const auto end = std::find_if(begin, corners.end(),
-                                  [begin](const Corner& at) { return !at.is_same(*begin); });
-    // Contacts whose points are on one corner have the same point, and so the same nearest face.
-    std::optional<std::size_t> first, nearest;
-    for (auto at = begin; at != end; ++at) {
-      if (!at->has_point) continue;
-      if (!nearest) {
-        first = at->contact;
-        nearest = nearest_face(*first, contacts, begin, end);
-      }
-      if (*nearest != *first) next[at->contact] = *nearest;
-    }
-    begin = end;
-  }
-  follow_to_the_end(next);
-  return next;
-}
-
-namespace {
-
 /// [1] The search ends when the uncovered part of each depth is at most this share of the greatest
 /// depth.
 constexpr double kTolerance = 1e-6;
@@ -219,6 +192,29 @@ void share(const Spring& spring, const Vector3d& force, const std::vector<Push>&
 }
 
 }  // namespace
+
+std::vector<std::size_t> basins_of(const std::vector<Contact>& contacts) {
+  std::vector<std::size_t> next(contacts.size());
+  std::iota(next.begin(), next.end(), 0);
+  const std::vector<Corner> corners = corners_of(contacts);
+  for (auto begin = corners.begin(); begin != corners.end();) {
+    const auto end = std::find_if(begin, corners.end(),
+                                  [begin](const Corner& at) { return !at.is_same(*begin); });
+    // Contacts whose points are on one corner have the same point, and so the same nearest face.
+    std::optional<std::size_t> first, nearest;
+    for (auto at = begin; at != end; ++at) {
+      if (!at->has_point) continue;
+      if (!nearest) {
+        first = at->contact;
+        nearest = nearest_face(*first, contacts, begin, end);
+      }
+      if (*nearest != *first) next[at->contact] = *nearest;
+    }
+    begin = end;
+  }
+  follow_to_the_end(next);
+  return next;
+}
 
 std::vector<Vector3d> penalty_forces(const std::vector<Push>& pushes, double stiffness) {
   std::vector<Spring> springs;

@@ -18,8 +18,7 @@ constexpr double kTolerance = 1e-6;  // [1]
 
 void check_barycentric(const FaceForce& at) {
   const auto& b = at.barycentric;
-  const bool is_in_face = std::min({b[0], b[1], b[2]}) >= -kTolerance;
-  if (is_in_face && std::abs(b[0] + b[1] + b[2] - 1.0) <= kTolerance) return;
+  if (b.minCoeff() >= -kTolerance && std::abs(b.sum() - 1.0) <= kTolerance) return;
   throw Rejection(
       ContactArray::INVALID_REQUEST, "no barycentric coordinates",
       concatenate("the barycentric coordinates of face ", at.face, " are ", b[0], " ", b[1], " ",

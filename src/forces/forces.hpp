@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "organ_collision/geometry/organ/triangle_mesh.hpp"
+
 /// The names in the ROS graph that all nodes that publish forces share.
 namespace organ_collision::names {
 
@@ -30,8 +32,8 @@ namespace organ_collision {
 struct FaceForce {
   std::uint32_t face;                       ///< Contact.face
   std::uint32_t link;                       ///< Contact.link
-  Contact::_vertices_type vertices;         ///< the indices of the face's corners
-  Contact::_barycentric_type barycentric;   ///< of the point, in the order of `vertices`
+  FaceIndices vertices;                     ///< the indices of the face's corners
+  Eigen::Vector3d barycentric;              ///< of the point, in the order of `vertices`
   Eigen::Vector3d place;                    ///< [m] the point, at the end of the step
   Eigen::Vector3d force = {0.0, 0.0, 0.0};  ///< [N]
 };

@@ -15,15 +15,6 @@ struct Place {
   Vector3d on_hand;   ///< [N] the part of this force that acts on the hand at answer.center
 };
 
-template <typename Indices>
-FaceForce on_face(std::uint32_t face, std::uint32_t link, const Indices& vertices,
-                  const Vector3d& barycentric, const Vector3d& point, const Vector3d& force) {
-  FaceForce at{face, link, {}, {}, point, force};
-  std::copy(vertices.begin(), vertices.end(), at.vertices.begin());
-  std::copy(barycentric.begin(), barycentric.end(), at.barycentric.begin());
-  return at;
-}
-
 /// The force at the tip [N] that comes from a force at the place `shaft` on the axis. Across the
 /// axis, the axis is a lever about the trocar. Along the axis, the force acts in full.
 Vector3d at_tip(const Vector3d& force, double shaft, const ShaftAxis& axis) {
@@ -40,17 +31,17 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
     const FaceContact& contact = at.contact;
     const Vector3d force = -stiffness * at.load * contact.normal;
     const double lever = has_levers && contact.link == 0 ? contact.shaft : 1.0;
-    places.push_back({at.organ,
-                      on_face(contact.face, contact.link, contact.vertices, contact.barycentric,
-                              contact.point, force),
-                      lever * force});
+    places.push_back(
+        {at.organ,
+         {contact.face, contact.link, contact.vertices, contact.barycentric, contact.point, force},
+         lever * force});
   }
   for (const ProxyCrossing& at : answer.crossings) {
     const Vector3d force = -stiffness * at.load;
-    places.push_back({at.organ,
-                      on_face(at.face, 0, organs[at.organ].shape->faces()[at.face], at.barycentric,
-                              at.point, force),
-                      at_tip(force, at.shaft, answer.proxy.axis)});
+    places.push_back(
+        {at.organ,
+         {at.face, 0, organs[at.organ].shape->faces()[at.face], at.barycentric, at.point, force},
+         at_tip(force, at.shaft, answer.proxy.axis)});
   }
   return places;
 }

@@ -8,18 +8,8 @@
 #include "geometry/tool/least_rotation.hpp"
 
 namespace organ_collision {
-namespace {
 
 using Eigen::Vector3d;
-
-/// `to` minus `from` [s]. Subtracts whole nanoseconds, because ros::Duration overflows for extreme
-/// stamps.
-double seconds_between(ros::Time from, ros::Time to) {
-  return 1e-9 * static_cast<double>(static_cast<std::int64_t>(to.toNSec()) -
-                                    static_cast<std::int64_t>(from.toNSec()));
-}
-
-}  // namespace
 
 geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
   if (!tool.has_shaft()) return tf2::toMsg(pose.links.front());
@@ -31,7 +21,9 @@ geometry_msgs::Pose pose_of(const ToolParameters& tool, const ToolPose& pose) {
 }
 
 const Vector3d& PullVelocity::update(const Vector3d& pull, ros::Time stamp, bool leaps) {
-  const double interval = seconds_between(begun_, stamp);
+  // ros::Duration overflows for extreme stamps.
+  const double interval =
+      1e-9 * static_cast<double>(static_cast<std::int64_t>(stamp.toNSec() - begun_.toNSec()));
   if (!since_ || leaps || interval < 0.0) {
     since_ = pull;
     begun_ = stamp;

@@ -18,8 +18,7 @@
 namespace organ_collision {
 
 /// One organ: reads its messages, of any supported type, and sends its surface to the collision
-/// node. Sends only vertices if the triangles and the frame are unchanged. Remembers the last legal
-/// mesh. Does not limit the size of meshes: the collision node does. A message that is refused
+/// node. Does not limit the size of meshes: the collision node does. A message that is refused
 /// changes nothing.
 class OrganSource {
  public:

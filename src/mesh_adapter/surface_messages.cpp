@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <boost/endian/conversion.hpp>
 #include <cmath>
-#include <cstring>
 #include <numeric>
 
 #include "ros/messages/conversions.hpp"
@@ -13,11 +13,11 @@
 namespace organ_collision {
 namespace {
 
+using boost::endian::order;
 using sensor_msgs::PointCloud2;
 using sensor_msgs::PointField;
 using visualization_msgs::Marker;
 
-constexpr bool kHostIsBigEndian = __BYTE_ORDER__ == __ORDER_BIG_ENDIAN__;
 /// [1] The norm of a legal orientation differs from 1 by at most this.
 constexpr double kUnitTolerance = 1e-2;
 
@@ -69,24 +69,14 @@ void check_sizes(const PointCloud2& cloud) {
   }
 }
 
-template <typename Number>
-Number number_at(const std::uint8_t* address, bool swap) {
-  std::array<std::uint8_t, sizeof(Number)> bytes;
-  std::memcpy(bytes.data(), address, sizeof(Number));
-  if (swap) std::reverse(bytes.begin(), bytes.end());
-  Number number;
-  std::memcpy(&number, bytes.data(), sizeof(Number));
-  return number;
-}
-
 /// Copies one field of all points to to[0], to[3], to[6] ...
-template <typename Number>
+template <typename Number, order kOrder>
 void copy(const PointCloud2& cloud, std::size_t offset, float* to) {
-  const bool swap = (cloud.is_bigendian != 0) != kHostIsBigEndian;
   for (std::size_t row = 0; row < cloud.height; ++row) {
     const std::uint8_t* from = cloud.data.data() + row * cloud.row_step + offset;
     for (std::size_t column = 0; column < cloud.width; ++column, to += 3) {
-      *to = static_cast<float>(number_at<Number>(from + column * cloud.point_step, swap));
+      *to = static_cast<float>(boost::endian::endian_load<Number, sizeof(Number), kOrder>(
+          from + column * cloud.point_step));
     }
   }
 }
@@ -149,11 +139,12 @@ std::vector<float> read_points(const PointCloud2& cloud) {
   check_sizes(cloud);
   std::vector<float> vertices(3 * std::size_t{cloud.width} * cloud.height);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (fields[axis].datatype == PointField::FLOAT64) {
-      copy<double>(cloud, fields[axis].offset, &vertices[axis]);
-    } else {
-      copy<float>(cloud, fields[axis].offset, &vertices[axis]);
-    }
+    const bool is_double = fields[axis].datatype == PointField::FLOAT64;
+    const auto copy_axis =
+        cloud.is_bigendian != 0
+            ? (is_double ? copy<double, order::big> : copy<float, order::big>)
+            : (is_double ? copy<double, order::little> : copy<float, order::little>);
+    copy_axis(cloud, fields[axis].offset, &vertices[axis]);
   }
   return vertices;
 }

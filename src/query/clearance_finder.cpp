@@ -16,74 +16,12 @@ OrientedBox box_around(const Step& step, const LegSpan& span, const ToolPart& pa
   return SweptBox(part.shape->bounds, step.link_motion(span, part.link), 0.0).bounds();
 }
 
+// Values of ClearanceFinder::places_.
+constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint32_t kTouched = kNothing - 1;
+constexpr std::uint32_t kUnresolved = kNothing - 2;
+
 }  // namespace
-
-/// Receives the approaches that a search finds, and tells the search which ones are of interest.
-class ClearanceFinder::Sink {
- public:
-  virtual ~Sink() = default;
-  /// [m] The greatest distance that is of interest. It may fall during a search.
-  virtual double bound() const = 0;
-  virtual bool accepts(std::uint32_t /*face*/) const { return true; }
-  virtual void add(const Approach& approach) = 0;
-  /// Says that the work budget was used up before this face was measured. The face may come nearer
-  /// than all of its approaches that were added.
-  virtual void add_unresolved(std::uint32_t /*face*/) {}
-};
-
-/// Keeps the nearest approach. Of faces at the same distance, it keeps the one with the smallest
-/// number.
-class ClearanceFinder::Nearest : public Sink {
- public:
-  explicit Nearest(double distance_bound) : bound_(distance_bound) {}
-
-  double bound() const override { return bound_; }
-  void add(const Approach& approach) override {
-    const bool is_tie = nearest_ && approach.distance == nearest_->distance;
-    if (is_tie && approach.face > nearest_->face) return;
-    nearest_ = approach;
-    bound_ = approach.distance;
-  }
-  const std::optional<Approach>& get() const { return nearest_; }
-
- private:
-  double bound_;  ///< [m] greatest distance of interest
-  std::optional<Approach> nearest_;
-};
-
-/// Keeps for each face the approach with the smallest distance. Faces that are touched, or that
-/// were not measured to the end, are marked in `places`.
-class ClearanceFinder::Collector : public Sink {
- public:
-  static constexpr std::uint32_t kNothing = std::numeric_limits<std::uint32_t>::max();
-  static constexpr std::uint32_t kTouched = kNothing - 1;
-  static constexpr std::uint32_t kUnresolved = kNothing - 2;
-
-  /// `places`: for each face its place in `nearest`, or kNothing, kTouched or kUnresolved.
-  Collector(double margin, std::vector<Approach>& nearest, std::vector<std::uint32_t>& places)
-      : margin_(margin), nearest_(nearest), places_(places) {}
-
-  double bound() const override { return margin_; }
-  bool accepts(std::uint32_t face) const override {
-    return places_[face] != kTouched && places_[face] != kUnresolved;
-  }
-  void add(const Approach& approach) override {
-    std::uint32_t& place = places_[approach.face];
-    if (place == kUnresolved) return;
-    if (place == kNothing) {
-      place = static_cast<std::uint32_t>(nearest_.size());
-      nearest_.push_back(approach);
-    } else if (approach.distance < nearest_[place].distance) {
-      nearest_[place] = approach;
-    }
-  }
-  void add_unresolved(std::uint32_t face) override { places_[face] = kUnresolved; }
-
- private:
-  double margin_;  ///< [m] greatest distance of interest
-  std::vector<Approach>& nearest_;
-  std::vector<std::uint32_t>& places_;
-};
 
 ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& request,
                                     const std::vector<FaceContact>& contacts,
@@ -142,37 +80,34 @@ void ClearanceFinder::set_least(const Step& step, const CollisionRequest& reques
 
 std::optional<ClearanceFinder::Approach> ClearanceFinder::nearest(const Step& step,
                                                                   double distance_bound) {
-  Nearest sink(distance_bound);
-  find_approaches(step, sink);
-  return sink.get();
+  places_.clear();
+  find_approaches(step, distance_bound);
+  return found_.empty() ? std::nullopt : std::optional<Approach>(found_.front());
 }
 
 void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
                                 CollisionResult& result, const WorkBudget& budget) {
   budget_ = budget;
-  near_faces_.clear();
-  places_.assign(step.organ().face_count(), Collector::kNothing);
-  for (const FaceContact& contact : result.contacts) places_[contact.face] = Collector::kTouched;
-  Collector collector(request.margin, near_faces_, places_);
-  find_approaches(step, collector);
+  places_.assign(step.organ().face_count(), kNothing);
+  for (const FaceContact& contact : result.contacts) places_[contact.face] = kTouched;
+  find_approaches(step, request.margin);
 
   const auto is_unresolved = [&](const Approach& near) {
-    return places_[near.face] == Collector::kUnresolved;
+    return places_[near.face] == kUnresolved;
   };
-  near_faces_.erase(std::remove_if(near_faces_.begin(), near_faces_.end(), is_unresolved),
-                    near_faces_.end());
-  const std::size_t count = std::min(request.max_near, near_faces_.size());
-  const auto end = near_faces_.begin() + static_cast<std::ptrdiff_t>(count);
-  std::partial_sort(near_faces_.begin(), end, near_faces_.end(), [](const auto& a, const auto& b) {
+  found_.erase(std::remove_if(found_.begin(), found_.end(), is_unresolved), found_.end());
+  const std::size_t count = std::min(request.max_near, found_.size());
+  const auto end = found_.begin() + static_cast<std::ptrdiff_t>(count);
+  std::partial_sort(found_.begin(), end, found_.end(), [](const auto& a, const auto& b) {
     return std::tie(a.distance, a.face) < std::tie(b.distance, b.face);
   });
-  for (auto near = near_faces_.begin(); near != end; ++near) {
+  for (auto near = found_.begin(); near != end; ++near) {
     result.near.push_back(contact_of(step, *near));
     result.near.back().depth = -near->distance;
   }
-  result.near_left_out = near_faces_.size() - count;
+  result.near_left_out = found_.size() - count;
   result.near_unresolved =
-      static_cast<std::size_t>(std::count(places_.begin(), places_.end(), Collector::kUnresolved));
+      static_cast<std::size_t>(std::count(places_.begin(), places_.end(), kUnresolved));
 }
 
 /// The contact whose fields describe an approach, as if it were a first touch.
@@ -187,58 +122,57 @@ FaceContact ClearanceFinder::contact_of(const Step& step, const Approach& near) 
   return contact;
 }
 
-/// Adds to `sink` an approach for each part, leg and accepted face whose distance falls to the
-/// bound. A face may have several approaches.
-void ClearanceFinder::find_approaches(const Step& step, Sink& sink) {
+/// Replaces `found_` by the approaches within the bound [m]: the nearest one alone, or that of each
+/// face that places_ leaves to be searched.
+void ClearanceFinder::find_approaches(const Step& step, double distance_bound) {
+  found_.clear();
+  bound_ = distance_bound;
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
     budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
-    find_near_chord(step, span, part, sink);
+    find_near_chord(step, span, part);
     for (std::size_t leg = span.begin; leg < span.end && !faces_.empty(); ++leg) {
-      find_on_leg(step, leg, part, sink);
+      find_on_leg(step, leg, part);
     }
   });
 }
 
 /// Measures the faces along the chord of a span. If the span has a single leg, the chord is this
-/// leg, and the approaches are added to `sink`. Otherwise the faces near the chord are kept in
+/// leg, and the approaches are added. Otherwise the faces near the chord are kept in
 /// `faces_`, to be measured on each leg.
-void ClearanceFinder::find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part,
-                                      Sink& sink) {
+void ClearanceFinder::find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part) {
   const OrganMotion organ = step.organ_motion(span);
   const double radius = part.surface_radius(step);
-  const auto bound = [&] { return sink.bound() + radius + span.deviation; };
+  const auto bound = [&] { return bound_ + radius + span.deviation; };
   faces_.clear();
   with_part_leg(step, span, part, [&](const PartLeg& on_chord) {
     search_.visit(organ, box_around(step, span, part), bound, [&](std::uint32_t face) {
-      if (!sink.accepts(face)) return;
-      const auto closest = measure(part, on_chord, organ, face, bound(), sink);
+      if (!is_searched(face)) return;
+      const auto closest = measure(part, on_chord, organ, face, bound());
       if (!closest) return;
       if (span.leg_count() > 1) return faces_.push_back(face);
-      sink.add({closest->closest.distance - radius, face, part, span.begin, *closest});
+      add({closest->closest.distance - radius, face, part, span.begin, *closest});
     });
   });
 }
 
 /// Measures on one leg the faces that came near the chord.
-void ClearanceFinder::find_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
-                                  Sink& sink) {
+void ClearanceFinder::find_on_leg(const Step& step, std::size_t leg, const ToolPart& part) {
   const OrganMotion organ = step.organ_motion(step.span_of(leg));
   const double radius = part.surface_radius(step);
   with_part_leg(step, step.span_of(leg), part, [&](const PartLeg& on_leg) {
     for (const std::uint32_t face : faces_) {
-      if (!sink.accepts(face)) continue;
-      const auto closest = measure(part, on_leg, organ, face, sink.bound() + radius, sink);
-      if (closest) sink.add({closest->closest.distance - radius, face, part, leg, *closest});
+      if (!is_searched(face)) continue;
+      const auto closest = measure(part, on_leg, organ, face, bound_ + radius);
+      if (closest) add({closest->closest.distance - radius, face, part, leg, *closest});
     }
   });
 }
 
 /// The closest approach of a part and a face on a leg. If the budget is used up, it may be missing
-/// or too far away. The sink is then told.
+/// or too far away. The face is then marked as unresolved.
 std::optional<ClosestApproach> ClearanceFinder::measure(const ToolPart& part, const PartLeg& leg,
                                                         const OrganMotion& organ,
-                                                        std::uint32_t face, double distance_bound,
-                                                        Sink& sink) {
+                                                        std::uint32_t face, double distance_bound) {
   const FaceMotion motion = organ.face(organ.after().faces()[face]);
   const std::uint64_t cuts = budget_.cuts();
   std::optional<ClosestApproach> closest;
@@ -250,8 +184,32 @@ std::optional<ClosestApproach> ClearanceFinder::measure(const ToolPart& part, co
   } else {
     closest = closest_approach(leg.core, motion, distance_bound, budget_);
   }
-  if (budget_.cuts() != cuts) sink.add_unresolved(face);
+  if (budget_.cuts() != cuts && !places_.empty()) places_[face] = kUnresolved;
   return closest;
+}
+
+bool ClearanceFinder::is_searched(std::uint32_t face) const {
+  return places_.empty() || (places_[face] != kTouched && places_[face] != kUnresolved);
+}
+
+/// Keeps the nearest approach: of all faces, or of each face. Of faces at the same distance, the
+/// one with the smallest number counts as the nearest.
+void ClearanceFinder::add(const Approach& approach) {
+  if (places_.empty()) {
+    const bool is_tie = !found_.empty() && approach.distance == found_.front().distance;
+    if (is_tie && approach.face > found_.front().face) return;
+    found_.assign(1, approach);
+    bound_ = approach.distance;
+    return;
+  }
+  std::uint32_t& place = places_[approach.face];
+  if (place == kUnresolved) return;
+  if (place == kNothing) {
+    place = static_cast<std::uint32_t>(found_.size());
+    found_.push_back(approach);
+  } else if (approach.distance < found_[place].distance) {
+    found_[place] = approach;
+  }
 }
 
 }  // namespace organ_collision

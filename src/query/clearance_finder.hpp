@@ -37,27 +37,29 @@ class ClearanceFinder {
     std::size_t leg;
     ClosestApproach closest;
   };
-  class Sink;
-  class Nearest;
-  class Collector;
 
   std::optional<Approach> nearest(const Step& step, double distance_bound);
   void set_least(const Step& step, const CollisionRequest& request,
                  const std::vector<FaceContact>& contacts, ToolClearance& clearance);
   static FaceContact contact_of(const Step& step, const Approach& near);
 
-  void find_approaches(const Step& step, Sink& sink);
-  void find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part, Sink& sink);
-  void find_on_leg(const Step& step, std::size_t leg, const ToolPart& part, Sink& sink);
+  void find_approaches(const Step& step, double distance_bound);
+  void find_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
+  void find_on_leg(const Step& step, std::size_t leg, const ToolPart& part);
   std::optional<ClosestApproach> measure(const ToolPart& part, const PartLeg& leg,
                                          const OrganMotion& organ, std::uint32_t face,
-                                         double distance_bound, Sink& sink);
+                                         double distance_bound);
+  bool is_searched(std::uint32_t face) const;
+  void add(const Approach& approach);
 
   FaceSearch search_;
-  WorkBudget budget_;                  ///< the work of the present search
-  std::vector<std::uint32_t> faces_;   ///< faces within the bound of the present chord
-  std::vector<Approach> near_faces_;   ///< the nearest approach of each near face
-  std::vector<std::uint32_t> places_;  ///< for each face; see Collector
+  WorkBudget budget_;                 ///< the work of the present search
+  double bound_ = 0.0;                ///< [m] the greatest distance that is still of interest
+  std::vector<std::uint32_t> faces_;  ///< faces within the bound of the present chord
+  std::vector<Approach> found_;
+  /// For each face its place in `found_`, or that it has none, that the tool touches it, or that it
+  /// was not measured to the end. Empty while only the nearest approach of all faces is searched.
+  std::vector<std::uint32_t> places_;
 };
 
 }  // namespace organ_collision

@@ -5,7 +5,6 @@
 
 #include "clearance_finder.hpp"
 #include "contact_finder.hpp"
-#include "leg_span.hpp"
 #include "picking/volumes/conservative_volume.hpp"
 #include "placement_finder.hpp"
 #include "request_check.hpp"
@@ -40,12 +39,6 @@ std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::ui
   return volumes;
 }
 
-Region region_of(const Triangle& face, const ViewingVolume& volume) {
-  Region region = clipped(shifted(face, volume.origin()), volume);
-  for (Eigen::Vector3d& corner : region) corner += volume.origin();
-  return region;
-}
-
 /// Finds the region of each contact: the polygon in which the contact's face, as it is at the end
 /// of the step, meets the tool's volume on the leg of the first touch. A link has a volume for each
 /// part; the first one that the face meets counts.
@@ -61,32 +54,14 @@ void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
       link = contact.link;
       volumes = volumes_of(step, leg, link);
     }
+    const Triangle face = step.organ().triangle(contact.face);
     Region& region = regions.emplace_back();
     for (auto volume = volumes.begin(); region.empty() && volume != volumes.end(); ++volume) {
-      region = region_of(step.organ().triangle(contact.face), *volume);
+      region = clipped(shifted(face, volume->origin()), *volume);
+      for (Eigen::Vector3d& corner : region) corner += volume->origin();
     }
   }
 }
-
-/// A query that runs. At its end it releases the picker, so that any thread may run the next query.
-/// If the query ends by an exception before complete() is called, it empties the result.
-class ScopedQuery {
- public:
-  ScopedQuery(Picker& picker, CollisionResult& result) : picker_(picker), result_(result) {}
-  ~ScopedQuery() {
-    picker_.release();
-    if (!is_complete_) clear(result_);
-  }
-  ScopedQuery(const ScopedQuery&) = delete;
-  ScopedQuery& operator=(const ScopedQuery&) = delete;
-
-  void complete() { is_complete_ = true; }
-
- private:
-  Picker& picker_;
-  CollisionResult& result_;
-  bool is_complete_ = false;
-};
 
 }  // namespace
 
@@ -115,9 +90,15 @@ const std::string& CollisionQuery::gl_version() const { return state_->picker->g
 void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& result) {
   clear(result);
   check(request);
-  ScopedQuery query(*state_->picker, result);
-  state_->evaluate(request, result);
-  query.complete();
+  // In the end the picker is released, so that any thread may run the next query.
+  const auto release = [](Picker* picker) { picker->release(); };
+  const std::unique_ptr<Picker, decltype(release)> used(state_->picker.get(), release);
+  try {
+    state_->evaluate(request, result);
+  } catch (...) {
+    clear(result);
+    throw;
+  }
 }
 
 /// Finds the contacts first, and then what else the request asks for.

@@ -55,11 +55,14 @@ void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, co
 
   // Not in the paper: exact distances decide which candidates the part touches, and when and where
   // it first touches each of them.
-  confirmer_.confirm(step, span, part, candidates_, contacts);
+  confirm(step, span, part, contacts);
 }
 
 void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
-  confirmer_.start(step);
+  budget_ = WorkBudget();
+  forget_touched_faces();
+  touched_leg_.resize(step.organ().face_count());
+  link_ = 0;
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
     find_part_contacts(step, span, part, contacts);
   });
@@ -79,22 +82,16 @@ void ContactFinder::find_in_paper_volume(const CollisionRequest& request,
   }
 }
 
-void ContactConfirmer::start(const Step& step) {
-  budget_ = WorkBudget();
-  forget_touched_faces();
-  touched_leg_.resize(step.organ().face_count());
-  link_ = 0;
-}
-
-void ContactConfirmer::confirm(const Step& step, const LegSpan& span, const ToolPart& part,
-                               const std::vector<Candidate>& candidates,
-                               std::vector<FaceContact>& contacts) {
+/// Confirms the candidates leg by leg. For each face and link, only the first leg counts on which a
+/// part of the link touches the face.
+void ContactFinder::confirm(const Step& step, const LegSpan& span, const ToolPart& part,
+                            std::vector<FaceContact>& contacts) {
   if (part.number(step) != link_) forget_touched_faces();
   link_ = part.number(step);
   // The budget grows with the number of all faces, so that it does not depend on the picker.
   budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
   pending_faces_.clear();
-  for (const Candidate& candidate : candidates) {
+  for (const Candidate& candidate : candidates_) {
     if (is_pending(candidate.face, span.begin)) {
       pending_faces_.push_back({candidate.face, span.begin});
     }
@@ -115,8 +112,8 @@ void ContactConfirmer::confirm(const Step& step, const LegSpan& span, const Tool
 /// Drops the pending faces that stay too far from the span's chord to be touched on any leg of the
 /// span. For each of the other faces, finds the first leg on which it may be touched. See
 /// doc/geometry.md, Spans of legs.
-void ContactConfirmer::keep_faces_near_chord(const Step& step, const LegSpan& span,
-                                             const ToolPart& part) {
+void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
+                                          const ToolPart& part) {
   const OrganMotion organ = step.organ_motion(span);
   touches_.clear();
   for (const PendingFace& pending : pending_faces_) {
@@ -137,8 +134,8 @@ void ContactConfirmer::keep_faces_near_chord(const Step& step, const LegSpan& sp
 }
 
 /// Decides by exact distances which pending faces the part touches on a leg.
-void ContactConfirmer::confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
-                                      std::vector<FaceContact>& contacts) {
+void ContactFinder::confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
+                                   std::vector<FaceContact>& contacts) {
   const auto is_due = [leg](const PendingFace& pending) { return pending.leg <= leg; };
   if (std::none_of(pending_faces_.begin(), pending_faces_.end(), is_due)) return;
   const OrganMotion organ = step.organ_motion(step.span_of(leg));
@@ -166,7 +163,7 @@ void ContactConfirmer::confirm_on_leg(const Step& step, std::size_t leg, const T
 }
 
 /// Finds for each face in `touches_` when it first comes within `radius` [m] of the part.
-void ContactConfirmer::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
+void ContactFinder::find_touches(const PartLeg& part, const LinkPart* shape, double radius) {
   if (touches_.empty()) return;
   if (shape && shape->surface) {
     surface_touches_.find(*shape->surface, *part.core.link(), radius, budget_, touches_);
@@ -179,11 +176,11 @@ void ContactConfirmer::find_touches(const PartLeg& part, const LinkPart* shape, 
 
 /// Whether the present link may touch the face on the leg `leg` earlier than known. If one part of
 /// the link is known to touch it on a later leg, another part may touch it before.
-bool ContactConfirmer::is_pending(std::uint32_t face, std::size_t leg) const {
+bool ContactFinder::is_pending(std::uint32_t face, std::size_t leg) const {
   return touched_leg_[face] == 0 || touched_leg_[face] > leg;
 }
 
-void ContactConfirmer::forget_touched_faces() {
+void ContactFinder::forget_touched_faces() {
   for (const std::uint32_t face : touched_faces_) touched_leg_[face] = 0;
   touched_faces_.clear();
 }

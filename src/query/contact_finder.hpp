@@ -11,46 +11,6 @@
 
 namespace organ_collision {
 
-/// Confirms candidate faces by exact distances, leg by leg. For each face and link, only the first
-/// leg counts on which a part of the link touches the face. Keeps its memory between steps.
-class ContactConfirmer {
- public:
-  /// Begins another step.
-  void start(const Step& step);
-
-  /// Adds the contacts of a part with its candidates on the legs of a span. The calls for all parts
-  /// and spans of one link must follow one another.
-  void confirm(const Step& step, const LegSpan& span, const ToolPart& part,
-               const std::vector<Candidate>& candidates, std::vector<FaceContact>& contacts);
-
- private:
-  /// A candidate face that the part may touch on the leg `leg` or later.
-  struct PendingFace {
-    std::uint32_t face;
-    std::size_t leg;
-    /// The unit vector from the part to the face at the time when they first come near each other.
-    /// A plane at right angles to it separates both on most legs. Zero if it is not known.
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  };
-
-  void keep_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
-  void confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
-                      std::vector<FaceContact>& contacts);
-  void find_touches(const PartLeg& part, const LinkPart* shape, double radius);
-  bool is_pending(std::uint32_t face, std::size_t leg) const;
-  void forget_touched_faces();
-
-  WorkBudget budget_;  ///< the work of the present step
-  std::vector<PendingFace> pending_faces_;
-  std::vector<FaceTouch> touches_;
-  SurfaceTouches surface_touches_;
-  std::uint32_t link_ = 0;  ///< the number of the present link
-  /// For each face, the leg on which the present link first touched it, counted from 1. Zero: the
-  /// link has not touched the face so far.
-  std::vector<std::uint32_t> touched_leg_;
-  std::vector<std::uint32_t> touched_faces_;  ///< faces whose touched_leg_ is not zero
-};
-
 /// Finds contacts by the method of Lombardo, Cani and Neyret 1999 ("the paper"). Keeps its memory
 /// between steps.
 class ContactFinder {
@@ -67,12 +27,37 @@ class ContactFinder {
   void find_in_paper_volume(const CollisionRequest& request, std::vector<FaceContact>& contacts);
 
  private:
+  /// A candidate face that the part may touch on the leg `leg` or later.
+  struct PendingFace {
+    std::uint32_t face;
+    std::size_t leg;
+    /// The unit vector from the part to the face at the time when they first come near each other.
+    /// A plane at right angles to it separates both on most legs. Zero if it is not known.
+    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  };
+
   void find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                           std::vector<FaceContact>& contacts);
+  void confirm(const Step& step, const LegSpan& span, const ToolPart& part,
+               std::vector<FaceContact>& contacts);
+  void keep_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
+  void confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
+                      std::vector<FaceContact>& contacts);
+  void find_touches(const PartLeg& part, const LinkPart* shape, double radius);
+  bool is_pending(std::uint32_t face, std::size_t leg) const;
+  void forget_touched_faces();
 
   Picker& picker_;
+  WorkBudget budget_;  ///< the work of the present step
   std::vector<Candidate> candidates_;
-  ContactConfirmer confirmer_;
+  std::vector<PendingFace> pending_faces_;
+  std::vector<FaceTouch> touches_;
+  SurfaceTouches surface_touches_;
+  std::uint32_t link_ = 0;  ///< the number of the present link
+  /// For each face, the leg on which the present link first touched it, counted from 1. Zero: the
+  /// link has not touched the face so far.
+  std::vector<std::uint32_t> touched_leg_;
+  std::vector<std::uint32_t> touched_faces_;  ///< faces whose touched_leg_ is not zero
 };
 
 }  // namespace organ_collision

@@ -56,12 +56,6 @@ struct ExitRay {
   double length;  ///< [m] from the point to the side of the box
 };
 
-int sum_of_directions(const std::vector<AxisCrossing>& crossings) {
-  int sum = 0;
-  for (const AxisCrossing& crossing : crossings) sum += crossing.direction;
-  return sum;
-}
-
 Side side(bool is_on_surface, int winding) {
   if (is_on_surface) return Side::kOnSurface;
   return winding != 0 ? Side::kInside : Side::kOutside;
@@ -86,7 +80,8 @@ void PlacementFinder::find(const CollisionRequest& request, AxisPlacement& place
   if (request.radius > 0.0) {
     find_axis(surface, request.path.back().axis, placement);
   } else if (request.tip && surface.has_sides) {
-    find_tip(surface, *request.tip, placement);
+    const int winding = winding_number(surface, *request.tip);
+    placement.tip = side(is_on_candidate(surface, *request.tip), winding);
   }
 }
 
@@ -98,12 +93,6 @@ PlacementFinder::Surface PlacementFinder::surface_of(const CollisionRequest& req
   return {*request.organ, topology, topology->is_closed()};
 }
 
-void PlacementFinder::find_tip(const Surface& surface, const Vector3d& tip,
-                               AxisPlacement& placement) {
-  const int winding = winding_number(surface, tip);
-  placement.tip = side(is_on_candidate(surface, tip), winding);
-}
-
 /// The crossings tell how the winding number changes along the axis. So the winding number is
 /// needed at one end only. It is zero if that end is outside of the organ's box.
 void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
@@ -113,7 +102,8 @@ void PlacementFinder::find_axis(const Surface& surface, const ShaftAxis& axis,
   if (!surface.has_sides) return;
   const bool is_trocar_on = is_on_candidate(surface, axis.trocar);
   const bool is_tip_on = is_on_candidate(surface, axis.tip);
-  const int change = sum_of_directions(placement.crossings);
+  int change = 0;
+  for (const AxisCrossing& crossing : placement.crossings) change += crossing.direction;
   const AlignedBox3d box = surface.organ.box().cast<double>();
   const bool from_trocar = ExitRay(axis.trocar, box).length <= ExitRay(axis.tip, box).length;
   const int trocar_winding = from_trocar ? winding_number(surface, axis.trocar)

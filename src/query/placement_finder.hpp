@@ -43,7 +43,6 @@ class PlacementFinder {
   };
 
   Surface surface_of(const CollisionRequest& request);
-  void find_tip(const Surface& surface, const Eigen::Vector3d& tip, AxisPlacement& placement);
   void find_axis(const Surface& surface, const ShaftAxis& axis, AxisPlacement& placement);
   void pick_near(const ShaftAxis& axis, const TriangleMesh& organ);
   void find_crossings(const Surface& surface, const ShaftAxis& axis,

@@ -19,9 +19,11 @@ template <typename... Parts>
   throw std::invalid_argument(concatenate(parts...));
 }
 
-void check_point(const char* name, std::size_t waypoint, const Eigen::Vector3d& point) {
+/// `name`: the parts of the point's name, which are put together only for a refusal.
+template <typename... Parts>
+void check_point(const Eigen::Vector3d& point, const Parts&... name) {
   if (is_in_range(point)) return;
-  refuse(name, " of waypoint ", waypoint, " is (", point.x(), ", ", point.y(), ", ", point.z(),
+  refuse(name..., " is (", point.x(), ", ", point.y(), ", ", point.z(),
          "); must be finite and within ", tolerance::kFarthest, " m");
 }
 
@@ -32,7 +34,7 @@ void check_links(const std::vector<Link>& links, const ToolWaypoint& waypoint, s
   }
   for (std::size_t i = 0; i < links.size(); ++i) {
     const Eigen::Isometry3d& pose = waypoint.links[i];
-    check_point(links[i].name.c_str(), index, pose.translation());
+    check_point(pose.translation(), links[i].name, " of waypoint ", index);
     const Eigen::Matrix3d& rotation = pose.linear();
     if (!(rotation * rotation.transpose()).isIdentity(kRotationTolerance) ||
         !(rotation.determinant() > 0.0)) {
@@ -48,8 +50,8 @@ void check_path(const CollisionRequest& request) {
   if (path.empty()) refuse("the tool's path is empty; it has at least one waypoint");
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (request.radius > 0.0) {
-      check_point("trocar", i, path[i].axis.trocar);
-      check_point("tip", i, path[i].axis.tip);
+      check_point(path[i].axis.trocar, "trocar of waypoint ", i);
+      check_point(path[i].axis.tip, "tip of waypoint ", i);
     }
     if (request.links) check_links(*request.links, path[i], i);
     if (path[i].links.size() != path[0].links.size()) {
@@ -66,8 +68,6 @@ void check_path(const CollisionRequest& request) {
            "; must be from 0 to 1");
   }
 }
-
-bool needs_resting_trocar(QueryMode mode) { return is_paper_mode(mode) && !is_static_mode(mode); }
 
 void check_radius(const CollisionRequest& request) {
   const bool has_links = request.links && !request.links->empty();
@@ -100,10 +100,7 @@ void check_placement(const CollisionRequest& request) {
     refuse("the placement's topology has ", topology->welded().size(),
            " vertices; must be as many as the organ has, ", request.organ->vertex_count());
   }
-  if (request.tip && !is_in_range(*request.tip)) {
-    refuse("the placement's tip is (", request.tip->x(), ", ", request.tip->y(), ", ",
-           request.tip->z(), "); must be finite and within ", tolerance::kFarthest, " m");
-  }
+  if (request.tip) check_point(*request.tip, "the placement's tip");
 }
 
 }  // namespace
@@ -116,7 +113,7 @@ void check(const CollisionRequest& request) {
   check_radius(request);
   check_path(request);
   check_clearance(request);
-  if (needs_resting_trocar(request.mode) &&
+  if (is_paper_mode(request.mode) && !is_static_mode(request.mode) &&
       request.path.front().axis.trocar != request.path.back().axis.trocar) {
     refuse("the trocar moves by ",
            (request.path.back().axis.trocar - request.path.front().axis.trocar).norm(),

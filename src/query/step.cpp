@@ -1,8 +1,176 @@
 #include "step.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/tool/leg_motion.hpp"
+#include "request_check.hpp"
 
 namespace organ_collision {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+
+/// The cosine of the angle of the rotation R between two poses: (trace(R) - 1) / 2.
+double rotation_cosine(const Isometry3d& from, const Isometry3d& to) {
+  return 0.5 * (from.linear().cwiseProduct(to.linear()).sum() - 1.0);
+}
+
+/// The number of equal parts into which a leg is divided, so that no link turns by more than
+/// kMaxRotation.
+int count_parts(const ToolWaypoint& from, const ToolWaypoint& to) {
+  double least_cosine = 1.0;
+  for (std::size_t i = 0; i < to.links.size(); ++i) {
+    least_cosine = std::min(least_cosine, rotation_cosine(from.links[i], to.links[i]));
+  }
+  if (least_cosine >= std::cos(kMaxRotation)) return 1;
+  return static_cast<int>(std::ceil(std::acos(std::max(least_cosine, -1.0)) / kMaxRotation));
+}
+
+ToolWaypoint interpolated(const ToolWaypoint& from, const ToolWaypoint& to, double time) {
+  ToolWaypoint waypoint{from.fraction + time * (to.fraction - from.fraction),
+                        ShaftMotion{from.axis, to.axis}.at(time)};
+  for (std::size_t i = 0; i < to.links.size(); ++i) {
+    waypoint.links.push_back(RigidMotion(from.links[i], to.links[i]).at(time));
+  }
+  return waypoint;
+}
+
+// [1] The largest deviation of a span, as a share of the thickness of the shaft or link.
+constexpr double kAllowedShare = 0.25;
+
+/// [1] The poses of a request are rotations only to kRotationTolerance, but legs are evaluated with
+/// the nearest rotation. At a distance of 1, both may differ by this much. See doc/geometry.md,
+/// Spans of legs.
+constexpr double kOffRotation = 2.5 * kRotationTolerance;
+
+constexpr double kTooFar = std::numeric_limits<double>::infinity();
+
+/// [m] How far a link may deviate from its chord: a share of the thickness of its thinnest part.
+/// With a larger deviation, the volume around the chord would be much larger than the volumes
+/// around the legs.
+double allowed_deviation(const Link& link) {
+  double thickness = kTooFar;
+  for (const LinkPart& part : link.parts) {
+    Vector3d half = part.bounds.half_size;
+    std::sort(half.data(), half.data() + half.size());
+    thickness = std::min(thickness, half[1] + part.radius);
+  }
+  return kAllowedShare * thickness;
+}
+
+/// [1] The chord of the rotation between two orientations: 2 sin(angle / 2). A point at the
+/// distance r from the axis of rotation moves by r times this chord.
+double rotation_chord(const Isometry3d& from, const Isometry3d& to) {
+  return (to.linear() - from.linear()).norm() / std::sqrt(2.0);
+}
+
+/// The time on the chord, in [0, 1], of waypoint `i`.
+double time_on_chord(const ToolWaypoint* waypoints, std::size_t begin, std::size_t i,
+                     std::size_t end) {
+  return (waypoints[i].fraction - waypoints[begin].fraction) /
+         (waypoints[end].fraction - waypoints[begin].fraction);
+}
+
+/// [m] The largest deviation of the shaft's axis from the chord between waypoints `begin` and
+/// `end`; kTooFar if it exceeds `allowed`.
+double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
+                       double allowed) {
+  const ShaftMotion chord{waypoints[begin].axis, waypoints[end].axis};
+  double deviation = 0.0;
+  for (std::size_t i = begin + 1; i < end; ++i) {
+    const ShaftAxis& axis = waypoints[i].axis;
+    const ShaftAxis on_chord = chord.at(time_on_chord(waypoints, begin, i, end));
+    deviation = std::max(
+        {deviation, (axis.trocar - on_chord.trocar).norm(), (axis.tip - on_chord.tip).norm()});
+    if (deviation > allowed) return kTooFar;
+  }
+  return deviation;
+}
+
+/// [m] An upper bound of the deviation of a link from the chord between two waypoints; kTooFar if
+/// it exceeds `allowed`. At each waypoint, it is the deviation of the ball. Between waypoints, the
+/// leg and the chord each leave a straight line by at most arm * angle^2 / 8. See doc/geometry.md,
+/// Rims and chord deviation.
+double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
+                      std::size_t link, const LinkBall& ball, double allowed) {
+  const Isometry3d& first = waypoints[begin].links[link];
+  const Isometry3d& last = waypoints[end].links[link];
+  if (rotation_chord(first, last) > kMaxRotation) return kTooFar;
+  const RigidMotion chord(first, last);
+  const double arm = ball.center.norm() + ball.radius;
+  double at_waypoints = 0.0, between = 0.0, time = 0.0;
+  for (std::size_t i = begin + 1; i <= end; ++i) {
+    const Isometry3d& pose = waypoints[i].links[link];
+    const double next_time = time_on_chord(waypoints, begin, i, end);
+    const Isometry3d on_chord = chord.at(next_time);
+    at_waypoints = std::max(at_waypoints, (pose * ball.center - on_chord * ball.center).norm() +
+                                              ball.radius * rotation_chord(pose, on_chord));
+    // An angle of at most pi is at most pi / 2 times its rotation_chord().
+    const double leg_angle = M_PI_2 * rotation_chord(waypoints[i - 1].links[link], pose);
+    const double chord_angle = chord.angle() * (next_time - time);
+    between = std::max(between, arm * (leg_angle * leg_angle + chord_angle * chord_angle) / 8.0);
+    time = next_time;
+    if (at_waypoints + between > allowed) return kTooFar;
+  }
+  return at_waypoints + between + kOffRotation * arm;
+}
+
+/// The span from leg `begin` on. Tries all remaining legs first, then half of them, and so on.
+template <typename Deviation>
+LegSpan longest_span(std::size_t count, std::size_t begin, Deviation deviation) {
+  for (std::size_t legs = count > 1 ? count - 1 - begin : 1; legs > 1; legs /= 2) {
+    const double found = deviation(begin, begin + legs);
+    if (found < kTooFar) return {begin, begin + legs, found};
+  }
+  return {begin, begin + 1, 0.0};
+}
+
+}  // namespace
+
+const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer) {
+  const auto is_too_far = [](const ToolWaypoint& from, const ToolWaypoint& to) {
+    return count_parts(from, to) > 1;
+  };
+  if (std::adjacent_find(path.begin(), path.end(), is_too_far) == path.end()) return path;
+  finer = {path.front()};
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const ToolWaypoint &from = path[i - 1], &to = path[i];
+    const int parts = count_parts(from, to);
+    for (int part = 1; part < parts; ++part) {
+      finer.push_back(interpolated(from, to, static_cast<double>(part) / parts));
+    }
+    finer.push_back(to);
+  }
+  return finer;
+}
+
+LinkBall ball_around(const Link& link) {
+  Eigen::AlignedBox3d box;
+  for (const LinkPart& part : link.parts) box.extend(part.bounds.center);
+  LinkBall ball{box.center(), 0.0};
+  for (const LinkPart& part : link.parts) {
+    ball.radius = std::max(
+        ball.radius, (part.bounds.center - ball.center).norm() + part.bounds.half_size.norm());
+  }
+  return ball;
+}
+
+LegSpan shaft_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
+                   double allowed) {
+  return longest_span(count, begin, [&](std::size_t first, std::size_t last) {
+    return shaft_deviation(waypoints, first, last, allowed);
+  });
+}
+
+LegSpan link_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
+                  std::size_t link, const LinkBall& ball, double allowed) {
+  return longest_span(count, begin, [&](std::size_t first, std::size_t last) {
+    return link_deviation(waypoints, first, last, link, ball, allowed);
+  });
+}
 
 Step::Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& boxes)
     : organ_(*request.organ),
@@ -20,7 +188,7 @@ Step::Step(const CollisionRequest& request, const ToolPath& path, BlockBoxes& bo
 }
 
 LegSpan Step::shaft_span(std::size_t leg) const {
-  return organ_collision::shaft_span(waypoints_, waypoint_count_, leg, allowed_deviation(radius_));
+  return organ_collision::shaft_span(waypoints_, waypoint_count_, leg, kAllowedShare * radius_);
 }
 
 LegSpan Step::link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const {

@@ -5,11 +5,48 @@
 
 #include "contact_refiner.hpp"
 #include "geometry/organ/organ_motion.hpp"
-#include "leg_span.hpp"
 #include "organ_collision/geometry/tool/link.hpp"
+#include "organ_collision/geometry/tool/tool_path.hpp"
 #include "organ_collision/query/collision_query.hpp"
 
 namespace organ_collision {
+
+/// [rad] The largest rotation of a link within one leg. An arc of 0.2 rad deviates from its chord
+/// by half a percent of its radius.
+inline constexpr double kMaxRotation = 0.2;
+
+/// Adds waypoints to a path, without changing the motion, so that no link rotates by more than
+/// kMaxRotation within a leg. With larger rotations, the boxes around the moving link would be much
+/// larger than the link. Returns `path` if no waypoint is needed. Otherwise fills and returns
+/// `finer`.
+const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer);
+
+/// Consecutive legs of a step, [begin, end), on which a part of the tool stays near the chord: the
+/// direct motion from the first waypoint of the span to the last one. One viewing volume around the
+/// chord serves all legs of the span. See doc/geometry.md, Spans of legs.
+struct LegSpan {
+  std::size_t begin, end;
+  double deviation;  ///< [m] how far any point of the part may be from its place on the chord
+
+  std::size_t leg_count() const { return end - begin; }
+};
+
+/// A ball around the parts of a link without their radii, in the link's frame [m].
+struct LinkBall {
+  Eigen::Vector3d center;
+  double radius;
+};
+
+/// The ball of a link, around the boxes of all of its parts.
+LinkBall ball_around(const Link& link);
+
+/// A span that begins with the leg from waypoint `begin`, not always the longest possible one. Its
+/// deviation is at most `allowed` [m]. A span of one leg has the deviation 0. `count` is the number
+/// of waypoints. A tool at rest has one waypoint, which counts as one leg.
+LegSpan shaft_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
+                   double allowed);
+LegSpan link_span(const ToolWaypoint* waypoints, std::size_t count, std::size_t begin,
+                  std::size_t link, const LinkBall& ball, double allowed);
 
 /// The step of a request, leg by leg. A leg is the motion of the tool from one waypoint of the path
 /// to the next, and the motion of the organ meanwhile. The step refers to the request and the path,
@@ -46,7 +83,7 @@ class Step {
 
   /// The span that consists of a single leg.
   LegSpan span_of(std::size_t leg) const { return {leg, leg + 1, 0.0}; }
-  /// A span of the shaft or of a link that begins with the leg `leg`; see leg_span.hpp.
+  /// A span of the shaft or of a link that begins with the leg `leg`.
   LegSpan shaft_span(std::size_t leg) const;
   LegSpan link_span(std::size_t leg, std::size_t link, const LinkBall& ball) const;
 

@@ -1,7 +1,5 @@
 #include "worker_threads.hpp"
 
-#include <system_error>
-
 namespace organ_collision {
 
 std::size_t thread_count(int asked_for) {
@@ -36,12 +34,8 @@ WorkerThreads::~WorkerThreads() {
 }
 
 void WorkerThreads::start(std::size_t count) {
-  try {
-    while (threads_.size() < count) {
-      threads_.emplace_back([this, worker = threads_.size() + 1] { live(worker); });
-    }
-  } catch (const std::system_error& error) {
-    throw std::system_error(error.code(), "the system refuses one more thread");
+  while (threads_.size() < count) {
+    threads_.emplace_back([this, worker = threads_.size() + 1] { live(worker); });
   }
 }
 

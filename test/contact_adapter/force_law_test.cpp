@@ -148,6 +148,19 @@ TEST(ForceLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
   expect_near(moved, kUp + kLeft + 4.0 * kStiffness * 0.0001 * back.normalized());
 }
 
+TEST(ForceLaw, EachForceIsAtThePointOfItsContactAtTheEndOfTheStep) {
+  ContactArray answer = floor_and_wall(0.003, 0.002);
+  answer.contacts[0].end_point.y = 0.07;
+  answer.contacts[1].barycentric = {0.2, 0.3, 0.5};
+  const std::vector<FaceForce> forces = ForceLaw().follow(answer, 0.0, kStiffness, kRadius);
+  ASSERT_EQ(forces.size(), 2U);
+  EXPECT_EQ(forces[0].place, Vector3d(0.0, 0.07, 0.0));
+  EXPECT_EQ(forces[1].place, Vector3d(0.1, 0.0, 0.3));
+  EXPECT_EQ(forces[1].face, 1U);
+  EXPECT_EQ(forces[1].vertices, (FaceIndices{3, 4, 5}));
+  EXPECT_EQ(forces[1].barycentric, Vector3d(0.2, 0.3, 0.5));
+}
+
 TEST(ForceLaw, AStaticAnswerAndAnotherTopologyBeginAnew) {
   ForceLaw law;
   force(law, floor_and_wall(0.003, 0.002, true));

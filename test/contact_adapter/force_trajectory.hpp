@@ -4,7 +4,6 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -13,6 +12,7 @@
 #include "organ_collision/query/collision_query.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/steps/contact_array.hpp"
+#include "test/grid_surface.hpp"
 
 namespace organ_collision {
 
@@ -46,21 +46,11 @@ inline ContactArray touched(const std::vector<Contact>& contacts) {
 /// directions.
 template <typename Place>
 TriangleMesh grid_mesh(int n, int m, const Place& place) {
-  std::vector<float> vertices;
-  std::vector<std::uint32_t> triangles;
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= m; ++j) {
-      const Eigen::Vector3d p = place(static_cast<double>(i) / n, static_cast<double>(j) / m);
-      for (const double x : p) vertices.push_back(static_cast<float>(x));
-    }
-  }
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < m; ++j) {
-      const std::uint32_t a = i * (m + 1) + j, b = a + m + 1;
-      triangles.insert(triangles.end(), {a, b, b + 1, a, b + 1, a + 1});
-    }
-  }
-  return {vertices, triangles};
+  const auto at = [&](int row, int column) -> Eigen::Vector3d {
+    return place(static_cast<double>(column) / n, static_cast<double>(row) / m);
+  };
+  const GridSurface grid = grid_of(m + 1, n + 1, false, at);
+  return {grid.vertices, grid.triangles()};
 }
 
 /// Two plane sheets that meet along the y axis, each 40 mm wide and 160 mm long. The left one rises
@@ -80,58 +70,39 @@ inline TriangleMesh folded_sheet(double left, double right, double cell) {
 using ForceOf = std::function<Eigen::Vector3d(const ContactArray&)>;
 
 struct ForceStep {
-  ShaftAxis axis;
+  ToolWaypoint pose;
   Eigen::Vector3d force;
-  double change;  ///< [N] of the force since the last step
-  double way;     ///< [m] distance that the faster end of the axis has moved since then
+  std::size_t contacts;  ///< their number
+  bool is_inside;        ///< nothing is touched, and the tip is inside
+  double distance;       ///< [m] of the clearance
 };
 
-/// The forces on a shaft that moves through `poses`, with the organ at rest. The queries are those
-/// of the node: the first is static, the others are swept.
-inline std::vector<ForceStep> forces_along(const std::vector<ShaftAxis>& poses,
-                                           const TriangleMesh& organ, const ForceOf& law,
-                                           double radius = kRadius) {
+/// The forces on a tool that moves through `poses`, with the organ at rest. The queries are those
+/// of the node: the first is static, the others are swept. `request`: the organ, the tool, and what
+/// else is asked.
+inline std::vector<ForceStep> forces_along(const std::vector<ToolWaypoint>& poses,
+                                           CollisionRequest request, const ForceOf& law) {
   CollisionQuery query;
   CollisionResult result;
   std::vector<ForceStep> steps;
-  for (const ShaftAxis& pose : poses) {
-    CollisionRequest request;
-    request.organ = &organ;
-    request.radius = radius;
+  for (const ToolWaypoint& pose : poses) {
     request.mode = steps.empty() ? QueryMode::kStatic : QueryMode::kSwept;
-    request.path = {{0.0, steps.empty() ? pose : steps.back().axis}, {1.0, pose}};
+    request.path = {steps.empty() ? pose : steps.back().pose, pose};
+    request.path[0].fraction = 0.0;
+    request.path[1].fraction = 1.0;
+    if (!pose.links.empty()) request.tip = pose.links[0].translation();
     query.evaluate(request, result);
     ContactArray answer;
-    answer.links = {""};
+    answer.links = {request.radius > 0.0 ? "" : request.links->front().name};
     answer.mode = static_cast<std::uint8_t>(request.mode);
     for (const FaceContact& at : result.contacts) answer.contacts.push_back(to_message(at));
-    ForceStep step{pose, law(answer), 0.0, 0.0};
-    if (!steps.empty()) {
-      const ForceStep& last = steps.back();
-      step.change = (step.force - last.force).norm();
-      step.way =
-          std::max((pose.trocar - last.axis.trocar).norm(), (pose.tip - last.axis.tip).norm());
-    }
-    steps.push_back(step);
+    answer.clearance = to_message(result.clearance);
+    answer.placement = to_message(result.placement);
+    const bool is_tip_inside = answer.placement.tip == ToolPlacement::INSIDE;
+    steps.push_back({pose, law(answer), answer.contacts.size(),
+                     answer.contacts.empty() && is_tip_inside, answer.clearance.distance});
   }
   return steps;
-}
-
-/// Interpolates poses between `corners`, so that neither end of the axis moves by more than `most`
-/// [m] from one pose to the next.
-inline std::vector<ShaftAxis> way_through(const std::vector<ShaftAxis>& corners, double most) {
-  std::vector<ShaftAxis> poses = {corners.front()};
-  for (std::size_t i = 1; i < corners.size(); ++i) {
-    const ShaftAxis &from = corners[i - 1], &to = corners[i];
-    const double way = std::max((to.trocar - from.trocar).norm(), (to.tip - from.tip).norm());
-    const int count = static_cast<int>(std::ceil(way / most));
-    for (int k = 1; k <= count; ++k) {
-      const double share = static_cast<double>(k) / count;
-      poses.push_back({from.trocar + share * (to.trocar - from.trocar),
-                       from.tip + share * (to.tip - from.tip)});
-    }
-  }
-  return poses;
 }
 
 }  // namespace organ_collision

@@ -62,13 +62,16 @@ Stab through_a_lobe() {
 
 /// [N] The forces of the penalty law, one for each tick.
 std::vector<Vector3d> penalty_forces_of(const Stab& stab) {
-  std::vector<ShaftAxis> hands;
-  for (int tick = 0; tick <= kTicks; ++tick) hands.push_back(stab.hand(tick));
+  std::vector<ToolWaypoint> hands;
+  for (int tick = 0; tick <= kTicks; ++tick) hands.push_back({0.0, stab.hand(tick)});
+  CollisionRequest request;
+  request.organ = stab.tissue.get();
+  request.radius = kShaftRadius;
   const ForceOf law = [law = ForceLaw()](const ContactArray& answer) mutable {
     return to_eigen(wrench_of(law.follow(answer, kTick, kHandStiffness, kShaftRadius)).force);
   };
   std::vector<Vector3d> forces;
-  for (const ForceStep& step : forces_along(hands, *stab.tissue, law, kShaftRadius)) {
+  for (const ForceStep& step : forces_along(hands, request, law)) {
     forces.push_back(step.force);
   }
   return forces;

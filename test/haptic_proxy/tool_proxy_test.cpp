@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "ros/messages/failure_log.hpp"
+#include "test/refusals.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
 using namespace organ_collision;
@@ -146,13 +147,8 @@ TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
   press(proxy, -0.01);
   pass(1.0);
   const Vector3d in_the_sheet(0.02, 0.01, 0.0), tip(0.011, -0.007, 0.1);
-  try {
-    proxy.follow({{{in_the_sheet, tip}}, stamp_}, scene_, now_);
-    ADD_FAILURE() << "accepted";
-  } catch (const Rejection& rejection) {
-    EXPECT_NE(std::string(rejection.what()).find("the trocar is in tissue"), std::string::npos)
-        << rejection.what();
-  }
+  const auto place = [&] { proxy.follow({{{in_the_sheet, tip}}, stamp_}, scene_, now_); };
+  expect_words(refusal_by<Rejection>(place), {"the trocar is in tissue"});
   EXPECT_NEAR(force(lose(proxy, 0.0)), spring(-0.01), 1e-6);
   EXPECT_EQ(proxy.answer(), nullptr);
   EXPECT_NEAR(force(lose(proxy, 5.0)), 0.5 * spring(-0.01), 1e-6);

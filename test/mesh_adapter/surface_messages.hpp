@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh_adapter/surface_messages.hpp"
+#include "test/refusals.hpp"
 
 namespace organ_collision {
 
@@ -22,12 +23,6 @@ std::string refusal(const Call& call) {
     return error.reason() + ": " + error.what();
   }
   return "accepted";
-}
-
-inline void expect_words(const std::string& message, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
-  }
 }
 
 /// The layout of a cloud's data: the fields of a point, in this order.

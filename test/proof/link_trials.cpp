@@ -177,11 +177,7 @@ ConvexCore make_core(std::size_t core_kind, Random& random) {
 }
 
 const std::vector<std::string>& link_trial_kinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Kind& kind : kKinds) all.emplace_back(kind.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(kKinds);
   return names;
 }
 

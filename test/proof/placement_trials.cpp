@@ -7,11 +7,18 @@
 #include <ostream>
 #include <utility>
 
+#include "test/closed_surfaces.hpp"
+
 namespace organ_collision::oracle {
 namespace {
 
 using Eigen::Vector3d;
 using Index = std::uint32_t;
+
+struct ClosedSurface {
+  std::vector<Vector3d> vertices;
+  std::vector<FaceIndices> faces;
+};
 
 ClosedSurface tetrahedron(Random& random) {
   return {{random.point(1.0), random.point(1.0), random.point(1.0), random.point(1.0)},
@@ -52,8 +59,8 @@ ClosedSurface ball(bool fine) {
   const auto coarse = std::exchange(surface.faces, {});
   for (const auto& [a, b, c] : coarse) {
     const Index ab = middle(a, b), bc = middle(b, c), ca = middle(c, a);
-    for (const std::array<Index, 3>& face :
-         {std::array<Index, 3>{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
+    for (const FaceIndices& face :
+         {FaceIndices{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}}) {
       surface.faces.push_back(face);
     }
   }
@@ -151,64 +158,44 @@ ClosedSurface any_surface(Random& random) {
   }
 }
 
-}  // namespace
-
-ClosedSurface make_closed_surface(Random& random) {
+/// The vertices are 32-bit floats.
+GridSurface make_closed_surface(Random& random) {
   ClosedSurface surface = any_surface(random);
   if (random.chance(0.2)) surface = inside_out(surface);
   if (random.chance(0.5)) {  // else it stays on its lattice
     surface = moved(surface, random.scale(1e-3, 1.0), random.point(0.2));
     if (random.chance(0.1)) surface = moved(surface, 1.0, 1e3 * random.direction());
   }
-  for (Vector3d& vertex : surface.vertices) vertex = rounded(vertex);
-  return surface;
-}
-
-ClosedSurface without_shared_vertices(const ClosedSurface& surface) {
-  ClosedSurface soup;
-  for (const auto& face : surface.faces) {
-    const auto first = static_cast<Index>(soup.vertices.size());
-    for (const Index corner : face) soup.vertices.push_back(surface.vertices[corner]);
-    soup.faces.push_back({first, first + 1, first + 2});
+  GridSurface result{{}, surface.faces};
+  for (const Vector3d& vertex : surface.vertices) {
+    for (int k = 0; k < 3; ++k) result.vertices.push_back(static_cast<float>(vertex[k]));
   }
-  return soup;
+  return result;
 }
-
-namespace {
 
 /// How far vertices that are welded may be apart in a trial [m]; legal is 1e-6 m.
 constexpr double kSeam = 9e-7;
 
 /// Moves each vertex a little that is welded to an earlier one.
-void open_seams(ClosedSurface& surface, const SurfaceTopology& topology, Random& random) {
-  for (std::size_t i = 0; i < surface.vertices.size(); ++i) {
+void open_seams(GridSurface& surface, const SurfaceTopology& topology, Random& random) {
+  for (std::size_t i = 0; i < topology.welded().size(); ++i) {
     if (topology.welded()[i] == i) continue;
-    const Vector3d place = surface.vertices[i];
+    Eigen::Map<Eigen::Vector3f> vertex(&surface.vertices[3 * i]);
+    const Vector3d place = vertex.cast<double>();
     const Vector3d moved = rounded(place + random.scale(1e-9, kSeam) * random.direction());
-    if ((moved - place).norm() <= kSeam) surface.vertices[i] = moved;
+    if ((moved - place).norm() <= kSeam) vertex = moved.cast<float>();
   }
-}
-
-std::vector<float> coordinates(const ClosedSurface& surface) {
-  std::vector<float> all;
-  for (const Vector3d& vertex : surface.vertices) {
-    for (int k = 0; k < 3; ++k) all.push_back(static_cast<float>(vertex[k]));
-  }
-  return all;
 }
 
 PlacementTrial make_organ(Random& random) {
-  ClosedSurface surface = make_closed_surface(random);
+  GridSurface surface = make_closed_surface(random);
   const bool has_seams = random.chance(0.3);
-  if (has_seams) surface = without_shared_vertices(surface);
-  std::vector<std::uint32_t> triangles;
-  for (const auto& face : surface.faces)
-    triangles.insert(triangles.end(), face.begin(), face.end());
-  TriangleMesh organ(coordinates(surface), triangles);
+  if (has_seams) surface = unwelded(surface);
+  TriangleMesh organ(surface.vertices, surface.triangles());
   SurfaceTopology topology(organ.faces(), organ.vertices());
   if (has_seams && random.chance(0.5)) {
     open_seams(surface, topology, random);
-    organ.move_vertices(coordinates(surface));
+    organ.move_vertices(surface.vertices);
   }
   std::vector<Triangle> faces;
   for (const FaceIndices& face : organ.faces()) {
@@ -310,11 +297,7 @@ constexpr Kind kKinds[] = {
 }  // namespace
 
 const std::vector<std::string>& placement_trial_kinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Kind& kind : kKinds) all.emplace_back(kind.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(kKinds);
   return names;
 }
 

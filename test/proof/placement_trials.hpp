@@ -1,9 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <cstddef>
-#include <cstdint>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
@@ -14,21 +13,9 @@
 
 namespace organ_collision::oracle {
 
-/// A closed surface of some faces [m]. Its faces look outward or inward.
-struct ClosedSurface {
-  std::vector<Eigen::Vector3d> vertices;  ///< 32-bit floats
-  std::vector<std::array<std::uint32_t, 3>> faces;
-};
-
-/// A random surface, 1e-3 to 1 m large: a tetrahedron, a box on a lattice, a dented ball, a torus,
-/// a ball with a cavity, two bodies that touch in a corner or overlap, or a body with collapsed
-/// faces. Some of them look inward, or are a kilometre away.
-ClosedSurface make_closed_surface(Random& random);
-
-/// The same surface with three vertices of its own for each face, as in an STL file.
-ClosedSurface without_shared_vertices(const ClosedSurface& surface);
-
-/// An axis and a closed organ of a few faces.
+/// An axis and a closed organ of a few faces, 1e-3 to 1 m large: a tetrahedron, a box on a lattice,
+/// a dented ball, a torus, a ball with a cavity, two bodies that touch in a corner or overlap, or a
+/// body with collapsed faces. Some organs look inward, or are a kilometre away.
 struct PlacementTrial {
   TriangleMesh organ;
   SurfaceTopology topology;

@@ -222,11 +222,7 @@ Vector3d Random::direction() {
 }
 
 const std::vector<std::string>& trial_kinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Kind& kind : kKinds) all.emplace_back(kind.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(kKinds);
   return names;
 }
 

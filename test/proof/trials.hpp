@@ -32,6 +32,14 @@ class Random {
   std::mt19937_64 engine_;
 };
 
+/// The names of some kinds of trials: each kind has a member `name`.
+template <typename Kinds>
+std::vector<std::string> names_of(const Kinds& kinds) {
+  std::vector<std::string> names;
+  for (const auto& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
+
 /// A tool that moves past a face. The trocar rests, and the corners of the face are 32-bit floats
 /// [m].
 struct Trial {

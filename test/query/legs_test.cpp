@@ -1,8 +1,8 @@
-// leg_span.hpp: no point of a part is farther from its chord than a span says.
+// step.hpp: no point of a part is farther from its chord than a span says.
 #include <gtest/gtest.h>
 
 #include "geometry/tool/leg_motion.hpp"
-#include "query/leg_span.hpp"
+#include "query/step.hpp"
 #include "scenes.hpp"
 
 namespace organ_collision {

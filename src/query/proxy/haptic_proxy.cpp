@@ -21,11 +21,6 @@ constexpr double kSamePlace = 1e-12;
 /// two lengths: the clearance, and the distance of the nearest face.
 constexpr double kResting = 1.02;
 
-/// Whether both shapes have the same triangles, so that the organ moved from `before` to `now`.
-bool is_same_organ(const TriangleMesh& before, const TriangleMesh& now) {
-  return before.topology() == now.topology() && before.same_faces(now);
-}
-
 }  // namespace
 
 struct HapticProxy::State {
@@ -198,7 +193,7 @@ void HapticProxy::State::move_proxy(Tick& tick) {
   tick.answer.is_placed_anew = !tick.place;
   if (!tick.place) {
     std::string why_not;
-    tick.place = enter(tool, *mobility, hand, settings.clearance, tick.motions, tissue, why_not);
+    tick.place = motion.enter(tool.freedom, hand, tick.motions, why_not);
     if (!tick.place) {
       tick.answer.message += ", and " + why_not;
       return;
@@ -224,7 +219,9 @@ std::vector<OrganTick> HapticProxy::State::match(const std::vector<ProxyOrgan>& 
     tick.topology = organ.topology;
     tick.T_now = tick.T_before = organ.T_organ_proxy;
     for (const ProxyOrgan& last : last_organs) {
-      if (last.name != organ.name || !is_same_organ(*last.shape, *organ.shape)) continue;
+      const bool has_same_triangles =
+          last.shape->topology() == organ.shape->topology() && last.shape->same_faces(*organ.shape);
+      if (last.name != organ.name || !has_same_triangles) continue;
       tick.before = last.shape.get();
       tick.T_before = last.T_organ_proxy;
     }
@@ -244,7 +241,7 @@ bool HapticProxy::State::is_in_new_tissue(Tick& tick) {
   tissue.set_organs(new_organs);
   const bool is_inside = tissue.is_inside(start.pose, mobility->center(start.pose));
   std::vector<TissueContact> contacts;
-  tissue.touch(start.pose, settings.clearance, contacts);
+  tissue.touch({start.pose}, settings.clearance, contacts);
   for (const TissueContact& contact : contacts) {
     start.clearance = std::min(start.clearance, contact.distance);
   }

@@ -40,18 +40,13 @@ std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& ha
   });
   if (!is_pressing || !(excess >= threshold(settings))) return std::nullopt;
   const ShaftAxis ahead{proxy.trocar, proxy.tip + excess * direction};
-  std::vector<TissueCrossing> crossings;
-  tissue.cross(ahead, crossings);
+  const std::vector<ProxyCrossing> crossings = tissue.cross(ahead);
   const double tip = along(proxy).norm() / along(ahead).norm();
-  const auto entry =
-      std::find_if(crossings.begin(), crossings.end(),
-                   [&](const TissueCrossing& found) { return found.crossing.shaft >= tip; });
+  const auto entry = std::find_if(crossings.begin(), crossings.end(),
+                                  [&](const ProxyCrossing& found) { return found.shaft >= tip; });
   if (entry == crossings.end()) return std::nullopt;
   const ProxyOrgan& organ = organs[entry->organ];
-  Needle needle(organ.name,
-                {entry->organ, entry->crossing.face, entry->crossing.barycentric,
-                 entry->crossing.shaft, entry->crossing.point, Vector3d::Zero()},
-                organ.shape->faces()[entry->crossing.face]);
+  Needle needle(organ.name, *entry, organ.shape->faces()[entry->face]);
   const bool is_held = needle.follow(hand, organs, settings, tissue) == Fate::kHeld;
   return is_held ? std::optional<Needle>(needle) : std::nullopt;
 }
@@ -98,14 +93,12 @@ double Needle::stop_at_faces(double from, double hand_tip, const ProxySettings& 
   const Vector3d direction = along(axis_) / to;
   const ShaftAxis ahead{axis_.trocar, axis_.tip + settings.clearance * direction};
   const double length = to + settings.clearance;
-  std::vector<TissueCrossing> crossings;
-  tissue.cross(ahead, crossings);
-  for (const TissueCrossing& found : crossings) {
-    const double face = found.crossing.shaft * length;
+  for (const ProxyCrossing& found : tissue.cross(ahead)) {
+    const double face = found.shaft * length;
     const double stop = face - settings.clearance;
-    const bool is_entry =
-        found.organ == entry_.organ && found.crossing.face == entry_.face && inserted_ == 0.0;
-    if (face <= from || is_entry || hand_tip - stop >= threshold(settings)) continue;
+    if (face <= from || (is_entry(found) && inserted_ == 0.0) ||
+        hand_tip - stop >= threshold(settings))
+      continue;
     return std::clamp(stop, from, to);
   }
   return to;
@@ -120,13 +113,8 @@ void Needle::describe(const ShaftAxis& hand, Tissue& tissue) {
   // Across its direction, the axis is a lever about the trocar.
   entry_.load = -(lengthwise + (pull - lengthwise) / entry_.shaft);
   crossings_ = {entry_};
-  std::vector<TissueCrossing> found;
-  tissue.cross(axis_, found);
-  for (const TissueCrossing& further : found) {
-    const bool is_entry = further.organ == entry_.organ && further.crossing.face == entry_.face;
-    if (is_entry || further.crossing.shaft <= entry_.shaft) continue;
-    crossings_.push_back({further.organ, further.crossing.face, further.crossing.barycentric,
-                          further.crossing.shaft, further.crossing.point, Vector3d::Zero()});
+  for (const ProxyCrossing& further : tissue.cross(axis_)) {
+    if (!is_entry(further) && further.shaft > entry_.shaft) crossings_.push_back(further);
   }
 }
 

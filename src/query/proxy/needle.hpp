@@ -46,6 +46,9 @@ class Needle {
   double stop_at_faces(double from, double hand_tip, const ProxySettings& settings,
                        Tissue& tissue) const;
   void describe(const ShaftAxis& hand, Tissue& tissue);
+  bool is_entry(const ProxyCrossing& crossing) const {
+    return crossing.organ == entry_.organ && crossing.face == entry_.face;
+  }
 
   std::string organ_;  ///< the name of the organ that the needle entered
   ProxyCrossing entry_;

@@ -10,6 +10,8 @@
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector3d;
+
 /// If a proxy cannot give way to a whole motion of the organs, it tries this many pieces of it.
 constexpr int kPieces = 4;
 /// The most bent motions that a proxy tries in order to give way.
@@ -60,6 +62,31 @@ std::unique_ptr<const TriangleMesh> shape_between(const TriangleMesh& before,
   auto shape = std::make_unique<TriangleMesh>(now);
   shape->move_vertices(std::move(vertices));
   return shape;
+}
+
+/// The box around all organs in the proxy's frame [m].
+Eigen::AlignedBox3d box_around(const std::vector<OrganTick>& organs) {
+  Eigen::AlignedBox3d box;
+  for (const OrganTick& organ : organs) {
+    const Eigen::AlignedBox3d own = organ.now->box().cast<double>();
+    for (int corner = 0; corner < 8; ++corner) {
+      const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
+      box.extend(organ.T_now.inverse() * own.corner(type));
+    }
+  }
+  return box;
+}
+
+/// The hand's tool, moved straight away from the middle of all organs until it is beyond them.
+ToolPose beyond(const std::vector<OrganTick>& organs, const Mobility& mobility,
+                const ToolPose& hand) {
+  const Eigen::AlignedBox3d box = box_around(organs);
+  Vector3d away = mobility.center(hand) - box.center();
+  away = away.norm() > 0.0 ? Vector3d(away.normalized()) : Vector3d(Vector3d::UnitZ());
+  const double distance = 0.5 * box.diagonal().norm() + 2.0 * mobility.size();
+  Displacement displacement = Displacement::Zero();
+  displacement.head<3>() = box.center() + distance * away - mobility.center(hand);
+  return mobility.moved(hand, displacement, hand);
 }
 
 }  // namespace
@@ -119,7 +146,7 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
 std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const ToolPose& hand,
                                                 Level level) {
   const ToolPose given = mobility_.combine(start.pose, hand);
-  tissue_.sweep_with_organs(start.pose, given, clearance_.rest, met_);
+  tissue_.touch({start.pose, given}, clearance_.rest, met_, Tissue::Organs::kMove);
   if (met_.empty()) return ProxyPlace{given, clearance_.rest};
   walls_.clear();
   add_walls(given, given, met_);
@@ -129,7 +156,7 @@ std::optional<ProxyPlace> ProxyMotion::give_way(const ProxyPlace& start, const T
     solver_.solve(Displacement::Zero(), walls_);
     const ToolPose pose =
         mobility_.moved(given, share_of_give_way(given) * solver_.displacement(), hand);
-    tissue_.sweep_with_organs(start.pose, pose, growth, met_);
+    tissue_.touch({start.pose, pose}, growth, met_, Tissue::Organs::kMove);
     if (!first_touch(growth)) {
       return ProxyPlace{pose, level == Level::kSwept ? growth : ProxyPlace().clearance};
     }
@@ -150,7 +177,7 @@ double ProxyMotion::share_of_give_way(const ToolPose& given) const {
 
 bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand, double growth) {
   straight_ = {place.pose, hand};
-  tissue_.sweep(straight_, growth, met_);
+  tissue_.touch(straight_, growth, met_);
   const auto touch = first_touch(growth);
   if (touch) {
     place.pose = pose_at(straight_, *touch);
@@ -187,7 +214,7 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
   }
   if (way_.size() == 1) return;
   const double growth = growth_from(clearance);
-  tissue_.sweep(way_, growth, met_);
+  tissue_.touch(way_, growth, met_);
   const auto touch = first_touch(growth);
   if (touch) place.pose = pose_at(way_, *touch);
   if (!touch && is_there) return;
@@ -203,7 +230,7 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
 /// Finds the walls around the proxy, and its clearance.
 void ProxyMotion::look_around(ProxyPlace& place, double reach) {
   const double growth = clearance_.rest + reach;
-  tissue_.touch(place.pose, growth, contacts_);
+  tissue_.touch({place.pose}, growth, contacts_);
   walls_.clear();
   add_walls(place.pose, place.pose, contacts_);
   place.clearance = growth;
@@ -240,60 +267,26 @@ std::optional<double> ProxyMotion::first_touch(double growth) const {
   return first;
 }
 
-namespace {
-
-using Eigen::Vector3d;
-
-bool is_clear(const ToolPose& pose, double clearance, Tissue& tissue) {
-  std::vector<TissueContact> contacts;
-  tissue.touch(pose, clearance, contacts);
-  return contacts.empty();
-}
-
-/// The box around all organs in the proxy's frame [m].
-Eigen::AlignedBox3d box_around(const std::vector<OrganTick>& organs) {
-  Eigen::AlignedBox3d box;
-  for (const OrganTick& organ : organs) {
-    const Eigen::AlignedBox3d own = organ.now->box().cast<double>();
-    for (int corner = 0; corner < 8; ++corner) {
-      const auto type = static_cast<Eigen::AlignedBox3d::CornerType>(corner);
-      box.extend(organ.T_now.inverse() * own.corner(type));
-    }
-  }
-  return box;
-}
-
-/// The hand's tool, moved straight away from the middle of all organs until it is beyond them.
-ToolPose beyond(const std::vector<OrganTick>& organs, const Mobility& mobility,
-                const ToolPose& hand) {
-  const Eigen::AlignedBox3d box = box_around(organs);
-  Vector3d away = mobility.center(hand) - box.center();
-  away = away.norm() > 0.0 ? Vector3d(away.normalized()) : Vector3d(Vector3d::UnitZ());
-  const double distance = 0.5 * box.diagonal().norm() + 2.0 * mobility.size();
-  Displacement displacement = Displacement::Zero();
-  displacement.head<3>() = box.center() + distance * away - mobility.center(hand);
-  return mobility.moved(hand, displacement, hand);
-}
-
-}  // namespace
-
-std::optional<ProxyPlace> enter(const ProxyTool& tool, const Mobility& mobility,
-                                const ToolPose& hand, double clearance,
-                                const std::vector<OrganTick>& organs, Tissue& tissue,
-                                std::string& why_not) {
+std::optional<ProxyPlace> ProxyMotion::enter(ProxyFreedom freedom, const ToolPose& hand,
+                                             const std::vector<OrganTick>& organs,
+                                             std::string& why_not) {
+  const auto is_clear = [this](const ToolPose& pose) {
+    tissue_.touch({pose}, clearance_.rest, met_);
+    return met_.empty();
+  };
   ToolPose pose = hand;
-  if (tool.freedom == ProxyFreedom::kTrocar) {
+  if (freedom == ProxyFreedom::kTrocar) {
     pose.axis.tip = hand.axis.trocar;
-    pose = mobility.combine(pose, hand);
+    pose = mobility_.combine(pose, hand);
     why_not = "the trocar is in tissue: the proxy cannot be placed from outside";
-  } else if (!is_clear(pose, clearance, tissue) || tissue.is_inside(pose, mobility.center(pose))) {
-    pose = beyond(organs, mobility, hand);
+  } else if (!is_clear(pose) || tissue_.is_inside(pose, mobility_.center(pose))) {
+    pose = beyond(organs, mobility_, hand);
     why_not = "there is no room beyond the organs: the proxy cannot be placed from outside";
   } else {
-    return ProxyPlace{pose, clearance};
+    return ProxyPlace{pose, clearance_.rest};
   }
-  if (!is_clear(pose, clearance, tissue)) return std::nullopt;
-  return ProxyPlace{pose, clearance};
+  if (!is_clear(pose)) return std::nullopt;
+  return ProxyPlace{pose, clearance_.rest};
 }
 
 }  // namespace organ_collision

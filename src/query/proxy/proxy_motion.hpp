@@ -36,6 +36,13 @@ class ProxyMotion {
 
   void set_clearance(double clearance) { clearance_ = {clearance}; }
 
+  /// The place where a proxy starts when it is placed anew. From there it moves to the hand like
+  /// any proxy. A tool through a trocar starts with its tip at the trocar. A free tool starts where
+  /// the hand is. If it touches tissue there or is inside an organ, it starts beyond all organs, on
+  /// the hand's side. If there is tissue, too, the result is empty, and `why_not` says why.
+  std::optional<ProxyPlace> enter(ProxyFreedom freedom, const ToolPose& hand,
+                                  const std::vector<OrganTick>& organs, std::string& why_not);
+
   /// Moves the proxy while the organs move from their last shapes to their present ones, and its
   /// joints and its trocar move to those of the hand. The proxy gives way to tissue as little as
   /// possible. Returns nothing if tissue would pass through the proxy in each motion that it tries.
@@ -78,14 +85,5 @@ class ProxyMotion {
   std::vector<TissueContact> met_;  ///< what the last motion touched
   std::vector<ToolPose> way_, straight_;
 };
-
-/// The place where a proxy starts when it is placed anew. From there it moves to the hand like any
-/// proxy. A tool through a trocar starts with its tip at the trocar. A free tool starts where the
-/// hand is. If it touches tissue there or is inside an organ, it starts beyond all organs, on the
-/// hand's side. If there is tissue, too, the result is empty, and `why_not` says why.
-std::optional<ProxyPlace> enter(const ProxyTool& tool, const Mobility& mobility,
-                                const ToolPose& hand, double clearance,
-                                const std::vector<OrganTick>& organs, Tissue& tissue,
-                                std::string& why_not);
 
 }  // namespace organ_collision

@@ -40,17 +40,20 @@ Tissue::Tissue(const ProxyTool& tool, const PickerSettings& picker)
 
 double Tissue::least_growth() const { return -std::max(kAxisRadius, tool_.radius - kAxisRadius); }
 
-/// Asks the same question about each organ, with the tool grown. `set_path(tick, question)` sets
-/// how the tool moves in an organ's frame. The contacts are in the proxy's frame.
-template <typename SetPath>
-void Tissue::ask(QueryMode mode, double growth, std::vector<TissueContact>& contacts,
-                 const SetPath& set_path) {
+void Tissue::touch(const std::vector<ToolPose>& way, double growth,
+                   std::vector<TissueContact>& contacts, Organs organs) {
   contacts.clear();
   grow(growth);
+  const bool is_static = way.size() == 1;
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const OrganTick& tick = (*organs_)[organ];
-    CollisionRequest question = request(tick, mode);
-    set_path(tick, question);
+    CollisionRequest question = request(tick, is_static ? QueryMode::kStatic : QueryMode::kSwept);
+    question.path = {waypoint(0.0, organs == Organs::kMove ? tick.T_before : tick.T_now, way[0])};
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const double fraction = static_cast<double>(i) / static_cast<double>(way.size() - 1);
+      question.path.push_back(waypoint(fraction, tick.T_now, way[i]));
+    }
+    if (organs == Organs::kMove && tick.before != tick.now) question.organ_before = tick.before;
     query_.evaluate(question, result_);
     const Eigen::Isometry3d T_proxy_organ = tick.T_now.inverse();
     for (const FaceContact& found : result_.contacts) {
@@ -61,30 +64,6 @@ void Tissue::ask(QueryMode mode, double growth, std::vector<TissueContact>& cont
       contacts.push_back(contact);
     }
   }
-}
-
-void Tissue::touch(const ToolPose& pose, double growth, std::vector<TissueContact>& contacts) {
-  ask(QueryMode::kStatic, growth, contacts, [&](const OrganTick& tick, CollisionRequest& question) {
-    question.path = {waypoint(0.0, tick.T_now, pose)};
-  });
-}
-
-void Tissue::sweep(const std::vector<ToolPose>& way, double growth,
-                   std::vector<TissueContact>& contacts) {
-  ask(QueryMode::kSwept, growth, contacts, [&](const OrganTick& tick, CollisionRequest& question) {
-    const double legs = static_cast<double>(way.size() - 1);
-    for (std::size_t i = 0; i < way.size(); ++i) {
-      question.path.push_back(waypoint(static_cast<double>(i) / legs, tick.T_now, way[i]));
-    }
-  });
-}
-
-void Tissue::sweep_with_organs(const ToolPose& from, const ToolPose& to, double growth,
-                               std::vector<TissueContact>& contacts) {
-  ask(QueryMode::kSwept, growth, contacts, [&](const OrganTick& tick, CollisionRequest& question) {
-    if (tick.before != tick.now) question.organ_before = tick.before;
-    question.path = {waypoint(0.0, tick.T_before, from), waypoint(1.0, tick.T_now, to)};
-  });
 }
 
 bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
@@ -102,8 +81,8 @@ bool Tissue::is_inside(const ToolPose& pose, const Eigen::Vector3d& point) {
   });
 }
 
-void Tissue::cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings) {
-  crossings.clear();
+std::vector<ProxyCrossing> Tissue::cross(const ShaftAxis& axis) {
+  std::vector<ProxyCrossing> crossings;
   grow(least_growth());
   for (std::size_t organ = 0; organ < organs_->size(); ++organ) {
     const Eigen::Isometry3d& T_organ_proxy = (*organs_)[organ].T_now;
@@ -112,14 +91,14 @@ void Tissue::cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings
     question.path = {waypoint(0.0, T_organ_proxy, {axis, {}, {}})};
     question.placement = true;
     query_.evaluate(question, result_);
-    for (AxisCrossing crossing : result_.placement.crossings) {
-      crossing.point = T_organ_proxy.inverse() * crossing.point;
-      crossings.push_back({organ, crossing});
+    for (const AxisCrossing& found : result_.placement.crossings) {
+      crossings.push_back({organ, found.face, found.barycentric, found.shaft,
+                           T_organ_proxy.inverse() * found.point, Eigen::Vector3d::Zero()});
     }
   }
-  std::stable_sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
-    return a.crossing.shaft < b.crossing.shaft;
-  });
+  std::stable_sort(crossings.begin(), crossings.end(),
+                   [](const auto& a, const auto& b) { return a.shaft < b.shaft; });
+  return crossings;
 }
 
 void Tissue::grow(double growth) {

@@ -30,16 +30,10 @@ struct TissueContact {
   double distance = 0.0;
 };
 
-/// Where an axis crosses an organ's surface, in the proxy's frame. `organ`: as in TissueContact.
-struct TissueCrossing {
-  std::size_t organ = 0;
-  AxisCrossing crossing;
-};
-
 /// Finds which faces of all organs a tool touches. The tool may be grown by a distance [m]. It then
 /// touches each face that comes within this distance of it. A negative growth makes the shaft
-/// thinner, and replaces each part of a link by the middle line of its box. All poses and contacts
-/// are in the proxy's frame.
+/// thinner, and replaces each part of a link by the middle line of its box. All poses, contacts and
+/// crossings are in the proxy's frame.
 class Tissue {
  public:
   /// `tool` must outlive this. Throws GlError.
@@ -48,20 +42,20 @@ class Tissue {
   /// The organs of this tick. `organs` must stay valid until the next call of set_organs().
   void set_organs(const std::vector<OrganTick>& organs) { organs_ = &organs; }
 
-  /// What the tool touches at a pose, against the organs' shapes now. `growth` [m].
-  void touch(const ToolPose& pose, double growth, std::vector<TissueContact>& contacts);
-  /// What the tool touches on its way along the poses, with the organs at rest in their shapes now.
-  void sweep(const std::vector<ToolPose>& way, double growth, std::vector<TissueContact>& contacts);
-  /// What the tool touches on its way from one pose to another while the organs move.
-  void sweep_with_organs(const ToolPose& from, const ToolPose& to, double growth,
-                         std::vector<TissueContact>& contacts);
+  enum class Organs { kRest, kMove };
+  /// What the tool, grown by `growth` [m], touches on its way along the poses, or at a single pose.
+  /// The organs rest in their shapes now, or move to these shapes while the tool moves from the
+  /// first one of two poses to the second one.
+  void touch(const std::vector<ToolPose>& way, double growth, std::vector<TissueContact>& contacts,
+             Organs organs = Organs::kRest);
 
   /// Whether `point` or the shaft's trocar is known to be inside an organ, or the shaft's axis
   /// crosses the surface of an organ.
   bool is_inside(const ToolPose& pose, const Eigen::Vector3d& point);
 
-  /// Finds where an axis crosses the organs' surfaces. Sorted from its trocar to its tip.
-  void cross(const ShaftAxis& axis, std::vector<TissueCrossing>& crossings);
+  /// Where an axis crosses the organs' surfaces, sorted from its trocar to its tip. The crossings
+  /// have no loads.
+  std::vector<ProxyCrossing> cross(const ShaftAxis& axis);
 
   /// [m] The most negative growth. It makes the shaft as thin as its axis.
   double least_growth() const;
@@ -70,9 +64,6 @@ class Tissue {
   void grow(double growth);
   double growth_of(std::uint32_t link) const;
   CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
-  template <typename SetPath>
-  void ask(QueryMode mode, double growth, std::vector<TissueContact>& contacts,
-           const SetPath& set_path);
 
   const ProxyTool& tool_;
   double growth_ = 0.0;  ///< [m]

@@ -18,6 +18,7 @@
 #include "test/grid_surface.hpp"
 #include "test/picking/volumes/clip_oracle.hpp"
 #include "test/picking/volumes/random_motions.hpp"
+#include "test/refusals.hpp"
 #include "test/resident_memory.hpp"
 
 namespace organ_collision {
@@ -166,19 +167,6 @@ TEST_P(PickerTest, PicksTheSameOnBothPlatformsBitForBit) {
   EXPECT_GT(picked, 20'000u);
 }
 
-/// Expects that parse(name) throws, and names the value and what is legal.
-template <typename Parse>
-void expect_refused(Parse parse, const std::string& name, const std::string& legal) {
-  try {
-    parse(name);
-    FAIL() << name;
-  } catch (const std::invalid_argument& error) {
-    const std::string what = error.what();
-    EXPECT_NE(what.find("\"" + name + "\""), std::string::npos) << what;
-    EXPECT_NE(what.find(legal), std::string::npos) << what;
-  }
-}
-
 TEST(PickerSettings, HaveNames) {
   EXPECT_EQ(picker_kind("feedback"), PickerKind::kFeedback);
   EXPECT_EQ(picker_kind("select"), PickerKind::kSelect);
@@ -187,8 +175,11 @@ TEST(PickerSettings, HaveNames) {
   EXPECT_EQ(gl_platform("osmesa"), GlPlatform::kOsmesa);
   EXPECT_EQ(gl_platform("egl"), GlPlatform::kEgl);
   for (const char* name : {"", "Feedback", "both", "GPU"}) {
-    expect_refused(picker_kind, name, "\"feedback\", \"select\" or \"cpu\"");
-    expect_refused(gl_platform, name, "\"auto\", \"osmesa\" or \"egl\"");
+    const std::string quoted = std::string("\"") + name + "\"";
+    expect_words(refusal_by<std::invalid_argument>([&] { picker_kind(name); }),
+                 {quoted, "\"feedback\", \"select\" or \"cpu\""});
+    expect_words(refusal_by<std::invalid_argument>([&] { gl_platform(name); }),
+                 {quoted, "\"auto\", \"osmesa\" or \"egl\""});
   }
 }
 

@@ -2,13 +2,10 @@
 // tick. Exits with 1 if a promise was broken: the proxy came too near to tissue, passed through it,
 // was overrun, or gave an answer that contradicts itself.
 #include <algorithm>
-#include <atomic>
 #include <boost/program_options.hpp>
 #include <ctime>
-#include <future>
 #include <iomanip>
 #include <iostream>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +24,7 @@ constexpr int kMostReports = 5;  // in an episode
 
 struct Options {
   std::string scene;  // empty: all
-  long ticks, seed, threads;
+  long ticks, seed;
   long episode;  // only this one; negative: all
 };
 
@@ -44,7 +41,6 @@ std::optional<Options> read(int argc, char** argv) {
   add("ticks", po::value(&options.ticks)->default_value(1000000),
       ("of each scene, in episodes of " + std::to_string(kEpisodeTicks)).c_str());
   add("seed", po::value(&options.seed)->default_value(1), "");
-  add("threads", po::value(&options.threads)->default_value(1), "");
   add("episode", po::value(&options.episode)->default_value(-1), "only this one, from 0");
   try {
     po::variables_map given;
@@ -52,7 +48,7 @@ std::optional<Options> read(int argc, char** argv) {
     po::notify(given);
     const bool is_scene = options.scene.empty() ||
                           std::find(kinds.begin(), kinds.end(), options.scene) != kinds.end();
-    if (is_scene && std::min({options.ticks, options.seed, options.threads}) > 0) return options;
+    if (is_scene && std::min(options.ticks, options.seed) > 0) return options;
   } catch (const po::error& error) {
     std::cerr << error.what() << '\n';
   }
@@ -133,37 +129,23 @@ ProxyTally follow_hand(const std::string& kind, unsigned long seed, long episode
   return tally;
 }
 
-/// Follows the hands of all episodes of one scene, which several threads share.
+/// Follows the hands of all episodes of one scene.
 ProxyTally prove(const Options& options, const std::string& kind, Progress& progress) {
-  const auto seed = static_cast<unsigned long>(options.seed);
-  std::mutex mutex;
   ProxyTally all;
-  std::atomic<long> next_episode = 0;
-  const auto follow = [&](long episode, long ticks) {
+  for (long next = 0; next * kEpisodeTicks < options.ticks; ++next) {
+    const long episode = std::max(0L, options.episode) + next;
+    const long ticks = std::min(kEpisodeTicks, options.ticks - next * kEpisodeTicks);
     int reports = 0;
-    return follow_hand(kind, seed, episode, ticks, [&](long tick, const std::string& what) {
+    const auto report = [&](long tick, const std::string& what) {
       if (++reports > kMostReports) return;
-      const std::lock_guard<std::mutex> lock(mutex);
       std::cerr << "--scene '" << kind << "' --seed " << options.seed << " --episode " << episode
                 << ": tick " << tick << ": " << what << std::endl;
-    });
-  };
-  const auto work = [&] {
-    const long first = std::max(0L, options.episode);
-    for (long next = next_episode++; next * kEpisodeTicks < options.ticks; next = next_episode++) {
-      const long ticks = std::min(kEpisodeTicks, options.ticks - next * kEpisodeTicks);
-      const ProxyTally tally = follow(first + next, ticks);
-      const std::lock_guard<std::mutex> lock(mutex);
-      all.add(tally);
-      progress.show(kind, all.ticks, options.ticks);
-      if (options.episode >= 0) return;
-    }
-  };
-  std::vector<std::future<void>> threads;
-  for (long i = 0; i < options.threads; ++i) {
-    threads.push_back(std::async(std::launch::async, work));
+    };
+    const auto seed = static_cast<unsigned long>(options.seed);
+    all.add(follow_hand(kind, seed, episode, ticks, report));
+    progress.show(kind, all.ticks, options.ticks);
+    if (options.episode >= 0) break;
   }
-  for (std::future<void>& thread : threads) thread.get();
   return all;
 }
 

@@ -12,23 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-void add_point(GridSurface& surface, const Vector3d& at) {
-  for (int k = 0; k < 3; ++k) surface.vertices.push_back(static_cast<float>(at[k]));
-}
-
-/// The faces of vertices that stand row by row. `joined`: the last column is followed by the first.
-void add_faces(GridSurface& surface, int rows, int columns, bool joined) {
-  const auto at = [columns](int row, int column) {
-    return static_cast<std::uint32_t>(row * columns + column % columns);
-  };
-  for (int row = 0; row + 1 < rows; ++row) {
-    for (int column = 0; column + (joined ? 0 : 1) < columns; ++column) {
-      surface.faces.push_back({at(row, column), at(row, column + 1), at(row + 1, column + 1)});
-      surface.faces.push_back({at(row, column), at(row + 1, column + 1), at(row + 1, column)});
-    }
-  }
-}
-
 /// The points of the folded sheet for y = 0, from its upper end to its lower one.
 std::vector<Vector3d> folded_curve(int layers, double gap, double width) {
   constexpr int kBend = 4;
@@ -66,17 +49,12 @@ GridSurface bumpy_organ(Random& random) {
 /// A thin sheet, folded into horizontal layers that are `gap` [m] apart, the upper one at z = 0.
 /// The layers are joined by half circles. Each is `width` [m] wide.
 GridSurface folded_sheet(int layers, double gap, double width) {
-  GridSurface sheet;
   const std::vector<Vector3d> curve = folded_curve(layers, gap, width);
   const int columns = static_cast<int>(std::ceil(width / 6e-3)) + 1;
-  for (const Vector3d& point : curve) {
-    for (int column = 0; column < columns; ++column) {
-      const double y = width * (static_cast<double>(column) / (columns - 1) - 0.5);
-      add_point(sheet, point + y * Vector3d::UnitY());
-    }
-  }
-  add_faces(sheet, static_cast<int>(curve.size()), columns, false);
-  return sheet;
+  return grid_of(static_cast<int>(curve.size()), columns, false, [&](int row, int column) {
+    const double y = width * (static_cast<double>(column) / (columns - 1) - 0.5);
+    return Vector3d(curve[static_cast<std::size_t>(row)] + y * Vector3d::UnitY());
+  });
 }
 
 /// A bent tube along z, 0.24 m long and open at both ends. It points outward.
@@ -84,18 +62,12 @@ GridSurface bent_tube(double radius, Random& random) {
   constexpr double kLength = 0.24;
   const int around = random.integer(8, 32), along = random.integer(12, 48);
   const double bend = random.uniform(0.0, 0.5 * radius), bulge = random.uniform(0.0, 0.2);
-  GridSurface tube;
-  for (int row = 0; row < along; ++row) {
+  return grid_of(along, around, true, [&](int row, int k) {
     const double z = kLength * (static_cast<double>(row) / (along - 1) - 0.5);
     const double here = radius * (1.0 + bulge * std::sin(80.0 * z));
-    for (int k = 0; k < around; ++k) {
-      const double angle = 2 * M_PI * k / around;
-      add_point(tube,
-                {bend * std::sin(25.0 * z) + here * std::cos(angle), here * std::sin(angle), z});
-    }
-  }
-  add_faces(tube, along, around, true);
-  return tube;
+    const double angle = 2 * M_PI * k / around;
+    return Vector3d(bend * std::sin(25.0 * z) + here * std::cos(angle), here * std::sin(angle), z);
+  });
 }
 
 enum class Tissue { kClosed, kFolds, kPockets, kTube, kClosedOrFolds, kTwo };
@@ -237,11 +209,7 @@ OrganMotion make_motion(const Kind& kind, Random& random) {
 }  // namespace
 
 const std::vector<std::string>& proxy_scene_kinds() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Kind& kind : kKinds) all.emplace_back(kind.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(kKinds);
   return names;
 }
 

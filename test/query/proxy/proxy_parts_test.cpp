@@ -190,14 +190,13 @@ TEST(Tissue, HasTheCrossingsOfAllOrgansInTheirOrderAlongTheAxis) {
     tick.before = tick.now = organ.shape.get();
   }
   tissue.set_organs(organs);
-  std::vector<TissueCrossing> crossings;
-  tissue.cross({{0.001, 0.002, 0.1}, {0.003, 0.001, -0.1}}, crossings);
+  const auto crossings = tissue.cross({{0.001, 0.002, 0.1}, {0.003, 0.001, -0.1}});
   ASSERT_EQ(crossings.size(), 4u);
   EXPECT_EQ(crossings[0].organ, 1u);
   EXPECT_EQ(crossings[1].organ, 2u);
   EXPECT_EQ(crossings[2].organ, 0u);
   EXPECT_EQ(crossings[3].organ, 2u);
-  EXPECT_NEAR(crossings[0].crossing.point.z(), 0.05, 1e-7);
+  EXPECT_NEAR(crossings[0].point.z(), 0.05, 1e-7);
 }
 
 }  // namespace
