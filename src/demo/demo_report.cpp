@@ -37,6 +37,9 @@ constexpr double kMicroseconds = 1e6;
 constexpr char kCollisionNode[] = "/organ_collision";
 constexpr char kHapticNode[] = "/haptic_proxy";
 constexpr char kProxyTopic[] = "palpator/state";
+// Keys on /diagnostics, where the collision node tells its query times.
+constexpr char kMedian[] = "query time, median [us]", kWorst[] = "query time, worst [us]";
+constexpr char kPercentile99[] = "query time, 99th percentile [us]";
 
 ProgramHelp help() {
   ProgramHelp help{"demo_report",
@@ -215,9 +218,8 @@ class DemoReport {
       std::printf("  %s %zu faces%s", tool.c_str(), faces.size(), first_of(faces).c_str());
       faces.clear();
     }
-    if (query_time_.median > 0.0) std::printf("  query %.0f us", query_time_.median);
-    std::printf("  palpator ");
-    std::printf("%s", name_of(static_cast<ProxyStatus>(proxy_.latest.state)).c_str());
+    if (diagnostics_[kMedian] > 0.0) std::printf("  query %.0f us", diagnostics_[kMedian]);
+    std::printf("  palpator %s", name_of(static_cast<ProxyStatus>(proxy_.latest.state)).c_str());
     if (proxy_.latest.state == ProxyState::NO_ANSWER) {
       std::printf(": %s\n", proxy_.latest.message.c_str());
     } else {
@@ -251,7 +253,7 @@ class DemoReport {
       std::printf("  %zu answers could not be compared\n", comparison_.waiting());
     }
     std::printf("Query time: median %.0f us, 99%% within %.0f us, worst %.0f us.\n",
-                query_time_.median, query_time_.percentile_99, query_time_.worst);
+                diagnostics_[kMedian], diagnostics_[kPercentile99], diagnostics_[kWorst]);
     std::printf("From shape to answer, through ROS: median %.0f us, 99%% within %.0f us.\n",
                 kMicroseconds * percentile(delays_, 50.0),
                 kMicroseconds * percentile(delays_, 99.0));
@@ -293,11 +295,8 @@ class DemoReport {
     for (const auto& status : array.status) {
       for (const auto& entry : status.values) {
         const double value = std::atof(entry.value.c_str());
-        if (entry.key == "query time, median [us]") query_time_.median = value;
-        if (entry.key == "query time, 99th percentile [us]") query_time_.percentile_99 = value;
-        if (entry.key == "query time, worst [us]" && value > query_time_.worst) {
-          query_time_.worst = value;
-        }
+        double& known = diagnostics_[entry.key];
+        known = entry.key == kWorst ? std::max(known, value) : value;
       }
     }
   }
@@ -310,9 +309,7 @@ class DemoReport {
   std::map<std::string, std::set<std::uint32_t>> touched_;  ///< faces by tool, since the last line
   std::size_t shapes_ = 0, answers_ = 0;                    ///< since the last line
   std::vector<double> delays_;                              ///< [s] from shape to answer
-  struct {
-    double median = 0.0, percentile_99 = 0.0, worst = 0.0;
-  } query_time_;  ///< [us] the collision node's, from /diagnostics
+  std::map<std::string, double> diagnostics_;               ///< the numbers on /diagnostics, by key
   ros::WallTime last_answer_;
   std::string failure_;  ///< the latest failure since the last line
 

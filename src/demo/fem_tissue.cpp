@@ -65,8 +65,8 @@ geometry_msgs::TransformStamped frame(const std::string& name, const ros::Time& 
 class FemTissue {
  public:
   explicit FemTissue(ros::NodeHandle node)
-      : mesh_publisher_(advertise<OrganMesh>(node, names::kOrganMesh, true)),
-        vertices_publisher_(advertise<OrganVertices>(node, names::kOrganVertices, false)),
+      : mesh_publisher_(collision_node_.advertise<OrganMesh>(names::kOrganMesh, 1, true)),
+        vertices_publisher_(collision_node_.advertise<OrganVertices>(names::kOrganVertices, 1)),
         impulse_publisher_(
             ros::NodeHandle("~").advertise<geometry_msgs::WrenchStamped>(kImpulse, 100)),
         forces_subscriber_(node.subscribe<VertexForces>(
@@ -99,11 +99,6 @@ class FemTissue {
   }
 
  private:
-  template <typename Message>
-  static ros::Publisher advertise(ros::NodeHandle node, const std::string& topic, bool latch) {
-    return node.advertise<Message>(ros::names::append(kCollisionNode, topic), 1, latch);
-  }
-
   template <typename Message>
   boost::shared_ptr<Message> shape(const ros::Time& stamp) const {
     const auto message = boost::make_shared<Message>();
@@ -157,6 +152,7 @@ class FemTissue {
   long steps_ = 0;
   VertexForcesConstPtr forces_;
   tf2_ros::TransformBroadcaster frames_;
+  ros::NodeHandle collision_node_{kCollisionNode};
   ros::Publisher mesh_publisher_;
   ros::Publisher vertices_publisher_;
   ros::Publisher impulse_publisher_;

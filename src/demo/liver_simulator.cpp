@@ -125,15 +125,15 @@ class LiverSimulator {
   /// Call this kHandPoses times for each shape: the hand moves at each call. The first calls send
   /// only the tools, so that their frames are known before the first shape.
   void step() {
-    const bool is_shape_due = calls_++ % kHandPoses == 0;
-    if (is_shape_due && lead_steps_ < kTfLeadSec * rate_) {
+    const long part = calls_++ % kHandPoses;
+    if (part == 0 && lead_steps_ < kTfLeadSec * rate_) {
       ++lead_steps_;
       send_stabber(0.0, ros::Time::now());
-    } else if (is_shape_due) {
+    } else if (part == 0) {
       step_liver();
     }
-    const double part = static_cast<double>((calls_ - 1) % kHandPoses) / kHandPoses;
-    send_hand(steps_ > 0 ? (steps_ + part) / rate_ : 0.0, ros::Time::now());
+    const double steps = steps_ + static_cast<double>(part) / kHandPoses;
+    send_hand(steps_ > 0 ? steps / rate_ : 0.0, ros::Time::now());
   }
 
   /// Publishes the liver with its triangles. If step() was never called, the liver is at rest.
@@ -158,7 +158,7 @@ class LiverSimulator {
     vertices_publisher_.publish(shape<OrganVertices>(stamp));
   }
 
-  /// Sends the stabber's tip at `seconds` since the start. Its z axis points along the shaft.
+  /// Sends the stabber's tip at `seconds` since the start.
   void send_stabber(double seconds, const ros::Time& stamp) {
     const Eigen::Vector3d shaft = kStabber.tip(seconds) - kStabber.trocar;
     tip_broadcaster_.sendTransform(

@@ -12,10 +12,13 @@
 
 namespace organ_collision {
 
-ToolPath path_of(const Motion& motion) {
-  const ShaftAxis end{motion.trocar, motion.tip};
-  if (is_static_mode(motion.mode)) return {{1.0, end}};
-  return {{0.0, {motion.trocar, motion.previous}}, {1.0, end}};
+CollisionRequest request_of(const Motion& motion) {
+  CollisionRequest request;
+  if (!is_static_mode(motion.mode)) request.path = {{0.0, {motion.trocar, motion.previous}}};
+  request.path.push_back({1.0, {motion.trocar, motion.tip}});
+  request.radius = motion.radius;
+  request.mode = motion.mode;
+  return request;
 }
 
 namespace {
@@ -37,18 +40,16 @@ constexpr std::pair<std::string_view, QueryMode> kModes[] = {
 /// The message names the value and what is legal.
 void check_motion(const Motion& motion) {
   static const TriangleMesh any_organ({0.0F, 0.0F, 0.0F}, {0, 0, 0});
-  CollisionRequest request;
+  CollisionRequest request = request_of(motion);
   request.organ = &any_organ;
-  request.path = path_of(motion);
-  request.radius = motion.radius;
-  request.mode = motion.mode;
   check(request);
   if (is_paper_mode(motion.mode)) paper_volume(request);
 }
 
 }  // namespace
 
-std::optional<Motion> MotionReader::next() {
+/// The motion in the next line that has one.
+std::optional<Motion> Motions::read() {
   while (text_.next()) {
     split_cells(text_.line(), cells_);
     if (std::exchange(at_first_, false) && is_header()) continue;
@@ -60,7 +61,7 @@ std::optional<Motion> MotionReader::next() {
 }
 
 /// The motion in the current line.
-Motion MotionReader::motion() const {
+Motion Motions::motion() const {
   if (cells_.size() != kColumns.size()) {
     throw text_.error(concatenate(cells_.size(), " columns; must be ", kColumns.size()));
   }
@@ -92,19 +93,19 @@ Motion MotionReader::motion() const {
   return motion;
 }
 
-double MotionReader::number(std::size_t column) const {
+double Motions::number(std::size_t column) const {
   const std::optional<double> value = parse_number(cells_[column]);
   if (value && std::isfinite(*value)) return *value;
   throw text_.error(std::string(kColumns[column]) + " is " + in_quotes(cells_[column]) +
                     "; must be a " + (value ? "finite number" : "number"));
 }
 
-Eigen::Vector3d MotionReader::point(std::size_t column) const {
+Eigen::Vector3d Motions::point(std::size_t column) const {
   return {number(column), number(column + 1), number(column + 2)};
 }
 
 /// Whether the current line is the header. Throws InputError if it is another header.
-bool MotionReader::is_header() const {
+bool Motions::is_header() const {
   if (cells_[kQuery] != kColumns[kQuery]) return false;
   if (std::equal(cells_.begin(), cells_.end(), kColumns.begin(), kColumns.end())) return true;
   std::string legal;
@@ -114,35 +115,44 @@ bool MotionReader::is_header() const {
   throw text_.error("header is " + in_quotes(text_.line()) + "; must be " + legal);
 }
 
-MotionList::MotionList(std::string file, Order order) : file_(std::move(file)) {
-  MotionReader reader(file_);
+Motions::Motions(const std::string& file, Order order)
+    : text_(file == "-" ? TextReader(StandardInput{}) : TextReader(file)) {
+  if (file != "-") read_all(order);
+}
+
+void Motions::read_all(Order order) {
   std::vector<long long> values;  // the values of those queries that are integers
-  while (std::optional<Motion> motion = reader.next()) {
+  while (std::optional<Motion> motion = read()) {
     if (const auto value = parse_integer(motion->query)) values.push_back(*value);
     motions_.push_back(std::move(*motion));
   }
-  order_.resize(motions_.size());
-  std::iota(order_.begin(), order_.end(), std::size_t{0});
+  order_.emplace(motions_.size());
+  std::iota(order_->begin(), order_->end(), std::size_t{0});
   const bool all_integers = values.size() == motions_.size();
   const auto is_before = [&](std::size_t a, std::size_t b) {
     return all_integers ? values[a] < values[b] : motions_[a].query < motions_[b].query;
   };
-  std::vector<std::size_t> sorted = order_;
+  std::vector<std::size_t> sorted = *order_;
   std::stable_sort(sorted.begin(), sorted.end(), is_before);
   const auto same = std::adjacent_find(
       sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) { return !is_before(a, b); });
   if (same != sorted.end()) {
     const Motion &first = motions_[*same], &second = motions_[*std::next(same)];
-    throw InputError(file_, second.line,
+    throw InputError(text_.name(), second.line,
                      concatenate("query ", in_quotes(second.query), " is already on line ",
                                  first.line, "; each motion needs its own"));
   }
   if (order == Order::kByQuery) order_ = std::move(sorted);
 }
 
-std::optional<Motion> MotionList::next() {
-  if (next_ == order_.size()) return std::nullopt;
-  return motions_[order_[next_++]];
+std::optional<Motion> Motions::next() {
+  if (!order_) return read();
+  if (next_ == order_->size()) return std::nullopt;
+  return motions_[(*order_)[next_++]];
+}
+
+std::optional<std::size_t> Motions::count() const {
+  return order_ ? std::optional(order_->size()) : std::nullopt;
 }
 
 }  // namespace organ_collision

@@ -1,16 +1,20 @@
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <exception>
 #include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "evaluation.hpp"
+#include "contacts_csv.hpp"
 #include "geometry/concatenate.hpp"
+#include "shapes.hpp"
 #include "user_input.hpp"
 
 namespace organ_collision {
@@ -94,14 +98,11 @@ With --motions - and with --shapes, the motions before a bad line, or before a b
 first.
 )";
 
-/// The name of standard input on the command line.
-constexpr char kStandardInput[] = "-";
-
 struct Options {
   std::string mesh;         ///< an OBJ file; empty: the folder `shapes` is used
   std::string mesh_before;  ///< an OBJ file; empty: the organ rests
   std::string shapes;       ///< a folder with an OBJ file for each motion; empty: `mesh` is used
-  std::string motions;      ///< a CSV file, or kStandardInput
+  std::string motions;      ///< a CSV file, or "-": standard input
   Questions questions;
 };
 
@@ -110,7 +111,7 @@ std::optional<Options> parse_options(const std::vector<std::string>& arguments) 
   Options options;
   Questions& questions = options.questions;
   questions.jobs = thread_count(0);
-  CommandLine line("query_offline");
+  CommandLine line("query_offline", kUsage);
   line.text("mesh", options.mesh);
   line.text("motions", options.motions);
   line.text("mesh-before", options.mesh_before);
@@ -149,39 +150,128 @@ void print(const std::string& text) {
   throw std::runtime_error(std::string("stdout cannot be written: ") + std::strerror(errno));
 }
 
-/// Reads a motions file to its end, so that an illegal file is refused before anything is printed.
-MotionList read_motions(const Options& options, const ShapeSource& shapes) {
-  using Order = MotionList::Order;
-  MotionList motions(options.motions, options.shapes.empty() ? Order::kByQuery : Order::kAsInFile);
-  if (options.shapes.empty() || motions.size() == shapes.remaining()) return motions;
-  throw InputError(concatenate(options.motions, ": the file has ", motions.size(), " motions; ",
-                               options.shapes, " has ", shapes.remaining(),
-                               " OBJ files, and each needs one motion"));
+/// How many motions a thread answers before it takes the next ones. Small blocks keep all threads
+/// busy until the end of a round. Each block costs a few microseconds.
+std::size_t block_size(std::size_t motions, std::size_t threads) {
+  return std::clamp<std::size_t>(motions / (4 * threads), 1, 8);
 }
 
-/// `count`: the number of motions, if it is known.
-void answer_all(const Options& options, MotionSource& motions, std::optional<std::size_t> count,
-                ShapeSource& shapes) {
-  Progress progress("query_offline", "motions", count);
-  std::size_t done = 0;
-  evaluate(options.questions, motions, shapes, [&](const std::string& csv, std::size_t answered) {
-    print(csv);
-    progress.report(done += answered);
-  });
-}
+/// Answers all motions in rounds. A round has the motions that are there without waiting, up to a
+/// number that bounds the memory. The threads share a round. Answers are printed in the order of
+/// the motions, while later motions of the round are still being answered.
+class Evaluation {
+ public:
+  Evaluation(const Questions& questions, Motions& motions, ShapeSource& shapes)
+      : questions_(questions),
+        source_(motions),
+        shapes_(shapes),
+        threads_(questions.jobs, questions.picker),
+        progress_("query_offline", "motions", motions.count()) {
+    const TriangleMesh& organ = shapes_.first();
+    if (questions.placement) topology_.emplace(organ.faces(), organ.vertices());
+  }
+
+  /// Prints the header line first. If a motion or its shape is not legal, throws InputError after
+  /// the answers to the motions before it are printed. Throws GlError if OpenGL picking does not
+  /// work.
+  void run() {
+    print(contacts_header(questions_));
+    while (next_round()) answer_round();
+    if (error_) std::rethrow_exception(error_);
+    if (shapes_.remaining() == 0) return;
+    throw InputError(source_.text().name() + ": the motions end; shapes without a motion: " +
+                     std::to_string(shapes_.remaining()) + "; each shape needs one");
+  }
+
+ private:
+  /// Gets the motions of the next round, and their shapes. Waits for the first motion only. Returns
+  /// false if there are no further motions with a shape.
+  bool next_round() {
+    motions_.clear();
+    if (error_) return false;
+    const std::size_t most = threads_.count() * shapes_.most_for_each_thread();
+    try {
+      while (motions_.size() < most && (motions_.empty() || source_.is_ready())) {
+        std::optional<Motion> motion = source_.next();
+        if (!motion) break;
+        motions_.push_back(std::move(*motion));
+      }
+    } catch (const InputError&) {
+      error_ = std::current_exception();
+    }
+    try {
+      shapes_.get(motions_.size(), threads_);
+      if (shapes_.count() < motions_.size()) {
+        throw InputError(source_.text().name(), motions_[shapes_.count()].line,
+                         "there is no shape for this motion; must have as many shapes");
+      }
+    } catch (const InputError&) {
+      error_ = std::current_exception();
+    }
+    motions_.resize(shapes_.count());
+    return !motions_.empty();
+  }
+
+  void answer_round() {
+    const std::size_t size = block_size(motions_.size(), threads_.count());
+    const auto begin = [&](std::size_t block) { return std::min(block * size, motions_.size()); };
+    std::vector<std::string> answers((motions_.size() + size - 1) / size);
+    const auto answer = [&](std::size_t worker, std::size_t block) {
+      for (std::size_t motion = begin(block); motion < begin(block + 1); ++motion) {
+        append_answer(motion, threads_.query(worker), answers[block]);
+      }
+    };
+    const auto deliver = [&](std::size_t block) {
+      print(std::exchange(answers[block], {}));
+      progress_.report(done_ += begin(block + 1) - begin(block));
+    };
+    threads_.run(answers.size(), answer, deliver);
+  }
+
+  void append_answer(std::size_t number, CollisionQuery& query, std::string& csv) const {
+    const Motion& motion = motions_[number];
+    CollisionRequest request = request_of(motion);
+    shapes_.set_shapes(number, request);
+    if (!is_paper_mode(motion.mode)) {
+      request.margin = questions_.margin;
+      request.clearance = questions_.clearance;
+      request.placement = questions_.placement;
+      request.surface_topology = topology_ ? &*topology_ : nullptr;
+    }
+    CollisionResult result;
+    query.evaluate(request, result);
+    append_contacts(motion, result, questions_, csv);
+    if (questions_.blank_lines) csv += '\n';
+  }
+
+  const Questions& questions_;
+  Motions& source_;
+  ShapeSource& shapes_;
+  std::optional<SurfaceTopology> topology_;  ///< set only if the placement is asked for
+  std::vector<Motion> motions_;              ///< the motions of the present round
+  std::exception_ptr error_;                 ///< why no round follows, if that is an error
+  QueryWorkers threads_;
+  Progress progress_;
+  std::size_t done_ = 0;  ///< how many motions are answered
+};
 
 void answer(const Options& options) {
-  ShapeSource shapes = options.shapes.empty() ? ShapeSource(options.mesh, options.mesh_before)
-                                              : ShapeSource(options.shapes);
-  if (options.motions != kStandardInput) {
-    MotionList motions = read_motions(options, shapes);
-    return answer_all(options, motions, motions.size(), shapes);
+  const bool has_recording = !options.shapes.empty();
+  ShapeSource shapes =
+      has_recording ? ShapeSource(options.shapes) : ShapeSource(options.mesh, options.mesh_before);
+  Motions motions(options.motions,
+                  has_recording ? Motions::Order::kAsInFile : Motions::Order::kByQuery);
+  const std::optional<std::size_t> count = motions.count();
+  if (has_recording && count && *count != shapes.remaining()) {
+    throw InputError(concatenate(options.motions, ": the file has ", *count, " motions; ",
+                                 options.shapes, " has ", shapes.remaining(),
+                                 " OBJ files, and each needs one motion"));
   }
-  MotionReader motions(StandardInput{});
-  answer_all(options, motions, std::nullopt, shapes);
-  if (!motions.text().ends_within_line()) return;
-  std::cerr << motions.name() << ":" << motions.text().number()
-            << ": warning: the last line has no line feed; its end may be missing" << std::endl;
+  Evaluation(options.questions, motions, shapes).run();
+  const TextReader& text = motions.text();
+  if (count || !text.ends_within_line()) return;
+  std::cerr << text.error("warning: the last line has no line feed; its end may be missing").what()
+            << std::endl;
 }
 
 }  // namespace
@@ -193,6 +283,6 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   return exit_code("query_offline", [&] {
     const std::optional<Options> options = parse_options({argv + 1, argv + argc});
-    options ? answer(*options) : print(kUsage);
+    if (options) answer(*options);
   });
 }

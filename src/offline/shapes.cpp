@@ -60,10 +60,11 @@ class ObjReader {
       throw text_.error(
           concatenate("a face with ", words.size() - 1, " corners; must have at least 3"));
     }
-    polygon_.clear();
-    for (std::size_t i = 1; i < words.size(); ++i) polygon_.push_back(corner(words[i]));
-    for (std::size_t i = 2; i < polygon_.size(); ++i) {
-      obj_.triangles.insert(obj_.triangles.end(), {polygon_[0], polygon_[i - 1], polygon_[i]});
+    const std::uint32_t first = corner(words[1]);
+    std::uint32_t before = corner(words[2]);
+    for (std::size_t i = 3; i < words.size(); ++i) {
+      const std::uint32_t next = corner(words[i]);
+      obj_.triangles.insert(obj_.triangles.end(), {first, std::exchange(before, next), next});
       obj_.face_lines.push_back(text_.number());
     }
   }
@@ -98,7 +99,6 @@ class ObjReader {
 
   TextReader text_;
   ObjFile obj_;
-  std::vector<std::uint32_t> polygon_;
 };
 
 TriangleMesh read_mesh(const std::string& file) { return mesh_of(read_obj(file)); }
@@ -176,27 +176,24 @@ ShapeSource::ShapeSource(const std::string& mesh, const std::string& mesh_before
 ShapeSource::ShapeSource(const std::string& folder)
     : files_(shapes_in(folder)), first_(read_mesh(files_.front())), shapes_{first_} {}
 
-std::size_t ShapeSource::get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error) {
-  if (files_.empty()) return count;
-  std::swap(shapes_[0], shapes_[count_]);
-  if (shapes_.size() <= count) shapes_.resize(count + 1, first_);
-  count_ = 0;
-  try {
-    threads.run(
-        std::min(count, remaining()),
-        [this](std::size_t, std::size_t task) { read(next_ + task, shapes_[task + 1]); },
-        [this](std::size_t) { ++count_; });
-  } catch (const InputError&) {
-    error = std::current_exception();
+void ShapeSource::get(std::size_t count, QueryWorkers& threads) {
+  if (!files_.empty()) {
+    std::swap(shapes_[0], shapes_[count_]);
+    if (shapes_.size() <= count) shapes_.resize(count + 1, first_);
   }
-  next_ += count_;
-  return count_;
+  count_ = files_.empty() ? count : 0;
+  const std::size_t begin = next_;
+  threads.run(
+      std::min(count, remaining()),
+      [&](std::size_t, std::size_t task) { read(begin + task, shapes_[task + 1]); },
+      [&](std::size_t) { next_ = begin + ++count_; });
 }
 
-OrganShapes ShapeSource::shapes_of(std::size_t motion) const {
-  if (files_.empty()) return {&first_, before_ ? &*before_ : nullptr};
+void ShapeSource::set_shapes(std::size_t motion, CollisionRequest& request) const {
+  request.organ = files_.empty() ? &first_ : &shapes_[motion + 1];
   const bool is_first_step = next_ - count_ + motion == 0;
-  return {&shapes_[motion + 1], is_first_step ? nullptr : &shapes_[motion]};
+  if (files_.empty() && before_) request.organ_before = &*before_;
+  if (!files_.empty() && !is_first_step) request.organ_before = &shapes_[motion];
 }
 
 /// Moves `shape` to the vertices of a file. Throws InputError if the file is missing, is not legal

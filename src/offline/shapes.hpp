@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <exception>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -43,13 +42,6 @@ void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh, const std:
 /// The threads that answer motions, and that read shapes for them.
 using QueryWorkers = QueryThreads<CollisionQuery>;
 
-/// The organ that a motion meets.
-struct OrganShapes {
-  const TriangleMesh* now = nullptr;  ///< the shape at the end of the motion
-  /// The shape at the start of the motion; null: the organ rests.
-  const TriangleMesh* before = nullptr;
-};
-
 /// The shapes of the organ for motions that are answered in rounds. All motions meet the same
 /// shapes, or those of a recorded simulation. Of a simulation, only the shapes of one round are in
 /// memory.
@@ -70,12 +62,13 @@ class ShapeSource {
   /// The most motions of a round for each thread, so that the shapes and answers of a round do not
   /// take too much memory.
   std::size_t most_for_each_thread() const { return files_.empty() ? 512 : 4; }
-  /// Gets the shapes of a round of `count` motions, which follow those of the last round. Returns
-  /// how many motions have a shape. The others have none because there are no more shapes, or
-  /// because the next shape is not legal. In the latter case, `error` is set to its InputError.
-  std::size_t get(std::size_t count, QueryWorkers& threads, std::exception_ptr& error);
-  /// The shapes that a motion of the present round meets.
-  OrganShapes shapes_of(std::size_t motion) const;
+  /// Gets the shapes of a round of `count` motions, which follow those of the last round. Throws
+  /// InputError if a shape is not legal. Then the round has the shapes before it.
+  void get(std::size_t count, QueryWorkers& threads);
+  /// For how many motions the round has shapes. It is less than was asked for if there are no more.
+  std::size_t count() const { return count_; }
+  /// Asks about the shapes that a motion of the present round meets.
+  void set_shapes(std::size_t motion, CollisionRequest& request) const;
   /// How many recorded shapes need motions after this round.
   std::size_t remaining() const { return files_.size() - next_; }
   /// The first shape. All others have the same faces.

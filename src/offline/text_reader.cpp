@@ -29,32 +29,28 @@ TextReader::~TextReader() {
 }
 
 bool TextReader::next() {
-  while (!find_line()) read_piece();
+  find_line(true);
   if (begin_ == buffer_.size()) return false;
   ends_within_line_ = end_ == buffer_.size();
   go_behind_line();
   return true;
 }
 
-bool TextReader::is_ready() {
-  while (!find_line()) {
-    if (!has_input(0)) return false;
-    read_piece();
-  }
-  return true;
-}
-
-/// Makes the next line that is not blank the current one. Returns false if more must be read first.
-/// At the end of the file, returns true without such a line.
-bool TextReader::find_line() {
+/// Makes the next line that is not blank the current one. At the end of the file, there is none.
+/// Returns false if more must be read first, and `waits` is false.
+bool TextReader::find_line(bool waits) {
   while (true) {
-    end_ = std::min(buffer_.find('\n', end_), buffer_.size());
+    end_ = std::min(buffer_.find('\n', begin_), buffer_.size());
     if (end_ - begin_ > kLongestLine) {
       throw InputError(file_, number_ + 1,
                        "the line has more than " + std::to_string(kLongestLine) +
                            " bytes; must be shorter, with a line feed at its end");
     }
-    if (end_ == buffer_.size() && !at_end_) return false;
+    if (end_ == buffer_.size() && !at_end_) {
+      if (!waits && !has_input(0)) return false;
+      read_piece();
+      continue;
+    }
     line_ = std::string_view(buffer_).substr(begin_, end_ - begin_);
     const bool is_marked = line_.substr(0, kByteOrderMark.size()) == kByteOrderMark;
     if (number_ == 0 && is_marked) line_.remove_prefix(kByteOrderMark.size());
@@ -66,7 +62,7 @@ bool TextReader::find_line() {
 
 void TextReader::go_behind_line() {
   ++number_;
-  begin_ = end_ = std::min(end_ + 1, buffer_.size());
+  begin_ = std::min(end_ + 1, buffer_.size());
 }
 
 /// Whether there is input to read. Waits for it, but at most for `wait` [ms].
@@ -80,7 +76,6 @@ bool TextReader::has_input(int wait) const {
 void TextReader::read_piece() {
   has_input(kForEver);  // Otherwise, read() fails if the pipe does not block.
   buffer_.erase(0, begin_);
-  end_ -= begin_;
   begin_ = 0;
   const std::size_t size = buffer_.size();
   buffer_.resize(size + kPiece);

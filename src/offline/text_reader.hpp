@@ -31,7 +31,7 @@ class TextReader {
   bool next();
   /// Whether next() returns without waiting: a whole line, or the end of the input, has arrived.
   /// Throws what next() throws.
-  bool is_ready();
+  bool is_ready() { return find_line(false); }
 
   /// The current line, without its line end and without blanks around it, until the next call of
   /// next() or is_ready().
@@ -48,7 +48,7 @@ class TextReader {
   InputError error(const std::string& message) const { return {file_, number(), message}; }
 
  private:
-  bool find_line();
+  bool find_line(bool waits);
   void go_behind_line();
   bool has_input(int wait) const;
   void read_piece();
@@ -58,7 +58,7 @@ class TextReader {
   int descriptor_;
   std::string buffer_;     ///< what was read; the next read erases the lines before begin_
   std::size_t begin_ = 0;  ///< where the first line begins that is not yet taken
-  std::size_t end_ = 0;    ///< from begin_ to here, there is no line feed
+  std::size_t end_ = 0;    ///< where it ends
   bool at_end_ = false;    ///< whether the input is read to its end
   std::string_view line_;
   std::size_t number_ = 0;

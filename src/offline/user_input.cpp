@@ -79,8 +79,10 @@ std::optional<long long> parse_integer(std::string_view text) {
   return integer;
 }
 
-CommandLine::CommandLine(std::string program)
-    : program_(std::move(program)), legal_(std::make_shared<po::options_description>()) {}
+CommandLine::CommandLine(std::string program, const char* usage)
+    : program_(std::move(program)),
+      usage_(usage),
+      legal_(std::make_shared<po::options_description>()) {}
 
 void CommandLine::flag(const std::string& name, bool& is_given) {
   legal_->add_options()(name.c_str(), po::bool_switch(&is_given));
@@ -127,7 +129,10 @@ void CommandLine::number(const std::string& name, double& value, double least, d
 bool CommandLine::read(const std::vector<std::string>& words,
                        std::vector<std::string>* files) const {
   const auto asks_for_help = [](const auto& word) { return word == "--help" || word == "-h"; };
-  if (std::any_of(words.begin(), words.end(), asks_for_help)) return false;
+  if (std::any_of(words.begin(), words.end(), asks_for_help)) {
+    std::cout << usage_ << std::flush;
+    return false;
+  }
 
   po::options_description all;
   all.add(*legal_).add_options()(kFiles, po::value<std::vector<std::string>>());

@@ -56,8 +56,8 @@ class CommandLine {
   /// whose message says what is legal.
   using Take = std::function<bool(const std::string& text)>;
 
-  /// `program`: the name that begins each refusal.
-  explicit CommandLine(std::string program);
+  /// `program`: the name that begins each refusal. `usage`: what --help prints.
+  CommandLine(std::string program, const char* usage);
 
   // These add an option of the program. If the user does not give it, its variable stays as it is.
   void flag(const std::string& name, bool& is_given);
@@ -73,9 +73,9 @@ class CommandLine {
   void number(const std::string& name, double& value, double least, double most);
 
   /// Reads the words behind the program's name. The words that belong to no option go to `files`.
-  /// If `files` is null, they are refused. Returns false if --help or -h is among the words, and
-  /// then reads no other word. Throws InputError for options that are unknown, repeated, without
-  /// value or illegal.
+  /// If `files` is null, they are refused. If --help or -h is among the words, prints the usage and
+  /// returns false, without reading another word. Throws InputError for options that are unknown,
+  /// repeated, without value or illegal.
   bool read(const std::vector<std::string>& words, std::vector<std::string>* files = nullptr) const;
 
   /// Throws InputError with this message.
@@ -85,6 +85,7 @@ class CommandLine {
 
  private:
   std::string program_;
+  const char* usage_;
   std::shared_ptr<boost::program_options::options_description> legal_;
 };
 

@@ -65,10 +65,12 @@ void Replay::handle(
     std::function<void(const boost::shared_ptr<const Message>&, const rosbag::MessageInstance&)>
         handler) {
   namespace traits = ros::message_traits;
-  topics_[topic] = {traits::datatype<Message>(), traits::md5sum<Message>()};
-  handlers_.emplace(topic, [handler = std::move(handler)](const rosbag::MessageInstance& instance) {
-    handler(held_message<Message>(instance), instance);
-  });
+  const auto known =
+      topics_.emplace(topic, Topic{traits::datatype<Message>(), traits::md5sum<Message>()}).first;
+  known->second.handlers.push_back(
+      [handler = std::move(handler)](const rosbag::MessageInstance& instance) {
+        handler(held_message<Message>(instance), instance);
+      });
 }
 
 void Replay::handle_poses(const std::vector<ToolParameters>& tools, const std::string& node) {
@@ -93,8 +95,7 @@ void Replay::take(const rosbag::MessageInstance& message) {
   } else if (message.getTopic() == "/clock") {
     go_to(message.instantiate<rosgraph_msgs::Clock>()->clock);
   }
-  const auto [first, last] = handlers_.equal_range(message.getTopic());
-  for (auto handler = first; handler != last; ++handler) handler->second(message);
+  for (const Handler& handle : topics_.at(message.getTopic()).handlers) handle(message);
   pipeline_.watch_clock();
   // A shape whose deadline is now may still get its transform from another message of this time.
   pipeline_.steps.evaluate(steady(now_) - std::chrono::nanoseconds(1));
@@ -123,19 +124,13 @@ void Replay::go_to(ros::Time time) {
 
 /// Evaluates what is due between now and `time`: ticks, and shapes whose transforms did not come.
 void Replay::evaluate_before(ros::Time time) {
-  evaluate_deadlines(time);
-  // The node looks for steps that become too long also while no message comes.
-  if (time - now_ > kSilence) pipeline_.steps.evaluate(steady(time) - std::chrono::nanoseconds(1));
-}
-
-void Replay::evaluate_deadlines(ros::Time time) {
   const bool ticks = parameters_.rate_hz > 0.0 && time <= next_tick_ + kLongestGap;
   while (true) {
     const auto deadline = pipeline_.steps.next_deadline();
     const bool is_tick = ticks && (!deadline || next_tick_ < ros_time(*deadline));
-    if (!is_tick && !deadline) return;
+    if (!is_tick && !deadline) break;
     const ros::Time due = is_tick ? next_tick_ : ros_time(*deadline);
-    if (due >= time) return;
+    if (due >= time) break;
     now_ = std::max(now_, due);
     ros::Time::setNow(now_);
     if (is_tick) {
@@ -144,6 +139,8 @@ void Replay::evaluate_deadlines(ros::Time time) {
     }
     pipeline_.steps.evaluate(steady(due));
   }
+  // The node looks for steps that become too long also while no message comes.
+  if (time - now_ > kSilence) pipeline_.steps.evaluate(steady(time) - std::chrono::nanoseconds(1));
 }
 
 /// The time since the first time of the bag, or 0 if that has not come yet. The waiting times of
@@ -165,10 +162,6 @@ void Replay::report(const OrganUpdate& update) {
     write(failed_answer(update.message.organ(), tool.parameters, update.message.header(),
                         update.status, update.why_not));
   }
-}
-
-void Replay::write(const ContactArray& answer) {
-  answer_(answer, follows_clock_ ? recorded_ : now_);
 }
 
 }  // namespace organ_collision

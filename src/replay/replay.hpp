@@ -27,16 +27,17 @@ class Replay {
   Replay(const NodeParameters& parameters, const std::vector<Tool>& tools, const std::string& node,
          bool follows_clock, Answer answer);
 
-  /// Goes to the time of a message, and applies it if it is on a topic of the node.
+  /// Goes to the time of a message of one of topics(), and applies it.
   void take(const rosbag::MessageInstance& message);
   /// Answers the shapes that still wait for their transforms when the bag has ended.
   void finish();
 
-  /// The message type of each topic that a replay reads: its name and its MD5 sum.
-  struct Type {
-    std::string name, md5sum;
+  /// A topic that a replay reads: the name and the MD5 sum of its type, and what takes a message.
+  struct Topic {
+    std::string type, md5sum;
+    std::vector<Handler> handlers = {};
   };
-  const std::map<std::string, Type>& topics() const { return topics_; }
+  const std::map<std::string, Topic>& topics() const { return topics_; }
   /// Whether TF, or a topic of poses, has told of a frame.
   bool knows_frame(const std::string& frame) const {
     return pipeline_.inbox.transforms._frameExists(frame);
@@ -51,18 +52,16 @@ class Replay {
   void handle_poses(const std::vector<ToolParameters>& tools, const std::string& node);
   void go_to(ros::Time time);
   void evaluate_before(ros::Time time);
-  void evaluate_deadlines(ros::Time time);
   SteadyTime steady(ros::Time time) const;
   ros::Time ros_time(SteadyTime time) const;
   void report(const OrganUpdate& update);
-  void write(const ContactArray& answer);
+  void write(const ContactArray& answer) { answer_(answer, follows_clock_ ? recorded_ : now_); }
 
   const NodeParameters& parameters_;
   const std::vector<Tool>& tools_;
   bool follows_clock_;
   Answer answer_;
-  std::map<std::string, Type> topics_;
-  std::multimap<std::string, Handler> handlers_;  ///< by topic
+  std::map<std::string, Topic> topics_;
 
   FailureLog rejected_;
   CollisionPipeline pipeline_;

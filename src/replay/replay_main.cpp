@@ -22,6 +22,7 @@
 #include "replay.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
+#include "ros/motion/tool_poses.hpp"
 #include "yaml_parameters.hpp"
 
 namespace organ_collision {
@@ -61,7 +62,7 @@ struct ReplayOptions {
 /// Returns none if --help is asked for.
 std::optional<ReplayOptions> parse_options(const std::vector<std::string>& arguments) {
   ReplayOptions options;
-  CommandLine line("replay");
+  CommandLine line("replay", kUsage);
   line.text("parameters", options.parameters);
   line.option("node", "the name of a node", [&](const std::string& node) {
     std::string error;
@@ -244,11 +245,11 @@ void check_types(rosbag::Bag& bag, const std::string& file, const Replay& replay
   for (const rosbag::ConnectionInfo* connection : rosbag::View(bag).getConnections()) {
     const auto topic = replay.topics().find(connection->topic);
     if (topic == replay.topics().end()) continue;
-    const Replay::Type& type = topic->second;
-    if (connection->datatype == type.name && connection->md5sum == type.md5sum) continue;
+    const auto& [type, md5sum, handlers] = topic->second;
+    if (connection->datatype == type && connection->md5sum == md5sum) continue;
     throw InputError(file + ": topic " + connection->topic + " has messages of type " +
-                     connection->datatype + " (" + connection->md5sum + "); must be " + type.name +
-                     " (" + type.md5sum + ")");
+                     connection->datatype + " (" + connection->md5sum + "); must be " + type +
+                     " (" + md5sum + ")");
   }
 }
 
@@ -275,14 +276,11 @@ void check_organs(const rosbag::Bag& bag, const ReplayOptions& options) {
 /// Throws InputError if the bag has never told of a frame of a tool.
 void check_frames(const std::vector<Tool>& tools, const std::string& file, const Replay& replay) {
   for (const Tool& tool : tools) {
-    const ToolParameters& parameters = tool.parameters;
-    std::vector<std::string> frames;
-    if (parameters.has_shaft()) frames = {parameters.trocar_frame, parameters.tip_frame};
-    for (const std::string& link : parameters.links) frames.push_back(parameters.link_frame(link));
-    if (parameters.has_tip_of_links()) frames.push_back(parameters.tip_frame);
+    TransformBuffer::Frames frames = swept_frames(tool);
+    if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
     for (const std::string& frame : frames) {
       if (replay.knows_frame(frame)) continue;
-      throw InputError(file + ": frame '" + frame + "' of tool '" + parameters.name +
+      throw InputError(file + ": frame '" + frame + "' of tool '" + tool.parameters.name +
                        "' occurs neither on TF nor on a topic of poses");
     }
   }
@@ -332,12 +330,8 @@ int main(int argc, char** argv) {
   }
   return exit_code("replay", [&] {
     const std::optional<ReplayOptions> options = parse_options({argv + 1, argv + argc});
-    if (!options) {
-      std::cout << kUsage;
-      return;
-    }
     try {
-      replay(*options);
+      if (options) replay(*options);
     } catch (const ParameterError& error) {
       throw InputError(std::string("replay: ") + error.what());
     }

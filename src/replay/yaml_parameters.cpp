@@ -20,66 +20,45 @@ using XmlRpc::XmlRpcValue;
 constexpr int kMostLevels = 50;
 constexpr int kMostNodes = 1'000'000;
 
-/// Converts yaml nodes to the types of the parameter server.
-class Converter {
- public:
-  XmlRpcValue convert(const YAML::Node& node, int level = 0) {
-    if (level > kMostLevels || ++nodes_ > kMostNodes)
-      refuse(node, "nested too deeply, or too large");
-    const std::string& tag = node.Tag();
-    if (!tag.empty() && tag != "?" && tag != "!" && tag.rfind("tag:yaml.org,2002:", 0) != 0) {
-      refuse(node, "of the type " + in_quotes(tag) + ", which is not supported");
-    }
-    switch (node.Type()) {
-      case YAML::NodeType::Scalar:
-        return scalar(node);
-      case YAML::NodeType::Sequence:
-        return list(node, level);
-      case YAML::NodeType::Map:
-        return group(node, level);
-      default:
-        refuse(node, "empty; must be a value");
-    }
-  }
+[[noreturn]] void refuse(const YAML::Node& node, const std::string& why) {
+  throw InputError("line " + std::to_string(node.Mark().line + 1) + ": the value is " + why);
+}
 
- private:
-  [[noreturn]] static void refuse(const YAML::Node& node, const std::string& why) {
-    throw InputError("line " + std::to_string(node.Mark().line + 1) + ": the value is " + why);
-  }
+XmlRpcValue scalar(const YAML::Node& node) {
+  const std::string& text = node.Scalar();
+  const bool is_plain = node.Tag() != "!" && node.Tag() != "tag:yaml.org,2002:str";
+  bool flag = false;
+  int whole = 0;
+  double number = 0.0;
+  // YAML::convert takes y and n for flags, and the parameter server takes them for texts.
+  if (is_plain && text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
+  if (is_plain && YAML::convert<int>::decode(node, whole)) return whole;
+  if (is_plain && YAML::convert<double>::decode(node, number)) return number;
+  return text;
+}
 
-  static XmlRpcValue scalar(const YAML::Node& node) {
-    const std::string& text = node.Scalar();
-    const bool is_plain = node.Tag() != "!" && node.Tag() != "tag:yaml.org,2002:str";
-    bool flag = false;
-    int whole = 0;
-    double number = 0.0;
-    // YAML::convert takes y and n for flags, and the parameter server takes them for texts.
-    if (is_plain && text.size() > 1 && YAML::convert<bool>::decode(node, flag)) return flag;
-    if (is_plain && YAML::convert<int>::decode(node, whole)) return whole;
-    if (is_plain && YAML::convert<double>::decode(node, number)) return number;
-    return text;
+/// Converts a yaml node to the types of the parameter server. `nodes`: how many were converted.
+XmlRpcValue converted(const YAML::Node& node, int level, int& nodes) {
+  if (level > kMostLevels || ++nodes > kMostNodes) refuse(node, "nested too deeply, or too large");
+  const std::string& tag = node.Tag();
+  if (!tag.empty() && tag != "?" && tag != "!" && tag.rfind("tag:yaml.org,2002:", 0) != 0) {
+    refuse(node, "of the type " + in_quotes(tag) + ", which is not supported");
   }
-
-  XmlRpcValue list(const YAML::Node& node, int level) {
-    XmlRpcValue values;
-    values.setSize(static_cast<int>(node.size()));
-    for (std::size_t i = 0; i < node.size(); ++i) {
-      values[static_cast<int>(i)] = convert(node[i], level + 1);
+  if (node.IsScalar()) return scalar(node);
+  if (node.IsNull() || !node.IsDefined()) refuse(node, "empty; must be a value");
+  XmlRpcValue values;
+  if (node.IsMap()) {
+    values.begin();  // Makes it a group, even if it is empty.
+    for (const auto& member : node) {
+      values[member.first.as<std::string>()] = converted(member.second, level + 1, nodes);
     }
     return values;
   }
-
-  XmlRpcValue group(const YAML::Node& node, int level) {
-    XmlRpcValue members;
-    members.begin();  // Makes it a group, even if it is empty.
-    for (const auto& member : node) {
-      members[member.first.as<std::string>()] = convert(member.second, level + 1);
-    }
-    return members;
-  }
-
-  int nodes_ = 0;
-};
+  const auto size = static_cast<int>(node.size());
+  values.setSize(size);
+  for (int i = 0; i < size; ++i) values[i] = converted(node[i], level + 1, nodes);
+  return values;
+}
 
 XmlRpcValue read(const std::string& file) {
   std::ifstream stream(file);
@@ -87,7 +66,8 @@ XmlRpcValue read(const std::string& file) {
   try {
     const YAML::Node root = YAML::Load(stream);
     if (!root.IsMap()) throw InputError("must be the node's parameters: names and their values");
-    return Converter().convert(root);
+    int nodes = 0;
+    return converted(root, 0, nodes);
   } catch (const InputError& error) {
     throw InputError(file + ": " + error.what());
   } catch (const YAML::Exception& error) {
@@ -111,15 +91,6 @@ std::string without_slash(const std::string& name) {
 
 std::string first_part(const std::string& name) { return name.substr(0, name.find('/')); }
 
-XmlRpcValue without(const XmlRpcValue& group, const std::set<std::string>& names) {
-  XmlRpcValue rest;
-  rest.begin();
-  for (const auto& [name, value] : group) {
-    if (names.count(name) == 0) rest[name] = value;
-  }
-  return rest;
-}
-
 }  // namespace
 
 YamlParameters::YamlParameters(const std::string& file, const std::string& node)
@@ -128,8 +99,10 @@ YamlParameters::YamlParameters(const std::string& file, const std::string& node)
   if (group && group->getType() == XmlRpcValue::TypeStruct) node_ = without_slash(node);
 }
 
+const XmlRpcValue& YamlParameters::group() const { return *find(tree_, node_); }
+
 NodeParameters YamlParameters::node_parameters() const {
-  const XmlRpcValue& group = *find(tree_, node_);
+  const XmlRpcValue& group = this->group();
   NodeParameters parameters = parse_parameters<NodeParameters>(group);
   if (!node_.empty()) return parameters;
   // The descriptions of robots stand beside the node's parameters. They are no misspelt parameters.
@@ -137,24 +110,23 @@ NodeParameters YamlParameters::node_parameters() const {
   for (const ToolParameters& tool : parameters.tools) {
     robots.insert(first_part(without_slash(tool.robot_description)));
   }
-  return parse_parameters<NodeParameters>(without(group, robots));
+  XmlRpcValue rest;
+  for (const auto& [name, value] : group) {
+    if (robots.count(name) == 0) rest[name] = value;
+  }
+  return parse_parameters<NodeParameters>(rest);
 }
 
 std::string YamlParameters::find_text(const std::string& parameter) const {
   const std::string name = without_slash(parameter);
   std::string space = name == parameter ? node_ : "";
-  while (true) {
-    const XmlRpcValue& group = *find(tree_, space);
-    if (find(group, first_part(name)) || space.empty()) {
-      const XmlRpcValue* value = find(group, name);
-      if (!value) throw ToolError("is not in " + file_ + "; add it, or give the tool's urdf");
-      if (value->getType() != XmlRpcValue::TypeString)
-        throw ToolError("is no text; must be a URDF");
-      return static_cast<const std::string&>(*value);
-    }
-    const std::size_t slash = space.rfind('/');
-    space = slash == std::string::npos ? "" : space.substr(0, slash);
+  while (!space.empty() && !find(*find(tree_, space), first_part(name))) {
+    space.resize(space.find('/') == std::string::npos ? 0 : space.rfind('/'));
   }
+  const XmlRpcValue* value = find(*find(tree_, space), name);
+  if (!value) throw ToolError("is not in " + file_ + "; add it, or give the tool's urdf");
+  if (value->getType() != XmlRpcValue::TypeString) throw ToolError("is no text; must be a URDF");
+  return static_cast<const std::string&>(*value);
 }
 
 }  // namespace organ_collision

@@ -5,7 +5,7 @@
 
 #include <exception>
 
-#include "mesh_file.hpp"
+#include "robot_files.hpp"
 #include "ros/messages/text.hpp"
 #include "ros/tools/robot_reply.hpp"
 

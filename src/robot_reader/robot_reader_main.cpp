@@ -3,12 +3,12 @@
 
 #include <unistd.h>
 
-#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <iterator>
 
-#include "resource.hpp"
+#include "robot_files.hpp"
 #include "robot_model.hpp"
 
 using namespace organ_collision;
@@ -21,24 +21,6 @@ Reads the shapes of a robot's links and writes them to standard output, in binar
 collision node runs this program, so that a broken file cannot end the node.
 URDF: a file or URL, or - for standard input.
 )";
-
-/// The standard output of the program, for replies only. Libraries that print to standard output
-/// are redirected to standard error.
-class ReplyStream {
- public:
-  ReplyStream() : descriptor_(dup(STDOUT_FILENO)) { dup2(STDERR_FILENO, STDOUT_FILENO); }
-
-  void write(const std::string& record) const {
-    for (std::size_t done = 0; done < record.size();) {
-      const ssize_t count = ::write(descriptor_, &record[done], record.size() - done);
-      if (count < 0 && errno != EINTR) std::exit(EXIT_FAILURE);
-      if (count > 0) done += static_cast<std::size_t>(count);
-    }
-  }
-
- private:
-  int descriptor_;
-};
 
 std::string read_urdf(const std::string& name) {
   if (name != "-") return read_resource(name);
@@ -57,11 +39,15 @@ int main(int argc, char** argv) {
     std::cerr << "robot_reader: '" << first << "' is no URDF; must be a file, a URL or -\n";
     return 2;
   }
-  const ReplyStream reply;
+  // Standard output is for replies only. What libraries print there goes to standard error.
+  std::FILE* const replies = fdopen(dup(STDOUT_FILENO), "w");
+  dup2(STDERR_FILENO, STDOUT_FILENO);
   const auto urdf = [&] {
     limit_process();
     return read_urdf(argv[1]);
   };
-  answer_with_links(urdf, {argv + 2, argv + argc},
-                    [&](const std::string& record) { reply.write(record); });
+  answer_with_links(urdf, {argv + 2, argv + argc}, [&](const std::string& record) {
+    const bool is_written = std::fwrite(record.data(), 1, record.size(), replies) == record.size();
+    if (!is_written || std::fflush(replies) != 0) std::exit(EXIT_FAILURE);
+  });
 }

@@ -93,19 +93,13 @@ TrianglePoints solid_of_revolution(const std::vector<ProfilePoint>& profile,
   return points;
 }
 
-// Shapes around the origin, with length, width and height 1.
-
-TrianglePoints unit_cube() {
-  const double radius = std::sqrt(0.5);
-  return solid_of_revolution({{0.0, -0.5}, {radius, -0.5}, {radius, 0.5}, {0.0, 0.5}}, 4,
-                             M_PI / 4.0);
-}
-
-TrianglePoints unit_cylinder() {
-  return solid_of_revolution({{0.0, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {0.0, 0.5}});
-}
-
-TrianglePoints unit_sphere() {
+/// A solid around the origin, with length, width and height 1. `type`: that of its marker.
+TrianglePoints unit_solid(int type) {
+  const auto upright = [](double radius) -> std::vector<ProfilePoint> {
+    return {{0.0, -0.5}, {radius, -0.5}, {radius, 0.5}, {0.0, 0.5}};
+  };
+  if (type == Marker::CUBE) return solid_of_revolution(upright(std::sqrt(0.5)), 4, M_PI / 4.0);
+  if (type == Marker::CYLINDER) return solid_of_revolution(upright(0.5));
   std::vector<ProfilePoint> profile{{0.0, -0.5}};
   for (int ring = 1; ring < kRings; ++ring) {
     const double angle = M_PI * ring / kRings;
@@ -117,8 +111,7 @@ TrianglePoints unit_sphere() {
 
 /// The pose of a marker in the frame of its header.
 Eigen::Isometry3d pose_of(const Marker& marker) {
-  const geometry_msgs::Quaternion& q = marker.pose.orientation;
-  const Eigen::Quaterniond rotation(q.w, q.x, q.y, q.z);
+  const Eigen::Quaterniond rotation = to_eigen(marker.pose.orientation);
   const bool is_empty = rotation.norm() == 0.0;  // RViz accepts a zero quaternion, too.
   return Eigen::Translation3d(to_eigen(marker.pose.position)) *
          (is_empty ? Eigen::Quaterniond::Identity() : rotation.normalized());
@@ -137,20 +130,13 @@ class Drawing {
         add_arrow();
         break;
       case Marker::CUBE:
-        add_scaled(unit_cube());
-        break;
       case Marker::SPHERE:
-        add_scaled(unit_sphere());
-        break;
       case Marker::CYLINDER:
-        add_scaled(unit_cylinder());
+        add_scaled(unit_solid(marker_.type));
         break;
       case Marker::LINE_STRIP:
-        add_lines(1);
-        break;
       case Marker::LINE_LIST:
-        check_groups(2);
-        add_lines(2);
+        add_lines();
         break;
       case Marker::TRIANGLE_LIST:
         add_triangle_list();
@@ -160,12 +146,10 @@ class Drawing {
       default:
         throw InputError(concatenate("its type ", marker_.type, " is not drawn"));
     }
-    const bool is_finite =
-        std::all_of(picture_.begin(), picture_.end(), [](const PictureVertex& vertex) {
-          return vertex.position.allFinite() && vertex.normal.allFinite() &&
-                 vertex.colour.allFinite();
-        });
-    if (!is_finite) throw InputError("its pose, scale, points or colours are not finite");
+    for (const auto& [position, normal, colour] : picture_) {
+      if (position.allFinite() && normal.allFinite() && colour.allFinite()) continue;
+      throw InputError("its pose, scale, points or colours are not finite");
+    }
     return std::move(picture_);
   }
 
@@ -214,10 +198,6 @@ class Drawing {
     add_solid(std::move(points), Affine3d(Eigen::Scaling(to_eigen(marker_.scale))));
   }
 
-  void add_flat(const Vector3d& position, const Colour& colour) {
-    picture_.push_back({position, Vector3d::Zero(), colour});
-  }
-
   void add_triangle_list() {
     check_groups(3);
     check_colours();
@@ -226,12 +206,14 @@ class Drawing {
     if (marker_.colors.empty()) return add_scaled(std::move(points));
     const Affine3d T_picture_points = marker_pose_ * Eigen::Scaling(to_eigen(marker_.scale));
     for (std::size_t i = 0; i < points.size(); ++i) {
-      add_flat(T_picture_points * points[i], colour_at(i));
+      picture_.push_back({T_picture_points * points[i], Vector3d::Zero(), colour_at(i)});
     }
   }
 
-  /// Adds a line from point i to point i + 1, for each multiple i of `step`.
-  void add_lines(std::size_t step) {
+  /// Adds lines, each from a point to the next one.
+  void add_lines() {
+    const std::size_t step = marker_.type == Marker::LINE_LIST ? 2 : 1;
+    check_groups(step);
     check_colours();
     for (std::size_t i = 0; i + 1 < marker_.points.size(); i += step) {
       const Vector3d a = marker_pose_ * to_eigen(marker_.points[i]);
@@ -239,7 +221,8 @@ class Drawing {
       const Vector3d side = 0.5 * marker_.scale.x * (b - a).cross(axes_.col(2)).stableNormalized();
       const std::array<Vector3d, 4> corners{a - side, a + side, b + side, b - side};
       for (const int corner : {0, 1, 2, 0, 2, 3}) {
-        add_flat(corners[corner], colour_at(corner < 2 ? i : i + 1));
+        const Colour colour = colour_at(corner < 2 ? i : i + 1);
+        picture_.push_back({corners[corner], Vector3d::Zero(), colour});
       }
     }
   }

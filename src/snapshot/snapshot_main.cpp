@@ -102,8 +102,7 @@ std::vector<double> numbers(const std::string& text, char separator = ',') {
 
 std::optional<Eigen::Vector3d> vector(const std::string& text) {
   const std::vector<double> parts = numbers(text);
-  if (parts.size() != 3) return std::nullopt;
-  return Eigen::Vector3d(parts[0], parts[1], parts[2]);
+  return parts.size() == 3 ? std::optional<Eigen::Vector3d>(parts.data()) : std::nullopt;
 }
 
 /// The unit vector to the viewer, from a text AZIMUTH,ELEVATION in degrees, or X,Y,Z.
@@ -153,7 +152,7 @@ CommandLine::Take set(Value& value, Read read) {
 std::optional<SnapshotOptions> parse_options(const std::vector<std::string>& arguments) {
   SnapshotOptions options;
   std::vector<std::string> topics;
-  CommandLine line("snapshot");
+  CommandLine line("snapshot", kUsage);
   line.texts("topic", topics);
   line.texts("hide", options.hidden);
   line.text("frame", options.frame);
@@ -177,10 +176,9 @@ std::optional<SnapshotOptions> parse_options(const std::vector<std::string>& arg
 
 /// The file of a picture of a sequence: number 1 of "frame.png" is "frame_0001.png".
 std::string numbered_file(const std::string& file, std::size_t number) {
-  const std::filesystem::path path(file);
-  char digits[8];
-  std::snprintf(digits, sizeof digits, "_%04d", static_cast<int>(number));
-  return path.parent_path() / (path.stem().string() + digits + path.extension().string());
+  std::filesystem::path path(file);
+  const std::string digits = std::to_string(10000 + number).substr(1);
+  return path.replace_filename(path.stem().string() + "_" + digits + path.extension().string());
 }
 
 /// Receives the markers of several topics, places them in the fixed frame by TF, and takes
@@ -243,15 +241,13 @@ class Snapshot {
     if (!ros::ok()) throw std::runtime_error("interrupted");
   }
 
-  bool has_placed_marker() const {
-    const auto& entries = markers_.entries();
-    return std::any_of(entries.begin(), entries.end(),
-                       [](const auto& entry) { return entry.second.T_fixed_header.has_value(); });
-  }
-
   void wait_for_marker() {
     const ros::SteadyTime end = ros::SteadyTime::now() + ros::WallDuration(options_.timeout_sec);
-    for (update(); !has_placed_marker(); update()) {
+    const auto is_placed = [](const auto& entry) {
+      return entry.second.T_fixed_header.has_value();
+    };
+    const auto& entries = markers_.entries();
+    for (update(); std::none_of(entries.begin(), entries.end(), is_placed); update()) {
       if (ros::SteadyTime::now() > end) throw std::runtime_error(why_no_marker());
     }
   }
@@ -356,10 +352,7 @@ void run(int argc, char** argv) {
   ros::removeROSArgs(argc, argv, arguments);
   const std::optional<SnapshotOptions> options =
       parse_options({arguments.begin() + 1, arguments.end()});
-  if (!options) {
-    std::cout << kUsage;
-    return;
-  }
+  if (!options) return;
   ros::init(argc, argv, "snapshot", ros::init_options::AnonymousName);
   if (!ros::master::check()) {
     throw std::runtime_error("there is no ROS master at " + ros::master::getURI() +

@@ -121,14 +121,11 @@ int watch(const std::vector<std::string>& topics, double seconds) {
 int run(int argc, char** argv) {
   std::vector<std::string> topics, words;
   double seconds = INFINITY;
-  CommandLine line("check_contacts");
+  CommandLine line("check_contacts", kHelp);
   line.number("seconds", seconds, 0.001, 1e9);
   ros::removeROSArgs(argc, argv, words);
   words.erase(words.begin());
-  if (!line.read(words, &topics)) {
-    std::cout << kHelp;
-    return kNothingFound;
-  }
+  if (!line.read(words, &topics)) return kNothingFound;
   if (topics.empty()) topics = {"organ_collision/contacts"};
   ros::init(argc, argv, "check_contacts");
   return watch(topics, seconds);

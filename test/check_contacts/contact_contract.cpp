@@ -46,9 +46,9 @@ class AnswerCheck {
   Faults run() {
     const bool is_ok = answer_.status == ContactArray::OK;
     require(answer_.status <= ContactArray::INVALID_TOOL, "status", "status is ",
-            int{answer_.status}, "; must be from 0 to ", int{ContactArray::INVALID_TOOL});
+            int{answer_.status});
     require(!is_ok || answer_.mode <= ContactArray::PAPER_NAIVE, "mode", "mode is ",
-            int{answer_.mode}, "; must be from 0 to ", int{ContactArray::PAPER_NAIVE});
+            int{answer_.mode});
     check_text("message", answer_.message, kLongestMessage);
     is_ok ? check_success() : check_failure();
     return std::move(faults_);
@@ -90,8 +90,7 @@ class AnswerCheck {
   void check_success() {
     require(answer_.message.empty() != (answer_.path_incomplete != 0), "messages",
             "status is OK, path_incomplete is ", answer_.path_incomplete != 0, ", and message is '",
-            plain_text(answer_.message, kLongestName),
-            "'; must be empty unless path_incomplete is true");
+            plain_text(answer_.message, kLongestName), "'");
     check_name("frame_id", answer_.header.frame_id);
     check_name("organ", answer_.organ);
     require(!answer_.links.empty(), "names", "links is empty; a tool has a shaft or links");
@@ -101,7 +100,7 @@ class AnswerCheck {
     }
     const ros::Time start = answer_.step_start, end = answer_.header.stamp;
     require(is_static() ? start == end : start <= end, "stamps", "the step runs from ", start,
-            " to ", end, "; must not run backwards, and a static one takes no time");
+            " to ", end);
     if (answer_.mode >= ContactArray::PAPER_STATIC) return;
     check_touched_faces();
     check_near_faces();
@@ -113,14 +112,11 @@ class AnswerCheck {
 
   // The rules of single fields.
 
-  void check_finite(const Place& place, const char* field, double value) {
-    require(std::isfinite(value), "finite numbers", field, " of ", place, " is ", value,
-            "; must be finite");
+  void check_finite(const Place& place, const char* field, const Vector3d& value) {
+    require(value.allFinite(), "finite numbers", field, " of ", place, " is ", value.transpose());
   }
-  void check_finite(const Place& place, const char* field, const geometry_msgs::Point& value) {
-    const Vector3d point = to_eigen(value);
-    require(point.allFinite(), "finite numbers", field, " of ", place, " is ", point.transpose(),
-            "; must be finite");
+  void check_finite(const Place& place, const char* field, double value) {
+    require(std::isfinite(value), "finite numbers", field, " of ", place, " is ", value);
   }
 
   void check_share(const Place& place, const char* field, double value) {
@@ -128,10 +124,9 @@ class AnswerCheck {
             "; must be from 0 to 1");
   }
 
-  void check_unit(const Place& place, const geometry_msgs::Vector3& normal) {
-    const Vector3d vector = to_eigen(normal);
-    require(std::abs(vector.norm() - 1.0) <= kRounding, "unit normals", "normal of ", place, " is ",
-            vector.transpose(), ", of length ", vector.norm(), "; must be 1");
+  void check_unit(const Place& place, const Vector3d& normal) {
+    require(std::abs(normal.norm() - 1.0) <= kRounding, "unit normals", "normal of ", place, " is ",
+            normal.transpose(), ", of length ", normal.norm());
   }
 
   void check_face(const Place& place) {
@@ -148,8 +143,7 @@ class AnswerCheck {
     const Eigen::Map<const Vector3d> shares(barycentric.data());
     const bool is_inside = shares.minCoeff() >= -kRounding && shares.maxCoeff() <= 1.0 + kRounding;
     require(shares.allFinite() && is_inside && std::abs(shares.sum() - 1.0) <= kRounding,
-            "barycentric coordinates", "barycentric of ", place, " is ", shares.transpose(),
-            "; must be from 0 to 1 each, and 1 together");
+            "barycentric coordinates", "barycentric of ", place, " is ", shares.transpose());
   }
 
   // The rules of lists and groups.
@@ -158,28 +152,27 @@ class AnswerCheck {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& contact = contacts[i];
       const Place place{list, i, contact.face};
+      const Vector3d point = to_eigen(contact.point), end = to_eigen(contact.end_point);
       check_face(place);
       check_link(place, contact.link);
       check_share(place, "fraction", contact.fraction);
       check_share(place, "shaft", contact.shaft);
-      check_finite(place, "point", contact.point);
-      check_finite(place, "end_point", contact.end_point);
+      check_finite(place, "point", point);
+      check_finite(place, "end_point", end);
       check_finite(place, "depth", contact.depth);
       check_finite(place, "view_min", contact.view_min);
       check_finite(place, "view_max", contact.view_max);
-      check_unit(place, contact.normal);
+      check_unit(place, to_eigen(contact.normal));
       check_barycentric(place, contact.barycentric);
       const bool is_of_shaft =
           contact.link < answer_.links.size() && answer_.links[contact.link].empty();
       require(is_of_shaft || contact.shaft == 0.0, "places on shafts", "shaft of ", place, " is ",
-              contact.shaft, "; must be 0, because this is a contact of a link");
+              contact.shaft, ", but this is a contact of a link");
       if (!is_static()) continue;  // A static answer has no time but the end of the step.
       require(contact.fraction == 0.0, "static answers", "fraction of ", place, " is ",
-              contact.fraction, "; must be 0 in a static answer");
-      const Vector3d point = to_eigen(contact.point), end = to_eigen(contact.end_point);
+              contact.fraction);
       require(!((end - point).norm() > same_place(point)), "static answers", "end_point of ", place,
-              " is ", end.transpose(), ", and point is ", point.transpose(),
-              "; must be the same in a static answer");
+              " is ", end.transpose(), ", and point is ", point.transpose());
     }
   }
 
@@ -190,15 +183,14 @@ class AnswerCheck {
       const Contact &before = contacts[i - 1], &contact = contacts[i];
       require(std::pair(before.face, before.link) < std::pair(contact.face, contact.link),
               "order of contacts", "contacts[", i, "] is of face ", contact.face, ", link ",
-              contact.link, ", after face ", before.face, ", link ", before.link,
-              "; must rise by face, then link");
+              contact.link, ", after face ", before.face, ", link ", before.link);
       require(before.face != contact.face || before.vertices == contact.vertices,
               "corners of a face", "contacts[", i, "] has other vertices than contacts[", i - 1,
               "], and both are of face ", contact.face);
     }
     const std::size_t regions = answer_.regions.size();
     require(regions == 0 || regions == contacts.size(), "regions", regions, " regions of ",
-            contacts.size(), " contacts; must be none or as many");
+            contacts.size(), " contacts");
     require(answer_.unresolved <= contacts.size(), "unresolved", "unresolved is ",
             answer_.unresolved, " of ", contacts.size(), " contacts");
   }
@@ -214,13 +206,11 @@ class AnswerCheck {
       const Place place{"near", i, near[i].face};
       const double depth = near[i].depth;
       require(i == 0 || near[i - 1].depth >= depth, "order of near faces", place, " is at ", -depth,
-              " m, after one that is farther; the nearest must come first");
+              " m, after one that is farther");
       require(known.insert(near[i].face).second, "near faces", place,
-              " is touched, or named twice; must be near only");
-      require(!(depth > kTouching), "near faces", "depth of ", place, " is ", depth,
-              "; must be minus a distance");
-      require(!(margin > 0.0 && -depth > margin + kTouching), "near faces", place, " is at ",
-              -depth, " m; the margin is ", margin, " m");
+              " is touched, or named twice");
+      require(!(depth > kTouching) && !(margin > 0.0 && -depth > margin + kTouching), "near faces",
+              place, " is at ", -depth, " m; the margin is ", margin, " m");
     }
     const bool are_told = !near.empty() || answer_.near_left_out > 0 || answer_.near_unresolved > 0;
     require(!are_told || answer_.clearance.state != Clearance::NOT_ASKED, "near faces",
@@ -230,7 +220,7 @@ class AnswerCheck {
   void check_clearance() {
     const Clearance& clearance = answer_.clearance;
     require(clearance.state <= Clearance::KNOWN, "clearance", "state of the clearance is ",
-            int{clearance.state}, "; must be from 0 to ", int{Clearance::KNOWN});
+            int{clearance.state});
     if (clearance.state == Clearance::NOT_ASKED) return;
     const bool is_legal = clearance.unlimited ? clearance.margin == 0.0 : clearance.margin > 0.0;
     require(is_legal && std::isfinite(clearance.margin), "clearance", "margin of the clearance is ",
@@ -240,8 +230,7 @@ class AnswerCheck {
     const bool is_known = clearance.state == Clearance::KNOWN;
     const double rounding = same_place(to_eigen(clearance.on_organ)), distance = clearance.distance;
     require(!(is_known && answer_.contacts.empty() && distance < -rounding), "clearance",
-            "distance of the clearance is ", distance,
-            "; what it touches must be among the contacts");
+            "distance of the clearance is ", distance, ", but there is no contact");
     const bool must_touch =
         is_static() && answer_.contacts.size() > answer_.unresolved && !clearance.unresolved;
     require(!must_touch || (is_known && !(distance > rounding)), "clearance",
@@ -253,24 +242,24 @@ class AnswerCheck {
   void check_known_clearance() {
     const Clearance& clearance = answer_.clearance;
     const Place place{"clearance", 0, clearance.face};
+    const Vector3d on_organ = to_eigen(clearance.on_organ), on_tool = to_eigen(clearance.on_tool);
+    const Vector3d normal = to_eigen(clearance.normal);
     check_face(place);
     check_link(place, clearance.link);
     check_finite(place, "distance", clearance.distance);
     check_finite(place, "least", clearance.least);
     check_share(place, "least_fraction", clearance.least_fraction);
-    check_finite(place, "on_organ", clearance.on_organ);
-    check_finite(place, "on_tool", clearance.on_tool);
-    check_unit(place, clearance.normal);
+    check_finite(place, "on_organ", on_organ);
+    check_finite(place, "on_tool", on_tool);
+    check_unit(place, normal);
     check_barycentric(place, clearance.barycentric);
     require(clearance.unlimited || clearance.distance <= clearance.margin + kSamePlace, "clearance",
-            "distance of the clearance is ", clearance.distance, "; must be at most its margin, ",
+            "distance of the clearance is ", clearance.distance, "; its margin is ",
             clearance.margin);
-    const Vector3d on_organ = to_eigen(clearance.on_organ);
-    const Vector3d between = on_organ - to_eigen(clearance.on_tool);
-    const Vector3d expected = clearance.distance * to_eigen(clearance.normal);
-    require((between - expected).norm() <= same_place(on_organ), "clearance",
-            "on_organ - on_tool of the clearance is ", between.transpose(),
-            ", and distance * normal is ", expected.transpose(), "; must be the same");
+    require((on_organ - on_tool - clearance.distance * normal).norm() <= same_place(on_organ),
+            "clearance", "on_organ - on_tool of the clearance is ",
+            (on_organ - on_tool).transpose(), ", and distance * normal is ",
+            clearance.distance * normal.transpose());
     const bool is_least_legal =
         is_static() ? clearance.least == clearance.distance && clearance.least_fraction == 0.0
                     : (answer_.contacts.empty() ? clearance.least <= clearance.distance
@@ -285,15 +274,15 @@ class AnswerCheck {
     const ToolPlacement& placement = answer_.placement;
     for (const std::uint8_t side : {placement.tip, placement.trocar}) {
       require(side <= ToolPlacement::ON_SURFACE, "placement", "a side of the placement is ",
-              int{side}, "; must be from 0 to ", int{ToolPlacement::ON_SURFACE});
+              int{side});
     }
     const bool are_sides_known =
         placement.tip != ToolPlacement::UNKNOWN && placement.trocar != ToolPlacement::UNKNOWN;
-    require((placement.length_known != 0) == are_sides_known, "placement", "length_known is ",
-            int{placement.length_known}, "; must be 1 if the sides of tip and trocar are known");
     const double length = placement.length_inside;
-    require(placement.length_known ? length >= 0.0 && std::isfinite(length) : length == 0.0,
-            "placement", "length_inside is ", length, "; must be a length, or 0 if it is unknown");
+    require((placement.length_known != 0) == are_sides_known &&
+                (are_sides_known ? length >= 0.0 && std::isfinite(length) : length == 0.0),
+            "placement", "length_known is ", int{placement.length_known}, " and length_inside ",
+            length, "; must be 1 and a length if the sides of tip and trocar are known, else 0");
     const std::vector<Crossing>& crossings = placement.crossings;
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const Crossing& crossing = crossings[i];
@@ -301,11 +290,11 @@ class AnswerCheck {
       check_face(place);
       check_barycentric(place, crossing.barycentric);
       check_share(place, "shaft", crossing.shaft);
-      check_finite(place, "point", crossing.point);
+      check_finite(place, "point", to_eigen(crossing.point));
       require(std::abs(crossing.direction) == 1, "crossings", "direction of ", place, " is ",
-              int{crossing.direction}, "; must be 1 or -1");
+              int{crossing.direction});
       require(i == 0 || !(crossings[i - 1].shaft > crossing.shaft), "crossings", place, " is at ",
-              crossing.shaft, " of the shaft, after one beyond; must go from trocar to tip");
+              crossing.shaft, " of the shaft, after one beyond");
     }
     const bool has_shaft = !answer_.links.empty() && answer_.links.front().empty();
     require(has_shaft || (placement.trocar == ToolPlacement::UNKNOWN && crossings.empty()),

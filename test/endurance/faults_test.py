@@ -6,6 +6,8 @@ Usage: faults_test.py [--seconds N] [--seed S] [--within SECONDS] [--only kills|
 """
 
 import argparse
+import contextlib
+import math
 import os
 import random
 import signal
@@ -17,8 +19,7 @@ import threading
 import time
 import unittest
 
-FOLDER = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(FOLDER, '..', 'rostest'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'rostest'))
 
 from organ_collision.msg import ContactArray, OrganMesh, OrganVertices  # noqa: E402
 from organ_collision.srv import QueryCollision, QueryCollisionBatch, QueryCollisionRequest  # noqa: E402
@@ -26,10 +27,11 @@ import rospy  # noqa: E402
 from tf2_msgs.msg import TFMessage  # noqa: E402
 
 import garbage  # noqa: E402
-from support.node_client import shaft, wait_until  # noqa: E402
+from support import scenes  # noqa: E402
+from support.node_client import TfSender, mesh_message, shaft, vertices_message, wait_until  # noqa: E402
 from support.processes import OwnMaster, nodelet, program  # noqa: E402
 
-NODE = '/organ_collision'
+NODE, FRAME = '/organ_collision', 'liver_frame'
 PAIRS = {('liver', 'probe'), ('kidney', 'needle')}  # of organ and tool, one for each simulator
 LIMIT = 30.0  # [s] from the start of a node until contacts of all pairs flow
 LONGEST_LIFE = 0.3  # [s] from then on until the next kill
@@ -38,6 +40,26 @@ MOST_MEMORY = 400.0  # [MB] that the process may have more than before the garba
 OPEN = 50  # connections that are left half open at a time
 OTHERS = {'/haptic_proxy': {'tools': []}, '/organ_mesh_adapter': {'organs': []}, '/contact_adapter': {}}
 NOT_LISTED = 'the ROS master does not list this node any more'
+
+
+def simulate(organ, tool):
+    """A simulator that runs until it is stopped, and needs no help: a sheet that waves, and a tool that moves through
+    it. Publishes the mesh once, latched, and its vertices and the tool's poses on TF 50 times a second. It never looks
+    whether anybody listens."""
+    rospy.init_node('simulator')
+    sheet, tf = scenes.sheet(0.1, 8), TfSender()
+    meshes = rospy.Publisher(NODE + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
+    shapes = rospy.Publisher(NODE + '/organ_vertices', OrganVertices, queue_size=1)
+    meshes.publish(mesh_message(organ, sheet, rospy.Time.now()))
+    tf.send_resting((FRAME, tool + '_trocar', (0.01, 0.02, 0.3)))
+    rate = rospy.Rate(50.0)
+    while not rospy.is_shutdown():
+        now = rospy.Time.now()
+        phase = 2 * math.pi * now.to_sec()
+        tf.send((FRAME, tool + '_tip', (0.012, 0.017, 0.01 * math.cos(phase)), now))
+        waved = sheet.moved(lambda v: (v[0], v[1], 0.002 * math.sin(phase + 50 * v[0])))
+        shapes.publish(vertices_message(organ, waved, now))
+        rate.sleep()
 
 
 def resident(pid):
@@ -87,7 +109,7 @@ class Watch(threading.Thread):
         self.is_ended = threading.Event()
         self.query = rospy.ServiceProxy(NODE + '/query', QueryCollision, persistent=True)
         self.request = QueryCollisionRequest(organ='liver', motion=shaft((0.01, 0.02, 0.3), (0.01, 0.02, 0.0), 0.005))
-        self.request.header.frame_id = 'liver_frame'
+        self.request.header.frame_id = FRAME
 
     def run(self):
         while not self.is_ended.wait(0.01) and not self.fault:
@@ -125,7 +147,7 @@ class FaultsTest(unittest.TestCase):
 
     def start_simulators(self):
         for organ, tool in sorted(PAIRS):
-            self.start(os.path.join(FOLDER, 'fault_simulator.py'), organ, tool, '__name:=simulator_of_' + organ)
+            self.start(os.path.abspath(__file__), 'simulate', organ, tool, '__name:=simulator_of_' + organ)
         self.checker = self.start(program('check_contacts'))
         self.answers = Answers()
         self.addCleanup(self.answers.subscriber.unregister)
@@ -174,38 +196,32 @@ class FaultsTest(unittest.TestCase):
         rng, kind = self.rng, self.rng.randrange(8)
         self.pieces += 1
         if kind < 4:
-            publisher, body = rng.choice(publishers)
+            publisher, bodies = rng.choice(publishers)
             self.sent += 1
-            self.delivered += publisher.send(garbage.framed(garbage.spoiled(rng, body(rng)))) > 0
-            if rng.random() < 0.001:  # A length that does not fit; after it, nothing can be understood.
-                publisher.send(garbage.noise(rng))
-                publisher.start_anew()
-                wait_until(lambda: publisher.subscribers, 'the node subscribes again to ' + publisher.topic)
+            self.delivered += publisher.get_num_connections() > 0
+            publisher.publish(publisher.data_class(garbage.spoiled(rng, rng.choice(bodies))))
         elif kind == 4:
-            self.connect(self.ports[0], garbage.tcpros(rng, self.services))
+            self.connect(self.port, garbage.tcpros(rng, [service.resolved_name for service, _ in self.services]))
         elif kind == 5:
             self.connect(uri, garbage.xml(rng))
         else:
-            service, types, body = rng.choice(((0, QueryCollision, garbage.query),
-                                               (1, QueryCollisionBatch, garbage.batch)))
-            data = garbage.spoiled(rng, body(rng))
-            garbage.request(self.ports[service], self.services[service], types,
-                            rng.choice([garbage.framed(data), data, garbage.framed(data)[:-1]]))
+            service, bodies = rng.choice(self.services)
+            with contextlib.suppress(rospy.ServiceException):  # The node may refuse it.
+                service(service.request_class(garbage.spoiled(rng, rng.choice(bodies))))
 
     def send_pieces(self, name, process):
         uri = garbage.address(self.master.ask('lookupNode', name))
-        publishers = [(garbage.Publisher(self.master.uri, '/evil_of' + topic, topic, kind), body)
-                      for topic, kind, body in ((NODE + '/organ_mesh', OrganMesh, garbage.mesh),
-                                                (NODE + '/organ_vertices', OrganVertices, garbage.vertices),
-                                                ('/tf', TFMessage, garbage.transforms))]
+        publishers = [(rospy.Publisher(topic, garbage.raw(kind), queue_size=None), garbage.messages(*bodies))
+                      for topic, kind, bodies in ((NODE + '/organ_mesh', OrganMesh, ('node_messages', 0)),
+                                                  (NODE + '/organ_vertices', OrganVertices, ('node_messages', 1)),
+                                                  ('/tf', TFMessage, ('node_messages', 2)))]
         for publisher, _ in publishers:
-            wait_until(lambda: publisher.subscribers, 'the node subscribes to ' + publisher.topic)
+            self.addCleanup(publisher.unregister)
+            wait_until(publisher.get_num_connections, 'the node subscribes to ' + publisher.name)
         end = time.monotonic() + self.options.seconds / 2
         while time.monotonic() < end:
             self.send_piece(publishers, uri)
             self.assertIsNone(process.poll(), 'the process died')
-        for publisher, _ in publishers:
-            publisher.close()
         for peer in self.half_open:
             peer.close()
 
@@ -215,9 +231,13 @@ class FaultsTest(unittest.TestCase):
         self.pieces = self.sent = self.delivered = 0  # The last two are messages of topics.
         self.half_open = []
         self.start_simulators()
-        self.services = [NODE + '/query', NODE + '/query_batch']
-        wait_until(lambda: all(self.master.ask('lookupService', service) for service in self.services), 'the services')
-        self.ports = [garbage.address(self.master.ask('lookupService', service)) for service in self.services]
+        kinds = {NODE + '/query': QueryCollision, NODE + '/query_batch': QueryCollisionBatch}
+        self.services = []
+        for number, (name_of_service, kind) in enumerate(kinds.items()):
+            rospy.wait_for_service(name_of_service, LIMIT)
+            self.services.append((rospy.ServiceProxy(name_of_service, garbage.raw_service(kind)),
+                                  garbage.messages('query_requests', number)))
+        self.port = garbage.address(self.master.ask('lookupService', NODE + '/query'))
         self.answers.wait_for_all()
         watch = Watch(process.pid)
         watch.start()
@@ -277,6 +297,10 @@ class FaultsTest(unittest.TestCase):
 
 
 if __name__ == '__main__':
+    if sys.argv[1:2] == ['simulate']:
+        with contextlib.suppress(rospy.ROSInterruptException):
+            simulate(*sys.argv[2:4])
+        sys.exit()
     parser = argparse.ArgumentParser(description=__doc__.split('.')[0])
     parser.add_argument('--seconds', type=float, default=10.0, help='of kills, and of garbage for node and nodelet')
     parser.add_argument('--seed', type=int, default=4711, help='of the random times and of the garbage')

@@ -5,8 +5,8 @@ Then it kills nodes, and sends garbage to their ports.
 Usage: soak.py [--help] [--minutes N] [--seed S] [--out FOLDER] [--sanitizer KIND] DEVEL
 
 The run is a success if memory stays flat, no answer is wrong, and what was sent is all accounted for. DEVEL is the
-devel space of a build with tests. The script starts its own ROS masters. It writes into FOLDER: soak.md, soak.json, and
-what the node and the nodelet have printed. A build with a sanitizer needs memory for itself, which is then not
+devel space of a build with tests. The script starts its own ROS masters. It writes into FOLDER: soak.json, and what the
+node and the nodelet have printed. A build with a sanitizer needs memory for itself, which is then not
 judged."""
 
 import argparse
@@ -370,8 +370,7 @@ def main():
     wrong += ['%s: %s' % (kind, finding) for kind, run in runs.items() for finding in verdict.findings(run)]
     result = {'minutes': options.minutes, 'seed': options.seed, 'findings': wrong, 'runs': runs}
     (options.out / 'soak.json').write_text(json.dumps(result, indent=1) + '\n', encoding='utf-8')
-    (options.out / 'soak.md').write_text(verdict.markdown(result), encoding='utf-8')
-    print(verdict.markdown(result))
+    print(verdict.told(result))
     return 1 if wrong else 0
 
 

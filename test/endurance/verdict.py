@@ -1,6 +1,4 @@
-"""What is wrong with a run of a soak, and the page about it."""
-
-import statistics
+"""What is wrong with a run of a soak."""
 
 from organ_collision.msg import ContactArray
 
@@ -95,30 +93,14 @@ def findings(run):
     return wrong + ['nothing was judged: %s is 0' % what for what in WANTED if judged[what] == 0]
 
 
-def column(run):
-    """What is told of a run: {what: value}."""
-    growth, slope = memory_trend(run['memory'])
-    seconds = run['memory'][-1][0]
-    median = statistics.median(size for time, size in run['memory'] if time >= WARM_UP * seconds)
-    told = {'seconds': '%.0f' % seconds, 'shapes sent a second': '%.0f' % (run['sent']['vertices'] / seconds),
-            'memory, median': '%.1f MiB' % (median / MEBIBYTE),
-            'memory, growth after the warm-up': '%+.2f MiB (%+.1f MiB/h)' % (growth / MEBIBYTE,
-                                                                             slope * HOUR / MEBIBYTE)}
-    for who in ('sent', 'counts', 'judged', 'disturbances'):
-        told.update({'%s: %s' % (who, name): count for name, count in run[who].items() if isinstance(count, int)})
-    return told
-
-
-def markdown(result):
-    lines = ['# Soak of %g minutes, seed %d' % (result['minutes'], result['seed']), '']
-    lines += ['- **%s**' % finding for finding in result['findings']] or ['Nothing was found.']
-    runs = {kind: column(run) for kind, run in result['runs'].items() if 'judged' in run}
-    if runs:
-        names = list(dict.fromkeys(name for told in runs.values() for name in told))
-        rows = [['', *runs], ['---'] * (1 + len(runs))]
-        rows += [[name, *(told.get(name, 0) for told in runs.values())] for name in names]
-        allowed = ['%d MiB (%s)' % (most_growth(run) // MEBIBYTE, kind) for kind, run in result['runs'].items()]
-        lines += ['', *('| %s |' % ' | '.join(map(str, row)) for row in rows), '',
-                  'Memory is the lowest resident memory of a window. The first %d %% of a run are left '
-                  'out. It may grow by %s.' % (100 * WARM_UP, ' and '.join(allowed))]
-    return '\n'.join(lines) + '\n'
+def told(result):
+    """What was found, and how the memory of each run has grown. All counts are in soak.json."""
+    lines = ['Soak of %g minutes, seed %d' % (result['minutes'], result['seed'])]
+    lines += result['findings'] or ['Nothing was found.']
+    for kind, run in result['runs'].items():
+        if 'judged' not in run:
+            continue
+        growth, slope = memory_trend(run['memory'])
+        lines.append('%s: memory has grown by %.2f MiB (%.1f MiB/h) after the first %d %%; it may grow by %d MiB' % (
+            kind, growth / MEBIBYTE, slope * HOUR / MEBIBYTE, 100 * WARM_UP, most_growth(run) // MEBIBYTE))
+    return '\n'.join(lines)

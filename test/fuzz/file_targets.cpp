@@ -1,5 +1,5 @@
 // Files and buffers: the OBJ files and the CSV files with motions of query_offline, the yaml files
-// with parameters of replay, and OpenGL's feedback buffer.
+// with parameters of replay and of all nodes, and OpenGL's feedback buffer.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -7,7 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "contact_adapter/contact_adapter_parameters.hpp"
+#include "contact_adapter/contact_answer.hpp"
 #include "fuzz_input.hpp"
+#include "haptic_proxy/haptic_proxy_parameters.hpp"
+#include "mesh_adapter/mesh_adapter_parameters.hpp"
 #include "offline/motions.hpp"
 #include "offline/shapes.hpp"
 #include "offline/user_input.hpp"
@@ -36,11 +40,8 @@ void answer(const Motion& motion) {
   static const TriangleMesh organ({-1, -1, 0, 1, -1, 0.1f, 1, 1, 0, -1, 1, 0.2f},
                                   {0, 1, 2, 0, 2, 3});
   static CollisionQuery query(PickerKind::kFeedback);
-  CollisionRequest request;
+  CollisionRequest request = request_of(motion);
   request.organ = &organ;
-  request.mode = motion.mode;
-  request.path = path_of(motion);
-  request.radius = motion.radius;
   CollisionResult result;
   query.evaluate(request, result);
   for (const FaceContact& contact : result.contacts) {
@@ -71,9 +72,9 @@ const FuzzTarget feedback_target("feedback", [](const std::uint8_t* data, std::s
 const FuzzTarget motion_file_target("motion_file", [](const std::uint8_t* data, std::size_t size) {
   const std::string path = memory_file(FuzzInput(data, size).rest());
   try {
-    MotionList(path, MotionList::Order::kAsInFile);
-    MotionList motions(path, MotionList::Order::kByQuery);
-    demand(motions.size() > 0, "a legal file has a motion");
+    Motions(path, Motions::Order::kAsInFile);
+    Motions motions(path, Motions::Order::kByQuery);
+    demand(motions.count() > 0, "a legal file has a motion");
     for (int i = 0; i < kMost; ++i) {
       const std::optional<Motion> motion = motions.next();
       if (!motion) break;
@@ -97,17 +98,53 @@ const FuzzTarget obj_file_target("obj_file", [](const std::uint8_t* data, std::s
   }
 });
 
-const FuzzTarget parameter_file_target("parameter_file", [](const std::uint8_t* data,
-                                                            std::size_t size) {
+/// Loads parameters. A refusal says what is wrong.
+template <typename Load>
+void load(const Load& load) {
+  try {
+    load();
+  } catch (const ParameterError& error) {
+    demand(*error.what() != '\0', "a refusal has a text");
+  } catch (const ToolError&) {
+  }
+}
+
+void check(const NodeParameters& parameters) {
+  demand(parameters.max_faces > 0 && parameters.motion_samples_max > 0, "limits are positive");
+  for (const ToolParameters& tool : parameters.tools) {
+    demand(!tool.name.empty() && (tool.has_shaft() || !tool.links.empty()), "tools are whole");
+    demand(!tool.has_shaft() || tool.radius > 0.0, "radii are positive");
+  }
+}
+
+/// The file is a tree of values of any types, as the parameter server may hold it for any node.
+void load_all(const YamlParameters& file) {
+  const XmlRpc::XmlRpcValue& all = file.group();
+  load([&] {
+    const NodeParameters parameters = file.node_parameters();
+    check(parameters);
+    changed(parameters, all);
+    for (const ToolParameters& tool : parameters.tools) file.find_text(tool.robot_description);
+  });
+  load([&] {
+    const auto parameters = parse_parameters<HapticProxyParameters>(all);
+    for (const ToolParameters& tool : parameters.tools) proxy_settings(parameters, tool);
+    changed(parameters, all);
+  });
+  load([&] {
+    const auto parameters = parse_parameters<ContactAdapterParameters>(all);
+    demand(parameters.max_force > 0.0, "the largest force is positive");
+    changed(parameters, all);
+  });
+  load([&] { parse_parameters<MeshAdapterParameters>(all); });
+  if (all.hasMember("tools")) shaft_radius(all["tools"], "hook");
+}
+
+const FuzzTarget parameters_target("parameters", [](const std::uint8_t* data, std::size_t size) {
   const std::string path = memory_file(FuzzInput(data, size).rest());
   try {
-    const YamlParameters parameters(path, "/organ_collision");
-    for (const ToolParameters& tool : parameters.node_parameters().tools) {
-      parameters.find_text(tool.robot_description);
-    }
+    load_all(YamlParameters(path, "/organ_collision"));
   } catch (const InputError&) {
-  } catch (const ParameterError&) {
-  } catch (const ToolError&) {
   }
 });
 

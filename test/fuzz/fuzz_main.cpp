@@ -4,12 +4,11 @@
 // same each time. An input that crashes or takes longer than kMost ends the program; it is then in
 // the file fuzz.TARGET.failed_input beside the program.
 #include <console_bridge/console.h>
-#include <fcntl.h>
 #include <ros/console.h>
 #include <ros/time.h>
 #include <unistd.h>
 
-#include <csignal>
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -68,126 +67,103 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 #ifndef ORGAN_COLLISION_LIBFUZZER
 namespace {
 
-using Input = std::vector<std::uint8_t>;
-using Random = std::mt19937_64;
+using Input = std::string;
 
 /// [s] For one input. libFuzzer gets 1 s, but a test must not fail on a busy machine.
 constexpr unsigned kMost = 60;
 /// [bytes] Of mutated inputs.
 constexpr std::size_t kLargest = 4096;
 
-Input running;             ///< what fail() writes
-std::string failed_input;  ///< where; not in the current folder, which may be that of the sources
-
-/// Writes the input, and ends the program as the signal would have. Calls only what signal
-/// handlers may call.
-void fail(int signal) {
-  const int file = open(failed_input.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  const bool written = file >= 0 && write(file, running.data(), running.size()) >= 0;
-  const auto say = [](const char* text) {
-    if (write(STDERR_FILENO, text, std::strlen(text)) < 0) std::_Exit(EXIT_FAILURE);
-  };
-  if (written) {
-    say("The input in the file ");
-    say(failed_input.c_str());
-    say(" crashed or took too long.\n");
-  }
-  std::signal(signal, SIG_DFL);
-  std::raise(signal);
-}
-
-void run(Input input) {
-  running = std::move(input);
-  alarm(kMost);
+/// Runs an input. Before, writes it into a file, which is of use if the input ends the program.
+void run(const Input& input, const std::string& file) {
+  std::ofstream(file, std::ios::binary) << input;
+  alarm(kMost);  // SIGALRM ends the program.
   // A copy of exactly this size, so that tools such as valgrind see what is read beyond it.
-  const Input copy(running);
+  const std::vector<std::uint8_t> copy(input.begin(), input.end());
   LLVMFuzzerTestOneInput(copy.data(), copy.size());
   alarm(0);
 }
 
-Input read(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 /// The files of the corpus in the order of their names, so that all runs are the same.
-std::vector<Input> read_corpus(const std::filesystem::path& folder) {
-  std::set<std::filesystem::path> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path());
+std::vector<Input> read_corpus(const std::filesystem::path& place) {
+  std::set<std::filesystem::path> names = {place};
+  if (std::filesystem::is_directory(place)) {
+    names = {std::filesystem::directory_iterator(place), {}};
+  }
   std::vector<Input> corpus;
-  for (const auto& name : names) corpus.push_back(read(name));
+  for (const auto& name : names) {
+    std::ifstream file(name, std::ios::binary);
+    corpus.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
   return corpus;
 }
 
-std::size_t below(std::size_t end, Random& random) {
-  return std::uniform_int_distribution<std::size_t>(0, end - 1)(random);
+template <typename Number>
+Input bytes_of(Number number) {
+  return {reinterpret_cast<const char*>(&number), sizeof(number)};
 }
 
 template <typename Number>
-void overwrite(Number number, Input& input, Random& random) {
-  if (input.size() < sizeof(number)) return;
-  std::memcpy(&input[below(input.size() - sizeof(number) + 1, random)], &number, sizeof(number));
-}
-
-template <typename Number>
-Number extreme_number(Random& random) {
+void append_extremes(std::vector<Input>& pieces) {
   using Limits = std::numeric_limits<Number>;
-  const Number numbers[] = {
-      Limits::max(),      Limits::lowest(), Limits::min(), Limits::quiet_NaN(),
-      Limits::infinity(), Number(-1),       Number(1)};
-  return numbers[below(std::size(numbers), random)];
-}
-
-/// Changes the input in one place. `other`: another input of the corpus.
-void mutate(Input& input, const Input& other, Random& random) {
-  if (input.empty()) input.push_back(0);
-  const auto at = input.begin() + static_cast<std::ptrdiff_t>(below(input.size(), random));
-  const std::size_t length = std::min<std::size_t>(1 + below(32, random), input.end() - at);
-  const auto end = at + static_cast<std::ptrdiff_t>(length);
-  switch (below(9, random)) {
-    case 0:
-      *at = static_cast<std::uint8_t>(below(256, random));
-      break;
-    case 1:
-      *at = static_cast<std::uint8_t>(*at ^ (1u << below(8, random)));
-      break;
-    case 2:
-      input.erase(at, end);
-      break;
-    case 3: {
-      const Input part(at, end);
-      input.insert(input.begin() + static_cast<std::ptrdiff_t>(below(input.size(), random)),
-                   part.begin(), part.end());
-      break;
-    }
-    case 4:
-      overwrite(extreme_number<std::uint32_t>(random), input, random);
-      break;
-    case 5:
-      overwrite(extreme_number<float>(random), input, random);
-      break;
-    case 6:
-      overwrite(extreme_number<double>(random), input, random);
-      break;
-    case 7:
-      input.resize(below(input.size(), random));
-      break;
-    default:
-      input.insert(input.end(), other.begin(), other.end());
-  }
-  if (input.size() > kLargest) input.resize(kLargest);
-}
-
-void run_mutations(const std::vector<Input>& corpus, long count) {
-  Random random(1);
-  for (long i = 0; i < count; ++i) {
-    Input input = corpus[below(corpus.size(), random)];
-    for (std::size_t changes = 1 + below(4, random); changes > 0; --changes) {
-      mutate(input, corpus[below(corpus.size(), random)], random);
-    }
-    run(std::move(input));
+  for (const Number number : {Limits::max(), Limits::lowest(), Limits::min(), Limits::quiet_NaN(),
+                              Limits::infinity(), Number(-1), Number(1)}) {
+    pieces.push_back(bytes_of(number));
   }
 }
+
+/// Changes inputs of a corpus at random. The changes are the same in each run.
+class Mutator {
+ public:
+  explicit Mutator(const std::vector<Input>& corpus) : corpus_(corpus) {
+    append_extremes<std::uint32_t>(extremes_);
+    append_extremes<float>(extremes_);
+    append_extremes<double>(extremes_);
+  }
+
+  Input next() {
+    Input input = corpus_[below(corpus_.size())];
+    for (std::size_t changes = 1 + below(4); changes > 0; --changes) change(input);
+    input.resize(std::min(input.size(), kLargest));
+    return input;
+  }
+
+ private:
+  std::size_t below(std::size_t end) {
+    return std::uniform_int_distribution<std::size_t>(0, end - 1)(random_);
+  }
+
+  void change(Input& input) {
+    const std::size_t at = below(input.size() + 1), length = 1 + below(32);
+    const Input& extreme = extremes_[below(extremes_.size())];
+    switch (below(7)) {
+      case 0:
+        input.replace(at, 1, bytes_of(static_cast<char>(below(256))));
+        break;
+      case 1:
+        if (at < input.size()) input[at] = static_cast<char>(input[at] ^ (1 << below(8)));
+        break;
+      case 2:
+        input.erase(at, length);
+        break;
+      case 3:
+        input.insert(below(input.size() + 1), input.substr(at, length));
+        break;
+      case 4:
+        input.replace(at, extreme.size(), extreme);
+        break;
+      case 5:
+        input.resize(at);
+        break;
+      default:
+        input += corpus_[below(corpus_.size())];
+    }
+  }
+
+  const std::vector<Input>& corpus_;
+  std::vector<Input> extremes_;  ///< the bytes of extreme numbers
+  std::mt19937_64 random_{1};
+};
 
 }  // namespace
 
@@ -201,20 +177,18 @@ int main(int argc, char** argv) {
                  "mutations of them are run\n";
     return 2;
   }
-  failed_input =
-      std::filesystem::read_symlink("/proc/self/exe").string() + "." + name + ".failed_input";
-  for (const int signal : {SIGALRM, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL}) {
-    std::signal(signal, fail);
-  }
-  const std::filesystem::path place = argv[1];
-  const std::vector<Input> corpus =
-      std::filesystem::is_directory(place) ? read_corpus(place) : std::vector<Input>{read(place)};
+  const std::vector<Input> corpus = read_corpus(argv[1]);
   if (corpus.empty()) {
-    std::cerr << place << " has no inputs\n";
+    std::cerr << argv[1] << " has no inputs\n";
     return 2;
   }
-  for (const Input& input : corpus) run(input);
-  run_mutations(corpus, mutations);
+  // Beside the program, because the current folder may be that of the sources.
+  const std::string file =
+      std::filesystem::read_symlink("/proc/self/exe").string() + "." + name + ".failed_input";
+  for (const Input& input : corpus) run(input, file);
+  Mutator mutator(corpus);
+  for (long i = 0; i < mutations; ++i) run(mutator.next(), file);
+  std::filesystem::remove(file);
   std::cout << corpus.size() << " inputs and " << mutations << " mutations\n";
 }
 #endif

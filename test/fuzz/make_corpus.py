@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""Writes the inputs in corpus/, with which fuzzing begins: small and legal ones, and a few that are broken.
+"""Writes those inputs in corpus/ that are messages: small and legal ones, and a few that are broken. Fuzzing begins with
+the inputs in corpus/. The other ones are kept by hand.
 
 Usage: make_corpus.py [--check]
 Run it in the environment of the devel space. --check writes nothing; the exit code is 1 if a file is not as this
-script would write it. Files whose names begin with "found_" are findings of the past, which are kept by hand.
+script would write it. Files whose names begin with "found_" are findings of the past, which are kept by hand, too.
 """
 
 import argparse
@@ -25,7 +26,6 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker
 
 FOLDER = pathlib.Path(__file__).resolve().parent / 'corpus'
-TOOLS = FOLDER.parent.parent / 'data' / 'tools'
 
 SHEET = [-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]
 SHEET_FACES = [0, 1, 2, 0, 2, 3]
@@ -81,35 +81,6 @@ def link_motion(end=-0.3):
     return LinkMotion(*[[Pose(Point(0.1, 0.2, z), Quaternion(0, 0, 0, 1))] * 2 for z in (0.3, end)])
 
 
-def feedback():
-    triangle = [1795.0, 3.0] + 3 * [1, 2, 0.25, 1, 1, 1, 1, 0.5, 0.125, 3, 2]
-    line = [1799.0] + 2 * [1, 2, 0.25, 1, 1, 1, 1, 0.5, 0.125, 4, 0]
-    point = [1793.0] + [1, 2, 0.25, 1, 1, 1, 1, 0.5, 0.125, 5, 0]
-    pack = lambda *floats: struct.pack('<%df' % len(floats), *floats)
-    return {'primitives': b'\0' + pack(*triangle, *line, *point),
-            'cut_off': b'\0' + pack(*triangle[:20]),
-            'without_count': b'\0' + pack(1795.0),
-            'huge_count': b'\0' + pack(1795.0, 1e9, 1, 2, 3),
-            'unknown_token': b'\0' + pack(7.0, *triangle),
-            'spare': b'\5' + pack(*triangle, *([0.0] * 5))}
-
-
-def organ_messages():
-    huge = bytearray(record(0, mesh()))
-    place = len(huge) - 4 * len(SHEET_FACES) - 4 - 4 * len(SHEET) - 4
-    huge[place:place + 4] = struct.pack('<I', 0x40000002)
-    return {'sheet': record(0, mesh()) + record(1, vertices(0.1, 2)),
-            'solid': record(0, mesh(SOLID, SOLID_FACES)),
-            'new_topology': record(0, mesh()) + record(0, mesh(SOLID, SOLID_FACES, 2)),
-            'removed': record(0, mesh()) + record(0, mesh([], [])) + record(1, vertices(0.1, 2)),
-            'wrong_index': record(0, mesh(faces=[0, 1, 4])),
-            'not_finite': record(0, mesh([float('nan')] + SHEET[1:])),
-            'far': record(0, mesh([3e38] + SHEET[1:])),
-            'huge_array': bytes(huge),
-            'late_stamp': record(0, OrganMesh(Header(stamp=genpy.Time(0xffffffff, 999999999), frame_id='world'),
-                                              'liver', 1, SHEET, SHEET_FACES))}
-
-
 def query_requests():
     ask = lambda **more: QueryCollisionRequest(header=header(0, 'liver_frame'), organ='liver', **more)
     batch = lambda **more: QueryCollisionBatchRequest(header=header(0, 'liver_frame'), organ='liver', **more)
@@ -132,29 +103,31 @@ def query_requests():
             'large_batch': record(1, batch(motions=[motion()] * 51, mode=0))}
 
 
-def motion_messages():
-    return {'hook': record(0, hook(0.3, 1)) + record(0, hook(-0.3, 2)),
-            'static': record(1, hook(0.3, 0)),
-            'stylus': record(2, pose((0, 0, 0.1), 1, 'base')) + record(3, pose((1, 0, 0))) + record(
-                1, TFMessage([transform('stylus_trocar', (0, 0, 1), 0)])) + record(2, pose((0, 0, 0.2), 2, 'base')),
-            'loop': record(0, TFMessage([transform('hook_tip', (1, 0, 0), 1, 'hook_trocar'),
-                                         transform('hook_trocar', (1, 0, 0), 1, 'hook_tip')])),
-            'own_parent': record(0, TFMessage([transform('world', (1, 0, 0))])),
-            'no_rotation': record(0, TFMessage([transform('hook_tip', (1, 0, 0), turn=(0, 0, 0, 0))])),
-            'late': record(0, hook(0.3, 0xffffffff)) + record(0, hook(0.3, 1)),
-            'far': record(2, pose((1e300, 0, 0)))}
-
-
 def node_messages():
-    tick, later, reset = record(5), record(6) + b'\x40', record(7)
-    return {'touch': record(0, mesh()) + record(3, TFMessage([transform('hook_trocar', (0, 0, 1), 0)]))
+    tick, later, reset, sheet = record(5), record(6) + b'\x40', record(7), record(0, mesh())
+    huge, place = bytearray(sheet), len(sheet) - 4 * len(SHEET_FACES) - 4 - 4 * len(SHEET) - 4
+    huge[place:place + 4] = struct.pack('<I', 0x40000002)
+    late = OrganMesh(Header(stamp=genpy.Time(0xffffffff, 999999999), frame_id='world'), 'liver', 1, SHEET, SHEET_FACES)
+    return {'touch': sheet + record(3, TFMessage([transform('hook_trocar', (0, 0, 1), 0)]))
             + record(4, pose((0.1, 0.2, 0.3), 1)) + record(1, vertices(0.1, 2)) + record(4, pose((0.1, 0.2, -0.3), 3)),
-            'links': record(2, hook(0.3, 1)) + record(2, hook(-0.3, 2)) + record(0, mesh(seconds=1))
-            + record(1, vertices(0.0, 2)) + tick,
-            'without_tf': record(0, mesh()) + tick + reset,
-            'jump': record(0, mesh()) + record(2, hook(0.3, 1)) + later + record(1, vertices(0.0, 2)) + record(6)
-            + b'\x05' + tick,
-            'removed': record(2, hook(-0.3, 1)) + record(0, mesh()) + record(0, mesh([], [])) + tick}
+            'links': record(2, hook(0.3, 1)) + record(2, hook(-0.3, 2)) + sheet + record(1, vertices(0.0, 2)) + tick,
+            'without_tf': sheet + tick + reset,
+            'jump': sheet + record(2, hook(0.3, 1)) + later + record(1, vertices(0.0, 2)) + record(6) + b'\x05' + tick,
+            'removed': record(2, hook(-0.3, 1)) + sheet + record(0, mesh([], [])) + tick + record(1, vertices(0.1, 2)),
+            'solid': record(0, mesh(SOLID, SOLID_FACES)) + record(3, hook(0.1, 0)) + tick,
+            'new_topology': sheet + record(0, mesh(SOLID, SOLID_FACES, 2)),
+            'wrong_index': sheet + record(0, mesh(faces=[0, 1, 4])),
+            'not_finite': record(0, mesh([float('nan')] + SHEET[1:])),
+            'far': record(0, mesh([3e38] + SHEET[1:])) + record(8, pose((1e300, 0, 0))),
+            'huge_array': bytes(huge),
+            'late_mesh': record(0, late),
+            'late_transform': sheet + record(2, hook(0.3, 0xffffffff)) + record(2, hook(0.3, 1)),
+            'stylus': sheet + record(8, pose((0, 0, 0.1), 1, 'base')) + record(9, pose((1, 0, 0))) + record(
+                3, TFMessage([transform('stylus_trocar', (0, 0, 1), 0)])) + record(8, pose((0, 0, 0.2), 2, 'base')),
+            'loop': sheet + record(2, TFMessage([transform('hook_tip', (1, 0, 0), 1, 'hook_trocar'),
+                                                 transform('hook_trocar', (1, 0, 0), 1, 'hook_tip')])),
+            'own_parent': record(2, TFMessage([transform('world', (1, 0, 0))])),
+            'no_rotation': record(2, TFMessage([transform('hook_tip', (1, 0, 0), turn=(0, 0, 0, 0))]))}
 
 
 def haptic_proxy():
@@ -215,42 +188,6 @@ def contact_adapter():
             'deep': record(1, answer(contact(depth=1e300)))}
 
 
-def obj_file():
-    return {'sheet': b'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3\nf 1/1 3//2 4/3/3\n',
-            'polygon': b'# quad\r\nv 0 0 0 1\r\nv 1 0 0\r\nv 1 1 0\r\nv 0 1 0\r\nf -4 -3 -2 -1\r\n',
-            'no_face': b'v 0 0 0\n', 'empty': b'\n',
-            'huge_index': b'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99999999999999999999\n',
-            'not_finite': b'v nan 1e999 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n'}
-
-
-HEAD = b'query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,tip_x,tip_y,tip_z,radius\n'
-
-
-def motion_file():
-    return {'modes': HEAD + b'1,static,0,0,1,,,,0.1,0.2,-0.1,0.01\n2,swept,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\n'
-            b'3,paper_static,0,0,1,,,,0.1,0.2,-0.1,0.01\n4,paper_swept,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\n'
-            b'5,paper_naive,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\n',
-            'names': b'b,swept,0,0,1,0.1,0.2,0.3,0.1,0.2,-0.3,0.01\r\n\r\na,static,0,0,1,,,,1e5,-1e5,1e-300,1e5\r\n',
-            'twice': b'1,static,0,0,1,,,,0,0,0,1\n1,static,0,0,1,,,,0,0,0,1\n',
-            'columns': b'1,static,0,0,1\n', 'not_finite': b'1,static,nan,0,1,,,,inf,0,0,1\n',
-            'zero_length': b'1,swept,0,0,0,0,0,0,0,0,0,1e-300\n'}
-
-
-def urdf():
-    link = '<link name="%s"><collision><origin xyz="0.1 0 0" rpy="0 1.5 0"/><geometry>%s</geometry></collision></link>'
-    joint = '<joint name="%s" type="%s"><parent link="%s"/><child link="%s"/><axis xyz="0 0 1"/>%s</joint>'
-    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
-    robot = lambda *parts: ('<?xml version="1.0"?><robot name="r">%s</robot>' % ''.join(parts)).encode()
-    return {'chain': robot(link % ('shaft', '<cylinder radius="0.004" length="0.3"/>'),
-                           link % ('wrist', '<box size="0.02 0.04 0.06"/>'), link % ('tip', '<sphere radius="0.01"/>'),
-                           joint % ('a', 'revolute', 'shaft', 'wrist', limit), joint % ('b', 'fixed', 'wrist', 'tip', '')),
-            'mesh': robot(link % ('tip', '<mesh filename="package://organ_collision/no.stl" scale="1 1 1"/>')),
-            'loop': robot(link % ('tip', '<sphere radius="1"/>'), joint % ('a', 'fixed', 'tip', 'tip', '')),
-            'two_roots': robot('<link name="tip"/><link name="shaft"/>'),
-            'not_finite': robot(link % ('tip', '<sphere radius="nan"/>')),
-            'entities': b'<!DOCTYPE r [<!ENTITY a "b">]>' + robot('<link name="&a;&#0;&#x110000;"/>')}
-
-
 def robot_reply():
     pose = [0.1, 0.2, 0.3, 0, 0, 0, 1]
     shape = lambda kind, *size: RobotShape(kind=kind, pose=pose, size=list(size) + [0] * (3 - len(size)))
@@ -265,43 +202,7 @@ def robot_reply():
             'huge_count': struct.pack('<BII', 2, 0, 2**31)}
 
 
-def tool_mesh():
-    files = [('jaw_ascii.stl', 0), ('jaw_binary.stl', 0), ('jaw.dae', 1), ('jaw.obj', 2), ('jaw_ascii.ply', 3),
-             ('jaw_binary.ply', 3), ('cut_off.ply', 3), ('wrong_index.ply', 3)]
-    return {name.replace('.', '_'): bytes([kind]) + (TOOLS / name).read_bytes() for name, kind in files}
-
-
-def parameters():
-    """Trees in the encoding of parameter_targets.cpp."""
-    names = ['tools', 'organs', 'rate', 'organ_motion', 'stiffness', 'max_force', 'name', 'trocar_frame', 'tip_frame',
-             'radius', 'links', 'urdf', 'topic']
-    index = {name: i for i, name in enumerate(names)}
-    text = lambda content: bytes([3, 8 * len(content) + 1]) + content
-    number = lambda value: b'\2' + struct.pack('<d', value)
-    group = lambda **members: bytes([6, len(members)]) + b''.join(
-        bytes([index[name]]) + value for name, value in members.items())
-    listed = lambda *values: bytes([5, len(values)]) + b''.join(values)
-    shaft = group(name=text(b'hook'), trocar_frame=text(b'a'), tip_frame=text(b'b'), radius=number(0.005))
-    links = group(name=text(b'jaw'), links=listed(text(b'tip')), urdf=text(b'/a'))
-    root = lambda **members: group(**members)[1:]
-    return {'tools': root(tools=listed(shaft, links), rate=number(30.0), organ_motion=b'\0\1'),
-            'forces': root(tools=listed(shaft), max_force=number(5.0), stiffness=number(300.0)),
-            'organs': root(organs=listed(group(name=text(b'liver'), topic=text(b'mesh')))),
-            'wrong_types': root(tools=number(1.0), rate=text(b'fast'), organs=listed(listed())),
-            'not_finite': root(tools=listed(shaft), rate=number(float('nan')), max_force=number(float('inf')))}
-
-
-def parameter_file():
-    hook = b'tools:\n  - {name: hook, trocar_frame: a, tip_frame: b, radius: 0.005}\n'
-    return {'node': hook + b'rate: 30.0\npicker: select\norgan_motion: true\n',
-            'tree': b'organ_collision:\n  tools:\n  - name: jaw\n    links: [tip]\nrobot_description: "<robot/>"\n',
-            'anchors': b'a: &a [x, y]\nb: &b [*a, *a]\nc: [*b, *b, *b]\n' + hook,
-            'own_member': b'a: &a {b: *a}\n', 'not_a_map': b'[1, 2]\n', 'tag': b'a: !!binary aGk=\n' + hook,
-            'no_tools': b'rate: .nan\n', 'broken': b'tools: [{name: "hook\n'}
-
-
-CORPORA = [contact_adapter, feedback, haptic_proxy, mesh_adapter, motion_file, motion_messages, node_messages, obj_file,
-           organ_messages, parameter_file, parameters, query_requests, robot_reply, tool_mesh, urdf]
+CORPORA = [contact_adapter, haptic_proxy, mesh_adapter, node_messages, query_requests, robot_reply]
 
 
 def files():
@@ -309,26 +210,20 @@ def files():
     return {FOLDER / corpus.__name__ / name: content for corpus in CORPORA for name, content in corpus().items()}
 
 
-def check(expected):
-    """The paths that are not as they should be."""
-    present = {path for path in FOLDER.glob('*/*') if not path.name.startswith('found_')}
-    return sorted((present ^ set(expected)) | {path for path in present & set(expected)
-                                               if path.read_bytes() != expected[path]})
-
-
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split('\n')[0])
     parser.add_argument('--check', action='store_true', help='write nothing, and compare')
+    if not parser.parse_args().check:
+        for path, content in files().items():
+            path.write_bytes(content)
+        return 0
     expected = files()
-    if parser.parse_args().check:
-        wrong = check(expected)
-        for path in wrong:
-            print('%s: is not what make_corpus.py writes; run it without --check' % path)
-        return 1 if wrong else 0
-    for path, content in expected.items():
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_bytes(content)
-    return 0
+    present = {path: path.read_bytes() for corpus in CORPORA for path in (FOLDER / corpus.__name__).iterdir()
+               if not path.name.startswith('found_')}
+    wrong = sorted(path for path in {**present, **expected} if present.get(path) != expected.get(path))
+    for path in wrong:
+        print('%s: is not what make_corpus.py writes; run it without --check' % path)
+    return 1 if wrong else 0
 
 
 if __name__ == '__main__':

@@ -1,13 +1,21 @@
-// What the node makes of single messages: paths of tools, shapes of organs, answers of services.
-#include <boost/make_shared.hpp>
-#include <optional>
+// The requests of query and query_batch, and the messages that contact_adapter and
+// organ_mesh_adapter take.
+#include <pcl_msgs/PolygonMesh.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <shape_msgs/Mesh.h>
+#include <visualization_msgs/Marker.h>
 
+#include <cmath>
+
+#include "contact_adapter/contact_answer.hpp"
+#include "contact_adapter/force_law.hpp"
+#include "forces/forces.hpp"
 #include "fuzz_input.hpp"
+#include "mesh_adapter/organ_source.hpp"
+#include "mesh_adapter/surface_messages.hpp"
 #include "ros/messages/conversions.hpp"
+#include "ros/messages/failure_log.hpp"
 #include "ros/messages/text.hpp"
-#include "ros/motion/motion_topics.hpp"
-#include "ros/motion/tool_poses.hpp"
-#include "ros/organs/organ_registry.hpp"
 #include "test/ros/queries/query_fixtures.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
@@ -15,130 +23,94 @@ using namespace organ_collision;
 
 namespace {
 
-// TFMessage and PoseStamped: bytes from the wire, to paths of tools. Kinds of message: /tf,
-// /tf_static, a pose of a tip, a pose of a base.
+// ContactArray as contact_adapter takes it: bytes from the wire, to forces and lists of faces. Each
+// message has a byte before it: whether the radius of the shaft is known.
 
-/// A hook on TF that has a shaft and links, and a stylus whose poses are messages.
-std::vector<Tool> make_tools() {
-  std::vector<Tool> tools = {with_links(shaft_tool("hook", 0.01)), shaft_tool("stylus", 0.01)};
-  tools[1].parameters.tip_pose_topic = "stylus/pose";
-  tools[1].parameters.base_pose_topic = "stylus/base";
-  return tools;
+constexpr double kMaxForce = 5.0;  // [N]
+
+void take(const ContactArray& answer, bool knows_radius, ForceLaw& law, PairNames& names) {
+  check_contacts(answer);
+  names.of(answer.organ, answer.tool);
+  face_list(answer);
+  if (!has_geometry(answer)) return;
+  const ShaftRadius radius = knows_radius ? ShaftRadius(0.01) : std::nullopt;
+  std::vector<FaceForce> forces = law.follow(answer, 0.001, 300.0, radius);
+  limit_force(forces, kMaxForce);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const FaceForce& force : forces) sum += force.force;
+  demand(sum.norm() <= kMaxForce * (1.0 + 1e-6), "the force is finite and limited");
+  wrench_of(forces);
+  for (const auto& force : vertex_forces(answer, forces).forces) {
+    demand(std::isfinite(force.x + force.y + force.z), "forces on vertices are finite");
+  }
 }
 
-class Receivers {
- public:
-  void take(FuzzInput& input) {
-    const std::uint8_t kind = input.byte() % 4;
-    if (kind < 2) {
-      const auto message = next_message<tf2_msgs::TFMessage>(input);
-      if (message) motion_.take_transforms(*message, "fuzz", kind == 1);
-    } else {
-      const auto pose = next_message<geometry_msgs::PoseStamped>(input);
-      if (pose && kind == 2) motion_.take_tip(1, *pose);
-      if (pose && kind == 3) motion_.take_base(1, *pose);
-    }
-  }
-
-  void look_up() {
-    const ToolPoses poses(buffer_, {0.001, 20});
-    for (const Tool& tool : tools_) {
-      std::optional<Timed<ToolPose>> last;
-      // The last one: as late as a stamp can be.
-      for (const ros::Time time : {ros::Time(1), ros::Time(49, 999'999'999), ros::Time(0),
-                                   ros::Time(0xffffffffu, 999'999'999)}) {
-        const auto pose = poses_.pose(tool, "world", time);
-        demand(pose.found || !pose.why_not.empty(), "a pose that is not found has a reason");
-        if (!pose.found) continue;
-        if (last && last->stamp <= pose.found->stamp)
-          check(poses_.path(tool, "world", *last, *pose.found));
-        last = pose.found;
-        poses_.set_answered(tool, "world", time);
-      }
-    }
-  }
-
- private:
-  static void check(const SampledPath& path) {
-    demand(path.path.size() <= 20 + 1, "a path has at most so many waypoints");
-    for (const ToolWaypoint& waypoint : path.path) {
-      demand(waypoint.axis.trocar.allFinite() && waypoint.axis.tip.allFinite(),
-             "waypoints are finite");
-      demand(waypoint.fraction >= 0.0 && waypoint.fraction <= 1.0, "fractions are in [0, 1]");
-    }
-  }
-
-  std::vector<Tool> tools_ = make_tools();
-  std::vector<ToolParameters> parameters_ = {tools_[0].parameters, tools_[1].parameters};
-  TransformBuffer buffer_;
-  FailureLog rejected_;
-  MotionTopics motion_{parameters_, buffer_, rejected_, [](std::size_t) {}};
-  ToolPoses poses_{buffer_, {0.001, 20}};
-};
-
-void run_motion_messages(const std::uint8_t* data, std::size_t size) {
-  ros::Time::setNow(ros::Time(50));
+void run_contact_adapter(const std::uint8_t* data, std::size_t size) {
   FuzzInput input(data, size);
-  Receivers receivers;
-  while (!input.empty()) receivers.take(input);
-  receivers.look_up();
-}
-
-const FuzzTarget motion_messages_target("motion_messages", run_motion_messages);
-
-// OrganMesh and OrganVertices: bytes from the wire, to shapes of organs. Kinds of message: mesh,
-// vertices.
-
-using Shapes = std::map<std::string, std::shared_ptr<const TriangleMesh>>;
-
-Shapes shapes(const OrganRegistry& organs) {
-  Shapes shapes;
-  for (const auto& [name, organ] : organs.organs()) shapes[name] = organ.latest().mesh;
-  return shapes;
-}
-
-void check_shapes(const OrganRegistry& organs) {
-  for (const auto& [name, organ] : organs.organs()) {
-    const TriangleMesh& mesh = *organ.latest().mesh;
-    demand(mesh.face_count() > 0, "an organ has faces");
-    for (std::size_t face = 0; face < mesh.face_count(); ++face) {
-      for (const Eigen::Vector3d& corner : mesh.triangle(face)) {
-        demand(corner.allFinite(), "the corners of faces are finite");
-      }
-    }
-    summary(name, *organ.surface());
-    doubts(name, mesh.box().cast<double>(), *organ.surface());
-    organ.latest().age(ros::Time(50));
-    demand(std::isfinite(info_of(organ).volume), "the volume is finite");
-  }
-}
-
-template <typename Message>
-void apply(FuzzInput& input, OrganRegistry& organs) {
-  const auto message = next_message<Message>(input);
-  if (!message) return;
-  const Shapes before = shapes(organs);
-  try {
-    organs.apply(boost::make_shared<const Message>(*message), ros::Time(50));
-  } catch (const Rejection&) {
-    demand(shapes(organs) == before, "a refused message changes nothing");
-  }
-}
-
-void run_organ_messages(const std::uint8_t* data, std::size_t size) {
-  FuzzInput input(data, size);
-  OrganRegistry organs{MeshLimits{1000}};
+  ForceLaw law;
+  PairNames names;
   while (!input.empty()) {
-    if (input.byte() % 2 == 0) {
-      apply<OrganMesh>(input, organs);
-    } else {
-      apply<OrganVertices>(input, organs);
+    const bool knows_radius = input.byte() % 2 == 1;
+    const auto answer = next_message<ContactArray>(input);
+    try {
+      if (answer) take(*answer, knows_radius, law, names);
+    } catch (const Rejection&) {
     }
   }
-  check_shapes(organs);
 }
 
-const FuzzTarget organ_messages_target("organ_messages", run_organ_messages);
+const FuzzTarget contact_adapter_target("contact_adapter", run_contact_adapter);
+
+// The messages that organ_mesh_adapter converts: bytes from the wire, to organ messages. Kinds of
+// message: shape_msgs/Mesh, pcl_msgs/PolygonMesh, Marker, a cloud of vertices.
+
+/// The next bytes, as a subscriber receives them.
+template <typename Message>
+topic_tools::ShapeShifter received(FuzzInput& input) {
+  namespace traits = ros::message_traits;
+  topic_tools::ShapeShifter message;
+  message.morph(traits::md5sum<Message>(), traits::datatype<Message>(),
+                traits::definition<Message>(), "0");
+  std::string bytes = input.sized_text();
+  if (bytes.empty()) return message;  // ShapeShifter::read() would copy nothing to a null pointer.
+  ros::serialization::IStream stream(reinterpret_cast<std::uint8_t*>(bytes.data()),
+                                     static_cast<std::uint32_t>(bytes.size()));
+  message.read(stream);
+  return message;
+}
+
+void take(FuzzInput& input, OrganSource& source) {
+  const ros::Time arrival(50);
+  switch (input.byte() % 4) {
+    case 0:
+      return source.take_surface(received<shape_msgs::Mesh>(input), arrival);
+    case 1:
+      return source.take_surface(received<pcl_msgs::PolygonMesh>(input), arrival);
+    case 2:
+      return source.take_surface(received<visualization_msgs::Marker>(input), arrival);
+    default:
+      source.take_vertices(received<sensor_msgs::PointCloud2>(input), arrival);
+  }
+}
+
+void run_mesh_adapter(const std::uint8_t* data, std::size_t size) {
+  FuzzInput input(data, size);
+  const OrganSource::Callbacks callbacks{
+      [](const OrganMeshPtr& mesh) { demand(mesh->organ == "liver", "a mesh names its organ"); },
+      [](const OrganVerticesPtr& mesh) { demand(!mesh->vertices.empty(), "there are vertices"); }};
+  OrganSource source({"liver", "mesh", input.byte() % 2 == 0 ? "" : "liver_frame", "cloud"}, 7,
+                     callbacks);
+  while (!input.empty()) {
+    try {
+      take(input, source);
+    } catch (const MessageError&) {
+    }
+  }
+  const OrganMeshPtr mesh = source.mesh();
+  demand(!mesh || !mesh->triangles.empty(), "the last legal mesh has faces");
+}
+
+const FuzzTarget mesh_adapter_target("mesh_adapter", run_mesh_adapter);
 
 // The services query and query_batch: bytes from the wire, to answers about an organ of two faces.
 // Kinds of request: one motion, a batch.

@@ -2,7 +2,11 @@
 #include <organ_collision/ContactArray.h>
 
 #include <boost/make_shared.hpp>
+#include <cmath>
 #include <iostream>
+#include <map>
+#include <memory>
+#include <string>
 
 #include "fuzz_input.hpp"
 #include "haptic_proxy/proxy_scene.hpp"
@@ -16,10 +20,13 @@ using namespace organ_collision;
 namespace {
 
 // All topics of the node in any order: bytes from the wire, to the answers of steps. Kinds of
-// message: mesh, vertices, /tf, /tf_static, a pose of a tip, a tick, a later time, a reset.
+// message: mesh, vertices, /tf, /tf_static, a pose of a tip, a tick, a later time, a reset, a pose
+// of the tip of another tool, and of its base.
 
 std::vector<Tool> make_tools() {
-  std::vector<Tool> tools = {shaft_tool("hook", 0.01), grasper()};
+  std::vector<Tool> tools = {shaft_tool("hook", 0.01), grasper(), shaft_tool("stylus", 0.01)};
+  tools[2].parameters.tip_pose_topic = "stylus/pose";
+  tools[2].parameters.base_pose_topic = "stylus/base";
   tools[0].parameters.tip_pose_topic = "hook/pose";
   tools[0].parameters.margin = 0.1;
   tools[0].parameters.max_near = 2;
@@ -34,6 +41,30 @@ NodeParameters make_parameters(const std::vector<Tool>& tools) {
   parameters.motion_samples_max = 10;
   parameters.publish_regions = true;
   return parameters;
+}
+
+using Shapes = std::map<std::string, std::shared_ptr<const TriangleMesh>>;
+
+Shapes shapes(const OrganRegistry& organs) {
+  Shapes shapes;
+  for (const auto& [name, organ] : organs.organs()) shapes[name] = organ.latest().mesh;
+  return shapes;
+}
+
+void check_shapes(const OrganRegistry& organs) {
+  for (const auto& [name, organ] : organs.organs()) {
+    const TriangleMesh& mesh = *organ.latest().mesh;
+    demand(mesh.face_count() > 0, "an organ has faces");
+    for (std::size_t face = 0; face < mesh.face_count(); ++face) {
+      for (const Eigen::Vector3d& corner : mesh.triangle(face)) {
+        demand(corner.allFinite(), "the corners of faces are finite");
+      }
+    }
+    summary(name, *organ.surface());
+    doubts(name, mesh.box().cast<double>(), *organ.surface());
+    organ.latest().age(ros::Time(50));
+    demand(std::isfinite(info_of(organ).volume), "the volume is finite");
+  }
 }
 
 /// Checks the answers of one node, in their order.
@@ -59,7 +90,7 @@ class Node {
   Node() { go_to(50); }
 
   void take(FuzzInput& input) {
-    switch (input.byte() % 8) {
+    switch (const int kind = input.byte() % 10; kind) {
       case 0:
         if (auto mesh = shared<OrganMesh>(input)) inbox_.intake.take_mesh(mesh);
         break;
@@ -67,10 +98,10 @@ class Node {
         if (auto mesh = shared<OrganVertices>(input)) inbox_.intake.take_vertices(mesh);
         break;
       case 2:
-        if (auto message = next_message<tf2_msgs::TFMessage>(input)) take(*message, false);
-        break;
       case 3:
-        if (auto message = next_message<tf2_msgs::TFMessage>(input)) take(*message, true);
+        if (auto message = next_message<tf2_msgs::TFMessage>(input)) {
+          inbox_.motion.take_transforms(*message, "fuzz", kind == 3);
+        }
         break;
       case 4:
         if (auto pose = next_message<geometry_msgs::PoseStamped>(input)) {
@@ -83,23 +114,33 @@ class Node {
       case 6:
         go_to(input.byte());
         break;
-      default:
+      case 7:
         inbox_.forget_history();
         steps_.reset();
+        break;
+      default:
+        if (auto pose = next_message<geometry_msgs::PoseStamped>(input)) {
+          kind == 8 ? inbox_.motion.take_tip(2, *pose) : inbox_.motion.take_base(2, *pose);
+        }
     }
+    Shapes before = shapes(inbox_.organs);
     while (const auto update = inbox_.intake.next()) {
       steps_.add(*update, now_);
+      Shapes after = shapes(inbox_.organs);
+      demand(update->change || after == before, "a refused message changes nothing");
+      before = std::move(after);
     }
     steps_.evaluate(now_);
   }
 
-  /// Answers what still waits for transforms.
+  /// Answers what still waits for transforms, and checks the organs.
   void finish() {
     while (const auto deadline = steps_.next_deadline()) {
       demand(*deadline > now_, "what is due was evaluated");
       now_ = *deadline;
       steps_.evaluate(now_);
     }
+    check_shapes(inbox_.organs);
   }
 
  private:
@@ -107,9 +148,6 @@ class Node {
   static boost::shared_ptr<const Message> shared(FuzzInput& input) {
     const auto message = next_message<Message>(input);
     return message ? boost::make_shared<const Message>(*message) : nullptr;
-  }
-  void take(const tf2_msgs::TFMessage& message, bool resting) {
-    inbox_.motion.take_transforms(message, "fuzz", resting);
   }
   void go_to(std::uint32_t seconds) {
     ros::Time::setNow(ros::Time(seconds, 0));

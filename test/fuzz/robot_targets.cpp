@@ -11,7 +11,7 @@
 #include <fstream>
 
 #include "fuzz_input.hpp"
-#include "robot_reader/resource.hpp"
+#include "robot_reader/robot_files.hpp"
 #include "robot_reader/robot_model.hpp"
 #include "ros/tools/robot_reply.hpp"
 #include "ros/tools/tool.hpp"

@@ -22,31 +22,7 @@ LARGEST = 4096  # [bytes] of an input
 SANITIZERS = {'ASAN_OPTIONS': 'quarantine_size_mb=16:detect_odr_violation=0',
               'LSAN_OPTIONS': 'suppressions=%s:print_suppressions=0' % CORPORA.with_name('leaks.txt'),
               'UBSAN_OPTIONS': 'print_stacktrace=1'}
-HEAD = ('| target | inputs | inputs/s | branches reached | longest input [s] | memory [MB] | finding |\n'
-        '|---|---|---|---|---|---|---|')
-
-
-class Result:
-    """What libFuzzer wrote about a target."""
-
-    def __init__(self, target, code, log, seconds, longest):
-        self.target = target
-        self.runs = int(last(log, r'number_of_executed_units: (\d+)', '0'))
-        self.rate = self.runs / seconds
-        self.longest = longest
-        memory = [int(megabytes) for megabytes in re.findall(r' rss: (\d+)Mb', log)]
-        self.memory = (memory[0], memory[-1]) if memory else (0, 0)
-        self.covered = int(last(log, r' cov: (\d+)', '0'))
-        self.finding = None
-        if code:
-            self.finding = last(log, r'(?:ERROR|SUMMARY): (.+)', 'exit code %d' % code)
-        elif longest > LONGEST:
-            self.finding = 'slow'
-
-    def row(self):
-        longest = '%.2f' % self.longest if self.longest else 'below 1'
-        return '| %s | %d | %.0f | %d | %s | %d to %d | %s |' % (
-            self.target, self.runs, self.rate, self.covered, longest, *self.memory, self.finding or 'none')
+HEAD = '| target | inputs | inputs/s | finding |\n|---|---|---|---|'
 
 
 def last(log, pattern, otherwise):
@@ -63,21 +39,20 @@ def processor_time(program, file):
     return usage.ru_utime + usage.ru_stime
 
 
-def check_slow_inputs(program, findings):
+def has_slow_input(program, findings):
     """Runs the inputs that took longer than 1 s once more, and keeps those that need so much processor time. The
-    others only waited for a processor. Returns the longest time, or 0."""
-    longest = 0.0
+    others only waited for a processor."""
     for file in findings.glob('slow-unit-*'):
         with tempfile.NamedTemporaryFile() as empty:
             seconds = processor_time(program, file) - processor_time(program, empty.name)
-        longest = max(longest, seconds)
         if seconds <= LONGEST:
             file.unlink()
-    return longest
+    return any(findings.glob('slow-unit-*'))
 
 
 def run(target, options):
-    """Runs one target. New inputs go into a folder of the build, not into the corpus."""
+    """Runs one target. Returns its row of the table, and whether something was found. New inputs go into a folder of the
+    build, not into the corpus."""
     found, findings = options.build / 'found' / target, options.build / 'findings' / target
     for folder in (found, findings):
         folder.mkdir(parents=True, exist_ok=True)
@@ -92,7 +67,11 @@ def run(target, options):
     seconds = time.monotonic() - start
     log = done.stdout.decode(errors='replace')
     (options.build / ('fuzz_%s.log' % target)).write_text(log)
-    return Result(target, done.returncode, log, seconds, check_slow_inputs(program, findings))
+    finding = last(log, r'(?:ERROR|SUMMARY): (.+)', 'exit code %d' % done.returncode) if done.returncode else ''
+    if not finding and has_slow_input(program, findings):
+        finding = 'slow'
+    runs = int(last(log, r'number_of_executed_units: (\d+)', '0'))
+    return '| %s | %d | %.0f | %s |' % (target, runs, runs / seconds, finding or 'none'), bool(finding)
 
 
 def folder(text):
@@ -113,11 +92,11 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
         for done in concurrent.futures.as_completed([threads.submit(run, target, options) for target in targets]):
             results.append(done.result())
-            print(results[-1].row(), flush=True)
-    table = '\n'.join([HEAD] + [result.row() for result in sorted(results, key=lambda result: result.target)])
+            print(results[-1][0], flush=True)
+    table = '\n'.join([HEAD] + sorted(row for row, _ in results))
     (options.build / 'fuzz.md').write_text(table + '\n')
     print('\n' + table)
-    return 1 if any(result.finding for result in results) else 0
+    return 1 if any(has_finding for _, has_finding in results) else 0
 
 
 if __name__ == '__main__':

@@ -2,7 +2,8 @@
 // query_offline_test.py compares whole runs of the program.
 #include <gtest/gtest.h>
 
-#include "offline/evaluation.hpp"
+#include "offline/contacts_csv.hpp"
+#include "offline/shapes.hpp"
 #include "temporary_files.hpp"
 
 namespace organ_collision {
@@ -96,7 +97,7 @@ TEST(ObjFile, of_another_shape_has_the_same_faces) {
   }
 }
 
-using Order = MotionList::Order;
+using Order = Motions::Order;
 using Names = std::vector<std::string>;
 
 const std::pair<const char*, QueryMode> kModes[] = {{"static", QueryMode::kStatic},
@@ -109,30 +110,23 @@ const std::string kHeader =
     "radius\n";
 const std::string kPoints = ",1,2,3,4,5,6,7,8,9";
 
-std::vector<Motion> motions_in(const std::string& file) {
-  MotionReader reader(file);
-  std::vector<Motion> motions;
-  while (const std::optional<Motion> motion = reader.next()) motions.push_back(*motion);
-  return motions;
-}
-
-TEST(MotionReader, reads_every_mode) {
+TEST(Motions, have_every_mode) {
   for (const auto& [name, mode] : kModes) {
     // The static modes ignore the previous tip.
     const bool is_static = is_static_mode(mode);
     for (const std::string& cells :
          is_static ? Names{",,,", ",x,nan,-", ",4,5,6"} : Names{",4,5,6"}) {
-      const std::vector<Motion> motions =
-          motions_in(TemporaryFile("\xEF\xBB\xBF\r\n" + kHeader + "\r\n 7 , " + name + ",1,2, 3" +
-                                   cells + ",7,8,9, 1e-3 \r\n\r\n")
-                         .path());
-      ASSERT_EQ(motions.size(), 1U);
-      const Motion& motion = motions[0];
+      const TemporaryFile file("\xEF\xBB\xBF\r\n" + kHeader + "\r\n 7 , " + name + ",1,2, 3" +
+                               cells + ",7,8,9, 1e-3 \r\n\r\n");
+      Motions motions(file.path(), Order::kAsInFile);
+      EXPECT_EQ(motions.count(), 1U);
+      const Motion motion = motions.next().value();
+      EXPECT_FALSE(motions.next());
       EXPECT_EQ(motion.mode, mode);
       EXPECT_EQ(motion.query, "7");
       EXPECT_EQ(motion.line, 4U);
       EXPECT_EQ(motion.radius, 1e-3);
-      const ToolPath path = path_of(motion);
+      const ToolPath path = request_of(motion).path;
       ASSERT_EQ(path.size(), is_static ? 1U : 2U);
       EXPECT_EQ(path.back().axis.trocar, Eigen::Vector3d(1, 2, 3));
       EXPECT_EQ(path.back().axis.tip, Eigen::Vector3d(7, 8, 9));
@@ -143,7 +137,7 @@ TEST(MotionReader, reads_every_mode) {
   }
 }
 
-TEST(MotionReader, refuses_lines_naming_the_value_and_what_is_legal) {
+TEST(Motions, refuse_lines_naming_the_value_and_what_is_legal) {
   const std::string none = ": the file ends without a motion; must have at least one";
   const std::string good = kHeader + "1,swept" + kPoints + ",1\n3,static,1,2,3,,,,1,2,3,1\n";
   const Refusals refusals = {
@@ -164,7 +158,7 @@ TEST(MotionReader, refuses_lines_naming_the_value_and_what_is_legal) {
       {good + "2,static" + kPoints + ",inf\n", ":4: radius is \"inf\"; must be a finite number"},
       {good + "2,swept,1,2,3,4,5,6,7,8,1e7,1\n",
        ":4: tip of waypoint 1 is (7, 8, 1e+07); must be finite and within 1e+06 m"}};
-  const auto read = [](const std::string& file) { motions_in(file); };
+  const auto read = [](const std::string& file) { Motions(file, Order::kAsInFile); };
   for (const auto& [content, why] : refusals) EXPECT_EQ(refusal_of(content, read), why);
   for (const char* mode : {"paper_static", "paper_swept", "paper_naive"}) {
     const std::string point = good + "2," + mode + ",1,2,3,1,2,3,1,2,3,1\n";
@@ -181,8 +175,8 @@ std::string file_of(const Names& queries) {
 
 /// The queries in the order in which they are given.
 Names given(const Names& queries, Order order) {
-  MotionList list(TemporaryFile(file_of(queries)).path(), order);
-  EXPECT_EQ(list.size(), queries.size());
+  Motions list(TemporaryFile(file_of(queries)).path(), order);
+  EXPECT_EQ(list.count(), queries.size());
   Names names;
   while (const std::optional<Motion> motion = list.next()) {
     names.push_back(motion->query);
@@ -191,14 +185,14 @@ Names given(const Names& queries, Order order) {
   return names;
 }
 
-TEST(MotionList, sorts_integers_by_value_and_names_as_text) {
+TEST(Motions, are_sorted_as_integers_or_as_text) {
   const Names integers{"10", "9", "-3", "0", "100"}, names{"stab", "10", "9", "palpate 2"};
   EXPECT_EQ(given(integers, Order::kByQuery), (Names{"-3", "0", "9", "10", "100"}));
   EXPECT_EQ(given(names, Order::kByQuery), (Names{"10", "9", "palpate 2", "stab"}));
   EXPECT_EQ(given(integers, Order::kAsInFile), integers);
 }
 
-TEST(MotionList, refuses_illegal_files_as_a_whole) {
+TEST(Motions, are_refused_as_a_whole) {
   const Refusals refusals = {
       {file_of({"3", "4", "3"}), ":3: query \"3\" is already on line 1; each motion needs its own"},
       {file_of({"3", "03"}), ":2: query \"03\" is already on line 1; each motion needs its own"},
@@ -206,8 +200,7 @@ TEST(MotionList, refuses_illegal_files_as_a_whole) {
       {file_of({"1", "2"}) + "3,swept\n", ":3: 2 columns; must be 12"}};
   for (const Order order : {Order::kByQuery, Order::kAsInFile}) {
     for (const auto& [content, why] : refusals) {
-      EXPECT_EQ(refusal_of(content, [&](const std::string& file) { MotionList(file, order); }),
-                why);
+      EXPECT_EQ(refusal_of(content, [&](const std::string& file) { Motions(file, order); }), why);
     }
   }
 }

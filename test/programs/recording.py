@@ -1,9 +1,6 @@
 """Bags as `rosbag record` writes them, the program replay, and a test case that records a bag and replays it."""
 
 import os
-import shutil
-import subprocess
-import tempfile
 
 import genpy
 from geometry_msgs.msg import PoseStamped, Quaternion, TransformStamped, Vector3
@@ -14,6 +11,8 @@ from tf2_msgs.msg import TFMessage
 
 from support import scenes
 from support.contact_case import ContactCase
+
+from program import ProgramCase
 
 WORLD_LIVER = scenes.Pose((0.2, 0.35, -0.1, 0.9), (0.7, -0.4, 1.1))
 TURN = (0.1, 0.2, 0.3, 0.9)
@@ -44,12 +43,7 @@ class Recording:
         self.bag.write(topic, message, stamp(at))
 
     def mesh(self, time, mesh, at=None, organ='liver', topology=1, publisher=None):
-        message = OrganMesh(
-            organ=organ,
-            topology=topology,
-            vertices=mesh.flat_vertices(),
-            triangles=mesh.flat_faces(),
-        )
+        message = OrganMesh(organ=organ, topology=topology, vertices=mesh.flat_vertices(), triangles=mesh.flat_faces())
         message.header.frame_id, message.header.stamp = 'liver_frame', stamp(time)
         self._choose_connection(self.node + '/organ_mesh', publisher)
         self.write(self.node + '/organ_mesh', message, time if at is None else at)
@@ -107,21 +101,6 @@ class Recording:
         self.write('/clock', Clock(stamp(time)), at)
 
 
-def run(*arguments):
-    """Runs replay without a ROS master, and returns what subprocess.run returns."""
-    environment = {**os.environ, 'ROS_MASTER_URI': 'http://localhost:1'}
-    return subprocess.run(
-        [os.environ['REPLAY'], *map(str, arguments)],
-        env=environment,
-        stdin=subprocess.DEVNULL,
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        errors='backslashreplace',
-        timeout=100,
-    )
-
-
 def messages(path, topic=CONTACTS):
     """The (time, message) of one topic of a bag. Times are in seconds."""
     with rosbag.Bag(path) as bag:
@@ -131,25 +110,16 @@ def messages(path, topic=CONTACTS):
 def serialized(path):
     """The (topic, type, time, bytes) of all messages of a bag."""
     with rosbag.Bag(path) as bag:
-        return [
-            (topic, raw[0], at.to_nsec(), raw[1])
-            for topic, raw, at in bag.read_messages(raw=True)
-        ]
+        return [(topic, raw[0], at.to_nsec(), raw[1]) for topic, raw, at in bag.read_messages(raw=True)]
 
 
-class ReplayCase(ContactCase):
+class ReplayCase(ProgramCase, ContactCase):
     def setUp(self):
-        self.folder = tempfile.mkdtemp(prefix='organ_collision_replay_')
-        self.addCleanup(shutil.rmtree, self.folder)
+        super().setUp()
         self.recorded, self.answers = self.path('in.bag'), self.path('out.bag')
 
     def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def write(self, name, text):
-        with open(self.path(name), 'w') as file:
-            file.write(text)
-        return self.path(name)
+        return str(self.folder / name)
 
     def record(self, **named):
         return Recording(self.recorded, **named)
@@ -167,7 +137,8 @@ class ReplayCase(ContactCase):
 
     def run_with(self, parameters, *arguments):
         """Runs replay with a file of parameters. Returns what subprocess.run returns."""
-        return run('--parameters', self.write('parameters.yaml', parameters), *arguments)
+        self.write('parameters.yaml', parameters)
+        return self.run_program('--parameters', 'parameters.yaml', *arguments, program=os.environ['REPLAY'])
 
     def assert_refused(self, done, *words):
         """One line on stderr with these words, exit code 2, and no file beside those that were

@@ -18,10 +18,7 @@ PAGE = os.path.join(os.environ['SOURCE'], 'doc', 'bags.md')
 ROSRUN = 'rosrun() { test "$1 $2" = "organ_collision replay" && shift 2 && "$REPLAY" "$@"; }\n'
 OK, NO_TRANSFORM = ContactArray.OK, ContactArray.NO_TRANSFORM
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
-POSES = (
-    'tools:\n  - {name: hook, trocar_frame: hook_trocar, tip_pose_topic: arm/measured_cp,'
-    ' radius: 0.005}\n'
-)
+POSES = TOOLS.replace('tip_frame: hook_tip', 'tip_pose_topic: arm/measured_cp')
 
 
 def seconds(answer):
@@ -62,9 +59,7 @@ class ReplayAnswersTest(ReplayCase):
             bag.tool(2.1, at_height(0.04), at=2.121)
             bag.vertices(2.2, SHEET)
         answers = self.answers_of()
-        self.assertEqual(
-            [answer.status for _, answer in answers], [OK, OK, NO_TRANSFORM, NO_TRANSFORM]
-        )
+        self.assertEqual([answer.status for _, answer in answers], [OK, OK, NO_TRANSFORM, NO_TRANSFORM])
         self.assert_times(answers, [2.02, 2.02, 2.12, 2.22])
         late = answers[2][1].message
         self.assertIn("'hook_trocar'", late)
@@ -110,9 +105,7 @@ class ReplayAnswersTest(ReplayCase):
                 bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, at_height(height)[1])
         answers = [answer for _, answer in self.answers_of(POSES)]
         self.assertEqual([a.mode for a in answers], [STATIC, SWEPT, SWEPT])
-        self.assert_contacts(
-            answers[2], oracle.swept_contacts(SHEET, at_height(0.02), at_height(-0.03), RADIUS), 1e-6
-        )
+        self.assert_contacts(answers[2], oracle.swept_contacts(SHEET, at_height(0.02), at_height(-0.03), RADIUS), 1e-6)
 
     def test_ticks_count_in_the_time_of_the_bag(self):
         with self.record() as bag:
@@ -168,9 +161,7 @@ class SimulatedTimeTest(ReplayCase):
         answers = sorted(answers, key=lambda answer: answer.header.stamp.to_sec() < 10.0)
         self.assertEqual([a.mode for a in answers], [STATIC, SWEPT, STATIC, SWEPT])
         self.assert_contacts(answers[2], oracle.static_contacts(SHEET, at_height(-0.01), RADIUS))
-        self.assert_contacts(
-            answers[3], oracle.swept_contacts(SHEET, at_height(-0.01), at_height(0.05), RADIUS), 1e-6
-        )
+        self.assert_contacts(answers[3], oracle.swept_contacts(SHEET, at_height(-0.01), at_height(0.05), RADIUS), 1e-6)
 
     def test_a_jump_of_the_clock_forgets_the_history(self):
         with self.record() as bag:

@@ -29,13 +29,9 @@ class ReplayInputTest(ReplayCase):
 
     def test_files_that_are_no_bag(self):
         self.refuse('in.bag', 'no bag')
-        self.write('in.bag', 'tools: [none]\n')
-        self.refuse('in.bag', 'no bag')
-        self.write('in.bag', '')
-        self.refuse('in.bag', 'no bag')
-        os.remove(self.recorded)
-        os.mkdir(self.recorded)
-        self.refuse('in.bag', 'no bag')
+        for text in 'tools: [none]\n', '':
+            self.write('in.bag', text)
+            self.refuse('in.bag', 'no bag')
 
     def test_a_truncated_bag(self):
         self.record_scene()
@@ -100,7 +96,8 @@ class ReplayInputTest(ReplayCase):
         self.write('parameters.yaml', TOOLS)
         os.mkdir(self.path('folder'))
         os.mkfifo(self.path('fifo'))
-        os.symlink(self.write('target', 'precious'), self.path('link'))
+        self.write('target', 'precious')
+        os.symlink(self.path('target'), self.path('link'))
         os.symlink(self.path('nothing'), self.path('dangling'))
         os.mkfifo(self.path('x.bag.incomplete'))
         before = sorted(os.listdir(self.folder))
@@ -118,12 +115,9 @@ class ReplayInputTest(ReplayCase):
             bag.mesh(2.0, SHEET)
             for i in range(20000):
                 bag.vertices(2.0, SHEET)
-        file = self.write('parameters.yaml', TOOLS)
-        with subprocess.Popen(
-            [os.environ['REPLAY'], '--parameters', file, self.recorded, self.answers],
-            stderr=subprocess.PIPE,
-            text=True,
-        ) as replay:
+        self.write('parameters.yaml', TOOLS)
+        with subprocess.Popen([os.environ['REPLAY'], '--parameters', 'parameters.yaml', 'in.bag', 'out.bag'], cwd=self.folder,
+                              stderr=subprocess.PIPE, text=True) as replay:
             while not os.path.exists(self.answers + '.incomplete'):
                 self.assertIsNone(replay.poll())
             replay.send_signal(signal.SIGINT)

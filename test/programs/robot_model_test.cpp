@@ -5,7 +5,6 @@
 
 #include <Eigen/Geometry>
 
-#include "robot_reader/resource.hpp"
 #include "ros/tools/robot_reply.hpp"
 #include "test/ros/tools/tool_files.hpp"
 

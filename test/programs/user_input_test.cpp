@@ -1,4 +1,5 @@
-// The command lines of all programs, and the texts that query_offline reads.
+// The texts that query_offline reads, and how programs tell their progress. command_lines_test.py
+// tests the command lines of all programs.
 #include "offline/user_input.hpp"
 
 #include <gtest/gtest.h>
@@ -114,69 +115,6 @@ TEST(TextReader, refuses_what_it_cannot_read) {
             file.path() +
                 ":2: the line has more than 1048576 bytes; must be shorter, with a line feed at "
                 "its end");
-}
-
-/// What a program with an option of each kind takes from its words.
-struct Taken {
-  bool quick = false;
-  std::string in;
-  Words topics;
-  double size = 0.25;
-  Words files;
-};
-
-std::optional<Taken> take(const Words& words, bool has_files = true) {
-  Taken taken;
-  CommandLine line("prog");
-  line.text("in", taken.in);
-  line.texts("topic", taken.topics);
-  line.number("size", taken.size, -1.0, 8.0);
-  line.flag("quick", taken.quick);
-  if (!line.read(words, has_files ? &taken.files : nullptr)) return std::nullopt;
-  return taken;
-}
-
-TEST(CommandLine, has_options_flags_and_files) {
-  const Taken taken = take({"a.bag", "--in", "x=1", "--topic", "/a", "b.bag", "--topic=/b",
-                            "--size", "-0.5", "--quick"})
-                          .value();
-  EXPECT_EQ(taken.in, "x=1");
-  EXPECT_EQ(taken.topics, (Words{"/a", "/b"}));
-  EXPECT_EQ(taken.size, -0.5);
-  EXPECT_TRUE(taken.quick);
-  EXPECT_EQ(taken.files, (Words{"a.bag", "b.bag"}));
-  const Taken nothing = take({}).value();
-  EXPECT_EQ(nothing.size, 0.25);
-  EXPECT_FALSE(nothing.quick);
-}
-
-TEST(CommandLine, sees_a_call_for_help_anywhere) {
-  EXPECT_FALSE(take({"--in", "--help"}));
-  EXPECT_FALSE(take({"--nonsense", "-h"}));
-  EXPECT_TRUE(take({"help"}));
-}
-
-TEST(CommandLine, refuses_what_the_program_does_not_understand) {
-  const std::pair<Words, const char*> refusals[] = {
-      {{"--fast"},
-       "unknown option \"--fast\"; legal are --in, --topic, --size, --quick and --help"},
-      {{"--siz", "1"},
-       "unknown option \"--siz\"; legal are --in, --topic, --size, --quick and --help"},
-      {{"a.bag"}, "unknown argument \"a.bag\""},
-      {{"--in", "--quick"}, "option --in has no value"},
-      {{"--in"}, "the required argument for option '--in' is missing"},
-      {{"--in", ""}, "--in is \"\"; must be a text"},
-      {{"--quick=1"}, "option '--quick' does not take any arguments"},
-      {{"--in=a", "--in", "b"}, "option '--in' cannot be specified more than once"},
-      {{"--size", "wide"}, "--size is \"wide\"; must be a number from -1 to 8"},
-      {{"--size", "8.5"}, "--size is \"8.5\"; must be a number from -1 to 8"},
-      {{"--size", "nan"}, "--size is \"nan\"; must be a number from -1 to 8"}};
-  for (const auto& [words, why] : refusals) {
-    EXPECT_EQ(input_error([&words = words] { take(words, false); }),
-              "prog: " + std::string(why) + " (--help explains)");
-  }
-  EXPECT_EQ(input_error([] { CommandLine("prog").require("mesh", ""); }),
-            "prog: option --mesh is missing (--help explains)");
 }
 
 TEST(Progress, is_told_with_the_total_if_that_is_known) {

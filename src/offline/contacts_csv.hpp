@@ -1,12 +1,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <string>
 
 #include "motions.hpp"
 #include "organ_collision/picking/picker_settings.hpp"
-#include "shapes.hpp"
 
 namespace organ_collision {
 
@@ -34,17 +32,5 @@ std::string contacts_header(const Questions& questions);
 /// are empty.
 void append_contacts(const Motion& motion, const CollisionResult& result,
                      const Questions& questions, std::string& csv);
-
-/// Takes CSV lines and the number of motions that they answer.
-using Print = std::function<void(const std::string& csv, std::size_t motions)>;
-
-/// Answers all motions in rounds. A round has the motions that are there without waiting, up to a
-/// number that bounds the memory. The threads share a round. Answers are printed in the order of
-/// the motions, while later motions of the round are still being answered. The header line is
-/// printed first, with 0 motions. If a motion or its shape is not legal, throws InputError after
-/// the answers to the motions before it are printed. Throws GlError if OpenGL picking does not
-/// work.
-void evaluate(const Questions& questions, MotionSource& motions, ShapeSource& shapes,
-              const Print& print);
 
 }  // namespace organ_collision

@@ -1,4 +1,4 @@
-#include "robot_reader/mesh_file.hpp"
+#include "robot_reader/robot_files.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "organ_collision/geometry/tool/tool_surface.hpp"
-#include "robot_reader/resource.hpp"
 #include "ros/tools/robot_reply.hpp"
 #include "test/ros/tools/tool_files.hpp"
 

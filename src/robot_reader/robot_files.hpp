@@ -7,6 +7,14 @@
 
 namespace organ_collision {
 
+/// Applies reader_limits to this process, and stops it from dumping core. Throws std::system_error.
+void limit_process();
+
+/// The content of a regular file on this machine. `name`: an absolute path, or a URL that begins
+/// with package:// or file://, as in URDF. Throws ToolError if there is no such file, and for
+/// folders, FIFOs, devices, empty files and files larger than reader_limits::kFileBytes.
+std::string read_resource(const std::string& name);
+
 /// The surface in a mesh file: the file, its vertices in the frame of its link [m], and triangles.
 /// Reads STL, DAE, OBJ and the other formats of assimp. As in RViz, the axes are those of the file.
 /// Lengths are multiplied by `scale`, and in DAE by the file's unit too. Corners at the same
