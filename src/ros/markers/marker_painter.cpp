@@ -1,14 +1,23 @@
-#include "marker_painter.hpp"
-
 #include <algorithm>
+#include <array>
 #include <boost/make_shared.hpp>
 #include <unordered_map>
 
-namespace organ_collision {
-namespace {
+#include "markers.hpp"
 
+namespace organ_collision {
+
+using Eigen::Vector3d;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
+
+namespace {
+
+/// The colours of the organs' surfaces: consecutive organs have different ones.
+const std::array<std_msgs::ColorRGBA, 5> kTissues{
+    colours::rgba(0.72F, 0.34F, 0.28F), colours::rgba(0.80F, 0.62F, 0.45F),
+    colours::rgba(0.55F, 0.62F, 0.42F), colours::rgba(0.78F, 0.52F, 0.58F),
+    colours::rgba(0.52F, 0.42F, 0.55F)};
 
 constexpr char kSurface[] = "surface/";
 /// A marker disappears if it is not sent again within this many refresh times: the node has ended.
@@ -28,15 +37,16 @@ int surface_marker_count(const SceneOrgan& organ) {
 /// among the organs.
 Marker surface_marker(const SceneOrgan& organ, std::size_t number, int id) {
   const TriangleMesh& mesh = *organ.mesh;
-  Marker surface = make_marker({kSurface + organ.name, organ.frame, colours::tissue(number)},
-                               Marker::TRIANGLE_LIST);
+  Marker surface =
+      make_marker({kSurface + organ.name, organ.frame, kTissues[number % kTissues.size()]},
+                  Marker::TRIANGLE_LIST);
   surface.id = id;
   surface.lifetime = ros::Duration(kLifetimes * refresh_sec(organ));
   const std::size_t begin = id * kFacesPerMarker;
   const std::size_t end = std::min(begin + kFacesPerMarker, mesh.face_count());
   surface.points.reserve(3 * (end - begin));
   for (std::size_t face = begin; face < end; ++face) {
-    for (const Eigen::Vector3d& corner : mesh.triangle(face)) add_point(surface, corner);
+    for (const Vector3d& corner : mesh.triangle(face)) add_point(surface, corner);
   }
   return surface;
 }
@@ -59,9 +69,9 @@ void MarkerPainter::paint(const Scene& scene, const Publish& publish) {
   paint_surfaces(scene, publish);
   const auto picture = boost::make_shared<MarkerArray>();
   add_tools(scene, *picture);
-  for (const SceneOrgan& organ : scene.organs) add_touched(scene, organ, *picture);
-  for (const ScenePair& pair : scene.pairs) add_answer(scene, pair, *picture);
   for (const SceneOrgan& organ : scene.organs) {
+    add_touched(scene, organ, *picture);
+    for (const ScenePair& pair : organ.pairs) add_answer(scene, organ, pair, *picture);
     add_status(scene, organ, mean_query_sec_, *picture);
   }
   for (const ProxyView& view : scene.proxies) add_proxy(view, *picture);
@@ -125,20 +135,24 @@ bool MarkerPainter::is_due(const Scene& scene, const SceneOrgan& organ) const {
          waited >= organ.mesh->face_count() / kFacesPerSecond;
 }
 
+/// Adds each tool in the frame of the first organ that knows its pose, and what it swept there.
 void MarkerPainter::add_tools(const Scene& scene, MarkerArray& picture) const {
   for (std::size_t number = 0; number < scene.tools->size(); ++number) {
     const Tool& tool = (*scene.tools)[number];
-    const ScenePair* placed = scene.placement(number);
-    if (!placed) continue;
-    const std::string& frame = scene.organ(placed->organ)->frame;
-    std::vector<const SceneStep*> steps;
-    for (const SceneStep& step : trail_) {
-      const bool is_own =
-          step.answer->organ == placed->organ && step.answer->tool == tool.parameters.name;
-      if (is_own) steps.push_back(&step);
+    const auto is_own = [&](const ScenePair& pair) { return pair.tool == number && pair.pose; };
+    for (const SceneOrgan& organ : scene.organs) {
+      const auto pair = std::find_if(organ.pairs.begin(), organ.pairs.end(), is_own);
+      if (pair == organ.pairs.end()) continue;
+      std::vector<const SceneStep*> steps;
+      for (const SceneStep& step : trail_) {
+        const ContactArray& answer = *step.answer;
+        const bool is_of_both = answer.organ == organ.name && answer.tool == tool.parameters.name;
+        if (is_of_both) steps.push_back(&step);
+      }
+      add_tool(tool, *pair->pose, {"tools", organ.frame, colours::kTool}, picture);
+      add_swept(tool, steps, organ.frame, scene.time, picture);
+      break;
     }
-    add_tool(tool, *placed->pose, {"tools", frame, colours::kTool}, picture);
-    add_swept(tool, steps, frame, scene.time, picture);
   }
 }
 
@@ -161,37 +175,32 @@ void MarkerPainter::add_touched(const Scene& scene, const SceneOrgan& organ,
   for (const SceneStep& step : trail_) {
     if (is_about(step, organ)) note(*step.answer, step.time);
   }
-  for (const ScenePair& pair : scene.pairs) {
-    if (pair.organ == organ.name && pair.answer) note(*pair.answer, scene.time);
+  for (const ScenePair& pair : organ.pairs) {
+    if (pair.answer) note(*pair.answer, scene.time);
   }
   Marker faces = make_marker({"touched", organ.frame, colours::depth(0.0)}, Marker::TRIANGLE_LIST);
   for (const auto& [face, touch] : touches) {
     const std_msgs::ColorRGBA colour = colours::depth(touch.depth / scene.settings.markers_depth);
-    add_lifted_face(organ, face, colours::faded(colour, visibility(touch.time, scene.time)), faces);
+    add_lifted_face(faces, organ, face, colours::faded(colour, visibility(touch.time, scene.time)));
   }
   add_marker(std::move(faces), picture);
 }
 
 /// Adds what the latest answer tells. If it has no contacts, the contacts of the last step that had
 /// any are shown, and fade.
-void MarkerPainter::add_answer(const Scene& scene, const ScenePair& pair,
+void MarkerPainter::add_answer(const Scene& scene, const SceneOrgan& organ, const ScenePair& pair,
                                MarkerArray& picture) const {
-  const SceneOrgan* organ = scene.organ(pair.organ);
-  if (!organ) return;
   const ToolParameters& tool = (*scene.tools)[pair.tool].parameters;
   if (pair.answer) {
-    add_surroundings(*organ, *pair.answer, picture);
-    if (pair.pose) {
-      add_crossings(*organ, pair.pose->axis, tool.radius, pair.answer->placement, picture);
-    }
-    if (!pair.answer->contacts.empty()) return add_contacts(*organ, *pair.answer, 1.0, picture);
+    add_surroundings(organ, pair, tool.radius, picture);
+    if (!pair.answer->contacts.empty()) return add_contacts(organ, *pair.answer, 1.0, picture);
   }
   const auto step = std::find_if(trail_.rbegin(), trail_.rend(), [&](const SceneStep& step) {
-    return is_about(step, *organ) && step.answer->tool == tool.name &&
+    return is_about(step, organ) && step.answer->tool == tool.name &&
            !step.answer->contacts.empty();
   });
   if (step == trail_.rend()) return;
-  add_contacts(*organ, *step->answer, visibility(step->time, scene.time), picture);
+  add_contacts(organ, *step->answer, visibility(step->time, scene.time), picture);
 }
 
 /// Adds a DELETE for each marker that subscribers have, and that is neither in this picture nor

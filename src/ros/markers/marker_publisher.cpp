@@ -59,14 +59,14 @@ void MarkerPublisher::update(const OrganRegistry& organs, const StepHistory& his
   std::optional<Scene> scene = next_scene(organs);
   if (!scene) return;
   for (const auto& [names, pair] : history) {
-    const SceneOrgan* organ = scene->organ(names.first);
-    if (!organ || names.second >= scene->tools->size()) continue;
-    ScenePair& known = scene->pairs.emplace_back();
-    known.organ = organ->name;
-    known.tool = names.second;
-    const auto& mesh = pair.current.mesh;
-    if (mesh && mesh->shared_faces() == organ->mesh->shared_faces()) known.answer = pair.answer;
-    if (pair.last) known.pose = pair.last->pose;
+    for (SceneOrgan& organ : scene->organs) {
+      if (organ.name != names.first || names.second >= scene->tools->size()) continue;
+      ScenePair& known = organ.pairs.emplace_back();
+      known.tool = names.second;
+      const auto& mesh = pair.current.mesh;
+      if (mesh && mesh->shared_faces() == organ.mesh->shared_faces()) known.answer = pair.answer;
+      if (pair.last) known.pose = pair.last->pose;
+    }
   }
   if (!is_switched_off()) scene->steps = std::exchange(steps_, {});
   draw(std::move(*scene));

@@ -2,7 +2,7 @@
 
 #include <atomic>
 
-#include "marker_painter.hpp"
+#include "markers.hpp"
 #include "ros/organs/organ_registry.hpp"
 #include "ros/threads/queues.hpp"
 
