@@ -1,4 +1,4 @@
-#include "ros/markers/markers.hpp"
+#include "ros/markers/marker_publisher.hpp"
 
 #include <gtest/gtest.h>
 #include <tf2_eigen/tf2_eigen.h>
