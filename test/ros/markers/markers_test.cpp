@@ -1,5 +1,3 @@
-#include "ros/markers/marker_publisher.hpp"
-
 #include <gtest/gtest.h>
 #include <tf2_eigen/tf2_eigen.h>
 
@@ -9,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "ros/markers/marker_publisher.hpp"
 #include "ros/messages/conversions.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
 
