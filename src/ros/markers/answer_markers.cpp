@@ -2,18 +2,36 @@
 #include <cstdio>
 
 #include "markers.hpp"
+#include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
-namespace {
 
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-// In this file, lengths are shares of the organ's size.
-constexpr double kTextHeight = 0.03;
-constexpr std::size_t kLongestReason = 100;  // [bytes]
+namespace {
+
+using colours::rgba;
+
+const std_msgs::ColorRGBA kRegion = rgba(0.05F, 0.05F, 0.05F);
+const std_msgs::ColorRGBA kNormal = rgba(0.20F, 0.85F, 0.45F);
+const std_msgs::ColorRGBA kNearFace = rgba(0.35F, 0.85F, 0.95F, 0.80F);
+const std_msgs::ColorRGBA kClearance = rgba(0.35F, 0.95F, 1.00F);
+// The places where a shaft's axis enters and leaves an organ. Colour-blind people can tell these
+// colours apart, too.
+const std_msgs::ColorRGBA kEntering = rgba(1.00F, 0.65F, 0.10F);
+const std_msgs::ColorRGBA kLeaving = rgba(0.25F, 0.45F, 1.00F);
+
+// For each pair of organ and tool, only so many are drawn: the arrows of the deepest contacts, the
+// nearest faces, and the first crossings from the trocar.
+constexpr std::size_t kMostArrows = 30;
+constexpr std::size_t kMostNearFaces = 2000;
+constexpr std::size_t kMostCrossings = 100;
+
+// In the functions below, lengths are shares of the organ's size, and `share` is how visible
+// something is, in [0, 1].
 
 std::string rounded(const char* format, double value) {
   char text[64];
@@ -23,39 +41,43 @@ std::string rounded(const char* format, double value) {
 
 bool is_deeper(const Contact& a, const Contact& b) { return a.depth > b.depth; }
 
-/// The place at `distance` from a contact, on the side of the tool.
+/// The place at `distance` [m] from a contact, on the side of the tool.
 Vector3d before(const Contact& contact, double distance) {
   return to_eigen(contact.end_point) - distance * to_eigen(contact.normal);
 }
 
+/// Adds the outlines of the regions.
 void add_regions(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
   constexpr double kWidth = 2e-3;
-  Marker lines = make_marker({"regions", organ.frame, colours::kRegion}, Marker::LINE_LIST);
+  Marker lines = make_marker({"regions", organ.frame, kRegion}, Marker::LINE_LIST);
   lines.scale.x = kWidth * organ.size();
-  const auto add = [&](const geometry_msgs::Point32& corner) {
-    add_point(lines, {corner.x, corner.y, corner.z});
-  };
   for (const geometry_msgs::Polygon& region : answer.regions) {
     for (std::size_t i = 0; i < region.points.size(); ++i) {
-      add(region.points[i]);
-      add(region.points[(i + 1) % region.points.size()]);
+      for (const std::size_t corner : {i, (i + 1) % region.points.size()}) {
+        const geometry_msgs::Point32& point = region.points[corner];
+        add_point(lines, {point.x, point.y, point.z});
+      }
     }
   }
   add_marker(std::move(lines), picture);
 }
 
+/// Adds an arrow for each of the deepest contacts. The arrow points along the contact's normal and
+/// ends at its end point.
 void add_normals(const SceneOrgan& organ, const ContactArray& answer, double share,
                  MarkerArray& picture) {
   constexpr double kLength = 0.07;
   std::vector<Contact> deepest(std::min(kMostArrows, answer.contacts.size()));
   std::partial_sort_copy(answer.contacts.begin(), answer.contacts.end(), deepest.begin(),
                          deepest.end(), is_deeper);
-  const MarkerStyle style{"normals", organ.frame, colours::faded(colours::kNormal, share)};
+  const MarkerStyle style{"normals", organ.frame, colours::faded(kNormal, share)};
   for (const Contact& contact : deepest) {
     add_arrow(style, before(contact, kLength * organ.size()), before(contact, 0.0), {}, picture);
   }
 }
 
+/// Adds the name of each link that touches, at its deepest contact. A shaft has the name of its
+/// tool.
 void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
                MarkerArray& picture) {
   constexpr double kDistance = 0.15;  // The distance of a name from its contact.
@@ -67,86 +89,52 @@ void add_names(const SceneOrgan& organ, const ContactArray& answer, double share
   const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
   for (const auto& [link, contact] : by_link) {
     const std::string& name = answer.links.at(link);
-    add_text(style, before(*contact, kDistance * organ.size()), kTextHeight * organ.size(),
+    add_text(style, before(*contact, kDistance * organ.size()), organ.size(),
              name.empty() ? answer.tool : name, picture);
   }
 }
 
+/// Adds the near faces, at their present place: the nearer, the more opaque.
 void add_near_faces(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
   /// The opacity of a near face at the margin, as a share of that of a face at the tool.
   constexpr double kFaintest = 0.15;
-  Marker faces = make_marker({"near", organ.frame, colours::kNearFace}, Marker::TRIANGLE_LIST);
+  Marker faces = make_marker({"near", organ.frame, kNearFace}, Marker::TRIANGLE_LIST);
   for (std::size_t i = 0; i < std::min(answer.near.size(), kMostNearFaces); ++i) {
     const double nearness =
         std::clamp(1.0 + answer.near[i].depth / answer.clearance.margin, kFaintest, 1.0);
-    add_lifted_face(organ, answer.near[i].face, colours::faded(colours::kNearFace, nearness),
-                    faces);
+    add_lifted_face(faces, organ, answer.near[i].face, colours::faded(kNearFace, nearness));
   }
   add_marker(std::move(faces), picture);
 }
 
-/// The unit vector at right angles to `normal` that points up most.
-Vector3d upward(const Vector3d& normal) {
-  const Vector3d up = Vector3d::UnitZ() - normal.z() * normal;
-  return up.norm() > 0.1 ? Vector3d(up.normalized()) : normal.unitOrthogonal();
-}
-
+/// Adds a line between the nearest points of tool and organ, and their distance as a text. The text
+/// is beside the line and away from the organ, so that neither tool nor organ hides it.
 void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerArray& picture) {
   constexpr double kLineWidth = 4e-3;
-  // The text is beside the line and away from the organ, so that neither tool nor organ hides it.
   constexpr double kTextDistance = 0.10;  // The distance of the text from the line.
   constexpr double kTextLift = 0.06;      // The shift of the text away from the organ.
   if (clearance.state != Clearance::KNOWN) return;
   const Vector3d on_tool = to_eigen(clearance.on_tool), on_organ = to_eigen(clearance.on_organ);
-  const MarkerStyle style{"clearance", organ.frame, colours::kClearance};
+  const MarkerStyle style{"clearance", organ.frame, kClearance};
   add_line(style, on_tool, on_organ, kLineWidth * organ.size(), picture);
+  // The text is in the direction at right angles to the normal that points up most.
   const Vector3d normal = to_eigen(clearance.normal);
-  const Vector3d shift = kTextDistance * upward(normal) - kTextLift * normal;
-  add_text(style, 0.5 * (on_tool + on_organ) + organ.size() * shift, kTextHeight * organ.size(),
+  const Vector3d up = Vector3d::UnitZ() - normal.z() * normal;
+  const Vector3d aside = up.norm() > 0.1 ? Vector3d(up.normalized()) : normal.unitOrthogonal();
+  const Vector3d shift = organ.size() * (kTextDistance * aside - kTextLift * normal);
+  add_text(style, 0.5 * (on_tool + on_organ) + shift, organ.size(),
            (clearance.unresolved ? "at most " : "") + rounded("%.1f mm", 1e3 * clearance.distance),
            picture);
 }
 
-/// For example ", 3.2 mm away". Empty if the clearance was not asked for.
-std::string distance_text(const Clearance& clearance) {
-  if (clearance.state == Clearance::KNOWN) {
-    return rounded(", %.1f mm away", 1e3 * clearance.distance);
-  }
-  if (clearance.state != Clearance::BEYOND_MARGIN) return "";
-  return rounded(", more than %.1f mm away", 1e3 * clearance.margin);
-}
-
-/// For example ", tip inside, 32.1 mm of its axis inside". Empty if nothing is known to be inside,
-/// or on the surface.
-std::string side_text(const ToolPlacement& placement) {
-  std::string text;
-  if (placement.tip == ToolPlacement::INSIDE) text += ", tip inside";
-  if (placement.tip == ToolPlacement::ON_SURFACE) text += ", tip on the surface";
-  if (placement.length_inside > 0.0) {
-    text += rounded(", %.1f mm of its axis inside", 1e3 * placement.length_inside);
-  }
-  return text;
-}
-
-}  // namespace
-
-void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
-                  MarkerArray& picture) {
-  add_regions(organ, answer, picture);
-  add_normals(organ, answer, share, picture);
-  add_names(organ, answer, share, picture);
-}
-
-void add_surroundings(const SceneOrgan& organ, const ContactArray& answer, MarkerArray& picture) {
-  add_near_faces(organ, answer, picture);
-  add_clearance(organ, answer.clearance, picture);
-}
-
+/// Adds a cone around the shaft for each place where its axis pierces the organ. The cones point
+/// along the axis and stand outside the organ: where the axis enters, the cone ends at the surface,
+/// and where it leaves, it begins there. `radius`: the shaft's radius [m].
 void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
                    const ToolPlacement& placement, MarkerArray& picture) {
   constexpr double kRadius = 2.5;  // The radius of a cone, as a multiple of the shaft's radius.
-  constexpr double kLeastRadius = 0.02;  // The least radius, as a share of the organ's size.
-  constexpr double kLength = 2.0;        // The length of a cone, as a multiple of its radius.
+  constexpr double kLeastRadius = 0.02;
+  constexpr double kLength = 2.0;  // The length of a cone, as a multiple of its radius.
   // An arrow that is nearly all head is a cone. RViz warns of an arrow without a shaft.
   const ArrowShape shape{0.01, 2.0 / kLength, 0.999};
   const double length = kLength * std::max(kRadius * radius, kLeastRadius * organ.size());
@@ -155,9 +143,60 @@ void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius
     const bool enters = placement.crossings[i].direction > 0;
     const Vector3d point = to_eigen(placement.crossings[i].point);
     const Vector3d base = enters ? Vector3d(point - cone) : point;
-    add_arrow({"crossings", organ.frame, enters ? colours::kEntering : colours::kLeaving}, base,
-              base + cone, shape, picture);
+    add_arrow({"crossings", organ.frame, enters ? kEntering : kLeaving}, base, base + cone, shape,
+              picture);
   }
+}
+
+/// For example "probe: 3 contacts, 1.2 mm deep, tip inside, 32.1 mm of its axis inside", or "probe:
+/// touches nothing, 3.2 mm away". If the step failed, for example "probe: no transform: ...", with
+/// the message.
+std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
+  constexpr std::size_t kLongestReason = 100;  // [bytes]
+  if (!answer) return tool + ": no answer yet";
+  if (answer->status != ContactArray::OK) {
+    return tool + ": " + reason_of(answer->status) + ": " +
+           plain_text(answer->message, kLongestReason);
+  }
+  std::string line = tool + ": ";
+  const Clearance& clearance = answer->clearance;
+  if (const std::vector<Contact>& contacts = answer->contacts; !contacts.empty()) {
+    // By is_deeper(), the deepest contact is the least one.
+    const double depth = std::min_element(contacts.begin(), contacts.end(), is_deeper)->depth;
+    line += counted(contacts.size(), "contact") + rounded(", %.1f mm deep", 1e3 * depth);
+  } else {
+    line += "touches nothing";
+    if (clearance.state == Clearance::KNOWN) {
+      line += rounded(", %.1f mm away", 1e3 * clearance.distance);
+    } else if (clearance.state == Clearance::BEYOND_MARGIN) {
+      line += rounded(", more than %.1f mm away", 1e3 * clearance.margin);
+    }
+  }
+  const ToolPlacement& placement = answer->placement;
+  if (placement.tip == ToolPlacement::INSIDE) line += ", tip inside";
+  if (placement.tip == ToolPlacement::ON_SURFACE) line += ", tip on the surface";
+  if (placement.length_inside > 0.0) {
+    line += rounded(", %.1f mm of its axis inside", 1e3 * placement.length_inside);
+  }
+  return line;
+}
+
+}  // namespace
+
+void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double radius,
+                      MarkerArray& picture) {
+  add_near_faces(organ, *pair.answer, picture);
+  add_clearance(organ, pair.answer->clearance, picture);
+  if (pair.pose) {
+    add_crossings(organ, pair.pose->axis, radius, pair.answer->placement, picture);
+  }
+}
+
+void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
+                  MarkerArray& picture) {
+  add_regions(organ, answer, picture);
+  add_normals(organ, answer, share, picture);
+  add_names(organ, answer, share, picture);
 }
 
 void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
@@ -166,36 +205,17 @@ void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
   constexpr double kLineSpacing = 0.09;
   std::string text = organ.name + ": " + counted(organ.mesh->face_count(), "face");
   bool failed = false;
-  for (const ScenePair& pair : scene.pairs) {
-    if (pair.organ != organ.name) continue;
+  for (const ScenePair& pair : organ.pairs) {
     text += "\n" + status_line((*scene.tools)[pair.tool].parameters.name, pair.answer);
     failed = failed || (pair.answer && pair.answer->status != ContactArray::OK);
   }
   if (query_sec > 0.0) text += rounded("\n%.0f us a query", 1e6 * query_sec);
-
   const Eigen::AlignedBox3d box = organ.mesh->box().cast<double>();
   const auto lines = 1 + std::count(text.begin(), text.end(), '\n');
   Vector3d place = box.center();  // The place of a text is its centre.
   place.z() = box.max().z() + (kDistance + 0.5 * kLineSpacing * lines) * organ.size();
   add_text({"status", organ.frame, failed ? colours::kFailure : colours::kText}, place,
-           kTextHeight * organ.size(), text, picture);
-}
-
-std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer) {
-  if (!answer) return tool + ": no answer yet";
-  if (answer->status != ContactArray::OK) {
-    return tool + ": " + reason_of(answer->status) + ": " +
-           plain_text(answer->message, kLongestReason);
-  }
-  const std::vector<Contact>& contacts = answer->contacts;
-  if (contacts.empty()) {
-    return tool + ": touches nothing" + distance_text(answer->clearance) +
-           side_text(answer->placement);
-  }
-  // By is_deeper(), the deepest contact is the least one.
-  const double depth = std::min_element(contacts.begin(), contacts.end(), is_deeper)->depth;
-  return tool + ": " + counted(contacts.size(), "contact") +
-         rounded(", %.1f mm deep", 1e3 * depth) + side_text(answer->placement);
+           organ.size(), text, picture);
 }
 
 }  // namespace organ_collision

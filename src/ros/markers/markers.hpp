@@ -21,22 +21,22 @@ namespace organ_collision {
 
 // What is drawn.
 
-/// An organ and its latest shape, which nobody changes.
+/// What is known of one tool in relation to an organ.
+struct ScenePair {
+  std::size_t tool;              ///< index into Scene::tools
+  ContactArrayConstPtr answer;   ///< the latest answer about the present triangles; null: none yet
+  std::optional<ToolPose> pose;  ///< the pose in the organ's frame at the last successful step
+};
+
+/// An organ, its latest shape, which nobody changes, and the tools in relation to it.
 struct SceneOrgan {
   std::string name;
   std::string frame;
   std::shared_ptr<const TriangleMesh> mesh;
+  std::vector<ScenePair> pairs = {};  ///< in the order of the tools
 
   /// [m] The diagonal of the organ's box. Widths of lines and heights of texts are shares of it.
   double size() const { return mesh->box().diagonal().cast<double>().norm(); }
-};
-
-/// What is known of one tool in relation to one organ.
-struct ScenePair {
-  std::string organ;
-  std::size_t tool;              ///< index into Scene::tools
-  ContactArrayConstPtr answer;   ///< the latest answer about the present triangles; null: none yet
-  std::optional<ToolPose> pose;  ///< the pose in the organ's frame at the last successful step
 };
 
 /// A step since the last picture.
@@ -65,7 +65,6 @@ struct Scene {
   bool anew = false;  ///< a subscriber has come that has received nothing yet
   std::shared_ptr<const std::vector<Tool>> tools;
   std::vector<SceneOrgan> organs;
-  std::vector<ScenePair> pairs;  ///< sorted by organ, then tool
   std::vector<SceneStep> steps;  ///< the oldest first
   std::vector<ProxyView> proxies;
 
@@ -76,17 +75,12 @@ struct Scene {
     }
     return nullptr;
   }
-  /// The first pair of the tool that has a pose: the tool is drawn in the frame of that organ. Null
-  /// if there is none.
-  const ScenePair* placement(std::size_t tool) const {
-    for (const ScenePair& pair : pairs) {
-      if (pair.tool == tool && pair.pose && organ(pair.organ)) return &pair;
-    }
-    return nullptr;
-  }
 };
 
-// The colours.
+/// The name of a proxy's state, as in msg/ProxyState.msg.
+std::string name_of(ProxyStatus state);
+
+// How it is drawn. Lengths are in metres, unless they are shares of a size.
 
 namespace colours {
 
@@ -100,28 +94,12 @@ inline std_msgs::ColorRGBA rgba(float red, float green, float blue, float alpha 
 }
 
 inline const std_msgs::ColorRGBA kTool = rgba(0.85F, 0.87F, 0.90F);
-inline const std_msgs::ColorRGBA kSwept = rgba(0.20F, 0.60F, 1.00F, 0.45F);
-inline const std_msgs::ColorRGBA kRegion = rgba(0.05F, 0.05F, 0.05F);
-inline const std_msgs::ColorRGBA kNormal = rgba(0.20F, 0.85F, 0.45F);
-inline const std_msgs::ColorRGBA kNearFace = rgba(0.35F, 0.85F, 0.95F, 0.80F);
-inline const std_msgs::ColorRGBA kClearance = rgba(0.35F, 0.95F, 1.00F);
-/// The places where a shaft's axis enters and leaves an organ. Colour-blind people can tell these
-/// colours apart, too.
-inline const std_msgs::ColorRGBA kEntering = rgba(1.00F, 0.65F, 0.10F);
-inline const std_msgs::ColorRGBA kLeaving = rgba(0.25F, 0.45F, 1.00F);
-/// The tool at the hand's pose, while tissue holds the proxy back.
-inline const std_msgs::ColorRGBA kHand = rgba(0.45F, 0.75F, 1.00F, 0.40F);
-/// The force of a proxy on the tissue.
-inline const std_msgs::ColorRGBA kLoad = rgba(1.00F, 0.80F, 0.15F);
 inline const std_msgs::ColorRGBA kText = rgba(0.95F, 0.95F, 0.95F);
 inline const std_msgs::ColorRGBA kFailure = rgba(1.00F, 0.45F, 0.35F);
 
 /// The colour map of depths: `share` is 0 for a first touch (yellow) and 1 for the greatest depth
 /// that the map distinguishes (dark violet). Values beyond are clamped.
 std_msgs::ColorRGBA depth(double share);
-/// The colour of an organ's surface. `number`: the organ's place among the organs. Consecutive
-/// organs have different colours.
-std_msgs::ColorRGBA tissue(std::size_t number);
 /// The colour for the state of a proxy: for its text, and for the line between hand and proxy.
 std_msgs::ColorRGBA proxy(ProxyStatus state);
 /// The colour with its opacity multiplied by `share` in [0, 1].
@@ -146,17 +124,21 @@ struct MarkerStyle {
 visualization_msgs::Marker make_marker(const MarkerStyle& style, int type);
 /// Adds a corner to a TRIANGLE_LIST or LINE_LIST.
 void add_point(visualization_msgs::Marker& list, const Eigen::Vector3d& point);
+/// Adds a triangle with a colour of its own to a TRIANGLE_LIST.
+void add_triangle(visualization_msgs::Marker& list, const Triangle& corners,
+                  const std_msgs::ColorRGBA& colour);
 /// Adds a face of the organ to a TRIANGLE_LIST, slightly above the surface. Adds both of its sides,
 /// because a tool may be on either.
-void add_lifted_face(const SceneOrgan& organ, std::size_t face, const std_msgs::ColorRGBA& colour,
-                     visualization_msgs::Marker& list);
+void add_lifted_face(visualization_msgs::Marker& list, const SceneOrgan& organ, std::size_t face,
+                     const std_msgs::ColorRGBA& colour);
 
-// These add a marker to a picture. Lengths are in metres.
+// These add a marker to a picture.
 
 /// Numbers the marker: the ids of each namespace run from 0. Drops a list without points, which
 /// RViz would report as an error.
 void add_marker(visualization_msgs::Marker marker, visualization_msgs::MarkerArray& picture);
-void add_text(const MarkerStyle& style, const Eigen::Vector3d& place, double height,
+/// The height of the text is a share of `size`.
+void add_text(const MarkerStyle& style, const Eigen::Vector3d& place, double size,
               const std::string& text, visualization_msgs::MarkerArray& picture);
 void add_line(const MarkerStyle& style, const Eigen::Vector3d& from, const Eigen::Vector3d& to,
               double width, visualization_msgs::MarkerArray& picture);
@@ -170,65 +152,28 @@ struct ArrowShape {
 void add_arrow(const MarkerStyle& style, const Eigen::Vector3d& tail, const Eigen::Vector3d& head,
                const ArrowShape& shape, visualization_msgs::MarkerArray& picture);
 
-// What an answer about an organ tells, added to a picture in the organ's frame.
-
-/// An answer has at most this many arrows: those of its deepest contacts.
-inline constexpr std::size_t kMostArrows = 30;
-/// At most this many near faces of an answer are drawn: the nearest ones.
-inline constexpr std::size_t kMostNearFaces = 2000;
-/// At most this many crossings of a tool and an organ are drawn: the first ones from the trocar.
-inline constexpr std::size_t kMostCrossings = 100;
-
-/// Adds the outlines of the regions, and an arrow for each of the deepest contacts. The arrow
-/// points along the contact's normal and ends at its end point. Adds the name of each link that
-/// touches, at its deepest contact. A shaft has the name of its tool. `share`: how visible arrows
-/// and names are, in [0, 1].
+/// Adds the near faces of the latest answer about a tool, the line of its clearance, and a cone for
+/// each place where its axis pierces the organ. `radius`: of the tool's shaft.
+void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double radius,
+                      visualization_msgs::MarkerArray& picture);
+/// Adds regions, an arrow for each of the deepest contacts, and the names of the links that touch.
+/// `share`: how visible arrows and names are, in [0, 1].
 void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
                   visualization_msgs::MarkerArray& picture);
-
-/// Adds the near faces, at their present place: the nearer, the more opaque. Adds a line between
-/// the nearest points of tool and organ, and their distance as a text beside it, if it is known.
-void add_surroundings(const SceneOrgan& organ, const ContactArray& answer,
-                      visualization_msgs::MarkerArray& picture);
-
-/// Adds a cone around the shaft for each place where its axis pierces the organ. The cones point
-/// along the axis and stand outside the organ: where the axis enters, the cone ends at the surface,
-/// and where it leaves, it begins there. `radius`: the shaft's radius [m].
-void add_crossings(const SceneOrgan& organ, const ShaftAxis& axis, double radius,
-                   const ToolPlacement& placement, visualization_msgs::MarkerArray& picture);
-
 /// Adds a text above the organ: its name, a line for each tool, and the query time [s] if it is
 /// above 0.
 void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
                 visualization_msgs::MarkerArray& picture);
 
-/// For example "probe: 3 contacts, 1.2 mm deep, tip inside". If the step failed, for example
-/// "probe: no transform: ...", with the message.
-std::string status_line(const std::string& tool, const ContactArrayConstPtr& answer);
-
-// Tools.
-
-/// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
-/// with each picture.
-inline constexpr std::size_t kMostFacesOfTool = 5000;
-/// The surface that a tool swept is drawn for at most this many legs (doc/geometry.md, Words). The
-/// oldest legs are left out.
-inline constexpr std::size_t kMostLegs = 2000;
-
 /// Adds the tool at a pose in the frame of the style: its shaft as a capsule, and the shapes of its
 /// links.
 void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
               visualization_msgs::MarkerArray& picture);
-
 /// Adds the surface that the tool swept in `steps`, which are sorted from the oldest to the newest.
 /// It consists of the surfaces swept by the shaft's axis, and by the longest axis of each part of
 /// the links. It fades with the age of the steps.
 void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
                const std::string& frame, SteadyTime now, visualization_msgs::MarkerArray& picture);
-
-/// The name of a proxy's state, as in msg/ProxyState.msg.
-std::string name_of(ProxyStatus state);
-
 /// Adds the proxy as a solid tool. If tissue holds it back, adds the hand as a translucent tool,
 /// the spring between the two as a line, and an arrow for each force on the tissue. If there is no
 /// answer, adds only the hand. Always adds the state as a text above the tool's far end.

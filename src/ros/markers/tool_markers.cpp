@@ -1,6 +1,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "geometry/tool/least_rotation.hpp"
@@ -8,12 +9,132 @@
 #include "ros/messages/text.hpp"
 
 namespace organ_collision {
-namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
+
+namespace colours {
+
+std_msgs::ColorRGBA depth(double share) {
+  static const std::array<std_msgs::ColorRGBA, 5> stops{
+      rgba(1.00F, 0.93F, 0.20F), rgba(1.00F, 0.60F, 0.10F), rgba(0.95F, 0.25F, 0.35F),
+      rgba(0.65F, 0.05F, 0.60F), rgba(0.20F, 0.02F, 0.45F)};
+  const double place = std::clamp(share, 0.0, 1.0) * (stops.size() - 1);
+  const std::size_t lower = std::min<std::size_t>(place, stops.size() - 2);
+  const auto part = static_cast<float>(place - lower);
+  const auto &from = stops[lower], &to = stops[lower + 1];
+  return rgba(from.r + part * (to.r - from.r), from.g + part * (to.g - from.g),
+              from.b + part * (to.b - from.b));
+}
+
+std_msgs::ColorRGBA proxy(ProxyStatus state) {
+  static const std_msgs::ColorRGBA colours[] = {kFailure, kText, rgba(0.30F, 0.95F, 0.50F),
+                                                rgba(1.00F, 0.65F, 0.10F),
+                                                rgba(0.80F, 0.50F, 1.00F)};
+  return colours[static_cast<std::size_t>(state)];
+}
+
+std_msgs::ColorRGBA faded(std_msgs::ColorRGBA colour, double share) {
+  colour.a *= static_cast<float>(share);
+  return colour;
+}
+
+}  // namespace colours
+
+double visibility(SteadyTime time, SteadyTime now) {
+  const double age = std::chrono::duration<double>(now - time).count();
+  return std::clamp(1.0 - age / kFadeSec, 0.0, 1.0);
+}
+
+Marker make_marker(const MarkerStyle& style, int type) {
+  Marker marker;
+  marker.header.frame_id = style.frame;
+  marker.ns = style.name_space;
+  marker.type = type;
+  marker.frame_locked = true;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = marker.scale.y = marker.scale.z = 1.0;
+  marker.color = style.colour;
+  return marker;
+}
+
+void add_point(Marker& list, const Vector3d& point) { list.points.push_back(tf2::toMsg(point)); }
+
+void add_triangle(Marker& list, const Triangle& corners, const std_msgs::ColorRGBA& colour) {
+  for (const Vector3d& corner : corners) {
+    add_point(list, corner);
+    list.colors.push_back(colour);
+  }
+}
+
+void add_lifted_face(Marker& list, const SceneOrgan& organ, std::size_t face,
+                     const std_msgs::ColorRGBA& colour) {
+  constexpr double kLift = 1e-3;  // The distance from the surface, as a share of the organ's size.
+  const Triangle corners = organ.mesh->triangle(face);
+  const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  for (const double lift : {kLift * organ.size(), -kLift * organ.size()}) {
+    const Vector3d shift = lift * normal;
+    add_triangle(list, {corners[0] + shift, corners[1] + shift, corners[2] + shift}, colour);
+  }
+}
+
+void add_marker(Marker marker, MarkerArray& picture) {
+  const bool is_list = marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST;
+  if (is_list && marker.points.empty()) return;
+  marker.id =
+      static_cast<int>(std::count_if(picture.markers.begin(), picture.markers.end(),
+                                     [&](const Marker& other) { return other.ns == marker.ns; }));
+  picture.markers.push_back(std::move(marker));
+}
+
+void add_text(const MarkerStyle& style, const Vector3d& place, double size, const std::string& text,
+              MarkerArray& picture) {
+  constexpr double kHeight = 0.03;  // A share of the size.
+  Marker marker = make_marker(style, Marker::TEXT_VIEW_FACING);
+  marker.pose.position = tf2::toMsg(place);
+  marker.scale.z = kHeight * size;
+  marker.text = text;
+  add_marker(std::move(marker), picture);
+}
+
+void add_line(const MarkerStyle& style, const Vector3d& from, const Vector3d& to, double width,
+              MarkerArray& picture) {
+  Marker line = make_marker(style, Marker::LINE_LIST);
+  line.scale.x = width;
+  add_point(line, from);
+  add_point(line, to);
+  add_marker(std::move(line), picture);
+}
+
+void add_arrow(const MarkerStyle& style, const Vector3d& tail, const Vector3d& head,
+               const ArrowShape& shape, MarkerArray& picture) {
+  const double length = (head - tail).norm();
+  if (!(length > 0.0)) return;
+  Marker arrow = make_marker(style, Marker::ARROW);
+  arrow.scale.x = shape.shaft_width * length;
+  arrow.scale.y = shape.head_width * length;
+  arrow.scale.z = shape.head_length * length;
+  add_point(arrow, tail);
+  add_point(arrow, head);
+  add_marker(std::move(arrow), picture);
+}
+
+namespace {
+
+const std_msgs::ColorRGBA kSwept = colours::rgba(0.20F, 0.60F, 1.00F, 0.45F);
+/// The tool at the hand's pose, while tissue holds the proxy back.
+const std_msgs::ColorRGBA kHand = colours::rgba(0.45F, 0.75F, 1.00F, 0.40F);
+/// The force of a proxy on the tissue.
+const std_msgs::ColorRGBA kLoad = colours::rgba(1.00F, 0.80F, 0.15F);
+
+/// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
+/// with each picture.
+constexpr std::size_t kMostFacesOfTool = 5000;
+/// The surface that a tool swept is drawn for at most this many legs (doc/geometry.md, Words). The
+/// oldest legs are left out.
+constexpr std::size_t kMostLegs = 2000;
 
 Marker shape(const MarkerStyle& style, int type, const Isometry3d& pose, const Vector3d& scale) {
   constexpr double kThinnest = 1e-6;  // [m] RViz warns of a scale of 0.
@@ -84,21 +205,16 @@ std::vector<ShaftAxis> lines_of(const Tool& tool, const ToolWaypoint& waypoint) 
   return lines;
 }
 
-void add_triangle(const Vector3d& a, const Vector3d& b, const Vector3d& c,
-                  const std_msgs::ColorRGBA& colour, Marker& list) {
-  if ((b - a).cross(c - a).isZero(0.0)) return;
-  for (const Vector3d& corner : {a, b, c}) {
-    add_point(list, corner);
-    list.colors.push_back(colour);
-  }
-}
-
+/// Adds the quadrangles that the lines of a tool sweep, without what has no area.
 void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
              const std_msgs::ColorRGBA& colour, Marker& list) {
   const std::vector<ShaftAxis> before = lines_of(tool, from), after = lines_of(tool, to);
   for (std::size_t i = 0; i < std::min(before.size(), after.size()); ++i) {
-    add_triangle(before[i].trocar, before[i].tip, after[i].tip, colour, list);
-    add_triangle(before[i].trocar, after[i].tip, after[i].trocar, colour, list);
+    for (const Triangle& half : {Triangle{before[i].trocar, before[i].tip, after[i].tip},
+                                 Triangle{before[i].trocar, after[i].tip, after[i].trocar}}) {
+      const bool has_area = !(half[1] - half[0]).cross(half[2] - half[0]).isZero(0.0);
+      if (has_area) add_triangle(list, half, colour);
+    }
   }
 }
 
@@ -115,8 +231,8 @@ void add_loads(const ProxyView& view, MarkerArray& picture) {
   for (const auto& [point, force] : loads) greatest = std::max(greatest, force.norm());
   if (greatest == 0.0) return;
   for (const auto& [point, force] : loads) {
-    add_arrow({"loads", view.frame, colours::kLoad},
-              point - kLongest * view.size / greatest * force, point, {}, picture);
+    add_arrow({"loads", view.frame, kLoad}, point - kLongest * view.size / greatest * force, point,
+              {}, picture);
   }
 }
 
@@ -160,14 +276,13 @@ void add_tool(const Tool& tool, const ToolPose& pose, const MarkerStyle& style,
 
 void add_swept(const Tool& tool, const std::vector<const SceneStep*>& steps,
                const std::string& frame, SteadyTime now, MarkerArray& picture) {
-  Marker swept = make_marker({"swept", frame, colours::kSwept}, Marker::TRIANGLE_LIST);
+  Marker swept = make_marker({"swept", frame, kSwept}, Marker::TRIANGLE_LIST);
   std::size_t legs = 0;
   for (auto step = steps.rbegin(); step != steps.rend() && legs < kMostLegs; ++step) {
     const double share = visibility((*step)->time, now);
-    if (share == 0.0) continue;
     const ToolPath& path = (*step)->path;
     for (std::size_t i = path.size(); i-- > 1 && legs < kMostLegs; ++legs) {
-      add_leg(tool, path[i - 1], path[i], colours::faded(colours::kSwept, share), swept);
+      add_leg(tool, path[i - 1], path[i], colours::faded(kSwept, share), swept);
     }
   }
   add_marker(std::move(swept), picture);
@@ -182,12 +297,11 @@ std::string name_of(ProxyStatus state) {
 void add_proxy(const ProxyView& view, MarkerArray& picture) {
   // Shares of the scene's size.
   constexpr double kSpringWidth = 6e-3;
-  constexpr double kTextHeight = 0.03;
   constexpr double kTextLift = 0.06;  // The distance of the text from the far end of the tool.
   const ProxyAnswer& answer = view.answer;
   const std_msgs::ColorRGBA colour = colours::proxy(answer.state);
   if (view.hand && answer.state != ProxyStatus::kFree) {
-    add_tool(view.tool, *view.hand, {"hand", view.frame, colours::kHand}, picture);
+    add_tool(view.tool, *view.hand, {"hand", view.frame, kHand}, picture);
   }
   if (answer.state != ProxyStatus::kNoAnswer) {
     add_tool(view.tool, answer.proxy, {"proxy", view.frame, colours::kTool}, picture);
@@ -198,7 +312,7 @@ void add_proxy(const ProxyView& view, MarkerArray& picture) {
     add_loads(view, picture);
   }
   add_text({"state", view.frame, colour}, far_end(view) + kTextLift * view.size * Vector3d::UnitZ(),
-           kTextHeight * view.size, state_line(view), picture);
+           view.size, state_line(view), picture);
 }
 
 }  // namespace organ_collision

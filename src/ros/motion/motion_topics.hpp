@@ -18,9 +18,8 @@
 namespace organ_collision {
 
 /// Receives /tf and /tf_static into the node's buffer, and the poses of tool tips that are sent as
-/// PoseStamped, for example CRTK's measured_cp. Such a message names the frame in which the pose is
-/// given, but not the frame of the tip. Each pose becomes a transform to the tool's tip frame, so
-/// that the rest of the node treats these tools like those on TF.
+/// PoseStamped, for example CRTK's measured_cp. Each pose becomes a transform to the tool's tip
+/// frame, so that the rest of the node treats these tools like those on TF.
 class MotionTopics {
  public:
   /// Called with a tool's index after each pose of its tip from a topic.

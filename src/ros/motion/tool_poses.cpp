@@ -46,25 +46,6 @@ double samples_between(double gap_sec, double spacing_sec) {
   return std::max(0.0, std::ceil(gap_sec / spacing_sec - 1e-6) - 1.0);
 }
 
-/// Keeps at most `most` of the times, evenly spread. Returns how many it dropped.
-std::size_t thin_out(std::vector<ros::Time>& times, std::size_t most) {
-  const std::size_t size = times.size();
-  if (size <= most) return 0;
-  for (std::size_t i = 0; i < most; ++i) times[i] = times[i * size / most];
-  times.resize(most);
-  return size - most;
-}
-
-/// Adds `count` evenly spaced times strictly between `from` and `to`.
-void add_even_times(ros::Time from, ros::Time to, std::size_t count,
-                    std::vector<ros::Time>& times) {
-  const std::int64_t step = elapsed(from, to) / (static_cast<std::int64_t>(count) + 1);
-  std::uint64_t time = from.toNSec();
-  for (std::size_t i = 0; i < count; ++i) {
-    times.emplace_back().fromNSec(time += static_cast<std::uint64_t>(step));
-  }
-}
-
 }  // namespace
 
 TransformBuffer::Frames swept_frames(const Tool& tool) {
@@ -92,12 +73,14 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
                                buffer_.getCacheLength().toSec(), " s)");
   }
   const std::size_t heard = stamps.size();
-  const auto samples_max = static_cast<std::size_t>(sampling_.samples_max);
-  lost.samples_cut = thin_out(stamps, std::max(kMostRead, samples_max));
-  if (lost.samples_cut > 0) {
+  const std::size_t most = std::max(kMostRead, static_cast<std::size_t>(sampling_.samples_max));
+  if (heard > most) {
+    for (std::size_t i = 0; i < most; ++i) stamps[i] = stamps[i * heard / most];
+    stamps.resize(most);
+    lost.samples_cut = heard - most;
     lost.deviation_cut = std::numeric_limits<double>::infinity();
     if (lost.unknown.empty()) {
-      lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", stamps.size(),
+      lost.unknown = concatenate("of the tool's ", heard, " poses in this step, ", most,
                                  " were read; steps must be shorter");
     }
     return stamps;
@@ -108,11 +91,13 @@ std::vector<ros::Time> ToolPoses::sample_times(const Tool& tool, const std::stri
   double wanted = 0.0, sampled = 0.0;
   for (const ros::Time stamp : stamps) {
     const double gap = seconds(from, stamp);
-    const double count = samples_between(gap, spacing);
-    add_even_times(from, stamp, static_cast<std::size_t>(count), times);
+    const auto count = static_cast<std::int64_t>(samples_between(gap, spacing));
+    const auto step = static_cast<std::uint64_t>(elapsed(from, stamp) / (count + 1));
+    std::uint64_t time = from.toNSec();
+    for (std::int64_t i = 0; i < count; ++i) times.emplace_back().fromNSec(time += step);
     times.push_back(stamp);
     wanted += samples_between(gap, sampling_.sample_sec);
-    sampled += count;
+    sampled += static_cast<double>(count);
     from = stamp;
   }
   times.pop_back();

@@ -21,12 +21,12 @@ constexpr std::size_t kMostParents = 8;
 constexpr std::size_t kMostStamps = 10'000;
 
 template <typename Frame>
-bool contains(const std::vector<Frame*>& frames, const Frame* frame) {
+bool contains(const std::vector<Frame>& frames, Frame frame) {
   return std::find(frames.begin(), frames.end(), frame) != frames.end();
 }
 
 template <typename Frame>
-void insert(std::vector<Frame*>& frames, Frame* frame) {
+void insert(std::vector<Frame>& frames, Frame frame) {
   if (!contains(frames, frame)) frames.push_back(frame);
 }
 
@@ -70,18 +70,20 @@ bool TransformBuffer::add(const geometry_msgs::TransformStamped& transform,
   const std::string name = tf_frame(transform.child_frame_id);
   const Frame* const known = find(name);
   // A repeated transform is not late.
-  if (!resting && known && stamp <= known->answered && !known->has(stamp)) ++late_;
+  if (!resting && known && stamp <= known->answered && !has(name, stamp)) ++late_;
   if (!taken) return false;
-  Frame& frame = obtain(name);
+  const std::string parent_name = tf_frame(transform.header.frame_id);
+  Frame &frame = frames_[name], &parent = frames_[parent_name];
+  frame.name = name;
+  parent.name = parent_name;
   if (!resting) {
     judge(frame, stamp);
     note(frame, stamp);
     latest_ = std::max(latest_, stamp);
   }
-  Frame* const parent = &obtain(tf_frame(transform.header.frame_id));
-  frame.parents.erase(std::remove(frame.parents.begin(), frame.parents.end(), parent),
+  frame.parents.erase(std::remove(frame.parents.begin(), frame.parents.end(), &parent),
                       frame.parents.end());
-  frame.parents.push_back(parent);
+  frame.parents.push_back(&parent);
   if (frame.parents.size() > kMostParents) frame.parents.erase(frame.parents.begin());
   return true;
 }
@@ -115,18 +117,14 @@ void TransformBuffer::note(Frame& frame, ros::Time stamp) {
   }
 }
 
-bool TransformBuffer::Frame::has(ros::Time stamp) const {
-  return std::binary_search(stamps.begin(), stamps.end(), stamp);
-}
-
 bool TransformBuffer::has(const std::string& frame, ros::Time stamp) const {
   const Frame* const known = find(tf_frame(frame));
-  return known && known->has(stamp);
+  return known && std::binary_search(known->stamps.begin(), known->stamps.end(), stamp);
 }
 
 void TransformBuffer::clear() {
   BufferCore::clear();
-  for (auto& [name, frame] : frames_) *frame = {name, std::move(frame->parents)};
+  for (auto& [name, frame] : frames_) frame = {name, std::move(frame.parents)};
   latest_ = ros::Time();
   disproved_ = 0;
   has_stepped_back_ = false;
@@ -166,8 +164,8 @@ TransformBuffer::Stamps TransformBuffer::stamps_between(const std::string& targe
 
 void TransformBuffer::set_answered(const std::string& target, const Frames& sources,
                                    ros::Time stamp) {
-  for (Frame* const frame : chain(target, sources)) {
-    frame->answered = std::max(frame->answered, stamp);
+  for (const Frame* const frame : chain(target, sources)) {
+    frames_.at(frame->name).answered = std::max(frame->answered, stamp);
   }
 }
 
@@ -189,15 +187,9 @@ std::optional<NewestTransform> TransformBuffer::oldest_transform(const std::stri
 }
 
 /// The record of a frame. Null if no transform of the frame came, nor of a frame below it.
-TransformBuffer::Frame* TransformBuffer::find(const std::string& frame) const {
+const TransformBuffer::Frame* TransformBuffer::find(const std::string& frame) const {
   const auto known = frames_.find(frame);
-  return known == frames_.end() ? nullptr : known->second.get();
-}
-
-TransformBuffer::Frame& TransformBuffer::obtain(const std::string& frame) {
-  std::unique_ptr<Frame>& known = frames_[frame];
-  if (!known) known = std::make_unique<Frame>(Frame{frame});
-  return *known;
+  return known == frames_.end() ? nullptr : &known->second;
 }
 
 /// The frames whose transforms determine the poses of `sources` in the target frame. If one of
@@ -208,12 +200,13 @@ TransformBuffer::Nodes TransformBuffer::chain(const std::string& target,
   Nodes found;
   for (const std::string& source : sources) {
     const Nodes above_source = upward(source, kMostParents);
-    const bool is_tree = is_line(above_target) && is_line(above_source);
-    for (Frame* const frame : above_source) {
-      if (!is_tree || !contains(above_target, frame)) insert(found, frame);
-    }
-    for (Frame* const frame : above_target) {
-      if (!is_tree || !contains(above_source, frame)) insert(found, frame);
+    Nodes all = above_source;
+    for (const Frame* const frame : above_target) insert(all, frame);
+    const bool is_tree = std::all_of(all.begin(), all.end(),
+                                     [](const Frame* frame) { return frame->parents.size() <= 1; });
+    for (const Frame* const frame : all) {
+      const bool is_above_both = contains(above_source, frame) && contains(above_target, frame);
+      if (!is_tree || !is_above_both) insert(found, frame);
     }
   }
   return found;
@@ -222,19 +215,13 @@ TransformBuffer::Nodes TransformBuffer::chain(const std::string& target,
 /// The frame and all its ancestors, each once, through at most `most` recent parents of each frame.
 TransformBuffer::Nodes TransformBuffer::upward(const std::string& frame, std::size_t most) const {
   Nodes found;
-  if (Frame* const known = find(frame)) found = {known};
+  if (const Frame* const known = find(frame)) found = {known};
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Nodes& parents = found[i]->parents;
     const std::size_t first = parents.size() - std::min(most, parents.size());
     for (std::size_t k = first; k < parents.size(); ++k) insert(found, parents[k]);
   }
   return found;
-}
-
-/// Whether each of these frames has at most one recent parent.
-bool TransformBuffer::is_line(const Nodes& frames) {
-  return std::all_of(frames.begin(), frames.end(),
-                     [](const Frame* frame) { return frame->parents.size() <= 1; });
 }
 
 Lookup<Eigen::Isometry3d> look_up(const TransformBuffer& buffer, const std::string& target,

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <deque>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -73,31 +72,27 @@ class TransformBuffer : public tf2::BufferCore {
 
  private:
   struct Frame;
-  using Nodes = std::vector<Frame*>;
+  using Nodes = std::vector<const Frame*>;
+  /// The record of a frame. A stamp that there is not is zero.
   struct Frame {
-    std::string name;
+    std::string name = {};
     Nodes parents = {};                 ///< recent parents, the latest at the end
     std::deque<ros::Time> stamps = {};  ///< stamps of recent transforms, in rising order
-    ros::Time heard = {};               ///< the stamp that came last; zero: none came
-    ros::Time forgotten = {};           ///< the latest stamp that was forgotten; zero: none was
-    /// A stamp that was disproved (see believed_until()); zero: there is none.
-    ros::Time disproved = {};
-    ros::Time answered = {};  ///< poses were used up to this stamp; zero: never
-
-    bool has(ros::Time stamp) const;
+    ros::Time heard = {};               ///< the stamp that came last
+    ros::Time forgotten = {};           ///< the latest stamp that was forgotten
+    ros::Time disproved = {};           ///< a stamp that was disproved (see believed_until())
+    ros::Time answered = {};            ///< poses were used up to this stamp
   };
 
-  Frame* find(const std::string& frame) const;
-  Frame& obtain(const std::string& frame);
+  const Frame* find(const std::string& frame) const;
   void judge(Frame& frame, ros::Time stamp);
   void note(Frame& frame, ros::Time stamp);
   Nodes chain(const std::string& target, const Frames& sources) const;
   Nodes upward(const std::string& frame, std::size_t most) const;
-  static bool is_line(const Nodes& frames);
 
-  std::map<std::string, std::unique_ptr<Frame>> frames_;  ///< record of each frame by name
-  ros::Time latest_;                                      ///< the largest stamp of all frames
-  std::size_t disproved_ = 0;  ///< how many frames have a disproved stamp
+  std::map<std::string, Frame> frames_;  ///< by name; the addresses of frames do not change
+  ros::Time latest_;                     ///< the largest stamp of all frames
+  std::size_t disproved_ = 0;            ///< how many frames have a disproved stamp
   bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };

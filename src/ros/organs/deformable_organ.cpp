@@ -38,20 +38,15 @@ DeformableOrgan::DeformableOrgan(std::string name, std::string frame, TriangleMe
 }
 
 void DeformableOrgan::move(SharedVertices vertices, ros::Time stamp, ros::Time received) {
-  const std::shared_ptr<TriangleMesh> shape = unused_shape();
+  // Another thread may have been the last user of a shape. The copied pointer synchronises with it.
+  const auto unused = std::find_if(shapes_.begin(), shapes_.end(),
+                                   [](const auto& shape) { return shape.use_count() == 1; });
+  const std::shared_ptr<TriangleMesh> shape =
+      unused != shapes_.end() ? *unused
+                              : shapes_.emplace_back(std::make_shared<TriangleMesh>(*latest_.mesh));
   shape->move_vertices(std::move(vertices));
   previous_ = std::move(latest_);
   latest_ = {shape, stamp, received, previous_.surface};
-}
-
-/// Returns a shape that nobody else uses, or makes one. Reuse saves a large organ the allocation of
-/// its boxes for each shape.
-std::shared_ptr<TriangleMesh> DeformableOrgan::unused_shape() {
-  for (const std::shared_ptr<TriangleMesh>& shape : shapes_) {
-    // Another thread may have been the last user. The copied pointer synchronises with that thread.
-    if (shape.use_count() == 1) return shape;
-  }
-  return shapes_.emplace_back(std::make_shared<TriangleMesh>(*latest_.mesh));
 }
 
 void DeformableOrgan::replace(TriangleMesh mesh, ros::Time stamp, ros::Time received) {
@@ -110,8 +105,9 @@ OrganInfo info_of(const DeformableOrgan& organ) {
   info.low = tf2::toMsg(Eigen::Vector3d(box.min()));
   info.high = tf2::toMsg(Eigen::Vector3d(box.max()));
   info.stamp = organ.latest().stamp;
-  info.closed = organ.surface()->topology().is_closed();
-  info.volume = organ.surface()->volume(mesh.vertices());
+  const SurfaceTopology& topology = organ.surface()->topology();
+  info.closed = topology.is_closed();
+  info.volume = signed_volume(topology, mesh.faces(), mesh.vertices());
   return info;
 }
 

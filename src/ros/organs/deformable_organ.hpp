@@ -46,10 +46,6 @@ class OrganSurface {
   const SurfaceTopology& topology() const { return found_.get().topology; }
   /// Whether the surface is closed and its faces point inward.
   bool is_inward() const { return found_.get().is_inward; }
-  /// [m^3] The enclosed volume with a sign, see signed_volume(). `vertices`: present positions [m].
-  double volume(const std::vector<float>& vertices) const {
-    return signed_volume(topology(), *faces_, vertices);
-  }
 
  private:
   struct Found {
@@ -101,7 +97,8 @@ class DeformableOrgan {
   const std::shared_ptr<OrganSurface>& surface() const { return latest_.surface; }
 
   /// Sets new positions for the same triangles. Throws MeshError, and changes nothing, if the
-  /// vertices do not fit. Reuses the memory of a shape that nobody uses any more, if there is one.
+  /// vertices do not fit. Uses the memory of a shape again that nobody uses any more, if there is
+  /// one: this saves a large organ the allocation of its boxes for each shape.
   void move(SharedVertices vertices, ros::Time stamp, ros::Time received);
   /// Sets a new mesh with other triangles.
   void replace(TriangleMesh mesh, ros::Time stamp, ros::Time received);
@@ -117,8 +114,6 @@ class DeformableOrgan {
   void receive_anew(ros::Time now);
 
  private:
-  std::shared_ptr<TriangleMesh> unused_shape();
-
   std::string name_;
   std::string frame_;
   OrganShape latest_;
@@ -135,8 +130,8 @@ std::string closedness(const OrganSurface& surface);
 std::string orientation(const OrganSurface& surface);
 /// A summary, for example "organ 'kidney': 2208 faces, closed, 0.12 x 0.09 x 0.06 m".
 std::string summary(const std::string& organ, const OrganSurface& surface);
-/// Sentences about things that are legal, but probably mistakes: the organ's size, and faces that
-/// point inward. `box`: the box around the organ [m].
+/// Sentences about what is legal, but probably a mistake: the organ's size, and faces that point
+/// inward. `box`: the box around the organ [m].
 std::vector<std::string> doubts(const std::string& organ, const Eigen::AlignedBox3d& box,
                                 const OrganSurface& surface);
 /// Everything about the organ's latest shape. Takes milliseconds for the volume of a large mesh.
@@ -149,7 +144,7 @@ class SurfaceLog {
   using Time = std::chrono::steady_clock::time_point;
 
   /// The shortest time between two summaries of an organ in the log, and between two warnings about
-  /// it. In cutting, for example, the triangles of an organ change all the time.
+  /// it: in cutting, for example, the triangles change all the time.
   static constexpr std::chrono::seconds kPeriod{5};
 
   /// Logs the summary of a surface, and what is doubtful about it. The surface must be found.

@@ -71,9 +71,7 @@ void OrganIntake::take_mesh(const OrganMeshConstPtr& message, const Connection& 
 }
 
 void OrganIntake::take_vertices(const OrganVerticesConstPtr& message) {
-  OrganMessage entry;
-  entry.vertices = message;
-  add(std::move(entry));
+  add({nullptr, {}, {}, message});
 }
 
 void OrganIntake::add(OrganMessage message) {
@@ -108,17 +106,13 @@ OrganMessageCounts OrganIntake::counts() const {
   return counts;
 }
 
-void OrganIntake::remove(const std::string& organ) {
-  check_name("organ", organ);
-  if (messages_.count(organ) == 0) organs_.at(organ);
-  const auto removal = boost::make_shared<OrganMesh>();
-  removal->organ = organ;
-  take_mesh(removal);
-}
-
 bool OrganIntake::on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response) {
   try {
-    remove(request.name);
+    check_name("organ", request.name);
+    if (messages_.count(request.name) == 0) organs_.at(request.name);
+    const auto removal = boost::make_shared<OrganMesh>();
+    removal->organ = request.name;
+    take_mesh(removal);
     response.success = true;
     response.message = "organ '" + request.name + "' is removed";
   } catch (const Rejection& rejection) {
@@ -146,40 +140,40 @@ std::optional<OrganUpdate> OrganIntake::next() {
     OrganMessage message = std::move(waiting.front());
     waiting.pop_front();
     if (waiting.empty()) messages_.erase(organ);
-    return update_by(std::move(message));
+    return apply(std::move(message));
   }
   return std::nullopt;
 }
 
-OrganUpdate OrganIntake::update_by(OrganMessage message) {
-  OrganUpdate update{std::move(message)};
+OrganUpdate OrganIntake::apply(OrganMessage waiting) {
+  OrganUpdate update{std::move(waiting)};
+  OrganMessage& message = update.message;
+  const ros::Time now = ros::Time::now();
+  bool is_new = false;
+  const auto built = [&] {
+    is_new = true;
+    return message.built.valid() ? message.built.get() : organs_.build(message.mesh);
+  };
   try {
-    update.change = apply(update.message);
+    update.change = message.mesh ? organs_.apply(message.mesh, message.connection, now, built)
+                                 : organs_.apply(message.vertices, now);
+    if (is_new) inspect(organs_.at(message.organ()));
     if (update.change != OrganChange::kRemoved) {
       ++counts_.applied;
     } else {
       update.status = ContactArray::NO_MESH;
-      update.why_not = "organ '" + update.message.organ() + "' was removed";
+      update.why_not = "organ '" + message.organ() + "' was removed";
       ++counts_.removals;
     }
   } catch (const Rejection& rejection) {
-    count(rejection);
     update.status = rejection.status();
     update.why_not = rejection.what();
+    ++counts_.refused;
+    const auto time = SteadyClock::now();
+    const bool may_start = update.status == ContactArray::UNKNOWN_ORGAN && time - start_ < kStart;
+    if (!may_start) rejected_.add(rejection.reason(), rejection.what(), time);
   }
   return update;
-}
-
-OrganChange OrganIntake::apply(OrganMessage& message) {
-  const ros::Time now = ros::Time::now();
-  if (message.vertices) return organs_.apply(message.vertices, now);
-  bool is_new = false;
-  const OrganChange change = organs_.apply(message.mesh, message.connection, now, [&] {
-    is_new = true;
-    return message.built.valid() ? message.built.get() : organs_.build(message.mesh);
-  });
-  if (is_new) inspect(organs_.at(message.organ()));
-  return change;
 }
 
 /// Lets the inspector's thread find out the surface of an organ; without threads, this thread. A
@@ -198,16 +192,6 @@ void OrganIntake::inspect(const DeformableOrgan& organ) {
                  [error = std::current_exception()] { std::rethrow_exception(error); });
     }
   });
-}
-
-void OrganIntake::count(const Rejection& rejection) {
-  ++counts_.refused;
-  const auto now = SteadyClock::now();
-  if (rejection.status() == ContactArray::UNKNOWN_ORGAN && now - start_ < kStart) {
-    ROS_DEBUG("%s", rejection.what());
-  } else {
-    rejected_.add(rejection.reason(), rejection.what(), now);
-  }
 }
 
 std::uint64_t lost_before(std::map<std::string, std::uint32_t>& last, const std::string& publisher,

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <organ_collision/ListOrgans.h>
-#include <organ_collision/OrganMesh.h>
-#include <organ_collision/OrganVertices.h>
 #include <organ_collision/RemoveOrgan.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -45,7 +43,7 @@ struct OrganUpdate {
 /// What became of the messages since the start. received = applied + removals + refused + dropped +
 /// waiting.
 struct OrganMessageCounts {
-  std::uint64_t received = 0;  ///< all messages, and the calls of remove()
+  std::uint64_t received = 0;  ///< all messages, and the removals by the service
   std::uint64_t applied = 0;   ///< messages that gave an organ a new shape
   std::uint64_t removals = 0;  ///< messages that removed an organ, also an unknown one
   std::uint64_t refused = 0;
@@ -86,12 +84,9 @@ class OrganIntake {
   /// Subscribes to the topics and advertises the services. The constructor must have got threads.
   void subscribe(ros::NodeHandle private_node);
 
-  /// Takes a message of a topic. `connection`: the connection over which the mesh came.
+  /// Takes a message of a topic. `connection`: over which the mesh came.
   void take_mesh(const OrganMeshConstPtr& message, const Connection& connection = {});
   void take_vertices(const OrganVerticesConstPtr& message);
-  /// Removes an organ after the messages that were taken before, as a mesh without vertices and
-  /// triangles does. Throws Rejection if there is no such organ.
-  void remove(const std::string& organ);
 
   /// Applies the next message that need not wait for a mesh. Returns std::nullopt if there is none.
   /// A refused message is added to the rejected ones, except for vertices without a mesh in the
@@ -101,19 +96,17 @@ class OrganIntake {
   OrganMessageCounts counts() const;
 
   /// Serves list_organs in the inspector's thread, because volumes of large organs take
-  /// milliseconds. Gets only the shapes from the node's thread. Returns false if the node ends
-  /// before they come.
+  /// milliseconds. Returns false if the node ends before its thread gives the shapes.
   bool on_list(ListOrgans::Request& request, ListOrgans::Response& response);
-  /// Serves remove_organ. Runs in the node's thread.
+  /// Serves remove_organ in the node's thread. Removes an organ after the messages that were taken
+  /// before, as a mesh without vertices and triangles does.
   bool on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response);
 
  private:
   void add(OrganMessage message);
   void begin(OrganMessage& message);
-  OrganUpdate update_by(OrganMessage message);
-  OrganChange apply(OrganMessage& message);
+  OrganUpdate apply(OrganMessage waiting);
   void inspect(const DeformableOrgan& organ);
-  void count(const Rejection& rejection);
 
   OrganRegistry& organs_;
   FailureLog& rejected_;
@@ -131,9 +124,8 @@ class OrganIntake {
 };
 
 /// How many messages of a publisher were lost between its last message and the present one, which
-/// has the sequence number `number`. roscpp and rospy number the messages of a topic one after
-/// another. If the number does not rise, the publisher has started again. `last`: the numbers of
-/// the last messages by publisher. This function sets the publisher's entry to `number`.
+/// has the sequence number `number`. If the number does not rise, the publisher has started again.
+/// `last`: the numbers of the last messages by publisher. Sets the publisher's entry to `number`.
 std::uint64_t lost_before(std::map<std::string, std::uint32_t>& last, const std::string& publisher,
                           std::uint32_t number);
 

@@ -37,10 +37,6 @@ SharedVertices vertices_of(const boost::shared_ptr<const Message>& message) {
   return {&message->vertices, [message](const void*) {}};
 }
 
-bool has_new_topology(const DeformableOrgan& organ, const OrganMesh& message) {
-  return message.topology != organ.latest().mesh->topology();
-}
-
 }  // namespace
 
 bool is_removal(const OrganMesh& mesh) { return mesh.vertices.empty() && mesh.triangles.empty(); }
@@ -50,18 +46,12 @@ TriangleMesh OrganRegistry::build(const OrganMeshConstPtr& message) const {
 }
 
 bool OrganRegistry::is_new(const OrganMesh& message, const Connection& connection) const {
-  const auto known = organs_.find(message.organ);
-  return known == organs_.end() || has_new_topology(known->second, message) ||
-         is_another_organ(known->second, message, connection);
-}
-
-/// Whether a mesh with the organ's present topology number belongs to another organ of the same
-/// name: it has other triangles, and came over a connection that is new to the organ.
-bool OrganRegistry::is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
-                                     const Connection& connection) const {
-  const auto known = connections_.find(organ.name());
+  const auto organ = organs_.find(message.organ);
+  if (organ == organs_.end()) return true;
+  const TriangleMesh& latest = *organ->second.latest().mesh;
+  if (message.topology != latest.topology()) return true;
+  const auto known = connections_.find(message.organ);
   if (known != connections_.end() && known->second.count(connection) > 0) return false;
-  const TriangleMesh& latest = *organ.latest().mesh;
   return message.vertices.size() != latest.vertices().size() ||
          !latest.has_triangles(message.triangles);
 }
@@ -112,11 +102,9 @@ OrganChange OrganRegistry::set_shape(const OrganMeshConstPtr& pointer, const Con
   }
   DeformableOrgan& organ = known->second;
   OrganChange change = OrganChange::kShape;
-  if (has_new_topology(organ, message)) {
+  if (is_new(message, connection)) {
+    if (message.topology == organ.latest().mesh->topology()) change = OrganChange::kOrgan;
     organ.replace(built(), stamp, now);
-  } else if (is_another_organ(organ, message, connection)) {
-    organ.replace(built(), stamp, now);
-    change = OrganChange::kOrgan;
   } else if (organ.latest().mesh->has_triangles(message.triangles)) {
     organ.move(vertices_of(pointer), stamp, now);
   } else {
@@ -168,8 +156,11 @@ const DeformableOrgan& OrganRegistry::at(const std::string& name) const {
                         (refusal.empty() ? " was removed; send a mesh on organ_mesh"
                                          : " has no mesh, because it was refused: " + refusal));
   }
+  std::vector<std::string> names;
+  for (const auto& [known, organ] : organs_) names.push_back(quoted(known));
   throw Rejection(ContactArray::UNKNOWN_ORGAN, "unknown organ",
-                  "organ " + quoted(name) + " is unknown; " + known_organs());
+                  "organ " + quoted(name) + " is unknown; " +
+                      (names.empty() ? "no organ is known yet" : "known are " + listed(names)));
 }
 
 std::string OrganRegistry::last_refusal(const std::string& organ) const {
@@ -189,13 +180,6 @@ void OrganRegistry::receive_anew(ros::Time now) {
 void OrganRegistry::check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const {
   const std::string ahead = ahead_fault(stamp, now, max_ahead_sec_);
   if (!ahead.empty()) refuse("stamp ahead", named + ": " + ahead);
-}
-
-std::string OrganRegistry::known_organs() const {
-  if (organs_.empty()) return "no organ is known yet";
-  std::vector<std::string> names;
-  for (const auto& [name, organ] : organs_) names.push_back(quoted(name));
-  return "known are " + listed(names);
 }
 
 }  // namespace organ_collision

@@ -18,11 +18,10 @@
 
 namespace organ_collision {
 
-/// The connection over which a message came from a publisher to this node, identified by its
-/// header: roscpp makes one header for each connection, also within a process, and keeps the header
-/// while the connection is open. A restarted publisher has a new connection, even under the same
-/// name. Connections are compared by the owner of the header, and not by its address, which a later
-/// header may get again.
+/// The connection over which a message came from a publisher, identified by its header: roscpp
+/// makes one for each connection, and keeps it while the connection is open. A restarted publisher
+/// has a new connection. Connections are compared by the owner of the header, and not by its
+/// address, which a later header may get again.
 using Connection = boost::weak_ptr<const ros::M_string>;
 
 /// What a message changed. After kFrame and kOrgan, the new shape cannot be compared with earlier
@@ -82,9 +81,6 @@ class OrganRegistry {
   OrganChange set_shape(const OrganMeshConstPtr& message, const Connection& connection,
                         const std::string& frame, ros::Time now,
                         const std::function<TriangleMesh()>& built);
-  bool is_another_organ(const DeformableOrgan& organ, const OrganMesh& message,
-                        const Connection& connection) const;
-  std::string known_organs() const;
   void check_stamp(ros::Time stamp, ros::Time now, const std::string& named) const;
 
   MeshLimits limits_;

@@ -6,9 +6,9 @@
 
 namespace organ_collision {
 
-/// The organs and the motion that a node knows of, and the receivers of its topics. The receivers
-/// also take messages from elsewhere, such as a bag. Without subscribe(), no ROS master is needed.
-/// All functions must be called in one thread.
+/// The organs and the motion that a node knows of, and the receivers of its topics, which also take
+/// messages from elsewhere, such as a bag. Without subscribe(), no ROS master is needed. All
+/// functions must be called in one thread.
 class Inbox {
  public:
   /// Messages that exceed the limits of `parameters` are refused. `rejected` counts them, and must
@@ -25,11 +25,10 @@ class Inbox {
   /// Subscribes to the topics of organs, of TF and of poses.
   void subscribe(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
-  /// Forgets all history and returns true in three cases. First, ROS time jumped back since the
-  /// last call. Second, stamps step back soon after a jump, because transforms from before the jump
-  /// had arrived after it. Third, transforms are far ahead of the clock, because they came before
-  /// simulated time began. Call it before and after each message, so that no message and no step
-  /// meets state from before the jump.
+  /// Forgets all history and returns true if ROS time jumped back since the last call, if stamps
+  /// step back soon after a jump, because transforms from before it had arrived late, or if
+  /// transforms are far ahead of the clock, because they came before simulated time began. Call it
+  /// before and after each message, so that nothing meets state from before the jump.
   bool watch_clock();
   /// Forgets all transforms but the static ones, and all that is known of the past of the organs.
   void forget_history();
@@ -47,9 +46,8 @@ class Inbox {
 };
 
 /// Turns messages about organs and motion into steps with their answers (doc/architecture.md). The
-/// node feeds it from topics, and the program replay feeds it from a bag. Without a subscription,
-/// it needs no ROS master. All functions must be called in one thread. The workers evaluate steps
-/// side by side while the scheduler waits for them.
+/// node feeds it from topics, and the program replay from a bag. All functions must be called in
+/// one thread. The workers evaluate steps side by side while the scheduler waits for them.
 class CollisionPipeline {
  public:
   struct Callbacks {
@@ -63,7 +61,7 @@ class CollisionPipeline {
                     FailureLog& rejected, Callbacks callbacks,
                     std::optional<OrganIntake::Threads> threads = {});
 
-  /// Calls Inbox::watch_clock(). If the inbox forgets its history, the scheduler starts anew, too.
+  /// See Inbox::watch_clock(). If the inbox forgets its history, the scheduler starts anew, too.
   void watch_clock();
   /// Applies the organ messages that can be applied now. Each new shape becomes due for all tools.
   void apply_organ_messages(SteadyTime now);

@@ -1,22 +1,11 @@
 #pragma once
 
-#include <geometry_msgs/Polygon.h>
-#include <organ_collision/Clearance.h>
-#include <organ_collision/Contact.h>
 #include <organ_collision/ContactArray.h>
-#include <organ_collision/Crossing.h>
-#include <organ_collision/ToolPlacement.h>
-#include <ros/time.h>
-#include <std_msgs/Header.h>
 
 #include <cstdint>
 #include <string>
 
-#include "organ_collision/picking/region.hpp"
-#include "organ_collision/query/clearance.hpp"
 #include "organ_collision/query/collision_query.hpp"
-#include "organ_collision/query/contact.hpp"
-#include "organ_collision/query/placement.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "ros/organs/deformable_organ.hpp"
 #include "ros/parameters/node_parameters.hpp"
@@ -58,10 +47,9 @@ bool is_stale(const OrganShape& shape, ros::Time now, double timeout_sec);
 std::string stale_message(const std::string& organ, const OrganShape& shape, ros::Time now,
                           double timeout_sec);
 
-// Conversions between messages and the requests and results of CollisionQuery. All lengths are in
-// metres.
+// These copy all fields. Lengths are in metres, and positions and directions stay in the same
+// frame.
 
-// These copy all fields. Positions and directions stay in the same frame.
 Contact to_message(const FaceContact& contact);
 Clearance to_message(const ToolClearance& clearance);
 Crossing to_message(const AxisCrossing& crossing);

@@ -14,19 +14,36 @@ namespace organ_collision {
 /// A time of a clock that never goes back: of the steady clock, or of WaitClock.
 using SteadyTime = std::chrono::steady_clock::time_point;
 
-/// The clock by which shapes wait for their transforms. It follows simulated time if there is any,
-/// and otherwise the steady clock, which never jumps. Simulated time may stand still, because the
+/// The clock by which shapes wait for their transforms: simulated time if there is any, and
+/// otherwise the steady clock. It never goes back. Simulated time may stand still, because the
 /// simulator is paused, or waits for the answer. After kStandstill of wall time, this clock goes on
 /// with wall time, so that no shape waits for ever.
 class WaitClock {
  public:
   static constexpr std::chrono::seconds kStandstill{2};
 
-  /// The time of this clock. It never goes back, even if simulated time does.
-  SteadyTime now();
+  SteadyTime now() {
+    const bool simulates = ros::Time::isSimTime();
+    return now(simulates ? std::optional(ros::Time::now()) : std::nullopt,
+               std::chrono::steady_clock::now());
+  }
   /// The time of this clock if its sources show the given times. `simulated`: std::nullopt if time
   /// is not simulated; zero if simulated time has not begun.
-  SteadyTime now(std::optional<ros::Time> simulated, SteadyTime wall);
+  SteadyTime now(std::optional<ros::Time> simulated, SteadyTime wall) {
+    if (!simulated) return wall;
+    if (*simulated != simulated_) {
+      // Simulated time is counted from its first value, which therefore adds nothing.
+      if (*simulated > simulated_ && !simulated_.isZero()) {
+        time_ += std::chrono::nanoseconds(simulated->toNSec() - simulated_.toNSec());
+      }
+      simulated_ = *simulated;
+      counted_ = wall;
+    } else if (wall - counted_ > kStandstill) {
+      time_ += wall - counted_ - kStandstill;
+      counted_ = wall - kStandstill;
+    }
+    return time_;
+  }
 
  private:
   ros::Time simulated_;  ///< simulated time at the last call
@@ -57,9 +74,8 @@ struct OrganToolPair {
   /// The answer to the last step, whether the step succeeded or failed. Null if there is none.
   ContactArrayConstPtr answer;
   /// The first shape waits for its transforms. Behind it is the newest shape, or, in a replay, all
-  /// newer shapes. A newer shape never replaces the first one. Otherwise no shape would ever be
-  /// evaluated if transforms lag by more than the time between two shapes. (There are few shapes. A
-  /// vector does not allocate memory for each step, as a deque does.)
+  /// newer shapes. A newer shape never replaces the first one: otherwise no shape would ever be
+  /// evaluated if transforms lag by more than the time between two shapes.
   std::vector<WaitingShape> waiting;
   /// When the node last tried a step because the last successful step was long ago. Empty if a step
   /// has succeeded since.
@@ -72,7 +88,7 @@ struct OrganToolPair {
 using StepHistory = std::map<std::pair<std::string, std::size_t>, OrganToolPair>;
 
 /// A step of one tool against one organ. The scheduler decides where the step begins and ends,
-/// StepEvaluator finds the answer, and the scheduler publishes it. If a step fails before it is
+/// a worker finds the answer, and the scheduler publishes it. If a step fails before it is
 /// evaluated, the scheduler sets its answer at once.
 struct ToolStep {
   const DeformableOrgan* organ;
@@ -82,9 +98,6 @@ struct ToolStep {
   /// rests at `end`, because it has no last pose, or because no newer pose is known.
   bool moves = false;
   std::optional<Timed<ToolPose>> end = {};  ///< not set if the step failed before it was evaluated
-  /// How the organ's faces join. Null if that was not known when the step was planned. Another
-  /// thread finds it out meanwhile, so the workers use only this pointer.
-  const SurfaceTopology* topology = nullptr;
   /// True: the step has no transform, but TF may still be starting, because the pair has had no
   /// successful step yet. Nobody is warned in that case.
   bool is_starting = false;
@@ -93,35 +106,11 @@ struct ToolStep {
   // What the evaluation finds.
 
   ContactArrayPtr answer = nullptr;
-  CollisionRequest request = {};  ///< its path is empty if none was known when the step failed
-  std::size_t samples_cut = 0;    ///< see SampledPath
-  double deviation_cut = 0.0;     ///< [m] see SampledPath
-  double query_sec = 0.0;         ///< [s] how long the query took; 0 if there was no query
-};
-
-/// Finds the answers of steps. Changes only the step that it is given. Several threads may
-/// therefore evaluate different steps at the same time, as long as nobody changes what the steps
-/// refer to.
-class StepEvaluator {
- public:
-  /// All arguments must outlive this.
-  StepEvaluator(const NodeParameters& parameters, const std::vector<Tool>& tools,
-                const ToolPoses& poses)
-      : parameters_(parameters), tools_(tools), poses_(poses) {}
-
-  /// Sets the step's request, answer and query time. `query` belongs to the calling thread.
-  void evaluate(ToolStep& step, ContactQuery& query) const;
-  /// Sets an answer whose status and message say why the step failed.
-  void set_failed(ToolStep& step, ros::Time stamp, std::uint8_t status,
-                  const std::string& message) const;
-
- private:
-  ContactArrayPtr answer_about(const ToolStep& step, ros::Time end) const;
-  ToolPath take_path(ToolStep& step, std::string& unknown) const;
-
-  const NodeParameters& parameters_;
-  const std::vector<Tool>& tools_;
-  const ToolPoses& poses_;
+  /// Its path is empty if none was known when the step failed. Its `surface_topology` is set when
+  /// the step is planned, because another thread may find the surface out meanwhile.
+  CollisionRequest request = {};
+  SampledPath sampled = {};  ///< how the path was sampled; the path itself is in `request`
+  double query_sec = 0.0;    ///< [s] how long the query took; 0 if there was no query
 };
 
 }  // namespace organ_collision

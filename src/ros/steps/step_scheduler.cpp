@@ -3,6 +3,7 @@
 #include <ros/console.h>
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 
 #include "ros/messages/text.hpp"
 
@@ -20,6 +21,18 @@ constexpr std::chrono::milliseconds kLookout(100);
 bool is_answered(const OrganToolPair& pair, ros::Time pose) {
   return pair.last && pair.last->mesh == pair.current.mesh && !pose.isZero() &&
          pose <= pair.last->stamp;
+}
+
+QueryMode mode_of(const OrganToolPair& pair) {
+  return pair.last ? QueryMode::kSwept : QueryMode::kStatic;
+}
+
+/// The organ's shape at the start of a step, from which it moves to `now`. Null if the organ rests,
+/// or if its triangles have changed.
+const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
+  const bool moved = last.mesh.get() != &now && last.mesh->topology() == now.topology() &&
+                     last.mesh->same_faces(now);
+  return moved ? last.mesh.get() : nullptr;
 }
 
 }  // namespace
@@ -87,7 +100,7 @@ void StepScheduler::evaluate(SteadyTime now) {
 bool StepScheduler::evaluate_due() {
   if (due_.empty()) return false;
   const auto work = [this](std::size_t worker, std::size_t step) {
-    if (!due_[step].answer) evaluator_.evaluate(due_[step], workers_.query(worker));
+    if (!due_[step].answer) answer(due_[step], workers_.query(worker));
   };
   const auto take = [this](std::size_t step) { deliver(due_[step]); };
   workers_.run(due_.size(), std::ref(work), std::ref(take));  // std::ref() allocates no memory.
@@ -112,27 +125,21 @@ void StepScheduler::plan_front(const DeformableOrgan& organ, std::size_t tool,
   const bool late = pair.last && !stamp.isZero() && stamp <= pair.last->stamp;
   const bool faulty = !tools_[tool].fault.empty();
   Lookup<ToolPose> end;
-  if (!late && !faulty) {
+  if (late) {  // The tool rests at its last pose.
+    end.found = Timed<ToolPose>{pair.last->pose, pair.last->stamp};
+  } else if (!faulty) {
     if (may_wait && !poses_.has_pose(tools_[tool], organ.frame(), stamp)) return;
     end = poses_.pose(tools_[tool], organ.frame(), stamp);
     if (!end.found && may_wait) return;
+  }
+  if (!end.found) {
+    end.why_not += "; waited " + duration_text(parameters_.tf_timeout_sec) + " (tf_timeout_sec)";
   }
   pair.current = std::move(front.shape);
   pair.waiting.erase(pair.waiting.begin());
   ToolStep step{&organ, tool, &pair};
   step.is_of_shape = true;
-  const ros::Time failure = stamp.isZero() ? ros::Time::now() : stamp;
-  if (faulty) {
-    plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, tools_[tool].fault);
-  } else if (late) {
-    plan_step(std::move(step), std::nullopt);
-  } else if (end.found) {
-    plan_step(std::move(step), std::move(end.found));
-  } else {
-    plan_without_transform(std::move(step), failure,
-                           end.why_not + "; waited " + duration_text(parameters_.tf_timeout_sec) +
-                               " (tf_timeout_sec)");
-  }
+  plan_step(std::move(step), std::move(end), stamp.isZero() ? ros::Time::now() : stamp);
 }
 
 /// Plans a step against the pair's current shape, with the latest pose. `only_new`: plans no step
@@ -142,22 +149,15 @@ void StepScheduler::plan_latest(const DeformableOrgan& organ, std::size_t tool, 
   if (!pair.current.mesh) return;  // Its first shape still waits for a transform.
   forget_if_disproved(organ, tool, pair);
   ToolStep step{&organ, tool, &pair};
-  const ros::Time stamp = ros::Time::now();
-  if (const std::string& fault = tools_[tool].fault; !fault.empty()) {
-    return plan_failure(std::move(step), stamp, ContactArray::INVALID_TOOL, fault);
-  }
-  if (is_stale(pair.current, stamp, parameters_.mesh_timeout_sec)) {
-    return plan_failure(
-        std::move(step), stamp, ContactArray::STALE_MESH,
-        stale_message(organ.name(), pair.current, stamp, parameters_.mesh_timeout_sec));
+  const ros::Time now = ros::Time::now();
+  const double timeout_sec = parameters_.mesh_timeout_sec;
+  if (tools_[tool].fault.empty() && is_stale(pair.current, now, timeout_sec)) {
+    return plan_failure(std::move(step), now, ContactArray::STALE_MESH,
+                        stale_message(organ.name(), pair.current, now, timeout_sec));
   }
   auto end = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
-  if (end.found) {
-    if (only_new && is_answered(pair, end.found->stamp)) return;
-    plan_step(std::move(step), std::move(end.found));
-  } else {
-    plan_without_transform(std::move(step), stamp, end.why_not);
-  }
+  if (only_new && end.found && is_answered(pair, end.found->stamp)) return;
+  plan_step(std::move(step), std::move(end), now);
 }
 
 /// Plans steps for the pairs whose last step was so long ago that TF would soon forget how the tool
@@ -168,19 +168,17 @@ void StepScheduler::plan_long_steps() {
     if (!pair.last) continue;
     const auto& [organ_name, tool] = key;
     const DeformableOrgan& organ = organs_.at(organ_name);
-    if (forget_if_disproved(organ, tool, pair)) {
-      plan_latest(organ, tool, true);
-      continue;
+    if (!forget_if_disproved(organ, tool, pair)) {
+      if (pair.tried && now_ - *pair.tried < longest) continue;
+      const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
+      if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
+      const ros::Time from = pair.last->stamp, to = pose.found->stamp;
+      const bool is_long =
+          to > from && (now_ - pair.last->taken >= longest ||
+                        poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
+      if (!is_long) continue;
+      pair.tried = now_;
     }
-    if (pair.tried && now_ - *pair.tried < longest) continue;
-    const auto pose = poses_.pose(tools_[tool], organ.frame(), ros::Time(0));
-    if (!pose.found || is_answered(pair, pose.found->stamp)) continue;
-    const ros::Time from = pair.last->stamp, to = pose.found->stamp;
-    const bool is_long =
-        to > from && (now_ - pair.last->taken >= longest ||
-                      poses_.is_nearly_forgotten(tools_[tool], organ.frame(), from, to));
-    if (!is_long) continue;
-    pair.tried = now_;
     plan_latest(organ, tool, true);
   }
 }
@@ -241,30 +239,74 @@ std::optional<SteadyTime> StepScheduler::next_deadline() const {
   return next;
 }
 
-/// Plans a step that ends at `end`. Without an end, or if `end` is not newer than the last pose,
-/// the tool rests at its last pose.
-void StepScheduler::plan_step(ToolStep step, std::optional<Timed<ToolPose>> end) {
-  const std::optional<LastStep>& last = step.pair->last;
-  const bool is_of_now = end && end->stamp.isZero();
-  if (is_of_now) end->stamp = std::max(ros::Time::now(), last ? last->stamp : ros::Time());
-  const bool is_held = !end || (last && !is_of_now && end->stamp <= last->stamp);
-  step.moves = last && !is_held;
-  step.end = is_held ? Timed<ToolPose>{last->pose, last->stamp} : *std::move(end);
-  step.topology = step.pair->current.topology();
+/// Plans a step that ends at `end`. If `end` is not newer than the last pose, the tool rests at its
+/// last pose. `failure`: the stamp of the answer if the tool has a fault or no pose.
+void StepScheduler::plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure) {
+  OrganToolPair& pair = *step.pair;
+  const std::optional<LastStep>& last = pair.last;
+  const std::string& fault = tools_[step.tool].fault;
+  if (!fault.empty()) {
+    return plan_failure(std::move(step), failure, ContactArray::INVALID_TOOL, fault);
+  }
+  if (!end.found) {
+    if (!pair.first_without_transform) pair.first_without_transform = now_;
+    step.is_starting = !last && now_ - *pair.first_without_transform < kStart;
+    return plan_failure(std::move(step), failure, ContactArray::NO_TRANSFORM, end.why_not);
+  }
+  step.end = std::move(end.found);
+  const bool is_of_now = step.end->stamp.isZero();
+  if (is_of_now) step.end->stamp = std::max(ros::Time::now(), last ? last->stamp : ros::Time());
+  step.moves = last && (is_of_now || step.end->stamp > last->stamp);
+  if (last && !step.moves) step.end = Timed<ToolPose>{last->pose, last->stamp};
+  step.request.surface_topology = pair.current.topology();
   due_.push_back(std::move(step));
 }
 
+/// Plans a step that fails: its answer says why.
 void StepScheduler::plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                                  const std::string& message) {
-  evaluator_.set_failed(step, stamp, status, message);
+  begin_answer(step, stamp);
+  set_failure(*step.answer, status, message);
   due_.push_back(std::move(step));
 }
 
-void StepScheduler::plan_without_transform(ToolStep step, ros::Time stamp, const std::string& why) {
-  OrganToolPair& pair = *step.pair;
-  if (!pair.first_without_transform) pair.first_without_transform = now_;
-  step.is_starting = !pair.last && now_ - *pair.first_without_transform < kStart;
-  plan_failure(std::move(step), stamp, ContactArray::NO_TRANSFORM, why);
+/// Finds the answer of a step. Several threads call this at the same time for different steps: it
+/// changes only the step. `query` belongs to the calling thread.
+void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
+  const Tool& tool = tools_[step.tool];
+  const std::optional<LastStep>& last = step.pair->last;
+  const TriangleMesh& mesh = *step.pair->current.mesh;
+  CollisionRequest& request = step.request;
+  request.organ = &mesh;
+  if (last && parameters_.organ_motion) request.organ_before = shape_before(*last, mesh);
+  request.radius = tool.parameters.radius;
+  request.links = &tool.links;
+  request.mode = mode_of(*step.pair);
+  request.regions = parameters_.publish_regions;
+  request.margin = tool.parameters.margin;
+  request.max_near = static_cast<std::size_t>(tool.parameters.max_near);
+  request.placement = parameters_.publish_placement;
+  request.tip = step.end->value.tip;
+  if (step.moves) {
+    step.sampled = poses_.path(tool, step.organ->frame(), {last->pose, last->stamp}, *step.end);
+    request.path = std::move(step.sampled.path);
+  } else {
+    request.path = resting_path(step.end->value);
+  }
+  begin_answer(step, step.end->stamp);
+  step.query_sec = query.evaluate(request, *step.answer);
+  set_incomplete(*step.answer, step.sampled.unknown);
+}
+
+/// Sets an answer whose results are still empty. `end`: its stamp.
+void StepScheduler::begin_answer(ToolStep& step, ros::Time end) const {
+  const ToolParameters& tool = tools_[step.tool].parameters;
+  const OrganToolPair& pair = *step.pair;
+  step.answer = boost::make_shared<ContactArray>(
+      answer_about(step.organ->name(), tool.name, static_cast<std::uint8_t>(mode_of(pair)), end));
+  set_links(*step.answer, tool);
+  set_organ(*step.answer, *step.organ, pair.current);
+  if (pair.last) step.answer->step_start = pair.last->stamp;
 }
 
 /// Publishes the answer of a step. If it is OK, the next step of the pair begins where this one
@@ -272,8 +314,8 @@ void StepScheduler::plan_without_transform(ToolStep step, ros::Time stamp, const
 void StepScheduler::deliver(ToolStep& step) {
   OrganToolPair& pair = *step.pair;
   if (step.is_of_shape) ++counts_.answered;
-  counts_.samples_cut += step.samples_cut;
-  counts_.deviation_cut = std::max(counts_.deviation_cut, step.deviation_cut);
+  counts_.samples_cut += step.sampled.samples_cut;
+  counts_.deviation_cut = std::max(counts_.deviation_cut, step.sampled.deviation_cut);
   if (step.answer->status == ContactArray::OK) {
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
     pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_};

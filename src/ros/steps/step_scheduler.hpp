@@ -43,8 +43,8 @@ class StepWorkers : public QueryThreads<ContactQuery> {
 /// evaluated: its answers say INVALID_TOOL.
 ///
 /// Steps that are due at the same time are evaluated side by side, at most one for each pair of
-/// organ and tool. Everything else happens in the calling thread, in an order that
-/// does not depend on the number of workers.
+/// organ and tool. Everything else happens in the calling thread, in an order that does not depend
+/// on the number of workers.
 class StepScheduler {
  public:
   /// Gets a step with its answer. The step's pair is already prepared for the next step.
@@ -59,7 +59,6 @@ class StepScheduler {
         tools_(tools),
         organs_(organs),
         poses_(poses),
-        evaluator_(parameters, tools, poses),
         workers_(workers),
         publish_(std::move(publish)),
         tool_is_due_(tools.size(), false) {}
@@ -76,9 +75,8 @@ class StepScheduler {
   void keep_all_shapes() { keeps_all_shapes_ = true; }
 
   /// Evaluates what is due, in this order: the shapes whose transforms have come or whose deadline
-  /// has passed; the tools whose tips moved; at a tick, all tools; and the tools whose motion TF
-  /// would soon forget, because half of the time for which TF keeps transforms has passed since
-  /// their last step. All but the shapes are evaluated with the latest poses.
+  /// has passed; the tools whose tips moved; at a tick, all tools; and the tools whose motion since
+  /// their last step TF would soon forget. All but the shapes are evaluated with the latest poses.
   void evaluate(SteadyTime now);
 
   /// Call it when the list of tools has been exchanged. The kept tools keep their history and what
@@ -100,17 +98,17 @@ class StepScheduler {
   StepCounts counts() const;
 
  private:
-  // These find out which steps are due.
   void plan_front(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
   void plan_latest(const DeformableOrgan& organ, std::size_t tool, bool only_new);
   void plan_long_steps();
   bool forget_if_disproved(const DeformableOrgan& organ, std::size_t tool, OrganToolPair& pair);
-  void plan_step(ToolStep step, std::optional<Timed<ToolPose>> end);
+  void plan_step(ToolStep step, Lookup<ToolPose> end, ros::Time failure);
   void plan_failure(ToolStep step, ros::Time stamp, std::uint8_t status,
                     const std::string& message);
-  void plan_without_transform(ToolStep step, ros::Time stamp, const std::string& why);
 
   bool evaluate_due();
+  void answer(ToolStep& step, ContactQuery& query) const;
+  void begin_answer(ToolStep& step, ros::Time end) const;
   void deliver(ToolStep& step);
   void begin_with_latest_shapes(std::size_t tool);
   SteadyTime deadline(const WaitingShape& shape) const;
@@ -119,7 +117,6 @@ class StepScheduler {
   const std::vector<Tool>& tools_;
   const OrganRegistry& organs_;
   ToolPoses& poses_;
-  const StepEvaluator evaluator_;
   StepWorkers& workers_;
   Publish publish_;
   StepHistory history_;

@@ -8,31 +8,17 @@
 #include "tool_poses_fixture.hpp"
 
 using namespace organ_collision;
+using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 namespace {
 
 geometry_msgs::TransformStamped transform(const std::string& child, double time) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = "/world";
-  transform.header.stamp = ros::Time(time);
-  transform.child_frame_id = child;
-  transform.transform.translation.x = time;
-  transform.transform.rotation.w = 1.0;
-  return transform;
+  return transform_of("/world", child, time, Isometry3d(Eigen::Translation3d(time, 0.0, 0.0)));
 }
 
 ToolParameters streamed_tool(const std::string& name) {
   return {name, "base", name + "_tip", 0.005, "measured_cp", "base_pose"};
-}
-
-geometry_msgs::PoseStamped pose(const std::string& frame, double time, const Vector3d& point) {
-  geometry_msgs::PoseStamped pose;
-  pose.header.frame_id = frame;
-  pose.header.stamp = ros::Time(time);
-  pose.pose.position = tf2::toMsg(point);
-  pose.pose.orientation.w = 1.0;
-  return pose;
 }
 
 class MotionTopicsTest : public testing::Test {
@@ -91,9 +77,9 @@ TEST_F(MotionTopicsTest, WhatTfRefusesIsCountedButNoRepetition) {
 }
 
 TEST_F(MotionTopicsTest, PosesPlaceTheTip) {
-  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
-  topics_.take_tip(0, pose("/base", 2.0, {0.3, 0.2, 0.1}));
-  topics_.take_tip(1, pose("base", 2.0, {7.0, 8.0, 9.0}));
+  topics_.take_tip(0, pose_of("base", 1.0, {0.1, 0.2, 0.3}));
+  topics_.take_tip(0, pose_of("/base", 2.0, {0.3, 0.2, 0.1}));
+  topics_.take_tip(1, pose_of("base", 2.0, {7.0, 8.0, 9.0}));
   EXPECT_TRUE(tip("base", 1.0).isApprox(Vector3d(0.1, 0.2, 0.3)));
   EXPECT_TRUE(tip("base", 1.5).isApprox(Vector3d(0.2, 0.2, 0.2)));
   EXPECT_TRUE(tip("base", 2.0, "right").isApprox(Vector3d(7.0, 8.0, 9.0)));
@@ -102,33 +88,33 @@ TEST_F(MotionTopicsTest, PosesPlaceTheTip) {
 }
 
 TEST_F(MotionTopicsTest, PosesWithoutAStampDoNotCollide) {
-  for (int i = 0; i < 1000; ++i) topics_.take_tip(0, pose("base", 0.0, {0.001 * i, 0.0, 0.0}));
+  for (int i = 0; i < 1000; ++i) topics_.take_tip(0, pose_of("base", 0.0, {0.001 * i, 0.0, 0.0}));
   EXPECT_EQ(arrived_.size(), 1000u);
   EXPECT_EQ(rejected(), 0u);
   EXPECT_TRUE(tip("base", 0.0).isApprox(Vector3d(0.999, 0.0, 0.0)));
 }
 
 TEST_F(MotionTopicsTest, TheBaseMayComeFirstOrLastAndRests) {
-  topics_.take_base(0, pose("world", 1.0, {10.0, 0.0, 0.0}));
-  topics_.take_tip(0, pose("base", 50.0, {0.1, 0.2, 0.3}));
+  topics_.take_base(0, pose_of("world", 1.0, {10.0, 0.0, 0.0}));
+  topics_.take_tip(0, pose_of("base", 50.0, {0.1, 0.2, 0.3}));
   EXPECT_TRUE(tip("world", 50.0).isApprox(Vector3d(10.1, 0.2, 0.3)));
-  topics_.take_base(0, pose("world", 2.0, {20.0, 0.0, 0.0}));
+  topics_.take_base(0, pose_of("world", 2.0, {20.0, 0.0, 0.0}));
   EXPECT_TRUE(tip("world", 50.0).isApprox(Vector3d(20.1, 0.2, 0.3)));
   EXPECT_EQ(rejected(), 0u);
 }
 
 TEST_F(MotionTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
   const double nan = std::nan("");
-  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
-  expect_rejected(pose("base", 2.0, {0.1, nan, 0.3}), "nan");
-  expect_rejected(pose("base", 2.0, {0.1, std::numeric_limits<double>::infinity(), 0.3}), "inf");
-  expect_rejected(pose("base", 2.0, {0.1, -1e7, 0.3}), "-1e+07");
-  expect_rejected(pose("base", ros::Time::now().toSec() + 60.0, {0.1, 0.2, 0.3}), "clock");
-  expect_rejected(pose("base", 1.0, {0.4, 0.5, 0.6}), "stamp of an earlier one");
-  expect_rejected(pose("", 2.0, {0.1, 0.2, 0.3}), "frame_id");
-  expect_rejected(pose(std::string(10'000'000, 'x'), 2.0, {0.1, 0.2, 0.3}), "at most 256 bytes");
-  expect_rejected(pose("left_tip", 2.0, {0.1, 0.2, 0.3}), "own frame");
-  auto turned = pose("base", 2.0, {0.1, 0.2, 0.3});
+  topics_.take_tip(0, pose_of("base", 1.0, {0.1, 0.2, 0.3}));
+  expect_rejected(pose_of("base", 2.0, {0.1, nan, 0.3}), "nan");
+  expect_rejected(pose_of("base", 2.0, {0.1, std::numeric_limits<double>::infinity(), 0.3}), "inf");
+  expect_rejected(pose_of("base", 2.0, {0.1, -1e7, 0.3}), "-1e+07");
+  expect_rejected(pose_of("base", ros::Time::now().toSec() + 60.0, {0.1, 0.2, 0.3}), "clock");
+  expect_rejected(pose_of("base", 1.0, {0.4, 0.5, 0.6}), "stamp of an earlier one");
+  expect_rejected(pose_of("", 2.0, {0.1, 0.2, 0.3}), "frame_id");
+  expect_rejected(pose_of(std::string(10'000'000, 'x'), 2.0, {0.1, 0.2, 0.3}), "at most 256 bytes");
+  expect_rejected(pose_of("left_tip", 2.0, {0.1, 0.2, 0.3}), "own frame");
+  auto turned = pose_of("base", 2.0, {0.1, 0.2, 0.3});
   turned.pose.orientation.w = 0.0;
   expect_rejected(turned, "quaternion");
   turned.pose.orientation.w = nan;
@@ -138,11 +124,11 @@ TEST_F(MotionTopicsTest, BadPosesAreRejectedAndTheLastOneStays) {
 }
 
 TEST_F(MotionTopicsTest, ABaseThatWasRejectedIsNotTriedAgain) {
-  topics_.take_base(0, pose("world", 1.0, {std::nan(""), 0.0, 0.0}));
-  topics_.take_tip(0, pose("base", 1.0, {0.1, 0.2, 0.3}));
-  topics_.take_tip(0, pose("other_base", 1.1, {0.1, 0.2, 0.3}));
+  topics_.take_base(0, pose_of("world", 1.0, {std::nan(""), 0.0, 0.0}));
+  topics_.take_tip(0, pose_of("base", 1.0, {0.1, 0.2, 0.3}));
+  topics_.take_tip(0, pose_of("other_base", 1.1, {0.1, 0.2, 0.3}));
   EXPECT_EQ(rejected(), 1u);
-  topics_.take_base(0, pose("other_base", 1.0, {0.0, 0.0, 0.0}));
+  topics_.take_base(0, pose_of("other_base", 1.0, {0.0, 0.0, 0.0}));
   EXPECT_EQ(rejected(), 2u);
 }
 
@@ -152,13 +138,14 @@ TEST_F(MotionTopicsTest, ToolsMayShareATipAndItsPoses) {
   MotionTopics topics({streamed_tool("left"), wide}, buffer_, rejected_,
                       [this](std::size_t tool) { arrived_.push_back(tool); });
   for (const double time : {1.0, 1.1}) {
-    topics.take_tip(0, pose("base", time, {time, 0.0, 0.0}));
-    topics.take_tip(1, pose("base", time, {time, 0.0, 0.0}));
+    topics.take_tip(0, pose_of("base", time, {time, 0.0, 0.0}));
+    topics.take_tip(1, pose_of("base", time, {time, 0.0, 0.0}));
   }
-  for (const std::size_t tool : {0, 1}) topics.take_tip(tool, pose("base", 1.05, {1.05, 0.0, 0.0}));
+  for (const std::size_t tool : {0, 1})
+    topics.take_tip(tool, pose_of("base", 1.05, {1.05, 0.0, 0.0}));
   EXPECT_EQ(arrived_, (std::vector<std::size_t>{0, 1, 0, 1, 0, 1})) << "also with an earlier stamp";
   EXPECT_EQ(rejected(), 0u);
-  topics.take_tip(0, pose("base", 1.05, {2.0, 0.0, 0.0}));
-  topics.take_tip(1, pose("base", 1.05, {2.0, 0.0, 0.0}));
+  topics.take_tip(0, pose_of("base", 1.05, {2.0, 0.0, 0.0}));
+  topics.take_tip(1, pose_of("base", 1.05, {2.0, 0.0, 0.0}));
   EXPECT_EQ(rejected(), 2u) << "another pose with the same stamp";
 }

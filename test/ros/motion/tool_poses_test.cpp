@@ -174,27 +174,13 @@ TEST_F(ToolPosesTest, EveryPoseThatTfWasToldIsAWaypoint) {
   }
 }
 
-TEST_F(ToolPosesTest, OfTooManyPosesThoseThatMatterMostStay) {
-  for (int i = 0; i <= 100; ++i) {
-    const double time = 1.0 + 0.001 * i;
-    send_trocar(time);
-    const double stab = i == 37 ? 0.3 : 0.0, wobble = i % 2 == 0 ? 0.0 : 1e-6;
-    set_point(buffer_, "world", "hook_tip", time, trocar(time) - Vector3d(0.0, wobble, 0.1 + stab));
-  }
-  const auto known = [&](double time) {
-    return *poses_.pose(hook_, "liver", ros::Time(time)).found;
-  };
-  const SampledPath sampled =
-      ToolPoses(buffer_, {1.0, 4}).path(hook_, "liver", known(1.0), known(1.1));
-  ASSERT_EQ(sampled.path.size(), 5u);
-  for (int i = 1; i <= 3; ++i) EXPECT_NEAR(sampled.path[i].fraction, 0.35 + 0.01 * i, 1e-7);
-  EXPECT_EQ(sampled.samples_cut, 96u);
-  EXPECT_GE(sampled.deviation_cut, 0.5e-6);
-  EXPECT_LE(sampled.deviation_cut, 1e-6 + 1e-12);
-}
-
-TEST_F(ToolPosesTest, OfVeryManyPosesThoseReadAreSpreadEvenly) {
+TEST_F(ToolPosesTest, OfManyPosesThoseThatMatterMostStayAndOfVeryManyNotAllAreRead) {
   for (int i = 0; i <= 3000; ++i) send_shaft(1.0 + 0.001 * i);
+  const SampledPath few = path(hook_, 1.0, 1.1, {1.0, 4});
+  EXPECT_EQ(few.path.size(), 5u);
+  EXPECT_EQ(few.samples_cut, 99u - 3u);
+  EXPECT_GT(few.deviation_cut, 0.0);
+  EXPECT_LT(few.deviation_cut, 1e-3);
   const SampledPath sampled = path(hook_, 1.0, 4.0, {1.0, 4});
   ASSERT_EQ(sampled.path.size(), 5u);
   EXPECT_EQ(sampled.samples_cut, 2999u - 3u);
@@ -232,17 +218,18 @@ TEST_F(ToolPosesTest, PathWithinOneSampleIsStraight) {
   }
 }
 
-TEST_F(ToolPosesTest, PathFollowsTheJoints) {
-  // The poses at the samples are exact, because TF has each joint at these times.
-  for (int i = 0; i <= 100; ++i) send_links(1.0 + 0.001 * i);
-  const SampledPath sampled = path(grasper_, 1.0, 1.1, {0.001, 100});
+TEST_F(ToolPosesTest, BetweenStampsThePathFollowsWhatTfInterpolates) {
+  for (const double time : {1.0, 1.04, 1.1}) send_links(time);
+  const auto known = [&](double time) {
+    return *poses_.pose(grasper_, "liver", ros::Time(time)).found;
+  };
+  const SampledPath sampled = poses_.path(grasper_, "liver", known(1.0), known(1.1));
   EXPECT_EQ(sampled.samples_cut, 0u);
-  EXPECT_GT(sampled.path.size(), 2u);
+  EXPECT_GT(sampled.path.size(), 4u);
   EXPECT_LT(sampled.path.size(), 30u);
   for (std::size_t leg = 1; leg < sampled.path.size(); ++leg) {
     const ToolWaypoint &from = sampled.path[leg - 1], &to = sampled.path[leg];
-    expect_links(to.links, 1.0 + 0.1 * to.fraction, 1e-7);
-    const ToolPose right = pose_at(1.0 + 0.05 * (from.fraction + to.fraction));
+    const ToolPose right = known(1.0 + 0.05 * (from.fraction + to.fraction)).value;
     for (std::size_t i = 0; i < 2; ++i) {
       const Isometry3d found = RigidMotion(from.links[i], to.links[i]).at(0.5);
       EXPECT_LT((found.translation() - right.links[i].translation()).norm(), 1.1e-6);

@@ -124,93 +124,58 @@ TEST_F(TransformBufferTest, CountsWhatComesAfterItsStep) {
   EXPECT_EQ(buffer_.late(), 2u);
 }
 
-using Eigen::Isometry3d;
-using Eigen::Vector3d;
-
-namespace {
-
-Isometry3d pose(double x, double angle) {
-  return Eigen::Translation3d(x, -0.2, 0.7) *
-         Eigen::AngleAxisd(angle, Vector3d(0.3, -1.0, 0.4).normalized());
-}
-
-std::string why_not(const TransformBuffer& buffer, const std::string& target,
-                    const std::string& source, double time) {
-  const auto lookup = look_up(buffer, target, source, ros::Time(time));
-  EXPECT_FALSE(lookup.found);
-  return lookup.why_not;
-}
-
-}  // namespace
-
-TEST(LookUp, FollowsTheChain) {
-  TransformBuffer buffer;
-  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
-  set_transform(buffer, "world", "tip", 3.0, pose(0.4, -1.1));
-  const auto found = look_up(buffer, "liver", "tip", ros::Time(3.0)).found;
-  ASSERT_TRUE(found);
-  const Isometry3d expected = pose(0.1, 0.5).inverse() * pose(0.4, -1.1);
-  EXPECT_TRUE(found->value.isApprox(expected, 1e-9));
-  EXPECT_EQ(found->stamp, ros::Time(3.0));
-}
-
-TEST(LookUp, NothingWithoutTransformAndSaysWhy) {
-  TransformBuffer buffer;
-  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
-  set_transform(buffer, "elsewhere", "tip", 3.0, pose(0.1, 0.5));
-  for (const char* frame : {"never_heard_of", "", "/world"}) {
-    const std::string unknown = "frame '" + std::string(frame) + "' is unknown to TF";
-    EXPECT_EQ(why_not(buffer, "liver", frame, 3.0), unknown);
-    EXPECT_EQ(why_not(buffer, frame, "liver", 3.0), unknown);
+TEST_F(TransformBufferTest, WhatIsNotFoundHasAReason) {
+  rest("elsewhere", "hand");
+  for (const double time : {3.0, 3.5}) send("world", "liver", time);
+  for (const double time : {3.0, 3.6}) send("world", "tip", time);
+  struct Case {
+    const char *target, *source;
+    double time;
+    std::string why_not;
+    bool is_late = false;
+  };
+  for (const Case& row :
+       {Case{"liver", "nobody", 3.0, "frame 'nobody' is unknown to TF"},
+        Case{"nobody", "liver", 3.0, "frame 'nobody' is unknown to TF"},
+        Case{"liver", "", 3.0, "frame '' is unknown to TF"},
+        Case{"liver", "/world", 3.0, "frame '/world' is unknown to TF"},
+        Case{"liver", "hand", 3.0, "frame 'hand' is not connected to 'liver' on TF"},
+        Case{"liver", "tip", 3.5073,
+             "TF from 'tip' to 'liver' is 7.3 ms behind the stamp 3.507300000", true},
+        Case{"liver", "tip", 99.0,
+             "TF from 'tip' to 'liver' is 95.5 s behind the stamp 99.000000000", true},
+        Case{"liver", "tip", 2.9, "past"}, Case{"liver", "tip", 4294967295.0, ""}}) {
+    const auto lookup = look_up(buffer_, row.target, row.source, ros::Time(row.time));
+    EXPECT_FALSE(lookup.found);
+    EXPECT_FALSE(lookup.why_not.empty());
+    EXPECT_NE(lookup.why_not.find(row.why_not), std::string::npos) << lookup.why_not;
+    if (row.time < 100.0) {
+      EXPECT_EQ(lookup.is_late, row.is_late) << lookup.why_not;
+    }
   }
-  EXPECT_EQ(why_not(buffer, "liver", "tip", 3.0), "frame 'tip' is not connected to 'liver' on TF");
-  EXPECT_FALSE(why_not(buffer, "liver", "world", 4294967295.0).empty());
 }
 
-TEST(LookUp, SaysHowLateTransformsAre) {
-  TransformBuffer buffer;
-  for (const double time : {3.0, 3.5}) set_transform(buffer, "a", "b", time, pose(time, 0.2));
-  for (const double time : {3.0, 3.6}) set_transform(buffer, "b", "c", time, pose(time, 0.1));
-  EXPECT_EQ(why_not(buffer, "a", "c", 3.5073),
-            "TF from 'c' to 'a' is 7.3 ms behind the stamp 3.507300000");
-  EXPECT_EQ(why_not(buffer, "a", "c", 99.0),
-            "TF from 'c' to 'a' is 95.5 s behind the stamp 99.000000000");
-  EXPECT_TRUE(look_up(buffer, "a", "c", ros::Time(3.6)).is_late);
-  const auto early = look_up(buffer, "a", "c", ros::Time(2.9));
-  EXPECT_FALSE(early.found);
-  EXPECT_FALSE(early.is_late) << early.why_not;
-  EXPECT_NE(early.why_not.find("past"), std::string::npos) << early.why_not;
-}
-
-TEST(LookUp, ALoopAmongManyFramesIsToldInAShortMessage) {
-  TransformBuffer buffer;
-  set_transform(buffer, "world", "liver", 3.0, pose(0.1, 0.5));
-  set_transform(buffer, "a", "b", 3.0, pose(0.1, 0.5));
-  set_transform(buffer, "b", "a", 3.0, pose(0.1, 0.5));
-  for (int i = 0; i < 1000; ++i) {
-    set_transform(buffer, "b", std::string(1000, 'x') + std::to_string(i), 3.0, pose(0.1, 0.5));
-  }
-  const auto lookup = look_up(buffer, "liver", "a", ros::Time(3.0));
+TEST_F(TransformBufferTest, ALoopAmongManyFramesIsToldInAShortMessage) {
+  rest("world", "liver");
+  send("a", "b", 3.0);
+  send("b", "a", 3.0);
+  for (int i = 0; i < 1000; ++i) send("b", std::string(1000, 'x') + std::to_string(i), 3.0);
+  const auto lookup = look_up(buffer_, "liver", "a", ros::Time(3.0));
   EXPECT_FALSE(lookup.found);
   EXPECT_LE(lookup.why_not.size(), 2 * kLongestMessage);
   EXPECT_NE(lookup.why_not.find("from a to liver"), std::string::npos) << lookup.why_not;
 }
 
-TEST(OldestTransform, IsThatOfAFrameBelowTheFirstThatCarriesBoth) {
-  TransformBuffer buffer;
-  const auto send = [&](const std::string& parent, const std::string& child, double time,
-                        bool resting = false) {
-    set_transform(buffer, parent, child, time, pose(0.1, 0.2), resting);
-  };
+TEST_F(TransformBufferTest, TheOldestTransformIsBelowTheFirstFrameThatCarriesBoth) {
   send("world", "room", 1.0);
   send("room", "table", 7.0);
   send("table", "patient", 3.0);
   send("table", "patient", 6.0);
-  send("patient", "liver", 0.0, true);
+  rest("patient", "liver");
   send("room", "arm", 2.0);
-  send("patient", "trocar", 0.0, true);
+  rest("patient", "trocar");
   const auto oldest = [&](const std::string& frame, const std::vector<std::string>& others) {
-    const auto found = buffer.oldest_transform(frame, others);
+    const auto found = buffer_.oldest_transform(frame, others);
     return found ? found->frame + std::to_string(static_cast<int>(found->stamp.toSec())) : "none";
   };
   const struct {

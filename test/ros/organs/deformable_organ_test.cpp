@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <future>
 #include <set>
-#include <thread>
 
 #include "test/ros/organs/organ_fixture.hpp"
 
@@ -42,18 +42,14 @@ const char kWhatCame[] = "organ 'kidney': 4 faces, closed, 0.03 x 0.04 x 0.05 m"
 
 }  // namespace
 
-TEST(OrganSurface, VolumeIsOfTheGivenShape) {
+TEST(OrganSurface, AnotherThreadMayWaitUntilItIsFound) {
   OrganSurface surface(tetrahedron());
   EXPECT_FALSE(surface.wait_until_found(std::chrono::milliseconds(0)));
-  bool found = false;
-  std::thread waiting([&] { found = surface.wait_until_found(std::chrono::seconds(60)); });
+  auto found = std::async(std::launch::async,
+                          [&] { return surface.wait_until_found(std::chrono::seconds(60)); });
   surface.find();
   surface.find();
-  waiting.join();
-  EXPECT_TRUE(found) << "another thread may wait for it";
-  const double volume = surface.volume(corners());
-  EXPECT_NEAR(volume, 0.03 * 0.04 * 0.05 / 6.0, 1e-10);
-  EXPECT_NEAR(surface.volume(corners(2.0F)), 8.0 * volume, 1e-11);
+  EXPECT_TRUE(found.get());
 }
 
 TEST(DeformableOrgan, RefusedVerticesChangeNothingAndOthersKeepThePreviousShape) {
@@ -143,22 +139,17 @@ TEST(OrganReport, SaysWhatCame) {
 }
 
 TEST(OrganReport, DoubtsWhatIsProbablyAMistake) {
-  struct Case {
-    std::vector<std::uint32_t> triangles;
-    float unit;
-    Texts words;  ///< one for each sentence
+  const auto doubts_of = [](const std::vector<std::uint32_t>& triangles, float unit) {
+    const Kidney kidney(triangles, unit);
+    return doubts("kidney", kidney.box(), kidney);
   };
-  for (const Case& row :
-       {Case{kOutward, 1.0F, {}}, Case{{0, 1, 2}, 1.0F, {}},  // An open surface is no mistake.
-        Case{kOutward, 1000.0F, {"are these millimetres?"}},
-        Case{kInward, 1e-3F, {"twice", "organ 'kidney' point inward"}}}) {
-    const Kidney kidney(row.triangles, row.unit);
-    const Texts sentences = doubts("kidney", kidney.box(), kidney);
-    ASSERT_EQ(sentences.size(), row.words.size());
-    for (std::size_t i = 0; i < sentences.size(); ++i) {
-      EXPECT_NE(sentences[i].find(row.words[i]), std::string::npos) << sentences[i];
-    }
-  }
+  EXPECT_TRUE(doubts_of(kOutward, 1.0F).empty());
+  EXPECT_TRUE(doubts_of({0, 1, 2}, 1.0F).empty()) << "an open surface is no mistake";
+  const Texts large = doubts_of(kOutward, 1000.0F), small = doubts_of(kInward, 1e-3F);
+  ASSERT_TRUE(large.size() == 1 && small.size() == 2);
+  EXPECT_NE(large[0].find("are these millimetres?"), std::string::npos) << large[0];
+  EXPECT_NE(small[0].find("twice"), std::string::npos) << small[0];
+  EXPECT_NE(small[1].find("organ 'kidney' point inward"), std::string::npos) << small[1];
 }
 
 TEST(SurfaceLog, CutsAtEveryStepDoNotFloodTheLog) {

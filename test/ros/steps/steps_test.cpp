@@ -57,15 +57,8 @@ class ScriptedNode : public NodeParts {
 
   void take_tip(double stamp, double z, bool resting = false) {
     tf2_msgs::TFMessage message;
-    message.transforms.resize(1);
-    geometry_msgs::TransformStamped& transform = message.transforms[0];
-    transform.header.frame_id = "liver_frame";
-    transform.header.stamp = ros::Time(stamp);
-    transform.child_frame_id = "hook_tip";
-    transform.transform.translation.x = 0.1;
-    transform.transform.translation.y = 0.2;
-    transform.transform.translation.z = z;
-    transform.transform.rotation.w = 1.0;
+    const Eigen::Isometry3d T_liver_tip(Eigen::Translation3d(0.1, 0.2, z));
+    message.transforms = {transform_of("liver_frame", "hook_tip", stamp, T_liver_tip)};
     pipeline.inbox.motion.take_transforms(message, "test", resting);
   }
 
@@ -92,14 +85,8 @@ class ScriptedNode : public NodeParts {
     } else if (name == "rest") {
       take_tip(0.0, height(arguments), true);
     } else if (name == "pose") {  // Of the needle's tip, on its topic.
-      geometry_msgs::PoseStamped pose;
-      pose.header.frame_id = "liver_frame";
-      pose.header.stamp = ros::Time(time);
-      pose.pose.position.x = 0.1;
-      pose.pose.position.y = 0.2;
-      pose.pose.position.z = height(arguments);
-      pose.pose.orientation.w = 1.0;
-      pipeline.inbox.motion.take_tip(1, pose);
+      pipeline.inbox.motion.take_tip(1,
+                                     pose_of("liver_frame", time, {0.1, 0.2, height(arguments)}));
       run();
     } else if (name == "mesh") {  // STAMP HEIGHT [TOPOLOGY]
       const auto z = static_cast<float>(height(arguments));
