@@ -215,13 +215,12 @@ void add_tools(ParameterTable& t, OrganNodeParameters& p, const std::string& tex
 
 void add_picker(ParameterTable& t, PickerSettings& p) {
   t.choice(
-      "picker", "feedback", {"feedback", "select", "cpu"},
+      "picker", {"feedback", "select", "cpu"},
       [&p](const std::string& name) { p.kind = picker_kind(name); },
       "feedback (GL_FEEDBACK), select (GL_SELECT, as in the 1999 paper; slow) or cpu (without "
       "OpenGL)");
   t.choice(
-      "gl", "auto", {"auto", "osmesa", "egl"},
-      [&p](const std::string& name) { p.gl = gl_platform(name); },
+      "gl", {"auto", "osmesa", "egl"}, [&p](const std::string& name) { p.gl = gl_platform(name); },
       "where the OpenGL for picking comes from: osmesa, egl, or auto (OSMesa where there is one, "
       "else EGL)");
 }

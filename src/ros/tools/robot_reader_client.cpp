@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,9 +39,7 @@ MemoryFile open_in_memory() {
 }
 
 std::size_t size_of(std::FILE* file) {
-  struct stat status {};
-  if (fstat(fileno(file), &status) != 0) fail(errno, "fstat");
-  return static_cast<std::size_t>(status.st_size);
+  return std::filesystem::file_size("/proc/self/fd/" + std::to_string(fileno(file)));
 }
 
 /// Starts a process with these standard streams. The process neither blocks nor ignores a signal.
