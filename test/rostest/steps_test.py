@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 """The `contacts` that the node publishes in simulated time: step by step, as poses of tips arrive, and at a fixed rate.
-Transforms that lag, and a clock that jumps. The sequences of messages are in test/ros/steps."""
+Transforms that lag, and a clock that jumps. What doc/hosts.md says of clocks that differ: the robot sends its poses with
+the stamps of its own clock, the simulator sends shapes with those of another. The sequences of messages are in
+test/ros/steps."""
 
 import sys
 
@@ -13,6 +15,7 @@ from support import oracle, scenes
 from support.contact_case import KeepsContract, faces_of
 from support.node_client import NodeClient, is_heard, pose_stamped, wait_until
 from support.tool_case import SimulatedCase, ball_contacts
+from support.tool_over_sheet import at_height
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 4).moved(lambda v: (v[0], v[1], v[2] + 0.1 * v[0]))
@@ -20,6 +23,7 @@ ABOVE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.05))
 BELOW = ((0.02, -0.03, 0.3), (0.004, -0.003, -0.04))
 INSIDE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.002))
 GRASPER, BALL = 0.005, 0.006  # [m] radii
+DIFFERENCE = rospy.Duration(0, 50_000_000)  # of the robot's clock
 BASE = scenes.Pose((0.3, -0.2, 0.1, 0.9), (0.013, 0.007, 0.4))  # of the arm PSM1 in the organ's frame
 ARM = 0.004  # [m] radius of PSM1
 
@@ -110,6 +114,32 @@ class StepsTest(KeepsContract, SimulatedCase):
         self.next_stamp(self.clock.now - self.stamp + rospy.Duration(61))
         result = node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=stamp)
         self.assert_no_transform(result, 'ms behind the stamp', 'waited 60 s')
+
+    def come_down(self, clock):
+        """The robot moves down until the present stamp, where it touches the sheet. `clock`: what its clock shows
+        beyond the simulator's. Returns where it is at the stamp of the next shape, as its poses say."""
+        self.next_stamp(rospy.Duration(1))
+        way = [(at_height(0.001 + 0.001 * i), self.stamp - rospy.Duration(0, 5 * 10**6) * i + clock)
+               for i in range(60, -1, -1)]
+        self.place('grasper', *way[:-1])
+        self.place_and_wait('grasper', *way[-1])
+        return {stamp: axis for axis, stamp in way}.get(self.stamp)
+
+    def answer_to_mesh(self):
+        self.node.send_mesh(self.organ, SHEET, self.stamp)
+        return self.node.contacts.wait_for(self.organ, 'grasper', mesh_stamp=self.stamp)
+
+    def test_clocks_that_differ(self):
+        """With one clock, the touch is found. If the robot's clock is behind, the answer says by how much. If it is
+        ahead, the contacts are those of an old pose, and nothing tells of this."""
+        for clock in (rospy.Duration(), DIFFERENCE):
+            axis, result = self.come_down(clock), self.answer_to_mesh()
+            expected = oracle.static_contacts(SHEET, axis, GRASPER)
+            self.assert_contacts(result, expected, 1e-6)
+            self.assertEqual(len(expected) > 0, clock == rospy.Duration())
+            self.node.remove(self.organ)
+        self.come_down(-DIFFERENCE)
+        self.assert_no_transform(self.answer_to_mesh(), 'is 50 ms behind the stamp')
 
     def test_a_jump_back_forgets_the_history(self):
         """Also while a transform is awaited: a shape of the old time is not evaluated with a transform of the new

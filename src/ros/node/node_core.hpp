@@ -36,8 +36,6 @@ class MessageLoop {
 
   explicit MessageLoop(Callbacks callbacks) : callbacks_(std::move(callbacks)) {}
   ~MessageLoop() { end(); }
-  MessageLoop(const MessageLoop&) = delete;
-  MessageLoop& operator=(const MessageLoop&) = delete;
 
   ros::CallbackQueue& queue() { return queue_; }
 
@@ -112,8 +110,6 @@ class NodeCore {
         live_parameters_(on_queue(private_node, background_.queue()), live_parameters(parameters_),
                          [this](const auto& changes) { return change_parameters(changes); }) {}
   ~NodeCore() { end(); }
-  NodeCore(const NodeCore&) = delete;
-  NodeCore& operator=(const NodeCore&) = delete;
 
   MessageLoop& loop() { return loop_; }
   OrganIntake::Threads organ_threads() {

@@ -17,6 +17,8 @@ namespace {
 
 using dynamic_reconfigure::Config;
 using XmlRpc::XmlRpcValue;
+using Row = ParameterTable::Row;
+using Text = const std::string&;
 
 bool is_flag(const LiveParameter& parameter) { return parameter.type == XmlRpcValue::TypeBoolean; }
 
@@ -76,8 +78,8 @@ XmlRpcValue requested(const Config& request) {
 }  // namespace
 
 template <typename Value>
-ParameterTable::Row& ParameterTable::add(const std::string& name, Value& value,
-                                         const NumberRange& range, const std::string& text) {
+Row& ParameterTable::number(const std::string& name, Value& value, const NumberRange& range,
+                            const std::string& text) {
   const auto read = [name, &value, range](const ParameterGroup& all) {
     if constexpr (std::is_same_v<Value, bool>) {
       value = all.flag(name, value);
@@ -95,20 +97,9 @@ ParameterTable::Row& ParameterTable::add(const std::string& name, Value& value,
   return row;
 }
 
-ParameterTable::Row& ParameterTable::number(const std::string& name, double& value,
-                                            const NumberRange& range, const std::string& text) {
-  return add(name, value, range, text);
-}
-
-ParameterTable::Row& ParameterTable::flag(const std::string& name, bool& value,
-                                          const std::string& text) {
-  return add(name, value, {0.0, 1.0}, text);
-}
-
-void ParameterTable::whole_number(const std::string& name, int& value, const NumberRange& range,
-                                  const std::string& text) {
-  add(name, value, range, text);
-}
+template Row& ParameterTable::number(Text name, double& value, const NumberRange&, Text text);
+template Row& ParameterTable::number(Text name, int& value, const NumberRange&, Text text);
+template Row& ParameterTable::number(Text name, bool& value, const NumberRange&, Text text);
 
 void ParameterTable::choice(const std::string& name, const std::vector<std::string>& legal,
                             const std::function<void(const std::string&)>& set,
@@ -117,9 +108,9 @@ void ParameterTable::choice(const std::string& name, const std::vector<std::stri
   other(name, legal[0], read, text);
 }
 
-ParameterTable::Row& ParameterTable::other(const std::string& name, const std::string& fallback,
-                                           const std::function<void(const ParameterGroup&)>& read,
-                                           const std::string& text) {
+Row& ParameterTable::other(const std::string& name, const std::string& fallback,
+                           const std::function<void(const ParameterGroup&)>& read,
+                           const std::string& text) {
   return rows_.emplace_back(Row{{name, fallback, text}, read});
 }
 
@@ -144,7 +135,7 @@ void ParameterTable::change(const XmlRpcValue& changes) const {
   for (const Row& row : live) row.read(group);
 }
 
-std::vector<ParameterTable::Row> ParameterTable::live_rows() const {
+std::vector<Row> ParameterTable::live_rows() const {
   std::vector<Row> live;
   std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(live),
                [](const Row& row) { return row.is_live; });

@@ -37,11 +37,14 @@ class ParameterTable {
   };
 
   /// Each of these adds a row. `text`: what the parameter means, after its unit: "[s] ...".
-  Row& number(const std::string& name, double& value, const NumberRange& range,
+
+  /// Adds a number: a double, or an int if it must be whole.
+  template <typename Value>
+  Row& number(const std::string& name, Value& value, const NumberRange& range,
               const std::string& text);
-  Row& flag(const std::string& name, bool& value, const std::string& text);
-  void whole_number(const std::string& name, int& value, const NumberRange& range,
-                    const std::string& text);
+  Row& flag(const std::string& name, bool& value, const std::string& text) {
+    return number(name, value, {0.0, 1.0}, text);
+  }
   /// Adds a parameter with one of the values `legal`, by default the first one. `set` gets the
   /// value.
   void choice(const std::string& name, const std::vector<std::string>& legal,
@@ -66,10 +69,6 @@ class ParameterTable {
   std::vector<Row> live_rows() const;
 
  private:
-  template <typename Value>
-  Row& add(const std::string& name, Value& value, const NumberRange& range,
-           const std::string& text);
-
   std::vector<Row> rows_;
 };
 
@@ -116,7 +115,10 @@ std::vector<LiveParameter> live_parameters(Parameters parameters) {
   Parameters defaults;
   std::vector<LiveParameter> live = table_of(parameters).live_rows();
   const std::vector<LiveParameter> by_default = table_of(defaults).live_rows();
-  for (std::size_t i = 0; i < live.size(); ++i) live[i].fallback = by_default[i].value;
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    live[i].read = {};  // It would write into `parameters`, which end here.
+    live[i].fallback = by_default[i].value;
+  }
   return live;
 }
 

@@ -286,10 +286,10 @@ TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater)
 
 TEST_F(QueryServicesTest, ASnapshotStaysAsItIsWhileTheNodeGoesOn) {
   send_vertices(1.1, 0.5);
+  request.tool = "hook";
   ContactArray answer;
   const QuerySnapshot snapshot =
-      take_snapshot({parameters, tools, pipeline},
-                    {request.header, "liver", "hook", false, QueryMode::kSwept}, answer);
+      take_snapshot({parameters, tools, pipeline}, request, false, answer);
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.1));
   EXPECT_EQ(answer.topology, 1u);
   for (int i = 0; i < 5; ++i) send_vertices(2.0 + i, 9.0);
