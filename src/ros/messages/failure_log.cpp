@@ -31,15 +31,16 @@ void check_name(const std::string& what, const std::string& name) {
   throw Rejection(ContactArray::INVALID_REQUEST, "illegal name", what + " " + fault);
 }
 
-void FailureLog::add(const std::string& reason, const std::string& message, Time now) {
+void FailureLog::add(const std::string& reason, const std::string& message, Time now,
+                     std::uint64_t times) {
   const std::string plain = plain_text(message, kLongestMessage);
   std::uint64_t count = 0;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     Entry& entry = entries_[reason];
     const bool is_recent = entry.count > 0 && now - entry.logged < kLogPeriod;
-    count = ++entry.count;
-    ++entry.not_yet_reported;
+    count = entry.count += times;
+    entry.not_yet_reported += times;
     entry.latest = plain;
     if (is_recent) return;
     entry.logged = now;
@@ -65,7 +66,9 @@ void show_failures(const std::string& what, FailureLog& log,
                    diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   for (const auto& [reason, entry] : log.take_report()) {
-    status.add(what + ", " + reason, entry.count);
+    std::string key = what;
+    key.append(", ").append(reason);
+    status.add(key, entry.count);
     if (entry.not_yet_reported == 0) continue;
     const bool broken = reason == reason_of(ContactArray::PICKER_FAILED);
     status.mergeSummary(broken ? DiagnosticStatus::ERROR : DiagnosticStatus::WARN, entry.latest);
