@@ -6,14 +6,14 @@ import sys
 
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import Contact, ContactArray, VertexForces
+from organ_collision.msg import ContactArray, VertexForces
 import rospy
 import rostest
 from std_msgs.msg import UInt32MultiArray
 
 from support import scenes
 from support.contact_case import faces_of, xyz
-from support.node_client import LIMIT, Diagnostics, Log, is_heard, wait_until
+from support.node_client import LIMIT, Diagnostics, Log, wait_until
 from support.processes import NodeStarter
 from support.tool_case import ToolCase
 from support.tool_over_sheet import SHEET, TROCAR, at_height
@@ -58,10 +58,10 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         """A step of the probe. Returns the answer."""
         return self.step(shape, {'probe': axis}, vertices=True)['probe']
 
-    def connect(self, shape=SHEET, pair=None, node='/contact_adapter'):
+    def connect(self, shape=SHEET, node='/contact_adapter'):
         """Connects to the outputs of this test's organ. Their topics appear with the organ's first step, so this sends
         steps until the outputs arrive."""
-        outputs = Outputs(pair or self.organ + '/probe', node)
+        outputs = Outputs(self.organ + '/probe', node)
 
         def all_come():
             self.step(shape, {'probe': CLEAR})
@@ -113,33 +113,9 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         self.assertEqual((len(outputs.wrenches.messages), len(outputs.faces.messages)), tuple(n + 2 for n in counts))
         diagnostics.wait_for_count('unpublished, no transform')
 
-    def test_the_papers_modes_have_faces_alone(self):
-        """Which another sender publishes."""
-        outputs = self.connect()
-        sender = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
-        self.addCleanup(sender.unregister)
-        wait_until(lambda: is_heard(sender, '/contact_adapter'), 'the adapter to listen')
-        answer = ContactArray(organ=self.organ, tool='probe', links=[''], mode=ContactArray.PAPER_SWEPT,
-                              contacts=[Contact(face=3), Contact(face=17)])
-        answer.header.frame_id, answer.header.stamp = 'liver_frame', self.next_stamp()
-        sender.publish(answer)
-        outputs.wait_for_faces([3, 17])
-        self.move(SHEET, PRESSED)
-        self.assertGreater(outputs.wait_for(self.stamp).force.z, 0.0)
-        self.assertEqual(outputs.of(answer.header.stamp), [])
-
-    def test_names_that_ros_does_not_allow(self):
-        """Illegal characters become `_`. A second organ that would get the same topics is refused."""
-        self.organ, diagnostics = 'left lobe', Diagnostics('contact_adapter')
-        outputs = self.connect(pair='left_lobe/probe')
-        self.organ = 'left_lobe'
-        self.step(SHEET, {'probe': CLEAR})
-        diagnostics.wait_for_count('unpublished, name taken')
-        self.assertEqual(outputs.of(self.stamp), [])
-
     def test_parameters(self):
         """A force larger than max_force is clipped to it at the same place, which log and /diagnostics report. Both
-        parameters may change. A misspelt name is reported, and an illegal value stops the node."""
+        parameters may change. A misspelt name is reported."""
         name, diagnostics = '/tested_adapter', Diagnostics('tested_adapter')
         process = self.start(name, {'stiffness': STIFFNESS, 'max_force': 1.0, 'stifness': 7}, 'contact_adapter')
         outputs, client = self.connect(PLATE, node=name), Client(name, timeout=LIMIT)
@@ -158,8 +134,6 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         printed = self.stop(process)
         self.assertIn('the force is clipped to 1.000000 N', printed)
         self.assertIn("stifness is no parameter; nearest is 'stiffness'", printed)
-        self.assert_refused(self.start('/illegal_adapter', {'stiffness': -12.5}, 'contact_adapter'),
-                            ["~stiffness is '-12.5'; must be a number, more than 0"])
 
 
 if __name__ == '__main__':

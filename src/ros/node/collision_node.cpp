@@ -1,64 +1,39 @@
 #include "collision_node.hpp"
 
+#include <boost/make_shared.hpp>
 #include <chrono>
 
+#include "organ_collision/ros/names.hpp"
 #include "ros/messages/text.hpp"
+#include "ros/steps/contact_array.hpp"
 
 namespace organ_collision {
+namespace {
+
+/// [messages] The queue of a subscriber that reads contacts more slowly than the node publishes.
+constexpr std::uint32_t kContactQueue = 100;
+
+}  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
-      publisher_(core_.private_node(), core_.tools(), counters_),
+      contacts_(core_.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
       markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
       pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
-                {[this](const ToolStep& step) {
-                   publisher_.publish(step);
-                   markers_.add(step);
-                 },
-                 [this](const OrganUpdate& update) { publisher_.report(update); }},
+                {[this](const ToolStep& step) { publish(step); },
+                 [this](const OrganUpdate& update) { report(update); }},
                 core_.organ_threads()),
       services_(
           {core_.parameters(), core_.tools(), pipeline_},
           [this](const std::function<void()>& action) { core_.in_node_thread(action); },
           counters_) {
-  try {
-    start();
-  } catch (...) {
-    end();
-    throw;
-  }
-}
-
-CollisionNode::~CollisionNode() { end(); }
-
-NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
-  Core::Callbacks callbacks;
-  callbacks.loop = {[this] { pipeline_.watch_clock(); },
-                    [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }};
-  callbacks.work = [this] { work(); };
-  callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
-  callbacks.reset = [this] { pipeline_.reset(); };
-  callbacks.parameters_changed = [this](const auto& before) { change_parameters(before); };
-  callbacks.prepare_tools = [this](const auto& tools) {
-    pipeline_.inbox.motion.change_tools(tools, core_.node());
-  };
-  callbacks.tools_changed = [this](const auto& kept) {
-    pipeline_.steps.change_tools(kept);
-    markers_.set_tools(core_.tools());
-  };
-  callbacks.break_down = [this](const std::string& why) {
-    publisher_.report_breakdown(pipeline_.inbox.organs, why);
-  };
-  return callbacks;
-}
-
-void CollisionNode::start() {
   pipeline_.inbox.subscribe(core_.node(), core_.private_node());
   services_.advertise(on_queue(core_.private_node(), query_thread_.queue()),
                       on_queue(core_.private_node(), batch_thread_.queue()));
   start_ticks();
-  add_diagnostics(core_.updater(),
-                  AnsweredParts{core_.parameters().misspelt, pipeline_, counters_});
+  core_.updater().add("queries", [this](auto& status) {
+    show_queries(core_.parameters().misspelt, pipeline_, counters_, status);
+  });
   add_diagnostics(core_.updater(), ReceivedParts{core_.parameters().mesh_timeout_sec, core_.tools(),
                                                  pipeline_.inbox.organs, pipeline_.inbox.intake,
                                                  counters_.meshes, counters_.rejected});
@@ -67,17 +42,79 @@ void CollisionNode::start() {
            pipeline_.workers.gl_version().c_str());
 }
 
-/// Ends the threads that use members, before the members are destroyed.
-void CollisionNode::end() {
-  core_.end();
-  services_.end();
-  query_thread_.stop();
-  batch_thread_.stop();
+NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
+  Core::Callbacks callbacks;
+  callbacks.loop = {[this] { pipeline_.watch_clock(); },
+                    [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }};
+  callbacks.work = [this] {
+    pipeline_.steps.evaluate(core_.loop().heard_until());
+    markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
+  };
+  callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
+  callbacks.reset = [this] { pipeline_.reset(); };
+  callbacks.parameters_changed = [this](const NodeParameters& before) {
+    if (before.rate_hz != core_.parameters().rate_hz) start_ticks();
+    markers_.set_settings(core_.parameters().markers);
+  };
+  callbacks.prepare_tools = [this](const auto& tools) {
+    pipeline_.inbox.motion.change_tools(tools, core_.node());
+  };
+  callbacks.tools_changed = [this](const auto& kept) {
+    pipeline_.steps.change_tools(kept);
+    markers_.set_tools(core_.tools());
+  };
+  callbacks.break_down = [this](const std::string& why) { break_down(why); };
+  return callbacks;
 }
 
-void CollisionNode::work() {
-  pipeline_.steps.evaluate(core_.loop().heard_until());
-  markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
+/// Publishes the answer of a step, counts it, and shows it.
+void CollisionNode::publish(const ToolStep& step) {
+  const ContactArray& answer = *step.answer;
+  if (step.is_starting) {
+    ++counters_.starting;
+    ROS_DEBUG("%s", answer.message.c_str());
+  } else {
+    count_failure(counters_.failed, answer.status, answer.message);
+  }
+  if (answer.path_incomplete) {
+    counters_.incomplete.add("path not wholly known",
+                             "tool '" + answer.tool + "': " + answer.message,
+                             std::chrono::steady_clock::now());
+  }
+  if (answer.status == ContactArray::OK) counters_.query_times.add(step.query_sec);
+  contacts_.publish(step.answer);
+  ++counters_.published;
+  counters_.contacts.count();
+  markers_.add(step);
+}
+
+/// Counts an accepted shape. If the message brought no shape, publishes for each tool why.
+void CollisionNode::report(const OrganUpdate& update) {
+  if (update.status == ContactArray::OK) return counters_.meshes.count();
+  publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
+}
+
+/// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a node
+/// that broke down for the absence of contacts.
+void CollisionNode::break_down(const std::string& why) {
+  const std::string message =
+      "the node broke down: " + why + "; once it is back, send the organs again";
+  count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
+  for (const auto& [name, organ] : pipeline_.inbox.organs.organs()) {
+    std_msgs::Header header;
+    header.frame_id = organ.frame();
+    publish_failure(name, header, ContactArray::PICKER_FAILED, message);
+  }
+}
+
+/// Publishes for each tool that there is no answer about the organ.
+void CollisionNode::publish_failure(const std::string& organ, const std_msgs::Header& header,
+                                    std::uint8_t status, const std::string& message) {
+  for (const Tool& tool : core_.tools()) {
+    contacts_.publish(boost::make_shared<ContactArray>(
+        failed_answer(organ, tool.parameters, header, status, message)));
+    ++counters_.published;
+  }
 }
 
 /// Starts ticks at the parameter `rate`. Called again when the rate has changed.
@@ -87,11 +124,6 @@ void CollisionNode::start_ticks() {
   if (!(rate > 0.0)) return;
   tick_ = core_.private_node().createTimer(
       ros::Duration(1.0 / rate), [this](const ros::TimerEvent&) { pipeline_.steps.add_tick(); });
-}
-
-void CollisionNode::change_parameters(const NodeParameters& before) {
-  if (before.rate_hz != core_.parameters().rate_hz) start_ticks();
-  markers_.set_settings(core_.parameters().markers);
 }
 
 }  // namespace organ_collision

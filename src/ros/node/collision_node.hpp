@@ -6,7 +6,6 @@
 
 #include "node_core.hpp"
 #include "ros/markers/marker_publisher.hpp"
-#include "ros/publishing/contact_publisher.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/queries/query_services.hpp"
 #include "ros/steps/collision_pipeline.hpp"
@@ -20,7 +19,6 @@ class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().
   CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
-  ~CollisionNode();
 
   /// Works until ROS shuts down or `stop` returns true. Throws an exception that the node cannot
   /// recover from, such as std::bad_alloc, after it has published PICKER_FAILED for each organ and
@@ -31,21 +29,33 @@ class CollisionNode {
   using Core = NodeCore<NodeParameters>;
 
   Core::Callbacks callbacks();
-  void start();
-  void end();
-  void work();
+  void publish(const ToolStep& step);
+  void report(const OrganUpdate& update);
+  void break_down(const std::string& why);
+  void publish_failure(const std::string& organ, const std_msgs::Header& header,
+                       std::uint8_t status, const std::string& message);
   void start_ticks();
-  void change_parameters(const NodeParameters& before);
+
+  /// Ends the threads that use members, before the members are destroyed.
+  struct ThreadEnd {
+    CollisionNode& node;
+    ~ThreadEnd() {
+      node.core_.end();
+      node.services_.end();
+      node.query_thread_.stop();
+      node.batch_thread_.stop();
+    }
+  };
 
   NodeCounters counters_;
   Core core_;
   QueueThread query_thread_, batch_thread_;
-
-  ContactPublisher publisher_;
+  ros::Publisher contacts_;
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;
   ros::Timer tick_;
+  ThreadEnd end_{*this};  ///< the last member, so that it is destroyed first
 };
 
 }  // namespace organ_collision

@@ -6,9 +6,7 @@
 #include <chrono>
 #include <exception>
 
-#include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
-#include "ros/messages/text.hpp"
 #include "ros/tools/robot_reply.hpp"
 
 namespace organ_collision {
@@ -68,38 +66,23 @@ void MessageLoop::end() {
 
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt) {
   for (const std::string& sentence : misspelt) ROS_WARN("%s", sentence.c_str());
-  for (const Tool& tool : tools) {
-    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
-  }
   if (tools.empty()) ROS_WARN("%s", kNoTools);
   for (const Tool& tool : tools) {
+    if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
     if (!tool.parameters.has_shaft()) continue;
     const std::string doubt = doubt_about_radius(tool.parameters.name, tool.parameters.radius);
     if (!doubt.empty()) ROS_WARN("%s", doubt.c_str());
   }
 }
 
-std_srvs::Trigger::Response reload_tools(
-    const std::vector<Tool>& tools, const std::function<LoadedTools()>& load,
-    const std::function<void(LoadedTools& loaded, const KeptTools& kept)>& exchange) {
-  std_srvs::Trigger::Response response;
-  try {
-    LoadedTools loaded = load();
-    const ToolChanges changes = compare_tools(tools, loaded.tools);
-    // A new or changed tool with a fault is refused. An unchanged tool may keep its fault.
-    for (std::size_t tool = 0; tool < loaded.tools.size(); ++tool) {
-      const std::string& fault = loaded.tools[tool].fault;
-      if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);
-    }
-    exchange(loaded, changes.kept);
-    response.success = true;
-    response.message = plain_text(changes.summary, kLongestMessage);
-    ROS_INFO("tools are reloaded: %s", response.message.c_str());
-  } catch (const std::exception& error) {
-    response.message = plain_text(error.what(), kLongestMessage);
-    ROS_WARN("tools stay as they were: %s", response.message.c_str());
+ToolChanges accepted_changes(const std::vector<Tool>& old_tools,
+                             const std::vector<Tool>& new_tools) {
+  ToolChanges changes = compare_tools(old_tools, new_tools);
+  for (std::size_t tool = 0; tool < new_tools.size(); ++tool) {
+    const std::string& fault = new_tools[tool].fault;
+    if (!changes.kept[tool] && !fault.empty()) throw ToolError(fault);
   }
-  return response;
+  return changes;
 }
 
 }  // namespace organ_collision

@@ -14,6 +14,7 @@
 
 #include "organ_collision/ros/names.hpp"
 #include "program.hpp"
+#include "ros/messages/text.hpp"
 #include "ros/organs/organ_intake.hpp"
 #include "ros/parameters/node_parameters.hpp"
 #include "ros/steps/step.hpp"
@@ -35,8 +36,6 @@ class MessageLoop {
 
   explicit MessageLoop(Callbacks callbacks) : callbacks_(std::move(callbacks)) {}
   ~MessageLoop() { end(); }
-  MessageLoop(const MessageLoop&) = delete;
-  MessageLoop& operator=(const MessageLoop&) = delete;
 
   ros::CallbackQueue& queue() { return queue_; }
 
@@ -63,23 +62,14 @@ class MessageLoop {
   SteadyTime heard_until_;
 };
 
-/// The tools that the parameter server has, and one sentence for each unknown name among all
-/// parameters.
-struct LoadedTools {
-  std::vector<Tool> tools;
-  std::vector<std::string> misspelt;
-};
-
 /// Logs what is doubtful about the parameters of a node: unknown names, tools that do not work, and
 /// implausible sizes.
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt);
 
-/// Does the work of the service reload_tools. `load` loads the new tools, and `exchange` exchanges
-/// the node's tools for `loaded`. Call it in a background thread: robots' files may take seconds to
-/// load.
-std_srvs::Trigger::Response reload_tools(
-    const std::vector<Tool>& tools, const std::function<LoadedTools()>& load,
-    const std::function<void(LoadedTools& loaded, const KeptTools& kept)>& exchange);
+/// Compares the old tools of a node with new ones. Throws ToolError if a new or changed tool has a
+/// fault. An unchanged tool may keep its fault.
+ToolChanges accepted_changes(const std::vector<Tool>& old_tools,
+                             const std::vector<Tool>& new_tools);
 
 /// What all nodes with organs have: the loop of their thread, a background thread, parameters and
 /// tools that can be changed while the node runs, the service `reset`, real-time scheduling, and
@@ -120,8 +110,6 @@ class NodeCore {
         live_parameters_(on_queue(private_node, background_.queue()), live_parameters(parameters_),
                          [this](const auto& changes) { return change_parameters(changes); }) {}
   ~NodeCore() { end(); }
-  NodeCore(const NodeCore&) = delete;
-  NodeCore& operator=(const NodeCore&) = delete;
 
   MessageLoop& loop() { return loop_; }
   OrganIntake::Threads organ_threads() {
@@ -174,31 +162,35 @@ class NodeCore {
   }
 
  private:
-  /// Runs in the background thread.
+  /// Runs in the background thread, because robots' files may take seconds to load.
   bool on_reload(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-    const auto load = [this]() -> LoadedTools {
-      Parameters parameters;
-      const ParameterTable table = table_of(parameters);
+    try {
+      Parameters loaded;
+      const ParameterTable table = table_of(loaded);
       const ParameterGroup all = table.group(all_parameters(private_node_));
-      parameters.misspelt = all.misspelt();
+      loaded.misspelt = all.misspelt();
       table.read(all, names::kTools);
-      return {load_tools(parameters.tools, private_node_), parameters.misspelt};
-    };
-    response = reload_tools(tools_, load, [this](LoadedTools& loaded, const KeptTools& kept) {
-      callbacks_.release_tools(kept);
-      in_node_thread([&] { exchange_tools(loaded, kept); });
-    });
+      std::vector<Tool> tools = load_tools(loaded.tools, private_node_);
+      const ToolChanges changes = accepted_changes(tools_, tools);
+      callbacks_.release_tools(changes.kept);
+      in_node_thread([&] { exchange_tools(tools, loaded, changes.kept); });
+      response.success = true;
+      response.message = plain_text(changes.summary, kLongestMessage);
+      ROS_INFO("tools are reloaded: %s", response.message.c_str());
+    } catch (const std::exception& error) {
+      response.message = plain_text(error.what(), kLongestMessage);
+      ROS_WARN("tools stay as they were: %s", response.message.c_str());
+    }
     return true;
   }
 
-  void exchange_tools(LoadedTools& loaded, const KeptTools& kept) {
-    std::vector<ToolParameters> parameters;
-    for (const Tool& tool : loaded.tools) parameters.push_back(tool.parameters);
-    callbacks_.prepare_tools(parameters);
+  void exchange_tools(std::vector<Tool>& tools, OrganNodeParameters& loaded,
+                      const KeptTools& kept) {
+    callbacks_.prepare_tools(loaded.tools);
     try {
-      std::swap(tools_, loaded.tools);
+      std::swap(tools_, tools);
       std::swap(parameters_.misspelt, loaded.misspelt);
-      std::swap(parameters_.tools, parameters);
+      std::swap(parameters_.tools, loaded.tools);
       callbacks_.tools_changed(kept);
       warn_of_settings(tools_, parameters_.misspelt);
     } catch (...) {

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <exception>
 #include <iostream>
-#include <mutex>
 #include <sstream>
 
 namespace ros::param {
@@ -55,14 +54,6 @@ constexpr char kNotListed[] =
     "the ROS master does not list this node any more, as after a restart of the master: new nodes "
     "cannot connect to it. Restart the node";
 
-void update_parameter(XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
-  try {
-    ros::param::paramUpdateCallback(params, result);
-  } catch (const std::exception& error) {
-    throw XmlRpc::XmlRpcException(error.what());
-  }
-}
-
 std::string help_text(const ProgramHelp& help) {
   return "Usage: rosrun organ_collision " + help.program + " [NAME:=VALUE ...]\n\n" +
          wrapped(help.purpose, "") + section("Subscribed topics", help.subscribed) +
@@ -105,12 +96,15 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
 }
 
 void guard_parameter_updates() {
-  static std::once_flag is_guarded;
-  std::call_once(is_guarded, [] {
-    constexpr char kMethod[] = "paramUpdate";
-    const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
-    manager->unbind(kMethod);
-    manager->bind(kMethod, update_parameter);
+  constexpr char kMethod[] = "paramUpdate";
+  const ros::XMLRPCManagerPtr& manager = ros::XMLRPCManager::instance();
+  manager->unbind(kMethod);
+  manager->bind(kMethod, [](XmlRpc::XmlRpcValue& params, XmlRpc::XmlRpcValue& result) {
+    try {
+      ros::param::paramUpdateCallback(params, result);
+    } catch (const std::exception& error) {
+      throw XmlRpc::XmlRpcException(error.what());
+    }
   });
 }
 

@@ -56,8 +56,8 @@ int run_program(int argc, char** argv, const ProgramHelp& help, const std::strin
 
 /// Protects this process from a call `paramUpdate` whose parameter has an illegal name: roscpp
 /// throws InvalidNameException in its XML-RPC thread, where nobody catches it, and the process
-/// ends. From now on, the caller gets a fault. To be called after ros::init(); further calls do
-/// nothing. run_program() calls it.
+/// ends. From now on, the caller gets a fault. To be called after ros::init(). run_program() calls
+/// it.
 void guard_parameter_updates();
 
 /// What a node publishes on /diagnostics: the tasks that its parts add, and whether the ROS master

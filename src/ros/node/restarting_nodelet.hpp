@@ -5,9 +5,7 @@
 
 #include <atomic>
 #include <exception>
-#include <functional>
 #include <future>
-#include <memory>
 #include <thread>
 #include <utility>
 
@@ -38,35 +36,25 @@ class RestartingNodelet : public nodelet::Nodelet {
     std::promise<void> ready;
     std::future<void> outcome = ready.get_future();
     // The promise moves to the worker, which may still use it when this function has returned.
-    worker_ = std::thread([this, ready = std::move(ready)]() mutable {
-      std::unique_ptr<Node> node;
-      try {
-        node = make_node();
-      } catch (const std::exception& error) {
-        NODELET_FATAL("%s", error.what());
-        return ready.set_exception(std::current_exception());
-      }
-      ready.set_value();
-      run(std::move(node));
-    });
+    worker_ = std::thread([this, ready = std::move(ready)]() mutable { work(ready); });
     outcome.get();
   }
 
-  std::unique_ptr<Node> make_node() {
-    return std::make_unique<Node>(getNodeHandle(), getPrivateNodeHandle());
-  }
-
-  /// A node that breaks down is started again. The manager and its other nodelets keep running.
-  void run(std::unique_ptr<Node> node) {
-    while (!is_to_stop()) {
+  /// Runs the node. If it breaks down, it is started again; the manager and its other nodelets keep
+  /// running. `ready` gets the outcome of the first start.
+  void work(std::promise<void>& ready) {
+    for (bool is_first = true; is_first || !is_to_stop();) {
       try {
-        if (!node) node = make_node();
-        node->run([this] { return is_to_stop(); });
-        return;
+        Node node(getNodeHandle(), getPrivateNodeHandle());
+        if (std::exchange(is_first, false)) ready.set_value();
+        return node.run([this] { return is_to_stop(); });
       } catch (const std::exception& error) {
+        if (is_first) {
+          NODELET_FATAL("%s", error.what());
+          return ready.set_exception(std::current_exception());
+        }
         NODELET_FATAL("broke down, and starts anew, without organs and history: %s", error.what());
       }
-      node.reset();
       const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(kPauseSec);
       while (!is_to_stop() && ros::WallTime::now() < end) ros::WallDuration(0.05).sleep();
     }

@@ -81,7 +81,8 @@ void parse_links(const ParameterGroup& tool, ToolParameters& parsed) {
 
 void parse_clearance(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.margin = tool.number(names::kMargin, parsed.margin, kNotNegative);
-  parsed.max_near = tool.whole_number(names::kMaxNear, parsed.max_near, {0, 1'000'000});
+  parsed.max_near =
+      static_cast<int>(tool.number(names::kMaxNear, parsed.max_near, {0, 1'000'000}, true));
   if (parsed.max_near > 0 && parsed.margin == 0.0) {
     tool.refuse(names::kMaxNear, "must be 0 unless the tool has a margin above 0");
   }
@@ -178,8 +179,8 @@ ParameterTable table_of(NodeParameters& p) {
          "true: during a step, organs move to their new shape; false: they rest in it");
   t.number("motion_sample_sec", p.motion_sample_sec, kPositive,
            "[s] interval at which TF is sampled where its transforms are farther apart");
-  t.whole_number("motion_samples_max", p.motion_samples_max, {1, 100'000},
-                 "largest number of legs of a tool's path in a step");
+  t.number("motion_samples_max", p.motion_samples_max, {1, 100'000},
+           "largest number of legs of a tool's path in a step");
   t.number("tf_timeout_sec", p.tf_timeout_sec, {0.0, 60.0},
            "[s] how long a new shape waits for its transforms")
       .live();
@@ -187,9 +188,9 @@ ParameterTable table_of(NodeParameters& p) {
            "[s] an older mesh is answered with STALE_MESH; 0: never")
       .live();
   add_limits(t, p);
-  t.whole_number("max_batch", p.max_batch, {1, 1'000'000}, "motions in one call of query_batch");
-  t.whole_number("max_batch_bytes", p.max_batch_bytes, kMessageBytes,
-                 "bytes of all results of one call of query_batch");
+  t.number("max_batch", p.max_batch, {1, 1'000'000}, "motions in one call of query_batch");
+  t.number("max_batch_bytes", p.max_batch_bytes, kMessageBytes,
+           "bytes of all results of one call of query_batch");
   t.flag("publish_regions", p.publish_regions,
          "true: each contact has the polygon in which its face meets the tool's viewing volume")
       .live();
@@ -200,9 +201,9 @@ ParameterTable table_of(NodeParameters& p) {
   t.number("markers_depth", p.markers.markers_depth, kPositive,
            "[m] contacts of this depth or more have the last colour of the map")
       .live();
-  t.whole_number("threads", p.threads, {0, 1024},
-                 "threads that evaluate steps, and as many that evaluate batches; 0: one for each "
-                 "processor");
+  t.number("threads", p.threads, {0, 1024},
+           "threads that evaluate steps, and as many that evaluate batches; 0: one for each "
+           "processor");
   add_realtime(t, p.realtime, "the threads of the steps run");
   return t;
 }
@@ -215,13 +216,12 @@ void add_tools(ParameterTable& t, OrganNodeParameters& p, const std::string& tex
 
 void add_picker(ParameterTable& t, PickerSettings& p) {
   t.choice(
-      "picker", "feedback", {"feedback", "select", "cpu"},
+      "picker", {"feedback", "select", "cpu"},
       [&p](const std::string& name) { p.kind = picker_kind(name); },
       "feedback (GL_FEEDBACK), select (GL_SELECT, as in the 1999 paper; slow) or cpu (without "
       "OpenGL)");
   t.choice(
-      "gl", "auto", {"auto", "osmesa", "egl"},
-      [&p](const std::string& name) { p.gl = gl_platform(name); },
+      "gl", {"auto", "osmesa", "egl"}, [&p](const std::string& name) { p.gl = gl_platform(name); },
       "where the OpenGL for picking comes from: osmesa, egl, or auto (OSMesa where there is one, "
       "else EGL)");
 }
@@ -229,7 +229,7 @@ void add_picker(ParameterTable& t, PickerSettings& p) {
 void add_limits(ParameterTable& t, OrganNodeParameters& p) {
   t.number("max_ahead_sec", p.max_ahead_sec, kMaxAhead,
            "[s] shapes, poses and transforms with stamps further ahead of the clock are refused");
-  t.whole_number("max_faces", p.max_faces, kMaxFaces, "larger organs are refused");
+  t.number("max_faces", p.max_faces, kMaxFaces, "larger organs are refused");
   t.number("diagnostic_period", p.diagnostic_period_sec, {0.01, 3600.0},
            "[s] between messages on /diagnostics");
 }
@@ -244,9 +244,8 @@ void add_marker_rates(ParameterTable& t, MarkerSettings& p) {
 }
 
 void add_realtime(ParameterTable& t, RealtimeParameters& p, const std::string& threads) {
-  t.whole_number(
-      "realtime_priority", p.priority, {0, 99},
-      "1 to 99: " + threads + " under SCHED_FIFO with this priority; 0: ordinary scheduling");
+  t.number("realtime_priority", p.priority, {0, 99},
+           "1 to 99: " + threads + " under SCHED_FIFO with this priority; 0: ordinary scheduling");
   t.flag("lock_memory", p.lock_memory, "true: all memory of the process stays in RAM");
   t.flag("awake_cores", p.awake_cores, "true: no core of the machine sleeps while the node runs");
 }

@@ -53,9 +53,6 @@ class ParameterGroup {
                      const std::vector<std::string>& legal_values) const;
   double number(const std::string& name, std::optional<double> fallback, const NumberRange& range,
                 bool must_be_whole = false) const;
-  int whole_number(const std::string& name, int fallback, const NumberRange& range) const {
-    return static_cast<int>(number(name, fallback, range, true));
-  }
 
   /// These functions read required members. Each throws ParameterError if the member is missing or
   /// illegal. text() returns a text that is not empty.

@@ -4,7 +4,10 @@
 #include <dynamic_reconfigure/config_tools.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 #include <type_traits>
 
 #include "ros/messages/checked_messages.hpp"
@@ -14,17 +17,22 @@ namespace {
 
 using dynamic_reconfigure::Config;
 using XmlRpc::XmlRpcValue;
+using Row = ParameterTable::Row;
+using Text = const std::string&;
+
+bool is_flag(const LiveParameter& parameter) { return parameter.type == XmlRpcValue::TypeBoolean; }
 
 /// A message with one value of each parameter, for example the lowest one (`which`).
-Config config(const std::vector<LiveParameter>& parameters, XmlRpcValue LiveParameter::*which) {
+Config config(const std::vector<LiveParameter>& parameters,
+              const std::function<double(const LiveParameter&)>& which) {
   using dynamic_reconfigure::ConfigTools;
   Config message;
   for (const LiveParameter& parameter : parameters) {
-    const XmlRpcValue& value = parameter.*which;
-    if (value.getType() == XmlRpcValue::TypeBoolean) {
-      ConfigTools::appendParameter(message, parameter.name, static_cast<const bool&>(value));
+    const double value = which(parameter);
+    if (is_flag(parameter)) {
+      ConfigTools::appendParameter(message, parameter.name, value != 0.0);
     } else {
-      ConfigTools::appendParameter(message, parameter.name, static_cast<const double&>(value));
+      ConfigTools::appendParameter(message, parameter.name, value);
     }
   }
   dynamic_reconfigure::GroupState all;
@@ -34,21 +42,25 @@ Config config(const std::vector<LiveParameter>& parameters, XmlRpcValue LivePara
   return message;
 }
 
+Config present(const std::vector<LiveParameter>& parameters) {
+  return config(parameters, [](const auto& parameter) { return parameter.value; });
+}
+
 dynamic_reconfigure::ConfigDescription description(const std::vector<LiveParameter>& parameters) {
   dynamic_reconfigure::Group all;
   all.name = "Default";
   for (const LiveParameter& parameter : parameters) {
     dynamic_reconfigure::ParamDescription described;
     described.name = parameter.name;
-    described.type = parameter.value.getType() == XmlRpcValue::TypeBoolean ? "bool" : "double";
+    described.type = is_flag(parameter) ? "bool" : "double";
     described.description = parameter.text;
     all.parameters.push_back(described);
   }
   dynamic_reconfigure::ConfigDescription message;
   message.groups = {all};
-  message.min = config(parameters, &LiveParameter::lowest);
-  message.max = config(parameters, &LiveParameter::highest);
-  message.dflt = config(parameters, &LiveParameter::fallback);
+  message.min = config(parameters, [](const auto& parameter) { return parameter.range.lowest; });
+  message.max = config(parameters, [](const auto& parameter) { return parameter.range.highest; });
+  message.dflt = config(parameters, [](const auto& parameter) { return parameter.fallback; });
   return message;
 }
 
@@ -66,8 +78,8 @@ XmlRpcValue requested(const Config& request) {
 }  // namespace
 
 template <typename Value>
-ParameterTable::Row& ParameterTable::add(const std::string& name, Value& value,
-                                         const NumberRange& range, const std::string& text) {
+Row& ParameterTable::number(const std::string& name, Value& value, const NumberRange& range,
+                            const std::string& text) {
   const auto read = [name, &value, range](const ParameterGroup& all) {
     if constexpr (std::is_same_v<Value, bool>) {
       value = all.flag(name, value);
@@ -75,72 +87,59 @@ ParameterTable::Row& ParameterTable::add(const std::string& name, Value& value,
       value = static_cast<Value>(all.number(name, value, range, std::is_same_v<Value, int>));
     }
   };
-  other(name, std::isinf(static_cast<double>(value)) ? "no limit" : shown(value), read, text);
-  rows_.back().value = [&value] { return XmlRpcValue(value); };
-  rows_.back().range = range;
-  return rows_.back();
+  std::ostringstream shown;
+  shown << std::boolalpha << value;
+  const bool is_unlimited = std::isinf(static_cast<double>(value));
+  Row& row = other(name, is_unlimited ? "no limit" : shown.str(), read, text);
+  row.type = XmlRpcValue(value).getType();
+  row.value = static_cast<double>(value);
+  row.range = range;
+  return row;
 }
 
-ParameterTable::Row& ParameterTable::number(const std::string& name, double& value,
-                                            const NumberRange& range, const std::string& text) {
-  return add(name, value, range, text);
-}
+template Row& ParameterTable::number(Text name, double& value, const NumberRange&, Text text);
+template Row& ParameterTable::number(Text name, int& value, const NumberRange&, Text text);
+template Row& ParameterTable::number(Text name, bool& value, const NumberRange&, Text text);
 
-ParameterTable::Row& ParameterTable::flag(const std::string& name, bool& value,
-                                          const std::string& text) {
-  return add(name, value, {}, text);
-}
-
-void ParameterTable::whole_number(const std::string& name, int& value, const NumberRange& range,
-                                  const std::string& text) {
-  add(name, value, range, text);
-}
-
-void ParameterTable::choice(const std::string& name, const std::string& fallback,
-                            const std::vector<std::string>& legal,
+void ParameterTable::choice(const std::string& name, const std::vector<std::string>& legal,
                             const std::function<void(const std::string&)>& set,
                             const std::string& text) {
-  other(
-      name, fallback, [=](const ParameterGroup& all) { set(all.choice(name, fallback, legal)); },
-      text);
+  const auto read = [=](const ParameterGroup& all) { set(all.choice(name, legal[0], legal)); };
+  other(name, legal[0], read, text);
 }
 
-void ParameterTable::other(const std::string& name, const std::string& fallback,
+Row& ParameterTable::other(const std::string& name, const std::string& fallback,
                            const std::function<void(const ParameterGroup&)>& read,
                            const std::string& text) {
-  rows_.push_back({{name, fallback, text}, read});
+  return rows_.emplace_back(Row{{name, fallback, text}, read});
 }
 
 ParameterGroup ParameterTable::group(const XmlRpcValue& private_namespace) const {
   std::vector<std::string> names;
-  for (const Row& row : rows_) names.push_back(row.help.name);
+  for (const Row& row : rows_) names.push_back(row.name);
   return {"~", private_namespace, names};
-}
-
-void ParameterTable::read(const ParameterGroup& all) const {
-  for (const Row& row : rows_) row.read(all);
 }
 
 void ParameterTable::read(const ParameterGroup& all, const std::string& name) const {
   for (const Row& row : rows_) {
-    if (row.help.name == name) row.read(all);
+    if (name.empty() || row.name == name) row.read(all);
   }
 }
 
 void ParameterTable::change(const XmlRpcValue& changes) const {
-  std::vector<std::string> live;
-  for (const Row& row : rows_) {
-    if (row.is_live) live.push_back(row.help.name);
-  }
-  const ParameterGroup group("~", changes, live);
+  const std::vector<Row> live = live_rows();
+  std::vector<std::string> names;
+  for (const Row& row : live) names.push_back(row.name);
+  const ParameterGroup group("~", changes, names);
   for (const std::string& sentence : group.misspelt()) throw ParameterError(sentence);
-  for (const std::string& name : live) read(group, name);
+  for (const Row& row : live) row.read(group);
 }
 
-std::vector<HelpEntry> ParameterTable::help() const {
-  std::vector<HelpEntry> help;
-  for (const Row& row : rows_) help.push_back(row.help);
-  return help;
+std::vector<Row> ParameterTable::live_rows() const {
+  std::vector<Row> live;
+  std::copy_if(rows_.begin(), rows_.end(), std::back_inserter(live),
+               [](const Row& row) { return row.is_live; });
+  return live;
 }
 
 void LiveParameters::advertise() {
@@ -148,7 +147,7 @@ void LiveParameters::advertise() {
       "parameter_descriptions", 1, true);
   updates_ = private_node_.advertise<Config>("parameter_updates", 1, true);
   descriptions_.publish(description(parameters_));
-  updates_.publish(config(parameters_, &LiveParameter::value));
+  updates_.publish(present(parameters_));
   server_ = advertise_checked<Service>(
       private_node_, "set_parameters",
       [this](auto& request, auto& response) { return on_set(request, response); });
@@ -161,16 +160,18 @@ bool LiveParameters::on_set(Service::Request& request, Service::Response& respon
     const std::vector<LiveParameter> now = apply_(requested(request.config));
     for (std::size_t i = 0; i < now.size(); ++i) {
       if (now[i].value == parameters_[i].value) continue;
-      private_node_.setParam(now[i].name, now[i].value);
-      std::ostringstream written;
-      now[i].value.write(written);
-      ROS_INFO("~%s is %s now", now[i].name.c_str(), written.str().c_str());
+      if (is_flag(now[i])) {
+        private_node_.setParam(now[i].name, now[i].value != 0.0);
+      } else {
+        private_node_.setParam(now[i].name, now[i].value);
+      }
+      ROS_INFO("~%s is %g now", now[i].name.c_str(), now[i].value);
     }
     parameters_ = now;
   } catch (const ParameterError& error) {
     ROS_WARN("nothing is changed: %s", error.what());
   }
-  response.config = config(parameters_, &LiveParameter::value);
+  response.config = present(parameters_);
   updates_.publish(response.config);
   return true;
 }

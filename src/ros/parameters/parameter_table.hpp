@@ -3,7 +3,6 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 
 #include <functional>
-#include <sstream>
 #include <utility>
 
 #include "parameter_group.hpp"
@@ -17,14 +16,6 @@ struct HelpEntry {
   std::string text;
 };
 
-/// The text of a default value, as --help shows it.
-template <typename Value>
-std::string shown(const Value& value) {
-  std::ostringstream text;
-  text << std::boolalpha << value;
-  return text.str();
-}
-
 /// The parameters of a node, one row each. A row has all that is known of a parameter: its name,
 /// its member of the node's parameters, its default, its range, whether it can be changed while the
 /// node runs, and what it means. Reading, refusals, --help, and the interface of
@@ -34,51 +25,50 @@ std::string shown(const Value& value) {
 /// the value that its member of PARAMETERS has at that time. PARAMETERS must outlive the table.
 class ParameterTable {
  public:
-  struct Row {
-    HelpEntry help;  ///< the name, the default as --help shows it, and the meaning
+  struct Row : HelpEntry {
     std::function<void(const ParameterGroup&)> read;  ///< reads the parameter, if it is there
-    std::function<XmlRpc::XmlRpcValue()> value = {};  ///< value of a number or flag; else null
-    NumberRange range = {};                           ///< legal values of a number
-    bool is_live = false;                             ///< it can be changed while the node runs
+    XmlRpc::XmlRpcValue::Type type = XmlRpc::XmlRpcValue::TypeInvalid;  ///< of a number or flag
+    double value = 0.0;      ///< its value when the table was made; of a flag, 0 or 1
+    double fallback = 0.0;   ///< its default; set by live_parameters()
+    NumberRange range = {};  ///< its legal values
+    bool is_live = false;    ///< it can be changed while the node runs
 
     void live() { is_live = true; }
   };
 
   /// Each of these adds a row. `text`: what the parameter means, after its unit: "[s] ...".
-  Row& number(const std::string& name, double& value, const NumberRange& range,
+
+  /// Adds a number: a double, or an int if it must be whole.
+  template <typename Value>
+  Row& number(const std::string& name, Value& value, const NumberRange& range,
               const std::string& text);
-  Row& flag(const std::string& name, bool& value, const std::string& text);
-  void whole_number(const std::string& name, int& value, const NumberRange& range,
-                    const std::string& text);
-  /// Adds a parameter with one of the values `legal`, by default `fallback`. `set` gets the value.
-  void choice(const std::string& name, const std::string& fallback,
-              const std::vector<std::string>& legal,
+  Row& flag(const std::string& name, bool& value, const std::string& text) {
+    return number(name, value, {0.0, 1.0}, text);
+  }
+  /// Adds a parameter with one of the values `legal`, by default the first one. `set` gets the
+  /// value.
+  void choice(const std::string& name, const std::vector<std::string>& legal,
               const std::function<void(const std::string&)>& set, const std::string& text);
   /// Adds a parameter of a kind that none of the functions above can add. `read` reads it from the
   /// group of all parameters. `fallback`: what --help shows as its default.
-  void other(const std::string& name, const std::string& fallback,
+  Row& other(const std::string& name, const std::string& fallback,
              const std::function<void(const ParameterGroup&)>& read, const std::string& text);
 
   /// The node's parameters as a group. Names that have no row count as misspelt. Throws
   /// ParameterError if `private_namespace` is no group.
   ParameterGroup group(const XmlRpc::XmlRpcValue& private_namespace) const;
-  /// Reads all parameters. A missing parameter keeps its value. Throws ParameterError if a value is
-  /// illegal or a required parameter is missing.
-  void read(const ParameterGroup& all) const;
-  /// Reads one parameter alone. Throws ParameterError if its value is illegal.
-  void read(const ParameterGroup& all, const std::string& name) const;
+  /// Reads all parameters, or the one with this name alone. A missing parameter keeps its value.
+  /// Throws ParameterError if a value is illegal or a required parameter is missing.
+  void read(const ParameterGroup& all, const std::string& name = {}) const;
   /// Applies changes while the node runs. Throws ParameterError if a value is illegal, or if a
   /// parameter cannot be changed then. Some members may have changed before it throws.
   void change(const XmlRpc::XmlRpcValue& changes) const;
 
   const std::vector<Row>& rows() const { return rows_; }
-  std::vector<HelpEntry> help() const;
+  /// The rows that can be changed while the node runs.
+  std::vector<Row> live_rows() const;
 
  private:
-  template <typename Value>
-  Row& add(const std::string& name, Value& value, const NumberRange& range,
-           const std::string& text);
-
   std::vector<Row> rows_;
 };
 
@@ -112,31 +102,22 @@ Parameters changed(Parameters parameters, const XmlRpc::XmlRpcValue& changes) {
 template <typename Parameters>
 std::vector<HelpEntry> parameter_help() {
   Parameters defaults;
-  return table_of(defaults).help();
+  const ParameterTable table = table_of(defaults);
+  return {table.rows().begin(), table.rows().end()};
 }
 
-/// A number or a flag that can be changed while the program runs. Its four values are all of the
-/// type double, or all of the type bool.
-struct LiveParameter {
-  std::string name;
-  std::string text;                     ///< what it means, for people
-  XmlRpc::XmlRpcValue value, fallback;  ///< present value, and default
-  XmlRpc::XmlRpcValue lowest, highest;  ///< shown to people, not checked here
-};
+/// A parameter that can be changed while the node runs, with its present value.
+using LiveParameter = ParameterTable::Row;
 
-/// All parameters of a node that can be changed while it runs, with their present values.
+/// All parameters of a node that can be changed while it runs.
 template <typename Parameters>
 std::vector<LiveParameter> live_parameters(Parameters parameters) {
   Parameters defaults;
-  const ParameterTable now = table_of(parameters), by_default = table_of(defaults);
-  std::vector<LiveParameter> live;
-  for (std::size_t i = 0; i < now.rows().size(); ++i) {
-    const ParameterTable::Row& row = now.rows()[i];
-    if (!row.is_live) continue;
-    const bool is_flag = row.value().getType() == XmlRpc::XmlRpcValue::TypeBoolean;
-    live.push_back({row.help.name, row.help.text, row.value(), by_default.rows()[i].value(),
-                    is_flag ? XmlRpc::XmlRpcValue(false) : XmlRpc::XmlRpcValue(row.range.lowest),
-                    is_flag ? XmlRpc::XmlRpcValue(true) : XmlRpc::XmlRpcValue(row.range.highest)});
+  std::vector<LiveParameter> live = table_of(parameters).live_rows();
+  const std::vector<LiveParameter> by_default = table_of(defaults).live_rows();
+  for (std::size_t i = 0; i < live.size(); ++i) {
+    live[i].read = {};  // It would write into `parameters`, which end here.
+    live[i].fallback = by_default[i].value;
   }
   return live;
 }

@@ -12,9 +12,8 @@ namespace organ_collision {
 namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
-using diagnostic_updater::DiagnosticStatusWrapper;
 
-void show_tool(const Tool& tool, DiagnosticStatusWrapper& status) {
+void show_tool(const Tool& tool, Status& status) {
   const ToolParameters& parameters = tool.parameters;
   if (parameters.has_shaft()) {
     status.add(parameters.name + ", radius of the shaft [m]", parameters.radius);
@@ -25,8 +24,7 @@ void show_tool(const Tool& tool, DiagnosticStatusWrapper& status) {
   if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);
 }
 
-void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
-                DiagnosticStatusWrapper& status) {
+void show_organ(const DeformableOrgan& organ, const std::string& last_refusal, Status& status) {
   const TriangleMesh& mesh = *organ.latest().mesh;
   status.add(organ.name() + ", faces", mesh.face_count());
   status.add(organ.name() + ", extent [m]", sides_of(mesh.box().cast<double>()));
@@ -42,7 +40,7 @@ void show_organ(const DeformableOrgan& organ, const std::string& last_refusal,
 /// Shows how many durations there were, their median, 99th percentile and maximum. `count` and
 /// `time` are the names that are shown, for example "queries" and "query time".
 void show_times(const std::string& count, const std::string& time,
-                const DurationStatistics& statistics, DiagnosticStatusWrapper& status) {
+                const DurationStatistics& statistics, Status& status) {
   const DurationStatistics::Summary times = statistics.summary();
   constexpr double kMicroseconds = 1e6;
   status.add(count, times.count);
@@ -86,17 +84,13 @@ void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& 
   updater.add("messages", [parts](auto& status) { show_messages(parts, status); });
 }
 
-void add_diagnostics(diagnostic_updater::Updater& updater, const AnsweredParts& parts) {
-  updater.add("queries", [parts](auto& status) { show_queries(parts, status); });
-}
-
-void show_tools(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
+void show_tools(const ReceivedParts& parts, Status& status) {
   status.summary(DiagnosticStatus::OK, counted(parts.tools.size(), "tool"));
   if (parts.tools.empty()) status.summary(DiagnosticStatus::WARN, kNoTools);
   for (const Tool& tool : parts.tools) show_tool(tool, status);
 }
 
-void show_organs(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
+void show_organs(const ReceivedParts& parts, Status& status) {
   const ros::Time now = ros::Time::now();
   const double timeout = parts.mesh_timeout_sec;
   status.summary(DiagnosticStatus::OK, counted(parts.organs.organs().size(), "organ"));
@@ -110,7 +104,7 @@ void show_organs(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
   }
 }
 
-void show_messages(const ReceivedParts& parts, DiagnosticStatusWrapper& status) {
+void show_messages(const ReceivedParts& parts, Status& status) {
   status.summary(DiagnosticStatus::OK, "none rejected");
   status.add("mesh rate [1/s]", parts.meshes.take(std::chrono::steady_clock::now()));
   const OrganMessageCounts counts = parts.intake.counts();
@@ -124,16 +118,16 @@ void show_messages(const ReceivedParts& parts, DiagnosticStatusWrapper& status) 
   show_failures("rejected", parts.rejected, status);
 }
 
-void show_queries(const AnsweredParts& parts, DiagnosticStatusWrapper& status) {
-  NodeCounters& counters = parts.counters;
+void show_queries(const std::vector<std::string>& misspelt, const CollisionPipeline& pipeline,
+                  NodeCounters& counters, Status& status) {
   status.summary(DiagnosticStatus::OK, "answering");
-  status.add("GL version", parts.pipeline.workers.gl_version());
+  status.add("GL version", pipeline.workers.gl_version());
   status.add("contacts rate [1/s]", counters.contacts.take(std::chrono::steady_clock::now()));
   show_times("queries", "query time", counters.query_times, status);
-  const StepCounts steps = parts.pipeline.steps.counts();
+  const StepCounts steps = pipeline.steps.counts();
   status.add("motion samples cut", steps.samples_cut);
   status.add("motion samples cut, farthest from the swept way [m]", steps.deviation_cut);
-  status.add("transforms after their step", parts.pipeline.inbox.transforms.late());
+  status.add("transforms after their step", pipeline.inbox.transforms.late());
   status.add("poses merged into later ones", steps.poses_merged);
   status.add("shapes due", steps.due);
   status.add("shapes answered", steps.answered);
@@ -145,7 +139,7 @@ void show_queries(const AnsweredParts& parts, DiagnosticStatusWrapper& status) {
   show_times("service queries", "service query time", counters.service_times, status);
   status.add("batches", counters.batches.load());
   status.add("motions of batches", counters.motions.load());
-  for (const std::string& sentence : parts.misspelt) {
+  for (const std::string& sentence : misspelt) {
     status.mergeSummary(DiagnosticStatus::WARN, sentence);
   }
   show_failures("unanswered", counters.failed, status);

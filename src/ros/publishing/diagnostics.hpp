@@ -74,10 +74,8 @@ struct NodeCounters {
   FailureLog refused;                     ///< service calls, and motions of batches, that failed
 };
 
-// What nodes show on /diagnostics.
-
-/// The tools of a node, and what the node has received. Every node with organs shows these. What
-/// the references refer to must outlive the updater.
+/// The tools of a node, and what the node has received. Every node with organs shows these on
+/// /diagnostics. What the references refer to must outlive the updater.
 struct ReceivedParts {
   const double& mesh_timeout_sec;  ///< 0: a mesh is never stale
   const std::vector<Tool>& tools;
@@ -87,21 +85,16 @@ struct ReceivedParts {
   FailureLog& rejected;  ///< messages that were refused
 };
 
-/// What the collision node has answered. What the references refer to must outlive the updater.
-struct AnsweredParts {
-  const std::vector<std::string>& misspelt;
-  const CollisionPipeline& pipeline;
-  NodeCounters& counters;
-};
+using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
 /// Adds the tasks "tools", "organs" and "messages".
 void add_diagnostics(diagnostic_updater::Updater& updater, const ReceivedParts& parts);
-/// Adds the task "queries".
-void add_diagnostics(diagnostic_updater::Updater& updater, const AnsweredParts& parts);
 
-void show_tools(const ReceivedParts& parts, diagnostic_updater::DiagnosticStatusWrapper& status);
-void show_organs(const ReceivedParts& parts, diagnostic_updater::DiagnosticStatusWrapper& status);
-void show_messages(const ReceivedParts& parts, diagnostic_updater::DiagnosticStatusWrapper& status);
-void show_queries(const AnsweredParts& parts, diagnostic_updater::DiagnosticStatusWrapper& status);
+// What the tasks show. The last one is that of the collision node: what it has answered.
+void show_tools(const ReceivedParts& parts, Status& status);
+void show_organs(const ReceivedParts& parts, Status& status);
+void show_messages(const ReceivedParts& parts, Status& status);
+void show_queries(const std::vector<std::string>& misspelt, const CollisionPipeline& pipeline,
+                  NodeCounters& counters, Status& status);
 
 }  // namespace organ_collision

@@ -1,6 +1,9 @@
 #include "query_request.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 
@@ -83,23 +86,21 @@ void check_links_of(const Tool& tool, const LinkMotion* motion, QueryMode mode) 
 /// The path of a legal motion, in the organ's frame. `at_end_only`: the path has only its end.
 ToolPath path_of(const GivenMotion& motion, bool at_end_only,
                  const Eigen::Isometry3d& T_organ_motion) {
-  ToolWaypoint start{0.0, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}}, end = start;
-  end.fraction = at_end_only ? 0.0 : 1.0;
-  if (motion.shaft) {
-    start.axis = {T_organ_motion * to_eigen(motion.shaft->previous_trocar),
-                  T_organ_motion * to_eigen(motion.shaft->previous_tip)};
-    end.axis = {T_organ_motion * to_eigen(motion.shaft->trocar),
-                T_organ_motion * to_eigen(motion.shaft->tip)};
-  }
-  if (motion.links) {
-    const auto add = [&](const Poses& poses, ToolWaypoint& waypoint) {
-      for (const auto& pose : poses) waypoint.links.push_back(T_organ_motion * to_eigen(pose));
-    };
-    add(motion.links->previous, start);
-    add(motion.links->links, end);
-  }
-  if (at_end_only) return {std::move(end)};
-  return {std::move(start), std::move(end)};
+  const auto waypoint = [&](double fraction, bool is_end) {
+    ToolWaypoint made{fraction, {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()}};
+    if (const ToolMotion* shaft = motion.shaft) {
+      made.axis = {T_organ_motion * to_eigen(is_end ? shaft->trocar : shaft->previous_trocar),
+                   T_organ_motion * to_eigen(is_end ? shaft->tip : shaft->previous_tip)};
+    }
+    if (motion.links) {
+      for (const auto& pose : is_end ? motion.links->links : motion.links->previous) {
+        made.links.push_back(T_organ_motion * to_eigen(pose));
+      }
+    }
+    return made;
+  };
+  if (at_end_only) return {waypoint(0.0, true)};
+  return {waypoint(0.0, false), waypoint(1.0, true)};
 }
 
 /// The tip of the links at the end of a motion. It is known only if it is the origin of a link's
@@ -112,7 +113,106 @@ std::optional<Eigen::Vector3d> tip_of_links(const ToolParameters& tool, const To
   return std::nullopt;
 }
 
+void check_tool(const Tool& tool, QueryMode mode) {
+  if (!tool.fault.empty()) {
+    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
+  }
+  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
+    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
+           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
+           "(SWEPT)");
+  }
+}
+
+void set_end(ros::Time end, ContactArray& answer) {
+  if (!end.isZero()) answer.header.stamp = end;
+  answer.step_start = answer.header.stamp;
+}
+
+const Tool& find_tool(const NodeState& node, const std::string& name) {
+  std::vector<std::string> names;
+  for (const Tool& tool : node.tools) {
+    if (tool.parameters.name == name) return tool;
+    names.push_back("'" + tool.parameters.name + "'");
+  }
+  throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
+                  "tool '" + name + "' is unknown; " +
+                      (names.empty() ? "the node has none" : "known are " + listed(names)));
+}
+
+void check_age(const NodeState& node, const DeformableOrgan& organ) {
+  const ros::Time now = ros::Time::now();
+  const double timeout_sec = node.parameters.mesh_timeout_sec;
+  if (!is_stale(organ.latest(), now, timeout_sec)) return;
+  throw Rejection(ContactArray::STALE_MESH, "stale mesh",
+                  stale_message(organ.name(), organ.latest(), now, timeout_sec));
+}
+
+/// Sets what a snapshot needs if the request gives the motion: the transform of the motion's frame.
+void read_motion_frame(const NodeState& node, const QueryCollision::Request& request,
+                       const DeformableOrgan& organ, QuerySnapshot& snapshot,
+                       ContactArray& answer) {
+  const std::string frame = tf_frame(request.header.frame_id);
+  if (frame.empty()) refuse("header.frame_id is empty; must be the frame of the motions");
+  const auto T_organ_motion =
+      look_up(node.pipeline.inbox.transforms, organ.frame(), frame, request.header.stamp);
+  if (!T_organ_motion.found) {
+    throw Rejection(ContactArray::NO_TRANSFORM, "no transform", T_organ_motion.why_not);
+  }
+  snapshot.T_organ_motion = T_organ_motion.found->value;
+  set_end(T_organ_motion.found->stamp, answer);
+}
+
+/// Sets what a snapshot needs if the tool moves as in TF: its path since its last step, and its
+/// tip.
+void read_tool_motion(const NodeState& node, const QueryCollision::Request& request,
+                      const DeformableOrgan& organ, const Tool& tool, QuerySnapshot& snapshot,
+                      ContactArray& answer) {
+  const auto end = node.pipeline.poses.pose(tool, organ.frame(), request.header.stamp);
+  if (!end.found) throw Rejection(ContactArray::NO_TRANSFORM, "no transform", end.why_not);
+  snapshot.tip = end.found->value.tip;
+  set_end(end.found->stamp, answer);
+
+  const auto index = static_cast<std::size_t>(&tool - node.tools.data());
+  const StepHistory& history = node.pipeline.steps.history();
+  const auto pair = history.find({organ.name(), index});
+  const LastStep* last = pair != history.end() && pair->second.last ? &*pair->second.last : nullptr;
+  const bool is_disproved =
+      last && node.pipeline.poses.is_disproved(tool, organ.frame(), last->stamp);
+  if (!last || is_disproved || is_static_mode(static_cast<QueryMode>(request.mode))) {
+    snapshot.path = resting_path(end.found->value);
+    return;
+  }
+  // If all transforms are static, the query's step ends now. The node may have ended its last step
+  // after the answer got its stamp.
+  const bool is_now = end.found->stamp.isZero() && request.header.stamp.isZero();
+  if (is_now) answer.header.stamp = std::max(answer.header.stamp, last->stamp);
+  if (answer.header.stamp < last->stamp) {
+    refuse("the step would end at ", answer.header.stamp,
+           " s, before it begins: the last step of tool '", tool.parameters.name, "' ended at ",
+           last->stamp, " s; header.stamp must not be earlier");
+  }
+  SampledPath sampled = node.pipeline.poses.path(tool, organ.frame(), {last->pose, last->stamp},
+                                                 {end.found->value, answer.header.stamp});
+  snapshot.path = std::move(sampled.path);
+  snapshot.unknown = std::move(sampled.unknown);
+  answer.step_start = last->stamp;
+}
+
 }  // namespace
+
+QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch) {
+  QueryCollision::Request request;
+  request.header = batch.header;
+  request.organ = batch.organ;
+  request.tool = batch.tool;
+  request.mode = batch.mode;
+  request.organ_motion = batch.organ_motion;
+  request.margin = batch.margin;
+  request.clearance = batch.clearance;
+  request.placement = batch.placement;
+  return request;
+}
 
 CollisionRequest checked_request(const QueryCollision::Request& request) {
   if (request.mode > ContactArray::PAPER_NAIVE) {
@@ -144,24 +244,27 @@ CollisionRequest checked_request(const QueryCollision::Request& request) {
   return collision;
 }
 
-CollisionRequest checked_request(const QueryCollisionBatch::Request& batch) {
-  QueryCollision::Request request;
-  request.mode = batch.mode;
-  request.margin = batch.margin;
-  request.clearance = batch.clearance;
-  request.placement = batch.placement;
-  return checked_request(request);
-}
-
-void check_tool(const Tool& tool, QueryMode mode) {
-  if (!tool.fault.empty()) {
-    throw Rejection(ContactArray::INVALID_TOOL, "invalid tool", tool.fault);
+QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request& request,
+                            bool in_tf, ContactArray& answer) {
+  const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(node, request.tool);
+  if (tool) {
+    set_links(answer, tool->parameters);
+    check_tool(*tool, static_cast<QueryMode>(request.mode));
   }
-  if (is_paper_mode(mode) && !tool.parameters.has_shaft()) {
-    refuse("mode is ", static_cast<int>(mode), ", and tool '", tool.parameters.name,
-           "' has no shaft, which the paper's modes are of; for links, legal are 0 (STATIC) and 1 "
-           "(SWEPT)");
+  if (request.organ.empty()) refuse("organ is empty; must be an organ's name");
+  const DeformableOrgan& organ = node.pipeline.inbox.organs.at(request.organ);
+  set_organ(answer, organ, organ.latest());
+  check_age(node, organ);
+  QuerySnapshot snapshot;
+  if (tool && in_tf) {
+    read_tool_motion(node, request, organ, *tool, snapshot, answer);
+  } else {
+    read_motion_frame(node, request, organ, snapshot, answer);
   }
+  snapshot.latest = organ.latest();
+  snapshot.previous = organ.previous();
+  if (tool) snapshot.tool = *tool;
+  return snapshot;
 }
 
 void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequest& collision) {
@@ -213,16 +316,13 @@ void set_motion(const GivenMotion& motion, const QuerySnapshot& snapshot,
   if (!snapshot.tool) {
     check_shaft(*motion.shaft, collision.mode);
     collision.radius = motion.shaft->radius;
-    collision.path = path_of({motion.shaft, nullptr}, at_end_only, snapshot.T_organ_motion);
+    collision.path = path_of(motion, at_end_only, snapshot.T_organ_motion);
     return;
   }
-  const Tool& tool = *snapshot.tool;
-  check_shaft_of(tool, motion.shaft, collision.mode);
-  check_links_of(tool, motion.links, collision.mode);
-  const GivenMotion of_tool{tool.parameters.has_shaft() ? motion.shaft : nullptr,
-                            tool.links.empty() ? nullptr : motion.links};
-  collision.path = path_of(of_tool, at_end_only, snapshot.T_organ_motion);
-  collision.tip = tip_of_links(tool.parameters, collision.path.back());
+  check_shaft_of(*snapshot.tool, motion.shaft, collision.mode);
+  check_links_of(*snapshot.tool, motion.links, collision.mode);
+  collision.path = path_of(motion, at_end_only, snapshot.T_organ_motion);
+  collision.tip = tip_of_links(snapshot.tool->parameters, collision.path.back());
 }
 
 }  // namespace organ_collision

@@ -5,28 +5,61 @@
 #include <organ_collision/QueryCollisionBatch.h>
 #include <organ_collision/ToolMotion.h>
 
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "geometry/concatenate.hpp"
-#include "query_snapshot.hpp"
+#include "ros/parameters/node_parameters.hpp"
+#include "ros/steps/collision_pipeline.hpp"
+#include "ros/tools/tool.hpp"
 
 namespace organ_collision {
 
-// These functions check the requests of the services query and query_batch, and make a
-// CollisionRequest of them.
+// These functions make a CollisionRequest of a request of the services query and query_batch. Each
+// throws Rejection if a value is illegal: the message names the value and what is legal.
 
-/// Throws Rejection with the status INVALID_REQUEST. The message is the text of all parts: it names
-/// the illegal value and what is legal.
+/// Throws Rejection with the status INVALID_REQUEST. The message is the text of all parts.
 template <typename... Parts>
 [[noreturn]] void refuse(const Parts&... parts) {
   throw Rejection(ContactArray::INVALID_REQUEST, "invalid request", concatenate(parts...));
 }
 
-/// Throws Rejection if the tool has a fault, or if this mode is not possible with the tool.
-void check_tool(const Tool& tool, QueryMode mode);
+/// The node's state, from which snapshots are taken. Only the node's thread changes it.
+struct NodeState {
+  const NodeParameters& parameters;
+  const std::vector<Tool>& tools;
+  const CollisionPipeline& pipeline;
+};
 
-/// Makes a CollisionRequest from a service request. Its organ, tool and motion are not set yet.
-/// Throws Rejection if a value is illegal. A batch asks for neither regions nor near faces.
+/// What a query needs to know of the node, at one moment. It does not change afterwards, so that
+/// any thread may evaluate the query while the node goes on.
+struct QuerySnapshot {
+  OrganShape latest;
+  OrganShape previous;       ///< without a mesh if there is no previous shape
+  std::optional<Tool> tool;  ///< the tool that is asked about; empty: the request describes a shaft
+  ToolPath path;             ///< the tool's path in TF; empty if the request gives the motion
+  std::string unknown = {};  ///< what is not known of `path`; empty: all is known
+  /// The tip of the tool's links at the end of `path`, if they have one, in the organ's frame.
+  std::optional<Eigen::Vector3d> tip;
+  /// From the frame of the request's motions to the organ's frame.
+  Eigen::Isometry3d T_organ_motion = Eigen::Isometry3d::Identity();
+};
+
+/// What a batch asks of each of its motions, as a single request without a motion. A batch asks for
+/// neither regions nor near faces.
+QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch);
+
+/// Makes a CollisionRequest of a request. Its organ, tool and motion are not set yet.
 CollisionRequest checked_request(const QueryCollision::Request& request);
-CollisionRequest checked_request(const QueryCollisionBatch::Request& request);
+
+/// Takes a snapshot of what a checked request asks about. Call it in the node's thread. `in_tf`:
+/// the tool moves as in TF, and the request gives no motion. Sets the fields of `answer` that are
+/// known before the query: links, frame, shape and stamps. If it throws Rejection, `answer` has
+/// those fields that were known until then.
+QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request& request,
+                            bool in_tf, ContactArray& answer);
 
 /// Sets the organ and the tool of `collision`, which then refers to the snapshot: the snapshot must
 /// outlive it. `organ_motion`: in the mode SWEPT, the organ moves from its previous shape to its
@@ -40,16 +73,16 @@ struct GivenMotion {
   const LinkMotion* links;  ///< null: not given
 };
 
-/// Checks the motion of a shaft that belongs to no tool of the node. Throws Rejection.
+/// Checks the motion of a shaft that belongs to no tool of the node.
 void check_shaft(const ToolMotion& motion, QueryMode mode);
 
 /// Checks that a batch gives motions only for what the tool has: shaft, links or both. If it has
-/// both, the lists must be equally long. Throws Rejection.
+/// both, the lists must be equally long.
 void check_lists(const QueryCollisionBatch::Request& batch, const std::optional<Tool>& tool);
 
 /// Sets the path of `collision`, whose mode must be set already. Also sets the radius of a shaft
 /// that belongs to no tool, and the tip of links if the tool's tip_frame is the frame of one of
-/// them. Throws Rejection if the motion is illegal, or if it does not fit the parts of the tool.
+/// them.
 void set_motion(const GivenMotion& motion, const QuerySnapshot& snapshot,
                 CollisionRequest& collision);
 

@@ -20,14 +20,17 @@ void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
   response.message = plain_text(message, kLongestMessage);
 }
 
-ros::Time stamp_or_now(const std_msgs::Header& header) {
-  return header.stamp.isZero() ? ros::Time::now() : header.stamp;
+/// An answer about what the request asks, before anything else is known.
+ContactArray unanswered(const QueryCollision::Request& request) {
+  const ros::Time stamp = request.header.stamp;
+  return answer_about(request.organ, request.tool, request.mode,
+                      stamp.isZero() ? ros::Time::now() : stamp);
 }
 
-void check_names(const QuerySubject& subject) {
-  check_name("tool", subject.tool);
-  check_name("organ", subject.organ);
-  if (!subject.moves_as_in_tf) check_name("header.frame_id", tf_frame(subject.header.frame_id));
+void check_names(const QueryCollision::Request& request, bool in_tf) {
+  check_name("tool", request.tool);
+  check_name("organ", request.organ);
+  if (!in_tf) check_name("header.frame_id", tf_frame(request.header.frame_id));
 }
 
 /// Whether a single query gives this motion: an empty message gives none. In a batch, each motion
@@ -93,18 +96,10 @@ void QueryServices::start_batches() {
 }
 
 ContactArray QueryServices::query(const QueryCollision::Request& request) {
-  ContactArray result =
-      answer_about(request.organ, request.tool, request.mode, stamp_or_now(request.header));
-  result.header.frame_id = plain_text(request.header.frame_id, kLongestName);
-  or_failure(result, [&] { answer_one(request, result); });
-  return result;
-}
-
-QueryCollisionBatch::Response QueryServices::query_batch(
-    const QueryCollisionBatch::Request& request) {
-  QueryCollisionBatch::Response response;
-  or_failure(response, [&] { response.results = answer_batch(request); });
-  return response;
+  ContactArray answer = unanswered(request);
+  answer.header.frame_id = plain_text(request.header.frame_id, kLongestName);
+  or_failure(answer, [&] { answer_one(request, answer); });
+  return answer;
 }
 
 void QueryServices::answer_one(const QueryCollision::Request& request, ContactArray& answer) {
@@ -114,18 +109,17 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
   if (gives_links && !is_of_tool) {
     refuse("link_motion is set and tool is empty; must be the name of the tool with these links");
   }
-  const QuerySubject subject{request.header, request.organ, request.tool,
-                             is_of_tool && !gives_links, collision.mode};
-  check_names(subject);
-  if (subject.moves_as_in_tf && is_given(request.motion)) {
+  const bool in_tf = is_of_tool && !gives_links;
+  check_names(request, in_tf);
+  if (in_tf && is_given(request.motion)) {
     refuse("motion is set, and tool '", request.tool,
            "' moves as in TF; leave motion empty, or ask by query_batch");
   }
   if (!is_of_tool) check_shaft(request.motion, collision.mode);
-  QuerySnapshot snapshot = snapshot_of(subject, answer);
+  QuerySnapshot snapshot = snapshot_of(request, in_tf, answer);
 
   set_subject(snapshot, request.organ_motion != 0, collision);
-  if (subject.moves_as_in_tf) {
+  if (in_tf) {
     collision.path = std::move(snapshot.path);
     collision.tip = snapshot.tip;
   } else {
@@ -139,53 +133,57 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
   if (answer.status == ContactArray::OK) counters_.service_times.add(query_sec);
 }
 
-std::vector<ContactArray> QueryServices::answer_batch(const QueryCollisionBatch::Request& request) {
+QueryCollisionBatch::Response QueryServices::query_batch(const Batch& batch) {
+  QueryCollisionBatch::Response response;
+  or_failure(response, [&] { response.results = answer_batch(batch); });
+  return response;
+}
+
+std::vector<ContactArray> QueryServices::answer_batch(const Batch& batch) {
+  const QueryCollision::Request request = common_request(batch);
   CollisionRequest collision = checked_request(request);
-  const std::size_t motions = std::max(request.motions.size(), request.link_motions.size());
+  const std::size_t motions = std::max(batch.motions.size(), batch.link_motions.size());
   const auto most = static_cast<std::size_t>(node_.parameters.max_batch);
   if (motions > most) {
     refuse("the batch has ", motions, " motions; must be at most ", most,
            " (max_batch): ask in several batches");
   }
-  const QuerySubject subject{request.header, request.organ, request.tool, false, collision.mode};
-  check_names(subject);
-  ContactArray unanswered =
-      answer_about(request.organ, request.tool, request.mode, stamp_or_now(request.header));
-  const QuerySnapshot snapshot = snapshot_of(subject, unanswered);
-  check_lists(request, snapshot.tool);
+  check_names(request, false);
+  ContactArray common = unanswered(request);
+  const QuerySnapshot snapshot = snapshot_of(request, false, common);
+  check_lists(batch, snapshot.tool);
 
   set_subject(snapshot, request.organ_motion != 0, collision);
-  const auto answer_motion = [&](std::size_t motion, ContactQuery& query, ContactArray& answer) {
+  const auto answer_motion = [&](std::size_t motion, ContactQuery& query) {
     CollisionRequest moving = collision;
+    auto answer = std::make_unique<ContactArray>(common);
     try {
-      set_motion({request.motions.empty() ? nullptr : &request.motions[motion],
-                  request.link_motions.empty() ? nullptr : &request.link_motions[motion]},
+      set_motion({batch.motions.empty() ? nullptr : &batch.motions[motion],
+                  batch.link_motions.empty() ? nullptr : &batch.link_motions[motion]},
                  snapshot, moving);
-      query.evaluate(moving, answer);
+      query.evaluate(moving, *answer);
     } catch (const Rejection& rejection) {
-      set_failure(answer, rejection.status(), rejection.what());
+      set_failure(*answer, rejection.status(), rejection.what());
     }
+    return answer;
   };
-  return answer_motions(request, motions, answer_motion, unanswered);
+  return answer_motions(motions, batch.stop_at_first_contact != 0, answer_motion);
 }
 
-/// Answers the motions with several threads. `unanswered`: the fields that all answers share.
-std::vector<ContactArray> QueryServices::answer_motions(
-    const QueryCollisionBatch::Request& request, std::size_t motions,
-    const std::function<void(std::size_t motion, ContactQuery&, ContactArray&)>& answer_motion,
-    const ContactArray& unanswered) {
+/// Answers the motions with several threads.
+std::vector<ContactArray> QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
+                                                        const AnswerMotion& answer_motion) {
   using ros::serialization::serializationLength;
   start_batches();
   const auto most_bytes = static_cast<std::size_t>(node_.parameters.max_batch_bytes);
   const auto is_last = [&](const ContactArray& answer) {
-    return request.stop_at_first_contact && !answer.contacts.empty();
+    return stops_at_contact && !answer.contacts.empty();
   };
   std::vector<std::unique_ptr<ContactArray>> made(motions);
   std::atomic<std::size_t> bytes_made{0};
   const auto evaluate = [&](std::size_t worker, std::size_t motion) {
     if (ended_) throw std::runtime_error("the node is about to end");
-    made[motion] = std::make_unique<ContactArray>(unanswered);
-    answer_motion(motion, batch_threads_->query(worker), *made[motion]);
+    made[motion] = answer_motion(motion, batch_threads_->query(worker));
     bytes_made += serializationLength(*made[motion]);
     if (is_last(*made[motion]) || bytes_made > most_bytes) batch_threads_->skip_rest();
   };
@@ -210,9 +208,10 @@ std::vector<ContactArray> QueryServices::answer_motions(
   return answers;
 }
 
-QuerySnapshot QueryServices::snapshot_of(const QuerySubject& subject, ContactArray& answer) const {
+QuerySnapshot QueryServices::snapshot_of(const QueryCollision::Request& request, bool in_tf,
+                                         ContactArray& answer) const {
   QuerySnapshot snapshot;
-  in_node_thread_([&] { snapshot = take_snapshot(node_, subject, answer); });
+  in_node_thread_([&] { snapshot = take_snapshot(node_, request, in_tf, answer); });
   return snapshot;
 }
 

@@ -1,11 +1,8 @@
 #pragma once
 
-#include <organ_collision/QueryCollision.h>
-#include <organ_collision/QueryCollisionBatch.h>
-
 #include <atomic>
 
-#include "query_snapshot.hpp"
+#include "query_request.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "ros/steps/contact_array.hpp"
 
@@ -19,6 +16,7 @@ namespace organ_collision {
 /// becomes PICKER_FAILED, with the text "the query failed: ...".
 class QueryServices {
  public:
+  using Batch = QueryCollisionBatch::Request;
   /// Runs an action in the node's thread, and returns when it has ended. Throws what the action
   /// throws, and std::runtime_error if the node ends before.
   using InNodeThread = std::function<void(const std::function<void()>& action)>;
@@ -43,19 +41,21 @@ class QueryServices {
   /// The results are in the order of the motions, whatever the number of threads. If the request
   /// says so, they end with the first motion that touches. The result of an illegal motion says why
   /// it is illegal.
-  QueryCollisionBatch::Response query_batch(const QueryCollisionBatch::Request& request);
+  QueryCollisionBatch::Response query_batch(const Batch& batch);
 
  private:
+  using AnswerMotion =
+      std::function<std::unique_ptr<ContactArray>(std::size_t motion, ContactQuery& query)>;
+
   void start_batches();
 
   // These throw Rejection and other exceptions.
   void answer_one(const QueryCollision::Request& request, ContactArray& answer);
-  std::vector<ContactArray> answer_batch(const QueryCollisionBatch::Request& request);
-  std::vector<ContactArray> answer_motions(
-      const QueryCollisionBatch::Request& request, std::size_t motions,
-      const std::function<void(std::size_t motion, ContactQuery&, ContactArray&)>& answer_motion,
-      const ContactArray& unanswered);
-  QuerySnapshot snapshot_of(const QuerySubject& subject, ContactArray& answer) const;
+  std::vector<ContactArray> answer_batch(const Batch& batch);
+  std::vector<ContactArray> answer_motions(std::size_t motions, bool stops_at_contact,
+                                           const AnswerMotion& answer_motion);
+  QuerySnapshot snapshot_of(const QueryCollision::Request& request, bool in_tf,
+                            ContactArray& answer) const;
 
   const NodeState node_;
   const InNodeThread in_node_thread_;

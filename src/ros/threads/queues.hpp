@@ -28,8 +28,6 @@ class QueueThread {
  public:
   QueueThread() : thread_([this] { work(); }) {}
   ~QueueThread() { stop(); }
-  QueueThread(const QueueThread&) = delete;
-  QueueThread& operator=(const QueueThread&) = delete;
 
   /// Ends the thread after its present callback. Callbacks that still wait are not called.
   void stop();

@@ -35,15 +35,49 @@ bool is_above_limits() {
   return (sets[CAP_TO_INDEX(CAP_IPC_LOCK)].effective & CAP_TO_MASK(CAP_IPC_LOCK)) != 0;
 }
 
-/// [bytes] How much memory of the process is locked in RAM.
+/// [MiB] How much memory of the process is locked in RAM.
 double locked_memory() {
   std::ifstream status("/proc/self/status");
-  constexpr double kBytesOfUnit = 1024.0;
+  double kilobytes = 0.0;
   for (std::string word; status >> word;) {
-    double amount = 0.0;
-    if (word == "VmLck:" && status >> amount) return amount * kBytesOfUnit;
+    if (word == "VmLck:" && status >> kilobytes) break;
   }
-  return 0.0;
+  return kilobytes / 1024.0;
+}
+
+/// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
+std::string scheduling_of_this_thread() {
+  sched_param parameters{};
+  sched_getparam(kThisThread, &parameters);
+  const int policy = sched_getscheduler(kThisThread) & ~SCHED_RESET_ON_FORK;
+  if (policy != SCHED_FIFO && policy != SCHED_RR) return "ordinary";
+  return std::string(policy == SCHED_FIFO ? "SCHED_FIFO" : "SCHED_RR") + ", priority " +
+         std::to_string(parameters.sched_priority);
+}
+
+/// Keeps all memory of the process in RAM until the process ends. Returns an empty text, or why the
+/// system refused. If the user's locked memory is limited, that counts as a refusal: beyond the
+/// limit, the process would get no more memory at all.
+std::string lock_memory() {
+  rlimit limit{};
+  getrlimit(RLIMIT_MEMLOCK, &limit);
+  if (limit.rlim_cur != RLIM_INFINITY && !is_above_limits()) {
+    return "locked memory is limited to " + std::to_string(limit.rlim_cur / 1024) + " kB";
+  }
+  // Memory that the process takes later is locked page by page, when a page is first used.
+  // Otherwise a peer could lock a gigabyte: roscpp reserves as much memory as a peer announces.
+  const bool is_locked = mlockall(MCL_CURRENT) == 0 && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0;
+  return is_locked ? std::string() : std::strerror(errno);
+}
+
+/// Keeps all cores of the machine awake while `request`, Linux's PM QoS interface, stays open. A
+/// core that slept wakes late, and deep idle states empty its caches. Returns an empty text, or why
+/// the system refused.
+std::string keep_cores_awake(std::fstream& request) {
+  constexpr std::int32_t kLongestWaking = 0;  // [us]
+  request.open("/dev/cpu_dma_latency", std::ios::in | std::ios::out | std::ios::binary);
+  request.write(reinterpret_cast<const char*>(&kLongestWaking), sizeof kLongestWaking).flush();
+  return request ? std::string() : std::strerror(errno);
 }
 
 }  // namespace
@@ -60,42 +94,6 @@ void lower_priority_of_this_thread() {
 }
 
 void yield_to_all_threads() { setpriority(PRIO_PROCESS, kThisThread, kMostNiceness); }
-
-std::string scheduling_of_this_thread() {
-  sched_param parameters{};
-  sched_getparam(kThisThread, &parameters);
-  const int policy = sched_getscheduler(kThisThread) & ~SCHED_RESET_ON_FORK;
-  if (policy != SCHED_FIFO && policy != SCHED_RR) return "ordinary";
-  return std::string(policy == SCHED_FIFO ? "SCHED_FIFO" : "SCHED_RR") + ", priority " +
-         std::to_string(parameters.sched_priority);
-}
-
-std::vector<pid_t> threads_of_this_process() {
-  std::vector<pid_t> threads;
-  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/task")) {
-    threads.push_back(std::stoi(entry.path().filename()));
-  }
-  return threads;
-}
-
-std::string lock_memory() {
-  rlimit limit{};
-  getrlimit(RLIMIT_MEMLOCK, &limit);
-  if (limit.rlim_cur != RLIM_INFINITY && !is_above_limits()) {
-    return "locked memory is limited to " + std::to_string(limit.rlim_cur / 1024) + " kB";
-  }
-  // Memory that the process takes later is locked page by page, when a page is first used.
-  // Otherwise a peer could lock a gigabyte: roscpp reserves as much memory as a peer announces.
-  const bool is_locked = mlockall(MCL_CURRENT) == 0 && mlockall(MCL_FUTURE | MCL_ONFAULT) == 0;
-  return is_locked ? std::string() : std::strerror(errno);
-}
-
-std::string keep_cores_awake(std::fstream& request) {
-  constexpr std::int32_t kLongestWaking = 0;  // [us]
-  request.open("/dev/cpu_dma_latency", std::ios::in | std::ios::out | std::ios::binary);
-  request.write(reinterpret_cast<const char*>(&kLongestWaking), sizeof kLongestWaking).flush();
-  return request ? std::string() : std::strerror(errno);
-}
 
 Realtime::Realtime(const RealtimeParameters& parameters) : parameters_(parameters) {
   const auto note = [this](const std::string& what, const std::string& refusal,
@@ -120,12 +118,11 @@ Realtime::Realtime(const RealtimeParameters& parameters) : parameters_(parameter
 
 void Realtime::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
-  constexpr double kMebibyte = 1024.0 * 1024.0;
   const std::string scheduling = scheduling_of_this_thread();
   status.summary(DiagnosticStatus::OK, scheduling);
   status.add("scheduling", scheduling);
   if (parameters_.lock_memory) {  // Shown only then, because reading it takes time.
-    status.add("locked memory of the process [MiB]", locked_memory() / kMebibyte);
+    status.add("locked memory of the process [MiB]", locked_memory());
   }
   if (awake_cores_.is_open() && awake_cores_) status.add("idle cores", "awake");
   for (const std::string& refusal : refusals_) status.mergeSummary(DiagnosticStatus::WARN, refusal);
@@ -136,7 +133,9 @@ void make_ros_realtime(const ros::NodeHandle& node, int priority) {
   // roscpp starts its timer thread with the first timer, and keeps it when that timer ends.
   node.createTimer(ros::Duration(1.0), [](const ros::TimerEvent&) {});
   // If the system refuses, nothing is said here, because class Realtime reports it.
-  for (const pid_t thread : threads_of_this_process()) make_realtime(thread, priority);
+  for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {
+    make_realtime(std::stoi(thread.path().filename()), priority);
+  }
 }
 
 }  // namespace organ_collision

@@ -2,7 +2,6 @@
 
 #include <diagnostic_updater/DiagnosticStatusWrapper.h>
 #include <ros/node_handle.h>
-#include <sys/types.h>
 
 #include <fstream>
 #include <string>
@@ -25,24 +24,6 @@ void lower_priority_of_this_thread();
 /// lock of Mesa or malloc might get no processor. With niceness 19, every wait for such a lock is
 /// short.
 void yield_to_all_threads();
-
-/// How the calling thread is scheduled, such as "SCHED_FIFO, priority 40" or "ordinary".
-std::string scheduling_of_this_thread();
-
-/// The ids of all threads that the process has now.
-std::vector<pid_t> threads_of_this_process();
-
-/// Keeps all memory of the process in RAM until the process ends. Memory that the process has now
-/// is locked at once, and later memory page by page, when a page is first used. Returns an empty
-/// text, or why the system refused. If the user's locked memory is limited, that counts as a
-/// refusal: beyond the limit, the process would get no more memory at all.
-std::string lock_memory();
-
-/// Keeps all cores of the machine awake while `request` stays open: idle cores wait in a loop and
-/// enter no idle state. A core that slept wakes late, and deep idle states empty its caches.
-/// `request` becomes Linux's PM QoS interface, /dev/cpu_dma_latency. Returns an empty text, or why
-/// the system refused.
-std::string keep_cores_awake(std::fstream& request);
 
 /// What a node asks of the system, so that nothing else delays its steps.
 struct RealtimeParameters {

@@ -3,7 +3,6 @@
 #include <dlfcn.h>
 #include <spawn.h>
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,9 +39,7 @@ MemoryFile open_in_memory() {
 }
 
 std::size_t size_of(std::FILE* file) {
-  struct stat status {};
-  if (fstat(fileno(file), &status) != 0) fail(errno, "fstat");
-  return static_cast<std::size_t>(status.st_size);
+  return std::filesystem::file_size("/proc/self/fd/" + std::to_string(fileno(file)));
 }
 
 /// Starts a process with these standard streams. The process neither blocks nor ignores a signal.
@@ -108,31 +105,18 @@ std::string wait_for_end(pid_t process, std::FILE* output, const ProcessLimits& 
 
 constexpr char kProgram[] = "robot_reader";
 
-bool can_run(const std::filesystem::path& program) { return access(program.c_str(), X_OK) == 0; }
-
-/// The folder of this library or, if the library is linked into a program, of the program.
-std::filesystem::path folder_of_this_code() {
-  Dl_info library{};
-  dladdr(reinterpret_cast<const void*>(&folder_of_this_code), &library);
-  std::filesystem::path file = library.dli_fname ? library.dli_fname : "";
-  if (!file.has_parent_path()) {  // The shell found the program in PATH: only its name is known.
-    std::error_code ignored;
-    file = std::filesystem::read_symlink("/proc/self/exe", ignored);
-  }
-  return file.parent_path();
-}
-
 /// The path of robot_reader. It is in the folder organ_collision beside this library. In Debian
-/// packages that folder is one level higher: lib/x86_64-linux-gnu is for libraries alone. If this
-/// library is linked into a program, robot_reader is beside that program.
+/// packages that folder is one level higher: lib/x86_64-linux-gnu is for libraries alone.
 std::string find_program() {
-  const std::filesystem::path folder = folder_of_this_code();
-  const std::filesystem::path below = folder / "organ_collision" / kProgram;
-  for (const auto& other :
-       {folder.parent_path() / "organ_collision" / kProgram, folder / kProgram}) {
-    if (!can_run(below) && can_run(other)) return other;
-  }
-  return below;
+  Dl_info library{};
+  dladdr(reinterpret_cast<const void*>(&find_program), &library);
+  const auto folder = std::filesystem::path(library.dli_fname).parent_path();
+  const auto program_in = [](const std::filesystem::path& parent) -> std::string {
+    return parent / "organ_collision" / kProgram;
+  };
+  const std::string higher = program_in(folder.parent_path());
+  const bool is_higher = access(higher.c_str(), X_OK) == 0;
+  return is_higher && access(program_in(folder).c_str(), X_OK) != 0 ? higher : program_in(folder);
 }
 
 }  // namespace

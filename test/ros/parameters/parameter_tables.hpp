@@ -42,17 +42,17 @@ class ParameterTableTest : public testing::Test {
  protected:
   using XmlRpcValue = XmlRpc::XmlRpcValue;
 
+  /// This value, as a parameter of the row's type.
+  static XmlRpcValue typed(const ParameterTable::Row& row, double value) {
+    if (row.type == XmlRpcValue::TypeBoolean) return value != 0.0;
+    if (row.type == XmlRpcValue::TypeInt) return static_cast<int>(value);
+    return value;
+  }
+
   /// A legal value that is not the default.
-  static XmlRpcValue other_value(const ParameterTable::Row& row) {
-    const NumberRange& range = row.range;
-    switch (row.value().getType()) {
-      case XmlRpcValue::TypeBoolean:
-        return !static_cast<bool>(XmlRpcValue(row.value()));
-      case XmlRpcValue::TypeInt:
-        return static_cast<int>(range.highest);
-      default:
-        return std::isinf(range.highest) ? range.lowest + 0.75 : range.highest;
-    }
+  static double other_value(const ParameterTable::Row& row) {
+    if (row.type == XmlRpcValue::TypeBoolean) return 1.0 - row.value;
+    return std::isinf(row.range.highest) ? row.range.lowest + 0.75 : row.range.highest;
   }
 
   /// Values outside of the range, or of another type.
@@ -60,25 +60,18 @@ class ParameterTableTest : public testing::Test {
     XmlRpcValue list;
     list.setSize(1);
     std::vector<XmlRpcValue> illegal{"text", list};
-    const NumberRange& range = row.range;
-    const auto add = [&](double value) {
-      if (row.value().getType() == XmlRpcValue::TypeInt) {
-        illegal.emplace_back(static_cast<int>(value));
-      } else {
-        illegal.emplace_back(value);
-      }
-    };
-    if (row.value().getType() == XmlRpcValue::TypeBoolean) {
+    if (row.type == XmlRpcValue::TypeBoolean) {
       illegal.emplace_back(1);
       return illegal;
     }
-    illegal.emplace_back(std::nan(""));
-    illegal.emplace_back(-kUnlimited);
+    const NumberRange& range = row.range;
+    std::vector<double> numbers{range.lowest - 1.0};
+    if (!range.lowest_is_legal) numbers.push_back(range.lowest);
+    if (!std::isinf(range.highest)) numbers.push_back(range.highest + 1.0);
+    if (range.least_above_zero > 0.0) numbers.push_back(1e-10);
+    for (const double number : numbers) illegal.push_back(typed(row, number));
+    for (const double number : {std::nan(""), -kUnlimited}) illegal.emplace_back(number);
     if (!range.infinity_is_legal) illegal.emplace_back(kUnlimited);
-    add(range.lowest - 1.0);
-    if (!range.lowest_is_legal) add(range.lowest);
-    if (!std::isinf(range.highest)) add(range.highest + 1.0);
-    if (range.least_above_zero > 0.0) add(1e-10);
     return illegal;
   }
 
@@ -88,33 +81,27 @@ class ParameterTableTest : public testing::Test {
 
 TYPED_TEST_SUITE_P(ParameterTableTest);
 
-TYPED_TEST_P(ParameterTableTest, EveryNumberAndFlagIsTaken) {
+TYPED_TEST_P(ParameterTableTest, EveryNumberAndFlagIsTakenOrNamed) {
   for (const ParameterTable::Row& row : this->table_.rows()) {
-    EXPECT_FALSE(row.help.text.empty()) << row.help.name;
-    if (!row.value) continue;
+    EXPECT_FALSE(row.text.empty()) << row.name;
+    if (row.type == XmlRpc::XmlRpcValue::TypeInvalid) continue;
     XmlRpc::XmlRpcValue all = legal_parameters<TypeParam>();
-    const XmlRpc::XmlRpcValue other = this->other_value(row);
-    EXPECT_NE(other, row.value()) << row.help.name;
-    all[row.help.name] = other;
+    const double other = this->other_value(row);
+    EXPECT_NE(other, row.value) << row.name;
+    all[row.name] = this->typed(row, other);
     TypeParam taken = parse_parameters<TypeParam>(all);
-    EXPECT_TRUE(taken.misspelt.empty()) << row.help.name;
+    EXPECT_TRUE(taken.misspelt.empty()) << row.name;
     const ParameterTable table = table_of(taken);
     for (std::size_t i = 0; i < table.rows().size(); ++i) {
       const ParameterTable::Row& now = table.rows()[i];
-      if (!now.value) continue;
-      EXPECT_EQ(now.value(),
-                now.help.name == row.help.name ? other : this->table_.rows()[i].value())
-          << now.help.name;
+      EXPECT_EQ(now.value, now.name == row.name ? other : this->table_.rows()[i].value) << now.name;
     }
-  }
-}
-
-TYPED_TEST_P(ParameterTableTest, IllegalValuesAreNamed) {
-  for (const ParameterTable::Row& row : this->table_.rows()) {
-    if (!row.value) continue;
+    if (row.range.lowest_is_legal) {
+      EXPECT_EQ(refusal_of<TypeParam>(row.name, this->typed(row, row.range.lowest)), "accepted");
+    }
     for (const XmlRpc::XmlRpcValue& illegal : this->illegal_values(row)) {
-      expect_contains(refusal_of<TypeParam>(row.help.name, illegal),
-                      {"~" + row.help.name + " is '", "'; must be "});
+      expect_contains(refusal_of<TypeParam>(row.name, illegal),
+                      {"~" + row.name + " is '", "'; must be "});
     }
   }
 }
@@ -122,18 +109,19 @@ TYPED_TEST_P(ParameterTableTest, IllegalValuesAreNamed) {
 TYPED_TEST_P(ParameterTableTest, OnlyLiveOnesCanBeChangedAndTheRestStays) {
   if (live_parameters(this->defaults_).empty()) return;  // The node serves no changes.
   for (const ParameterTable::Row& row : this->table_.rows()) {
+    const double other = this->other_value(row);
     XmlRpc::XmlRpcValue change;
-    change[row.help.name] = row.value ? this->other_value(row) : XmlRpc::XmlRpcValue("text");
+    change[row.name] = this->typed(row, other);
     if (!row.is_live) {
-      EXPECT_THROW(changed(this->defaults_, change), ParameterError) << row.help.name;
+      EXPECT_THROW(changed(this->defaults_, change), ParameterError) << row.name;
       continue;
     }
     for (const LiveParameter& now : live_parameters(changed(this->defaults_, change))) {
-      EXPECT_EQ(now.value, now.name == row.help.name ? change[now.name] : now.fallback) << now.name;
+      EXPECT_EQ(now.value, now.name == row.name ? other : now.fallback) << now.name;
     }
     for (const XmlRpc::XmlRpcValue& illegal : this->illegal_values(row)) {
-      change[row.help.name] = illegal;
-      EXPECT_THROW(changed(this->defaults_, change), ParameterError) << row.help.name;
+      change[row.name] = illegal;
+      EXPECT_THROW(changed(this->defaults_, change), ParameterError) << row.name;
     }
   }
 }
@@ -141,14 +129,14 @@ TYPED_TEST_P(ParameterTableTest, OnlyLiveOnesCanBeChangedAndTheRestStays) {
 TYPED_TEST_P(ParameterTableTest, MisspeltNamesAreReported) {
   for (const ParameterTable::Row& row : this->table_.rows()) {
     XmlRpc::XmlRpcValue all = legal_parameters<TypeParam>();
-    all[row.help.name + "_"] = 1;
+    all[row.name + "_"] = 1;
     const std::vector<std::string> misspelt = parse_parameters<TypeParam>(all).misspelt;
     ASSERT_EQ(misspelt.size(), 1u);
-    expect_contains(misspelt[0], {"~" + row.help.name + "_ is no parameter; nearest is '"});
+    expect_contains(misspelt[0], {"~" + row.name + "_ is no parameter; nearest is '"});
   }
 }
 
-REGISTER_TYPED_TEST_SUITE_P(ParameterTableTest, EveryNumberAndFlagIsTaken, IllegalValuesAreNamed,
+REGISTER_TYPED_TEST_SUITE_P(ParameterTableTest, EveryNumberAndFlagIsTakenOrNamed,
                             OnlyLiveOnesCanBeChangedAndTheRestStays, MisspeltNamesAreReported);
 
 }  // namespace organ_collision

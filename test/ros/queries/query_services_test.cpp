@@ -19,6 +19,7 @@
 
 #include "query_fixtures.hpp"
 #include "ros/messages/conversions.hpp"
+#include "test/ros/tools/tool_files.hpp"
 
 using namespace organ_collision;
 using Eigen::Vector3d;
@@ -66,12 +67,6 @@ LinkMotion jaw_goes_down() {
   return motion;
 }
 
-void expect_words(const std::string& message, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
-  }
-}
-
 /// The services of a node with one organ, "liver", and a request of a swept query that touches it.
 class QueryServicesTest : public testing::Test, protected ServedNode {
  protected:
@@ -91,15 +86,27 @@ class QueryServicesTest : public testing::Test, protected ServedNode {
     expect_words(answer.message, words);
   }
 
-  /// A batch about the organ and the tool of the request.
+  /// A batch that asks what the request asks, of these motions.
   Batch batch_of(const std::vector<ToolMotion>& motions) const {
     Batch batch;
     batch.header = request.header;
     batch.organ = request.organ;
     batch.tool = request.tool;
     batch.mode = request.mode;
+    batch.margin = request.margin;
+    batch.clearance = request.clearance;
+    batch.placement = request.placement;
     batch.motions = motions;
     return batch;
+  }
+
+  /// The organ becomes a closed surface. Its surface is not inspected yet.
+  void send_tetrahedron() {
+    OrganMesh mesh;
+    mesh.topology = 2;
+    mesh.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2};
+    mesh.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
+    send_mesh(1.1, mesh);
   }
 
   void expect_refused(const Batch& batch, std::uint8_t status, const std::string& word) {
@@ -204,12 +211,7 @@ TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
   EXPECT_EQ(answer.regions.size(), 1u);
   EXPECT_EQ(answer.placement.tip, ToolPlacement::UNKNOWN);
   EXPECT_EQ(answer.placement.crossings.size(), 1u);
-  OrganMesh tetrahedron;
-  tetrahedron.organ = "liver";
-  tetrahedron.topology = 2;
-  tetrahedron.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2};
-  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-  send_mesh(1.1, tetrahedron);
+  send_tetrahedron();
   std::thread inspector([&] { organs.at("liver").surface()->find(); });
   organs.at("liver").surface()->wait_until_found(std::chrono::minutes(1));
   inspector.join();
@@ -221,6 +223,9 @@ TEST_F(QueryServicesTest, ToolFromItsLastPublishedPose) {
   request.tool = "hook";
   request.motion = {};
   send_tip(1.0, kAbove);
+  const ContactArray at_rest = services.query(request);  // There was no step yet.
+  EXPECT_EQ(at_rest.status, ContactArray::OK) << at_rest.message;
+  EXPECT_EQ(at_rest.step_start, at_rest.header.stamp);
   evaluate();
   send_tip(1.1, kBelow);
   send_tip(1.2, {0.1, 0.2, -0.4});
@@ -265,17 +270,6 @@ TEST_F(QueryServicesTest, AWayThatIsNotWhollyKnownIsSaid) {
   expect_words(answer.message, {"longer ago than transforms are kept"});
 }
 
-TEST_F(QueryServicesTest, ToolThatWasNeverEvaluatedRests) {
-  request.tool = "hook";
-  request.motion = {};
-  send_tip(1.0, kBelow);
-  const ContactArray answer = services.query(request);
-  ASSERT_EQ(answer.status, ContactArray::OK) << answer.message;
-  EXPECT_EQ(answer.contacts.size(), 1u);
-  EXPECT_EQ(answer.contacts[0].fraction, 0.0);
-  EXPECT_EQ(answer.step_start, answer.header.stamp);
-}
-
 TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater) {
   request.tool = "hook";
   request.motion = {};
@@ -292,10 +286,10 @@ TEST_F(QueryServicesTest, PosesThatRestAreOfThePresentAlsoIfTheLastStepWasLater)
 
 TEST_F(QueryServicesTest, ASnapshotStaysAsItIsWhileTheNodeGoesOn) {
   send_vertices(1.1, 0.5);
+  request.tool = "hook";
   ContactArray answer;
   const QuerySnapshot snapshot =
-      take_snapshot({parameters, tools, pipeline},
-                    {request.header, "liver", "hook", false, QueryMode::kSwept}, answer);
+      take_snapshot({parameters, tools, pipeline}, request, false, answer);
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.1));
   EXPECT_EQ(answer.topology, 1u);
   for (int i = 0; i < 5; ++i) send_vertices(2.0 + i, 9.0);
@@ -314,18 +308,22 @@ TEST_F(QueryServicesTest, ARefusalLeavesWhatIsKnownInTheAnswer) {
   EXPECT_EQ(answer.links, std::vector<std::string>{""});
 }
 
-TEST_F(QueryServicesTest, PaperModesGiveFacesAndDepthRanges) {
-  for (const std::uint8_t mode :
-       {ContactArray::PAPER_STATIC, ContactArray::PAPER_SWEPT, ContactArray::PAPER_NAIVE}) {
-    request.mode = mode;
+/// A carrier takes the tip from 0.3 m above the sheet to 0.3 m below it within a second.
+TEST_F(QueryServicesTest, TheStampSaysWhereTheFrameOfTheMotionWas) {
+  set_point(transforms, "liver_frame", "carrier", 4.0, {0.0, 0.0, 0.0});
+  set_point(transforms, "liver_frame", "carrier", 5.0, {0.0, 0.0, -0.6});
+  request.header.frame_id = "carrier";
+  request.mode = ContactArray::STATIC;
+  request.motion.tip = tf2::toMsg(kAbove);
+  for (const auto& [stamp, touches] :
+       {std::pair(4.25, false), std::pair(4.5, true), std::pair(0.0, true)}) {
+    request.header.stamp = ros::Time(stamp);
     const ContactArray answer = services.query(request);
-    ASSERT_EQ(answer.status, ContactArray::OK) << answer.message;
-    ASSERT_EQ(answer.contacts.size(), 1u) << int(mode);
-    EXPECT_EQ(answer.contacts[0].face, 1u);
-    EXPECT_LE(answer.contacts[0].view_min, answer.contacts[0].view_max);
-    EXPECT_GT(answer.contacts[0].view_max, 0.0);
-    EXPECT_EQ(answer.contacts[0].normal.z, 0.0);
+    EXPECT_EQ(answer.contacts.size(), touches ? 1u : 0u) << answer.message << stamp;
+    EXPECT_EQ(answer.header.stamp, stamp > 0.0 ? ros::Time(stamp) : ros::Time(5.0));
   }
+  request.header.stamp = ros::Time(3.0);
+  EXPECT_EQ(services.query(request).status, ContactArray::NO_TRANSFORM);
 }
 
 TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
@@ -333,6 +331,7 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
     std::uint8_t status;
     std::vector<std::string> words;
     std::function<void(Single&)> edit;
+    bool is_of_batches = true;  ///< a batch of one motion is refused with the same words
   };
   const auto of_tool = [](Single& r, const char* tool) {
     r.tool = tool;
@@ -346,8 +345,8 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
       {ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"}, [](auto& r) { r.organ = "spleen"; }},
       {kInvalid, {"organ", "empty"}, [](auto& r) { r.organ = ""; }},
       {ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"}, [&](auto& r) { of_tool(r, "saw"); }},
-      {ContactArray::NO_TRANSFORM, {"hook_tip"}, [&](auto& r) { of_tool(r, "hook"); }},
-      {kInvalid, {"motion is set", "'hook' moves as in TF"}, [](auto& r) { r.tool = "hook"; }},
+      {ContactArray::NO_TRANSFORM, {"hook_tip"}, [&](auto& r) { of_tool(r, "hook"); }, false},
+      {kInvalid, {"motion is set", "as in TF"}, [](auto& r) { r.tool = "hook"; }, false},
       {kInvalid, {"mode is 5", "0 (STATIC) to 4"}, [&](auto& r) { in_mode(r, 5); }},
       {kInvalid, {"mode is 2", "1 (SWEPT)"}, [&](auto& r) { in_mode(r, 2).margin = 0.01; }},
       {kInvalid, {"mode is 3", "1 (SWEPT)"}, [&](auto& r) { in_mode(r, 3).clearance = true; }},
@@ -358,21 +357,32 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
       {kInvalid, {"radius", "-0.25", "positive"}, [](auto& r) { r.motion.radius = -0.25; }},
       {kInvalid, {"radius", "nan", "finite"}, [](auto& r) { r.motion.radius = kNan; }},
       {kInvalid, {"previous_tip", "inf"}, [](auto& r) { r.motion.previous_tip.y = kInfinity; }},
-      {kInvalid, {"tool is empty"}, [](auto& r) { r.link_motion = jaw_goes_down(); }},
+      {kInvalid, {"tool is empty"}, [](auto& r) { r.link_motion = jaw_goes_down(); }, false},
       {kInvalid, {"margin is -0.25", "positive and finite"}, [](auto& r) { r.margin = -0.25; }},
       {kInvalid, {"margin is nan", "positive and finite"}, [](auto& r) { r.margin = kNan; }},
       {kInvalid, {"margin is inf", "positive and finite"}, [](auto& r) { r.margin = kInfinity; }},
-      {kInvalid, {"max_near is 7", "margin"}, [](auto& r) { r.max_near = 7; }}};
+      {kInvalid, {"max_near is 7", "margin"}, [](auto& r) { r.max_near = 7; }, false}};
   const Single good = request;
   for (const Refusal& refusal : refusals) {
     request = good;
     refusal.edit(request);
     expect_refused(refusal.status, refusal.words);
+    if (!refusal.is_of_batches) continue;
+    const QueryCollisionBatch::Response batch = services.query_batch(batch_of({request.motion}));
+    const std::string message = services.query(request).message;
+    EXPECT_EQ(batch.results.empty() ? batch.message : batch.results[0].message, message);
+    EXPECT_EQ(batch.results.empty() ? batch.status : batch.results[0].status, refusal.status);
   }
   request = good;
   request.mode = ContactArray::STATIC;
   request.motion.previous_tip.y = kInfinity;
   EXPECT_EQ(services.query(request).status, ContactArray::OK);  // Unused when static.
+  parameters.max_batch = 3;
+  std::vector<ToolMotion> motions(3, good.motion);
+  EXPECT_EQ(services.query_batch(batch_of(motions)).results.size(), 3u);
+  motions.push_back(good.motion);
+  expect_refused(batch_of(motions), kInvalid,
+                 "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches");
 }
 
 TEST_F(QueryServicesTest, IllegalNamesAreRefusedInAShortAnswer) {
@@ -431,46 +441,6 @@ TEST_F(QueryServicesTest, WhatIsNoRejectionIsAnsweredToo) {
   EXPECT_EQ(response.message, "the query failed: std::bad_alloc");
 }
 
-TEST_F(QueryServicesTest, BatchThatFailsAsAWholeSaysWhy) {
-  struct Refusal {
-    std::uint8_t status;
-    std::string word;
-    std::function<void(Batch&)> edit;
-  };
-  const std::vector<Refusal> refusals = {
-      {kInvalid, "organ is empty", [](auto& b) { b.organ = ""; }},
-      {ContactArray::UNKNOWN_ORGAN, "'spleen'", [](auto& b) { b.organ = "spleen"; }},
-      {kInvalid, "mode is 5", [](auto& b) { b.mode = 5; }},
-      {kInvalid, "margin is -1", [](auto& b) { b.margin = -1.0; }},
-      {kInvalid, "frame_id is empty", [](auto& b) { b.header.frame_id = ""; }},
-      {ContactArray::NO_TRANSFORM, "nowhere", [](auto& b) { b.header.frame_id = "nowhere"; }},
-      {kInvalid, "frame_id", [](auto& b) { b.header.frame_id = std::string(257, 'x'); }},
-      {kInvalid, "the batch has 4 motions; must be at most 3 (max_batch): ask in several batches",
-       [](auto& b) { b.motions.assign(4, through()); }}};
-  parameters.max_batch = 3;
-  EXPECT_EQ(services.query_batch(batch_of({through(), through(), through()})).results.size(), 3u);
-  for (const Refusal& refusal : refusals) {
-    Batch batch = batch_of({through(), through()});
-    refusal.edit(batch);
-    expect_refused(batch, refusal.status, refusal.word);
-  }
-}
-
-TEST_F(QueryServicesTest, BatchWhoseResultsGrowTooLargeIsRefused) {
-  const Batch batch = batch_of({through(), through(), through(), through(), through()});
-  const std::uint32_t one = serializationLength(services.query(request));
-  const std::uint32_t all = 5 * one + serializationLength(QueryCollisionBatch::Response());
-  parameters.max_batch_bytes = static_cast<int>(all);
-  EXPECT_EQ(serializationLength(services.query_batch(batch)), all);
-  parameters.max_batch_bytes -= 1;
-  expect_refused(batch, kInvalid,
-                 "the answers to the first 5 of 5 motions have " + std::to_string(all) +
-                     " bytes; a batch's must have at most " + std::to_string(all - 1) +
-                     " (max_batch_bytes): ask for fewer motions at once");
-  parameters.max_batch_bytes = static_cast<int>(all - 4 * one);
-  expect_refused(batch, kInvalid, "first 2 of 5");
-}
-
 TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
   EXPECT_TRUE(answer().results.empty());
   add_random_shafts(203, -0.3);
@@ -513,19 +483,18 @@ TEST_F(BatchTest, EndsWithTheFirstMotionThatTouches) {
   EXPECT_EQ(nodes[0]->counters.motions.load(), 4 * 200u + 1 + 16 + 88 + 200 + 200);
 }
 
-TEST_F(BatchTest, MotionsAfterTheFirstContactAreNotEvaluated) {
-  batch.motions.assign(100'000, through());
-  batch.stop_at_first_contact = 1;
-  EXPECT_EQ(answer().results.size(), 1u);
-}
-
-TEST_F(BatchTest, TooManyBytesAreRefusedWithTheSameWords) {
-  add_random_shafts(300, -0.3);
-  for (ToolMotion& motion : batch.motions) motion.radius = 0.3;  // Hundreds of contacts.
-  const QueryCollisionBatch::Response refused = answer(100'000);
+TEST_F(BatchTest, ResultsThatAreTooLargeAreRefused) {
+  batch.motions.assign(5, through());
+  const std::uint32_t none = serializationLength(QueryCollisionBatch::Response());
+  const std::uint32_t all = serializationLength(answer()), one = (all - none) / 5;
+  EXPECT_EQ(serializationLength(answer(static_cast<int>(all))), all);
+  const QueryCollisionBatch::Response refused = answer(static_cast<int>(all - 1));
   EXPECT_EQ(refused.status, kInvalid);
   EXPECT_TRUE(refused.results.empty());
-  expect_words(refused.message, {"of 300 motions", "max_batch_bytes"});
+  EXPECT_EQ(refused.message, "the answers to the first 5 of 5 motions have " + std::to_string(all) +
+                                 " bytes; a batch's must have at most " + std::to_string(all - 1) +
+                                 " (max_batch_bytes): ask for fewer motions at once");
+  expect_words(answer(static_cast<int>(all - 4 * one)).message, {"first 2 of 5"});
 }
 
 TEST_F(BatchTest, BytesAfterTheFirstContactDoNotCount) {
@@ -552,76 +521,6 @@ TEST_F(BatchTest, EndsSoonWhenAsked) {
   node.services.end();
   EXPECT_EQ(answering.get(), ContactArray::PICKER_FAILED);
   EXPECT_EQ(node.services.query_batch(batch).message, "the query failed: the node is about to end");
-}
-
-TEST_F(LinkQueriesTest, GiveWhatTheStepGave) {
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> side(-0.7, 0.7), height(-0.2, 0.2);
-  struct Places {
-    Vector3d wrist, jaw, tip;  // The tip is that of the hook's shaft.
-  };
-  const auto place = [&] {
-    const double x = side(random), y = side(random), z = height(random);
-    return Vector3d(x, y, z);
-  };
-  const auto send = [&](double time, const Places& places) {
-    set_point(transforms, "liver_frame", "arm/wrist", time, places.wrist);
-    set_point(transforms, "liver_frame", "arm/jaw", time, places.jaw);
-    send_tip(time, places.tip);
-    set_point(transforms, "liver_frame", "probe_tip", time, places.tip);
-    set_point(transforms, "liver_frame", "probe_trocar", time, {0.0, 0.0, 1.0});
-  };
-  Places before{place(), place(), place()};
-  send(1.0, before);
-  EXPECT_EQ(evaluate().size(), 3u);
-  std::size_t touched = 0;
-  std::vector<ContactArray> published[2];
-  Batch batches[2];
-  for (int i = 1; i < 40; ++i) {
-    const Places now{place(), place(), place()};
-    const double time = 1.0 + i / 1024.0;  // A binary fraction, so that no time is rounded.
-    send(time, now);
-    send_vertices(time, 0.0);
-    for (const ContactArray& step : evaluate()) {
-      if (step.tool == "probe") continue;
-      ASSERT_EQ(step.status, ContactArray::OK) << step.message;
-      const bool has_shaft = step.tool == "hook";
-      request.tool = step.tool;
-      request.link_motion.previous = {at(before.wrist), at(before.jaw)};
-      request.link_motion.links = {at(now.wrist), at(now.jaw)};
-      request.motion = {};
-      if (has_shaft) {
-        request.motion = resting_shaft();
-        request.motion.previous_tip = tf2::toMsg(before.tip);
-        request.motion.tip = tf2::toMsg(now.tip);
-      }
-      const ContactArray answer = services.query(request);
-      EXPECT_EQ(answer.contacts, step.contacts) << answer.message << step.tool << ", " << i;
-      EXPECT_EQ(answer.links, step.links);
-      touched += step.contacts.size();
-      if (published[has_shaft].empty()) batches[has_shaft] = batch_of({});
-      if (has_shaft) batches[has_shaft].motions.push_back(request.motion);
-      batches[has_shaft].link_motions.push_back(request.link_motion);
-      published[has_shaft].push_back(step);
-    }
-    before = now;
-  }
-  EXPECT_GT(touched, 50u);
-  for (const bool has_shaft : {false, true}) {
-    const QueryCollisionBatch::Response response = services.query_batch(batches[has_shaft]);
-    ASSERT_EQ(response.results.size(), published[has_shaft].size()) << response.message;
-    for (std::size_t i = 0; i < response.results.size(); ++i) {
-      EXPECT_EQ(response.results[i].contacts, published[has_shaft][i].contacts) << i;
-      EXPECT_EQ(response.results[i].links, published[has_shaft][i].links);
-      EXPECT_EQ(response.results[i].tool, published[has_shaft][i].tool);
-    }
-  }
-}
-
-TEST_F(LinkQueriesTest, NeedNoPosesInTf) {
-  EXPECT_EQ(services.query(request).contacts.size(), 1u);
-  request.link_motion = {};
-  EXPECT_EQ(services.query(request).status, ContactArray::NO_TRANSFORM);
 }
 
 /// The same motions, given in the organ's frame and in one that is elsewhere.
@@ -682,12 +581,7 @@ TEST_F(LinkQueriesTest, MotionsInAnotherFrameGiveTheSame) {
 
 TEST_F(LinkQueriesTest, TheTipIsKnownIfALinkHasItsFrame) {
   request.placement = true;
-  OrganMesh tetrahedron;
-  tetrahedron.organ = "liver";
-  tetrahedron.topology = 2;
-  tetrahedron.vertices = {-1, -1, -1, 2, -1, -1, -1, 2, -1, -1, -1, 2};
-  tetrahedron.triangles = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3};
-  send_mesh(1.1, tetrahedron);
+  send_tetrahedron();
   organs.at("liver").surface()->find();
   request.link_motion.links[0].position.z = 5.0;  // The wrist is outside, and the jaw inside.
   request.link_motion.links[1].position.z = -0.6;

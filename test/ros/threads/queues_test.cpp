@@ -13,20 +13,6 @@ namespace {
 
 int niceness() { return getpriority(PRIO_PROCESS, 0); }
 
-TEST(CallLater, FunctionsAreCalledOnceInTheirTurn) {
-  ros::CallbackQueue queue;
-  std::vector<int> called;
-  for (const int number : {1, 2, 3}) {
-    call_later(queue, [&called, number] { called.push_back(number); });
-  }
-  EXPECT_TRUE(called.empty());
-  queue.callOne();
-  EXPECT_EQ(called, std::vector<int>{1});
-  queue.callAvailable();
-  queue.callAvailable();
-  EXPECT_EQ(called, (std::vector<int>{1, 2, 3}));
-}
-
 TEST(RunInThreadOf, ActionsRunInTheOtherThreadAndAreWaitedFor) {
   QueueThread other;
   std::thread::id first;

@@ -1,7 +1,6 @@
 #include "ros/tools/robot_reader_client.hpp"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -166,26 +165,5 @@ TEST(RobotReader, FilesThatTakeTooLongForTheirSizeAreRefusedByName) {
   std::ofstream(path) << text;
   expect_words(refusal(robot_of(path)), {"link 'tip': mesh '" + path + "'",
                                          "was ended by signal " + std::to_string(SIGPROF)});
-  std::remove(path.c_str());
-}
-
-// This process sets itself a lower limit of processor time, which the reader inherits: it would
-// read for ten seconds and more.
-TEST(RobotReader, ManyFilesThatTakeTooLongAreRefusedByName) {
-  const std::string path = testing::TempDir() + "slow.obj";
-  {
-    std::ofstream file(path);
-    for (int i = 0; i < 150'000; ++i) file << "v 0.125 0.25 0.5\n";
-    file << "f 1 2 3\n";
-  }
-  const auto former_action = std::signal(SIGXCPU, SIG_IGN);
-  rlimit former{};
-  getrlimit(RLIMIT_CPU, &former);
-  const rlimit lower{1, former.rlim_max};
-  setrlimit(RLIMIT_CPU, &lower);
-  expect_words(refusal(robot_of(path), std::vector<std::string>(1000, "tip")),
-               {"link 'tip': mesh '" + path + "'", "was ended by signal"});
-  setrlimit(RLIMIT_CPU, &former);
-  std::signal(SIGXCPU, former_action);
   std::remove(path.c_str());
 }

@@ -51,15 +51,6 @@ def one_face(z=0.0):
     return Mesh([(-0.06, -0.05, z), (0.07, -0.04, z), (0.01, 0.08, z)], [(0, 1, 2)])
 
 
-def tetrahedron(size=0.1):
-    """A regular tetrahedron around the origin, rotated so that nothing is aligned with an axis."""
-    corners = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
-    turn = Pose((0.1, 0.25, -0.15, 0.95), (0.0, 0.0, 0.0))
-    scale = size / (2 * math.sqrt(2))
-    return Mesh([turn.apply([scale * c for c in corner]) for corner in corners],
-                [(0, 1, 2), (0, 3, 1), (0, 2, 3), (1, 3, 2)])
-
-
 def box(size=(0.06, 0.05, 0.04)):
     """A closed box of 12 faces around the origin."""
     vertices = [(size[0] * (i & 1) - size[0] / 2, size[1] * (i >> 1 & 1) - size[1] / 2,
