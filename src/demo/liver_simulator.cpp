@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <map>
 
+#include "geometry/concatenate.hpp"
 #include "geometry/tool/least_rotation.hpp"
 #include "liver.hpp"
 #include "organ_collision/ros/names.hpp"
@@ -49,8 +50,8 @@ ProgramHelp help() {
                     {names::kOrganVertices, "organ_collision/OrganVertices", "its new shapes"},
                     {"/palpator/hand", "geometry_msgs/PoseStamped", "the hand, 8 for each shape"},
                     {"/tf, /tf_static", "tf2_msgs/TFMessage", "trocars, and the stabber's tip"}};
-  help.parameters = {{"rate", shown(kRate), "[Hz] of shapes"},
-                     {"moves", shown(true), "false: the liver rests, and no instrument moves"},
+  help.parameters = {{"rate", concatenate(kRate), "[Hz] of shapes"},
+                     {"moves", "true", "false: the liver rests, and no instrument moves"},
                      {"collision_node", kCollisionNode, "name of the collision node"},
                      {"haptic_node", kHapticNode, "name of the node that has the proxies"}};
   help.further = "roslaunch organ_collision demo.launch starts it.";
