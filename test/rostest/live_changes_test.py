@@ -100,6 +100,15 @@ class LiveChangesTest(KeepsContract, ToolCase):
         self.assert_no_gap('kept')
         self.assertEqual({a.tool for a in self.node.contacts.of(self.organ)}, {'kept'})
 
+    def test_the_robot_description_is_read_anew(self):
+        robot = {'name': 'robot', 'links': ['wrist'], 'tf_prefix': 'arm'}
+        self.reloaded(robot)
+        self.assertEqual(self.reloaded(robot), "unchanged: 'robot'")
+        urdf = rospy.get_param('/robot_description')
+        self.assertEqual(urdf.count('"0.02 0.04 0.06"'), 1)
+        rospy.set_param('/robot_description', urdf.replace('"0.02 0.04 0.06"', '"0.02 0.04 0.07"'))
+        self.assertEqual(self.reloaded(robot), "changed: 'robot'")
+
     def test_no_pose_is_lost(self):
         """The tip's poses come on a topic while the tool changes its place in the list."""
         probe = {'name': 'probe', 'trocar_frame': 'probe_trocar', 'radius': 0.005, 'tip_pose_topic': '/probe_pose'}

@@ -1,17 +1,21 @@
 // The nodelet, in one process with the publisher of the organ.
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <nodelet/loader.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
+#include <organ_collision/QueryCollisionBatch.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace organ_collision {
@@ -39,6 +43,16 @@ boost::shared_ptr<Message> sheet_message(float z) {
   message->organ = "sheet";
   message->vertices = sheet(z);
   return message;
+}
+
+/// How many motions the node says it has answered; 0: it does not say.
+int motions_of_batches(const diagnostic_msgs::DiagnosticArray& message) {
+  for (const auto& status : message.status) {
+    for (const auto& pair : status.values) {
+      if (pair.key == "motions of batches") return std::stoi(pair.value);
+    }
+  }
+  return 0;
 }
 
 class NodeletTest : public testing::Test {
@@ -129,6 +143,34 @@ TEST_F(NodeletTest, IsLoadedAgainAfterUnloading) {
     EXPECT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
     EXPECT_TRUE(loader.unload("/organ_collision"));
   }
+}
+
+TEST_F(NodeletTest, IsUnloadedInTheMiddleOfABatch) {
+  nodelet::Loader loader(false);
+  ASSERT_TRUE(loader.load("/organ_collision", kPlugin, {}, {}));
+  send_mesh({0, 1, 2, 0, 2, 3});
+  int answered = 0;
+  const ros::Subscriber diagnostics = node_.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", 100, [&](const diagnostic_msgs::DiagnosticArrayConstPtr& message) {
+        answered = std::max(answered, motions_of_batches(*message));
+      });
+  QueryCollisionBatch batch;
+  batch.request.header.frame_id = batch.request.organ = "sheet";
+  batch.request.mode = ContactArray::SWEPT;
+  batch.request.motions.resize(1'000'000);
+  for (ToolMotion& motion : batch.request.motions) {
+    motion.trocar.z = motion.previous_trocar.z = 0.2;
+    motion.tip.x = 0.01;
+    motion.previous_tip.x = -0.01;
+    motion.radius = 0.001;
+  }
+  // The client gets a status or an error, but no results.
+  std::thread client([&] { ros::service::call("/organ_collision/query_batch", batch); });
+  EXPECT_TRUE(wait_for([&] { return answered > 0; }));
+  EXPECT_LT(answered, 1'000'000);
+  EXPECT_TRUE(loader.unload("/organ_collision"));
+  client.join();
+  EXPECT_TRUE(batch.response.results.empty());
 }
 
 TEST_F(NodeletTest, IsNotLoadedWithIllegalParameters) {

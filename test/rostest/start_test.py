@@ -1,23 +1,25 @@
 #!/usr/bin/python3
 """How programs start and end. Illegal parameters stop the node with a message, and misspelt ones are reported. Which
-OpenGL it takes. What it says about real-time scheduling is what the system says. check_contacts ends with the right
-exit code."""
+OpenGL it takes. It accepts a latched mesh that is older than itself. What it says about real-time scheduling is what
+the system says. check_contacts ends with the right exit code."""
 
 import os
 import sys
 
 from diagnostic_msgs.msg import DiagnosticStatus
-from organ_collision.msg import Contact, ContactArray
+from organ_collision.msg import Contact, ContactArray, OrganMesh
 import roslib.packages
 import rospy
 import rostest
 from std_srvs.srv import Trigger
 
-from support.launch_case import LaunchCase
-from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, wait_until
+from support import oracle, scenes
+from support.contact_case import ContactCase
+from support.node_client import LIMIT, Diagnostics, NodeClient, is_heard, mesh_message, shaft, wait_until
 from support.processes import NodeStarter, process_of
 
 TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasper_tip', 'radius': 0.005}
+SHEET = scenes.sheet(0.1, 4)
 MISSING_GL = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl')
 PRIORITY = 7
 REALTIME = {'tools': [], 'diagnostic_period': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True,
@@ -52,7 +54,7 @@ def keeps_cores_awake(process):
     return any(target(name) == '/dev/cpu_dma_latency' for name in os.listdir('/proc/%d/fd' % process))
 
 
-class StartTest(LaunchCase, NodeStarter):
+class StartTest(ContactCase, NodeStarter):
     def setUp(self):
         self.name = '/' + self.id().split('.')[-1]
 
@@ -89,12 +91,29 @@ class StartTest(LaunchCase, NodeStarter):
         paths = os.path.join(MISSING_GL, libraries), os.environ.get('LD_LIBRARY_PATH', '')
         return ['env', 'LD_LIBRARY_PATH=%s:%s' % paths]
 
+    def assert_finds_contacts(self, node):
+        axis = ((0.01, 0.02, 0.3), (0.011, 0.017, 0.002))
+        self.assert_contacts(node.query('sheet', shaft(*axis, 0.005)), oracle.static_contacts(SHEET, axis, 0.005))
+
     def test_without_osmesa_there_is_egl_and_without_both_the_cpu_picks(self):
         for libraries, picker, said in (('osmesa', 'feedback', 'on EGL'), ('osmesa_egl', 'cpu', 'GL none')):
             parameters = {'tools': [TOOL], 'picker': picker}
             process = self.start(self.name + picker, parameters, through=self.without(libraries))
-            self.check_collision_node(self.name + picker)
+            node = NodeClient(self.name + picker)
+            node.bring('sheet', SHEET, rospy.Time(1))
+            self.assert_finds_contacts(node)
             self.assertIn(said, self.stop(process))
+
+    def test_a_latched_mesh_waits_for_the_node(self):
+        """The organ is sent once, before the node starts. The node starts, ends, and starts again."""
+        latched = rospy.Publisher(self.name + '/organ_mesh', OrganMesh, queue_size=1, latch=True)
+        latched.publish(mesh_message('sheet', SHEET, rospy.Time(1), topology=3))
+        for _ in range(2):
+            process = self.start(self.name, {'tools': [TOOL]})
+            node = NodeClient(self.name)
+            node.wait_for_shape('sheet', rospy.Time(1), topology=3)
+            self.assert_finds_contacts(node)
+            self.stop(process)
 
     @staticmethod
     def scheduling(node):

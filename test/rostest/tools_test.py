@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Links that move between two shapes of the organ, along all poses in TF and with a tf_prefix. Tools that cannot be
-loaded: every answer about them says so, and the other tools still work."""
+"""Links that move between two shapes of the organ: along all poses in TF, with a tf_prefix, together with a shaft. Tools
+that cannot be loaded: every answer about them says so, and the other tools still work."""
 
 import sys
 
@@ -8,15 +8,16 @@ from organ_collision.msg import ContactArray
 import rospy
 import rostest
 
-from support import scenes
+from support import oracle, scenes
 from support.contact_case import KeepsContract
 from support.tool_case import ToolCase, ball_contacts
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
 SHEET = scenes.sheet(0.1, 6)
-BALL = 0.006  # [m] radius
+BALL, SHAFT = 0.006, 0.005  # [m] radii
 # The hook's trocar, tip and ball [m].
 ABOVE = ((0.02, -0.03, 0.3), (0.011, 0.006, 0.05), (-0.013, 0.017, 0.04))
+BELOW = ((0.05, -0.01, 0.28), (0.004, -0.003, -0.04), (-0.003, -0.011, -0.03))
 # The words that each bad tool's message must contain: what is wrong, and where.
 FAULTS = {
     'mesh_missing': ["'robots/mesh'", "'missing'", '/no_such.stl'],
@@ -50,6 +51,20 @@ class ToolsTest(KeepsContract, ToolCase):
         self.assert_contacts(second['left'], [c._replace(fraction=0.4 * c.fraction, depth=found.depth, behind=None)
                                               for c, found in zip(down, second['left'].contacts)], 1e-6)
         self.assert_contacts(second['right'], [])
+
+    def test_a_shaft_and_a_link(self):
+        """Both touch; the shaft's trocar moves, too."""
+        first = self.step(SHEET, {'hook': ABOVE})['hook']
+        self.assert_contacts(first, [])
+        result = self.step(SHEET, {'hook': BELOW}, vertices=True)['hook']
+        self.assertEqual((result.mode, result.step_start, result.links), (SWEPT, first.header.stamp, ['', 'ball']))
+        shaft = oracle.swept_contacts(SHEET, ABOVE[:2], BELOW[:2], SHAFT)
+        ball = ball_contacts(SHEET, ABOVE[2:], BELOW[2:], BALL)
+        self.assertGreater(min(len(shaft), len(ball)), 0)
+        self.assert_contacts_of_link(result, 0, shaft, 1e-6)
+        self.assert_contacts_of_link(result, 1, ball, 1e-6)
+        order = [(c.face, c.link) for c in result.contacts]
+        self.assertEqual(order, sorted(order))
 
     def test_bad_tools_say_what_is_wrong_in_each_answer(self):
         """In those to steps and queries, and on /diagnostics."""

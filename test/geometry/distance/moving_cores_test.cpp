@@ -199,6 +199,26 @@ TEST_P(MovingCores, TouchFirstWhenASearchSays) {
   EXPECT_GT(touches, 0);
 }
 
+TEST_P(MovingCores, DoNotTouchAfterTheEndOfTheSearch) {
+  for_each_trial(100, [](const LinkTrial& trial, Random& random) {
+    const FaceMotion face = oracle::motion_to(trial.face, random);
+    const RigidMotion motion = trial.motion();
+    const CoreMotion core(trial.core, motion);
+    const auto touch = first_touch(core, face, trial.radius);
+    const double until = random.uniform(0.0, 1.0);
+    const auto early = first_touch(core, face, trial.radius, until);
+    if (!touch || touch->time > until + 1e-4) {
+      EXPECT_FALSE(early);
+    } else if (touch->time < until - 1e-4) {
+      ASSERT_TRUE(early);
+      EXPECT_NEAR(early->time, touch->time, 1e-3);  // within kTouch of the radius
+    }
+    if (early) {
+      EXPECT_LE(early->time, until);
+    }
+  });
+}
+
 // Every touching face is reported. An unresolved touch has a pair of points on core and face.
 TEST_P(MovingCores, WithoutBudgetNoTouchIsMissed) {
   int unresolved = 0;
@@ -226,6 +246,30 @@ TEST_P(MovingCores, WithoutBudgetNoTouchIsMissed) {
     unresolved += !touch->is_resolved;
   });
   EXPECT_GT(unresolved, 0);
+}
+
+TEST_P(MovingCores, ComeNearestOnlyWithinTheBound) {
+  for_each_trial(100, [](const LinkTrial& trial, Random& random) {
+    const FaceMotion face = oracle::motion_to(trial.face, random);
+    const RigidMotion motion = trial.motion();
+    const CoreMotion core(trial.core, motion);
+    const double slack = 1.1 * tolerance::kApproach + 1000.0 * oracle::rounding(trial);
+    WorkBudget unlimited = WorkBudget::unlimited();
+    constexpr double kAny = std::numeric_limits<double>::infinity();
+    const double least = closest_approach(core, face, kAny, unlimited)->closest.distance;
+    const double bound = least * random.uniform(0.5, 1.5);
+    const auto found = closest_approach(core, face, bound, unlimited);
+    if (bound > least + 2.0 * slack) {
+      ASSERT_TRUE(found);
+    }
+    if (bound < least - 2.0 * slack) {
+      ASSERT_FALSE(found);
+    }
+    if (!found) return;
+    EXPECT_LE(found->closest.distance, bound);
+    EXPECT_NEAR(found->closest.distance, least, slack);
+    EXPECT_NEAR(found->closest.distance, distance_at(trial, face, found->time), slack);
+  });
 }
 
 // Planes that keep core and face apart: one at rest during the whole leg, and one that turns from

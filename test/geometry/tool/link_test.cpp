@@ -171,5 +171,17 @@ TEST_P(ConvexCoreOf, MovesNoFartherThanItsBounds) {
 
 INSTANTIATE_TEST_SUITE_P(Kinds, ConvexCoreOf, testing::Range<std::size_t>(0, oracle::kCoreKinds));
 
+TEST(CoreMotion, OfAShaftHasNoChordDeviation) {
+  Random random(6);
+  for (int i = 0; i < 100; ++i) {
+    const ShaftMotion shaft = oracle::make_trial(0, random).motion;
+    const CoreMotion core(shaft);
+    EXPECT_EQ(core.link(), nullptr);
+    EXPECT_EQ(core.chord_deviation(1.0), 0.0);
+    EXPECT_EQ(core.farthest_move(), std::max((shaft.end.tip - shaft.start.tip).norm(),
+                                             (shaft.end.trocar - shaft.start.trocar).norm()));
+  }
+}
+
 }  // namespace
 }  // namespace organ_collision
