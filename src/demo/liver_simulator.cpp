@@ -224,16 +224,14 @@ int main(int argc, char** argv) {
               fastest);
     return 2;
   }
-  const std::string collision_node =
-      private_node.param<std::string>("collision_node", kCollisionNode);
+  const auto collision_node = private_node.param<std::string>("collision_node", kCollisionNode);
   if (!ros::service::waitForService(ros::names::append(collision_node, "query"))) return 1;
-  const std::string haptic_node = private_node.param<std::string>("haptic_node", kHapticNode);
-  LiverSimulator simulator{ros::NodeHandle(), ros::NodeHandle(collision_node),
-                           ros::NodeHandle(haptic_node), rate};
+  LiverSimulator simulator{
+      ros::NodeHandle(), ros::NodeHandle(collision_node),
+      ros::NodeHandle(private_node.param<std::string>("haptic_node", kHapticNode)), rate};
   if (!private_node.param<bool>("moves", true)) {
     simulator.publish_mesh(ros::Time::now());
     ros::spin();
-    return 0;
   }
   for (ros::Rate loop(kHandPoses * rate); ros::ok(); loop.sleep()) {
     ros::spinOnce();

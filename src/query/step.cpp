@@ -11,7 +11,6 @@ namespace organ_collision {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Vector3d;
 
 /// The cosine of the angle of the rotation R between two poses: (trace(R) - 1) / 2.
 double rotation_cosine(const Isometry3d& from, const Isometry3d& to) {
@@ -54,7 +53,7 @@ constexpr double kTooFar = std::numeric_limits<double>::infinity();
 double allowed_deviation(const Link& link) {
   double thickness = kTooFar;
   for (const LinkPart& part : link.parts) {
-    Vector3d half = part.bounds.half_size;
+    Eigen::Vector3d half = part.bounds.half_size;
     std::sort(half.data(), half.data() + half.size());
     thickness = std::min(thickness, half[1] + part.radius);
   }
