@@ -309,4 +309,5 @@ if __name__ == '__main__':
     parser.add_argument('--only', choices=['kills', 'garbage_node', 'garbage_nodelet', 'master'], help='not all')
     FaultsTest.options = parser.parse_args()
     names = ['FaultsTest.test_' + FaultsTest.options.only] if FaultsTest.options.only else []
-    unittest.main(argv=sys.argv[:1] + names, verbosity=2)
+    # rospy leaves sockets open, and Python would warn of each.
+    unittest.main(argv=sys.argv[:1] + names, verbosity=2, warnings='ignore')
