@@ -2,12 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <boost/asio/packaged_task.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/thread_pool.hpp>
+#include <condition_variable>
 #include <functional>
-#include <future>
 #include <memory>
+#include <mutex>
+#include <thread>
 #include <vector>
 
 #include "organ_collision/query/collision_query.hpp"
@@ -19,13 +18,46 @@ namespace {
 /// A thread that lives on between its tasks. GL remembers which context was current in it.
 class Worker {
  public:
-  std::future<void> start(std::function<void()> task) {
-    return boost::asio::post(thread_, std::packaged_task<void()>(std::move(task)));
+  Worker() : thread_([this] { work(); }) {}
+  ~Worker() {
+    start(nullptr);
+    thread_.join();
   }
-  void run(std::function<void()> task) { start(std::move(task)).get(); }
+  Worker(const Worker&) = delete;
+  Worker& operator=(const Worker&) = delete;
+
+  void start(std::function<void()> task) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    task_ = std::move(task);
+    is_busy_ = true;
+    changed_.notify_all();
+  }
+  void wait() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return !is_busy_; });
+  }
+  void run(std::function<void()> task) {
+    start(std::move(task));
+    wait();
+  }
 
  private:
-  boost::asio::thread_pool thread_{1};
+  void work() {
+    while (true) {
+      std::unique_lock<std::mutex> lock(mutex_);
+      changed_.wait(lock, [this] { return is_busy_; });
+      if (!task_) return;
+      task_();
+      is_busy_ = false;
+      changed_.notify_all();
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::function<void()> task_;
+  bool is_busy_ = false;
+  std::thread thread_;
 };
 
 class QueryThreads : public testing::Test {
@@ -81,12 +113,13 @@ TEST_F(QueryThreads, TwoChangePlacesAndWorkSideBySide) {
     workers[i].run([&] { queries[i] = std::make_unique<CollisionQuery>(); });
   }
   for (std::size_t round = 0; round < 20; ++round) {
-    std::array<std::future<void>, 2> done;
+    std::array<std::size_t, 2> found = {};
     for (std::size_t i = 0; i < 2; ++i) {
-      done[i] =
-          workers[i].start([&, i] { EXPECT_EQ(contacts(*queries[(i + round) % 2]), expected_); });
+      workers[i].start([&, i] { found[i] = contacts(*queries[(i + round) % 2]); });
     }
-    for (std::future<void>& each : done) each.get();
+    for (Worker& worker : workers) worker.wait();
+    EXPECT_EQ(found[0], expected_);
+    EXPECT_EQ(found[1], expected_);
   }
   for (std::size_t i = 0; i < 2; ++i) workers[i].run([&] { queries[1 - i].reset(); });
   for (Worker& worker : workers) {
