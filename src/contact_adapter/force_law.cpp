@@ -33,7 +33,8 @@ std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Pu
   std::vector<FaceForce> faces;
   faces.reserve(pushes.size());
   const auto add = [&faces](const auto& at, const geometry_msgs::Point& place) {
-    const auto &v = at.vertices, &b = at.barycentric;
+    const auto& v = at.vertices;
+    const auto& b = at.barycentric;
     faces.push_back({at.face, at.link, {v[0], v[1], v[2]}, {b[0], b[1], b[2]}, to_eigen(place)});
   };
   for (const Contact& contact : answer.contacts) add(contact, contact.end_point);

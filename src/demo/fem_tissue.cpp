@@ -101,7 +101,7 @@ class FemTissue {
  private:
   template <typename Message>
   boost::shared_ptr<Message> shape(const ros::Time& stamp) const {
-    const auto message = boost::make_shared<Message>();
+    auto message = boost::make_shared<Message>();
     message->header.stamp = stamp;
     message->header.frame_id = message->organ = kOrgan;
     message->vertices = block_.vertices();

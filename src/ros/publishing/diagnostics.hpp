@@ -16,8 +16,9 @@
 #include "ros/tools/tool.hpp"
 
 namespace diagnostic_updater {
-class Updater;  // Its header takes a compiler 3 s.
-}
+// Its header takes a compiler 3 s.
+class Updater;  // NOLINT(cppcoreguidelines-virtual-class-destructor)
+}  // namespace diagnostic_updater
 
 namespace organ_collision {
 
