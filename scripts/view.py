@@ -117,7 +117,8 @@ def main():
     parser.add_argument('--save', metavar='FILE')
     options = parser.parse_args(arguments)
 
-    rospy.init_node('view', anonymous=True)
+    # Without the signal handler of rospy: that one may wait for ever for what the main thread was doing.
+    rospy.init_node('view', anonymous=True, disable_signals=True)
     topic = rospy.resolve_name(options.topic)
     with open(os.path.join(roslib.packages.get_pkg_dir('organ_collision'), CONFIGURATION)) as text:
         configuration = yaml.safe_load(text)
@@ -144,4 +145,7 @@ def main():
 
 
 if __name__ == '__main__':
-    main()
+    try:
+        main()
+    except KeyboardInterrupt:
+        sys.exit(130)

@@ -80,7 +80,7 @@ void ClearanceFinder::set_least(const Step& step, const CollisionRequest& reques
 
 std::optional<ClearanceFinder::Approach> ClearanceFinder::nearest(const Step& step,
                                                                   double distance_bound) {
-  places_.clear();
+  searches_each_face_ = false;
   find_approaches(step, distance_bound);
   return found_.empty() ? std::nullopt : std::optional<Approach>(found_.front());
 }
@@ -88,6 +88,7 @@ std::optional<ClearanceFinder::Approach> ClearanceFinder::nearest(const Step& st
 void ClearanceFinder::find_near(const Step& step, const CollisionRequest& request,
                                 CollisionResult& result, const WorkBudget& budget) {
   budget_ = budget;
+  searches_each_face_ = true;
   places_.assign(step.organ().face_count(), kNothing);
   for (const FaceContact& contact : result.contacts) places_[contact.face] = kTouched;
   find_approaches(step, request.margin);
@@ -184,18 +185,18 @@ std::optional<ClosestApproach> ClearanceFinder::measure(const ToolPart& part, co
   } else {
     closest = closest_approach(leg.core, motion, distance_bound, budget_);
   }
-  if (budget_.cuts() != cuts && !places_.empty()) places_[face] = kUnresolved;
+  if (budget_.cuts() != cuts && searches_each_face_) places_[face] = kUnresolved;
   return closest;
 }
 
 bool ClearanceFinder::is_searched(std::uint32_t face) const {
-  return places_.empty() || (places_[face] != kTouched && places_[face] != kUnresolved);
+  return !searches_each_face_ || (places_[face] != kTouched && places_[face] != kUnresolved);
 }
 
 /// Keeps the nearest approach: of all faces, or of each face. Of faces at the same distance, the
 /// one with the smallest number counts as the nearest.
 void ClearanceFinder::add(const Approach& approach) {
-  if (places_.empty()) {
+  if (!searches_each_face_) {
     const bool is_tie = !found_.empty() && approach.distance == found_.front().distance;
     if (is_tie && approach.face > found_.front().face) return;
     found_.assign(1, approach);

@@ -57,8 +57,10 @@ class ClearanceFinder {
   double bound_ = 0.0;                ///< [m] the greatest distance that is still of interest
   std::vector<std::uint32_t> faces_;  ///< faces within the bound of the present chord
   std::vector<Approach> found_;
-  /// For each face its place in `found_`, or that it has none, that the tool touches it, or that it
-  /// was not measured to the end. Empty while only the nearest approach of all faces is searched.
+  /// Whether an approach of each face is searched, or only the nearest approach of all faces.
+  bool searches_each_face_ = false;
+  /// If each face is searched: for each face its place in `found_`, or that it has none, that the
+  /// tool touches it, or that it was not measured to the end.
   std::vector<std::uint32_t> places_;
 };
 

@@ -71,7 +71,7 @@ TEST(HapticParameters, AreTaken) {
   EXPECT_EQ(meshes.organs[1].frame, "spleen_frame");
   EXPECT_EQ(meshes.organs[1].vertices_topic, "/sim/points");
   ASSERT_EQ(meshes.misspelt.size(), 1u);
-  expect_contains(meshes.misspelt[0], {"~organs[1]/frame_id ", "'frame'"});
+  expect_words(meshes.misspelt[0], {"~organs[1]/frame_id ", "'frame'"});
   XmlRpcValue without_organs;
   without_organs["collision_node"] = "liver";
   EXPECT_THROW(parse_parameters<MeshAdapterParameters>(without_organs), ParameterError);
@@ -87,9 +87,9 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   XmlRpcValue tools;
   tools[0] = tools[1] = legal_parameters<HapticProxyParameters>()["tools"][0];
   tools[1]["name"] = "left_hook";  // Its topics would have the same names.
-  expect_contains(refusal_of<HapticProxyParameters>("tools", tools),
+  expect_words(refusal_of<HapticProxyParameters>("tools", tools),
                   {"~tools has 'left hook' and 'left_hook'"});
-  expect_contains(refusal_of<MeshAdapterParameters>("collision_node", "a b"),
+  expect_words(refusal_of<MeshAdapterParameters>("collision_node", "a b"),
                   {"~collision_node is 'a b'", "not private"});
   const struct {
     const char* name;  ///< of a member of the second organ
@@ -117,8 +117,8 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
     organs[1] = organ("spleen");
     organs[1][row.name] = row.value;
     const std::string refusal = refusal_of<MeshAdapterParameters>("organs", organs);
-    expect_contains(refusal, {std::string("~organs[1]/") + row.name});
-    expect_contains(refusal, row.words);
+    expect_words(refusal, {std::string("~organs[1]/") + row.name});
+    expect_words(refusal, row.words);
   }
 }
 

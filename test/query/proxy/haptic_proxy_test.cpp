@@ -17,6 +17,7 @@
 #include "proxy_scenes.hpp"
 #include "test/proof/proxy/referee.hpp"
 #include "test/proof/proxy/scenes.hpp"
+#include "test/refusals.hpp"
 
 namespace organ_collision {
 namespace {
@@ -29,15 +30,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 void expect_refusal(const std::function<void()>& act, const std::vector<std::string>& words) {
-  std::string what;
-  try {
-    act();
-  } catch (const std::invalid_argument& error) {
-    what = error.what();
-  }
-  for (const std::string& word : words) {
-    EXPECT_NE(what.find(word), std::string::npos) << "'" << what << "' does not say " << word;
-  }
+  expect_words(refusal_by<std::invalid_argument>(act), words);
 }
 
 TEST(ProxyRefusal, NamesIllegalSettings) {

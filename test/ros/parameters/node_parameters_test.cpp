@@ -75,7 +75,7 @@ TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
       {"picker", 1, "'1'; must be one of feedback, select, cpu"},
       {"tools", list_of({"hook"}), "'hook'; must be a group of name"}};
   for (const Row& row : rows) {
-    expect_contains(refusal_of<NodeParameters>(row.name, row.value),
+    expect_words(refusal_of<NodeParameters>(row.name, row.value),
                     {std::string("~") + row.name, row.legal});
   }
   for (const char* name : {"motion_sample_sec", "threads", "rate"}) {  // Without a decimal point.
@@ -84,8 +84,8 @@ TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
 }
 
 TEST(NodeParameters, ToolsMustBeGivenAndHaveNamesOfTheirOwn) {
-  expect_contains(refusal_of<NodeParameters>("tools", "hook"), {"~tools", "hook", "list"});
-  expect_contains(refusal_of<NodeParameters>("tools", list_of({shaft(), shaft()})),
+  expect_words(refusal_of<NodeParameters>("tools", "hook"), {"~tools", "hook", "list"});
+  expect_words(refusal_of<NodeParameters>("tools", list_of({shaft(), shaft()})),
                   {"~tools[1]/name", "hook", "unique"});
   XmlRpcValue none;
   none["rate"] = 1;
@@ -100,11 +100,11 @@ TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
   all["tools"][0]["raduis"] = 1;
   const std::vector<std::string> misspelt = parse_parameters<NodeParameters>(all).misspelt;
   ASSERT_EQ(misspelt.size(), 2u);
-  expect_contains(misspelt[0], {"~rates", "'rate'"});
-  expect_contains(misspelt[1], {"~tools[0]/raduis", "'radius'"});
+  expect_words(misspelt[0], {"~rates", "'rate'"});
+  expect_words(misspelt[1], {"~tools[0]/raduis", "'radius'"});
   XmlRpcValue tool = shaft(), wrong;
   for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
-  expect_contains(refusal(wrong), {"~tools[0]/radius is missing; must be a number, more than 0 "
+  expect_words(refusal(wrong), {"~tools[0]/radius is missing; must be a number, more than 0 "
                                    "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
                                    "are name, trocar_frame"});
 }
@@ -164,25 +164,25 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
     XmlRpcValue tool = row.tool();
     tool[row.key] = row.value;
     const std::string message = refusal(tool);
-    expect_contains(message, {std::string("~tools[0]/") + row.key + " is '"});
-    expect_contains(message, row.words);
+    expect_words(message, {std::string("~tools[0]/") + row.key + " is '"});
+    expect_words(message, row.words);
   }
 }
 
 TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
   XmlRpcValue nothing;
   nothing["name"] = "PSM1";
-  expect_contains(refusal(nothing), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
+  expect_words(refusal(nothing), {"~tools[0]/links", "missing", "trocar_frame", "radius"});
   XmlRpcValue half = links();
   half["radius"] = 0.01;
-  expect_contains(refusal(half), {"~tools[0]/trocar_frame", "missing"});
+  expect_words(refusal(half), {"~tools[0]/trocar_frame", "missing"});
   half = links();
   half["trocar_frame"] = "a";
-  expect_contains(refusal(half), {"~tools[0]/radius", "missing"});
+  expect_words(refusal(half), {"~tools[0]/radius", "missing"});
   XmlRpcValue two = links();
   two["urdf"] = "/hook.urdf";
   two["robot_description"] = "robot_description";
-  expect_contains(refusal(two), {"~tools[0]/robot_description", "beside urdf"});
+  expect_words(refusal(two), {"~tools[0]/robot_description", "beside urdf"});
 }
 
 TEST(ToolParameters, AreAShaftOrLinksOrBoth) {

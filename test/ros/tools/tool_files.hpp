@@ -5,9 +5,9 @@
 #include <fstream>
 #include <iterator>
 #include <string>
-#include <vector>
 
 #include "ros/tools/robot_reply.hpp"
+#include "test/refusals.hpp"
 
 namespace organ_collision {
 
@@ -25,19 +25,9 @@ inline std::string tool_text(const std::string& name) {
 /// The message of the ToolError that `action` throws. The test fails if it throws none.
 template <typename Action>
 std::string tool_error(const Action& action) {
-  try {
-    action();
-  } catch (const ToolError& error) {
-    return error.what();
-  }
-  ADD_FAILURE() << "nothing was refused";
-  return {};
-}
-
-inline void expect_words(const std::string& message, const std::vector<std::string>& words) {
-  for (const std::string& word : words) {
-    EXPECT_NE(message.find(word), std::string::npos) << "'" << word << "' in: " << message;
-  }
+  const std::string message = refusal_by<ToolError>(action);
+  EXPECT_NE(message, "accepted");
+  return message;
 }
 
 }  // namespace organ_collision
