@@ -34,7 +34,7 @@ ContactArray half_sphere(std::uint32_t count, bool is_tight) {
     contact.barycentric = {0.2, 0.3, 0.5};
     contact.normal = to_vector(normal);
     contact.depth = is_tight ? 0.001 : 0.001 * down;
-    contact.point = contact.end_point =
+    contact.point = contact.on_organ =
         tf2::toMsg(Eigen::Vector3d((kRadius - contact.depth) * normal));
     answer.contacts.push_back(contact);
   }

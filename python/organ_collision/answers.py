@@ -11,15 +11,15 @@ _NAMES = {getattr(ContactArray, name): name for name in _STATUSES}
 _PLACE = [('face', np.uint32), ('vertices', np.uint32, 3), ('barycentric', float, 3)]
 # The fields of Contact.msg, Crossing.msg and Clearance.msg, in their order.
 _CONTACT = np.dtype([
-    ('face', np.uint32), ('vertices', np.uint32, 3), ('link', np.uint32), ('fraction', float), ('point', float, 3),
-    ('normal', float, 3), ('barycentric', float, 3), ('shaft', float), ('depth', float), ('behind', bool),
-    ('end_point', float, 3), ('view_min', float), ('view_max', float)])
+    ('face', np.uint32), ('vertices', np.uint32, 3), ('link', np.int32), ('touching', bool), ('since', float),
+    ('fraction', float), ('point', float, 3), ('normal', float, 3), ('barycentric', float, 3), ('shaft', float),
+    ('depth', float), ('behind', bool), ('on_organ', float, 3), ('on_tool', float, 3)])
 _CROSSING = np.dtype(_PLACE + [('shaft', float), ('point', float, 3), ('direction', np.int8)])
 _CLEARANCE = np.dtype(
     [('state', np.uint8), ('margin', float), ('unlimited', bool), ('distance', float), ('least', float),
      ('least_fraction', float)] + _PLACE +
-    [('link', np.uint32), ('on_organ', float, 3), ('on_tool', float, 3), ('normal', float, 3),
-     ('normal_defined', bool), ('unresolved', bool)])
+    [('link', np.int32), ('on_organ', float, 3), ('on_tool', float, 3), ('normal', float, 3),
+     ('normal_defined', bool), ('unresolved', bool), ('closing_speed', float)])
 
 
 class CollisionError(RuntimeError):
@@ -34,8 +34,9 @@ def contact_table(answer):
     """The contacts of a ContactArray, as a numpy record array with one row for each contact.
 
     Its columns are the fields of Contact.msg: contacts.depth has the shape (k,), contacts.point has (k, 3). Lengths
-    are in metres, vectors in the frame answer.header.frame_id. contacts.link counts in answer.links. Raises
-    CollisionError if the status is not OK: then nothing is known about contacts.
+    are in metres, contacts.since is in seconds, vectors are in the frame answer.header.frame_id. contacts.link counts
+    in answer.links; -1 is the shaft. Raises CollisionError if the status is not OK: then nothing is known about
+    contacts.
     """
     return _table(answer, answer.contacts, _CONTACT, _contact_row)
 
@@ -86,8 +87,8 @@ def _table(answer, messages, columns, row):
 
 
 def _contact_row(c):
-    return (c.face, c.vertices, c.link, c.fraction, _xyz(c.point), _xyz(c.normal), c.barycentric, c.shaft, c.depth,
-            c.behind, _xyz(c.end_point), c.view_min, c.view_max)
+    return (c.face, c.vertices, c.link, c.touching, c.since.to_sec(), c.fraction, _xyz(c.point), _xyz(c.normal),
+            c.barycentric, c.shaft, c.depth, c.behind, _xyz(c.on_organ), _xyz(c.on_tool))
 
 
 def _crossing_row(c):
@@ -96,7 +97,8 @@ def _crossing_row(c):
 
 def _clearance_row(c):
     return (c.state, c.margin, c.unlimited, c.distance, c.least, c.least_fraction, c.face, c.vertices, c.barycentric,
-            c.link, _xyz(c.on_organ), _xyz(c.on_tool), _xyz(c.normal), c.normal_defined, c.unresolved)
+            c.link, _xyz(c.on_organ), _xyz(c.on_tool), _xyz(c.normal), c.normal_defined, c.unresolved,
+            c.closing_speed)
 
 
 def _xyz(point):

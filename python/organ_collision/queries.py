@@ -42,7 +42,7 @@ class Queries:
         """The whole ContactArray, for near_table(), crossing_table() and clearance_record().
 
         asked  what to ask for besides contacts, by the names of QueryCollision.srv: margin [m], clearance, max_near,
-               placement, regions
+               placement, regions, organ_rests
         """
         mode = _mode(previous_trocar, previous_tip)
         motion = shaft_motion(trocar, tip, radius, previous_trocar, previous_tip)
@@ -67,7 +67,7 @@ class Queries:
         shafts          the k motions of the tool's shaft, as of shaft_motions(), if it has one
         frame           frame of all these; None: the frame has the name of the organ
         asked           what else to ask for, by the names of QueryCollisionBatch.srv: stop_at_first_contact, margin [m],
-                        clearance, placement, organ_motion
+                        clearance, max_near, placement, regions, organ_rests
 
         An illegal motion has an answer whose status says so.
         """

@@ -25,7 +25,7 @@ inline ParameterTable table_of(ContactAdapterParameters& p) {
       .live();
   t.flag("way_out", p.way_out,
          "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin");
-  t.number("diagnostic_period", p.diagnostic_period_sec, kTimerPeriod,
+  t.number("diagnostic_period_sec", p.diagnostic_period_sec, kTimerPeriod,
            "[s] between messages on /diagnostics");
   return t;
 }

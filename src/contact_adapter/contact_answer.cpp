@@ -50,10 +50,18 @@ void check_normal(const geometry_msgs::Vector3& normal, const What&... what) {
   check(std::abs(value.norm() - 1.0) <= kUnitTolerance, value.transpose(), "unit", what...);
 }
 
+template <typename... What>
+void check_link(std::int32_t link, const ContactArray& answer, const What&... what) {
+  if (link >= kShaft && link < static_cast<std::int64_t>(answer.links.size())) return;
+  refuse(what..., " is ", link, "; must be -1 for the shaft, or one of the ", answer.links.size(),
+         " links, counted from 0");
+}
+
 void check_geometry(const ContactArray& answer) {
   for (const Contact& contact : answer.contacts) {
+    check_link(contact.link, answer, "link of face ", contact.face);
     check_place(contact.point, "point of face ", contact.face);
-    check_place(contact.end_point, "end_point of face ", contact.face);
+    check_place(contact.on_organ, "on_organ of face ", contact.face);
     check(std::isfinite(contact.depth), contact.depth, "finite", "depth of face ", contact.face);
     check_normal(contact.normal, "normal of face ", contact.face);
   }
@@ -61,6 +69,7 @@ void check_geometry(const ContactArray& answer) {
   if (clearance.state != Clearance::KNOWN) return;
   const double distance = clearance.distance;
   check(std::isfinite(distance), distance, "finite", "distance of the clearance");
+  check_link(clearance.link, answer, "link of the clearance");
   check_place(clearance.on_organ, "on_organ of the clearance");
   check_normal(clearance.normal, "normal of the clearance");
 }
@@ -119,13 +128,8 @@ ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {
   return std::nullopt;
 }
 
-bool is_shaft(std::uint32_t link, const ContactArray& answer) {
-  return link < answer.links.size() && answer.links[link].empty();
-}
-
-ShaftRadius radius_at(const Contact& contact, const ContactArray& answer,
-                      const ShaftRadius& shaft_radius) {
-  return is_shaft(contact.link, answer) ? shaft_radius : std::nullopt;
+ShaftRadius radius_at(const Contact& contact, const ShaftRadius& shaft_radius) {
+  return contact.link == kShaft ? shaft_radius : std::nullopt;
 }
 
 }  // namespace organ_collision

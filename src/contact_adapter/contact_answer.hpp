@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "organ_collision/query/contact.hpp"
+
 namespace organ_collision {
 
 /// Whether the contacts have points, normals and depths. In the paper's modes, they do not.
@@ -17,9 +19,11 @@ bool has_geometry(const ContactArray& contacts);
 /// - unresolved contacts;
 /// - an unknown mode, an empty frame, or an illegal name;
 /// - a number of regions other than zero or the number of contacts;
-/// - contacts with geometry: a depth, point or end point that is not finite, or a normal whose
-///   length is not 1 (to 1e-6);
-/// - a known clearance whose distance or `on_organ` is not finite, or whose normal is not unit.
+/// - contacts with geometry: a link that the tool does not have, a depth, `point` or `on_organ`
+/// that
+///   is not finite, or a normal whose length is not 1 (to 1e-6);
+/// - a known clearance of such a link, whose distance or `on_organ` is not finite, or whose normal
+///   is not unit.
 /// Of these, the collision node itself sends only unresolved contacts.
 void check_contacts(const ContactArray& contacts);
 
@@ -33,11 +37,7 @@ using ShaftRadius = std::optional<double>;
 /// The radius of this tool in the collision node's parameter `tools`.
 ShaftRadius shaft_radius(const XmlRpc::XmlRpcValue& tools, const std::string& tool);
 
-/// Whether this link of the answer's tool is its shaft.
-bool is_shaft(std::uint32_t link, const ContactArray& answer);
-
 /// `shaft_radius` if the contact is of the shaft; unset if it is of a link.
-ShaftRadius radius_at(const Contact& contact, const ContactArray& answer,
-                      const ShaftRadius& shaft_radius);
+ShaftRadius radius_at(const Contact& contact, const ShaftRadius& shaft_radius);
 
 }  // namespace organ_collision

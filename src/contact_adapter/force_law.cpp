@@ -37,7 +37,7 @@ std::vector<FaceForce> faces_of(const ContactArray& answer, const std::vector<Pu
     const auto& b = at.barycentric;
     faces.push_back({at.face, at.link, {v[0], v[1], v[2]}, {b[0], b[1], b[2]}, to_eigen(place)});
   };
-  for (const Contact& contact : answer.contacts) add(contact, contact.end_point);
+  for (const Contact& contact : answer.contacts) add(contact, contact.on_organ);
   if (pushes.size() > faces.size()) add(answer.clearance, answer.clearance.on_organ);
   return faces;
 }
@@ -75,7 +75,7 @@ std::optional<double> ContactMotion::follow(const ContactArray& answer,
   Places places;
   for (std::size_t i = 0; i < answer.contacts.size(); ++i) {
     const Contact& contact = answer.contacts[i];
-    const Place now{contact, pushes[i], radius_at(contact, answer, shaft_radius)};
+    const Place now{contact, pushes[i], radius_at(contact, shaft_radius)};
     places.insert({{contact.face, contact.link}, now});
     if (!last_) continue;
     const auto before = last_->find({contact.face, contact.link});

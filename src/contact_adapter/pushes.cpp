@@ -48,10 +48,11 @@ bool is_tool_inside(const ContactArray& answer) {
   const ToolPlacement& placement = answer.placement;
   if (answer.clearance.state == Clearance::NOT_ASKED) return false;
   if (placement.tip != ToolPlacement::INSIDE || !placement.crossings.empty()) return false;
-  const bool has_shaft = !answer.links.empty() && is_shaft(0, answer);
-  const std::uint8_t needed = has_shaft ? ToolPlacement::INSIDE : ToolPlacement::UNKNOWN;
-  if (placement.trocar != needed) return false;
-  return (has_shaft && answer.links.size() == 1) || answer.contacts.empty();
+  const bool is_shaft = answer.links.empty();
+  // Where the side of the tip is known, that of the trocar is unknown only if there is no shaft.
+  const bool is_unknown = placement.trocar == ToolPlacement::UNKNOWN;
+  if (is_unknown ? is_shaft : placement.trocar != ToolPlacement::INSIDE) return false;
+  return is_shaft || answer.contacts.empty();
 }
 
 bool is_pushing(const Push& push) { return push.counts && push.depth > 0.0; }
@@ -142,18 +143,16 @@ const PushTracker::Side* PushTracker::find(const Contact& contact) const {
   return side == sides_.end() ? nullptr : &side->second;
 }
 
-PushTracker::Side PushTracker::side_now(const Contact& contact, const ContactArray& answer,
-                                        const ShaftRadius& shaft_radius, bool began_inside) const {
-  const ShaftRadius radius = radius_at(contact, answer, shaft_radius);
+PushTracker::Side PushTracker::side_now(const Contact& contact, const ShaftRadius& shaft_radius,
+                                        bool began_inside) const {
+  const ShaftRadius radius = radius_at(contact, shaft_radius);
   if (const Side* before = find(contact)) {
     Side side = *before;
     radius ? side.move_on(contact, *radius) : side.move_on(contact);
     return side;
   }
-  if (!began_inside || contact.link >= answer.links.size()) {
-    return Side::first_touch(contact, radius);
-  }
-  return Side::first_touch_from_inside(contact, depth_inside(contact.link, answer, shaft_radius));
+  if (!began_inside) return Side::first_touch(contact, radius);
+  return Side::first_touch_from_inside(contact, depth_inside(contact.link, shaft_radius));
 }
 
 /// Keeps the sides of the answer's faces. Returns the pushes of its contacts.
@@ -166,7 +165,7 @@ std::vector<Push> PushTracker::keep_sides(const ContactArray& answer,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     if (basins[i] != i) continue;
     const Side* before = find(contacts[i]);
-    nearest[i] = side_now(contacts[i], answer, shaft_radius, began_inside);
+    nearest[i] = side_now(contacts[i], shaft_radius, began_inside);
     nearest[i].is_nearest = true;
     passed[i] = nearest[i].is_past || (before && before->is_past);
   }
@@ -176,14 +175,14 @@ std::vector<Push> PushTracker::keep_sides(const ContactArray& answer,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact& contact = contacts[i];
     const Side& there = nearest[basins[i]];
-    Push push{to_eigen(contact.end_point), there.normal, there.depth, basins[i] == i};
+    Push push{to_eigen(contact.on_organ), there.normal, there.depth, basins[i] == i};
     if (!push.counts) push.depth = std::min(there.depth, contact.depth);
     // Faces around the nearest one share its side. Faces of another side keep their own side: past
     // a crease, where the edge of the crease is nearest, both sides keep pushing.
     const Side* own = push.counts ? nullptr : find(contact);
     if (own && own->normal.dot(there.normal) >= kSameSide) own = nullptr;
     if (own) {
-      const ShaftRadius radius = radius_at(contact, answer, shaft_radius);
+      const ShaftRadius radius = radius_at(contact, shaft_radius);
       push.normal = own->normal;
       push.counts = radius && passed[basins[i]];
       if (push.counts) push.depth = depth_of_side(contact, own->normal, *radius);
@@ -198,11 +197,10 @@ std::vector<Push> PushTracker::keep_sides(const ContactArray& answer,
 }
 
 /// [m] The depth with which a link is pushed when it is wholly inside, just below the surface.
-double PushTracker::depth_inside(std::uint32_t link, const ContactArray& answer,
-                                 const ShaftRadius& shaft_radius) const {
-  if (shaft_radius && is_shaft(link, answer)) return 2.0 * *shaft_radius;
+double PushTracker::depth_inside(std::int32_t link, const ShaftRadius& shaft_radius) const {
+  if (shaft_radius && link == kShaft) return 2.0 * *shaft_radius;
   const auto known = depths_.find(link);
-  return known == depths_.end() || link >= answer.links.size() ? 0.0 : known->second;
+  return known == depths_.end() ? 0.0 : known->second;
 }
 
 void PushTracker::keep_depths(const ContactArray& answer, const std::vector<Push>& pushes) {
@@ -217,7 +215,7 @@ Push PushTracker::push_out(const ContactArray& answer, const ShaftRadius& shaft_
   const Clearance& clearance = answer.clearance;
   refuse_unknown_way(clearance);
   return {to_eigen(clearance.on_organ), -to_eigen(clearance.normal),
-          clearance.distance + depth_inside(clearance.link, answer, shaft_radius), true};
+          clearance.distance + depth_inside(clearance.link, shaft_radius), true};
 }
 
 std::vector<Push> PushTracker::follow(const ContactArray& answer, const ShaftRadius& shaft_radius) {

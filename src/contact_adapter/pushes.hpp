@@ -12,7 +12,7 @@
 
 namespace organ_collision {
 
-using FaceAndLink = std::pair<std::uint32_t, std::uint32_t>;
+using FaceAndLink = std::pair<std::uint32_t, std::int32_t>;
 
 /// Remembers on which side a tool first touched each face of an organ, with each of its links.
 ///
@@ -69,19 +69,17 @@ class PushTracker {
   };
 
   const Side* find(const Contact& contact) const;
-  Side side_now(const Contact& contact, const ContactArray& answer, const ShaftRadius& shaft_radius,
-                bool began_inside) const;
+  Side side_now(const Contact& contact, const ShaftRadius& shaft_radius, bool began_inside) const;
   std::vector<Push> keep_sides(const ContactArray& answer, const ShaftRadius& shaft_radius,
                                bool began_inside);
-  double depth_inside(std::uint32_t link, const ContactArray& answer,
-                      const ShaftRadius& shaft_radius) const;
+  double depth_inside(std::int32_t link, const ShaftRadius& shaft_radius) const;
   void keep_depths(const ContactArray& answer, const std::vector<Push>& pushes);
   Push push_out(const ContactArray& answer, const ShaftRadius& shaft_radius) const;
 
   bool pushes_out_;
   std::map<FaceAndLink, Side> sides_;
-  std::map<std::uint32_t, double> depths_;  ///< [m] by link: its depth at its last touch
-  std::optional<bool> was_inside_;  ///< the tool, when the last step ended; unset: not known
+  std::map<std::int32_t, double> depths_;  ///< [m] by link: its depth at its last touch
+  std::optional<bool> was_inside_;         ///< the tool, when the last step ended; unset: not known
 };
 
 }  // namespace organ_collision

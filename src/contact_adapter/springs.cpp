@@ -28,7 +28,8 @@ constexpr double kNearer = 1e-9;
 /// A vertex or an edge of a contact's face: two of its vertices in rising order, which are equal
 /// for a vertex.
 struct Corner {
-  std::uint32_t link, low, high;
+  std::int32_t link;
+  std::uint32_t low, high;
   std::size_t contact;  ///< the contact's index
   bool has_point;       ///< the contact's point is on it, and depends on no other vertex
 

@@ -31,7 +31,7 @@ namespace organ_collision {
 /// A force of the tissue on the tool, at a point of a face. In the organ's frame unless noted.
 struct FaceForce {
   std::uint32_t face;                       ///< Contact.face
-  std::uint32_t link;                       ///< Contact.link
+  std::int32_t link;                        ///< Contact.link
   FaceIndices vertices;                     ///< the indices of the face's corners
   Eigen::Vector3d barycentric;              ///< of the point, in the order of `vertices`
   Eigen::Vector3d place;                    ///< [m] the point, at the end of the step

@@ -4,6 +4,7 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/ListOrgans.h>
+#include <organ_collision/ListTools.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/ProxyState.h>
@@ -72,11 +73,13 @@ ProgramHelp haptic_proxy_help() {
       {names::kListOrgans, service_type<ListOrgans>(),
        "the organs: faces, box, volume, closed or not"},
       {names::kRemoveOrgan, service_type<RemoveOrgan>(), "removes an organ"},
+      {names::kListTools, service_type<ListTools>(), "the tools, and why one cannot be used"},
       {names::kReset, service_type<std_srvs::Empty>(), "places all proxies anew"},
       {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
       {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
        "changes " + listed(live) + " while the node runs"}};
   help.parameters = parameter_help<HapticProxyParameters>();
+  help.tool_keys = tool_keys();
   help.further =
       "roslaunch organ_collision haptic_proxy.launch tools:=FILE.yaml starts the node with the "
       "tools of a file. doc/haptic_interface.md explains all of this.";

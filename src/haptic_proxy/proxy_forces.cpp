@@ -30,7 +30,7 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
   for (const ProxyContact& at : answer.contacts) {
     const FaceContact& contact = at.contact;
     const Vector3d force = -stiffness * at.load * contact.normal;
-    const double lever = has_levers && contact.link == 0 ? contact.shaft : 1.0;
+    const double lever = has_levers && contact.link == kShaft ? contact.shaft : 1.0;
     places.push_back(
         {at.organ,
          {contact.face, contact.link, contact.vertices, contact.barycentric, contact.point, force},
@@ -38,10 +38,10 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
   }
   for (const ProxyCrossing& at : answer.crossings) {
     const Vector3d force = -stiffness * at.load;
-    places.push_back(
-        {at.organ,
-         {at.face, 0, organs[at.organ].shape->faces()[at.face], at.barycentric, at.point, force},
-         at_tip(force, at.shaft, answer.proxy.axis)});
+    places.push_back({at.organ,
+                      {at.face, kShaft, organs[at.organ].shape->faces()[at.face], at.barycentric,
+                       at.point, force},
+                      at_tip(force, at.shaft, answer.proxy.axis)});
   }
   return places;
 }

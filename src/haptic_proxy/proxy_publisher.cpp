@@ -48,7 +48,7 @@ geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganFor
 
 FaceContact transformed(FaceContact contact, const Eigen::Isometry3d& T_target_source) {
   contact.point = T_target_source * contact.point;
-  contact.end_point = T_target_source * contact.end_point;
+  contact.on_organ = T_target_source * contact.on_organ;
   contact.normal = T_target_source.linear() * contact.normal;
   return contact;
 }
@@ -58,7 +58,7 @@ ContactArrayPtr contacts_of(const ProxyReport& report, std::size_t organ) {
   const DeformableOrgan& source = *report.scene->sources[organ];
   auto contacts = boost::make_shared<ContactArray>(
       answer_about(source.name(), report.tool.name, ContactArray::STATIC, report.stamp));
-  set_links(*contacts, report.tool);
+  contacts->links = report.tool.links;
   set_organ(*contacts, source, source.latest());
   for (const ProxyContact& at : report.answer->contacts) {
     if (at.organ != organ) continue;

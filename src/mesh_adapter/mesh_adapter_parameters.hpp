@@ -89,7 +89,7 @@ inline ParameterTable table_of(MeshAdapterParameters& p) {
         if (all.has("collision_node")) p.collision_node = graph_name(all, "collision_node");
       },
       "the collision node, which gets the organs");
-  t.number("diagnostic_period", p.diagnostic_period_sec, kTimerPeriod,
+  t.number("diagnostic_period_sec", p.diagnostic_period_sec, kTimerPeriod,
            "[s] between messages on /diagnostics");
   return t;
 }

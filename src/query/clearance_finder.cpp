@@ -10,6 +10,8 @@
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector3d;
+
 /// A box around the space that a part's core covers along the chord of a span.
 OrientedBox box_around(const Step& step, const LegSpan& span, const ToolPart& part) {
   if (!part.shape) return box_around(step.shaft_motion(span));
@@ -45,6 +47,7 @@ ToolClearance ClearanceFinder::find(const Step& step, const CollisionRequest& re
     clearance.on_tool = contact.point - end->distance * contact.normal;
     clearance.normal = contact.normal;
     clearance.normal_defined = end->closest.closest.distance > tolerance::kPierced;
+    clearance.closing = closing(step, *end, contact.normal);
     set_least(step, request, contacts, clearance);
   }
   if (budget_.cuts() > 0) clearance.is_resolved = false;
@@ -109,6 +112,26 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
   result.near_left_out = found_.size() - count;
   result.near_unresolved =
       static_cast<std::size_t>(std::count(places_.begin(), places_.end(), kUnresolved));
+}
+
+/// ToolClearance::closing. `end`: the nearest approach at the end of the step. `normal`: from the
+/// tool to the organ. The smallest distance changes as the distance of the two points that are
+/// nearest now, if they move with the tool and with the organ (Danskin's theorem).
+double ClearanceFinder::closing(const Step& step, const Approach& end, const Vector3d& normal) {
+  const ClosestPoints& closest = end.closest.closest;
+  const LegSpan last = step.span_of(step.leg_count() - 1);
+  const FaceLeg face = step.face_leg(last.begin, end.face);
+  Vector3d way = point_at(face.motion.start, closest.barycentric) - closest.on_face;
+  if (!end.part.shape) {
+    const ShaftMotion shaft = step.shaft_motion(last);
+    way += shaft.end.at(closest.shaft) - shaft.start.at(closest.shaft);
+  } else {
+    const RigidMotion link = step.link_motion(last, end.part.link);
+    const Vector3d arm = closest.on_core - link.end().translation();
+    way += link.end().translation() - link.start().translation() +
+           link.angle() * link.axis().cross(arm);
+  }
+  return normal.dot(way) / (face.finish - face.begin);
 }
 
 /// The contact whose fields describe an approach, as if it were a first touch.

@@ -41,6 +41,7 @@ class ClearanceFinder {
   std::optional<Approach> nearest(const Step& step, double distance_bound);
   void set_least(const Step& step, const CollisionRequest& request,
                  const std::vector<FaceContact>& contacts, ToolClearance& clearance);
+  static double closing(const Step& step, const Approach& end, const Eigen::Vector3d& normal);
   static FaceContact contact_of(const Step& step, const Approach& near);
 
   void find_approaches(const Step& step, double distance_bound);

@@ -16,6 +16,7 @@ namespace {
 void clear(CollisionResult& result) {
   result.contacts.clear();
   result.regions.clear();
+  result.view_ranges.clear();
   result.unresolved = 0;
   result.near.clear();
   result.near_left_out = 0;
@@ -27,10 +28,10 @@ void clear(CollisionResult& result) {
 
 /// The volumes that the shaft, or the parts of a link, sweep on a leg. `number` is
 /// FaceContact::link.
-std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::uint32_t number) {
+std::vector<ViewingVolume> volumes_of(const Step& step, std::size_t leg, std::int32_t number) {
   const LegSpan span = step.span_of(leg);
-  if (step.has_shaft() && number == 0) return {tool_volume(step.shaft_motion(span), step.radius())};
-  const std::size_t link = number - step.link_number(0);
+  if (number == kShaft) return {tool_volume(step.shaft_motion(span), step.radius())};
+  const auto link = static_cast<std::size_t>(number);
   const RigidMotion motion = step.link_motion(span, link);
   std::vector<ViewingVolume> volumes;
   for (const LinkPart& part : step.link(link).parts) {
@@ -46,7 +47,7 @@ void find_regions(const Step& step, const std::vector<FaceContact>& contacts,
                   std::vector<Region>& regions) {
   std::vector<ViewingVolume> volumes;
   std::size_t leg = 0;
-  std::uint32_t link = 0;
+  std::int32_t link = kShaft;
   for (const FaceContact& contact : contacts) {
     const std::size_t its_leg = step.leg_at(contact.fraction);
     if (volumes.empty() || its_leg != leg || contact.link != link) {
@@ -103,7 +104,7 @@ void CollisionQuery::evaluate(const CollisionRequest& request, CollisionResult& 
 
 /// Finds the contacts first, and then what else the request asks for.
 void CollisionQuery::State::evaluate(const CollisionRequest& request, CollisionResult& result) {
-  if (is_paper_mode(request.mode)) return contacts.find_in_paper_volume(request, result.contacts);
+  if (is_paper_mode(request.mode)) return contacts.find_in_paper_volume(request, result);
   const Step step(request, with_subdivided_rotations(request.path, subdivided_path), boxes_before);
   contacts.find(step, result.contacts);
   result.unresolved = static_cast<std::size_t>(

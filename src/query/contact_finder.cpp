@@ -62,23 +62,20 @@ void ContactFinder::find(const Step& step, std::vector<FaceContact>& contacts) {
   budget_ = WorkBudget();
   forget_touched_faces();
   touched_leg_.resize(step.organ().face_count());
-  link_ = 0;
+  link_ = kShaft;
   for_each_part(step, [&](const ToolPart& part, const LegSpan& span) {
     find_part_contacts(step, span, part, contacts);
   });
   keep_first_touches(contacts);
   for (FaceContact& contact : contacts) contact.vertices = step.organ().faces()[contact.face];
+  set_touching(step, contacts);
 }
 
-void ContactFinder::find_in_paper_volume(const CollisionRequest& request,
-                                         std::vector<FaceContact>& contacts) {
+void ContactFinder::find_in_paper_volume(const CollisionRequest& request, CollisionResult& result) {
   picker_.pick(paper_volume(request), *request.organ, candidates_);
   for (const Candidate& candidate : candidates_) {
-    FaceContact contact;
-    contact.face = candidate.face;
-    contact.view_min = candidate.view_min;
-    contact.view_max = candidate.view_max;
-    contacts.push_back(contact);
+    result.contacts.emplace_back().face = candidate.face;
+    result.view_ranges.push_back({candidate.view_min, candidate.view_max});
   }
 }
 
@@ -86,8 +83,8 @@ void ContactFinder::find_in_paper_volume(const CollisionRequest& request,
 /// part of the link touches the face.
 void ContactFinder::confirm(const Step& step, const LegSpan& span, const ToolPart& part,
                             std::vector<FaceContact>& contacts) {
-  if (part.number(step) != link_) forget_touched_faces();
-  link_ = part.number(step);
+  if (part.number() != link_) forget_touched_faces();
+  link_ = part.number();
   // The budget grows with the number of all faces, so that it does not depend on the picker.
   budget_.add_pairs(span.leg_count() * step.organ().face_count() * part.convex_count());
   pending_faces_.clear();
@@ -158,6 +155,28 @@ void ContactFinder::confirm_on_leg(const Step& step, std::size_t leg, const Tool
       contacts.back().face = touch.face;
       touched_faces_.push_back(touch.face);
       touched_leg_[touch.face] = static_cast<std::uint32_t>(leg + 1);
+    }
+  });
+}
+
+/// Decides by exact distances which contacts still touch when the step ends.
+void ContactFinder::set_touching(const Step& step, std::vector<FaceContact>& contacts) {
+  const Step end = step.at_end();
+  for_each_part(end, [&](const ToolPart& part, const LegSpan& span) {
+    const auto is_open = [&](const FaceContact& contact) {
+      return contact.link == part.number() && !contact.touching;
+    };
+    const OrganMotion organ = end.organ_motion(span);
+    touches_.clear();
+    for (const FaceContact& contact : contacts) {
+      if (is_open(contact)) touches_.push_back({contact.face, organ.face(contact.vertices), {}});
+    }
+    budget_.add_pairs(touches_.size() * part.convex_count());
+    with_part_leg(end, span, part,
+                  [&](const PartLeg& leg) { find_touches(leg, part.shape, leg.radius); });
+    auto touch = touches_.begin();
+    for (FaceContact& contact : contacts) {
+      if (is_open(contact)) contact.touching = (touch++)->first.has_value();
     }
   });
 }

@@ -22,9 +22,9 @@ class ContactFinder {
   /// face, then link. Throws GlError if GL did not work.
   void find(const Step& step, std::vector<FaceContact>& contacts);
 
-  /// For a request in one of the paper's modes, adds a contact for each face in the paper's volume.
-  /// Only the number of the face and its range of depths are set.
-  void find_in_paper_volume(const CollisionRequest& request, std::vector<FaceContact>& contacts);
+  /// For a request in one of the paper's modes, adds a contact for each face in the paper's volume,
+  /// with its range of depths. Of a contact, only the number of the face is set.
+  void find_in_paper_volume(const CollisionRequest& request, CollisionResult& result);
 
  private:
   /// A candidate face that the part may touch on the leg `leg` or later.
@@ -43,6 +43,7 @@ class ContactFinder {
   void keep_faces_near_chord(const Step& step, const LegSpan& span, const ToolPart& part);
   void confirm_on_leg(const Step& step, std::size_t leg, const ToolPart& part,
                       std::vector<FaceContact>& contacts);
+  void set_touching(const Step& step, std::vector<FaceContact>& contacts);
   void find_touches(const PartLeg& part, const LinkPart* shape, double radius);
   bool is_pending(std::uint32_t face, std::size_t leg) const;
   void forget_touched_faces();
@@ -53,7 +54,7 @@ class ContactFinder {
   std::vector<PendingFace> pending_faces_;
   std::vector<FaceTouch> touches_;
   SurfaceTouches surface_touches_;
-  std::uint32_t link_ = 0;  ///< the number of the present link
+  std::int32_t link_ = kShaft;  ///< the number of the present link
   /// For each face, the leg on which the present link first touched it, counted from 1. Zero: the
   /// link has not touched the face so far.
   std::vector<std::uint32_t> touched_leg_;

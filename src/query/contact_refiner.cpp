@@ -124,21 +124,21 @@ FaceContact contact_of(const FirstTouch& touch, const PartLeg& part, const FaceL
   contact.fraction = face.begin + touch.time * (face.finish - face.begin);
   contact.point = closest.on_face;
   contact.barycentric = closest.barycentric;
-  contact.end_point = point_at(face.end, closest.barycentric);
+  contact.on_organ = point_at(face.end, closest.barycentric);
   contact.shaft = part.end.link ? 0.0 : closest.shaft;
   if (closest.distance <= tolerance::kPierced) {
     const auto [normal, reach_at_end] = piercing(part, touch.time, face.motion.at(touch.time));
     contact.normal = normal;
-    contact.depth = reach_at_end - normal.dot(contact.end_point);
+    contact.depth = reach_at_end - normal.dot(contact.on_organ);
   } else {
     contact.normal = closest.separation.normalized();
-    contact.depth = part.radius - contact.normal.dot(contact.end_point - core_end);
+    contact.depth = part.radius - contact.normal.dot(contact.on_organ - core_end);
     // The pair nearest to the tip may be a little farther apart than the pair with the least
     // distance.
     const bool is_tied = -tolerance::kTie < contact.depth && contact.depth < 0.0;
     if (is_tied && closest.distance <= part.radius) contact.depth = 0.0;
   }
-  contact.behind = face_normal(face.end).dot(core_end - contact.end_point) < -tolerance::kTie;
+  contact.behind = face_normal(face.end).dot(core_end - contact.on_organ) < -tolerance::kTie;
   return contact;
 }
 

@@ -22,7 +22,7 @@ struct PartLeg {
   CoreMotion core;
   double radius;  ///< [m] radius around the core
   PartEnd end;
-  std::uint32_t link = 0;  ///< number of the shaft or link, as in FaceContact
+  std::int32_t link = kShaft;
 };
 
 /// A face on one leg of a step, and where it is at the end of the whole step.

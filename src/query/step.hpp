@@ -67,10 +67,6 @@ class Step {
   double radius() const { return radius_; }  ///< [m] radius of the shaft
   std::size_t link_count() const { return links_ ? links_->size() : 0; }
   const Link& link(std::size_t link) const { return (*links_)[link]; }
-  /// The number of a link, as in FaceContact::link.
-  std::uint32_t link_number(std::size_t link) const {
-    return static_cast<std::uint32_t>(has_shaft() ? link + 1 : link);
-  }
 
   /// The number of legs. A tool at rest has one leg, without motion.
   std::size_t leg_count() const { return waypoint_count_ > 1 ? waypoint_count_ - 1 : 1; }
@@ -137,8 +133,8 @@ struct ToolPart {
   std::size_t link = 0;
 
   bool is_surface() const { return shape && shape->surface; }
-  /// The number of the shaft or of the link, as in FaceContact::link.
-  std::uint32_t number(const Step& step) const { return shape ? step.link_number(link) : 0; }
+  /// The number of the link, or kShaft.
+  std::int32_t number() const { return shape ? static_cast<std::int32_t>(link) : kShaft; }
   /// [m] The radius of a shaft or a ball; 0 for other shapes. See ToolClearance.
   double surface_radius(const Step& step) const {
     return shape ? shape->ball_radius() : step.radius();
@@ -151,12 +147,10 @@ struct ToolPart {
 /// refers to a motion that lives only during the call.
 template <typename Use>
 void with_part_leg(const Step& step, const LegSpan& span, const ToolPart& part, Use use) {
-  if (!part.shape) return use(PartLeg{step.shaft_motion(span), step.radius(), step.shaft_end(), 0});
+  if (!part.shape) return use(PartLeg{step.shaft_motion(span), step.radius(), step.shaft_end()});
   const RigidMotion motion = step.link_motion(span, part.link);
-  use(PartLeg{{part.shape->core, motion},
-              part.shape->radius,
-              step.link_end(part.link),
-              step.link_number(part.link)});
+  use(PartLeg{
+      {part.shape->core, motion}, part.shape->radius, step.link_end(part.link), part.number()});
 }
 
 /// Calls use(part, span) for each part of a tool and each of its spans of legs. The order is: link

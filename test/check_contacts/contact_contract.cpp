@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "organ_collision/query/contact.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
 
@@ -24,6 +25,9 @@ constexpr double kSameShare = 1e-9;
 constexpr double kTouching = 1e-9;
 /// The largest legal value of the node's parameter max_faces.
 constexpr std::uint32_t kMostFaces = 83333333;
+
+/// [s] Times that must be the same may differ by this much.
+constexpr double kSameTime = 1e-6;
 
 double same_place(const Vector3d& place) { return kSamePlace + kSameShare * place.norm(); }
 
@@ -81,7 +85,8 @@ class AnswerCheck {
     check_text("tool", answer_.tool, kLongestName);
     require(answer_.contacts.empty() && answer_.regions.empty() && answer_.near.empty() &&
                 answer_.unresolved == 0 && answer_.near_left_out == 0 &&
-                answer_.near_unresolved == 0 && answer_.clearance.state == Clearance::NOT_ASKED &&
+                answer_.near_unresolved == 0 && answer_.released.empty() &&
+                answer_.clearance.state == Clearance::NOT_ASKED &&
                 answer_.placement == ToolPlacement(),
             "failures", "status is ", int{answer_.status},
             ", but there are contacts, near faces, a clearance or a placement");
@@ -93,11 +98,7 @@ class AnswerCheck {
             plain_text(answer_.message, kLongestName), "'");
     check_name("frame_id", answer_.header.frame_id);
     check_name("organ", answer_.organ);
-    require(!answer_.links.empty(), "names", "links is empty; a tool has a shaft or links");
-    for (std::size_t i = 0; i < answer_.links.size(); ++i) {
-      // Only a shaft has no name, and it comes first.
-      if (i > 0 || !answer_.links[i].empty()) check_name("a link", answer_.links[i]);
-    }
+    for (const std::string& link : answer_.links) check_name("a link", link);
     const ros::Time start = answer_.step_start, end = answer_.header.stamp;
     require(is_static() ? start == end : start <= end, "stamps", "the step runs from ", start,
             " to ", end);
@@ -134,9 +135,9 @@ class AnswerCheck {
             " faces");
   }
 
-  void check_link(const Place& place, std::uint32_t link) {
-    require(link < answer_.links.size(), "indices", "link of ", place, " is ", link,
-            "; `links` has ", answer_.links.size(), " names");
+  void check_link(const Place& place, std::int32_t link) {
+    require(link >= kShaft && link < static_cast<std::int64_t>(answer_.links.size()), "indices",
+            "link of ", place, " is ", link, "; `links` has ", answer_.links.size(), " names");
   }
 
   void check_barycentric(const Place& place, const boost::array<double, 3>& barycentric) {
@@ -152,26 +153,26 @@ class AnswerCheck {
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const Contact& contact = contacts[i];
       const Place place{list, i, contact.face};
-      const Vector3d point = to_eigen(contact.point), end = to_eigen(contact.end_point);
+      const Vector3d point = to_eigen(contact.point), end = to_eigen(contact.on_organ);
       check_face(place);
       check_link(place, contact.link);
       check_share(place, "fraction", contact.fraction);
       check_share(place, "shaft", contact.shaft);
       check_finite(place, "point", point);
-      check_finite(place, "end_point", end);
+      check_finite(place, "on_organ", end);
       check_finite(place, "depth", contact.depth);
-      check_finite(place, "view_min", contact.view_min);
-      check_finite(place, "view_max", contact.view_max);
       check_unit(place, to_eigen(contact.normal));
+      const Vector3d on_tool = to_eigen(contact.on_tool);
+      const Vector3d error = end + contact.depth * to_eigen(contact.normal) - on_tool;
+      require(!(error.norm() > same_place(end)), "places on tools", "on_tool of ", place, " is ",
+              on_tool.transpose(), "; must be on_organ + depth * normal");
       check_barycentric(place, contact.barycentric);
-      const bool is_of_shaft =
-          contact.link < answer_.links.size() && answer_.links[contact.link].empty();
-      require(is_of_shaft || contact.shaft == 0.0, "places on shafts", "shaft of ", place, " is ",
-              contact.shaft, ", but this is a contact of a link");
+      require(contact.link == kShaft || contact.shaft == 0.0, "places on shafts", "shaft of ",
+              place, " is ", contact.shaft, ", but this is a contact of a link");
       if (!is_static()) continue;  // A static answer has no time but the end of the step.
       require(contact.fraction == 0.0, "static answers", "fraction of ", place, " is ",
               contact.fraction);
-      require(!((end - point).norm() > same_place(point)), "static answers", "end_point of ", place,
+      require(!((end - point).norm() > same_place(point)), "static answers", "on_organ of ", place,
               " is ", end.transpose(), ", and point is ", point.transpose());
     }
   }
@@ -179,6 +180,10 @@ class AnswerCheck {
   void check_touched_faces() {
     const std::vector<Contact>& contacts = answer_.contacts;
     check_list("contacts", contacts);
+    for (const Contact& contact : contacts) {
+      require(!is_static() || contact.touching, "static answers", "face ", contact.face,
+              " is a contact, but not touching");
+    }
     for (std::size_t i = 1; i < contacts.size(); ++i) {
       const Contact &before = contacts[i - 1], &contact = contacts[i];
       require(std::pair(before.face, before.link) < std::pair(contact.face, contact.link),
@@ -204,6 +209,8 @@ class AnswerCheck {
     const double margin = answer_.clearance.margin;
     for (std::size_t i = 0; i < near.size(); ++i) {
       const Place place{"near", i, near[i].face};
+      require(!near[i].touching && near[i].since.isZero(), "near faces", place,
+              " is touching, or has a time since when");
       const double depth = near[i].depth;
       require(i == 0 || near[i - 1].depth >= depth, "order of near faces", place, " is at ", -depth,
               " m, after one that is farther");
@@ -247,6 +254,9 @@ class AnswerCheck {
     check_face(place);
     check_link(place, clearance.link);
     check_finite(place, "distance", clearance.distance);
+    check_finite(place, "closing_speed", clearance.closing_speed);
+    require(!is_static() || clearance.closing_speed == 0.0, "static answers",
+            "closing_speed of the clearance is ", clearance.closing_speed);
     check_finite(place, "least", clearance.least);
     check_share(place, "least_fraction", clearance.least_fraction);
     check_finite(place, "on_organ", on_organ);
@@ -296,10 +306,6 @@ class AnswerCheck {
       require(i == 0 || !(crossings[i - 1].shaft > crossing.shaft), "crossings", place, " is at ",
               crossing.shaft, " of the shaft, after one beyond");
     }
-    const bool has_shaft = !answer_.links.empty() && answer_.links.front().empty();
-    require(has_shaft || (placement.trocar == ToolPlacement::UNKNOWN && crossings.empty()),
-            "placement", "the tool has no shaft, but the placement has a side of its trocar or ",
-            crossings.size(), " crossings");
   }
 
   const ContactArray& answer_;
@@ -321,8 +327,20 @@ Faults ContactContract::check(const ContactArray& answer, const std::string& pub
   Stream& stream = streams_[publisher];
   follow(answer, stream);
   if (answer.status != ContactArray::OK) return faults;
-  check_start(answer, stream, faults);
-  stream.ends[{answer.organ, answer.tool}] = answer.header.stamp;
+  const auto last = stream.last.find({answer.organ, answer.tool});
+  const bool is_swept = answer.mode == ContactArray::SWEPT;
+  if (!is_swept) {
+    check_memory(answer, nullptr, faults);
+  } else if (last != stream.last.end()) {
+    check_start(answer, last->second, faults);
+    const bool is_same_mesh = last->second.topology == answer.topology;
+    check_memory(answer, is_same_mesh ? &last->second : nullptr, faults);
+  }
+  LastAnswer now{answer.header.stamp, answer.topology, {}};
+  for (const Contact& contact : answer.contacts) {
+    if (contact.touching) now.touching[{contact.face, contact.link}] = contact.since;
+  }
+  stream.last[{answer.organ, answer.tool}] = std::move(now);
   return faults;
 }
 
@@ -331,19 +349,48 @@ void ContactContract::follow(const ContactArray& answer, Stream& stream) {
   const std::uint32_t seq = answer.header.seq;
   if (stream.seq && seq != *stream.seq + 1) {
     if (seq > *stream.seq) lost_ += seq - *stream.seq - 1;
-    stream.ends.clear();
+    stream.last.clear();
   }
   stream.seq = seq;
 }
 
 /// A swept step begins where the last successful one ended.
-void ContactContract::check_start(const ContactArray& answer, const Stream& stream,
+void ContactContract::check_start(const ContactArray& answer, const LastAnswer& last,
                                   Faults& faults) {
-  if (answer.mode != ContactArray::SWEPT) return;
-  const auto last = stream.ends.find({answer.organ, answer.tool});
-  if (last == stream.ends.end() || last->second == answer.step_start) return;
+  if (last.end == answer.step_start) return;
   faults.add("steps that join", "the step begins at ", answer.step_start,
-             ", and the last successful one ended at ", last->second, "; must be the same");
+             ", and the last successful one ended at ", last.end, "; must be the same");
+}
+
+/// What an answer remembers of the last one. `last`: null if it begins anew.
+void ContactContract::check_memory(const ContactArray& answer, const LastAnswer* last,
+                                   Faults& faults) {
+  const double duration = answer.header.stamp.toSec() - answer.step_start.toSec();
+  std::set<std::uint32_t> touched, released;
+  for (const Contact& contact : answer.contacts) {
+    if (contact.touching) touched.insert(contact.face);
+    double since = contact.fraction * duration;  // [s] after the start of the step
+    if (last && contact.fraction == 0.0) {
+      const auto before = last->touching.find({contact.face, contact.link});
+      if (before != last->touching.end()) {
+        since = before->second.toSec() - answer.step_start.toSec();
+      }
+    }
+    const double told = contact.since.toSec() - answer.step_start.toSec();
+    if (std::abs(told - since) <= kSameTime) continue;
+    faults.add("memory", "since of face ", contact.face, " is ", told,
+               " s after the start of the step; must be ", since);
+  }
+  if (last) {
+    for (const auto& [face_and_link, since] : last->touching) {
+      if (touched.count(face_and_link.first) == 0) released.insert(face_and_link.first);
+    }
+  }
+  if (std::equal(released.begin(), released.end(), answer.released.begin(),
+                 answer.released.end())) {
+    return;
+  }
+  faults.add("memory", answer.released.size(), " faces are released; must be ", released.size());
 }
 
 }  // namespace organ_collision

@@ -48,8 +48,9 @@ class Faults {
 /// the messages in it. Paper modes have no geometry: of their contacts, only the order is checked.
 Faults check_answer(const ContactArray& answer);
 
-/// The contract of a topic `contacts`: that of each answer, and that the steps of each organ and
-/// tool join. Takes the answers of one topic in the order in which they came.
+/// The contract of a topic `contacts`: that of each answer, that the steps of each organ and tool
+/// join, and that contacts go on from step to step. Takes the answers of one topic in the order in
+/// which they came.
 class ContactContract {
  public:
   /// `publisher`: the node that sent the answer. Each publisher counts its messages in header.seq.
@@ -59,15 +60,23 @@ class ContactContract {
   std::uint64_t lost() const { return lost_; }
 
  private:
+  /// What the last successful step of an organ and a tool ended with.
+  struct LastAnswer {
+    ros::Time end;
+    std::uint32_t topology;
+    /// Since when they touch: the contacts that were touching, by face and link.
+    std::map<std::pair<std::uint32_t, std::int32_t>, ros::Time> touching;
+  };
+
   /// What is known of a publisher's last steps.
   struct Stream {
-    std::optional<std::uint32_t> seq;  ///< of its last answer
-    /// The end of the last successful step, by organ and tool.
-    std::map<std::pair<std::string, std::string>, ros::Time> ends;
+    std::optional<std::uint32_t> seq;                                     ///< of its last answer
+    std::map<std::pair<std::string, std::string>, LastAnswer> last = {};  ///< by organ and tool
   };
 
   void follow(const ContactArray& answer, Stream& stream);
-  static void check_start(const ContactArray& answer, const Stream& stream, Faults& faults);
+  static void check_start(const ContactArray& answer, const LastAnswer& last, Faults& faults);
+  static void check_memory(const ContactArray& answer, const LastAnswer* last, Faults& faults);
 
   std::map<std::string, Stream> streams_;  ///< by publisher
   std::uint64_t lost_ = 0;

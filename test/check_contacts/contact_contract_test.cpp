@@ -1,18 +1,31 @@
 #include "contact_contract.hpp"
 
 #include <gtest/gtest.h>
+#include <tf2_eigen/tf2_eigen.h>
 
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
+
+#include "organ_collision/query/contact.hpp"
+#include "ros/messages/conversions.hpp"
 
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector3d;
+
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Contact good_contact(std::uint32_t face, std::uint32_t link) {
+void set_depth(Contact& contact, double depth) {
+  contact.depth = depth;
+  contact.on_tool =
+      tf2::toMsg(Vector3d(to_eigen(contact.on_organ) + depth * to_eigen(contact.normal)));
+}
+
+Contact good_contact(std::uint32_t face, std::int32_t link) {
   Contact contact;
   contact.face = face;
   contact.vertices = {face, face + 1, face + 2};
@@ -21,16 +34,18 @@ Contact good_contact(std::uint32_t face, std::uint32_t link) {
   contact.normal.y = 0.6;
   contact.normal.z = -0.8;
   contact.barycentric = {0.2, 0.3, 0.5};
-  contact.shaft = link == 0 ? 0.75 : 0.0;
+  contact.shaft = link == kShaft ? 0.75 : 0.0;
+  contact.touching = true;
   contact.point.x = 0.01;
-  contact.end_point.x = 0.02;
-  contact.depth = 0.003;
+  contact.on_organ.x = 0.02;
+  set_depth(contact, 0.003);
   return contact;
 }
 
 Contact near_contact(std::uint32_t face, double distance) {
-  Contact contact = good_contact(face, 0);
-  contact.depth = -distance;
+  Contact contact = good_contact(face, kShaft);
+  contact.touching = false;
+  set_depth(contact, -distance);
   return contact;
 }
 
@@ -74,9 +89,9 @@ ContactArray good_answer() {
   answer.step_start = ros::Time(5, 50);
   answer.organ = "liver";
   answer.tool = "grasper";
-  answer.links = {"", "jaw"};
+  answer.links = {"jaw"};
   answer.mode = ContactArray::SWEPT;
-  answer.contacts = {good_contact(3, 0), good_contact(3, 1), good_contact(7, 0)};
+  answer.contacts = {good_contact(3, kShaft), good_contact(3, 0), good_contact(7, kShaft)};
   answer.regions.resize(3);
   answer.near = {near_contact(9, 0.001), near_contact(2, 0.002)};
   answer.clearance = good_clearance();
@@ -92,7 +107,8 @@ ContactArray good_static_answer() {
   for (auto* list : {&answer.contacts, &answer.near}) {
     for (Contact& contact : *list) {
       contact.fraction = 0.0;
-      contact.end_point = contact.point;
+      contact.on_organ = contact.point;
+      set_depth(contact, contact.depth);
     }
   }
   answer.clearance.distance = answer.clearance.least = -0.003;
@@ -106,7 +122,6 @@ ContactArray good_failure() {
   answer.header.stamp = ros::Time(5, 100);
   answer.organ = "liver";
   answer.tool = "grasper";
-  answer.links = {""};
   answer.status = ContactArray::NO_TRANSFORM;
   answer.message = "frame 'a' is not known";
   return answer;
@@ -165,26 +180,26 @@ TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
       {"names", [](auto& a) { a.header.frame_id = ""; }},
       {"names", [](auto& a) { a.organ = ""; }},
       {"names", [](auto& a) { a.organ.assign(257, 'x'); }},
-      {"names", [](auto& a) { a.links[1] = ""; }},
+      {"names", [](auto& a) { a.links[0] = ""; }},
       {"stamps", [](auto& a) { a.step_start = ros::Time(6); }},
       {"stamps", [](auto& a) { a = good_static_answer(), a.step_start = ros::Time(4); }},
       {"finite numbers", [](auto& a) { a.contacts[1].point.y = kNan; }},
-      {"finite numbers", [](auto& a) { a.contacts[1].end_point.z = kInfinity; }},
-      {"finite numbers", [](auto& a) { a.contacts[1].depth = -kInfinity; }},
-      {"finite numbers", [](auto& a) { a.contacts[1].view_min = kNan; }},
-      {"finite numbers", [](auto& a) { a.contacts[1].view_max = kNan; }},
+      {"finite numbers", [](auto& a) { a.contacts[1].on_organ.z = kInfinity; }},
+      {"finite numbers, places on tools", [](auto& a) { a.contacts[1].depth = -kInfinity; }},
+      {"places on tools", [](auto& a) { a.contacts[1].on_tool.x += 1e-6; }},
       {"shares", [](auto& a) { a.contacts[2].fraction = 1.01; }},
       {"shares", [](auto& a) { a.contacts[2].fraction = -1e-9; }},
       {"shares", [](auto& a) { a.contacts[2].fraction = kNan; }},
       {"shares", [](auto& a) { a.contacts[2].shaft = 1.5; }},
       {"unit normals", [](auto& a) { a.contacts[0].normal.z = 0.8001; }},
-      {"unit normals", [](auto& a) { a.contacts[0].normal = {}; }},
+      {"unit normals, places on tools", [](auto& a) { a.contacts[0].normal = {}; }},
       {"unit normals", [](auto& a) { a.contacts[0].normal.x = kNan; }},
       {"barycentric coordinates", [](auto& a) { a.contacts[0].barycentric[1] = 0.31; }},
       {"barycentric coordinates", [](auto& a) { a.contacts[0].barycentric[1] = kNan; }},
       {"barycentric coordinates", [](auto& a) { a.contacts[0].barycentric = {1.2, -0.4, 0.2}; }},
       {"places on shafts", [](auto& a) { a.contacts[1].shaft = 0.5; }},
-      {"indices", [](auto& a) { a.contacts[1].link = 2; }},
+      {"indices", [](auto& a) { a.contacts[1].link = 1; }},
+      {"indices", [](auto& a) { a.contacts[1].link = -2, std::swap(a.contacts[0], a.contacts[1]); }},
       {"indices", [](auto& a) { a.contacts[2].face = 83333333; }},
       {"order of contacts", [](auto& a) { a.contacts[2].face = 1; }},
       {"order of contacts", [](auto& a) { a.contacts[1] = a.contacts[0]; }},
@@ -192,13 +207,14 @@ TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
       {"regions", [](auto& a) { a.regions.resize(2); }},
       {"unresolved", [](auto& a) { a.unresolved = 4; }},
       {"static answers", [](auto& a) { a = good_static_answer(), a.contacts[0].fraction = 0.5; }},
-      {"static answers", [](auto& a) { a = good_static_answer(), a.near[1].end_point.x = 0.5; }},
-      {"finite numbers", [](auto& a) { a.near[0].end_point.x = kNan; }},
-      {"order of near faces", [](auto& a) { a.near[0].depth = -0.003; }},
+      {"places on tools, static answers",
+       [](auto& a) { a = good_static_answer(), a.near[1].on_organ.x = 0.5; }},
+      {"finite numbers", [](auto& a) { a.near[0].on_organ.x = kNan; }},
+      {"order of near faces", [](auto& a) { set_depth(a.near[0], -0.003); }},
       {"near faces", [](auto& a) { a.near[0].face = 2; }},
       {"near faces", [](auto& a) { a.near[0].face = 7; }},
-      {"near faces", [](auto& a) { a.near[0].depth = 0.001; }},
-      {"near faces", [](auto& a) { a.near[1].depth = -0.06; }},
+      {"near faces", [](auto& a) { set_depth(a.near[0], 0.001); }},
+      {"near faces", [](auto& a) { set_depth(a.near[1], -0.06); }},
       {"near faces", [](auto& a) { a.clearance = {}; }},
       {"near faces", [](auto& a) { a.near.clear(), a.clearance = {}, a.near_left_out = 1; }},
       {"clearance", [](auto& a) { a.clearance.margin = 0.001, a.near.clear(); }},
@@ -227,7 +243,8 @@ TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
       {"unit normals, clearance", [](auto& a) { a.clearance.normal.x = 0.1; }},
       {"finite numbers, clearance", [](auto& a) { a.clearance.on_organ.x = kNan; }},
       {"barycentric coordinates", [](auto& a) { a.clearance.barycentric[0] = 1.0; }},
-      {"indices", [](auto& a) { a.clearance.link = 2; }},
+      {"indices", [](auto& a) { a.clearance.link = 1; }},
+      {"indices", [](auto& a) { a.clearance.link = -2; }},
       {"placement", [](auto& a) { a.placement.tip = 4; }},
       {"placement", [](auto& a) { a.placement.length_known = false; }},
       {"placement", [](auto& a) { a.placement.trocar = ToolPlacement::UNKNOWN; }},
@@ -238,11 +255,12 @@ TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
       {"shares", [](auto& a) { a.placement.crossings[1].shaft = 1.7; }},
       {"finite numbers", [](auto& a) { a.placement.crossings[1].point.x = kNan; }},
       {"barycentric coordinates", [](auto& a) { a.placement.crossings[1].barycentric[0] = 1.7; }},
-      {"placement",
-       [](auto& a) {
-         a.contacts.clear(), a.regions.clear(), a.near.clear(), a.clearance = {};
-         a.links = {"jaw"};
-       }},
+      {"static answers", [](auto& a) { a = good_static_answer(), a.contacts[0].touching = false; }},
+      {"static answers",
+       [](auto& a) { a = good_static_answer(), a.clearance.closing_speed = 0.1; }},
+      {"finite numbers", [](auto& a) { a.clearance.closing_speed = kNan; }},
+      {"near faces", [](auto& a) { a.near[0].touching = true; }},
+      {"near faces", [](auto& a) { a.near[0].since = ros::Time(5); }},
   };
   for (std::size_t i = 0; i < std::size(flaws); ++i) {
     ContactArray answer = good_answer();
@@ -270,6 +288,10 @@ class ContactContractTest : public testing::Test {
     answer.header.seq = ++seq_;
     answer.step_start = ros::Time(start);
     answer.header.stamp = ros::Time(end);
+    for (Contact& contact : answer.contacts) {
+      if (contact.since.isZero())
+        contact.since = ros::Time(start + contact.fraction * (end - start));
+    }
     std::string rules;
     const Faults faults = contract_.check(answer, publisher);
     for (const Fault& fault : faults.all()) rules += fault.rule;
@@ -330,6 +352,32 @@ TEST_F(ContactContractTest, PublishersCountTheirOwnMessages) {
   seq_ = 1;
   EXPECT_EQ(broken_rules(good_answer(), 9, 10, "/left"), "steps that join");
   EXPECT_EQ(contract_.lost(), 0U);
+}
+
+TEST_F(ContactContractTest, AContactGoesOnIfItWasTouchingAndIsTouchedFromTheStart) {
+  ContactArray first = good_answer(), next = good_answer();
+  EXPECT_EQ(broken_rules(first, 3, 4), "");  // Since 3.25 s.
+  for (Contact& contact : next.contacts) contact.fraction = 0.0;
+  for (Contact& contact : next.contacts) contact.since = ros::Time(3.25);
+  EXPECT_EQ(broken_rules(next, 4, 5), "");
+  ContactArray wrong = next;
+  wrong.contacts[1].since = ros::Time(5);
+  EXPECT_EQ(broken_rules(wrong, 5, 6), "memory");
+  EXPECT_EQ(broken_rules(good_answer(), 6, 7), "");  // They are touched anew.
+  wrong = next;
+  wrong.topology = 1;  // Other triangles begin anew.
+  EXPECT_EQ(broken_rules(wrong, 7, 8), "memory");
+}
+
+TEST_F(ContactContractTest, ReleasedAreTheFacesThatWereTouchingAndAreNot) {
+  EXPECT_EQ(broken_rules(good_answer(), 3, 4), "");
+  ContactArray left = good_answer();
+  left.contacts[2].touching = false;  // Face 7.
+  EXPECT_EQ(broken_rules(left, 4, 5), "memory");
+  EXPECT_EQ(broken_rules(good_answer(), 5, 6), "");
+  left.released = {7};
+  EXPECT_EQ(broken_rules(left, 6, 7), "");
+  EXPECT_EQ(broken_rules(left, 7, 8), "memory");  // It was not touching any more.
 }
 
 TEST_F(ContactContractTest, StepsHaveNoPaperModeAndHaveATool) {

@@ -40,7 +40,11 @@ TEST(ContactCheck, EachFaultIsNamed) {
       {"depth of face 42 is nan; must be finite", [](auto& a) { a.contacts[1].depth = kNan; }},
       {"depth of face 42 is -inf", [](auto& a) { a.contacts[1].depth = -kInfinity; }},
       {"point of face 42 is ", [](auto& a) { a.contacts[1].point.y = kInfinity; }},
-      {"end_point of face 42 is ", [](auto& a) { a.contacts[1].end_point.y = kNan; }},
+      {"link of face 42 is 1; must be -1 for the shaft, or one of the 1 links, counted from 0",
+       [](auto& a) { a.links = {"jaw"}, a.contacts[1].link = 1; }},
+      {"link of face 42 is -2", [](auto& a) { a.contacts[1].link = -2; }},
+      {"link of the clearance is 0", [](auto& a) { a.clearance.link = 0; }},
+      {"on_organ of face 42 is ", [](auto& a) { a.contacts[1].on_organ.y = kNan; }},
       {"normal of face 42 is ", [](auto& a) { a.contacts[1].normal.z = kNan; }},
       {"normal of face 0 is 1.001     0     0; must be unit",
        [](auto& a) { a.contacts[0].normal.x = 1.001; }},
@@ -72,7 +76,7 @@ TEST(ContactCheck, WhatTheNodeSendsIsAccepted) {
   EXPECT_EQ(refusal(touched({})), "accepted");
   ContactArray answer = good();
   answer.regions.resize(2);
-  answer.links = {"wrist", "jaw"};  // Two links touch one face.
+  answer.links = {"wrist", "jaw"};  // The shaft and a link touch one face.
   answer.contacts[1].face = answer.contacts[0].face;
   answer.contacts[1].link = 1;
   answer.clearance.state = Clearance::NOT_ASKED;

@@ -16,7 +16,7 @@ std::optional<double> follow(ContactMotion& motion, const std::vector<Contact>& 
                              const ShaftRadius& radius = kRadius) {
   std::vector<Push> pushes;
   for (const Contact& c : contacts) {
-    pushes.push_back({to_eigen(c.end_point), to_eigen(c.normal), c.depth, true});
+    pushes.push_back({to_eigen(c.on_organ), to_eigen(c.normal), c.depth, true});
   }
   return motion.follow(touched(contacts), pushes, radius);
 }
@@ -106,7 +106,7 @@ ContactArray floor_and_wall(double floor_depth, double wall_depth, bool is_hidde
   Contact wall = contact({0.1, 0.0, 0.3}, {1.0, 0.0, 0.0}, wall_depth);
   wall.face = 1;
   wall.vertices = {3, 4, 5};
-  wall.end_point = wall.point;
+  wall.on_organ = wall.point;
   if (is_hidden) {
     wall.vertices[0] = 2;
     wall.barycentric = {1.0, 0.0, 0.0};
@@ -150,7 +150,7 @@ TEST(ForceLaw, ASpringThatAppearsIsFollowedByTheWayAndTheTime) {
 
 TEST(ForceLaw, EachForceIsAtThePointOfItsContactAtTheEndOfTheStep) {
   ContactArray answer = floor_and_wall(0.003, 0.002);
-  answer.contacts[0].end_point.y = 0.07;
+  answer.contacts[0].on_organ.y = 0.07;
   answer.contacts[1].barycentric = {0.2, 0.3, 0.5};
   const std::vector<FaceForce> forces = ForceLaw().follow(answer, 0.0, kStiffness, kRadius);
   ASSERT_EQ(forces.size(), 2U);

@@ -25,6 +25,7 @@ inline Contact contact(const Eigen::Vector3d& point, const Eigen::Vector3d& norm
   contact.point = tf2::toMsg(point);
   contact.normal = to_vector(normal.normalized());
   contact.depth = depth;
+  contact.link = kShaft;
   return contact;
 }
 
@@ -35,8 +36,8 @@ inline ContactArray touched(const std::vector<Contact>& contacts) {
   answer.header.stamp = ros::Time(3, 7);
   answer.organ = "liver";
   answer.tool = "hook";
-  answer.links = {""};
   answer.mode = ContactArray::SWEPT;
+  answer.clearance.link = kShaft;
   answer.contacts = contacts;
   return answer;
 }
@@ -93,10 +94,10 @@ inline std::vector<ForceStep> forces_along(const std::vector<ToolWaypoint>& pose
     if (!pose.links.empty()) request.tip = pose.links[0].translation();
     query.evaluate(request, result);
     ContactArray answer;
-    answer.links = {request.radius > 0.0 ? "" : request.links->front().name};
+    if (request.links) answer.links = {request.links->front().name};
     answer.mode = static_cast<std::uint8_t>(request.mode);
     for (const FaceContact& at : result.contacts) answer.contacts.push_back(to_message(at));
-    answer.clearance = to_message(result.clearance);
+    answer.clearance = to_message(result.clearance, 0.0);
     answer.placement = to_message(result.placement);
     const bool is_tip_inside = answer.placement.tip == ToolPlacement::INSIDE;
     steps.push_back({pose, law(answer), answer.contacts.size(),

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 Contact at_height(double height) {
   const double side = height < 0.0 ? 1.0 : -1.0;
   Contact flat = contact({0.1, 0.2, 0.0}, {0.0, 0.0, side}, kRadius - std::abs(height));
-  flat.end_point = tf2::toMsg(Vector3d(0.1, 0.2, 0.003));
+  flat.on_organ = tf2::toMsg(Vector3d(0.1, 0.2, 0.003));
   flat.behind = height < 0.0;
   flat.shaft = 1.0;
   return flat;
@@ -55,9 +55,9 @@ TEST(KeptSides, FacesAndLinksAreKeptApart) {
   PushTracker tracker;
   Contact other = at_height(-0.001), jaw = at_height(-0.002);
   other.face = 1;
-  jaw.link = 1;
+  jaw.link = 0;
   ContactArray answer = touched({at_height(0.001), other, jaw});
-  answer.links = {"", "jaw"};
+  answer.links = {"jaw"};
   tracker.follow(answer, kRadius);
   const std::vector<Push> pushes = tracker.follow(answer, kRadius);
   expect_push(pushes.at(0), -1.0, 0.004);
@@ -96,6 +96,8 @@ ContactArray inside_at(double distance, const std::vector<Contact>& contacts = {
 ContactArray link_of(ContactArray answer) {
   answer.links = {"jaw"};
   answer.placement.trocar = ToolPlacement::UNKNOWN;
+  answer.clearance.link = 0;
+  for (Contact& contact : answer.contacts) contact.link = 0;
   return answer;
 }
 

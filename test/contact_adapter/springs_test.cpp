@@ -194,7 +194,7 @@ TEST(Basins, OtherLinksDoNotCount) {
   near.point.x = 0.0;
   near.barycentric = {0.2, 0.4, 0.4};
   EXPECT_EQ(basins_of({far, near}), (std::vector<std::size_t>{1, 1}));
-  near.link = 1;
+  near.link = 0;
   EXPECT_EQ(basins_of({far, near}), (std::vector<std::size_t>{0, 1}));
 }
 

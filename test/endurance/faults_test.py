@@ -139,7 +139,7 @@ class FaultsTest(unittest.TestCase):
         self.addCleanup(self.master.stop_programs)
         tools = [{'name': tool, 'trocar_frame': tool + '_trocar', 'tip_frame': tool + '_tip', 'radius': 0.005}
                  for _, tool in sorted(PAIRS)]
-        self.master.ask('setParam', NODE, {'tools': tools, 'max_faces': 1000, 'diagnostic_period': 0.2})
+        self.master.ask('setParam', NODE, {'tools': tools, 'max_faces': 1000, 'diagnostic_period_sec': 0.2})
 
     def start(self, *words):
         """Starts a program. Garbage makes roscpp print much."""
@@ -280,7 +280,7 @@ class FaultsTest(unittest.TestCase):
         """All nodes of the package say in the log and on /diagnostics that they must be restarted."""
         logs = {NODE: self.log_of(program('organ_collision_node'), '__name:=organ_collision')}
         for name, parameters in OTHERS.items():
-            self.master.ask('setParam', name, {'diagnostic_period': 0.2, **parameters})
+            self.master.ask('setParam', name, {'diagnostic_period_sec': 0.2, **parameters})
             logs[name] = self.log_of(program(name.strip('/')), '__name:=' + name.strip('/'))
         self.master.ask('setParam', '/nodelet', {'tools': []})
         logs['/nodelet'] = self.log_of(*nodelet('manager', '__name:=manager'))

@@ -68,7 +68,7 @@ class Subject:
         self.counts, self.wrong_sums = {}, set()
         self._stack = contextlib.ExitStack()
         for name, value in (('/use_sim_time', True), ('/robot_description', URDF),
-                            (NODE, {'tools': TOOLS, 'diagnostic_period': 0.1})):
+                            (NODE, {'tools': TOOLS, 'diagnostic_period_sec': 0.1})):
             master.ask('setParam', name, value)
         with contextlib.ExitStack() as stack:
             command = {'node': [self._program('organ_collision_node')],
@@ -210,7 +210,7 @@ class Users:
     def request(kind, rng, **fields):
         request = kind._request_class(organ=rng.choice(['sheet', 'sheet', 'brief0', 'no_such_organ']),
                                       mode=rng.choice([ContactArray.STATIC, ContactArray.SWEPT]),
-                                      organ_motion=rng.random() < 0.5, margin=rng.choice([0.0, 0.0, 0.01]), **fields)
+                                      organ_rests=rng.random() < 0.5, margin=rng.choice([0.0, 0.0, 0.01]), **fields)
         request.header.frame_id = 'sheet'
         return request
 

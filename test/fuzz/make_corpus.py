@@ -85,7 +85,7 @@ def query_requests():
     ask = lambda **more: QueryCollisionRequest(header=header(0, 'liver_frame'), organ='liver', **more)
     batch = lambda **more: QueryCollisionBatchRequest(header=header(0, 'liver_frame'), organ='liver', **more)
     return {'static': record(0, ask(motion=motion(), mode=0)),
-            'swept': record(0, ask(motion=motion(), mode=1, organ_motion=True, regions=True)),
+            'swept': record(0, ask(motion=motion(), mode=1, organ_rests=True, regions=True)),
             'clearance': record(0, ask(motion=motion(0.2), mode=1, margin=0.5, clearance=True, max_near=5)),
             'placement': record(0, ask(motion=motion(), mode=0, placement=True)),
             'paper': record(0, ask(motion=motion(), mode=3)),
@@ -165,7 +165,7 @@ def mesh_adapter():
 def contact(face=0, normal=(0, 0, -1), depth=0.002, link=0):
     return Contact(face=face, vertices=[0, 1, 2], link=link, fraction=0.5, point=Point(0.1, 0.2, 0),
                    normal=Vector3(*normal), barycentric=[0.2, 0.3, 0.5], shaft=1.0, depth=depth,
-                   end_point=Point(0.1, 0.2, 0))
+                   on_organ=Point(0.1, 0.2, 0))
 
 
 def contact_adapter():

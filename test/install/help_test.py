@@ -24,6 +24,8 @@ NOT_SHIPPED = ('exactness_proof', 'proxy_proof', 'stab_forces', 'collision_bench
 PAGES = {'organ_collision_node': 'doc/interface.md', 'contact_adapter': 'doc/forces.md',
          'organ_mesh_adapter': 'doc/meshes.md', 'haptic_proxy': 'doc/haptic_interface.md'}
 TABLES = ('topic', 'service', 'parameter')
+# The page of the keys of a tool, which two nodes have.
+KEYS_PAGE, NODES_WITH_TOOLS = 'doc/tools.md', ('organ_collision_node', 'haptic_proxy')
 
 
 def program(name):
@@ -42,7 +44,7 @@ def rows_of_help(text):
     return set(re.findall(r'^  (\S.*) \((.+)\)$', text, re.M))
 
 
-def rows_of_page(page):
+def rows_of_page(page, tables=TABLES):
     """{(name, kind)} of the tables of topics, services and parameters in a page."""
     rows, table, name = set(), None, None
     with open(os.path.join(SOURCE, page)) as lines:
@@ -52,7 +54,7 @@ def rows_of_page(page):
                 table = None
             elif table is None:
                 table = cells[0]
-            elif table in TABLES and not cells[1].startswith('---'):
+            elif table in tables and not cells[1].startswith('---'):
                 name = cells[0].replace('`', '') or name  # an empty cell repeats the one above
                 if table != 'topic':
                     name = name.lstrip('~')
@@ -81,10 +83,20 @@ class HelpTest(unittest.TestCase):
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertIn('--no-such-option', done.stderr)
 
+    def test_the_page_says_of_each_key_of_a_tool_what_the_help_says(self):
+        shown = run(program('organ_collision_node'), '--help').stdout.split('Keys of an entry of ~tools')[1]
+        with open(os.path.join(SOURCE, KEYS_PAGE)) as page:
+            rows = re.findall(r'^\| `(\w+)` \| (.*) \| (.*) \|$', page.read().split('## Shafts')[0], re.M)
+        self.assertGreater(len(rows), 10)
+        for key, kind, meaning in rows:
+            self.assertIn('%s (%s) %s' % (key, kind, meaning.replace('`', '')), ' '.join(shown.split()))
+
     def test_help_and_pages_name_the_same(self):
         for name, page in PAGES.items():
             with self.subTest(program=name):
                 shown, written = rows_of_help(run(program(name), '--help').stdout), rows_of_page(page)
+                if name in NODES_WITH_TOOLS:
+                    written |= rows_of_page(KEYS_PAGE, ('key',))
                 self.assertGreater(len(shown), 5)
                 self.assertEqual(shown ^ written, set())
 

@@ -9,6 +9,7 @@ import unittest
 
 from geometry_msgs.msg import Point, Vector3
 import numpy as np
+import rospy
 
 import organ_collision
 from organ_collision import CollisionError, clearance_record, contact_table, contacts_of_all, crossing_table, near_table
@@ -16,9 +17,9 @@ from organ_collision.msg import Clearance, Contact, ContactArray, Crossing, Tool
 
 
 def contact(face):
-    return Contact(face=face, vertices=[face, 8, 9], link=2, fraction=0.25, point=Point(1, 2, face),
+    return Contact(face=face, vertices=[face, 8, 9], link=-1, fraction=0.25, point=Point(1, 2, face),
                    normal=Vector3(0, 0.6, 0.8), barycentric=[0.2, 0.3, 0.5], shaft=0.75, depth=-0.001, behind=face == 4,
-                   end_point=Point(4, 5, 6), view_min=0.1, view_max=0.2)
+                   on_organ=Point(4, 5, 6), on_tool=Point(5, 6, 7), touching=True, since=rospy.Time(3, 500000000))
 
 
 def crossing(direction):
@@ -29,7 +30,7 @@ def crossing(direction):
 CLEARANCE = Clearance(state=Clearance.KNOWN, margin=0.02, unlimited=True, distance=0.011, least=0.003,
                       least_fraction=0.25, face=4, vertices=[4, 8, 9], barycentric=[0.2, 0.3, 0.5], link=2,
                       on_organ=Point(1, 2, 3), on_tool=Point(4, 5, 6), normal=Vector3(0, 0.6, 0.8),
-                      normal_defined=True, unresolved=True)
+                      normal_defined=True, unresolved=True, closing_speed=0.25)
 
 
 class AnswersTest(unittest.TestCase):
@@ -38,6 +39,7 @@ class AnswersTest(unittest.TestCase):
         for field in row.dtype.names:
             value = getattr(given, field)
             numbers = [value.x, value.y, value.z] if hasattr(value, 'x') else value
+            numbers = value.to_sec() if hasattr(value, 'to_sec') else numbers
             np.testing.assert_array_equal(row[field], numbers, field)
 
     def test_columns_are_the_fields_of_contact_msg(self):

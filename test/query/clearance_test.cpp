@@ -2,9 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "geometry/tool/leg_motion.hpp"
 #include "query/clearance_finder.hpp"
 #include "scenes.hpp"
 
@@ -64,6 +67,61 @@ void expect_clearance(const CollisionResult& result, const CollisionRequest& req
   } else {
     EXPECT_NEAR(clearance.least, least, kMoving);
   }
+}
+
+/// The tool of a request shortly before its end, with the organ's shape at that time in `organ`.
+CollisionRequest shortly_before_end(const CollisionRequest& request, double ahead,
+                                    TriangleMesh& organ) {
+  CollisionRequest earlier = request;
+  earlier.mode = QueryMode::kStatic;
+  earlier.organ = &organ;
+  if (request.organ_before) {
+    std::vector<float> vertices = organ.vertices();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const double way = double{vertices[i]} - double{request.organ_before->vertices()[i]};
+      vertices[i] = static_cast<float>(vertices[i] - ahead * way);
+    }
+    organ.move_vertices(std::move(vertices));
+  }
+  if (request.path.size() == 1) return earlier;
+  const ToolWaypoint &from = *(request.path.end() - 2), &to = request.path.back();
+  const double time = 1.0 - ahead / (1.0 - from.fraction);
+  ToolWaypoint& there = earlier.path.back();
+  there.axis = ShaftMotion{from.axis, to.axis}.at(time);
+  for (std::size_t i = 0; i < to.links.size(); ++i) {
+    there.links[i] = RigidMotion(from.links[i], to.links[i]).at(time);
+  }
+  return earlier;
+}
+
+// Another point may become the nearest one shortly before the end: then both speeds differ.
+TEST(Clearance, ClosesAsFastAsTheDistanceShrinksAtTheEnd) {
+  constexpr double kAhead = 1e-3;
+  Random random(31);
+  CollisionQuery query(PickerKind::kCpu);
+  CollisionResult result, earlier;
+  int measured = 0, others = 0;
+  double greatest = 0.0;
+  for (int i = 0; i < 400; ++i) {
+    ClearanceScene scene(random);
+    scene.request.clearance = true;
+    query.evaluate(scene.request, result);
+    const ToolClearance& now = result.clearance;
+    if (scene.request.mode == QueryMode::kStatic) {
+      EXPECT_EQ(now.closing, 0.0);
+      continue;
+    }
+    if (now.distance < 0.02) continue;  // The speed changes at once where the distance is small.
+    TriangleMesh organ = scene.organ;
+    query.evaluate(shortly_before_end(scene.request, kAhead, organ), earlier);
+    const double closing = (earlier.clearance.distance - now.distance) / kAhead;
+    others += std::abs(closing - now.closing) > 1e-3 + 0.01 * std::abs(closing);
+    greatest = std::max(greatest, std::abs(closing));
+    ++measured;
+  }
+  EXPECT_GT(measured, 100);
+  EXPECT_LE(others, measured / 50);
+  EXPECT_GT(greatest, 0.05);
 }
 
 // All numbers are short, so that nothing is rounded.

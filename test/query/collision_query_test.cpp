@@ -208,8 +208,8 @@ TEST_P(CollisionQueryWith, PaperModesPickInThePapersVolumes) {
       ASSERT_EQ(result_.contacts.size(), expected.size());
       for (std::size_t k = 0; k < expected.size(); ++k) {
         EXPECT_EQ(result_.contacts[k].face, expected[k].face);
-        EXPECT_EQ(result_.contacts[k].view_min, expected[k].view_min);
-        EXPECT_EQ(result_.contacts[k].view_max, expected[k].view_max);
+        EXPECT_EQ(result_.view_ranges.at(k).min, expected[k].view_min);
+        EXPECT_EQ(result_.view_ranges[k].max, expected[k].view_max);
       }
       found += expected.size();
     }

@@ -17,7 +17,7 @@ using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using oracle::Random;
 
-constexpr std::uint32_t kNumber = 3;  ///< of the link
+constexpr std::int32_t kNumber = 3;  ///< of the link
 
 Triangle shifted_by(Triangle face, const Vector3d& shift) {
   for (Vector3d& corner : face) corner += shift;
@@ -175,19 +175,19 @@ TEST_P(ContactTrials, OnALegTheyAreAtTheRadiusAndTellOfTheEndOfTheStep) {
     }
     EXPECT_LE((contact->point - point_at(face, contact->barycentric)).norm(), trial.slack);
     EXPECT_NEAR(contact->barycentric.sum(), 1.0, 1e-14);
-    const Vector3d& end_point = contact->end_point;
-    EXPECT_LE((end_point - point_at(trial.face.end, contact->barycentric)).norm(), trial.slack);
+    const Vector3d& on_organ = contact->on_organ;
+    EXPECT_LE((on_organ - point_at(trial.face.end, contact->barycentric)).norm(), trial.slack);
     const Vector3d& normal = contact->normal;
     if (distance < 0.5 * tolerance::kPierced) {
       const double reach = trial.is_shaft() ? normal.dot(trial.part->end.axis.tip)
                                             : trial.end_core().support_value(normal);
-      EXPECT_NEAR(contact->depth, reach + radius - normal.dot(end_point), trial.slack);
+      EXPECT_NEAR(contact->depth, reach + radius - normal.dot(on_organ), trial.slack);
     } else if (trial.is_shaft() ? distance > 2.0 * tolerance::kPierced : distance > 1e-5) {
       const Vector3d core_end = trial.touching_point_at_end(*contact, distance);
-      const double depth = radius - normal.dot(end_point - core_end);
+      const double depth = radius - normal.dot(on_organ - core_end);
       EXPECT_NEAR(contact->depth, depth, trial.is_shaft() ? trial.slack : 1e-8);
       const Vector3d area = area_of(trial.face.end);
-      const double side = area.isZero(0.0) ? 0.0 : area.normalized().dot(core_end - end_point);
+      const double side = area.isZero(0.0) ? 0.0 : area.normalized().dot(core_end - on_organ);
       if (std::abs(side) > 1e-6) {
         EXPECT_EQ(contact->behind, side < 0.0);
       }

@@ -229,13 +229,13 @@ void for_each_pair(const CollisionRequest& request, const Use& use) {
     const bool has_shaft = request.radius > 0.0;
     if (has_shaft) {
       const ShaftMotion shaft{from.axis, to.axis};
-      on_faces(nullptr, {shaft, request.radius, {last.axis}, 0}, begin, finish);
+      on_faces(nullptr, {shaft, request.radius, {last.axis}}, begin, finish);
     }
-    for (std::uint32_t i = 0; request.links && i < request.links->size(); ++i) {
+    for (std::size_t i = 0; request.links && i < request.links->size(); ++i) {
       const Link& link = (*request.links)[i];
       const RigidMotion motion(from.links[i], to.links[i]);
       for (const LinkPart& part : link.parts) {
-        const std::uint32_t number = has_shaft ? i + 1 : i;
+        const auto number = static_cast<std::int32_t>(i);
         const PartEnd end{kNoShaft, &link, last.links[i]};
         on_faces(&part, {{part.core, motion}, part.radius, end, number}, begin, finish);
       }
@@ -265,11 +265,11 @@ inline std::optional<FaceContact> refine_surface(const PartLeg& part, const Tool
 
 /// The contacts by brute force, sorted by face, then link. The earlier contact is kept, then the
 /// deeper one, then the one whose point comes first.
-inline std::vector<FaceContact> contacts_by_brute_force(const CollisionRequest& request) {
+inline std::vector<FaceContact> contacts_by_brute_force(CollisionRequest request) {
   const auto order = [](const FaceContact& c) {
     return std::make_tuple(c.fraction, -c.depth, c.point.x(), c.point.y(), c.point.z());
   };
-  std::map<std::pair<std::uint32_t, std::uint32_t>, FaceContact> best;
+  std::map<std::pair<std::uint32_t, std::int32_t>, FaceContact> best;
   for_each_pair(request, [&](std::uint32_t face, const LinkPart* shape, const PartLeg& part,
                              const FaceLeg& leg) {
     auto contact =
@@ -279,6 +279,11 @@ inline std::vector<FaceContact> contacts_by_brute_force(const CollisionRequest& 
     const auto [known, is_new] = best.emplace(std::make_pair(face, part.link), *contact);
     if (!is_new && order(*contact) < order(known->second)) known->second = *contact;
   });
+  const bool is_static = request.mode == QueryMode::kStatic;
+  request.mode = QueryMode::kStatic;
+  const auto at_end = is_static ? std::vector<FaceContact>() : contacts_by_brute_force(request);
+  for (auto& [key, contact] : best) contact.touching = is_static;
+  for (const FaceContact& contact : at_end) best.at({contact.face, contact.link}).touching = true;
   std::vector<FaceContact> contacts;
   for (const auto& [key, contact] : best) contacts.push_back(contact);
   return contacts;
@@ -324,7 +329,8 @@ inline void expect_same(const FaceContact& a, const FaceContact& b, double slack
   EXPECT_NEAR(a.shaft, b.shaft, slack);
   EXPECT_NEAR(a.depth, b.depth, slack);
   EXPECT_EQ(a.behind, b.behind);
-  EXPECT_LE((a.end_point - b.end_point).norm(), slack) << "face " << a.face;
+  EXPECT_LE((a.on_organ - b.on_organ).norm(), slack) << "face " << a.face;
+  EXPECT_EQ(a.touching, b.touching) << "face " << a.face;
 }
 
 inline void expect_same(const std::vector<FaceContact>& a, const std::vector<FaceContact>& b,

@@ -120,7 +120,7 @@ class QueryTest(KeepsContract, ToolCase, NodeStarter):
         /diagnostics counts its motions."""
         name, tip, small = '/served', (0.01, 0.02, 0.002), scenes.sheet(0.1, 4)
         process = self.start(name, {'tools': [{'name': 'probe', 'trocar_frame': 'liver_frame', 'tip_frame': 'probe_tip',
-                                               'radius': 0.005}], 'diagnostic_period': 0.05})
+                                               'radius': 0.005}], 'diagnostic_period_sec': 0.05})
         node = NodeClient(name)
         self.addCleanup(node.close)
         self.tf.wait_for(node)

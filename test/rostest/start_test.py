@@ -22,7 +22,7 @@ TOOL = {'name': 'grasper', 'trocar_frame': 'grasper_trocar', 'tip_frame': 'grasp
 SHEET = scenes.sheet(0.1, 4)
 MISSING_GL = os.path.join(roslib.packages.get_pkg_dir('organ_collision'), 'test/data/missing_gl')
 PRIORITY = 7
-REALTIME = {'tools': [], 'diagnostic_period': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True,
+REALTIME = {'tools': [], 'diagnostic_period_sec': 0.1, 'realtime_priority': PRIORITY, 'lock_memory': True,
             'awake_cores': True}
 # Runs a command without the right to real-time scheduling and locked memory. Only root has the capabilities.
 WITHOUT_RIGHTS = ['prlimit', '--rtprio=0:0', '--memlock=65536:65536'] + (

@@ -46,8 +46,8 @@ struct ToolClearance {
   std::array<std::uint32_t, 3> vertices = {};
   /// The barycentric coordinates of `on_organ` in `face`.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
-  /// The nearest link, numbered as in FaceContact.
-  std::uint32_t link = 0;
+  /// The number of the nearest link, from 0, or kShaft.
+  std::int32_t link = 0;
   /// The nearest point of the organ.
   Eigen::Vector3d on_organ = Eigen::Vector3d::Zero();
   /// The nearest point of the core plus the radius times `normal`, so that
@@ -58,6 +58,10 @@ struct ToolClearance {
   /// False if core and face meet to within tolerance::kPierced. `normal` is then the face's normal
   /// or its opposite, as in FaceContact.
   bool normal_defined = false;
+  /// [m] How fast `distance` shrinks at the end of the step, by the motion of the tool and the
+  /// organ at the two points: the speed [m/s] times the duration of the step [s]. Negative: the
+  /// distance grows. 0 in a static query.
+  double closing = 0.0;
   /// False if the query reached its work limit before it had measured all faces: `distance` and
   /// `least` are then upper bounds. Also false if the first touch is an unresolved contact: `least`
   /// is then 0, but the tool may not touch at all.

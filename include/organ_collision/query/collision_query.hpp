@@ -68,6 +68,13 @@ inline bool asks_for_clearance(const CollisionRequest& request) {
   return request.clearance || request.margin > 0.0;
 }
 
+/// The depths of the part of a face that is inside a viewing volume of the paper, as in the hit
+/// record of GL_SELECT. They are measured along the viewing direction, from the plane of the
+/// trocar [m].
+struct ViewRange {
+  double min, max;
+};
+
 /// The answer to a request.
 struct CollisionResult {
   /// One contact for each face and link that touch, sorted by face, then link.
@@ -75,6 +82,9 @@ struct CollisionResult {
   /// One region for each contact, in the order of `contacts`. No region if the request did not ask
   /// for regions. A single region may be an empty polygon.
   std::vector<Region> regions;
+  /// In the paper's modes, one range for each contact, in the order of `contacts`: of a contact,
+  /// only its face is set there. Empty in the other modes.
+  std::vector<ViewRange> view_ranges;
   /// The number of contacts whose is_resolved is false; see FaceContact.
   std::size_t unresolved = 0;
 

@@ -6,6 +6,10 @@
 
 namespace organ_collision {
 
+/// The number of a tool's shaft where links are numbered. The links themselves count from 0, in the
+/// order of CollisionRequest::links.
+inline constexpr std::int32_t kShaft = -1;
+
 /// One face that a tool touches, with the fields of msg/Contact.msg. (The message's C++ type is
 /// already called organ_collision::Contact.)
 ///
@@ -23,9 +27,12 @@ struct FaceContact {
   std::uint32_t face = 0;
   /// The indices of the face's corners in the organ's vertices, in the order of `barycentric`.
   std::array<std::uint32_t, 3> vertices = {};
-  /// The number of the link that touches. If the tool has a shaft, the shaft is number 0 and the
-  /// links count from 1. Otherwise the links count from 0.
-  std::uint32_t link = 0;
+  /// The number of the link that touches, from 0, or kShaft.
+  std::int32_t link = kShaft;
+  /// Whether the shaft or link is within reach of the face at the end of the step: whether a static
+  /// query there has a contact of both. True, for safety, if the query reached its work limit
+  /// before it could decide.
+  bool touching = false;
   /// The time of the first touch as a fraction of the step, in [0, 1]; 0 in a static query.
   double fraction = 0.0;
   /// The point of the face that is nearest to the axis or link at the first touch. If several
@@ -48,18 +55,15 @@ struct FaceContact {
   /// face at the end of the step. The right-hand rule gives the outer side.
   bool behind = false;
   /// The point of the face with the coordinates `barycentric`, where it is at the end of the step.
-  Eigen::Vector3d end_point = Eigen::Vector3d::Zero();
+  Eigen::Vector3d on_organ = Eigen::Vector3d::Zero();
   /// False if the query reached its work limit before it could decide on this face. The face is
   /// then reported for safety: it may not be touched at all, and point, normal and depth may differ
   /// from those of the first touch. The message has no such field: ContactArray.msg counts these
   /// contacts.
   bool is_resolved = true;
-  /// The smallest depth [m] of the part of the face that is inside the paper's viewing volume.
-  /// Depths are measured along the viewing direction, from the plane of the trocar. Only the paper
-  /// modes set it, and they set no other field except `face` and `view_max`.
-  double view_min = 0.0;
-  /// The largest depth [m] of that part of the face; see `view_min`.
-  double view_max = 0.0;
+
+  /// The tool's surface there, at the end of the step: on_tool() - on_organ = depth * normal.
+  Eigen::Vector3d on_tool() const { return on_organ + depth * normal; }
 };
 
 }  // namespace organ_collision

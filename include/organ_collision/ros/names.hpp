@@ -13,6 +13,7 @@ inline constexpr char kOrganMesh[] = "organ_mesh";
 inline constexpr char kOrganVertices[] = "organ_vertices";
 inline constexpr char kContacts[] = "contacts";
 inline constexpr char kMarkers[] = "markers";
+inline constexpr char kTouches[] = "touches";
 ///@}
 
 ///@{
@@ -21,6 +22,7 @@ inline constexpr char kQuery[] = "query";
 inline constexpr char kQueryBatch[] = "query_batch";
 inline constexpr char kReset[] = "reset";
 inline constexpr char kListOrgans[] = "list_organs";
+inline constexpr char kListTools[] = "list_tools";
 inline constexpr char kRemoveOrgan[] = "remove_organ";
 inline constexpr char kReloadTools[] = "reload_tools";
 ///@}
@@ -33,7 +35,9 @@ inline constexpr char kTools[] = "tools";
 /// A key of an entry of the parameter `tools`.
 inline constexpr char kToolName[] = "name";
 inline constexpr char kTrocarFrame[] = "trocar_frame";
+inline constexpr char kTrocarOffset[] = "trocar_offset";
 inline constexpr char kTipFrame[] = "tip_frame";
+inline constexpr char kTipOffset[] = "tip_offset";
 inline constexpr char kTipPoseTopic[] = "tip_pose_topic";
 inline constexpr char kBasePoseTopic[] = "base_pose_topic";
 inline constexpr char kRadius[] = "radius";

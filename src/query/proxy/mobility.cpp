@@ -68,7 +68,7 @@ class TrocarMobility : public Mobility {
   }
   Displacement row(const ToolPose& pose, const FaceContact& contact) const override {
     Displacement result = Displacement::Zero();
-    if (contact.link == 0) {
+    if (contact.link == kShaft) {
       result.head<3>() = contact.shaft * contact.normal;
     } else {
       // The rotation vector of shaft and links is (axis x displacement) / length^2.

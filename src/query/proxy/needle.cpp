@@ -23,7 +23,7 @@ double threshold(const ProxySettings& settings) {
 }
 
 bool presses(const ProxyContact& held, const Vector3d& direction) {
-  return held.load > 0.0 && held.contact.link == 0 && held.contact.shaft == 1.0 &&
+  return held.load > 0.0 && held.contact.link == kShaft && held.contact.shaft == 1.0 &&
          held.contact.normal.dot(direction) > kPressing;
 }
 

@@ -59,7 +59,7 @@ void Tissue::touch(const std::vector<ToolPose>& way, double growth,
     for (const FaceContact& found : result_.contacts) {
       TissueContact contact{organ, found, growth_of(found.link) - found.depth};
       contact.contact.point = T_proxy_organ * found.point;
-      contact.contact.end_point = T_proxy_organ * found.end_point;
+      contact.contact.on_organ = T_proxy_organ * found.on_organ;
       contact.contact.normal = T_proxy_organ.linear() * found.normal;
       contacts.push_back(contact);
     }
@@ -113,8 +113,8 @@ void Tissue::grow(double growth) {
 }
 
 /// [m] By how much the radius of a link has grown. A middle line has grown by its whole radius.
-double Tissue::growth_of(std::uint32_t link) const {
-  if (tool_.radius > 0.0 && link == 0) return radius_ - tool_.radius;
+double Tissue::growth_of(std::int32_t link) const {
+  if (link == kShaft) return radius_ - tool_.radius;
   return growth_ < 0.0 ? kAxisRadius : growth_;
 }
 

@@ -62,7 +62,7 @@ class Tissue {
 
  private:
   void grow(double growth);
-  double growth_of(std::uint32_t link) const;
+  double growth_of(std::int32_t link) const;
   CollisionRequest request(const OrganTick& organ, QueryMode mode) const;
 
   const ProxyTool& tool_;

@@ -43,7 +43,7 @@ bool is_deeper(const Contact& a, const Contact& b) { return a.depth > b.depth; }
 
 /// The place at `distance` [m] from a contact, on the side of the tool.
 Vector3d before(const Contact& contact, double distance) {
-  return to_eigen(contact.end_point) - distance * to_eigen(contact.normal);
+  return to_eigen(contact.on_organ) - distance * to_eigen(contact.normal);
 }
 
 /// Adds the outlines of the regions.
@@ -81,16 +81,16 @@ void add_normals(const SceneOrgan& organ, const ContactArray& answer, double sha
 void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
                MarkerArray& picture) {
   constexpr double kDistance = 0.15;  // The distance of a name from its contact.
-  std::map<std::uint32_t, const Contact*> by_link;
+  std::map<std::int32_t, const Contact*> by_link;
   for (const Contact& contact : answer.contacts) {
     const Contact*& known = by_link[contact.link];
     if (!known || is_deeper(contact, *known)) known = &contact;
   }
   const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
   for (const auto& [link, contact] : by_link) {
-    const std::string& name = answer.links.at(link);
     add_text(style, before(*contact, kDistance * organ.size()), organ.size(),
-             name.empty() ? answer.tool : name, picture);
+             link == kShaft ? answer.tool : answer.links.at(static_cast<std::size_t>(link)),
+             picture);
   }
 }
 

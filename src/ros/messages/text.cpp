@@ -68,6 +68,11 @@ std::string listed(const std::vector<std::string>& texts) {
   return boost::algorithm::join(texts, ", ");
 }
 
+std::string quoted(std::vector<std::string> texts) {
+  for (std::string& text : texts) text = "'" + text + "'";
+  return listed(texts);
+}
+
 std::string name_fault(const std::string& name) {
   const std::string shown = plain_text(name, kLongestName);
   if (shown == name) return {};

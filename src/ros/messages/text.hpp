@@ -25,6 +25,8 @@ std::string counted(std::size_t count, const std::string& noun);
 
 /// "a, b, c"
 std::string listed(const std::vector<std::string>& texts);
+/// The same, with each text in quotes.
+std::string quoted(std::vector<std::string> texts);
 
 /// What is wrong with a name, as "'NAME' has 300 bytes; a name must ..."; empty if it is legal. A
 /// legal name is plain text of at most kLongestName bytes (plain_text()). It may be empty.

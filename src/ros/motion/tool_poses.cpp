@@ -136,7 +136,8 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
     if (!trocar.found) return {std::nullopt, trocar.why_not};
     const auto tip = look_up_frame(parameters.tip_frame);
     if (!tip.found) return {std::nullopt, unless_silent(parameters, tip.why_not)};
-    pose.axis = {trocar.found->value.translation(), tip.found->value.translation()};
+    pose.axis = {trocar.found->value * parameters.trocar_offset,
+                 tip.found->value * parameters.tip_offset};
   }
   pose.links.reserve(tool.links.size());
   for (std::size_t i = 0; i < tool.links.size(); ++i) {
@@ -152,7 +153,7 @@ Lookup<ToolPose> ToolPoses::pose(const Tool& tool, const std::string& organ_fram
       return {std::nullopt,
               unless_silent(parameters, "tip of tool '" + parameters.name + "': " + tip.why_not)};
     }
-    pose.tip = tip.found->value.translation();
+    pose.tip = tip.found->value * parameters.tip_offset;
   }
   // For time zero, each frame was looked up at its own latest time. All poses must be of the same
   // time, so they are looked up again at the earliest of these times.

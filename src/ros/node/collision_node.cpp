@@ -2,6 +2,7 @@
 
 #include <boost/make_shared.hpp>
 #include <chrono>
+#include <set>
 
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/text.hpp"
@@ -12,12 +13,16 @@ namespace {
 
 /// [messages] The queue of a subscriber that reads contacts more slowly than the node publishes.
 constexpr std::uint32_t kContactQueue = 100;
+/// [messages] An event comes once and must not be lost.
+constexpr std::uint32_t kTouchQueue = 1000;
 
 }  // namespace
 
 CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node)
     : core_(node, private_node, callbacks()),
       contacts_(core_.private_node().advertise<ContactArray>(names::kContacts, kContactQueue)),
+      touch_events_(core_.private_node().advertise<TouchEvent>(names::kTouches, kTouchQueue)),
+      touches_([this](const TouchEvent& event) { touch_events_.publish(event); }),
       markers_(core_.private_node(), core_.parameters().markers, core_.tools()),
       pipeline_(core_.parameters(), core_.tools(), counters_.rejected,
                 {[this](const ToolStep& step) { publish(step); },
@@ -44,14 +49,19 @@ CollisionNode::CollisionNode(const ros::NodeHandle& node, const ros::NodeHandle&
 
 NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
   Core::Callbacks callbacks;
-  callbacks.loop = {[this] { pipeline_.watch_clock(); },
+  callbacks.loop = {[this] {
+                      if (pipeline_.watch_clock()) touches_.end_all("clock stepped back");
+                    },
                     [this](SteadyTime now) { pipeline_.apply_organ_messages(now); }};
   callbacks.work = [this] {
     pipeline_.steps.evaluate(core_.loop().heard_until());
     markers_.update(pipeline_.inbox.organs, pipeline_.steps.history());
   };
   callbacks.next_deadline = [this] { return pipeline_.steps.next_deadline(); };
-  callbacks.reset = [this] { pipeline_.reset(); };
+  callbacks.reset = [this] {
+    pipeline_.reset();
+    touches_.end_all("reset");
+  };
   callbacks.parameters_changed = [this](const NodeParameters& before) {
     if (before.rate_hz != core_.parameters().rate_hz) start_ticks();
     markers_.set_settings(core_.parameters().markers);
@@ -60,6 +70,7 @@ NodeCore<NodeParameters>::Callbacks CollisionNode::callbacks() {
     pipeline_.inbox.motion.change_tools(tools, core_.node());
   };
   callbacks.tools_changed = [this](const auto& kept) {
+    forget_touches(kept);
     pipeline_.steps.change_tools(kept);
     markers_.set_tools(core_.tools());
   };
@@ -83,6 +94,7 @@ void CollisionNode::publish(const ToolStep& step) {
   }
   if (answer.status == ContactArray::OK) counters_.query_times.add(step.query_sec);
   contacts_.publish(step.answer);
+  touches_.follow(answer);
   ++counters_.published;
   counters_.contacts.count();
   markers_.add(step);
@@ -90,8 +102,23 @@ void CollisionNode::publish(const ToolStep& step) {
 
 /// Counts an accepted shape. If the message brought no shape, publishes for each tool why.
 void CollisionNode::report(const OrganUpdate& update) {
+  if (update.change == OrganChange::kRemoved || update.change == OrganChange::kOrgan) {
+    touches_.forget([&](const auto& pair) { return pair.first == update.message.organ(); },
+                    "organ removed");
+  }
   if (update.status == ContactArray::OK) return counters_.meshes.count();
   publish_failure(update.message.organ(), update.message.header(), update.status, update.why_not);
+}
+
+/// Ends the touches of the tools that are gone or have changed. `kept`: which tools of the new list
+/// stay.
+void CollisionNode::forget_touches(const KeptTools& kept) {
+  std::set<std::string> staying;
+  for (std::size_t tool = 0; tool < kept.size(); ++tool) {
+    if (kept[tool]) staying.insert(core_.tools()[tool].parameters.name);
+  }
+  touches_.forget([&](const auto& pair) { return staying.count(pair.second) == 0; },
+                  "tools changed");
 }
 
 /// Publishes PICKER_FAILED for each organ and tool: subscribers must not take the silence of a node
@@ -100,6 +127,7 @@ void CollisionNode::break_down(const std::string& why) {
   const std::string message =
       "the node broke down: " + why + "; once it is back, send the organs again";
   count_failure(counters_.failed, ContactArray::PICKER_FAILED, message);
+  touches_.end_all("no answer");
   for (const auto& [name, organ] : pipeline_.inbox.organs.organs()) {
     std_msgs::Header header;
     header.frame_id = organ.frame();
@@ -111,8 +139,10 @@ void CollisionNode::break_down(const std::string& why) {
 void CollisionNode::publish_failure(const std::string& organ, const std_msgs::Header& header,
                                     std::uint8_t status, const std::string& message) {
   for (const Tool& tool : core_.tools()) {
-    contacts_.publish(boost::make_shared<ContactArray>(
-        failed_answer(organ, tool.parameters, header, status, message)));
+    const auto answer = boost::make_shared<ContactArray>(
+        failed_answer(organ, tool.parameters, header, status, message));
+    contacts_.publish(answer);
+    touches_.follow(*answer);
     ++counters_.published;
   }
 }

@@ -7,6 +7,7 @@
 #include "node_core.hpp"
 #include "ros/markers/marker_publisher.hpp"
 #include "ros/publishing/diagnostics.hpp"
+#include "ros/publishing/touch_tracker.hpp"
 #include "ros/queries/query_services.hpp"
 #include "ros/steps/collision_pipeline.hpp"
 
@@ -31,6 +32,7 @@ class CollisionNode {
   Core::Callbacks callbacks();
   void publish(const ToolStep& step);
   void report(const OrganUpdate& update);
+  void forget_touches(const KeptTools& kept);
   void break_down(const std::string& why);
   void publish_failure(const std::string& organ, const std_msgs::Header& header,
                        std::uint8_t status, const std::string& message);
@@ -50,7 +52,8 @@ class CollisionNode {
   NodeCounters counters_;
   Core core_;
   QueueThread query_thread_, batch_thread_;
-  ros::Publisher contacts_;
+  ros::Publisher contacts_, touch_events_;
+  TouchTracker touches_;
   MarkerPublisher markers_;
   CollisionPipeline pipeline_;
   QueryServices services_;

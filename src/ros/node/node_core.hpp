@@ -1,5 +1,6 @@
 #pragma once
 
+#include <organ_collision/ListTools.h>
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
 #include <std_srvs/Empty.h>
@@ -72,8 +73,8 @@ ToolChanges accepted_changes(const std::vector<Tool>& old_tools,
                              const std::vector<Tool>& new_tools);
 
 /// What all nodes with organs have: the loop of their thread, a background thread, parameters and
-/// tools that can be changed while the node runs, the service `reset`, real-time scheduling, and
-/// /diagnostics. `Parameters`: derived from OrganNodeParameters.
+/// tools that can be changed while the node runs, the services `reset` and `list_tools`, real-time
+/// scheduling, and /diagnostics. `Parameters`: derived from OrganNodeParameters.
 template <typename Parameters>
 class NodeCore {
  public:
@@ -130,6 +131,7 @@ class NodeCore {
     reload_ = on_queue(private_node_, background_.queue())
                   .advertiseService(names::kReloadTools, &NodeCore::on_reload, this);
     reset_ = private_node_.advertiseService(names::kReset, &NodeCore::on_reset, this);
+    list_ = private_node_.advertiseService(names::kListTools, &NodeCore::on_list, this);
     updater().add("scheduling", &realtime_, &Realtime::diagnose);
   }
 
@@ -204,6 +206,11 @@ class NodeCore {
     return true;
   }
 
+  bool on_list(ListTools::Request&, ListTools::Response& response) {
+    for (const Tool& tool : tools_) response.tools.push_back(info_of(tool));
+    return true;
+  }
+
   /// Runs in the background thread. Only this thread ever makes the node's thread change
   /// parameters.
   std::vector<LiveParameter> change_parameters(const XmlRpc::XmlRpcValue& changes) {
@@ -235,7 +242,7 @@ class NodeCore {
   std::exception_ptr broken_;  ///< why the node cannot go on; null: it can
   Diagnostics diagnostics_;
   LiveParameters live_parameters_;  ///< its callbacks run in the background thread
-  ros::ServiceServer reload_, reset_;
+  ros::ServiceServer reload_, reset_, list_;
 };
 
 }  // namespace organ_collision

@@ -3,11 +3,13 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/ListOrgans.h>
+#include <organ_collision/ListTools.h>
 #include <organ_collision/OrganMesh.h>
 #include <organ_collision/OrganVertices.h>
 #include <organ_collision/QueryCollision.h>
 #include <organ_collision/QueryCollisionBatch.h>
 #include <organ_collision/RemoveOrgan.h>
+#include <organ_collision/TouchEvent.h>
 #include <std_srvs/Empty.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_msgs/TFMessage.h>
@@ -37,6 +39,8 @@ ProgramHelp node_help() {
       {names::kContacts, message_type<ContactArray>(),
        "what each tool touches, how far it is if it has a margin, and whether it is inside; for "
        "each shape or pose"},
+      {names::kTouches, message_type<TouchEvent>(),
+       "when a tool begins to touch an organ, and when it ceases"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(), "what RViz shows"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "query times, age of meshes, refused messages"}};
@@ -48,12 +52,14 @@ ProgramHelp node_help() {
       {names::kListOrgans, service_type<ListOrgans>(),
        "the organs: faces, box, volume, closed or not"},
       {names::kRemoveOrgan, service_type<RemoveOrgan>(), "removes an organ"},
+      {names::kListTools, service_type<ListTools>(), "the tools, and why one cannot be used"},
       {names::kReset, service_type<std_srvs::Empty>(),
        "forgets all history: the next step of each tool is static"},
       {names::kReloadTools, service_type<std_srvs::Trigger>(), "reads the parameter tools again"},
       {"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
        "changes parameters while the node runs, as dynparam and rqt_reconfigure do"}};
   help.parameters = parameter_help<NodeParameters>();
+  help.tool_keys = tool_keys();
   help.further =
       "roslaunch organ_collision organ_collision.launch tools:=FILE.yaml starts the node with the "
       "tools of a file. doc/interface.md explains all of this.";

@@ -59,6 +59,8 @@ std::string help_text(const ProgramHelp& help) {
          wrapped(help.purpose, "") + section("Subscribed topics", help.subscribed) +
          section("Published topics", help.published) + section("Services", help.services) +
          section("Parameters, private (~), with their defaults", help.parameters) +
+         section("Keys of an entry of ~tools, with the tools that have them, and their defaults",
+                 help.tool_keys) +
          (help.further.empty() ? "" : "\n" + wrapped(help.further, ""));
 }
 

@@ -25,6 +25,7 @@ struct ProgramHelp {
   std::vector<HelpEntry> published = {};
   std::vector<HelpEntry> services = {};
   std::vector<HelpEntry> parameters = {};
+  std::vector<HelpEntry> tool_keys = {};
   std::string further = {};  ///< how to start the program, or where to read on
 };
 

@@ -108,13 +108,13 @@ OrganMessageCounts OrganIntake::counts() const {
 
 bool OrganIntake::on_remove(RemoveOrgan::Request& request, RemoveOrgan::Response& response) {
   try {
-    check_name("organ", request.name);
-    if (messages_.count(request.name) == 0) organs_.at(request.name);
+    check_name("organ", request.organ);
+    if (messages_.count(request.organ) == 0) organs_.at(request.organ);
     const auto removal = boost::make_shared<OrganMesh>();
-    removal->organ = request.name;
+    removal->organ = request.organ;
     take_mesh(removal);
     response.success = true;
-    response.message = "organ '" + request.name + "' is removed";
+    response.message = "organ '" + request.organ + "' is removed";
   } catch (const Rejection& rejection) {
     response.message = rejection.what();
   }

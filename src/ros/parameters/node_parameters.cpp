@@ -11,7 +11,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-const std::string kShaft = "trocar_frame, tip_frame and radius";
+const std::string kShaftKeys = "trocar_frame, tip_frame and radius";
 
 /// The name of a topic that a tool's parameter gives; empty if the parameter is not set.
 std::string topic(const ParameterGroup& tool, const char* name) {
@@ -37,6 +37,10 @@ std::string tf_prefix(const ParameterGroup& tool) {
   return prefix;
 }
 
+Eigen::Vector3d offset(const ParameterGroup& tool, const char* name) {
+  return tool.has(name) ? tool.point(name) : Eigen::Vector3d(Eigen::Vector3d::Zero());
+}
+
 void refuse_any(const ParameterGroup& tool, std::initializer_list<const char*> names,
                 const std::string& why) {
   for (const char* name : names) {
@@ -54,14 +58,18 @@ void parse_tip(const ParameterGroup& tool, const std::string& unnamed, ToolParam
   }
   const bool is_named = tool.has(names::kTipFrame) || parsed.tip_pose_topic.empty();
   parsed.tip_frame = is_named ? tool.frame(names::kTipFrame) : unnamed;
+  parsed.tip_offset = offset(tool, names::kTipOffset);
 }
 
 void parse_shaft(const ParameterGroup& tool, ToolParameters& parsed) {
   parsed.trocar_frame = tool.frame(names::kTrocarFrame);
   parsed.radius = tool.number(names::kRadius, {}, kPositive);
   parse_tip(tool, parsed.name + "_tip", parsed);
-  if (parsed.tip_frame == parsed.trocar_frame) {
-    tool.refuse(names::kTipFrame, "must be another frame than trocar_frame");
+  parsed.trocar_offset = offset(tool, names::kTrocarOffset);
+  if (parsed.tip_frame == parsed.trocar_frame && parsed.tip_offset == parsed.trocar_offset) {
+    tool.refuse(names::kTipFrame,
+                "must be another frame than trocar_frame, unless tip_offset and trocar_offset "
+                "differ");
   }
 }
 
@@ -94,7 +102,8 @@ ProxyFreedom parse_freedom(const ParameterGroup& tool, bool has_shaft) {
   const std::string fallback = has_shaft ? "trocar" : "free";
   const std::string freedom = tool.choice(names::kFreedom, fallback, {"trocar", "free"});
   if (freedom == "free") return ProxyFreedom::kFree;
-  if (!has_shaft) tool.refuse(names::kFreedom, "goes with a shaft; must be free without " + kShaft);
+  if (!has_shaft)
+    tool.refuse(names::kFreedom, "goes with a shaft; must be free without " + kShaftKeys);
   return ProxyFreedom::kTrocar;
 }
 
@@ -108,7 +117,7 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   const bool has_shaft = tool.has(names::kTrocarFrame) || tool.has(names::kRadius) ||
                          (tool.has(names::kTipFrame) && !has_poses && !has_links);
   if (!has_links && !has_shaft) {
-    tool.refuse_missing(names::kLinks, "a tool needs links, or " + kShaft + ", or all of them");
+    tool.refuse_missing(names::kLinks, "a tool needs links, or " + kShaftKeys + ", or all of them");
   }
   if (has_links) {
     parse_links(tool, parsed);
@@ -118,8 +127,13 @@ ToolParameters parse_tool(const ParameterGroup& tool) {
   }
   if (has_shaft) {
     parse_shaft(tool, parsed);
-  } else if (has_tip) {
-    parse_tip(tool, parsed.link_frame(parsed.links.front()), parsed);
+  } else {
+    refuse_any(tool, {names::kTrocarOffset}, "goes with trocar_frame, which is missing");
+    if (!has_tip) {
+      refuse_any(tool, {names::kTipOffset}, "goes with tip_frame or tip_pose_topic");
+    } else {
+      parse_tip(tool, parsed.link_frame(parsed.links.front()), parsed);
+    }
   }
   parse_clearance(tool, parsed);
   parsed.freedom = parse_freedom(tool, has_shaft);
@@ -145,17 +159,45 @@ std::string ToolParameters::link_frame(const std::string& link) const {
   return tf_frame(tf_prefix.empty() ? link : tf_prefix + "/" + link);
 }
 
+const std::vector<HelpEntry>& tool_keys() {
+  static const std::vector<HelpEntry> keys = {
+      {names::kToolName, "every tool; required", "its name in answers, unique in the node"},
+      {names::kTrocarFrame, "shaft; required", "the TF frame of the trocar"},
+      {names::kTrocarOffset, "shaft; [0, 0, 0]", "[m] where the trocar is in trocar_frame"},
+      {names::kTipFrame, "shaft, links; required for a shaft without tip_pose_topic",
+       "the TF frame of the tip, or of a marker on the tool. With tip_pose_topic, its default is "
+       "the first link's frame, and NAME_tip for a shaft"},
+      {names::kTipOffset, "shaft, links; [0, 0, 0]",
+       "[m] where the tip is in tip_frame, for example from the pivot calibration of a marker"},
+      {names::kRadius, "shaft; required", "[m] the radius of the shaft"},
+      {names::kTipPoseTopic, "shaft, links; none",
+       "the topic of the poses of tip_frame (geometry_msgs/PoseStamped), instead of TF"},
+      {names::kBasePoseTopic, "with tip_pose_topic; none",
+       "the topic of the poses of the frame in which these poses are given, instead of TF"},
+      {names::kLinks, "links; required", "the names of links of the robot's URDF, each once"},
+      {names::kRobotDescription, "links; robot_description",
+       "the parameter that has the URDF, in the node's namespace or above it"},
+      {names::kUrdf, "links; none", "instead of robot_description: the URDF's file, or its URL"},
+      {names::kTfPrefix, "links; none", "the TF frames of the links are PREFIX/LINK"},
+      {names::kMargin, "every tool; 0",
+       "[m] answers have the clearance of the tool up to this distance; 0: they have none"},
+      {names::kMaxNear, "every tool; 0",
+       "answers list at most so many faces that are within the margin and not touched"},
+      {names::kFreedom, "every tool; trocar with a shaft, else free",
+       "how tissue can move the tool in haptic_proxy: trocar (about its trocar) or free"}};
+  return keys;
+}
+
 std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
                                         std::vector<std::string>& misspelt) {
   std::vector<ToolParameters> tools;
+  std::vector<std::string> legal_keys;
+  for (const HelpEntry& key : tool_keys()) legal_keys.push_back(key.name);
   const XmlRpcValue& list =
-      all.list(names::kTools, "groups of name and links, or name, " + kShaft + " [m]");
+      all.list(names::kTools, "groups of name and links, or name, " + kShaftKeys + " [m]");
   for (int i = 0; i < list.size(); ++i) {
-    const ParameterGroup group(
-        all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
-        {names::kToolName, names::kTrocarFrame, names::kTipFrame, names::kTipPoseTopic,
-         names::kBasePoseTopic, names::kRadius, names::kLinks, names::kRobotDescription,
-         names::kUrdf, names::kTfPrefix, names::kMargin, names::kMaxNear, names::kFreedom});
+    const ParameterGroup group(all.path_of(names::kTools) + "[" + std::to_string(i) + "]", list[i],
+                               legal_keys);
     const ToolParameters tool = parse_tool(group);
     for (const ToolParameters& other : tools) {
       if (other.name == tool.name) group.refuse(names::kToolName, "must be unique among the tools");
@@ -230,7 +272,7 @@ void add_limits(ParameterTable& t, OrganNodeParameters& p) {
   t.number("max_ahead_sec", p.max_ahead_sec, kMaxAhead,
            "[s] shapes, poses and transforms with stamps further ahead of the clock are refused");
   t.number("max_faces", p.max_faces, kMaxFaces, "larger organs are refused");
-  t.number("diagnostic_period", p.diagnostic_period_sec, {0.01, 3600.0},
+  t.number("diagnostic_period_sec", p.diagnostic_period_sec, {0.01, 3600.0},
            "[s] between messages on /diagnostics");
 }
 

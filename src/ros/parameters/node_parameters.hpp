@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "organ_collision/picking/picker_settings.hpp"
 #include "organ_collision/query/haptic_proxy.hpp"
 #include "parameter_table.hpp"
@@ -8,12 +10,12 @@
 
 namespace organ_collision {
 
-/// A tool: a shaft, links of a robot, or both. The axis of the shaft runs from the origin of one TF
-/// frame to the origin of another.
+/// A tool: a shaft, links of a robot, or both. The axis of the shaft runs from a point of one TF
+/// frame to a point of another.
 struct ToolParameters {
   std::string name;
-  std::string trocar_frame;             ///< frame whose origin is the trocar; empty: no shaft
-  std::string tip_frame;                ///< frame whose origin is the tip; empty: no tip
+  std::string trocar_frame;             ///< frame that has the trocar; empty: no shaft
+  std::string tip_frame;                ///< frame that has the tip; empty: no tip
   double radius = 0.0;                  ///< [m] radius of the shaft; 0: no shaft
   std::string tip_pose_topic = {};      ///< topic of the tip_frame's poses; empty: they are on TF
   std::string base_pose_topic = {};     ///< topic of the poses of the tip poses' frame; or empty
@@ -24,13 +26,19 @@ struct ToolParameters {
   double margin = 0.0;  ///< [m] steps measure the clearance up to this distance; 0: they do not
   int max_near = 0;     ///< steps list at most this many near faces
   ProxyFreedom freedom = ProxyFreedom::kFree;  ///< freedom of a haptic proxy; steps do not use it
+  Eigen::Vector3d trocar_offset = Eigen::Vector3d::Zero();  ///< [m] the trocar, in trocar_frame
+  Eigen::Vector3d tip_offset = Eigen::Vector3d::Zero();     ///< [m] the tip, in tip_frame
 
   bool has_shaft() const { return radius > 0.0; }
-  /// Whether the tool has no shaft, and the origin of tip_frame counts as the tip of its links.
+  /// Whether the tool has no shaft, and the tip in tip_frame counts as that of its links.
   bool has_tip_of_links() const { return !has_shaft() && !tip_frame.empty(); }
   /// The TF frame of a link.
   std::string link_frame(const std::string& link) const;
 };
+
+/// The keys that an entry of `tools` may have. The kind of an entry: of which tools, and the
+/// default.
+const std::vector<HelpEntry>& tool_keys();
 
 /// Reads the list `tools` of a node. `all`: all parameters of the node. `misspelt` gets a sentence
 /// for each unknown key of a tool. Throws ParameterError.

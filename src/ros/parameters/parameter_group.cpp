@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
 #include "ros/messages/conversions.hpp"
@@ -21,6 +22,10 @@ std::string written(double number) {
   return text.str();
 }
 
+const std::string& text_in(const XmlRpcValue& value) {
+  return static_cast<const std::string&>(value);
+}
+
 std::string written(const NumberRange& range) {
   const std::string lowest =
       (range.lowest_is_legal ? "at least " : "more than ") + written(range.lowest);
@@ -35,14 +40,63 @@ std::string written(const XmlRpcValue& value) {
   return plain_text(text.str(), kLongestMessage);
 }
 
+/// A value of an unexpected type, with its type.
+std::string with_type(const XmlRpcValue& value) {
+  const std::string text = "'" + written(value) + "'";
+  switch (value.getType()) {
+    case XmlRpcValue::TypeString:
+      return "the text " + text;
+    case XmlRpcValue::TypeInt:
+    case XmlRpcValue::TypeDouble:
+      return "the number " + text;
+    case XmlRpcValue::TypeBoolean:
+      return static_cast<const bool&>(value) ? "true" : "false";
+    case XmlRpcValue::TypeArray:
+      return "the list " + text;
+    case XmlRpcValue::TypeStruct:
+      return "a group";
+    default:
+      return text;
+  }
+}
+
+/// How YAML 1.1 writes a number that it took for a text, such as 5e-3, 5e3 or '5'. Empty if the
+/// text is no number.
+std::string yaml_number(const std::string& text) {
+  char* end = nullptr;
+  if (text.empty() || !std::isfinite(std::strtod(text.c_str(), &end)) || *end != '\0') return {};
+  const std::size_t exponent = text.find_first_of("eE");
+  std::string mantissa = text.substr(0, exponent);
+  if (exponent == std::string::npos) return mantissa;
+  if (mantissa.find('.') == std::string::npos) mantissa += ".0";
+  const std::string power = text.substr(exponent + 1);
+  return mantissa + "e" + (power.find_first_of("+-") == 0 ? "" : "+") + power;
+}
+
+/// What to write instead of a value whose type is not `expected`. Empty if that is not plain.
+std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
+  const XmlRpcValue::Type type = value.getType();
+  const bool is_number = type == XmlRpcValue::TypeInt || type == XmlRpcValue::TypeDouble;
+  if (expected == XmlRpcValue::TypeString) {
+    if (is_number) return ": write '" + written(value) + "', in quotes";
+    if (type != XmlRpcValue::TypeBoolean) return {};
+    return ": YAML takes on, yes, off and no for true and false; write the word in quotes";
+  }
+  if (expected == XmlRpcValue::TypeBoolean) {
+    const std::string text = type == XmlRpcValue::TypeString ? text_in(value) : written(value);
+    if (text == "true" || text == "false") return ": write " + text + " without quotes";
+    return text == "1" || text == "0" ? ": write " + std::string(text == "1" ? "true" : "false")
+                                      : "";
+  }
+  if (type != XmlRpcValue::TypeString) return {};
+  const std::string number = yaml_number(text_in(value));
+  return number.empty() ? "" : ": write " + number + " without quotes";
+}
+
 bool contains(const NumberRange& range, double number) {
   if (std::isinf(number)) return range.infinity_is_legal && number > 0.0;
   return std::isfinite(number) && number <= range.highest &&
          (range.lowest_is_legal ? number >= range.lowest : number > range.lowest);
-}
-
-const std::string& text_in(const XmlRpcValue& value) {
-  return static_cast<const std::string&>(value);
 }
 
 }  // namespace
@@ -108,6 +162,21 @@ const XmlRpcValue& ParameterGroup::list(const std::string& name, const std::stri
   return require(name, XmlRpcValue::TypeArray, "must be a list of " + of_what);
 }
 
+Eigen::Vector3d ParameterGroup::point(const std::string& name) const {
+  constexpr double kFarthest = 2.0;  // [m] With more, they are probably millimetres.
+  const std::string legal = "must be a list of three numbers, each from -2 to 2 [m]";
+  const XmlRpcValue& value = require(name, XmlRpcValue::TypeArray, legal);
+  if (value.size() != 3) refuse(name, legal);
+  Eigen::Vector3d point;
+  for (int i = 0; i < 3; ++i) {
+    const bool is_whole = value[i].getType() == XmlRpcValue::TypeInt;
+    if (!is_whole && value[i].getType() != XmlRpcValue::TypeDouble) refuse(name, legal);
+    point[i] = is_whole ? static_cast<const int&>(value[i]) : static_cast<const double&>(value[i]);
+    if (!(std::abs(point[i]) <= kFarthest)) refuse(name, legal);
+  }
+  return point;
+}
+
 std::vector<std::string> ParameterGroup::texts(const std::string& name) const {
   const std::string legal = "must be a list, not empty, of texts that are not empty, each once";
   const XmlRpcValue& value = require(name, XmlRpcValue::TypeArray, legal);
@@ -155,8 +224,10 @@ std::string ParameterGroup::path_of(const std::string& name) const {
 const XmlRpcValue& ParameterGroup::require(const std::string& name, Type type,
                                            const std::string& legal) const {
   if (!has(name)) refuse_missing(name, legal);
-  if (value_[name].getType() != type) refuse(name, legal);
-  return value_[name];
+  const XmlRpcValue& value = value_[name];
+  if (value.getType() == type) return value;
+  throw ParameterError(path_of(name) + " is " + with_type(value) + "; " + legal +
+                       remedy(value, type));
 }
 
 XmlRpcValue all_parameters(const ros::NodeHandle& private_node) {

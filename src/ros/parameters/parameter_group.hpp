@@ -3,6 +3,7 @@
 #include <ros/node_handle.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
+#include <Eigen/Core>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -61,6 +62,8 @@ class ParameterGroup {
   std::string frame(const std::string& name) const;
   /// A list of anything. `of_what`: what the list holds, for the error message.
   const XmlRpc::XmlRpcValue& list(const std::string& name, const std::string& of_what) const;
+  /// A point [m]: a list of three numbers, each at most 2 in magnitude.
+  Eigen::Vector3d point(const std::string& name) const;
   /// A non-empty list of different, non-empty texts.
   std::vector<std::string> texts(const std::string& name) const;
 

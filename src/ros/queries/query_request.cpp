@@ -103,12 +103,12 @@ ToolPath path_of(const GivenMotion& motion, bool at_end_only,
   return {waypoint(0.0, false), waypoint(1.0, true)};
 }
 
-/// The tip of the links at the end of a motion. It is known only if it is the origin of a link's
-/// frame.
+/// The tip of the links at the end of a motion. It is known only if tip_frame is the frame of a
+/// link.
 std::optional<Eigen::Vector3d> tip_of_links(const ToolParameters& tool, const ToolWaypoint& end) {
   if (!tool.has_tip_of_links()) return std::nullopt;
   for (std::size_t i = 0; i < tool.links.size(); ++i) {
-    if (tool.link_frame(tool.links[i]) == tool.tip_frame) return end.links[i].translation();
+    if (tool.link_frame(tool.links[i]) == tool.tip_frame) return end.links[i] * tool.tip_offset;
   }
   return std::nullopt;
 }
@@ -133,11 +133,11 @@ const Tool& find_tool(const NodeState& node, const std::string& name) {
   std::vector<std::string> names;
   for (const Tool& tool : node.tools) {
     if (tool.parameters.name == name) return tool;
-    names.push_back("'" + tool.parameters.name + "'");
+    names.push_back(tool.parameters.name);
   }
   throw Rejection(ContactArray::UNKNOWN_TOOL, "unknown tool",
                   "tool '" + name + "' is unknown; " +
-                      (names.empty() ? "the node has none" : "known are " + listed(names)));
+                      (names.empty() ? "the node has none" : "known are " + quoted(names)));
 }
 
 void check_age(const NodeState& node, const DeformableOrgan& organ) {
@@ -207,11 +207,24 @@ QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch
   request.organ = batch.organ;
   request.tool = batch.tool;
   request.mode = batch.mode;
-  request.organ_motion = batch.organ_motion;
+  request.organ_rests = batch.organ_rests;
+  request.regions = batch.regions;
   request.margin = batch.margin;
   request.clearance = batch.clearance;
+  request.max_near = batch.max_near;
   request.placement = batch.placement;
   return request;
+}
+
+std::vector<std::string> asked_organs(const NodeState& node, const std::string& organ) {
+  if (!organ.empty()) return {organ};
+  std::vector<std::string> names;
+  for (const auto& known : node.pipeline.inbox.organs.organs()) names.push_back(known.first);
+  if (names.empty()) {
+    throw Rejection(ContactArray::NO_MESH, "no organ",
+                    "the node has no organ; send one on organ_mesh");
+  }
+  return names;
 }
 
 CollisionRequest checked_request(const QueryCollision::Request& request) {
@@ -248,11 +261,13 @@ QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request
                             bool in_tf, ContactArray& answer) {
   const Tool* const tool = request.tool.empty() ? nullptr : &find_tool(node, request.tool);
   if (tool) {
-    set_links(answer, tool->parameters);
+    answer.links = tool->parameters.links;
     check_tool(*tool, static_cast<QueryMode>(request.mode));
   }
-  if (request.organ.empty()) refuse("organ is empty; must be an organ's name");
-  const DeformableOrgan& organ = node.pipeline.inbox.organs.at(request.organ);
+  const std::vector<std::string> asked = asked_organs(node, request.organ);
+  if (asked.size() > 1) refuse("organ is empty; must be one of ", quoted(asked));
+  const DeformableOrgan& organ = node.pipeline.inbox.organs.at(asked.front());
+  answer.organ = organ.name();
   set_organ(answer, organ, organ.latest());
   check_age(node, organ);
   QuerySnapshot snapshot;
@@ -267,9 +282,9 @@ QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request
   return snapshot;
 }
 
-void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequest& collision) {
+void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionRequest& collision) {
   collision.organ = snapshot.latest.mesh.get();
-  const bool moves = organ_motion && collision.mode == QueryMode::kSwept;
+  const bool moves = !organ_rests && collision.mode == QueryMode::kSwept;
   if (moves) collision.organ_before = snapshot.previous.mesh.get();
   if (collision.placement) {
     snapshot.latest.surface->wait_until_found(kLongestInspection);

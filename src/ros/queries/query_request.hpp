@@ -47,25 +47,29 @@ struct QuerySnapshot {
   Eigen::Isometry3d T_organ_motion = Eigen::Isometry3d::Identity();
 };
 
-/// What a batch asks of each of its motions, as a single request without a motion. A batch asks for
-/// neither regions nor near faces.
+/// What a batch asks of each of its motions, as a single request without a motion.
 QueryCollision::Request common_request(const QueryCollisionBatch::Request& batch);
+
+/// The names of the organs that a request asks about: `organ`, or all organs of the node if it is
+/// empty. Call it in the node's thread. Throws Rejection if the node has no organ then.
+std::vector<std::string> asked_organs(const NodeState& node, const std::string& organ);
 
 /// Makes a CollisionRequest of a request. Its organ, tool and motion are not set yet.
 CollisionRequest checked_request(const QueryCollision::Request& request);
 
-/// Takes a snapshot of what a checked request asks about. Call it in the node's thread. `in_tf`:
-/// the tool moves as in TF, and the request gives no motion. Sets the fields of `answer` that are
-/// known before the query: links, frame, shape and stamps. If it throws Rejection, `answer` has
-/// those fields that were known until then.
+/// Takes a snapshot of what a checked request asks about. An empty name of an organ stands for the
+/// only organ of the node. Call it in the node's thread. `in_tf`: the tool moves as in TF, and the
+/// request gives no motion. Sets the fields of `answer` that are known before the query: organ,
+/// links, frame, shape and stamps. If it throws Rejection, `answer` has those fields that were
+/// known until then.
 QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request& request,
                             bool in_tf, ContactArray& answer);
 
 /// Sets the organ and the tool of `collision`, which then refers to the snapshot: the snapshot must
-/// outlive it. `organ_motion`: in the mode SWEPT, the organ moves from its previous shape to its
-/// latest one. If `collision` asks for the placement, waits for at most 0.2 s until a new surface
-/// is inspected.
-void set_subject(const QuerySnapshot& snapshot, bool organ_motion, CollisionRequest& collision);
+/// outlive it. `organ_rests`: if false, the organ moves in the mode SWEPT from its previous shape
+/// to its latest one. If `collision` asks for the placement, waits for at most 0.2 s until a new
+/// surface is inspected.
+void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionRequest& collision);
 
 /// A motion that a request gives, in the frame of the request's header.
 struct GivenMotion {

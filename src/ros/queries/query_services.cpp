@@ -16,6 +16,7 @@ namespace {
 void set_failure(QueryCollisionBatch::Response& response, std::uint8_t status,
                  const std::string& message) {
   response.results = {};
+  response.organs = {};
   response.status = status;
   response.message = plain_text(message, kLongestMessage);
 }
@@ -52,6 +53,13 @@ void or_failure(Answer& answer, const Function& function) {
                 std::string("the query failed: ") + error.what());
   }
 }
+
+/// One of the organs of a batch.
+struct BatchOrgan {
+  ContactArray unanswered;
+  QuerySnapshot snapshot;
+  CollisionRequest collision;  ///< without a motion; refers to the snapshot
+};
 
 }  // namespace
 
@@ -118,7 +126,7 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
   if (!is_of_tool) check_shaft(request.motion, collision.mode);
   QuerySnapshot snapshot = snapshot_of(request, in_tf, answer);
 
-  set_subject(snapshot, request.organ_motion != 0, collision);
+  set_subject(snapshot, request.organ_rests != 0, collision);
   if (in_tf) {
     collision.path = std::move(snapshot.path);
     collision.tip = snapshot.tip;
@@ -135,13 +143,13 @@ void QueryServices::answer_one(const QueryCollision::Request& request, ContactAr
 
 QueryCollisionBatch::Response QueryServices::query_batch(const Batch& batch) {
   QueryCollisionBatch::Response response;
-  or_failure(response, [&] { response.results = answer_batch(batch); });
+  or_failure(response, [&] { answer_batch(batch, response); });
   return response;
 }
 
-std::vector<ContactArray> QueryServices::answer_batch(const Batch& batch) {
-  const QueryCollision::Request request = common_request(batch);
-  CollisionRequest collision = checked_request(request);
+void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Response& response) {
+  QueryCollision::Request request = common_request(batch);
+  const CollisionRequest collision = checked_request(request);
   const std::size_t motions = std::max(batch.motions.size(), batch.link_motions.size());
   const auto most = static_cast<std::size_t>(node_.parameters.max_batch);
   if (motions > most) {
@@ -149,55 +157,71 @@ std::vector<ContactArray> QueryServices::answer_batch(const Batch& batch) {
            " (max_batch): ask in several batches");
   }
   check_names(request, false);
-  ContactArray common = unanswered(request);
-  const QuerySnapshot snapshot = snapshot_of(request, false, common);
-  check_lists(batch, snapshot.tool);
-
-  set_subject(snapshot, request.organ_motion != 0, collision);
-  const auto answer_motion = [&](std::size_t motion, ContactQuery& query) {
-    CollisionRequest moving = collision;
-    auto answer = std::make_unique<ContactArray>(common);
-    try {
-      set_motion({batch.motions.empty() ? nullptr : &batch.motions[motion],
-                  batch.link_motions.empty() ? nullptr : &batch.link_motions[motion]},
-                 snapshot, moving);
-      query.evaluate(moving, *answer);
-    } catch (const Rejection& rejection) {
-      set_failure(*answer, rejection.status(), rejection.what());
+  std::vector<BatchOrgan> organs;
+  in_node_thread_([&] {
+    for (const std::string& organ : asked_organs(node_, batch.organ)) {
+      request.organ = organ;
+      BatchOrgan& asked = organs.emplace_back(BatchOrgan{unanswered(request), {}, collision});
+      asked.snapshot = take_snapshot(node_, request, false, asked.unanswered);
     }
-    return answer;
+  });
+  check_lists(batch, organs.front().snapshot.tool);
+  for (BatchOrgan& organ : organs) {
+    set_subject(organ.snapshot, request.organ_rests != 0, organ.collision);
+  }
+
+  const auto answer_motion = [&](std::size_t motion, ContactQuery& query) {
+    const GivenMotion given{batch.motions.empty() ? nullptr : &batch.motions[motion],
+                            batch.link_motions.empty() ? nullptr : &batch.link_motions[motion]};
+    std::vector<ContactArray> answers;
+    for (const BatchOrgan& organ : organs) {
+      CollisionRequest moving = organ.collision;
+      ContactArray& answer = answers.emplace_back(organ.unanswered);
+      try {
+        set_motion(given, organ.snapshot, moving);
+        query.evaluate(moving, answer);
+      } catch (const Rejection& rejection) {
+        set_failure(answer, rejection.status(), rejection.what());
+      }
+    }
+    return answers;
   };
-  return answer_motions(motions, batch.stop_at_first_contact != 0, answer_motion);
+  for (const BatchOrgan& organ : organs) response.organs.push_back(organ.unanswered.organ);
+  answer_motions(motions, batch.stop_at_first_contact != 0, answer_motion, response);
 }
 
-/// Answers the motions with several threads.
-std::vector<ContactArray> QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
-                                                        const AnswerMotion& answer_motion) {
+/// Adds the answers to the motions, which several threads find, to the response.
+void QueryServices::answer_motions(std::size_t motions, bool stops_at_contact,
+                                   const AnswerMotion& answer_motion,
+                                   QueryCollisionBatch::Response& response) {
   using ros::serialization::serializationLength;
   start_batches();
   const auto most_bytes = static_cast<std::size_t>(node_.parameters.max_batch_bytes);
-  const auto is_last = [&](const ContactArray& answer) {
-    return stops_at_contact && !answer.contacts.empty();
+  const auto touches = [](const ContactArray& answer) { return !answer.contacts.empty(); };
+  const auto is_last = [&](const std::vector<ContactArray>& of_motion) {
+    return stops_at_contact && std::any_of(of_motion.begin(), of_motion.end(), touches);
   };
-  std::vector<std::unique_ptr<ContactArray>> made(motions);
+  std::vector<std::vector<ContactArray>> made(motions);
   std::atomic<std::size_t> bytes_made{0};
   const auto evaluate = [&](std::size_t worker, std::size_t motion) {
     if (ended_) throw std::runtime_error("the node is about to end");
     made[motion] = answer_motion(motion, batch_threads_->query(worker));
-    bytes_made += serializationLength(*made[motion]);
-    if (is_last(*made[motion]) || bytes_made > most_bytes) batch_threads_->skip_rest();
+    bytes_made += serializationLength(made[motion]);
+    if (is_last(made[motion]) || bytes_made > most_bytes) batch_threads_->skip_rest();
   };
 
-  std::vector<ContactArray> answers;
-  answers.reserve(motions);
-  std::size_t bytes = serializationLength(QueryCollisionBatch::Response());
+  bool has_last = false;
+  std::size_t bytes = serializationLength(response);
   const auto take = [&](std::size_t motion) {
-    if (!answers.empty() && is_last(answers.back())) return;
-    answers.push_back(std::move(*made[motion]));
-    made[motion].reset();
-    bytes += serializationLength(answers.back());
+    if (has_last) return;
+    std::vector<ContactArray> of_motion = std::exchange(made[motion], {});
+    has_last = is_last(of_motion);
+    for (ContactArray& answer : of_motion) {
+      bytes += serializationLength(answer);
+      response.results.push_back(std::move(answer));
+    }
     if (bytes > most_bytes) {
-      refuse("the answers to the first ", answers.size(), " of ", motions, " motions have ", bytes,
+      refuse("the answers to the first ", motion + 1, " of ", motions, " motions have ", bytes,
              " bytes; a batch's must have at most ", most_bytes,
              " (max_batch_bytes): ask for fewer motions at once");
     }
@@ -205,7 +229,6 @@ std::vector<ContactArray> QueryServices::answer_motions(std::size_t motions, boo
   };
   batch_threads_->run(motions, evaluate, take);
   ++counters_.batches;
-  return answers;
 }
 
 QuerySnapshot QueryServices::snapshot_of(const QueryCollision::Request& request, bool in_tf,

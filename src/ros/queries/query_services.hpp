@@ -33,27 +33,29 @@ class QueryServices {
   // action directly.) At most one thread at a time may call each.
 
   ContactArray query(const QueryCollision::Request& request);
-  /// One snapshot and one look-up in TF serve the whole batch. A batch that fails as a whole has a
-  /// status and a message but no results. Among other reasons, it fails if it has more motions than
-  /// max_batch, or if its results exceed max_batch_bytes. While the results are made, they exceed
-  /// max_batch_bytes by at most one answer for each thread.
+  /// One snapshot of each organ and one look-up in TF serve the whole batch. A batch that fails as
+  /// a whole has a status and a message but no results. Among other reasons, it fails if it has
+  /// more motions than max_batch, if its results exceed max_batch_bytes, or if one of the organs
+  /// has no answer, for example because its mesh is stale. While the results are made, they exceed
+  /// max_batch_bytes by at most the answers to one motion for each thread.
   ///
-  /// The results are in the order of the motions, whatever the number of threads. If the request
-  /// says so, they end with the first motion that touches. The result of an illegal motion says why
-  /// it is illegal.
+  /// The results are in the order of the motions, whatever the number of threads, and for each
+  /// motion in the order of the organs. If the request says so, they end with the first motion that
+  /// touches an organ. The result of an illegal motion says why it is illegal.
   QueryCollisionBatch::Response query_batch(const Batch& batch);
 
  private:
+  /// The answers to a motion, one for each organ.
   using AnswerMotion =
-      std::function<std::unique_ptr<ContactArray>(std::size_t motion, ContactQuery& query)>;
+      std::function<std::vector<ContactArray>(std::size_t motion, ContactQuery& query)>;
 
   void start_batches();
 
   // These throw Rejection and other exceptions.
   void answer_one(const QueryCollision::Request& request, ContactArray& answer);
-  std::vector<ContactArray> answer_batch(const Batch& batch);
-  std::vector<ContactArray> answer_motions(std::size_t motions, bool stops_at_contact,
-                                           const AnswerMotion& answer_motion);
+  void answer_batch(const Batch& batch, QueryCollisionBatch::Response& response);
+  void answer_motions(std::size_t motions, bool stops_at_contact, const AnswerMotion& answer_motion,
+                      QueryCollisionBatch::Response& response);
   QuerySnapshot snapshot_of(const QueryCollision::Request& request, bool in_tf,
                             ContactArray& answer) const;
 

@@ -57,8 +57,10 @@ CollisionPipeline::CollisionPipeline(const NodeParameters& parameters,
       steps(parameters, tools, inbox.organs, poses, workers, std::move(callbacks.step)),
       update_(std::move(callbacks.update)) {}
 
-void CollisionPipeline::watch_clock() {
-  if (inbox.watch_clock()) steps.start_anew();
+bool CollisionPipeline::watch_clock() {
+  if (!inbox.watch_clock()) return false;
+  steps.start_anew();
+  return true;
 }
 
 void CollisionPipeline::apply_organ_messages(SteadyTime now) {

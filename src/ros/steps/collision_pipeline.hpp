@@ -62,7 +62,8 @@ class CollisionPipeline {
                     std::optional<OrganIntake::Threads> threads = {});
 
   /// See Inbox::watch_clock(). If the inbox forgets its history, the scheduler starts anew, too.
-  void watch_clock();
+  /// Returns whether it did.
+  bool watch_clock();
   /// Applies the organ messages that can be applied now. Each new shape becomes due for all tools.
   void apply_organ_messages(SteadyTime now);
   /// Forgets all history: the next step of every tool is static.

@@ -2,7 +2,10 @@
 
 #include <tf2_eigen/tf2_eigen.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
+#include <tuple>
 
 #include "geometry/concatenate.hpp"
 #include "ros/messages/text.hpp"
@@ -27,6 +30,30 @@ void set_place(const Source& source, Message& message) {
   for (std::size_t i = 0; i < 3; ++i) message.barycentric[i] = source.barycentric[i];
 }
 
+/// [s] The duration of an answer's step. The difference of extreme stamps does not fit
+/// ros::Duration.
+double duration(const ContactArray& answer) {
+  return answer.header.stamp.toSec() - answer.step_start.toSec();
+}
+
+/// The time at a fraction of an answer's step.
+ros::Time time_at(const ContactArray& answer, double fraction) {
+  const std::uint64_t start = answer.step_start.toNSec(), end = answer.header.stamp.toNSec();
+  ros::Time time;
+  time.fromNSec(start + static_cast<std::uint64_t>(fraction * static_cast<double>(end - start)));
+  return time;
+}
+
+/// The numbers of the faces that still touch when the step ends, each once, in rising order.
+std::vector<std::uint32_t> touched_faces(const std::vector<Contact>& contacts) {
+  std::vector<std::uint32_t> faces;
+  for (const Contact& contact : contacts) {
+    if (!contact.touching || (!faces.empty() && faces.back() == contact.face)) continue;
+    faces.push_back(contact.face);
+  }
+  return faces;
+}
+
 }  // namespace
 
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
@@ -36,14 +63,8 @@ ContactArray answer_about(const std::string& organ, const std::string& tool, std
   answer.step_start = stamp;
   answer.organ = plain_text(organ, kLongestName);
   answer.tool = plain_text(tool, kLongestName);
-  answer.links = {""};
   answer.mode = mode;
   return answer;
-}
-
-void set_links(ContactArray& answer, const ToolParameters& tool) {
-  answer.links.assign(tool.has_shaft() ? 1 : 0, "");
-  answer.links.insert(answer.links.end(), tool.links.begin(), tool.links.end());
 }
 
 void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape) {
@@ -56,12 +77,15 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.status = status;
   answer.message = plain_text(message, kLongestMessage);
   answer.contacts.clear();
+  answer.released.clear();
   answer.regions.clear();
   answer.unresolved = 0;
   answer.near.clear();
   answer.near_left_out = answer.near_unresolved = 0;
   answer.clearance = {};
   answer.placement = {};
+  answer.view_min.clear();
+  answer.view_max.clear();
   answer.path_incomplete = false;
 }
 
@@ -71,12 +95,32 @@ void set_incomplete(ContactArray& answer, const std::string& unknown) {
   answer.message = plain_text(unknown, kLongestMessage);
 }
 
+void set_memory(ContactArray& answer, const ContactArray* last) {
+  if (answer.status != ContactArray::OK) return;
+  static const std::vector<Contact> kNone;
+  const std::vector<Contact>& known = last ? last->contacts : kNone;
+  auto before = known.begin();  // Both lists are sorted by face, then link.
+  for (Contact& now : answer.contacts) {
+    const auto precedes = [](const Contact& a, const Contact& b) {
+      return std::tie(a.face, a.link) < std::tie(b.face, b.link);
+    };
+    before = std::lower_bound(before, known.end(), now, precedes);
+    const bool goes_on =
+        before != known.end() && !precedes(now, *before) && before->touching && now.fraction == 0.0;
+    now.since = goes_on ? before->since : time_at(answer, now.fraction);
+  }
+  const std::vector<std::uint32_t> touched_before = touched_faces(known);
+  const std::vector<std::uint32_t> touched_now = touched_faces(answer.contacts);
+  std::set_difference(touched_before.begin(), touched_before.end(), touched_now.begin(),
+                      touched_now.end(), std::back_inserter(answer.released));
+}
+
 ContactArray failed_answer(const std::string& organ, const ToolParameters& tool,
                            const std_msgs::Header& header, std::uint8_t status,
                            const std::string& message) {
   const ros::Time stamp = header.stamp.isZero() ? ros::Time::now() : header.stamp;
   ContactArray answer = answer_about(organ, tool.name, ContactArray::STATIC, stamp);
-  set_links(answer, tool);
+  answer.links = tool.links;
   answer.header.frame_id = plain_text(tf_frame(header.frame_id), kLongestName);
   set_failure(answer, status, message);
   return answer;
@@ -101,19 +145,19 @@ Contact to_message(const FaceContact& contact) {
   Contact message;
   set_place(contact, message);
   message.link = contact.link;
+  message.touching = contact.touching;
   message.fraction = contact.fraction;
   message.point = tf2::toMsg(contact.point);
   message.normal = to_vector(contact.normal);
   message.shaft = contact.shaft;
   message.depth = contact.depth;
   message.behind = contact.behind;
-  message.end_point = tf2::toMsg(contact.end_point);
-  message.view_min = contact.view_min;
-  message.view_max = contact.view_max;
+  message.on_organ = tf2::toMsg(contact.on_organ);
+  message.on_tool = tf2::toMsg(contact.on_tool());
   return message;
 }
 
-Clearance to_message(const ToolClearance& clearance) {
+Clearance to_message(const ToolClearance& clearance, double duration) {
   Clearance message;
   set_place(clearance, message);
   message.state = static_cast<std::uint8_t>(clearance.state);
@@ -128,6 +172,7 @@ Clearance to_message(const ToolClearance& clearance) {
   message.normal = to_vector(clearance.normal);
   message.normal_defined = clearance.normal_defined;
   message.unresolved = !clearance.is_resolved;
+  if (duration > 0.0) message.closing_speed = clearance.closing / duration;
   return message;
 }
 
@@ -198,9 +243,13 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
   for (const FaceContact& at : result_.contacts) answer.contacts.push_back(to_message(at));
   for (const Region& region : result_.regions) answer.regions.push_back(to_message(region));
   for (const FaceContact& at : result_.near) answer.near.push_back(to_message(at));
+  for (const ViewRange& range : result_.view_ranges) {
+    answer.view_min.push_back(range.min);
+    answer.view_max.push_back(range.max);
+  }
   answer.near_left_out = static_cast<std::uint32_t>(result_.near_left_out);
   answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
-  answer.clearance = to_message(result_.clearance);
+  answer.clearance = to_message(result_.clearance, duration(answer));
   answer.placement = to_message(result_.placement);
   return query_time.count();
 }

@@ -12,14 +12,11 @@
 
 namespace organ_collision {
 
-/// An answer without contacts, about one organ and one tool. Its `links` are those of a tool that
-/// has a shaft and no links. Its header.stamp and step_start are `stamp`. The names may come from a
-/// message and be illegal: the answer has them as plain text of at most kLongestName bytes.
+/// An answer without contacts, about one organ and one tool. It names no links. Its header.stamp
+/// and step_start are `stamp`. The names may come from a message and be illegal: the answer has
+/// them as plain text of at most kLongestName bytes.
 ContactArray answer_about(const std::string& organ, const std::string& tool, std::uint8_t mode,
                           ros::Time stamp);
-
-/// Sets `links`: an empty name for the shaft, if the tool has one, and then the names of its links.
-void set_links(ContactArray& answer, const ToolParameters& tool);
 
 /// Sets frame, topology and mesh stamp to those of the shape that the answer is about.
 void set_organ(ContactArray& answer, const DeformableOrgan& organ, const OrganShape& shape);
@@ -31,6 +28,11 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
 /// Sets `path_incomplete` and the message of an answer whose status is OK. `unknown`: what is not
 /// known of the tool's path. If it is empty, nothing changes.
 void set_incomplete(ContactArray& answer, const std::string& unknown);
+
+/// Sets what an answer whose status is OK remembers of the answer before: `since` of its contacts,
+/// and `released`. `last`: the last answer of this tool about this organ that was OK. Null: there
+/// is none, or it was about other triangles.
+void set_memory(ContactArray& answer, const ContactArray* last);
 
 /// The answer about an organ that could not be evaluated at all, for example because its mesh was
 /// refused. `header`: the frame and the stamp of the answer; a zero stamp becomes the present time.
@@ -51,7 +53,8 @@ std::string stale_message(const std::string& organ, const OrganShape& shape, ros
 // frame.
 
 Contact to_message(const FaceContact& contact);
-Clearance to_message(const ToolClearance& clearance);
+/// `duration` [s]: that of the step; 0 if it is not known.
+Clearance to_message(const ToolClearance& clearance, double duration);
 Crossing to_message(const AxisCrossing& crossing);
 ToolPlacement to_message(const AxisPlacement& placement);
 /// The corners in the same order and frame, rounded to 32-bit floats.

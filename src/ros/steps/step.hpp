@@ -57,6 +57,7 @@ struct LastStep {
   ros::Time stamp;
   std::shared_ptr<const TriangleMesh> mesh;
   SteadyTime taken = {};  ///< when the step was evaluated
+  ContactArrayConstPtr answer = nullptr;
 };
 
 /// A shape of an organ against which one tool is still to be evaluated.

@@ -27,12 +27,9 @@ QueryMode mode_of(const OrganToolPair& pair) {
   return pair.last ? QueryMode::kSwept : QueryMode::kStatic;
 }
 
-/// The organ's shape at the start of a step, from which it moves to `now`. Null if the organ rests,
-/// or if its triangles have changed.
-const TriangleMesh* shape_before(const LastStep& last, const TriangleMesh& now) {
-  const bool moved = last.mesh.get() != &now && last.mesh->topology() == now.topology() &&
-                     last.mesh->same_faces(now);
-  return moved ? last.mesh.get() : nullptr;
+/// Whether the organ still has the triangles of the last step.
+bool has_same_faces(const LastStep& last, const TriangleMesh& now) {
+  return last.mesh->topology() == now.topology() && last.mesh->same_faces(now);
 }
 
 }  // namespace
@@ -278,7 +275,10 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   const TriangleMesh& mesh = *step.pair->current.mesh;
   CollisionRequest& request = step.request;
   request.organ = &mesh;
-  if (last && parameters_.organ_motion) request.organ_before = shape_before(*last, mesh);
+  const LastStep* comparable = last && has_same_faces(*last, mesh) ? &*last : nullptr;
+  if (comparable && comparable->mesh.get() != &mesh && parameters_.organ_motion) {
+    request.organ_before = comparable->mesh.get();
+  }
   request.radius = tool.parameters.radius;
   request.links = &tool.links;
   request.mode = mode_of(*step.pair);
@@ -296,6 +296,7 @@ void StepScheduler::answer(ToolStep& step, ContactQuery& query) const {
   begin_answer(step, step.end->stamp);
   step.query_sec = query.evaluate(request, *step.answer);
   set_incomplete(*step.answer, step.sampled.unknown);
+  set_memory(*step.answer, comparable ? comparable->answer.get() : nullptr);
 }
 
 /// Sets an answer whose results are still empty. `end`: its stamp.
@@ -304,7 +305,7 @@ void StepScheduler::begin_answer(ToolStep& step, ros::Time end) const {
   const OrganToolPair& pair = *step.pair;
   step.answer = boost::make_shared<ContactArray>(
       answer_about(step.organ->name(), tool.name, static_cast<std::uint8_t>(mode_of(pair)), end));
-  set_links(*step.answer, tool);
+  step.answer->links = tool.links;
   set_organ(*step.answer, *step.organ, pair.current);
   if (pair.last) step.answer->step_start = pair.last->stamp;
 }
@@ -318,7 +319,8 @@ void StepScheduler::deliver(ToolStep& step) {
   counts_.deviation_cut = std::max(counts_.deviation_cut, step.sampled.deviation_cut);
   if (step.answer->status == ContactArray::OK) {
     poses_.set_answered(tools_[step.tool], step.organ->frame(), step.end->stamp);
-    pair.last = LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_};
+    pair.last =
+        LastStep{std::move(step.end->value), step.end->stamp, pair.current.mesh, now_, step.answer};
     pair.tried.reset();
   }
   pair.answer = step.answer;

@@ -90,7 +90,8 @@ bool is_same(const Tool& a, const Tool& b) {
     const ToolParameters& p = tool.parameters;
     return std::tie(p.name, p.trocar_frame, p.tip_frame, p.radius, p.tip_pose_topic,
                     p.base_pose_topic, p.links, p.robot_description, p.urdf, p.tf_prefix, p.margin,
-                    p.max_near, p.freedom, tool.fault, tool.fingerprint);
+                    p.max_near, p.freedom, p.trocar_offset, p.tip_offset, tool.fault,
+                    tool.fingerprint);
   };
   return members(a) == members(b);
 }
@@ -150,6 +151,24 @@ Tool load_tool(const ToolParameters& parameters,
   return tool;
 }
 
+ToolInfo info_of(const Tool& tool) {
+  const ToolParameters& parameters = tool.parameters;
+  ToolInfo info;
+  info.name = parameters.name;
+  info.kind = parameters.links.empty() ? ToolInfo::SHAFT : ToolInfo::LINKS;
+  info.trocar_frame = parameters.trocar_frame;
+  info.tip_frame = parameters.tip_frame;
+  info.trocar_offset = to_vector(parameters.trocar_offset);
+  info.tip_offset = to_vector(parameters.tip_offset);
+  info.pose_topic = parameters.tip_pose_topic;
+  info.links = parameters.links;
+  info.radius = parameters.radius;
+  info.margin = parameters.margin;
+  info.max_near = static_cast<std::uint32_t>(parameters.max_near);
+  info.fault = tool.fault;
+  return info;
+}
+
 ToolChanges compare_tools(const std::vector<Tool>& old_tools, const std::vector<Tool>& new_tools) {
   ToolChanges changes;
   std::vector<std::string> unchanged, changed, added, removed;
@@ -157,16 +176,16 @@ ToolChanges compare_tools(const std::vector<Tool>& old_tools, const std::vector<
     const auto before = find(old_tools, tool.parameters.name);
     const bool is_kept = before && is_same(old_tools[*before], tool);
     changes.kept.push_back(is_kept ? before : std::nullopt);
-    (is_kept ? unchanged : before ? changed : added).push_back("'" + tool.parameters.name + "'");
+    (is_kept ? unchanged : before ? changed : added).push_back(tool.parameters.name);
   }
   for (const Tool& tool : old_tools) {
-    if (!find(new_tools, tool.parameters.name)) removed.push_back("'" + tool.parameters.name + "'");
+    if (!find(new_tools, tool.parameters.name)) removed.push_back(tool.parameters.name);
   }
   for (const auto& [what, names] :
        {std::pair("unchanged: ", &unchanged), std::pair("changed: ", &changed),
         std::pair("new: ", &added), std::pair("removed: ", &removed)}) {
     if (names->empty()) continue;
-    changes.summary += (changes.summary.empty() ? "" : "; ") + (what + listed(*names));
+    changes.summary += (changes.summary.empty() ? "" : "; ") + (what + quoted(*names));
   }
   if (changes.summary.empty()) changes.summary = "there are no tools";
   return changes;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <organ_collision/ToolInfo.h>
 #include <ros/node_handle.h>
 
 #include <cstddef>
@@ -26,6 +27,9 @@ struct Tool {
   std::size_t fingerprint = 0;      ///< a hash of what the robot's files say of links and joints
   std::string fault;  ///< why the links could not be loaded; empty if there was no error
 };
+
+/// What list_tools says of a tool.
+ToolInfo info_of(const Tool& tool);
 
 /// What the log and /diagnostics say about an empty list of tools.
 inline constexpr char kNoTools[] =

@@ -43,9 +43,10 @@ Contact contact_at(std::uint32_t face, double depth, double x, double y) {
   Contact contact;
   contact.face = face;
   contact.depth = depth;
+  contact.link = kShaft;
   contact.normal.z = -1.0;
-  contact.end_point.x = x;
-  contact.end_point.y = y;
+  contact.on_organ.x = x;
+  contact.on_organ.y = y;
   return contact;
 }
 
@@ -54,7 +55,6 @@ ContactArrayPtr answer_with(const std::vector<Contact>& contacts) {
   const auto answer = boost::make_shared<ContactArray>();
   answer->organ = "liver";
   answer->tool = "hook";
-  answer->links = {""};
   answer->contacts = contacts;
   return answer;
 }
@@ -382,8 +382,8 @@ TEST_F(Viewer, SeesOutlinesAndTheDeepestContactsAsArrows) {
 TEST_F(Viewer, SeesTheNameOfEachTouchingLinkAtItsDeepestContact) {
   const auto answer = answer_with(
       {contact_at(0, 0.1, 0.1, 0.0), contact_at(1, 0.3, 0.2, 0.0), contact_at(1, 0.2, 0.3, 0.0)});
-  answer->contacts[2].link = 2;
-  answer->links = {"", "wrist", "jaw"};
+  answer->contacts[2].link = 1;
+  answer->links = {"wrist", "jaw"};
   const Markers names = drawn(scene_with(answer), "names");
   ASSERT_EQ(names.size(), 2u);
   EXPECT_EQ(names[0].type, Marker::TEXT_VIEW_FACING);

@@ -51,7 +51,7 @@ struct Intake {
   bool remove(const std::string& organ, const std::string& says) {
     RemoveOrgan::Request request;
     RemoveOrgan::Response response;
-    request.name = organ;
+    request.organ = organ;
     EXPECT_TRUE(intake.on_remove(request, response));
     EXPECT_NE(response.message.find(says), std::string::npos) << response.message;
     return response.success;

@@ -65,18 +65,25 @@ TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
   };
   const std::vector<Row> rows = {
       {"motion_sample_sec", 0.0, "'0'; must be a number, more than 0"},
-      {"motion_sample_sec", "2.5", "'2.5'; must be a number, more than 0"},
+      {"motion_sample_sec", "2.5",
+       "the text '2.5'; must be a number, more than 0: write 2.5 without quotes"},
+      {"motion_sample_sec", "5e-3",
+       "the text '5e-3'; must be a number, more than 0: write 5.0e-3 without quotes"},
+      {"motion_sample_sec", "1.5e3", ": write 1.5e+3 without quotes"},
+      {"motion_sample_sec", "1ms", "the text '1ms'; must be a number, more than 0"},
+      {"motion_sample_sec", true, "is true; must be a number, more than 0"},
       {"tf_timeout_sec", 60.0000001, "'60.0000001'; must be a number, at least 0, at most 60"},
       {"markers_depth", kUnlimited, "'inf'; must be a number, more than 0"},
       {"threads", 1025, "'1025'; must be a whole number, at least 0, at most 1024"},
-      {"threads", 2.0, "'2'; must be a whole number, at least 0, at most 1024"},
-      {"organ_motion", 1, "'1'; must be true or false"},
+      {"threads", 2.0, "the number '2'; must be a whole number, at least 0, at most 1024"},
+      {"organ_motion", 1, "the number '1'; must be true or false: write true"},
+      {"organ_motion", "false", "the text 'false'; must be true or false: write false without"},
       {"rate", 1e-10, "'1e-10'; must be 0 or at least 0.001"},
-      {"picker", 1, "'1'; must be one of feedback, select, cpu"},
+      {"picker", 1, "the number '1'; must be one of feedback, select, cpu: write '1', in quotes"},
       {"tools", list_of({"hook"}), "'hook'; must be a group of name"}};
   for (const Row& row : rows) {
     expect_words(refusal_of<NodeParameters>(row.name, row.value),
-                    {std::string("~") + row.name, row.legal});
+                 {std::string("~") + row.name, row.legal});
   }
   for (const char* name : {"motion_sample_sec", "threads", "rate"}) {  // Without a decimal point.
     EXPECT_EQ(refusal_of<NodeParameters>(name, 1), "accepted");
@@ -86,7 +93,7 @@ TEST(NodeParameters, RefusalsNameTheValueAndWhatIsLegal) {
 TEST(NodeParameters, ToolsMustBeGivenAndHaveNamesOfTheirOwn) {
   expect_words(refusal_of<NodeParameters>("tools", "hook"), {"~tools", "hook", "list"});
   expect_words(refusal_of<NodeParameters>("tools", list_of({shaft(), shaft()})),
-                  {"~tools[1]/name", "hook", "unique"});
+               {"~tools[1]/name", "hook", "unique"});
   XmlRpcValue none;
   none["rate"] = 1;
   EXPECT_THROW(parse_parameters<NodeParameters>(none), ParameterError);
@@ -105,8 +112,8 @@ TEST(NodeParameters, MisspeltKeysOfToolsAreReported) {
   XmlRpcValue tool = shaft(), wrong;
   for (const auto& [name, value] : tool) wrong[name == "radius" ? "raduis" : name] = value;
   expect_words(refusal(wrong), {"~tools[0]/radius is missing; must be a number, more than 0 "
-                                   "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
-                                   "are name, trocar_frame"});
+                                "(~tools[0]/raduis is no parameter; nearest is 'radius', legal "
+                                "are name, trocar_frame"});
 }
 
 /// A key of a legal tool with an illegal value, and what the refusal says besides the key.
@@ -123,7 +130,15 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
       {shaft, "radius", 0.0, {"'0'", "more than 0"}},
       {shaft, "radius", kUnlimited, {"inf", "more than 0"}},
       {shaft, "name", "", {"not empty"}},
-      {shaft, "name", 1, {"'1'; must be a text that is not empty"}},
+      {shaft, "name", 7, {"the number '7'; must be a text that is not empty: write '7', in"}},
+      {shaft, "name", true, {"true; must be a text that is not empty: YAML takes on, yes"}},
+      {shaft, "tip_offset", list_of({0.1, 0.2}), {"three numbers, each from -2 to 2 [m]"}},
+      {shaft, "tip_offset", list_of({0, 0, "1"}), {"three numbers"}},
+      {shaft, "tip_offset", list_of({0, 0, std::nan("")}), {"three numbers"}},
+      {shaft, "tip_offset", list_of({0, 0, 174.6}), {"174.6", "three numbers, each from -2"}},
+      {shaft, "tip_offset", "0 0 1", {"the text '0 0 1'", "list of three numbers"}},
+      {links, "tip_offset", list_of({0, 0, 1}), {"goes with tip_frame or tip_pose_topic"}},
+      {links, "trocar_offset", list_of({0, 0, 1}), {"goes with trocar_frame"}},
       {shaft, "name", too_long, {"at most 256 bytes"}},
       {shaft, "name", "ho\nok", {"control characters"}},
       {shaft, "trocar_frame", too_long, {"at most 256 bytes"}},
@@ -164,7 +179,7 @@ TEST(ToolParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
     XmlRpcValue tool = row.tool();
     tool[row.key] = row.value;
     const std::string message = refusal(tool);
-    expect_words(message, {std::string("~tools[0]/") + row.key + " is '"});
+    expect_words(message, {std::string("~tools[0]/") + row.key + " is "});
     expect_words(message, row.words);
   }
 }
@@ -183,6 +198,22 @@ TEST(ToolParameters, WhatDoesNotGoTogetherIsNamed) {
   two["urdf"] = "/hook.urdf";
   two["robot_description"] = "robot_description";
   expect_words(refusal(two), {"~tools[0]/robot_description", "beside urdf"});
+}
+
+TEST(ToolParameters, TheTipOfATrackedToolIsAPointOfItsMarker) {
+  XmlRpcValue tool = shaft();
+  tool["tip_frame"] = tool["trocar_frame"];
+  tool["tip_offset"] = list_of({0.0, -0.0132, 1});
+  const ToolParameters pointer = parsed(tool);
+  EXPECT_EQ(pointer.tip_frame, pointer.trocar_frame);
+  EXPECT_EQ(pointer.tip_offset, Eigen::Vector3d(0.0, -0.0132, 1.0));
+  EXPECT_EQ(pointer.trocar_offset, Eigen::Vector3d(Eigen::Vector3d::Zero()));
+  tool["trocar_offset"] = tool["tip_offset"];
+  expect_words(refusal(tool), {"tip_frame", "another frame", "unless tip_offset"});
+  XmlRpcValue wrist = links();
+  wrist["tip_frame"] = "wrist";
+  wrist["tip_offset"] = list_of({0, 0, 0.5});
+  EXPECT_EQ(parsed(wrist).tip_offset.z(), 0.5);
 }
 
 TEST(ToolParameters, AreAShaftOrLinksOrBoth) {

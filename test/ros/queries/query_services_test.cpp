@@ -195,14 +195,35 @@ TEST_F(QueryServicesTest, SweptAndStatic) {
   EXPECT_TRUE(answer.contacts.empty());
 }
 
-TEST_F(QueryServicesTest, OrganMovesOnRequestInSweptQueriesAlone) {
+TEST_F(QueryServicesTest, OrganRestsOnRequestAndInStaticQueries) {
   send_vertices(1.1, 2.0f);
   request.motion.previous_tip = request.motion.tip = tf2::toMsg(kAbove);
-  EXPECT_TRUE(services.query(request).contacts.empty());
-  request.organ_motion = true;
   EXPECT_EQ(services.query(request).contacts.size(), 2u);
+  request.organ_rests = true;
+  EXPECT_TRUE(services.query(request).contacts.empty());
+  request.organ_rests = false;
   request.mode = ContactArray::STATIC;
   EXPECT_TRUE(services.query(request).contacts.empty());
+}
+
+TEST_F(QueryServicesTest, AnEmptyNameStandsForTheOnlyOrgan) {
+  const ContactArray named = services.query(request);
+  request.organ = "";
+  const ContactArray only = services.query(request);
+  EXPECT_EQ(only.organ, "liver");
+  EXPECT_EQ(only.contacts, named.contacts);
+  OrganMesh other;
+  other.organ = "kidney";
+  other.vertices = heights(0.1F);
+  other.triangles = {0, 1, 2};
+  send_mesh(1.0, other);
+  expect_refused(kInvalid, {"organ is empty; must be one of 'kidney', 'liver'"});
+  for (const char* organ : {"kidney", "liver"}) {
+    OrganMesh removal;
+    removal.organ = organ;
+    send_mesh(2.0, removal);
+  }
+  expect_refused(ContactArray::NO_MESH, {"the node has no organ"});
 }
 
 TEST_F(QueryServicesTest, SidesAreKnownWhenTheSurfaceIsInspected) {
@@ -305,7 +326,7 @@ TEST_F(QueryServicesTest, ARefusalLeavesWhatIsKnownInTheAnswer) {
   const ContactArray answer = services.query(request);
   EXPECT_EQ(answer.status, ContactArray::NO_TRANSFORM);
   EXPECT_EQ(answer.mesh_stamp, ros::Time(1.0));
-  EXPECT_EQ(answer.links, std::vector<std::string>{""});
+  EXPECT_TRUE(answer.links.empty());
 }
 
 /// A carrier takes the tip from 0.3 m above the sheet to 0.3 m below it within a second.
@@ -343,7 +364,6 @@ TEST_F(QueryServicesTest, RefusesWithStatusValueAndWhatIsLegal) {
   };
   const std::vector<Refusal> refusals = {
       {ContactArray::UNKNOWN_ORGAN, {"'spleen'", "'liver'"}, [](auto& r) { r.organ = "spleen"; }},
-      {kInvalid, {"organ", "empty"}, [](auto& r) { r.organ = ""; }},
       {ContactArray::UNKNOWN_TOOL, {"'saw'", "'hook'"}, [&](auto& r) { of_tool(r, "saw"); }},
       {ContactArray::NO_TRANSFORM, {"hook_tip"}, [&](auto& r) { of_tool(r, "hook"); }, false},
       {kInvalid, {"motion is set", "as in TF"}, [](auto& r) { r.tool = "hook"; }, false},
@@ -463,6 +483,47 @@ TEST_F(BatchTest, EachMotionIsAnsweredInOrderAsAlone) {
   EXPECT_GT(contacts, 100u);
 }
 
+TEST_F(BatchTest, AnEmptyNameStandsForAllOrgans) {
+  add_random_shafts(50, -0.3);
+  const auto of_liver = answer().results;
+  for (const auto& node : nodes) {
+    OrganMesh kidney = wavy_sheet(10, 0.5, 0.1F);
+    kidney.organ = "kidney";
+    node->send_mesh(1.0, kidney);
+  }
+  batch.organ = "kidney";
+  const auto of_kidney = answer().results;
+  batch.organ = "";
+  const QueryCollisionBatch::Response of_all = answer();
+  EXPECT_EQ(of_all.organs, (std::vector<std::string>{"kidney", "liver"}));
+  ASSERT_EQ(of_all.results.size(), 100U);
+  std::size_t first = 0;
+  while (of_kidney[first].contacts.empty() && of_liver[first].contacts.empty()) ++first;
+  for (std::size_t i = 0; i < 50; ++i) {
+    EXPECT_EQ(of_all.results[2 * i].contacts, of_kidney[i].contacts);
+    EXPECT_EQ(of_all.results[2 * i + 1].contacts, of_liver[i].contacts);
+  }
+  batch.stop_at_first_contact = 1;
+  EXPECT_EQ(answer().results.size(), 2 * (first + 1)) << "with all organs of the last motion";
+}
+
+TEST_F(BatchTest, NearFacesAndRegionsAreThoseOfAQuery) {
+  add_random_shafts(3, -0.3);
+  Single one;
+  one.header = batch.header;
+  one.organ = batch.organ;
+  one.mode = batch.mode;
+  one.motion = batch.motions[0];
+  one.margin = batch.margin = 0.2;
+  one.max_near = batch.max_near = 5;
+  one.regions = batch.regions = 1;
+  const ContactArray alone = nodes[0]->services.query(one), among = answer().results.at(0);
+  EXPECT_EQ(among.near, alone.near);
+  EXPECT_EQ(among.near.size(), 5U);
+  EXPECT_EQ(among.regions, alone.regions);
+  EXPECT_EQ(among.regions.size(), among.contacts.size());
+}
+
 TEST_F(BatchTest, EndsWithTheFirstMotionThatTouches) {
   add_random_shafts(200, 0.05);
   const std::vector<ToolMotion> motions = batch.motions;
@@ -485,7 +546,9 @@ TEST_F(BatchTest, EndsWithTheFirstMotionThatTouches) {
 
 TEST_F(BatchTest, ResultsThatAreTooLargeAreRefused) {
   batch.motions.assign(5, through());
-  const std::uint32_t none = serializationLength(QueryCollisionBatch::Response());
+  QueryCollisionBatch::Response without_results;
+  without_results.organs = {"liver"};
+  const std::uint32_t none = serializationLength(without_results);
   const std::uint32_t all = serializationLength(answer()), one = (all - none) / 5;
   EXPECT_EQ(serializationLength(answer(static_cast<int>(all))), all);
   const QueryCollisionBatch::Response refused = answer(static_cast<int>(all - 1));

@@ -34,7 +34,6 @@ TEST(Answers, AboutAnOrganAndATool) {
   ContactArray expected;
   expected.organ = "liver";
   expected.tool = "hook";
-  expected.links = {""};
   expected.mode = ContactArray::SWEPT;
   expected.header.stamp = expected.step_start = ros::Time(11);
   expected.header.frame_id = "liver_frame";
@@ -47,6 +46,8 @@ TEST(Answers, AFailureIsEmpty) {
   const ContactArray empty = answer_about("liver", "hook", ContactArray::STATIC, ros::Time(11));
   ContactArray answer = empty, expected = empty;
   answer.contacts.resize(3);
+  answer.released = {1};
+  answer.view_min = answer.view_max = {0.5};
   answer.regions.resize(3);
   answer.near.resize(2);
   answer.unresolved = answer.near_left_out = answer.near_unresolved = 5;
@@ -57,6 +58,43 @@ TEST(Answers, AFailureIsEmpty) {
   expected.status = ContactArray::NO_TRANSFORM;
   expected.message = "no transform from a to b";
   EXPECT_EQ(answer, expected);
+}
+
+/// A contact since a time [s].
+Contact since(std::uint32_t face, std::int32_t link, double time, bool touching = true) {
+  Contact contact;
+  contact.face = face;
+  contact.link = link;
+  contact.since = ros::Time(time);
+  contact.touching = touching;
+  return contact;
+}
+
+TEST(Answers, RememberSinceWhenEachLinkTouchesEachFace) {
+  ContactArray last, now;
+  last.contacts = {since(2, -1, 5.0), since(2, 0, 6.0), since(4, 0, 7.0, false), since(8, 1, 8.0)};
+  now.contacts = {since(1, -1, 0.0), since(2, -1, 0.0), since(2, 0, 0.0), since(4, 0, 0.0),
+                  since(8, 0, 0.0)};
+  now.contacts[2].fraction = 0.5;  // It had left the face, and came back.
+  now.contacts[4].touching = false;
+  now.step_start = ros::Time(10);
+  now.header.stamp = ros::Time(11);
+  set_memory(now, &last);
+  const double expected[] = {10.0, 5.0, 10.5, 10.0, 10.0};
+  for (std::size_t i = 0; i < now.contacts.size(); ++i) {
+    EXPECT_EQ(now.contacts[i].since, ros::Time(expected[i])) << i;
+  }
+  EXPECT_EQ(now.released, (std::vector<std::uint32_t>{8}));
+  now.released.clear();
+  set_memory(now, nullptr);
+  for (const Contact& contact : now.contacts) {
+    EXPECT_EQ(contact.since, ros::Time(10.0 + contact.fraction));
+  }
+  EXPECT_TRUE(now.released.empty());
+  ContactArray failed;
+  set_failure(failed, ContactArray::NO_TRANSFORM, "why");
+  set_memory(failed, &last);
+  EXPECT_TRUE(failed.released.empty());
 }
 
 TEST(Answers, TextThatCameWithAMessageIsPlainAndShort) {
@@ -93,15 +131,15 @@ TEST(QueryConversions, EveryFieldOfAContact) {
   contact.shaft = 0.75;
   contact.depth = -0.001;
   contact.behind = true;
-  contact.end_point = {1.5, 2.5, 3.5};
-  contact.view_min = 0.01;
-  contact.view_max = 0.02;
+  contact.on_organ = {1.5, 2.5, 3.5};
+  contact.touching = true;
   EXPECT_EQ(fields_of(to_message(contact)),
             "face: 4000000000 vertices[] vertices[0]: 9 vertices[1]: 5 vertices[2]: 6 link: 7 "
-            "fraction: 0.25 point: x: 1 y: 2 z: 3 normal: x: 0.6 y: 0 z: -0.8 barycentric[] "
+            "touching: 1 since: 0.000000000 fraction: 0.25 point: x: 1 y: 2 z: 3 normal: x: 0.6 y: "
+            "0 z: -0.8 barycentric[] "
             "barycentric[0]: 0.2 barycentric[1]: 0.3 barycentric[2]: 0.5 shaft: 0.75 "
-            "depth: -0.001 behind: 1 end_point: x: 1.5 y: 2.5 z: 3.5 view_min: 0.01 "
-            "view_max: 0.02");
+            "depth: -0.001 behind: 1 on_organ: x: 1.5 y: 2.5 z: 3.5 "
+            "on_tool: x: 1.4994 y: 2.5 z: 3.5008");
 }
 
 TEST(QueryConversions, EveryFieldOfAClearance) {
@@ -121,13 +159,15 @@ TEST(QueryConversions, EveryFieldOfAClearance) {
   clearance.normal = {0.6, 0.0, -0.8};
   clearance.normal_defined = true;
   clearance.is_resolved = false;
-  EXPECT_EQ(fields_of(to_message(clearance)),
+  clearance.closing = 0.005;
+  EXPECT_EQ(fields_of(to_message(clearance, 0.02)),
             "state: 2 margin: 0.02 unlimited: 1 distance: 0.011 least: 0.003 least_fraction: 0.4 "
             "face: 4000000001 vertices[] vertices[0]: 7 vertices[1]: 5 vertices[2]: 6 "
             "barycentric[] barycentric[0]: 0.2 barycentric[1]: 0.3 barycentric[2]: 0.5 link: 3 "
             "on_organ: x: 1 y: 2 z: 3 on_tool: x: 4 y: 5 z: 6.5 normal: x: 0.6 y: 0 z: -0.8 "
-            "normal_defined: 1 unresolved: 1");
-  EXPECT_EQ(to_message(ToolClearance()), Clearance());
+            "normal_defined: 1 unresolved: 1 closing_speed: 0.25");
+  EXPECT_EQ(to_message(clearance, 0.0).closing_speed, 0.0);  // The duration is not known.
+  EXPECT_EQ(to_message(ToolClearance(), 0.02), Clearance());
 }
 
 TEST(QueryConversions, EveryFieldOfAPlacementAndTheCornersOfARegion) {

@@ -33,6 +33,9 @@ class KeepsContract(unittest.TestCase):
         self.assertTrue(found.success, found.message)
 
 
+SHAFT = -1  # Contact.link of a shaft
+
+
 class ContactCase(unittest.TestCase):
     def assert_near(self, found, expected, tolerance, what):
         difference = length(sub(found, expected))
@@ -42,9 +45,11 @@ class ContactCase(unittest.TestCase):
         self.assertEqual((result.status, result.message), (ContactArray.OK, ''))
 
     def assert_contacts(self, result, expected, tolerance=1e-7):
-        """Checks that the contacts are the oracle's, `expected`, all with the tool's first link."""
-        self.assertEqual([c.face for c in result.contacts if c.link > 0], [])
-        self.assert_contacts_of_link(result, 0, expected, tolerance)
+        """Checks that the contacts are the oracle's, `expected`, all with the shaft, or with the first link of a
+        tool of links."""
+        link = 0 if result.links else SHAFT
+        self.assertEqual([c.face for c in result.contacts if c.link != link], [])
+        self.assert_contacts_of_link(result, link, expected, tolerance)
 
     def assert_contacts_of_link(self, result, link, expected, tolerance):
         """Checks that the contacts with one link are `expected`: the same faces in the same order, lengths [m] and

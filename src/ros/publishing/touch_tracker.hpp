@@ -1,0 +1,57 @@
+#pragma once
+
+#include <organ_collision/ContactArray.h>
+#include <organ_collision/TouchEvent.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+#include <unordered_set>
+#include <utility>
+
+namespace organ_collision {
+
+/// Finds in the answers of the steps when each tool begins to touch each organ, and when it ceases.
+///
+/// A touch begins with the first contact while nothing is touched. It ends with the first answer at
+/// whose end no contact is `touching`. So a tool that touches and leaves within one step begins and
+/// ends a touch. Answers that are not OK change nothing, unless they fail for longer than 1 s.
+class TouchTracker {
+ public:
+  using OrganAndTool = std::pair<std::string, std::string>;  ///< their names
+  using Publish = std::function<void(const TouchEvent&)>;
+
+  /// `publish` gets the events, in order.
+  explicit TouchTracker(Publish publish) : publish_(std::move(publish)) {}
+
+  /// Takes the next answer about an organ and a tool.
+  void follow(const ContactArray& answer);
+  /// Ends the touches of all tools and organs, with the stamp of their last answer.
+  void end_all(const std::string& reason);
+  /// Ends the touches of those pairs of organ and tool that `is_gone`, and forgets the pairs.
+  void forget(const std::function<bool(const OrganAndTool& pair)>& is_gone,
+              const std::string& reason);
+
+ private:
+  /// What is known of a pair of organ and tool.
+  struct Pair {
+    std::uint32_t count = 0;  ///< of touches that have begun
+    bool is_touched = false;
+    ros::Time began, last;   ///< when the touch began; the stamp of the last answer that was OK
+    ros::Time failing = {};  ///< the stamp of the first failed answer since then; zero: none
+    TouchEvent place;        ///< the place that was touched last
+    double deepest = 0.0;    ///< [m]
+    std::uint32_t topology = 0;
+    std::unordered_set<std::uint32_t> faces;  ///< touched faces of the present triangles
+    std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
+  };
+
+  void begin(const ContactArray& answer, Pair& pair);
+  void end(Pair& pair, ros::Time stamp, const std::string& reason);
+
+  Publish publish_;
+  std::map<OrganAndTool, Pair> pairs_;
+};
+
+}  // namespace organ_collision

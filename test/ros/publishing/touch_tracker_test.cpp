@@ -1,0 +1,140 @@
+#include "ros/publishing/touch_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace organ_collision {
+namespace {
+
+/// A contact of a face since a time [s].
+Contact contact(std::uint32_t face, double since, double depth, bool touching = true) {
+  Contact contact;
+  contact.face = face;
+  contact.vertices = {face, face + 1, face + 2};
+  contact.link = 1;
+  contact.since = ros::Time(since);
+  contact.depth = depth;
+  contact.touching = touching;
+  contact.point.x = since;
+  return contact;
+}
+
+/// An answer of a step that ended at `end` [s].
+ContactArray answer(double end, const std::vector<Contact>& contacts = {}) {
+  ContactArray answer;
+  answer.header.frame_id = "liver_frame";
+  answer.header.stamp = ros::Time(end);
+  answer.organ = "liver";
+  answer.tool = "hook";
+  answer.contacts = contacts;
+  return answer;
+}
+
+ContactArray failure(double stamp) {
+  ContactArray failed = answer(stamp);
+  failed.status = ContactArray::NO_TRANSFORM;
+  return failed;
+}
+
+class TouchTrackerTest : public testing::Test {
+ protected:
+  /// The events since the last call, as "BEGIN NUMBER STAMP of FACE" or
+  /// "END NUMBER STAMP of FACE: DURATION s, DEEPEST mm, FACES faces REASON".
+  std::vector<std::string> told() {
+    std::vector<std::string> texts;
+    for (const TouchEvent& event : std::exchange(events_, {})) {
+      EXPECT_EQ(event.header.frame_id, "liver_frame");
+      EXPECT_EQ(event.vertices[2], event.face + 2);
+      EXPECT_EQ(event.link, 1);
+      std::ostringstream text;
+      const bool begins = event.event == TouchEvent::BEGIN;
+      text << (begins ? "BEGIN " : "END ") << event.touch << ' ' << event.header.stamp.toSec()
+           << " of " << event.face;
+      if (!begins) {
+        text << ": " << event.duration_sec << " s, " << 1e3 * event.deepest << " mm, "
+             << event.faces << " faces" << (event.reason.empty() ? "" : " ") << event.reason;
+      }
+      texts.push_back(text.str());
+    }
+    return texts;
+  }
+
+  std::vector<TouchEvent> events_;
+  TouchTracker touches_{[this](const TouchEvent& event) { events_.push_back(event); }};
+};
+
+using Texts = std::vector<std::string>;
+
+TEST_F(TouchTrackerTest, ATouchBeginsWithTheFirstContactAndEndsWhenNothingTouches) {
+  touches_.follow(answer(1.0));
+  EXPECT_EQ(told(), Texts());
+  touches_.follow(answer(2.0, {contact(7, 1.75, 0.001), contact(9, 1.5, 0.002)}));
+  EXPECT_EQ(told(), Texts{"BEGIN 1 1.5 of 9"});
+  touches_.follow(answer(3.0, {contact(9, 1.5, 0.004), contact(11, 2.5, 0.003)}));
+  touches_.follow(answer(4.0, {contact(11, 2.5, -0.001, false)}));
+  EXPECT_EQ(told(), Texts{"END 1 4 of 11: 2.5 s, 4 mm, 3 faces"});
+  touches_.follow(answer(5.0, {contact(2, 5.0, 0.001)}));
+  touches_.follow(answer(6.0));
+  EXPECT_EQ(told(), (Texts{"BEGIN 2 5 of 2", "END 2 6 of 2: 1 s, 1 mm, 1 faces"}));
+}
+
+TEST_F(TouchTrackerTest, ATouchWithinOneStepBeginsAndEnds) {
+  touches_.follow(answer(2.0, {contact(7, 1.5, -0.001, false)}));
+  EXPECT_EQ(told(), (Texts{"BEGIN 1 1.5 of 7", "END 1 2 of 7: 0.5 s, 0 mm, 1 faces"}));
+}
+
+TEST_F(TouchTrackerTest, OfContactsThatBeganAtOnceTheDeepestCounts) {
+  const std::vector<Contact> three = {contact(1, 1.5, 0.001), contact(2, 1.5, 0.003),
+                                      contact(3, 1.5, 0.002)};
+  touches_.follow(answer(2.0, three));
+  EXPECT_EQ(told(), Texts{"BEGIN 1 1.5 of 2"});
+  touches_.follow(answer(3.0));
+  EXPECT_EQ(told(), Texts{"END 1 3 of 2: 1.5 s, 3 mm, 3 faces"});
+}
+
+TEST_F(TouchTrackerTest, FacesOfNewTrianglesAreOtherFaces) {
+  touches_.follow(answer(1.0, {contact(1, 1.0, 0.001), contact(2, 1.0, 0.001)}));
+  ContactArray cut = answer(2.0, {contact(1, 2.0, 0.001)});
+  cut.topology = 5;
+  touches_.follow(cut);
+  EXPECT_EQ(told(), Texts{"BEGIN 1 1 of 1"}) << "a cut does not end a touch";
+  touches_.follow(answer(3.0));
+  EXPECT_EQ(told(), Texts{"END 1 3 of 1: 2 s, 1 mm, 3 faces"});
+}
+
+TEST_F(TouchTrackerTest, OnlyAnswersThatFailForLongEndATouch) {
+  touches_.follow(answer(1.0, {contact(1, 1.0, 0.001)}));
+  for (const double stamp : {9.0, 9.5, 10.0}) touches_.follow(failure(stamp));
+  touches_.follow(answer(10.5, {contact(1, 1.0, 0.001)}));
+  touches_.follow(failure(11.0));
+  EXPECT_EQ(told(), Texts{"BEGIN 1 1 of 1"});
+  touches_.follow(failure(12.01));
+  EXPECT_EQ(told(), Texts{"END 1 10.5 of 1: 9.5 s, 1 mm, 1 faces no answer"});
+  touches_.follow(failure(15.0));
+  touches_.follow(answer(15.5));
+  EXPECT_EQ(told(), Texts());
+}
+
+TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {
+  touches_.follow(answer(1.0, {contact(1, 1.0, 0.001)}));
+  touches_.follow(answer(2.0, {contact(1, 1.0, 0.001)}));
+  touches_.end_all("reset");
+  touches_.end_all("reset");
+  EXPECT_EQ(told(), (Texts{"BEGIN 1 1 of 1", "END 1 2 of 1: 1 s, 1 mm, 1 faces reset"}));
+  touches_.follow(answer(3.0, {contact(1, 3.0, 0.001)}));
+  ContactArray kidney = answer(3.0, {contact(4, 3.0, 0.001)});
+  kidney.organ = "kidney";
+  touches_.follow(kidney);
+  EXPECT_EQ(told(), (Texts{"BEGIN 2 3 of 1", "BEGIN 1 3 of 4"})) << "each pair counts its own";
+  touches_.forget([](const auto& pair) { return pair.first == "liver"; }, "organ removed");
+  EXPECT_EQ(told(), Texts{"END 2 3 of 1: 0 s, 1 mm, 1 faces organ removed"});
+  touches_.forget([](const auto& pair) { return pair.second == "saw"; }, "tools changed");
+  EXPECT_EQ(told(), Texts());
+  touches_.follow(answer(4.0, {contact(1, 4.0, 0.001)}));
+  EXPECT_EQ(told(), Texts{"BEGIN 1 4 of 1"}) << "a forgotten pair begins anew";
+}
+
+}  // namespace
+}  // namespace organ_collision
