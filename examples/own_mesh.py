@@ -3,6 +3,7 @@
 
 import argparse
 import math
+import sys
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from organ_collision import contact_table, Organ, read_mesh
@@ -36,7 +37,10 @@ contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
 frames = tf2_ros.TransformBroadcaster()
 rate = rospy.Rate(20)
 
-vertices, faces = read_mesh(options.file, options.scale)
+try:
+    vertices, faces = read_mesh(options.file, options.scale)
+except ValueError as error:
+    sys.exit('own_mesh.py: %s' % error)
 organ = Organ('organ', vertices, faces)
 top = vertices[vertices[:, 2].argmax()]
 while not rospy.is_shutdown():

@@ -81,6 +81,8 @@ def _quaternions(rotations):
 
 
 def _numbers(values, name, legal):
+    if np.ma.is_masked(values):
+        raise ValueError('%s has masked values; fill them, or leave their rows out' % name)
     try:
         array = np.asarray(values)
     except ValueError:  # Newer versions of numpy refuse rows of different lengths.

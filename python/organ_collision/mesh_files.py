@@ -7,6 +7,9 @@ import os
 import numpy as np
 
 
+_LFS_POINTER = b'version https://git-lfs.github.com/spec/'
+
+
 class MeshFileError(ValueError):
     """A mesh file cannot be used. The text names the file and what is wrong."""
 
@@ -24,7 +27,10 @@ def read_mesh(path, scale=1.0):
     is missing, broken or has no faces.
     """
     if not os.path.isfile(path):
-        raise MeshFileError('%s: there is no such file' % path)
+        raise MeshFileError('%s: %s' % (path, 'is no file' if os.path.exists(path) else 'there is no such file'))
+    with open(path, 'rb') as content:
+        if content.read(len(_LFS_POINTER)) == _LFS_POINTER:
+            raise MeshFileError("%s: is only a pointer of Git LFS; fetch the file itself by 'git lfs pull'" % path)
     read = read_obj if path.lower().endswith('.obj') else _read_with_meshio
     vertices, faces = read(path)
     if not len(faces):

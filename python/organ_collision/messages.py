@@ -1,6 +1,7 @@
 """Messages from numpy arrays. The bytes of an array go into the message as they are, without a loop in Python."""
 
 from geometry_msgs.msg import Point, Pose, Quaternion
+import numpy as np
 import rospy
 from rospy.numpy_msg import numpy_msg
 from std_msgs.msg import Header
@@ -26,12 +27,12 @@ def organ_mesh(organ, vertices, faces, frame=None, topology=0, stamp=None):
     """
     vertices = vertex_array(vertices)
     faces = face_array(faces, len(vertices))
-    return _ArrayMesh(_header(organ, frame, stamp), organ, topology, vertices.ravel(), faces.ravel())
+    return _ArrayMesh(_header(organ, frame, stamp), organ, _revision(topology), vertices.ravel(), faces.ravel())
 
 
 def organ_vertices(organ, vertices, frame=None, topology=0, stamp=None):
     """An OrganVertices: new positions of all vertices of an OrganMesh, in the same order. See organ_mesh."""
-    return _ArrayVertices(_header(organ, frame, stamp), organ, topology, vertex_array(vertices).ravel())
+    return _ArrayVertices(_header(organ, frame, stamp), organ, _revision(topology), vertex_array(vertices).ravel())
 
 
 def shaft_motion(trocar, tip, radius, previous_trocar=None, previous_tip=None):
@@ -81,5 +82,13 @@ def _poses(poses, name):
             for motion in poses_array(poses, name).tolist()]
 
 
+def _revision(topology):
+    if isinstance(topology, bool) or not isinstance(topology, (int, np.integer)) or not 0 <= topology < 2 ** 32:
+        raise ValueError('topology is %r; must be a whole number from 0 to 4294967295' % (topology,))
+    return int(topology)
+
+
 def _header(organ, frame, stamp):
+    if not (stamp is None or isinstance(stamp, rospy.Time)):
+        raise ValueError('stamp is %r; must be a rospy.Time, such as rospy.Time.from_sec(1.5), or None' % (stamp,))
     return Header(frame_id=organ if frame is None else frame, stamp=rospy.Time() if stamp is None else stamp)

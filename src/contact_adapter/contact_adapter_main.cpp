@@ -5,6 +5,7 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
+#include <organ_collision/ForceState.h>
 #include <organ_collision/VertexForces.h>
 #include <ros/names.h>
 #include <ros/ros.h>
@@ -26,7 +27,7 @@ namespace {
 
 constexpr char kProgram[] = "contact_adapter";
 /// The topic of the face list of an organ and a tool, below ~ORGAN/TOOL.
-constexpr char kFaces[] = "faces";
+constexpr char kFaces[] = "faces", kState[] = "state";
 
 // [messages] Late forces would be wrong, so only a few messages may wait, for all organs and tools.
 constexpr std::uint32_t kQueue = 20;
@@ -46,6 +47,8 @@ ProgramHelp contact_adapter_help() {
        "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
       {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
        "forces of the tool on the tissue's vertices [N]; together, minus the wrench"},
+      {ros::names::append(pair, kState), message_type<ForceState>(),
+       "whether there is a force, and why not"},
       {ros::names::append(pair, kFaces), message_type<std_msgs::UInt32MultiArray>(),
        "the numbers of the touched faces"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
@@ -60,7 +63,7 @@ ProgramHelp contact_adapter_help() {
   return help;
 }
 
-/// The node. It logs and counts an answer that reports a failure, but publishes nothing for it,
+/// The node. It logs and counts an answer that reports a failure, and publishes only its state,
 /// because the contacts are unknown then. All its work is done in the callbacks of the node's
 /// queue, which must be called from one thread.
 class ContactAdapter {
@@ -90,6 +93,7 @@ class ContactAdapter {
     ros::Publisher faces;
     ros::Publisher wrench;
     ros::Publisher vertex_forces;
+    ros::Publisher state;
     ForceLaw law;
     /// When the law was last evaluated. Steady time, because the stamps of a tool stop advancing if
     /// its poses are not published while it rests.
@@ -110,7 +114,29 @@ class ContactAdapter {
                     "organ '" + plain_text(message.organ, kLongestName) + "', tool '" +
                         plain_text(message.tool, kLongestName) + "': " + rejection.what(),
                     std::chrono::steady_clock::now());
+      tell_no_force(message, rejection.what());
     }
+  }
+
+  /// Publishes why an answer gives no force, if its names can be those of topics.
+  void tell_no_force(const ContactArray& contacts, const std::string& why) {
+    try {
+      check_name("organ", contacts.organ);
+      check_name("tool", contacts.tool);
+      if (!contacts.tool.empty())
+        tell(contacts, pair_of(contacts.organ, contacts.tool), false, why);
+    } catch (const Rejection&) {  // It was counted when the answer was refused, or will be.
+    }
+  }
+
+  static void tell(const ContactArray& contacts, Pair& pair, bool known, const std::string& why) {
+    ForceState state;
+    state.header = contacts.header;
+    state.organ = contacts.organ;
+    state.tool = contacts.tool;
+    state.known = known;
+    state.message = plain_text(why, kLongestMessage);
+    pair.state.publish(state);
   }
 
   void publish(const ContactArray& contacts, Pair& pair) {
@@ -121,6 +147,9 @@ class ContactAdapter {
       wrench.header = contacts.header;
       wrench.wrench = wrench_of(forces);
       pair.wrench.publish(wrench);
+      tell(contacts, pair, true, parameters_.way_out ? doubt_about_side(contacts) : "");
+    } else {
+      tell(contacts, pair, false, "contacts of the paper's modes have no depth");
     }
     pair.faces.publish(face_list(contacts));
     if (has_geometry(contacts)) pair.vertex_forces.publish(vertex_forces(contacts, forces));
@@ -165,6 +194,7 @@ class ContactAdapter {
              {private_node_.advertise<std_msgs::UInt32MultiArray>(topic(kFaces), kQueue),
               private_node_.advertise<geometry_msgs::WrenchStamped>(topic(names::kWrench), kQueue),
               private_node_.advertise<VertexForces>(topic(names::kVertexForces), kQueue),
+              private_node_.advertise<ForceState>(topic(kState), kQueue),
               ForceLaw(parameters_.way_out)}})
         .first->second;
   }

@@ -11,7 +11,7 @@ namespace organ_collision {
 /// The parameters of contact_adapter, with the documented defaults.
 struct ContactAdapterParameters {
   double stiffness = 300.0;            ///< [N/m] of the penalty law
-  double max_force = kUnlimited;       ///< [N] larger forces are scaled down to it
+  double max_force = 3.0;              ///< [N] larger forces are scaled down to it
   bool way_out = true;                 ///< a tool wholly inside is pushed along the nearest way out
   double diagnostic_period_sec = 1.0;  ///< in wall time
   std::vector<std::string> misspelt{};  ///< a sentence for each unknown name
@@ -19,9 +19,10 @@ struct ContactAdapterParameters {
 
 inline ParameterTable table_of(ContactAdapterParameters& p) {
   ParameterTable t;
-  t.number(names::kStiffness, p.stiffness, kPositive, "[N/m] force for each metre of depth").live();
-  t.number(names::kMaxForce, p.max_force, kPositiveOrInfinite,
-           "[N] larger forces are clipped to it")
+  t.number(names::kStiffness, p.stiffness, kStiffnesses, "[N/m] force for each metre of depth")
+      .live();
+  t.number(names::kMaxForce, p.max_force, kForces,
+           "[N] larger forces are clipped to it; .inf: no limit")
       .live();
   t.flag("way_out", p.way_out,
          "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin");

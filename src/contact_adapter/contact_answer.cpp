@@ -52,7 +52,7 @@ void check_normal(const geometry_msgs::Vector3& normal, const What&... what) {
 
 template <typename... What>
 void check_link(std::int32_t link, const ContactArray& answer, const What&... what) {
-  if (link >= kShaft && link < static_cast<std::int64_t>(answer.links.size())) return;
+  if (link >= kShaftLink && link < static_cast<std::int64_t>(answer.links.size())) return;
   refuse(what..., " is ", link, "; must be -1 for the shaft, or one of the ", answer.links.size(),
          " links, counted from 0");
 }
@@ -114,6 +114,12 @@ std_msgs::UInt32MultiArray face_list(const ContactArray& contacts) {
   return faces;
 }
 
+std::string doubt_about_side(const ContactArray& contacts) {
+  if (!contacts.contacts.empty() || contacts.placement.tip != ToolPlacement::UNKNOWN) return {};
+  return "nothing is touched, and it is not known whether the tool is inside (placement.tip is "
+         "UNKNOWN): a tool inside would be pushed out";
+}
+
 ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {
   try {
     for (int i = 0; i < tools.size(); ++i) {
@@ -129,7 +135,7 @@ ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {
 }
 
 ShaftRadius radius_at(const Contact& contact, const ShaftRadius& shaft_radius) {
-  return contact.link == kShaft ? shaft_radius : std::nullopt;
+  return contact.link == kShaftLink ? shaft_radius : std::nullopt;
 }
 
 }  // namespace organ_collision

@@ -8,9 +8,10 @@
 #include <optional>
 #include <string>
 
-#include "organ_collision/query/contact.hpp"
-
 namespace organ_collision {
+
+/// Contact.link and Clearance.link of a tool's shaft.
+inline constexpr std::int32_t kShaftLink = -1;
 
 /// Whether the contacts have points, normals and depths. In the paper's modes, they do not.
 bool has_geometry(const ContactArray& contacts);
@@ -30,6 +31,10 @@ void check_contacts(const ContactArray& contacts);
 /// The numbers of the touched faces, each once, in rising order. The one dimension of the array is
 /// called "faces".
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
+
+/// Why the force of an answer without contacts may be missing: it is not known whether the tool is
+/// inside the organ. Empty if it is known, or if something is touched.
+std::string doubt_about_side(const ContactArray& contacts);
 
 /// [m] The radius of a tool's shaft. Unset if it is not known, or if the tool has no shaft.
 using ShaftRadius = std::optional<double>;

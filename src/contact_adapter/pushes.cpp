@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "forces/basins.hpp"
 #include "geometry/concatenate.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
@@ -198,7 +199,7 @@ std::vector<Push> PushTracker::keep_sides(const ContactArray& answer,
 
 /// [m] The depth with which a link is pushed when it is wholly inside, just below the surface.
 double PushTracker::depth_inside(std::int32_t link, const ShaftRadius& shaft_radius) const {
-  if (shaft_radius && link == kShaft) return 2.0 * *shaft_radius;
+  if (shaft_radius && link == kShaftLink) return 2.0 * *shaft_radius;
   const auto known = depths_.find(link);
   return known == depths_.end() ? 0.0 : known->second;
 }

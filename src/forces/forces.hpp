@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "organ_collision/geometry/organ/triangle_mesh.hpp"
+#include "ros/parameters/parameter_group.hpp"
 
 /// The names in the ROS graph that all nodes that publish forces share.
 namespace organ_collision::names {
@@ -27,6 +28,10 @@ inline constexpr char kMaxForce[] = "max_force";
 }  // namespace organ_collision::names
 
 namespace organ_collision {
+
+/// The legal values of parameters that several nodes have. Far larger ones are mistakes.
+inline constexpr NumberRange kStiffnesses{0.0, 1e5, false};   // [N/m]
+inline constexpr NumberRange kForces{0.0, 1e4, false, true};  // [N]
 
 /// A force of the tissue on the tool, at a point of a face. In the organ's frame unless noted.
 struct FaceForce {

@@ -2,7 +2,6 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
-#include <organ_collision/ContactArray.h>
 #include <organ_collision/ListOrgans.h>
 #include <organ_collision/ListTools.h>
 #include <organ_collision/OrganMesh.h>
@@ -57,13 +56,13 @@ ProgramHelp haptic_proxy_help() {
       {ros::names::append(tool, names::kProxy), message_type<geometry_msgs::PoseStamped>(),
        "where the proxy's tip or first link is; also the TF frame TOOL_proxy"},
       {ros::names::append(tool, names::kState), message_type<ProxyState>(),
-       "what the proxy does, the whole wrench on the hand, and why there is no answer"},
+       "what the proxy does, the whole wrench on the hand, the places that are near, and why there "
+       "is "
+       "no answer"},
       {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
        "force of the organ on the hand [N], torque about the origin of the proxy's frame [N m]"},
       {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
        "forces of the proxy on the tissue's vertices [N]"},
-      {names::kContacts, message_type<ContactArray>(),
-       "where tissue is near the proxy, for each organ and tool"},
       {names::kMarkers, message_type<visualization_msgs::MarkerArray>(),
        "what RViz shows: hands, proxies, forces, states and organs"},
       {"/tf", message_type<tf2_msgs::TFMessage>(), "the frames TOOL_proxy"},

@@ -52,8 +52,7 @@ HapticProxyNode::HapticProxyNode(const ros::NodeHandle& node, const ros::NodeHan
       frame_(core_.parameters().frame),
       hands_(make_hands(core_.tools(), KeptTools(core_.tools().size()))),
       started_(SteadyClock::now()),
-      publisher_(core_.private_node(), inbox_.organs, counters_.failed,
-                 core_.parameters().publish_tf),
+      publisher_(core_.private_node(), counters_.failed, core_.parameters().publish_tf),
       markers_(core_.private_node(), core_.parameters().markers) {
   try {
     publisher_.set_tools(core_.parameters().tools);
@@ -128,7 +127,7 @@ void HapticProxyNode::let_go(const std::string& why) {
       if (!hand.proxy) continue;
       publisher_.publish(
           hand.proxy->lose(ContactArray::PICKER_FAILED, why, frame_.name(), SteadyClock::now()));
-      is_fading = is_fading || hand.proxy->is_ramping();
+      is_fading = is_fading || hand.proxy->is_fading();
     }
     std::this_thread::sleep_for(kFadeStep);
   }
@@ -148,7 +147,8 @@ void HapticProxyNode::follow_waiting_hands() {
 /// Called after a batch of messages. Makes a tick for each hand with a new pose.
 void HapticProxyNode::follow_hands() {
   batch_began_.reset();
-  if (frame_.update(inbox_.organs)) reset_proxies("the proxy's frame changed");
+  const std::string frame = frame_.name();
+  if (frame_.update(inbox_.organs)) change_frame(frame);
   const Time now = SteadyClock::now();
   for (std::size_t tool = 0; tool < core_.tools().size(); ++tool) follow_hand(tool, now);
   has_new_shape_ = false;
@@ -203,6 +203,7 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
                       (is_at_any_time && (has_new_shape_ || have_organs_moved));
   if (is_new) {
     hand.stamp = stamp;
+    if (hand.heard) hand.period_sec = std::chrono::duration<double>(now - *hand.heard).count();
     hand.heard = now;
     return true;
   }
@@ -210,11 +211,21 @@ bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs
             age_limits(), ros::Time::now());
   const double timeout = core_.parameters().pose_timeout_sec;
   if (!is_at_any_time && now - *hand.heard > duration(timeout)) {
+    const ToolParameters& parameters = core_.tools()[tool].parameters;
+    const std::string refusal = inbox_.transforms.refusal(parameters.tip_frame);
+    if (!refusal.empty()) {
+      throw Rejection(
+          ContactArray::NO_TRANSFORM, "no pose",
+          "the hand's last pose, on " + parameters.tip_pose_topic + ", is refused: it " + refusal);
+    }
     throw Rejection(
         ContactArray::NO_TRANSFORM, "no pose",
-        concatenate("the hand's last pose came more than ", timeout, " s ago (pose_timeout_sec)"));
+        concatenate("the hand's last pose came more than ", timeout, " s ago (pose_timeout_sec)",
+                    hand.period_sec == 0.0
+                        ? ""
+                        : ", and " + duration_text(hand.period_sec) + " after the one before"));
   }
-  return !hand.why_not && hand.proxy->is_ramping() && now - hand.told >= kFadeStep;
+  return !hand.why_not && hand.proxy->is_fading() && now - hand.told >= kFadeStep;
 }
 
 void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene,
@@ -244,7 +255,7 @@ void HapticProxyNode::tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyS
 /// Lets the force fade, and publishes why: at once, while it fades, and then each kRepetition.
 void HapticProxyNode::lose(std::size_t tool, const Rejection& why, Time now) {
   Hand& hand = hands_[tool];
-  const bool is_fading = hand.proxy && hand.proxy->is_ramping();
+  const bool is_fading = hand.proxy && hand.proxy->is_fading();
   const bool is_recent = now - hand.told < kRepetition;
   // A reason may name an age, which grows. Within kRepetition, such a new text is no news.
   const bool is_known = hand.why_not && hand.why_not->reason() == why.reason() &&
@@ -290,7 +301,7 @@ std::optional<SteadyTime> HapticProxyNode::next_deadline() {
   std::optional<Time> next;
   const auto add = [&next](Time time) { next = next ? std::min(*next, time) : time; };
   for (const Hand& hand : hands_) {
-    if (hand.proxy && hand.proxy->is_ramping()) add(now + kFadeStep);
+    if (hand.proxy && hand.proxy->is_fading()) add(now + kFadeStep);
     if (!hand.why_not && hand.heard && !hand.stamp.isZero()) {
       add(*hand.heard + duration(core_.parameters().pose_timeout_sec));
     }
@@ -330,6 +341,20 @@ void HapticProxyNode::reset_proxies(const std::string& why) {
   }
 }
 
+/// The proxies move in another frame now. Their forces are rotated into it if TF connects it with
+/// the frame before, so that they do not jump.
+void HapticProxyNode::change_frame(const std::string& before) {
+  reset_proxies("the proxy's frame changed");
+  Eigen::Matrix3d R_new_old = Eigen::Matrix3d::Identity();
+  if (!before.empty()) {
+    const auto T_new_old = look_up(inbox_.transforms, frame_.name(), before, ros::Time(0));
+    if (T_new_old.found) R_new_old = T_new_old.found->value.linear();
+  }
+  for (Hand& hand : hands_) {
+    if (hand.proxy) hand.proxy->change_frame(frame_.name(), R_new_old);
+  }
+}
+
 /// Waits until the forces of tools that will be removed or changed have faded. Runs in the
 /// background thread. The node's thread lets the forces fade meanwhile.
 void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
@@ -349,7 +374,7 @@ void HapticProxyNode::let_leaving_hands_fade(const KeptTools& kept) {
     std::this_thread::sleep_for(kFadeStep);
     core_.in_node_thread([&] {
       is_fading = std::any_of(hands_.begin(), hands_.end(), [](const Hand& hand) {
-        return hand.is_leaving && hand.proxy && hand.proxy->is_ramping();
+        return hand.is_leaving && hand.proxy && hand.proxy->is_fading();
       });
     });
   }

@@ -48,6 +48,7 @@ class HapticProxyNode {
     /// ProxyScene::stamps at the last look at the organs. Empty: there was no ProxyScene then.
     std::optional<std::vector<ros::Time>> organs = {};
     std::optional<Time> heard = {};         ///< when the last pose came; empty: none came yet
+    double period_sec = 0.0;                ///< [s] between the last two poses; 0: not known
     bool is_waiting = false;                ///< a pose came on its topic, and needs a tick
     bool is_leaving = false;                ///< the hand's tool will be removed or changed soon
     bool had_answer = false;                ///< there was an answer since the start
@@ -71,6 +72,7 @@ class HapticProxyNode {
   std::optional<SteadyTime> next_deadline();
   std::vector<Hand> make_hands(std::vector<Tool>& tools, const KeptTools& kept);
   void reset_proxies(const std::string& why);
+  void change_frame(const std::string& before);
   void let_leaving_hands_fade(const KeptTools& kept);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -29,19 +30,28 @@ namespace organ_collision {
 /// The parameters of haptic_proxy, with the documented defaults. This node does not read
 /// `markers.markers_depth`.
 struct HapticProxyParameters : OrganNodeParameters {
-  std::string frame;               ///< the proxy's frame; empty: that of the first organ
-  double stiffness = 300.0;        ///< [N/m] of the spring between hand and proxy
-  double damping = 0.0;            ///< [N s/m] on the hand's velocity relative to the proxy
-  double max_force = kUnlimited;   ///< [N] larger forces are scaled down to it
-  double max_torque = kUnlimited;  ///< [N m] about a free tool's centre; larger ones shrink
+  std::string frame;            ///< the proxy's frame; empty: that of the first organ
+  double stiffness = 300.0;     ///< [N/m] of the spring between hand and proxy
+  double damping = 0.0;         ///< [N s/m] on the hand's velocity relative to the proxy
+  double max_force = 3.0;       ///< [N] larger forces are scaled down to it
+  double max_torque = 0.1;      ///< [N m] about a free tool's centre; larger ones shrink
+  double max_force_rate = 0.0;  ///< [N/s]; 0: see force_rate()
   double clearance = ProxySettings().clearance;  ///< [m]
   double jump = ProxySettings().jump;            ///< [m]
   double puncture_force = 0.0;                   ///< [N] at this force, a needle pierces; 0: never
   double friction = 0.0;                         ///< [N] along a needle that has pierced tissue
-  double pose_timeout_sec = 0.1;
+  double pose_timeout_sec = 0.02;
   double frame_timeout_sec = 0.5;  ///< most age of an organ's frame, unless static; 0: any
   bool publish_tf = true;
 };
+
+/// [N/s] By how much the force may change in time. By default, it rises to max_force in 10 ms.
+inline double force_rate(const HapticProxyParameters& parameters) {
+  constexpr double kRise = 0.01;           // [s]
+  constexpr double kWithoutLimit = 300.0;  // [N/s]
+  if (parameters.max_force_rate > 0.0) return parameters.max_force_rate;
+  return std::isinf(parameters.max_force) ? kWithoutLimit : parameters.max_force / kRise;
+}
 
 inline ParameterTable table_of(HapticProxyParameters& p) {
   ParameterTable t;
@@ -65,27 +75,35 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
         if (all.has("frame")) p.frame = all.frame("frame");
       },
       "TF frame in which proxies move and forces are given");
-  t.number(names::kStiffness, p.stiffness, kPositive,
+  t.number(names::kStiffness, p.stiffness, kStiffnesses,
            "[N/m] force for each metre between hand and proxy")
       .live();
-  t.number("damping", p.damping, kNotNegative,
+  t.number("damping", p.damping, {0.0, 1000.0},
            "[N s/m] on the hand's velocity relative to the proxy, while the proxy is held back")
       .live();
-  t.number(names::kMaxForce, p.max_force, kPositiveOrInfinite,
-           "[N] larger forces are clipped to it; the torque shrinks by the same factor")
+  t.number(
+       names::kMaxForce, p.max_force, kForces,
+       "[N] larger forces are clipped to it, and the torque shrinks by the same factor; .inf: no "
+       "limit")
       .live();
-  t.number(names::kMaxTorque, p.max_torque, kPositiveOrInfinite,
-           "[N m] larger torques on a free tool, about its centre, are clipped to it; the force "
-           "shrinks by the same factor")
+  t.number(
+       names::kMaxTorque, p.max_torque, {0.0, 1000.0, false, true},
+       "[N m] larger torques on a free tool, about its centre, are clipped to it, and the force "
+       "shrinks by the same factor; .inf: no limit")
       .live();
-  t.number("clearance", p.clearance, kPositive, "[m] the proxy stops this far from tissue").live();
-  t.number("jump", p.jump, kPositiveOrInfinite,
+  t.number("max_force_rate", p.max_force_rate, {0.0, 1e6},
+           "[N/s] the force changes by no more than this; 0: from 0 to max_force in 10 ms, and 300 "
+           "N/s if max_force is .inf")
+      .live();
+  t.number("clearance", p.clearance, {0.0, 0.1, false}, "[m] the proxy stops this far from tissue")
+      .live();
+  t.number("jump", p.jump, {0.0, 10.0, false, true},
            "[m] if the hand moves farther between two poses, its proxy is placed anew")
       .live();
-  t.number("puncture_force", p.puncture_force, kNotNegative,
+  t.number("puncture_force", p.puncture_force, {0.0, 1000.0},
            "[N] a shaft through a trocar pierces tissue at this force along its axis; 0: never")
       .live();
-  t.number("friction", p.friction, kNotNegative,
+  t.number("friction", p.friction, {0.0, 1000.0},
            "[N] along the axis of a shaft that has pierced tissue")
       .live();
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,

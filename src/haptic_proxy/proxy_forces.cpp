@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace organ_collision {
 namespace {
@@ -27,7 +29,7 @@ std::vector<Place> places_of(const ProxyAnswer& answer, const std::vector<ProxyO
                              bool has_levers, double stiffness) {
   std::vector<Place> places;
   places.reserve(answer.contacts.size() + answer.crossings.size());
-  for (const ProxyContact& at : answer.contacts) {
+  for (const ProxyFace& at : answer.contacts) {
     const FaceContact& contact = at.contact;
     const Vector3d force = -stiffness * at.load * contact.normal;
     const double lever = has_levers && contact.link == kShaft ? contact.shaft : 1.0;
@@ -57,7 +59,44 @@ std::vector<double> shares_of(const std::vector<Place>& places) {
   return shares;
 }
 
+Vector3d torque_of(const std::vector<OrganForce>& forces) {
+  Vector3d sum = Vector3d::Zero();
+  for (const OrganForce& of_organ : forces) sum += of_organ.torque;
+  return sum;
+}
+
+/// The forces at a share of the way from `from` to `to`. Each has the faces of both, except for
+/// those that bear next to nothing, and those of triangles that are gone.
+std::vector<OrganForce> between(const std::vector<OrganForce>& from,
+                                const std::vector<OrganForce>& to, double share) {
+  constexpr double kNothing = 1e-12;  // [N]
+  std::vector<OrganForce> forces = to;
+  for (OrganForce& of_organ : forces) of_organ.scale(share);
+  for (OrganForce before : from) {
+    before.scale(1.0 - share);
+    const auto now = std::find_if(forces.begin(), forces.end(), [&](const OrganForce& of_organ) {
+      return of_organ.organ == before.organ;
+    });
+    if (now == forces.end()) {
+      forces.push_back(std::move(before));
+      continue;
+    }
+    now->force += before.force;
+    now->torque += before.torque;
+    if (now->topology != before.topology || now->frame != before.frame) continue;
+    std::copy_if(before.on_faces.begin(), before.on_faces.end(), std::back_inserter(now->on_faces),
+                 [](const FaceForce& at) { return at.force.norm() > kNothing; });
+  }
+  return forces;
+}
+
 }  // namespace
+
+Vector3d sum_of(const std::vector<OrganForce>& forces) {
+  Vector3d sum = Vector3d::Zero();
+  for (const OrganForce& of_organ : forces) sum += of_organ.force;
+  return sum;
+}
 
 void OrganForce::scale(double factor) {
   force *= factor;
@@ -114,12 +153,29 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
   return forces;
 }
 
-double ForceRamp::turn(Time now, double direction) {
-  const double seconds = std::chrono::duration<double>(now - last_).count();
-  share_ = std::clamp(share_ + direction_ * seconds / kDuration, 0.0, 1.0);
-  direction_ = direction;
+const std::vector<OrganForce>& ForceRateLimit::follow(const std::vector<OrganForce>& target,
+                                                      double rate, const Vector3d& center,
+                                                      double size, Time now) {
+  const auto passed = last_ ? now - *last_ : Time::duration(0);
+  const std::chrono::duration<double> counted = std::min<Time::duration>(passed, kLongestStep);
   last_ = now;
-  return share_;
+  const double most = rate * counted.count();
+  const Vector3d force = sum_of(target) - sum_of(forces_);
+  const Vector3d torque = torque_of(target) - torque_of(forces_) - center.cross(force);
+  const double change = std::max(force.norm(), size > 0.0 ? torque.norm() / size : 0.0);
+  is_on_its_way_ = change > most;
+  forces_ = is_on_its_way_ ? between(forces_, target, most / change) : target;
+  if (size == 0.0) {
+    for (OrganForce& of_organ : forces_) of_organ.torque = center.cross(of_organ.force);
+  }
+  return forces_;
+}
+
+void ForceRateLimit::rotate(const Eigen::Matrix3d& R_new_old) {
+  for (OrganForce& of_organ : forces_) {
+    of_organ.force = R_new_old * of_organ.force;
+    of_organ.torque = R_new_old * of_organ.torque;
+  }
 }
 
 }  // namespace organ_collision

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ struct OrganForce {
   void scale(double factor);
 };
 
+/// The sum of the forces of all organs on the hand [N].
+Eigen::Vector3d sum_of(const std::vector<OrganForce>& forces);
+
 /// Divides the force on the hand among the organs. Returns one OrganForce for each organ, in their
 /// order. Together they are stiffness times pull plus `damping`, and the torque of this force. A
 /// proxy that is still on its way may have no contact. Then all organs have the same share, and no
@@ -41,27 +45,33 @@ std::vector<OrganForce> proxy_forces(const ProxyAnswer& answer,
                                      bool has_shaft, double stiffness,
                                      const Eigen::Vector3d& damping);
 
-/// The share of a force that is published. It rises and falls linearly in time, between 0 and 1
-/// within kDuration, so that a force neither appears nor vanishes in a jump.
-class ForceRamp {
+/// Limits how fast the force on the hand changes, whatever the reason: tissue that appears, slips
+/// or is removed, a jump of a frame, another stiffness, answers that end. The published forces go
+/// straight to the present ones, by at most rate * time in a step. The torque about the tool's
+/// centre, divided by the tool's size, is limited in the same way.
+class ForceRateLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// [s] The time in which the share rises from 0 to 1.
-  static constexpr double kDuration = 0.01;
+  /// The longest time that counts in a step, so that a hand that was silent for long gets no jump.
+  static constexpr std::chrono::milliseconds kLongestStep{2};
 
-  /// From `now` on, the share rises or falls. Return the share at `now`.
-  double rise(Time now) { return turn(now, 1.0); }
-  double fall(Time now) { return turn(now, -1.0); }
-  /// The share in [0, 1] at the last call of rise() or fall().
-  double share() const { return share_; }
+  /// Returns the forces to publish at `now`, and keeps them. `target`: the present forces; empty:
+  /// no force. `rate` [N/s]. `center` [m]: that of the tool, in the proxy's frame. `size` [m]: of a
+  /// free tool; 0: the force acts at the centre.
+  const std::vector<OrganForce>& follow(const std::vector<OrganForce>& target, double rate,
+                                        const Eigen::Vector3d& center, double size, Time now);
+  /// Whether the published forces are not yet the target's.
+  bool is_on_its_way() const { return is_on_its_way_; }
+  /// The forces that were published last.
+  const std::vector<OrganForce>& forces() const { return forces_; }
+  /// Rotates the forces into another frame.
+  void rotate(const Eigen::Matrix3d& R_new_old);
 
  private:
-  double turn(Time now, double direction);
-
-  double share_ = 0.0;
-  double direction_ = -1.0;  ///< 1: it rises; -1: it falls
-  Time last_{};
+  std::vector<OrganForce> forces_;
+  bool is_on_its_way_ = false;
+  std::optional<Time> last_;
 };
 
 }  // namespace organ_collision

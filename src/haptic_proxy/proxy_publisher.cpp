@@ -8,9 +8,10 @@
 #include <ros/names.h>
 #include <tf2_eigen/tf2_eigen.h>
 
-#include <boost/make_shared.hpp>
+#include <algorithm>
 #include <iterator>
 
+#include "forces/basins.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/messages/text.hpp"
@@ -30,6 +31,8 @@ static_assert(ProxyState::NO_ANSWER == static_cast<int>(ProxyStatus::kNoAnswer) 
 
 /// [messages] Late forces would be wrong, so only a few messages may wait.
 constexpr std::uint32_t kQueue = 20;
+/// The most places of a state.
+constexpr std::size_t kMostPlaces = 32;
 
 std_msgs::Header header_of(const ProxyReport& report) {
   std_msgs::Header header;
@@ -46,26 +49,28 @@ geometry_msgs::WrenchStamped wrench_of(const ProxyReport& report, const OrganFor
   return message;
 }
 
-FaceContact transformed(FaceContact contact, const Eigen::Isometry3d& T_target_source) {
-  contact.point = T_target_source * contact.point;
-  contact.on_organ = T_target_source * contact.on_organ;
-  contact.normal = T_target_source.linear() * contact.normal;
-  return contact;
-}
-
-/// The contacts of the proxy with one organ of the scene, in the organ's frame.
-ContactArrayPtr contacts_of(const ProxyReport& report, std::size_t organ) {
-  const DeformableOrgan& source = *report.scene->sources[organ];
-  auto contacts = boost::make_shared<ContactArray>(
-      answer_about(source.name(), report.tool.name, ContactArray::STATIC, report.stamp));
-  contacts->links = report.tool.links;
-  set_organ(*contacts, source, source.latest());
-  for (const ProxyContact& at : report.answer->contacts) {
-    if (at.organ != organ) continue;
-    contacts->contacts.push_back(
-        to_message(transformed(at.contact, report.scene->organs[organ].T_organ_proxy)));
+/// The contacts that basins_of() compares: those of one organ.
+std::vector<Contact> contacts_with(const ProxyAnswer& answer, std::size_t organ) {
+  std::vector<Contact> contacts;
+  for (const ProxyFace& at : answer.contacts) {
+    if (at.organ == organ) contacts.push_back(to_message(at.contact));
   }
   return contacts;
+}
+
+/// [N] The published force of the proxy on faces of an organ, by face and link, in the proxy's
+/// frame.
+std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces_on(const ProxyReport& report,
+                                                                     const ProxyOrgan& organ) {
+  std::map<std::pair<std::uint32_t, std::int32_t>, Vector3d> forces;
+  for (const OrganForce& of_organ : report.forces) {
+    if (of_organ.organ != organ.name || of_organ.topology != organ.shape->topology()) continue;
+    for (const FaceForce& at : of_organ.on_faces) {
+      const Vector3d force = -(organ.T_organ_proxy.linear().transpose() * at.force);
+      forces.insert({{at.face, at.link}, Vector3d::Zero()}).first->second += force;
+    }
+  }
+  return forces;
 }
 
 ProxyState state_of(const ProxyReport& report) {
@@ -75,6 +80,7 @@ ProxyState state_of(const ProxyReport& report) {
   state.message = plain_text(report.message, kLongestMessage);
   state.tick_sec = report.tick_sec;
   state.clipped = report.clipped_by != nullptr;
+  state.fading = report.is_fading;
   state.hand.orientation.w = state.proxy.orientation.w = 1.0;
   if (report.hand) state.hand = pose_of(report.tool, *report.hand);
   if (report.proxy) state.proxy = pose_of(report.tool, *report.proxy);
@@ -82,6 +88,7 @@ ProxyState state_of(const ProxyReport& report) {
     state.state = static_cast<std::uint8_t>(report.answer->state);
     state.placed_anew = report.answer->is_placed_anew;
     state.pull = to_vector(report.answer->pull);
+    state.contacts = places_of(report);
   }
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
   for (const OrganForce& of_organ : report.forces) {
@@ -95,12 +102,46 @@ ProxyState state_of(const ProxyReport& report) {
 
 }  // namespace
 
-ProxyPublisher::ProxyPublisher(ros::NodeHandle private_node, const OrganRegistry& organs,
-                               FailureLog& failed, bool publishes_tf)
-    : private_node_(private_node),
-      organs_(organs),
-      failed_(failed),
-      contacts_(private_node.advertise<ContactArray>(names::kContacts, kQueue)) {
+std::vector<ProxyContact> places_of(const ProxyReport& report) {
+  std::vector<ProxyContact> places;
+  for (std::size_t organ = 0; organ < report.scene->organs.size(); ++organ) {
+    const ProxyOrgan& source = report.scene->organs[organ];
+    const std::vector<Contact> contacts = contacts_with(*report.answer, organ);
+    if (contacts.empty()) continue;
+    const std::vector<std::size_t> basins = basins_of(contacts);
+    const auto forces = forces_on(report, source);
+    std::vector<Vector3d> of_patch(contacts.size(), Vector3d::Zero());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      const auto force = forces.find({contacts[i].face, contacts[i].link});
+      if (force != forces.end()) of_patch[basins[i]] += force->second;
+    }
+    std::size_t i = 0;
+    for (const ProxyFace& at : report.answer->contacts) {
+      if (at.organ != organ) continue;
+      const std::size_t index = i++;
+      if (basins[index] != index) continue;
+      ProxyContact& place = places.emplace_back();
+      place.organ = source.name;
+      place.link = contacts[index].link;
+      place.face = contacts[index].face;
+      place.vertices = contacts[index].vertices;
+      place.barycentric = contacts[index].barycentric;
+      place.point = contacts[index].point;
+      place.normal = contacts[index].normal;
+      place.distance = -contacts[index].depth;
+      place.velocity = to_vector(tissue_velocity(*report.scene, organ, at.contact));
+      place.force = to_vector(of_patch[index]);
+    }
+  }
+  std::stable_sort(places.begin(), places.end(),
+                   [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  if (places.size() > kMostPlaces) places.resize(kMostPlaces);
+  return places;
+}
+
+ProxyPublisher::ProxyPublisher(const ros::NodeHandle& private_node, FailureLog& failed,
+                               bool publishes_tf)
+    : private_node_(private_node), failed_(failed) {
   if (publishes_tf) frames_.emplace();
 }
 
@@ -129,7 +170,6 @@ void ProxyPublisher::publish(const ProxyReport& report) {
   publish_proxy(report, topics);
   topics.state.publish(state_of(report));
   publish_vertex_forces(report);
-  publish_contacts(report);
 }
 
 void ProxyPublisher::publish_wrenches(const ProxyReport& report) {
@@ -181,23 +221,6 @@ void ProxyPublisher::publish_vertex_forces(const ProxyReport& report) {
     about.topology = of_organ.topology;
     about.tool = report.tool.name;
     pair->vertex_forces.publish(vertex_forces(about, of_organ.on_faces));
-  }
-}
-
-void ProxyPublisher::publish_contacts(const ProxyReport& report) {
-  if (contacts_.getNumSubscribers() == 0) return;
-  if (report.answer) {
-    for (std::size_t i = 0; i < report.scene->organs.size(); ++i) {
-      contacts_.publish(contacts_of(report, i));
-    }
-    return;
-  }
-  for (const auto& [name, organ] : organs_.organs()) {
-    std_msgs::Header header;
-    header.frame_id = organ.frame();
-    header.stamp = report.stamp;
-    contacts_.publish(boost::make_shared<ContactArray>(
-        failed_answer(name, report.tool, header, report.status, report.message)));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <organ_collision/ProxyContact.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -13,7 +14,6 @@
 
 #include "forces/forces.hpp"
 #include "ros/messages/failure_log.hpp"
-#include "ros/organs/organ_registry.hpp"
 #include "ros/publishing/diagnostics.hpp"
 #include "tool_proxy.hpp"
 
@@ -31,13 +31,16 @@ struct ProxyCounters {
   FailureLog placed_anew;          ///< proxies that jumped to a new place, without a motion
 };
 
+/// What ProxyState.contacts has: the nearest place of each locally convex patch of tissue near the
+/// proxy, the nearest first, with the published force on the whole patch. At most 32. `report`:
+/// with an answer.
+std::vector<ProxyContact> places_of(const ProxyReport& report);
+
 /// Publishes reports about tools. Wrenches come first, because a hand waits for them.
 class ProxyPublisher {
  public:
-  /// `organs` and `failed` must outlive this. `failed` counts organs whose topics have no free
-  /// name.
-  ProxyPublisher(ros::NodeHandle private_node, const OrganRegistry& organs, FailureLog& failed,
-                 bool publishes_tf);
+  /// `failed` must outlive this. It counts organs whose topics have no free name.
+  ProxyPublisher(const ros::NodeHandle& private_node, FailureLog& failed, bool publishes_tf);
 
   /// Makes the topics of these tools, and ends the topics of all other tools.
   void set_tools(const std::vector<ToolParameters>& tools);
@@ -57,16 +60,13 @@ class ProxyPublisher {
   void publish_wrenches(const ProxyReport& report);
   void publish_proxy(const ProxyReport& report, ToolTopics& topics);
   void publish_vertex_forces(const ProxyReport& report);
-  void publish_contacts(const ProxyReport& report);
   PairTopics* pair_of(const std::string& organ, const std::string& tool);
 
   ros::NodeHandle private_node_;
-  const OrganRegistry& organs_;
   FailureLog& failed_;
   PairNames names_;
   std::map<std::string, ToolTopics> tools_;                          ///< by tool
   std::map<std::pair<std::string, std::string>, PairTopics> pairs_;  ///< by tool and organ
-  ros::Publisher contacts_;
   std::optional<tf2_ros::TransformBroadcaster> frames_;
 };
 

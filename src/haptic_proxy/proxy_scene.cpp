@@ -13,6 +13,8 @@
 namespace organ_collision {
 namespace {
 
+using Eigen::Vector3d;
+
 /// How old the newest transform of a frame may be.
 struct FrameLimit {
   double seconds;
@@ -52,7 +54,40 @@ std::string oldest_between(const TransformBuffer& transforms, const std::string&
   return of_a ? of_a->frame : a;
 }
 
+/// [s] The interval over which the velocity of an organ's frame is measured.
+constexpr double kFrameInterval = 0.01;
+/// [1] A shape moves until the next one comes, but for at most so many times the time between the
+/// last two shapes.
+constexpr double kLongestMotion = 2.0;
+
+/// How the shape of an organ moves, without its frame.
+TissueMotion shape_motion(const DeformableOrgan& organ, ros::Time now) {
+  const OrganShape &latest = organ.latest(), &previous = organ.previous();
+  if (!previous.mesh) return {};
+  const bool have_stamps = !latest.stamp.isZero() && !previous.stamp.isZero();
+  const double before = (have_stamps ? previous.stamp : previous.received).toSec();
+  const double seconds = (have_stamps ? latest.stamp : latest.received).toSec() - before;
+  if (!(seconds > 0.0) || latest.age(now) > kLongestMotion * seconds) return {};
+  return {previous.mesh, seconds};
+}
+
 }  // namespace
+
+Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
+  const ProxyOrgan& now = scene.organs[organ];
+  const TissueMotion& motion = scene.motions[organ];
+  Vector3d velocity = Vector3d::Zero();
+  if (motion.shape_before) {
+    const Vector3d way = point_at(now.shape->triangle(contact.face), contact.barycentric) -
+                         point_at(motion.shape_before->triangle(contact.face), contact.barycentric);
+    velocity += now.T_organ_proxy.linear().transpose() * way / motion.shape_sec;
+  }
+  if (motion.T_before) {
+    const Vector3d before = motion.T_before->inverse() * (now.T_organ_proxy * contact.point);
+    velocity += (contact.point - before) / motion.frame_sec;
+  }
+  return velocity;
+}
 
 bool ProxyFrame::update(const OrganRegistry& organs) {
   const auto& all = organs.organs();
@@ -92,6 +127,14 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
     scene.organs.push_back(
         {name, organ.latest().mesh, organ.latest().topology(), T_organ_proxy.found->value});
     scene.sources.push_back(&organ);
+    TissueMotion motion = shape_motion(organ, now);
+    if (T_organ_proxy.found->stamp.toSec() > kFrameInterval) {
+      const ros::Time before = T_organ_proxy.found->stamp - ros::Duration(kFrameInterval);
+      const auto T_before = look_up(transforms, organ.frame(), frame, before);
+      if (T_before.found) motion.T_before = T_before.found->value;
+      motion.frame_sec = kFrameInterval;
+    }
+    scene.motions.push_back(std::move(motion));
   }
   return scene;
 }

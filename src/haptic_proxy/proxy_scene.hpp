@@ -2,6 +2,8 @@
 
 #include <ros/time.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,14 @@ class ProxyFrame {
   std::string name_;
 };
 
+/// How an organ moves, from its last two shapes and from TF.
+struct TissueMotion {
+  std::shared_ptr<const TriangleMesh> shape_before = nullptr;  ///< null: the shape rests
+  double shape_sec = 0.0;                          ///< [s] between the shapes before and now
+  std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy some time ago; empty: it rests
+  double frame_sec = 0.0;                          ///< [s] since then
+};
+
 /// All organs as one tick of a proxy takes them.
 struct ProxyScene {
   std::string frame;  ///< the proxy's frame
@@ -37,7 +47,13 @@ struct ProxyScene {
   std::vector<const DeformableOrgan*> sources;  ///< where `organs` come from, in the same order
   /// The stamps of the organs' poses, in the same order; zero if an organ's frame is static.
   std::vector<ros::Time> stamps = {};
+  std::vector<TissueMotion> motions = {};  ///< of the organs, in the same order
 };
+
+/// The velocity [m/s] of an organ's tissue at a point of a face, in the proxy's frame. `contact`:
+/// of the organ number `organ` of the scene, in the proxy's frame.
+Eigen::Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ,
+                                const FaceContact& contact);
 
 /// The greatest age of what is known of organs [s of ROS time]. 0 means no limit.
 struct AgeLimits {

@@ -50,40 +50,29 @@ ProxyReport ToolProxy::follow(const Timed<ToolPose>& hand, const ProxyScene& sce
     throw Rejection(ContactArray::INVALID_REQUEST, "no proxy", answer.message);
   }
   const ros::Time stamp = hand.stamp.isZero() ? ros::Time::now() : hand.stamp;
-  LimitedForces forces = limited_forces(answer, scene, damping(answer, stamp));
+  const LimitedForces forces = limited_forces(answer, scene, damping(answer, stamp));
   is_lost_ = false;
   hand_ = hand.value;
   answer_ = &answer;
   held_ = answer.proxy;
-  if (frame_ != scene.frame) {  // The last force has another direction in this frame.
-    ramp_ = {};
-    is_released_ = false;
-    frame_ = scene.frame;
-  }
-  if (answer.is_placed_anew && ramp_.share() > 0.0) is_released_ = true;
-  if (is_released_ && ramp_.fall(now) == 0.0) is_released_ = false;
-  if (!is_released_) {
-    ramp_.rise(now);
-    forces_ = std::move(forces);
-  }
+  frame_ = scene.frame;
+  center_ = answer.center;
+  size_ = tool_.freedom == ProxyFreedom::kFree ? answer.size : 0.0;
   ProxyReport report{tool_, frame_, stamp, ContactArray::OK, answer.message, hand_, held_};
   report.answer = &answer;
   report.scene = &scene;
   report.tick_sec = passed.count();
-  set_forces(report, ramp_.share());
+  set_forces(report, forces, now);
   return report;
 }
 
 ProxyReport ToolProxy::lose(std::uint8_t status, const std::string& message,
                             const std::string& frame, Time now) {
   is_lost_ = true;
-  is_released_ = false;
   velocity_ = {};
-  const double share = ramp_.fall(now);
-  const std::string& told = frame_.empty() ? frame : frame_;
-  ProxyReport report{tool_, told, ros::Time::now(), status, message, hand_, held_};
-  set_forces(report, share);
-  if (share == 0.0) forces_ = {};
+  if (frame_.empty()) frame_ = frame;
+  ProxyReport report{tool_, frame_, ros::Time::now(), status, message, hand_, held_};
+  set_forces(report, {}, now);
   return report;
 }
 
@@ -119,16 +108,12 @@ ToolProxy::LimitedForces ToolProxy::limited_forces(const ProxyAnswer& answer,
   return limited;
 }
 
-double ToolProxy::force() const {
-  Vector3d sum = Vector3d::Zero();
-  for (const OrganForce& of_organ : forces_.of_organs) sum += of_organ.force;
-  return ramp_.share() * sum.norm();
-}
-
-void ToolProxy::set_forces(ProxyReport& report, double share) const {
-  report.forces = forces_.of_organs;
-  for (OrganForce& of_organ : report.forces) of_organ.scale(share);
-  report.clipped_by = forces_.clipped_by;
+/// Lets the published forces follow the target.
+void ToolProxy::set_forces(ProxyReport& report, const LimitedForces& target, Time now) {
+  report.forces =
+      rate_limit_.follow(target.of_organs, force_rate(parameters_), center_, size_, now);
+  report.is_fading = rate_limit_.is_on_its_way();
+  report.clipped_by = target.clipped_by;
 }
 
 /// The damping force on the hand [N]. It is at most as large as the spring's force, so that it
@@ -146,9 +131,16 @@ Vector3d ToolProxy::damping(const ProxyAnswer& answer, ros::Time stamp) {
 void ToolProxy::reset() {
   proxy_.reset();
   is_lost_ = true;
-  is_released_ = false;
   answer_ = nullptr;
   velocity_ = {};
+}
+
+void ToolProxy::change_frame(const std::string& frame, const Eigen::Matrix3d& R_new_old) {
+  frame_ = frame;
+  center_ = R_new_old * center_;
+  rate_limit_.rotate(R_new_old);
+  hand_.reset();
+  held_.reset();
 }
 
 void ToolProxy::update_settings() { proxy_.set_settings(proxy_settings(parameters_, tool_)); }

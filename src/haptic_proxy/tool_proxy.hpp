@@ -30,7 +30,8 @@ struct ProxyReport {
   std::optional<ToolPose> proxy = {};   ///< the proxy's last pose
   const ProxyAnswer* answer = nullptr;  ///< null: there is no answer
   const ProxyScene* scene = nullptr;    ///< the organs of the answer
-  std::vector<OrganForce> forces = {};  ///< as published: limited, and faded in or out
+  std::vector<OrganForce> forces = {};  ///< as published: limited, and on their way
+  bool is_fading = false;               ///< the forces are on their way to those of this state
   /// The parameter whose limit reduced the forces. Null: no limit reduced them.
   const char* clipped_by = nullptr;
   double tick_sec = 0.0;  ///< [s] how long HapticProxy::follow() took
@@ -62,11 +63,11 @@ class PullVelocity {
   Eigen::Vector3d velocity_ = Eigen::Vector3d::Zero();
 };
 
-/// The proxy of one tool and its force. The force is limited. It fades out when answers end, and
-/// fades in when they begin again.
+/// The proxy of one tool and its force. The force and its rate of change are limited. The force
+/// fades out when answers end.
 class ToolProxy {
  public:
-  using Time = ForceRamp::Time;
+  using Time = ForceRateLimit::Time;
 
   /// `parameters` must outlive this. Throws GlError, and std::invalid_argument if the tool is
   /// illegal.
@@ -80,21 +81,22 @@ class ToolProxy {
   /// ContactArray. `frame`: the report's frame if there never was an answer.
   ProxyReport lose(std::uint8_t status, const std::string& message, const std::string& frame,
                    Time now);
-  /// Whether the share of the force that is published changes with time. Then follow() or lose()
-  /// has to be called soon, even if the hand rests.
-  bool is_ramping() const {
-    return is_lost_ || is_released_ ? ramp_.share() > 0.0 : ramp_.share() < 1.0;
-  }
+  /// Whether the published force is on its way. Then follow() or lose() has to be called soon, even
+  /// if the hand rests.
+  bool is_fading() const { return rate_limit_.is_on_its_way(); }
 
   /// The last pose of the hand that had an answer.
   const std::optional<ToolPose>& hand() const { return hand_; }
   /// The answer to the last pose; null if there is none. Valid until the next follow() or reset().
   const ProxyAnswer* answer() const { return is_lost_ ? nullptr : answer_; }
   /// [N] The magnitude of the force on the hand, as it was published last.
-  double force() const;
+  double force() const { return sum_of(rate_limit_.forces()).norm(); }
 
   /// The next tick places the proxy anew. Until then, there is no answer.
   void reset();
+  /// From now on, the reports are in another frame. `R_new_old`: the rotation of the old frame in
+  /// it.
+  void change_frame(const std::string& frame, const Eigen::Matrix3d& R_new_old);
   /// Call it when the parameters have changed.
   void update_settings();
 
@@ -107,17 +109,17 @@ class ToolProxy {
   LimitedForces limited_forces(const ProxyAnswer& answer, const ProxyScene& scene,
                                const Eigen::Vector3d& damping_force) const;
   Eigen::Vector3d damping(const ProxyAnswer& answer, ros::Time stamp);
-  void set_forces(ProxyReport& report, double share) const;
+  void set_forces(ProxyReport& report, const LimitedForces& target, Time now);
 
   ToolParameters tool_;
   const HapticProxyParameters& parameters_;
   HapticProxy proxy_;
-  ForceRamp ramp_;
-  bool is_lost_ = true;       ///< there was no answer at the last call
-  bool is_released_ = false;  ///< the proxy was placed anew; the force of its last place fades
+  ForceRateLimit rate_limit_;
+  bool is_lost_ = true;  ///< there was no answer at the last call
   const ProxyAnswer* answer_ = nullptr;
-  LimitedForces forces_;  ///< of the last answer, or of the last place until they have faded
-  std::string frame_;     ///< the frame of forces_, hand_ and held_
+  Eigen::Vector3d center_ = Eigen::Vector3d::Zero();  ///< [m] of the last answer
+  double size_ = 0.0;                    ///< [m] of a free tool in the last answer; else 0
+  std::string frame_;                    ///< the frame of the published forces, hand_ and held_
   std::optional<ToolPose> hand_, held_;  ///< the last poses of the hand and the proxy
   PullVelocity velocity_;                ///< of the proxy relative to the hand
   std::size_t crossings_ = 0;            ///< how many faces the proxy had pierced at the last tick

@@ -14,7 +14,8 @@ namespace organ_collision {
 
 CollisionRequest request_of(const Motion& motion) {
   CollisionRequest request;
-  if (!is_static_mode(motion.mode)) request.path = {{0.0, {motion.trocar, motion.previous}}};
+  if (!is_static_mode(motion.mode))
+    request.path = {{0.0, {motion.previous_trocar, motion.previous}}};
   request.path.push_back({1.0, {motion.trocar, motion.tip}});
   request.radius = motion.radius;
   request.mode = motion.mode;
@@ -23,11 +24,37 @@ CollisionRequest request_of(const Motion& motion) {
 
 namespace {
 
-enum Column { kQuery, kMode, kTrocar, kPrevious = kTrocar + 3, kTip = kPrevious + 3, kRadius = 11 };
+enum Column {
+  kQuery,
+  kMode,
+  kTrocar,
+  kPrevious = kTrocar + 3,
+  kTip = kPrevious + 3,
+  kRadius = 11,
+  kPreviousTrocar
+};
 
-constexpr std::array<std::string_view, 12> kColumns = {
-    "query",      "mode",       "trocar_x", "trocar_y", "trocar_z", "previous_x",
-    "previous_y", "previous_z", "tip_x",    "tip_y",    "tip_z",    "radius"};
+constexpr std::array<std::string_view, 15> kColumns = {"query",
+                                                       "mode",
+                                                       "trocar_x",
+                                                       "trocar_y",
+                                                       "trocar_z",
+                                                       "previous_x",
+                                                       "previous_y",
+                                                       "previous_z",
+                                                       "tip_x",
+                                                       "tip_y",
+                                                       "tip_z",
+                                                       "radius",
+                                                       "previous_trocar_x",
+                                                       "previous_trocar_y",
+                                                       "previous_trocar_z"};
+/// The number of columns if the trocars rest.
+constexpr std::size_t kFewestColumns = kPreviousTrocar;
+
+bool is_legal_count(std::size_t columns) {
+  return columns == kFewestColumns || columns == kColumns.size();
+}
 
 constexpr std::pair<std::string_view, QueryMode> kModes[] = {
     {"static", QueryMode::kStatic},
@@ -62,8 +89,9 @@ std::optional<Motion> Motions::read() {
 
 /// The motion in the current line.
 Motion Motions::motion() const {
-  if (cells_.size() != kColumns.size()) {
-    throw text_.error(concatenate(cells_.size(), " columns; must be ", kColumns.size()));
+  if (!is_legal_count(cells_.size())) {
+    throw text_.error(concatenate(cells_.size(), " columns; must be ", kFewestColumns, ", or ",
+                                  kColumns.size(), " with the previous trocar"));
   }
   if (cells_[kQuery].empty()) throw text_.error("query is empty; must be a number or a name");
 
@@ -80,7 +108,10 @@ Motion Motions::motion() const {
   motion.mode = mode->second;
   motion.trocar = point(kTrocar);
   motion.tip = point(kTip);
-  motion.previous = is_static_mode(motion.mode) ? motion.tip : point(kPrevious);
+  const bool is_static = is_static_mode(motion.mode);
+  motion.previous = is_static ? motion.tip : point(kPrevious);
+  const bool rests = is_static || cells_.size() == kFewestColumns;
+  motion.previous_trocar = rests ? motion.trocar : point(kPreviousTrocar);
   motion.radius = number(kRadius);
   if (!(motion.radius > 0.0)) {
     throw text_.error("radius is " + in_quotes(cells_[kRadius]) + "; must be above 0");
@@ -107,12 +138,15 @@ Eigen::Vector3d Motions::point(std::size_t column) const {
 /// Whether the current line is the header. Throws InputError if it is another header.
 bool Motions::is_header() const {
   if (cells_[kQuery] != kColumns[kQuery]) return false;
-  if (std::equal(cells_.begin(), cells_.end(), kColumns.begin(), kColumns.end())) return true;
-  std::string legal;
-  for (const std::string_view column : kColumns) {
-    legal += (legal.empty() ? "" : ",") + std::string(column);
+  if (is_legal_count(cells_.size()) && std::equal(cells_.begin(), cells_.end(), kColumns.begin())) {
+    return true;
   }
-  throw text_.error("header is " + in_quotes(text_.line()) + "; must be " + legal);
+  std::string legal;
+  for (std::size_t i = 0; i < kFewestColumns; ++i) {
+    legal += (legal.empty() ? "" : ",") + std::string(kColumns[i]);
+  }
+  throw text_.error("header is " + in_quotes(text_.line()) + "; must be " + legal +
+                    ", and perhaps previous_trocar_x,previous_trocar_y,previous_trocar_z");
 }
 
 Motions::Motions(const std::string& file, Order order)

@@ -13,12 +13,13 @@
 
 namespace organ_collision {
 
-/// The motion of a tool with a resting trocar, and the kind of query: one line of a motions file.
+/// The motion of a tool, and the kind of query: one line of a motions file.
 struct Motion {
   std::string query;     ///< the name of the query, which is printed with its contacts
   std::size_t line = 0;  ///< the line from which it was read, from 1
   QueryMode mode = QueryMode::kStatic;
-  Eigen::Vector3d trocar;    ///< [m] in the mesh's frame, as `previous` and `tip`
+  Eigen::Vector3d trocar;           ///< [m] at the end; in the mesh's frame, as all points
+  Eigen::Vector3d previous_trocar;  ///< [m] at the start; by default, the trocar rests
   Eigen::Vector3d previous;  ///< [m] the tip at the start; the same as `tip` in the static modes
   Eigen::Vector3d tip;       ///< [m] the tip at the end
   double radius = 0.0;       ///< [m] the radius of the shaft
@@ -29,9 +30,10 @@ CollisionRequest request_of(const Motion& motion);
 
 /// The motions of a CSV file, or of standard input, in the order in which they are answered. The
 /// columns are query, mode, trocar_x, trocar_y, trocar_z, previous_x, previous_y, previous_z,
-/// tip_x, tip_y, tip_z, radius, in this order. A header line may come first; blank lines are
-/// skipped. Modes: static, swept, paper_static, paper_swept, paper_naive. The static modes ignore
-/// the previous tip, which may be left empty.
+/// tip_x, tip_y, tip_z, radius, in this order. Where the trocar was at the start may follow:
+/// previous_trocar_x, previous_trocar_y, previous_trocar_z. A header line may come first; blank
+/// lines are skipped. Modes: static, swept, paper_static, paper_swept, paper_naive. The static
+/// modes ignore the previous tip, which may be left empty.
 class Motions {
  public:
   /// kByQuery: sorted by the queries, as numbers if all are integers, else as text.

@@ -14,6 +14,7 @@
 
 #include "contacts_csv.hpp"
 #include "geometry/concatenate.hpp"
+#include "geometry/plausible_size.hpp"
 #include "shapes.hpp"
 #include "user_input.hpp"
 
@@ -33,9 +34,11 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
                       query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,
                       tip_x,tip_y,tip_z,radius
                       query: a number or a name, each once
-                      mode: static (previous ignored), swept, paper_static, paper_swept, paper_naive
-                      lengths in metres, in the mesh's frame; the trocar rests; a header line may
-                      come first
+                      mode: static (previous ignored, may be empty), swept, paper_static,
+                      paper_swept, paper_naive
+                      lengths in metres, in the mesh's frame. A header line may come first. If the
+                      trocar moves, where it was stands in three more columns:
+                      previous_trocar_x,previous_trocar_y,previous_trocar_z
   --mesh-before FILE  the same faces at the start of the step: swept motions then meet the organ
                       moving linearly from there to --mesh; without it the organ rests
   --shapes FOLDER     a recorded simulation: an OBJ file with the same faces for each motion, in the
@@ -259,6 +262,9 @@ void answer(const Options& options) {
   const bool has_recording = !options.shapes.empty();
   ShapeSource shapes =
       has_recording ? ShapeSource(options.shapes) : ShapeSource(options.mesh, options.mesh_before);
+  const std::string doubt = doubt_about_organ(has_recording ? options.shapes : options.mesh,
+                                              shapes.first().box().cast<double>());
+  if (!doubt.empty()) std::cerr << "query_offline: warning: " << doubt << std::endl;
   Motions motions(options.motions,
                   has_recording ? Motions::Order::kAsInFile : Motions::Order::kByQuery);
   const std::optional<std::size_t> count = motions.count();

@@ -40,7 +40,11 @@ bool TextReader::next() {
 /// Returns false if more must be read first, and `waits` is false.
 bool TextReader::find_line(bool waits) {
   while (true) {
-    end_ = std::min(buffer_.find('\n', begin_), buffer_.size());
+    if (is_behind_return_ && begin_ < buffer_.size()) {
+      begin_ += buffer_[begin_] == '\n';
+      is_behind_return_ = false;
+    }
+    end_ = std::min(buffer_.find_first_of("\r\n", begin_), buffer_.size());
     if (end_ - begin_ > kLongestLine) {
       throw InputError(file_, number_ + 1,
                        "the line has more than " + std::to_string(kLongestLine) +
@@ -62,6 +66,7 @@ bool TextReader::find_line(bool waits) {
 
 void TextReader::go_behind_line() {
   ++number_;
+  is_behind_return_ = end_ < buffer_.size() && buffer_[end_] == '\r';
   begin_ = std::min(end_ + 1, buffer_.size());
 }
 

@@ -12,9 +12,9 @@ namespace organ_collision {
 /// Chooses standard input instead of a file.
 struct StandardInput {};
 
-/// Reads the lines of a text file, or of standard input. Line ends may be those of Unix or Windows;
-/// the last line may have none. Blank lines are left out. Standard input may be a pipe, also one
-/// that does not block.
+/// Reads the lines of a text file, or of standard input. Line ends may be those of Unix, Windows or
+/// old spreadsheets (a carriage return); the last line may have none. Blank lines are left out.
+/// Standard input may be a pipe, also one that does not block.
 class TextReader {
  public:
   static constexpr std::size_t kLongestLine = 1 << 20;  ///< [bytes] without its line feed
@@ -56,10 +56,11 @@ class TextReader {
 
   std::string file_;
   int descriptor_;
-  std::string buffer_;     ///< what was read; the next read erases the lines before begin_
-  std::size_t begin_ = 0;  ///< where the first line begins that is not yet taken
-  std::size_t end_ = 0;    ///< where it ends
-  bool at_end_ = false;    ///< whether the input is read to its end
+  std::string buffer_;             ///< what was read; the next read erases the lines before begin_
+  std::size_t begin_ = 0;          ///< where the first line begins that is not yet taken
+  std::size_t end_ = 0;            ///< where it ends
+  bool at_end_ = false;            ///< whether the input is read to its end
+  bool is_behind_return_ = false;  ///< the line before begin_ ended with a carriage return
   std::string_view line_;
   std::size_t number_ = 0;
   bool ends_within_line_ = false;

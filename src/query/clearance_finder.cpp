@@ -121,7 +121,8 @@ double ClearanceFinder::closing(const Step& step, const Approach& end, const Vec
   const ClosestPoints& closest = end.closest.closest;
   const LegSpan last = step.span_of(step.leg_count() - 1);
   const FaceLeg face = step.face_leg(last.begin, end.face);
-  Vector3d way = point_at(face.motion.start, closest.barycentric) - closest.on_face;
+  Vector3d way = point_at(face.motion.start, closest.barycentric) -
+                 point_at(face.motion.end, closest.barycentric);
   if (!end.part.shape) {
     const ShaftMotion shaft = step.shaft_motion(last);
     way += shaft.end.at(closest.shaft) - shaft.start.at(closest.shaft);

@@ -202,8 +202,14 @@ class AnswerBag {
   std::map<std::uint8_t, std::size_t> counts_;  ///< the number of answers, by status
 };
 
-/// Throws InputError if the output would replace the input, or something that is no regular file.
+/// Throws InputError if the input is no regular file, or if the output would replace the input, or
+/// something that is no regular file.
 void check_files(const ReplayOptions& options) {
+  // To open a FIFO would take until somebody writes to it, and a bag is not read from its beginning
+  // to its end.
+  if (std::filesystem::exists(options.in) && !std::filesystem::is_regular_file(options.in)) {
+    throw InputError("replay: " + options.in + " is no regular file; must be a recorded bag");
+  }
   for (const std::string& written : {options.out, incomplete(options.out)}) {
     // If a file cannot be examined here, an error is reported when it is written.
     std::error_code ignored;
@@ -296,6 +302,10 @@ void replay(const ReplayOptions& options) {
   rosbag::Bag bag;
   open(bag, options.in);
   const std::string contacts = options.node + "/" + names::kContacts;
+  // Until now, a signal ends the program at once: it may wait for a FIFO with the parameters.
+  for (const int signal : {SIGINT, SIGTERM}) {
+    std::signal(signal, [](int) { interrupted = true; });
+  }
   AnswerBag answers(options.out, contacts);
   Replay replay(node, tools, options.node, has_topic(bag, "/clock"),
                 [&](const ContactArray& answer, ros::Time time) { answers.add(answer, time); });
@@ -325,9 +335,6 @@ void replay(const ReplayOptions& options) {
 
 int main(int argc, char** argv) {
   using namespace organ_collision;
-  for (const int signal : {SIGINT, SIGTERM}) {
-    std::signal(signal, [](int) { interrupted = true; });
-  }
   return exit_code("replay", [&] {
     const std::optional<ReplayOptions> options = parse_options({argv + 1, argv + argc});
     try {

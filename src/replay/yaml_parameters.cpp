@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -61,6 +62,9 @@ XmlRpcValue converted(const YAML::Node& node, int level, int& nodes) {
 }
 
 XmlRpcValue read(const std::string& file) {
+  if (std::filesystem::is_directory(file)) {
+    throw InputError(file + ": is a folder; must be a yaml file");
+  }
   std::ifstream stream(file);
   if (!stream) throw InputError(file + ": cannot be opened: " + std::strerror(errno));
   try {

@@ -286,6 +286,9 @@ RobotShape read_mesh_file(const std::string& file, const Vector3d& scale,
       throw ToolError(concatenate("its scale is ", scale.transpose(),
                                   "; must be finite, and not 0 along any axis"));
     }
+    if (boost::starts_with(content, "version https://git-lfs.github.com/spec/")) {
+      throw ToolError("it is only a pointer of Git LFS; fetch the file itself by 'git lfs pull'");
+    }
     check_ply_header(content);
     // With some broken files, assimp would not end.
     const std::chrono::milliseconds more(content.size() / reader_limits::kMeshBytesPerMillisecond);

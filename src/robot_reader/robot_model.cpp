@@ -46,10 +46,20 @@ void check_complete(const std::string& link, const std::vector<std::string>& err
   }
 }
 
-using AboutToRead = std::function<void(const std::string&)>;
+/// How the mesh files that a URDF names are found.
+struct MeshFiles {
+  std::string folder;  ///< that of the URDF, with a slash at its end; empty: the URDF is no file
+  std::function<void(const std::string& mesh)> about_to_read;  ///< called before a mesh is read
+
+  /// The file with this name. A relative name begins at the URDF's folder.
+  std::string find(const std::string& name) const {
+    const bool is_whole = name.find("://") != std::string::npos || name.find('/') == 0;
+    return is_whole ? name : folder + name;
+  }
+};
 
 RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
-                    const AboutToRead& about_to_read) {
+                    const MeshFiles& files) {
   const urdf::Vector3& p = origin.position;
   const urdf::Rotation& q = origin.rotation;
   RobotShape shape;
@@ -72,10 +82,10 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
     }
     case urdf::Geometry::MESH: {
       const auto& mesh = static_cast<const urdf::Mesh&>(geometry);
-      about_to_read("mesh '" + mesh.filename + "'");
+      files.about_to_read("mesh '" + mesh.filename + "'");
       const Eigen::Isometry3d T_link_mesh =
           Eigen::Translation3d(to_eigen(p)) * Eigen::Quaterniond(q.w, q.x, q.y, q.z);
-      shape = read_mesh_file(mesh.filename, to_eigen(mesh.scale), T_link_mesh);
+      shape = read_mesh_file(files.find(mesh.filename), to_eigen(mesh.scale), T_link_mesh);
     }
   }
   shape.pose = {{p.x, p.y, p.z, q.x, q.y, q.z, q.w}};
@@ -84,10 +94,10 @@ RobotShape shape_of(const urdf::Geometry& geometry, const urdf::Pose& origin,
 
 /// The shapes of a link's collision elements, or of its visual elements.
 template <typename Elements>
-std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& about_to_read) {
+std::vector<RobotShape> shapes_of(const Elements& elements, const MeshFiles& files) {
   std::vector<RobotShape> shapes;
   for (const auto& element : elements) {
-    shapes.push_back(shape_of(*element->geometry, element->origin, about_to_read));
+    shapes.push_back(shape_of(*element->geometry, element->origin, files));
   }
   return shapes;
 }
@@ -95,7 +105,7 @@ std::vector<RobotShape> shapes_of(const Elements& elements, const AboutToRead& a
 /// Throws ToolError if there is no such link, or a shape or mesh cannot be read. `errors`: all
 /// errors of urdfdom, also about links that it read only in part.
 RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::string>& errors,
-                    const std::string& name, const AboutToRead& about_to_read) {
+                    const std::string& name, const MeshFiles& files) {
   const urdf::LinkConstSharedPtr link = model.getLink(name);
   if (!link) {
     std::vector<std::string> legal;
@@ -106,13 +116,13 @@ RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::st
   const std::string prefix = "link '" + name + "': ";
   try {
     check_complete(name, errors);
-    const auto about_to_read_mesh = [&](const std::string& mesh) { about_to_read(prefix + mesh); };
+    const MeshFiles of_link{files.folder,
+                            [&](const std::string& mesh) { files.about_to_read(prefix + mesh); }};
     RobotLink description;
     const urdf::JointSharedPtr& joint = link->parent_joint;
     if (joint && joint->type != urdf::Joint::FIXED) description.joint = joint->name;
-    description.shapes = link->collision_array.empty()
-                             ? shapes_of(link->visual_array, about_to_read_mesh)
-                             : shapes_of(link->collision_array, about_to_read_mesh);
+    description.shapes = link->collision_array.empty() ? shapes_of(link->visual_array, of_link)
+                                                       : shapes_of(link->collision_array, of_link);
     return description;
   } catch (const ToolError& error) {
     throw ToolError(prefix + error.what());
@@ -120,7 +130,7 @@ RobotLink read_link(const urdf::ModelInterface& model, const std::vector<std::st
 }
 
 std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std::string>& names,
-                                  const AboutToRead& about_to_read) {
+                                  const MeshFiles& files) {
   std::vector<std::string> errors;
   urdf::ModelInterfaceSharedPtr model;
   {
@@ -130,7 +140,7 @@ std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std
   if (!model) throw ToolError("no legal URDF: " + listed(errors));
   std::vector<RobotLink> links;
   for (const std::string& name : names) {
-    links.push_back(read_link(*model, errors, name, about_to_read));
+    links.push_back(read_link(*model, errors, name, files));
   }
   return links;
 }
@@ -139,10 +149,11 @@ std::vector<RobotLink> read_links(const std::string& urdf, const std::vector<std
 
 void answer_with_links(const std::function<std::string()>& urdf,
                        const std::vector<std::string>& links,
-                       const std::function<void(const std::string&)>& write) {
+                       const std::function<void(const std::string&)>& write,
+                       const std::string& folder) {
   try {
-    write(links_record(
-        read_links(urdf(), links, [&](const std::string& what) { write(reading_record(what)); })));
+    const MeshFiles files{folder, [&](const std::string& mesh) { write(reading_record(mesh)); }};
+    write(links_record(read_links(urdf(), links, files)));
   } catch (const std::exception& error) {
     write(refusal_record(error.what()));
   }

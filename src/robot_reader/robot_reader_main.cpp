@@ -46,8 +46,10 @@ int main(int argc, char** argv) {
     limit_process();
     return read_urdf(argv[1]);
   };
-  answer_with_links(urdf, {argv + 2, argv + argc}, [&](const std::string& record) {
+  const auto write = [&](const std::string& record) {
     const bool is_written = std::fwrite(record.data(), 1, record.size(), replies) == record.size();
     if (!is_written || std::fflush(replies) != 0) std::exit(EXIT_FAILURE);
-  });
+  };
+  const std::string folder = first.substr(0, first.find_last_of('/') + 1);  // Empty for "-".
+  answer_with_links(urdf, {argv + 2, argv + argc}, write, folder);
 }

@@ -7,6 +7,7 @@
 
 #include "force_trajectory.hpp"
 #include "ros/messages/failure_log.hpp"
+#include "test/refusals.hpp"
 
 namespace organ_collision {
 namespace {
@@ -69,6 +70,14 @@ TEST(ContactCheck, EachFaultIsNamed) {
   ContactArray unresolved = good();
   unresolved.unresolved = 1;
   EXPECT_EQ(refusal(unresolved).find("unresolved contacts: 1 contacts were not resolved"), 0u);
+}
+
+TEST(SideDoubt, IsToldOnlyIfNothingIsTouched) {
+  ContactArray answer = touched({});
+  expect_words(doubt_about_side(answer), {"not known whether the tool is inside", "UNKNOWN"});
+  answer.placement.tip = ToolPlacement::OUTSIDE;
+  EXPECT_EQ(doubt_about_side(answer), "");
+  EXPECT_EQ(doubt_about_side(good()), "");
 }
 
 TEST(ContactCheck, WhatTheNodeSendsIsAccepted) {

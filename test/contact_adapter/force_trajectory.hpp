@@ -25,7 +25,7 @@ inline Contact contact(const Eigen::Vector3d& point, const Eigen::Vector3d& norm
   contact.point = tf2::toMsg(point);
   contact.normal = to_vector(normal.normalized());
   contact.depth = depth;
-  contact.link = kShaft;
+  contact.link = kShaftLink;
   return contact;
 }
 
@@ -37,7 +37,7 @@ inline ContactArray touched(const std::vector<Contact>& contacts) {
   answer.organ = "liver";
   answer.tool = "hook";
   answer.mode = ContactArray::SWEPT;
-  answer.clearance.link = kShaft;
+  answer.clearance.link = kShaftLink;
   answer.contacts = contacts;
   return answer;
 }

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "force_trajectory.hpp"
+#include "forces/basins.hpp"
 #include "ros/messages/failure_log.hpp"
 
 namespace organ_collision {

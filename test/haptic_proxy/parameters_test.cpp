@@ -88,9 +88,9 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   tools[0] = tools[1] = legal_parameters<HapticProxyParameters>()["tools"][0];
   tools[1]["name"] = "left_hook";  // Its topics would have the same names.
   expect_words(refusal_of<HapticProxyParameters>("tools", tools),
-                  {"~tools has 'left hook' and 'left_hook'"});
+               {"~tools has 'left hook' and 'left_hook'"});
   expect_words(refusal_of<MeshAdapterParameters>("collision_node", "a b"),
-                  {"~collision_node is 'a b'", "not private"});
+               {"~collision_node is 'a b'", "not private"});
   const struct {
     const char* name;  ///< of a member of the second organ
     XmlRpcValue value;

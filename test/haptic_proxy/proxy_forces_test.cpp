@@ -21,8 +21,8 @@ class ProxyForcesTest : public testing::Test {
     return {in(random_), in(random_), in(random_)};
   }
 
-  ProxyContact contact(std::size_t organ, double load, double shaft) {
-    ProxyContact at;
+  ProxyFace contact(std::size_t organ, double load, double shaft) {
+    ProxyFace at;
     at.organ = organ;
     at.load = load;
     at.contact.face = 0;
@@ -92,13 +92,13 @@ TEST_F(ProxyForcesTest, OfAFreeToolTheForcesOnFacesAddUpToTheWrenches) {
 
 TEST_F(ProxyForcesTest, ThroughATrocarTheForceActsAtTheTipWithTheLeverOfTheContact) {
   answer_.contacts = {contact(0, 0.004, 0.25), contact(1, 0.002, 1.0)};
-  for (const ProxyContact& at : answer_.contacts) {
+  for (const ProxyFace& at : answer_.contacts) {
     answer_.pull -= at.load * at.contact.shaft * at.contact.normal;
   }
   answer_.center = random_vector(0.2);
   const std::vector<OrganForce> found = forces(ProxyFreedom::kTrocar);
   for (std::size_t i = 0; i < 2; ++i) {
-    const ProxyContact& at = answer_.contacts[i];
+    const ProxyFace& at = answer_.contacts[i];
     const Vector3d on_tissue = kStiffness * at.load * at.contact.normal;
     expect_near(found[i].force, -at.contact.shaft * on_tissue);
     expect_near(found[i].torque, answer_.center.cross(found[i].force));

@@ -155,3 +155,25 @@ TEST_F(ProxySceneTest, TheProxysOwnFrameAgesAgainstTheTool) {
   EXPECT_THROW(check({"trocar", "tip"}), Rejection);
   EXPECT_NO_THROW(check({"trocar"})) << "the frame of the organ carries it";
 }
+
+/// The organ's shape rises by 0.5 m/s, and TF carries its frame by 1 m/s along x.
+TEST_F(ProxySceneTest, TissueMovesWithItsShapeAndWithItsFrame) {
+  OrganMesh message = new_mesh();
+  apply(message, ros::Time(7.9));
+  message.header.stamp = ros::Time(7.92);
+  for (std::size_t i = 2; i < message.vertices.size(); i += 3) message.vertices[i] += 0.01F;
+  apply(message, ros::Time(7.92));
+  for (const double time : {7.91, 7.92, 7.93, 7.94}) {
+    set_point(transforms_, "world", "liver_frame", time, {time - 7.9, 0.2, 0.3});
+  }
+  FaceContact contact;
+  contact.face = 0;
+  contact.barycentric = {0.2, 0.3, 0.5};
+  contact.point = {0.4, 0.5, 0.6};
+  const auto velocity = [&](const std::string& frame, double now) {
+    return tissue_velocity(proxy_scene(store_, transforms_, frame, {}, ros::Time(now)), 0, contact);
+  };
+  EXPECT_LT((velocity("liver_frame", 7.93) - Eigen::Vector3d(0.0, 0.0, 0.5)).norm(), 1e-4);
+  EXPECT_LT((velocity("world", 7.93) - Eigen::Vector3d(1.0, 0.0, 0.5)).norm(), 1e-4);
+  EXPECT_EQ(velocity("liver_frame", 8.0), Eigen::Vector3d(0.0, 0.0, 0.0)) << "no shape came since";
+}

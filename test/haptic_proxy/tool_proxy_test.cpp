@@ -6,9 +6,13 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <string>
 
+#include "haptic_proxy/proxy_publisher.hpp"
+#include "ros/messages/conversions.hpp"
 #include "ros/messages/failure_log.hpp"
 #include "test/refusals.hpp"
 #include "test/ros/tools/hand_made_tools.hpp"
@@ -26,6 +30,8 @@ class ToolProxyTest : public testing::Test {
   ToolProxyTest() {
     ros::Time::init();
     tool_.parameters.freedom = ProxyFreedom::kTrocar;
+    parameters_.max_force = parameters_.max_torque = kUnlimited;
+    parameters_.max_force_rate = 1e6;  // The force is there at once.
   }
 
   /// The hand's tip is at a height [m], some milliseconds later.
@@ -67,7 +73,9 @@ class ToolProxyTest : public testing::Test {
       ros::Time(1), ros::Time(1)};
   ProxyScene scene_{"liver_frame",
                     {{"liver", organ_.latest().mesh, nullptr, Eigen::Isometry3d::Identity()}},
-                    {&organ_}};
+                    {&organ_},
+                    {},
+                    {TissueMotion()}};
   ToolProxy::Time now_{std::chrono::hours(3)};
   ros::Time stamp_{50.0};
 };
@@ -77,39 +85,90 @@ class ToolProxyTest : public testing::Test {
 TEST_F(ToolProxyTest, WithoutAnAnswerTheForceFadesAndComesBack) {
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.01);
+  parameters_.max_force_rate = 500.0;
   const double whole = spring(-0.01);
-  EXPECT_NEAR(force(lose(proxy, 1.0)), whole, 1e-6) << "the moment of the loss";
-  EXPECT_TRUE(proxy.is_ramping());
-  const ProxyReport fading = lose(proxy, 4.0);
+  EXPECT_NEAR(force(lose(proxy, 1.0)), whole - 0.5, 1e-6);
+  EXPECT_TRUE(proxy.is_fading());
+  const ProxyReport fading = lose(proxy, 2.0);
+  EXPECT_TRUE(fading.is_fading);
   EXPECT_EQ(fading.forces[0].frame, "liver_frame");
-  EXPECT_NEAR(force(fading), 0.6 * whole, 1e-6);
+  EXPECT_NEAR(force(fading), whole - 1.5, 1e-6);
   EXPECT_EQ(fading.status, ContactArray::STALE_MESH);
   EXPECT_EQ(fading.message, "the mesh is old");
   EXPECT_EQ(fading.answer, nullptr);
   ASSERT_EQ(fading.forces[0].on_faces.size(), 1U) << "the tissue is let go in the same way";
-  const ProxyReport gone = lose(proxy, 7.0);
-  ASSERT_EQ(gone.forces.size(), 1U) << "the zero is told";
-  EXPECT_EQ(force(gone), 0.0);
-  EXPECT_FALSE(proxy.is_ramping());
-  EXPECT_TRUE(lose(proxy, 100.0).forces.empty());
+  EXPECT_NEAR(fading.forces[0].on_faces[0].force.z(), whole - 1.5, 1e-5);
+  EXPECT_NEAR(force(lose(proxy, 500.0)), whole - 2.5, 1e-6) << "a pause counts as 2 ms";
+  for (int i = 0; i < 5; ++i) lose(proxy, 1.0);
+  EXPECT_FALSE(proxy.is_fading());
+  EXPECT_TRUE(lose(proxy, 1.0).forces.empty());
 
-  EXPECT_EQ(force(follow(proxy, -0.01, 500.0)), 0.0);
-  EXPECT_NEAR(force(follow(proxy, -0.01, 3.0)), 0.3 * whole, 1e-6);
-  EXPECT_NEAR(force(follow(proxy, -0.01, 30.0)), whole, 1e-6);
+  EXPECT_NEAR(force(follow(proxy, -0.01, 500.0)), 1.0, 1e-6);
+  EXPECT_TRUE(proxy.is_fading());
+  for (int i = 0; i < 5; ++i) follow(proxy, -0.01, 1.0);
+  EXPECT_NEAR(force(follow(proxy, -0.01, 1.0)), whole, 1e-6);
+  EXPECT_FALSE(proxy.is_fading());
 }
 
-TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewItsOldForceFadesFirst) {
+/// What makes a force jump, on a tool that presses with `whole` newtons.
+TEST_F(ToolProxyTest, NoEventMakesTheForceChangeFasterThanItsLimit) {
+  const struct {
+    const char* name;
+    std::function<void()> happens;
+    double height;  ///< [m] of the hand from then on
+    bool is_free;   ///< then
+  } events[] = {
+      {"the hand jumps", [] {}, 0.2, true},
+      {"the stiffness changes", [&] { parameters_.stiffness = 3000.0; }, -0.01, false},
+      {"the limit changes", [&] { parameters_.max_force = 0.5; }, -0.01, false},
+      {"the organ's frame jumps", [&] { scene_.organs[0].T_organ_proxy.translation().z() = 0.1; },
+       -0.01, true},
+      {"the organ is removed", [&] { scene_.organs.clear(), scene_.sources.clear(); }, -0.01, true},
+      {"the hand slips far along the tissue", [] {}, -0.011, false},
+  };
+  for (const auto& event : events) {
+    SCOPED_TRACE(event.name);
+    const HapticProxyParameters before = parameters_;
+    const ProxyScene scene = scene_;
+    ToolProxy proxy(tool_, parameters_);
+    press(proxy, -0.01);
+    parameters_.max_force_rate = 400.0;
+    double last = spring(-0.01);
+    event.happens();
+    proxy.update_settings();
+    int ticks = 0;
+    bool is_fading = true;
+    for (; is_fading && ticks < 200; ++ticks) {
+      const ProxyReport report = follow(proxy, event.height, 1.0);
+      EXPECT_LE(std::abs(force(report) - last), 0.4 + 1e-9) << "tick " << ticks;
+      last = force(report);
+      is_fading = report.is_fading;
+    }
+    EXPECT_LT(ticks, 200);
+    if (event.is_free) EXPECT_EQ(last, 0.0) << "not fading means no force";
+    parameters_ = before;
+    scene_ = scene;
+  }
+}
+
+TEST_F(ToolProxyTest, AForceTurnsWithItsFrame) {
   ToolProxy proxy(tool_, parameters_);
   press(proxy, -0.01);
-  const double whole = spring(-0.01);
+  parameters_.max_force_rate = 100.0;
+  const Eigen::Matrix3d R_new_old = Eigen::AngleAxisd(M_PI_2, Vector3d::UnitX()).toRotationMatrix();
+  proxy.change_frame("world", R_new_old);
+  const ProxyReport report = lose(proxy, 1.0);
+  EXPECT_EQ(report.frame, "world");
+  const Vector3d expected = R_new_old * Vector3d(0.0, 0.0, spring(-0.01) - 0.1);
+  EXPECT_LT((sum_of(report.forces) - expected).norm(), 1e-6);
+}
+
+TEST_F(ToolProxyTest, WhenTheProxyIsPlacedAnewTheReasonIsTold) {
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, -0.01);
   const ProxyReport jumped = follow(proxy, 0.2, 1.0);
   EXPECT_TRUE(jumped.answer->is_placed_anew);
   EXPECT_NE(jumped.message, "");
-  EXPECT_NEAR(force(jumped), whole, 1e-6);
-  EXPECT_TRUE(proxy.is_ramping()) << "also if no pose comes, its force must fade";
-  EXPECT_NEAR(force(follow(proxy, 0.2, 5.0)), 0.5 * whole, 1e-6);
-  EXPECT_EQ(force(follow(proxy, 0.2, 6.0)), 0.0);
-  EXPECT_EQ(force(follow(proxy, 0.2, 6.0)), 0.0);
 }
 
 TEST_F(ToolProxyTest, LargeForcesAreClippedWithTheirTorqueAndTheForcesOnTheTissue) {
@@ -151,7 +210,8 @@ TEST_F(ToolProxyTest, IfTheProxyHasNoPlaceThereIsNoAnswerAndTheForceFades) {
   expect_words(refusal_by<Rejection>(place), {"the trocar is in tissue"});
   EXPECT_NEAR(force(lose(proxy, 0.0)), spring(-0.01), 1e-6);
   EXPECT_EQ(proxy.answer(), nullptr);
-  EXPECT_NEAR(force(lose(proxy, 5.0)), 0.5 * spring(-0.01), 1e-6);
+  parameters_.max_force_rate = 500.0;
+  EXPECT_NEAR(force(lose(proxy, 1.0)), spring(-0.01) - 0.5, 1e-6);
 }
 
 TEST_F(ToolProxyTest, DampingResistsTheMotionButNeverPullsTheHandIn) {
@@ -194,6 +254,45 @@ TEST_F(ToolProxyTest, AnIllegalHandAndAForceThatIsNotFiniteAreRefused) {
   parameters_.jump = std::numeric_limits<double>::infinity();
   proxy.update_settings();
   EXPECT_THROW(follow(proxy, -3.0), Rejection);
+}
+
+// Dozens of faces of a fine, flat sheet are near the tip, and only one place.
+TEST_F(ToolProxyTest, AStateHasTheNearestPlaceOfEachPatchWithItsForce) {
+  constexpr int kCells = 40;
+  constexpr float kSize = 5e-4F;  // [m]
+  std::vector<float> vertices;
+  std::vector<std::uint32_t> triangles;
+  for (int row = 0; row <= kCells; ++row) {
+    for (int column = 0; column <= kCells; ++column) {
+      vertices.insert(vertices.end(), {static_cast<float>(column) * kSize,
+                                       static_cast<float>(row) * kSize - 0.02F, 0.0F});
+      if (row == kCells || column == kCells) continue;
+      const auto a = static_cast<std::uint32_t>(row * (kCells + 1) + column), b = a + kCells + 1;
+      triangles.insert(triangles.end(), {a, a + 1, b, a + 1, b + 1, b});
+    }
+  }
+  const DeformableOrgan sheet("liver", "liver_frame", TriangleMesh(vertices, triangles),
+                              ros::Time(1), ros::Time(1));
+  scene_.organs[0].shape = sheet.latest().mesh;
+  ToolProxy proxy(tool_, parameters_);
+  press(proxy, 0.0);
+  const ProxyReport report = follow(proxy, 0.0);
+  EXPECT_GT(report.answer->contacts.size(), 10U);
+  const std::vector<ProxyContact> places = places_of(report);
+  ASSERT_EQ(places.size(), 1U);
+  EXPECT_EQ(places[0].organ, "liver");
+  EXPECT_EQ(places[0].link, -1);
+  EXPECT_NEAR(places[0].distance, parameters_.clearance, 2e-6);
+  EXPECT_NEAR(places[0].normal.z, -1.0, 1e-6);
+  EXPECT_NEAR(places[0].force.z, -force(report), 0.02);
+  EXPECT_EQ(to_eigen(places[0].velocity), Vector3d(0.0, 0.0, 0.0));
+  const double hover = kRadius + 1.5 * parameters_.clearance;
+  const ProxyReport free = follow(proxy, hover);
+  ASSERT_EQ(free.answer->state, ProxyStatus::kFree);
+  ASSERT_EQ(places_of(free).size(), 1U) << "a free proxy tells what is near, too";
+  EXPECT_NEAR(places_of(free)[0].distance, 1.5 * parameters_.clearance, 2e-6);
+  EXPECT_EQ(places_of(free)[0].force.z, 0.0);
+  EXPECT_TRUE(places_of(follow(proxy, kRadius + 3.0 * parameters_.clearance)).empty());
 }
 
 TEST(PullVelocity, IsTheDerivativeThroughALowPass) {

@@ -136,7 +136,7 @@ class StreamTest(ProgramCase):
         good = line(1) + line(2)
         right = self.from_file(good)
         for text, said in (
-            (good + '3,swept,1,2,3\n' + line(4), 'standard input:3: 5 columns; must be 12\n'),
+            (good + '3,swept,1,2,3\n' + line(4), 'standard input:3: 5 columns; must be 12, or 15 with the previous trocar\n'),
             (MOTIONS_HEADER + '\n\n' + good + line(3).replace('swept', 'sweep'), 'standard input:5: mode is "sweep"'),
         ):
             for jobs in '1', '3':

@@ -89,12 +89,12 @@ class Recording:
             message.transforms.append(transform)
         self.write(topic, message, at)
 
-    def pose(self, topic, time, point, at=None):
-        """The pose of a tip, in the organ's frame."""
+    def pose(self, topic, time, point, at=None, turn=(0.0, 0.0, 0.0, 1.0)):
+        """The pose of a tip, or of a marker, in the organ's frame."""
         pose = PoseStamped()
         pose.header.frame_id, pose.header.stamp = 'liver_frame', stamp(time)
         pose.pose.position.x, pose.pose.position.y, pose.pose.position.z = point
-        pose.pose.orientation.w = 1.0
+        pose.pose.orientation = Quaternion(*turn)
         self.write(topic, pose, time if at is None else at)
 
     def clock(self, time, at):

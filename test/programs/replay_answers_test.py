@@ -8,7 +8,7 @@ import unittest
 
 from organ_collision.msg import ContactArray
 from support import oracle
-from support.scenes import box, sheet
+from support.scenes import box, Pose, sheet
 from support.tool_over_sheet import RADIUS, SHEET, at_height
 
 from recording import Recording, ReplayCase, TOOLS
@@ -104,6 +104,23 @@ class ReplayAnswersTest(ReplayCase):
             for i, height in enumerate(heights):
                 bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, at_height(height)[1])
         answers = [answer for _, answer in self.answers_of(POSES)]
+        self.assertEqual([a.mode for a in answers], [STATIC, SWEPT, SWEPT])
+        self.assert_contacts(answers[2], oracle.swept_contacts(SHEET, at_height(0.02), at_height(-0.03), RADIUS), 1e-6)
+
+    def test_the_poses_of_a_marker_give_the_contacts_of_the_tip(self):
+        """The marker turns from pose to pose. With small turns, the tip's way between two poses is straight."""
+        tool = POSES.replace('radius', 'tip_offset: [0.02, -0.0132, 0.1746], radius')
+        heights = [0.05, 0.02, -0.03]
+        with self.record() as bag:
+            bag.resting(1.0)
+            for time, at in ((1.0, 1.0), (2.5, 1.9)):
+                bag.frame(time, 'hook_trocar', at_height(0.0)[0], at=at)
+            bag.mesh(2.0, SHEET)
+            for i, height in enumerate(heights):
+                turn = Pose((0.1, 0.2, 0.3, 0.9 + 1e-6 * i), (0.0, 0.0, 0.0))
+                marker = [a - b for a, b in zip(at_height(height)[1], turn.apply((0.02, -0.0132, 0.1746)))]
+                bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, marker, turn=turn.rotation)
+        answers = [answer for _, answer in self.answers_of(tool)]
         self.assertEqual([a.mode for a in answers], [STATIC, SWEPT, SWEPT])
         self.assert_contacts(answers[2], oracle.swept_contacts(SHEET, at_height(0.02), at_height(-0.03), RADIUS), 1e-6)
 

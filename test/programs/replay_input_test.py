@@ -109,6 +109,28 @@ class ReplayInputTest(ReplayCase):
             self.assertEqual(os.lstat(self.path(written)).st_mode, mode)
         self.assertEqual(sorted(os.listdir(self.folder)), before)
 
+    def test_an_input_that_is_no_regular_file_is_refused(self):
+        self.write('parameters.yaml', TOOLS)
+        os.mkfifo(self.path('in_fifo'))
+        for name in ('in_fifo', '.'):
+            self.assert_refused(self.run_with(TOOLS, self.path(name), self.path('out.bag')), 'must be a recorded bag')
+
+    def test_parameters_in_a_folder_are_refused(self):
+        self.record_scene()
+        done = subprocess.run([os.environ['REPLAY'], '--parameters', self.folder, self.recorded, self.answers],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self.assert_refused(done, 'is a folder; must be a yaml file')
+
+    def test_a_signal_ends_the_wait_for_parameters_that_never_come(self):
+        self.record_scene()
+        os.mkfifo(self.path('fifo'))
+        for number in (signal.SIGINT, signal.SIGTERM):
+            with subprocess.Popen([os.environ['REPLAY'], '--parameters', self.path('fifo'), self.recorded, self.answers],
+                                  stderr=subprocess.PIPE, text=True) as replay:
+                replay.send_signal(number)
+                replay.communicate(timeout=60)
+                self.assertEqual(replay.returncode, -number)
+
     def test_an_interrupted_replay_leaves_no_file(self):
         with self.record() as bag:
             bag.resting(1.0)

@@ -159,6 +159,22 @@ TEST(RobotAnswer, HasTheLinksInTheOrderOfTheirNames) {
   EXPECT_EQ(mesh.vertices.size(), 12U);
 }
 
+TEST(RobotAnswer, ARelativeMeshBeginsAtTheFolderOfTheUrdf) {
+  const std::string urdf = robot_of("<mesh filename='jaw.obj'/>");
+  std::string bytes;
+  answer_with_links([&] { return urdf; }, {"tip"}, [&](const auto& record) { bytes += record; },
+                    tool_file(""));
+  ASSERT_TRUE(parse_reply(bytes).links);
+  expect_words(ask([&] { return urdf; }, {"tip"}).refusal.value_or("accepted"),
+               {"'jaw.obj'", "must be an absolute path, or begin with package://"});
+}
+
+TEST(RobotAnswer, APointerOfGitLfsIsNamed) {
+  const std::string urdf = robot_of("<mesh filename='" + tool_file("lfs_pointer.stl") + "'/>");
+  expect_words(ask([&] { return urdf; }, {"tip"}).refusal.value_or("accepted"),
+               {"lfs_pointer.stl", "only a pointer of Git LFS", "git lfs pull"});
+}
+
 TEST(RobotAnswer, NamesAMeshBeforeItIsRead) {
   std::vector<std::string> records;
   answer_with_links([] { return robot_of("<mesh filename='" + tool_file("jaw.obj") + "'/>"); },

@@ -70,11 +70,11 @@ Words lines_of(const std::string& content) {
 }
 
 TEST(TextReader, takes_unix_and_windows_lines_without_blank_ones) {
-  for (const char* content :
-       {"a b\nc\n", "a b\n\nc", "a b\r\n\r\nc\r\n", "\n  a b \t\n   \n\tc  \r\n\n",
-        "\xEF\xBB\xBF"
-        "a b\nc\n",
-        "\xEF\xBB\xBF\r\na b\nc\n"}) {
+  for (const char* content : {"a b\nc\n", "a b\n\nc", "a b\r\n\r\nc\r\n", "a b\rc\r", "a b\r\rc",
+                              "\ra b\r\nc\r", "\n  a b \t\n   \n\tc  \r\n\n",
+                              "\xEF\xBB\xBF"
+                              "a b\nc\n",
+                              "\xEF\xBB\xBF\r\na b\nc\n"}) {
     EXPECT_EQ(lines_of(content), (Words{"a b", "c"})) << content;
   }
   for (const char* content : {"", "\n", " \t\r\n\n "}) EXPECT_TRUE(lines_of(content).empty());

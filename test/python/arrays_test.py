@@ -95,7 +95,11 @@ class ArraysTest(unittest.TestCase):
                 (r'links\[1, 0\] is no matrix', poses_array, mirrored, 'links'),
                 ('4 poses of links and 3 previous', link_motions, poses(4, 2)[0], numbers),
                 ('5 trocars, 4 tips', shaft_motions, np.zeros((5, 3)), POINTS, 0.0),
-                ('there are 4 vertices', organ_mesh, 'liver', POINTS, [[0, 1, 4]])]:
+                ('there are 4 vertices', organ_mesh, 'liver', POINTS, [[0, 1, 4]]),
+                ('topology is -1; must be a whole number from 0', organ_mesh, 'liver', POINTS, FACES, None, -1),
+                ('topology is 1.0; must be a whole number', organ_vertices, 'liver', POINTS, None, 1.0),
+                ('stamp is 1.5; must be a rospy.Time', organ_mesh, 'liver', POINTS, FACES, None, 0, 1.5),
+                ('vertices has masked values', vertex_array, np.ma.masked_greater(np.array(POINTS, float), 0.5))]:
             with self.subTest(reason=reason):
                 with self.assertRaisesRegex(ValueError, reason):
                     function(*arguments)

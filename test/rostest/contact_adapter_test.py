@@ -6,7 +6,7 @@ import sys
 
 from dynamic_reconfigure.client import Client
 from geometry_msgs.msg import WrenchStamped
-from organ_collision.msg import ContactArray, VertexForces
+from organ_collision.msg import ContactArray, ForceState, VertexForces
 import rospy
 import rostest
 from std_msgs.msg import UInt32MultiArray
@@ -97,6 +97,7 @@ class ContactAdapterTest(ToolCase, NodeStarter):
     def test_nothing_comes_while_a_transform_is_missing(self):
         """Outputs before and after the gap are waited for, so that nothing can arrive later."""
         outputs, diagnostics = self.connect(), Diagnostics('contact_adapter')
+        states = Log('/contact_adapter/%s/probe/state' % self.organ, ForceState)
         self.move(SHEET, PRESSED)
         outputs.wait_for(self.stamp)
         wait_until(lambda: outputs.faces.messages[-1].data, 'the faces before the gap')
@@ -105,6 +106,9 @@ class ContactAdapterTest(ToolCase, NodeStarter):
         self.node.send_vertices(self.organ, SHEET, missing)
         failed = self.node.contacts.wait_for(self.organ, 'probe', mesh_stamp=missing)
         self.assertEqual(failed.status, ContactArray.NO_TRANSFORM)
+        state = wait_until(lambda: states.last(lambda state: not state.known), 'the state that says why')
+        self.assertEqual((state.organ, state.tool, state.message), (self.organ, 'probe', failed.message))
+        self.assertTrue(states.last(lambda state: state.known and not state.message))
         for _ in range(2):  # the first step leaves the sheet, the second stays clear of it
             self.move(SHEET, CLEAR)
         outputs.wait_for(self.stamp)

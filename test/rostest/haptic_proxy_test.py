@@ -10,7 +10,7 @@ import unittest
 from dynamic_reconfigure.msg import DoubleParameter
 from dynamic_reconfigure.srv import Reconfigure, ReconfigureRequest
 from geometry_msgs.msg import PoseStamped, WrenchStamped
-from organ_collision.msg import ContactArray, OrganMesh, ProxyState, VertexForces
+from organ_collision.msg import OrganMesh, ProxyState, VertexForces
 from organ_collision.srv import ListOrgans, RemoveOrgan
 import rospy
 import rostest
@@ -79,7 +79,7 @@ class ProxyCase(unittest.TestCase):
         cls.meshes = rospy.Publisher(cls.node + '/organ_mesh', OrganMesh, queue_size=10)
         cls.states = {tool: Log('%s/%s/state' % (cls.node, tool), ProxyState)
                       for tool in ('needle', 'probe', 'stylus', 'grasper')}
-        cls.contacts, cls.diagnostics = Log(cls.node + '/contacts', ContactArray), Diagnostics(cls.node)
+        cls.diagnostics = Diagnostics(cls.node)
         ProxyCase.hands = ProxyCase.hands or Hands()
         wait_until(lambda: all(is_heard(topic, cls.process) for topic in [cls.meshes, *cls.hands.poses.values()]),
                    'connections')
@@ -175,7 +175,7 @@ class HapticProxyTest(ProxyCase):
             and message.transforms[0].header.frame_id == FRAME), 'frame needle_proxy')
 
     def test_a_free_tool_that_presses(self):
-        """The forces on vertices are minus the wrench, and the proxy's contacts are published."""
+        """The forces on vertices, and those of the places in the state, are minus the wrench and the wrench."""
         self.send_sheet()
         pair = '%s/%s/stylus' % (self.node, self.organ)
         wrenches, forces = Log(pair + '/wrench', WrenchStamped), Log(pair + '/vertex_forces', VertexForces)
@@ -184,19 +184,22 @@ class HapticProxyTest(ProxyCase):
         def of_one_stamp():
             self.hands.hold('stylus', self.hands.tips['stylus'])
             on = {message.header.stamp: message for message in forces.select(lambda on: True)}
-            answers = {answer.header.stamp: answer for answer in self.contacts.select(
-                lambda answer: (answer.organ, answer.tool) == (self.organ, 'stylus'))}
+            answers = {state.header.stamp: state for state in self.states['stylus'].select(
+                lambda state: state.contacts and not state.fading)}
             wrench = wrenches.last(lambda wrench: wrench.wrench.force.z > 0.5 and wrench.header.stamp in on
                                    and wrench.header.stamp in answers)
             return wrench and (wrench, on[wrench.header.stamp], answers[wrench.header.stamp])
 
-        wrench, on_tissue, answer = wait_until(of_one_stamp, 'wrench, vertex forces and contacts of one stamp')
+        wrench, on_tissue, state = wait_until(of_one_stamp, 'wrench, vertex forces and state of one stamp')
         self.assertEqual((on_tissue.organ, on_tissue.tool, on_tissue.topology), (self.organ, 'stylus', 1))
         for axis in 'xyz':
             total = sum(getattr(force, axis) for force in on_tissue.forces)
             self.assertAlmostEqual(total, -getattr(wrench.wrench.force, axis), delta=1e-6)
-        self.assertEqual((answer.header.frame_id, answer.topology, answer.status), (FRAME, 1, ContactArray.OK))
-        self.assertAlmostEqual(answer.contacts[0].normal.z, -1.0, delta=1e-6)
+        place = state.contacts[0]
+        self.assertEqual((place.organ, place.link, vector(place.velocity)), (self.organ, -1, (0.0, 0.0, 0.0)))
+        self.assertAlmostEqual(place.normal.z, -1.0, delta=1e-6)
+        self.assertAlmostEqual(place.distance, CLEARANCE, delta=1e-6)
+        self.assertAlmostEqual(sum(place.force.z for place in state.contacts), -wrench.wrench.force.z, delta=1e-6)
 
     def assert_force_falls(self, log, expected, words):
         """Waits until the force is gone. From its last whole value, it must only fall, and the reason is told."""

@@ -47,7 +47,7 @@ class LaunchFilesTest(LaunchCase, NodeStarter):
         """A contact of 1 mm depth gives 0.3 N, with the default stiffness."""
         contacts = rospy.Publisher('/organ_collision/contacts', ContactArray, queue_size=10)
         wrenches = Log('/contact_adapter/sheet/probe/wrench', WrenchStamped)
-        message = ContactArray(organ='sheet', tool='probe', contacts=[Contact(depth=0.001)])
+        message = ContactArray(organ='sheet', tool='probe', contacts=[Contact(depth=0.001, link=-1)])
         message.header.frame_id, message.contacts[0].normal.z = 'world', -1.0
         # The topic of the wrench appears only after the first contacts.
         force = wait_until(lambda: contacts.publish(message) or wrenches.last(), 'a wrench').wrench.force

@@ -163,9 +163,9 @@ class StartTest(ContactCase, NodeStarter):
         """By the answers on its topics: good, bad, and none."""
 
         def answer(fraction):
-            found = ContactArray(organ='liver', tool='probe', links=[''], mode=ContactArray.SWEPT)
+            found = ContactArray(organ='liver', tool='probe', mode=ContactArray.SWEPT)
             found.header.frame_id, found.header.stamp, found.step_start = 'liver_frame', rospy.Time(2), rospy.Time(1)
-            found.contacts = [Contact(fraction=fraction, barycentric=[0.2, 0.3, 0.5])]
+            found.contacts = [Contact(link=-1, fraction=fraction, barycentric=[0.2, 0.3, 0.5])]
             found.contacts[0].normal.z = 1.0
             return found
 

@@ -59,7 +59,7 @@ class StepsTest(KeepsContract, SimulatedCase):
         second = self.step(SHEET, below, vertices=True)
         self.assert_swept(second['grasper'], ABOVE, BELOW)
         self.assert_contacts(second['ball'], ball_contacts(SHEET, ABOVE[1:], BELOW[1:], BALL), 1e-6)
-        for tool, links in (('grasper', ['']), ('ball', ['ball'])):
+        for tool, links in (('grasper', []), ('ball', ['ball'])):
             answer = second[tool]
             self.assertEqual((answer.step_start, answer.header.stamp, answer.mesh_stamp),
                              (begin, self.stamp, self.stamp))

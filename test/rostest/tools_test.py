@@ -9,7 +9,7 @@ import rospy
 import rostest
 
 from support import oracle, scenes
-from support.contact_case import KeepsContract, SHAFT
+from support.contact_case import KeepsContract, SHAFT_LINK
 from support.tool_case import ToolCase, ball_contacts
 
 STATIC, SWEPT = ContactArray.STATIC, ContactArray.SWEPT
@@ -61,7 +61,7 @@ class ToolsTest(KeepsContract, ToolCase):
         shaft = oracle.swept_contacts(SHEET, ABOVE[:2], BELOW[:2], SHAFT)
         ball = ball_contacts(SHEET, ABOVE[2:], BELOW[2:], BALL)
         self.assertGreater(min(len(shaft), len(ball)), 0)
-        self.assert_contacts_of_link(result, SHAFT, shaft, 1e-6)
+        self.assert_contacts_of_link(result, SHAFT_LINK, shaft, 1e-6)
         self.assert_contacts_of_link(result, 0, ball, 1e-6)
         order = [(c.face, c.link) for c in result.contacts]
         self.assertEqual(order, sorted(order))

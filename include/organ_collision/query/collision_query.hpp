@@ -72,7 +72,8 @@ inline bool asks_for_clearance(const CollisionRequest& request) {
 /// record of GL_SELECT. They are measured along the viewing direction, from the plane of the
 /// trocar [m].
 struct ViewRange {
-  double min, max;
+  double min;  ///< the least depth
+  double max;  ///< the greatest depth
 };
 
 /// The answer to a request.

@@ -78,13 +78,12 @@ struct ProxyOrgan {
   Eigen::Isometry3d T_organ_proxy = Eigen::Isometry3d::Identity();
 };
 
-/// A place where tissue holds a proxy.
-struct ProxyContact {
+/// A face near a proxy, and the load that it bears.
+struct ProxyFace {
   std::size_t organ = 0;  ///< the place of the organ in the list given to follow()
   /// The nearest points of the proxy and a face, in the proxy's frame. `depth` is minus the
   /// distance, and `fraction` is 0. Faces nearer than twice the clearance are listed, and the
-  /// nearest faces if the proxy is still on its way. Nothing is listed for a proxy that moved
-  /// straight to the hand, or for a needle in tissue.
+  /// nearest faces if the proxy is still on its way. Nothing is listed for a needle in tissue.
   FaceContact contact;
   /// [m] The force of the proxy on the tissue, divided by the stiffness. It acts at contact.point,
   /// along contact.normal. Not negative.
@@ -129,7 +128,7 @@ struct ProxyAnswer {
   /// that angle times the size.
   double size = 0.0;
   /// Where tissue holds the proxy, sorted by organ, then face, then link.
-  std::vector<ProxyContact> contacts;
+  std::vector<ProxyFace> contacts;
   /// Where a needle goes through tissue, from entry to tip. Empty unless the needle has pierced.
   std::vector<ProxyCrossing> crossings;
 };

@@ -278,7 +278,7 @@ void HapticProxy::State::describe(Tick& tick) {
   for (std::size_t i = 0; i < motion.contacts().size(); ++i) {
     const TissueContact& near = motion.contacts()[i];
     if (near.distance >= told) continue;
-    ProxyContact contact{near.organ, near.contact, 0.0};
+    ProxyFace contact{near.organ, near.contact, 0.0};
     contact.contact.fraction = 0.0;
     contact.contact.depth = -near.distance;
     said.contacts.push_back(contact);

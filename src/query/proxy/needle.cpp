@@ -22,7 +22,7 @@ double threshold(const ProxySettings& settings) {
   return settings.puncture.value_or(std::numeric_limits<double>::infinity());
 }
 
-bool presses(const ProxyContact& held, const Vector3d& direction) {
+bool presses(const ProxyFace& held, const Vector3d& direction) {
   return held.load > 0.0 && held.contact.link == kShaft && held.contact.shaft == 1.0 &&
          held.contact.normal.dot(direction) > kPressing;
 }
@@ -30,7 +30,7 @@ bool presses(const ProxyContact& held, const Vector3d& direction) {
 }  // namespace
 
 std::optional<Needle> Needle::pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
-                                     const std::vector<ProxyContact>& contacts,
+                                     const std::vector<ProxyFace>& contacts,
                                      const std::vector<ProxyOrgan>& organs,
                                      const ProxySettings& settings, Tissue& tissue) {
   const Vector3d direction = along(proxy).normalized();

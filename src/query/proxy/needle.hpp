@@ -20,7 +20,7 @@ class Needle {
   /// Returns a needle if the proxy's tip presses on tissue hard enough to pierce it, else nothing.
   /// `contacts`: the contacts that hold the proxy.
   static std::optional<Needle> pierce(const ShaftAxis& proxy, const ShaftAxis& hand,
-                                      const std::vector<ProxyContact>& contacts,
+                                      const std::vector<ProxyFace>& contacts,
                                       const std::vector<ProxyOrgan>& organs,
                                       const ProxySettings& settings, Tissue& tissue);
 

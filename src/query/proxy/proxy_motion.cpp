@@ -183,10 +183,14 @@ bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand, double growth) {
     place.pose = pose_at(straight_, *touch);
   } else {
     place = {hand, growth};
-    contacts_.clear();
-    walls_.clear();
   }
   return !touch;
+}
+
+bool ProxyMotion::fly(ProxyPlace& place, const ToolPose& hand) {
+  if (!fly(place, hand, clearance_.rest)) return false;
+  find_walls(hand, (1.0 + kShortestReach) * clearance_.rest);
+  return true;
 }
 
 void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
@@ -230,13 +234,18 @@ void ProxyMotion::slide(ProxyPlace& place, const ToolPose& hand, double reach) {
 /// Finds the walls around the proxy, and its clearance.
 void ProxyMotion::look_around(ProxyPlace& place, double reach) {
   const double growth = clearance_.rest + reach;
-  tissue_.touch({place.pose}, growth, contacts_);
-  walls_.clear();
-  add_walls(place.pose, place.pose, contacts_);
+  find_walls(place.pose, growth);
   place.clearance = growth;
   for (const TissueContact& contact : contacts_) {
     place.clearance = std::min(place.clearance, contact.distance);
   }
+}
+
+/// Finds the faces that are nearer than `growth` [m] to the proxy at a pose.
+void ProxyMotion::find_walls(const ToolPose& pose, double growth) {
+  tissue_.touch({pose}, growth, contacts_);
+  walls_.clear();
+  add_walls(pose, pose, contacts_);
 }
 
 /// Adds a wall for each contact: when the motion ends, the tool must be the clearance away from the

@@ -50,14 +50,14 @@ class ProxyMotion {
                                      const std::vector<OrganTick>& organs);
 
   /// The proxy moves straight to the hand, until it meets tissue. Returns whether it arrived.
-  bool fly(ProxyPlace& place, const ToolPose& hand) { return fly(place, hand, clearance_.rest); }
+  bool fly(ProxyPlace& place, const ToolPose& hand);
 
   /// The proxy slides along the tissue to the place nearest the hand. `reach` [m]: about how far
   /// away this place may be. The joints and the trocar of `place` must be those of `hand`.
   void slide(ProxyPlace& place, const ToolPose& hand, double reach);
 
-  /// The faces near the proxy after slide(): all faces within at least twice the clearance at rest.
-  /// Empty after fly() has reached the hand.
+  /// The faces near the proxy after slide(), or after fly() has reached the hand: all faces within
+  /// at least twice the clearance at rest.
   const std::vector<TissueContact>& contacts() const { return contacts_; }
   /// The walls that belong to contacts(), in the same order.
   const std::vector<Wall>& walls() const { return walls_; }
@@ -71,6 +71,7 @@ class ProxyMotion {
   bool fly(ProxyPlace& place, const ToolPose& hand, double growth);
   double share_of_give_way(const ToolPose& given) const;
   void look_around(ProxyPlace& place, double reach);
+  void find_walls(const ToolPose& pose, double growth);
   void add_walls(const ToolPose& given, const ToolPose& pose,
                  const std::vector<TissueContact>& contacts);
   double growth_from(double clearance) const;

@@ -223,7 +223,7 @@ void add_leg(const Tool& tool, const ToolWaypoint& from, const ToolWaypoint& to,
 void add_loads(const ProxyView& view, MarkerArray& picture) {
   constexpr double kLongest = 0.10;                  // A share of the scene's size.
   std::vector<std::pair<Vector3d, Vector3d>> loads;  // Points, and forces divided by the stiffness.
-  for (const ProxyContact& at : view.answer.contacts) {
+  for (const ProxyFace& at : view.answer.contacts) {
     loads.emplace_back(at.contact.point, at.load * at.contact.normal);
   }
   for (const ProxyCrossing& at : view.answer.crossings) loads.emplace_back(at.point, at.load);

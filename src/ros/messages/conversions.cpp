@@ -4,30 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 
 #include "geometry/concatenate.hpp"
 
 namespace organ_collision {
-namespace {
-
-/// [m] Plausible lengths of the longest side of the box around an organ: from a small vessel to a
-/// whole body.
-constexpr double kLargestOrgan = 3.0;
-constexpr double kSmallestOrgan = 1e-3;
-/// [m] Plausible radii of a shaft: from that of a hair to one much above that of any instrument.
-constexpr double kLargestRadius = 0.1;
-constexpr double kSmallestRadius = 2e-5;
-
-/// The sentence "WHAT; plausible are ..." about a length [m]. Empty if the length is plausible.
-std::string doubt_about(const std::string& what, double length, double smallest, double largest) {
-  if (length >= smallest && length <= largest) return {};
-  return concatenate(
-      what, "; plausible are ", smallest, " to ", largest, " m. Lengths are in metres: ",
-      length > largest ? "are these millimetres?" : "were they converted from millimetres twice?");
-}
-
-}  // namespace
 
 Eigen::Isometry3d to_eigen(const geometry_msgs::Transform& transform) {
   return Eigen::Translation3d(to_eigen(transform.translation)) *
@@ -71,21 +51,6 @@ bool ClockWatch::has_jumped_back(ros::Time now) {
   }
   latest_ = has_jumped ? now : std::max(latest_, now);
   return has_jumped;
-}
-
-std::string sides_of(const Eigen::AlignedBox3d& box) {
-  const Eigen::Vector3d sides = box.sizes();
-  return concatenate(std::setprecision(3), sides.x(), " x ", sides.y(), " x ", sides.z());
-}
-
-std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3d& box) {
-  return doubt_about(concatenate("organ '", organ, "' is ", sides_of(box), " m large"),
-                     box.sizes().maxCoeff(), kSmallestOrgan, kLargestOrgan);
-}
-
-std::string doubt_about_radius(const std::string& tool, double radius) {
-  return doubt_about(concatenate("tool '", tool, "' has a radius of ", radius, " m"), radius,
-                     kSmallestRadius, kLargestRadius);
 }
 
 }  // namespace organ_collision

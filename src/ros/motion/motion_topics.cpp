@@ -149,7 +149,9 @@ void MotionTopics::take_transforms(const tf2_msgs::TFMessage& message, const std
 
 void MotionTopics::take_tip(std::size_t tool, const PoseStamped& pose) {
   Stream& stream = *streams_[tool];
-  if (!check(pose, stream.tool.tip_frame)) return;
+  const std::string wrong = fault_of(pose, stream.tool.tip_frame);
+  transforms_.set_refusal(stream.tool.tip_frame, wrong);
+  if (!wrong.empty()) return reject("pose", stream.tool.tip_frame, " " + wrong);
   PoseStamped stamped = pose;
   ros::Time& stamp = stamped.header.stamp;
   // Poses without a stamp may arrive within one tick of simulated time: each gets another stamp.
@@ -204,11 +206,15 @@ void MotionTopics::forget_stamps() {
   for (const auto& stream : streams_) stream->latest = ros::Time();
 }
 
+/// Why `pose` cannot be the pose of `frame`; empty if it can.
+std::string MotionTopics::fault_of(const PoseStamped& pose, const std::string& frame) const {
+  return tf_frame(pose.header.frame_id) == frame && !frame.empty() ? "is in its own frame"
+                                                                   : fault(pose, max_ahead_sec_);
+}
+
 /// Returns false, and counts the pose as rejected, if `pose` cannot be the pose of `frame`.
 bool MotionTopics::check(const PoseStamped& pose, const std::string& frame) {
-  const std::string wrong = tf_frame(pose.header.frame_id) == frame && !frame.empty()
-                                ? "is in its own frame"
-                                : fault(pose, max_ahead_sec_);
+  const std::string wrong = fault_of(pose, frame);
   if (!wrong.empty()) reject("pose", frame, " " + wrong);
   return wrong.empty();
 }

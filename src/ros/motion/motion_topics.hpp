@@ -65,6 +65,7 @@ class MotionTopics {
   static ros::Time arrival(const Stream& stream);
   bool came_for_another_tool(const Stream& stream, ros::Time stamp) const;
   void place_base(const Stream& stream);
+  std::string fault_of(const geometry_msgs::PoseStamped& pose, const std::string& frame) const;
   bool check(const geometry_msgs::PoseStamped& pose, const std::string& frame);
   void reject(const std::string& what, const std::string& frame, const std::string& why);
 

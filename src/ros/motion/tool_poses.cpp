@@ -175,8 +175,10 @@ bool ToolPoses::is_disproved(const Tool& tool, const std::string& organ_frame,
 }
 
 std::string ToolPoses::unless_silent(const ToolParameters& tool, const std::string& why_not) const {
-  const bool silent = !tool.tip_pose_topic.empty() && !buffer_.has_heard(tool.tip_frame);
-  return silent ? "no pose came on " + tool.tip_pose_topic : why_not;
+  if (tool.tip_pose_topic.empty()) return why_not;
+  const std::string refusal = buffer_.refusal(tool.tip_frame);
+  if (!refusal.empty()) return "the last pose on " + tool.tip_pose_topic + " " + refusal;
+  return buffer_.has_heard(tool.tip_frame) ? why_not : "no pose came on " + tool.tip_pose_topic;
 }
 
 SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,

@@ -61,8 +61,8 @@ class ToolPoses {
   void set_answered(const Tool& tool, const std::string& organ_frame, ros::Time time);
 
  private:
-  /// Why a tool's pose is not known. If no message ever came on the tool's pose topic, this is the
-  /// reason; otherwise the reason is `why_not`.
+  /// Why a tool's pose is not known. If no message ever came on the tool's pose topic, or the last
+  /// one was refused, this is the reason; otherwise the reason is `why_not`.
   std::string unless_silent(const ToolParameters& tool, const std::string& why_not) const;
   std::vector<ros::Time> sample_times(const Tool& tool, const std::string& organ_frame,
                                       ros::Time from, ros::Time to, SampledPath& lost) const;

@@ -47,6 +47,13 @@ class TransformBuffer : public tf2::BufferCore {
   std::optional<ros::Time> believed_until(const std::string& target, const Frames& sources) const;
   /// Whether the record has a transform of this frame. Static transforms are not recorded.
   bool has_heard(const std::string& frame) const;
+  /// Notes why the last pose of a frame was refused; empty: it was taken.
+  void set_refusal(const std::string& frame, const std::string& why) { refusals_[frame] = why; }
+  /// Why the last pose of a frame was refused; empty if it was taken, or if none came.
+  std::string refusal(const std::string& frame) const {
+    const auto found = refusals_.find(frame);
+    return found == refusals_.end() ? "" : found->second;
+  }
   /// The stamps of the transforms between a target frame and some sources.
   struct Stamps {
     std::vector<ros::Time> rising;  ///< stamps in rising order, each once
@@ -90,9 +97,10 @@ class TransformBuffer : public tf2::BufferCore {
   Nodes chain(const std::string& target, const Frames& sources) const;
   Nodes upward(const std::string& frame, std::size_t most) const;
 
-  std::map<std::string, Frame> frames_;  ///< by name; the addresses of frames do not change
-  ros::Time latest_;                     ///< the largest stamp of all frames
-  std::size_t disproved_ = 0;            ///< how many frames have a disproved stamp
+  std::map<std::string, Frame> frames_;          ///< by name; the addresses of frames do not change
+  std::map<std::string, std::string> refusals_;  ///< why the last pose was refused, by frame
+  ros::Time latest_;                             ///< the largest stamp of all frames
+  std::size_t disproved_ = 0;                    ///< how many frames have a disproved stamp
   bool has_stepped_back_ = false;
   std::size_t late_ = 0;
 };

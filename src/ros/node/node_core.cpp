@@ -69,9 +69,7 @@ void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::str
   if (tools.empty()) ROS_WARN("%s", kNoTools);
   for (const Tool& tool : tools) {
     if (!tool.fault.empty()) ROS_ERROR("%s", tool.fault.c_str());
-    if (!tool.parameters.has_shaft()) continue;
-    const std::string doubt = doubt_about_radius(tool.parameters.name, tool.parameters.radius);
-    if (!doubt.empty()) ROS_WARN("%s", doubt.c_str());
+    for (const std::string& doubt : doubts(tool)) ROS_WARN("%s", doubt.c_str());
   }
 }
 

@@ -17,10 +17,9 @@ void show_tool(const Tool& tool, Status& status) {
   const ToolParameters& parameters = tool.parameters;
   if (parameters.has_shaft()) {
     status.add(parameters.name + ", radius of the shaft [m]", parameters.radius);
-    const std::string doubt = doubt_about_radius(parameters.name, parameters.radius);
-    if (!doubt.empty()) status.mergeSummary(DiagnosticStatus::WARN, doubt);
   }
   if (!parameters.links.empty()) status.add(parameters.name + ", links", tool.links.size());
+  for (const std::string& doubt : doubts(tool)) status.mergeSummary(DiagnosticStatus::WARN, doubt);
   if (!tool.fault.empty()) status.mergeSummary(DiagnosticStatus::ERROR, tool.fault);
 }
 

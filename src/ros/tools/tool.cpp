@@ -151,6 +151,23 @@ Tool load_tool(const ToolParameters& parameters,
   return tool;
 }
 
+std::vector<std::string> doubts(const Tool& tool) {
+  const ToolParameters& parameters = tool.parameters;
+  std::vector<std::string> found;
+  const auto add = [&found](const std::string& doubt) {
+    if (!doubt.empty()) found.push_back(doubt);
+  };
+  if (parameters.has_shaft()) add(doubt_about_radius(parameters.name, parameters.radius));
+  for (const Link& link : tool.links) {
+    double size = 0.0;
+    for (const LinkPart& part : link.parts) {
+      size = std::max(size, 2.0 * (part.bounds.half_size.maxCoeff() + part.radius));
+    }
+    add(doubt_about_link(parameters.name, link.name, size));
+  }
+  return found;
+}
+
 ToolInfo info_of(const Tool& tool) {
   const ToolParameters& parameters = tool.parameters;
   ToolInfo info;

@@ -28,6 +28,10 @@ struct Tool {
   std::string fault;  ///< why the links could not be loaded; empty if there was no error
 };
 
+/// Sentences about what is legal, but probably a mistake: the radius of the shaft, and the sizes of
+/// the links.
+std::vector<std::string> doubts(const Tool& tool);
+
 /// What list_tools says of a tool.
 ToolInfo info_of(const Tool& tool);
 

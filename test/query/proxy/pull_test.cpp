@@ -241,7 +241,7 @@ bool is_in_balance(const ProxyTool& tool, const Hand& hand, double last,
   if (answer.state != ProxyStatus::kTouching) return false;
   const bool is_lever = tool.freedom == ProxyFreedom::kTrocar;
   Vector3d force = answer.pull, torque = answer.twist;
-  for (const ProxyContact& contact : answer.contacts) {
+  for (const ProxyFace& contact : answer.contacts) {
     EXPECT_GE(contact.load, 0.0);
     const Vector3d load = contact.load * contact.contact.normal;
     force += (is_lever ? contact.contact.shaft : 1.0) * load;

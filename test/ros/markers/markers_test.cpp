@@ -518,7 +518,7 @@ ProxyView held_hook() {
   view.answer.proxy = ToolPose{{{0.1, 0.2, 0.3}, {0.1, 0.2, 0.005}}};
   view.answer.center = view.hand->axis.tip;
   view.answer.pull = {0.0, 0.0, 0.02};
-  ProxyContact contact;
+  ProxyFace contact;
   contact.contact.point = {0.1, 0.2, 0.0};
   contact.contact.normal = {0.0, 0.0, -1.0};
   contact.load = 0.02;
@@ -638,7 +638,7 @@ TEST_F(Viewer, SeesAHeldProxySolidAndASpringToItsTranslucentHand) {
 
 TEST_F(Viewer, SeesEachLoadAsAnArrowTheLongestForTheGreatest) {
   ProxyView view = held_hook();
-  ProxyContact other = view.answer.contacts.front();
+  ProxyFace other = view.answer.contacts.front();
   other.contact.point = {0.5, 0.2, 0.0};
   other.contact.normal = {1.0, 0.0, 0.0};
   other.load = 0.005;

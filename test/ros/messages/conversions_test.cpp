@@ -69,6 +69,9 @@ TEST(PlausibleSize, OrgansByTheirLongestSideAndShaftsByTheirRadius) {
   EXPECT_EQ(doubt_about_radius("hook", 5.0), "tool 'hook' has a radius of 5 m" + of_radii + large);
   EXPECT_EQ(doubt_about_radius("hook", 5e-6),
             "tool 'hook' has a radius of 5e-06 m" + of_radii + small);
+  EXPECT_EQ(doubt_about_link("hook", "jaw", 0.02), "");
+  EXPECT_EQ(doubt_about_link("hook", "jaw", 20.0),
+            "link 'jaw' of tool 'hook' is 20 m long; plausible are 0.0002 to 3" + lengths + large);
 }
 
 }  // namespace

@@ -118,6 +118,26 @@ TEST_F(ToolPosesTest, ShaftLinksAndTipInTheOrgansFrame) {
   EXPECT_LT((*tipped.found->value.tip - kWorldLiver.inverse() * jaw_tip(1.0)).norm(), 1e-9);
 }
 
+TEST_F(ToolPosesTest, TipAndTrocarMayBePointsOfTheirFrames) {
+  const Vector3d tip(0.02, -0.013, 0.17), trocar(0.0, 0.01, 0.03);
+  Tool pointer = shaft_tool("pointer", 0.001), arm = tipped_;
+  pointer.parameters.trocar_frame = pointer.parameters.tip_frame = "marker";
+  pointer.parameters.tip_offset = tip;
+  pointer.parameters.trocar_offset = trocar;
+  arm.parameters.tip_frame = "arm/jaw";
+  arm.parameters.tip_offset = tip;
+  set_transform(buffer_, "world", "marker", 1.0, wrist(1.0));
+  send_links(1.0);
+  const auto found = poses_.pose(pointer, "liver", ros::Time(1.0));
+  ASSERT_TRUE(found.found) << found.why_not;
+  const Isometry3d T_liver_marker = kWorldLiver.inverse() * wrist(1.0);
+  EXPECT_LT((found.found->value.axis.tip - T_liver_marker * tip).norm(), 1e-9);
+  EXPECT_LT((found.found->value.axis.trocar - T_liver_marker * trocar).norm(), 1e-9);
+  const auto tipped = poses_.pose(arm, "liver", ros::Time(1.0));
+  ASSERT_TRUE(tipped.found && tipped.found->value.tip) << tipped.why_not;
+  EXPECT_LT((*tipped.found->value.tip - tipped.found->value.links[1] * tip).norm(), 1e-9);
+}
+
 TEST_F(ToolPosesTest, LatestIsTheLatestThatAllFramesHave) {
   // The wrist rests, at its pose of this time.
   set_transform(buffer_, "world", "arm/wrist", 0.0, wrist(1.5), true);

@@ -33,7 +33,7 @@ class KeepsContract(unittest.TestCase):
         self.assertTrue(found.success, found.message)
 
 
-SHAFT = -1  # Contact.link of a shaft
+SHAFT_LINK = -1  # Contact.link of a shaft
 
 
 class ContactCase(unittest.TestCase):
@@ -47,7 +47,7 @@ class ContactCase(unittest.TestCase):
     def assert_contacts(self, result, expected, tolerance=1e-7):
         """Checks that the contacts are the oracle's, `expected`, all with the shaft, or with the first link of a
         tool of links."""
-        link = 0 if result.links else SHAFT
+        link = 0 if result.links else SHAFT_LINK
         self.assertEqual([c.face for c in result.contacts if c.link != link], [])
         self.assert_contacts_of_link(result, link, expected, tolerance)
 
