@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Sends the force of the tissue on an instrument to the hand that moves it: from the wrench of contact_adapter to the
+"""Sends the force of the tissue on an instrument to the hand that moves it: from the wrench of haptic_proxy to the
 servo_cf of a dVRK's MTM. Sends no torque. If no wrench arrives any more, the force becomes zero."""
 
 import argparse

@@ -81,6 +81,9 @@ NodeCore<HapticProxyParameters>::Callbacks HapticProxyNode::callbacks() {
     while (const auto update = inbox_.intake.next()) {
       has_new_shape_ = true;
       if (update->status == ContactArray::OK) counters_.meshes.count();
+      if (core_.parameters().organ_interpolation) {
+        shapes_.update(inbox_.organs, SteadyClock::now());
+      }
     }
     follow_waiting_hands();
   };
@@ -161,8 +164,7 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
     if (hand.is_leaving) throw Rejection(*hand.why_not);
     const Timed<ToolPose> pose = latest_pose(tool);
     const auto before = std::exchange(hand.organs, std::nullopt);
-    const ProxyScene scene = proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(),
-                                         age_limits(), ros::Time::now());
+    const ProxyScene scene = scene_at(now);
     hand.organs = scene.stamps;
     if (is_due(tool, pose.stamp, hand.organs != before, now)) {
       tick(hand, pose, scene, now);
@@ -176,6 +178,18 @@ void HapticProxyNode::follow_hand(std::size_t tool, Time now) {
   } catch (const GlError& error) {
     lose(tool, {ContactArray::PICKER_FAILED, "picker failed", error.what()}, now);
   }
+}
+
+/// The organs at `now`. Throws Rejection.
+ProxyScene HapticProxyNode::scene_at(Time now) {
+  const ros::Time ros_now = ros::Time::now();
+  const bool interpolates = core_.parameters().organ_interpolation;
+  const auto shape_of = [&](const DeformableOrgan& organ) {
+    return interpolates ? std::pair(shapes_.shape(organ, now), shapes_.motion(organ, now))
+                        : latest_shape(organ, ros_now);
+  };
+  return proxy_scene(inbox_.organs, inbox_.transforms, frame_.name(), age_limits(), ros_now,
+                     shape_of);
 }
 
 /// The latest pose of the tool's hand. Throws Rejection if it is not known.
@@ -199,8 +213,9 @@ Timed<ToolPose> HapticProxyNode::latest_pose(std::size_t tool) const {
 bool HapticProxyNode::is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now) {
   Hand& hand = hands_[tool];
   const bool is_at_any_time = stamp.isZero();
-  const bool is_new = !hand.heard || stamp != hand.stamp ||
-                      (is_at_any_time && (has_new_shape_ || have_organs_moved));
+  const bool is_new =
+      !hand.heard || stamp != hand.stamp ||
+      (is_at_any_time && (has_new_shape_ || have_organs_moved || shapes_.is_moving(now)));
   if (is_new) {
     hand.stamp = stamp;
     if (hand.heard) hand.period_sec = std::chrono::duration<double>(now - *hand.heard).count();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "organ_interpolation.hpp"
 #include "proxy_publisher.hpp"
 #include "proxy_scene.hpp"
 #include "ros/markers/marker_publisher.hpp"
@@ -65,6 +66,7 @@ class HapticProxyNode {
     return {core_.parameters().mesh_timeout_sec, core_.parameters().frame_timeout_sec};
   }
   Timed<ToolPose> latest_pose(std::size_t tool) const;
+  ProxyScene scene_at(Time now);
   bool is_due(std::size_t tool, ros::Time stamp, bool have_organs_moved, Time now);
   void tick(Hand& hand, const Timed<ToolPose>& pose, const ProxyScene& scene, Time now);
   std::vector<ProxyView> views() const;
@@ -81,6 +83,7 @@ class HapticProxyNode {
 
   Inbox inbox_;
   ToolPoses poses_;
+  OrganInterpolation shapes_;
   ProxyFrame frame_;
   std::vector<Hand> hands_;    ///< in the order of the tools
   bool has_new_shape_ = true;  ///< an organ got a new shape since follow_hands()

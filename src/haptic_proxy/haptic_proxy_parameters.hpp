@@ -42,6 +42,7 @@ struct HapticProxyParameters : OrganNodeParameters {
   double friction = 0.0;                         ///< [N] along a needle that has pierced tissue
   double pose_timeout_sec = 0.02;
   double frame_timeout_sec = 0.5;  ///< most age of an organ's frame, unless static; 0: any
+  bool organ_interpolation = true;
   bool publish_tf = true;
 };
 
@@ -115,6 +116,9 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
            "age; 0: never");
   add_picker(t, p.picker);
   add_limits(t, p);
+  t.flag(
+      "organ_interpolation", p.organ_interpolation,
+      "true: organs move from shape to shape, one period late; false: they jump to each new shape");
   t.flag("publish_tf", p.publish_tf, "false: no frames TOOL_proxy on /tf");
   add_marker_rates(t, p.markers);
   add_realtime(t, p.realtime, "the thread of the ticks runs");

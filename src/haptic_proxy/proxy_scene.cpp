@@ -60,25 +60,25 @@ constexpr double kFrameInterval = 0.01;
 /// last two shapes.
 constexpr double kLongestMotion = 2.0;
 
-/// How the shape of an organ moves, without its frame.
-TissueMotion shape_motion(const DeformableOrgan& organ, ros::Time now) {
+}  // namespace
+
+std::pair<std::shared_ptr<const TriangleMesh>, TissueMotion> latest_shape(
+    const DeformableOrgan& organ, ros::Time now) {
   const OrganShape &latest = organ.latest(), &previous = organ.previous();
-  if (!previous.mesh) return {};
+  if (!previous.mesh) return {latest.mesh, {}};
   const bool have_stamps = !latest.stamp.isZero() && !previous.stamp.isZero();
   const double before = (have_stamps ? previous.stamp : previous.received).toSec();
   const double seconds = (have_stamps ? latest.stamp : latest.received).toSec() - before;
-  if (!(seconds > 0.0) || latest.age(now) > kLongestMotion * seconds) return {};
-  return {previous.mesh, seconds};
+  if (!(seconds > 0.0) || latest.age(now) > kLongestMotion * seconds) return {latest.mesh, {}};
+  return {latest.mesh, {previous.mesh, latest.mesh, seconds}};
 }
-
-}  // namespace
 
 Vector3d tissue_velocity(const ProxyScene& scene, std::size_t organ, const FaceContact& contact) {
   const ProxyOrgan& now = scene.organs[organ];
   const TissueMotion& motion = scene.motions[organ];
   Vector3d velocity = Vector3d::Zero();
   if (motion.shape_before) {
-    const Vector3d way = point_at(now.shape->triangle(contact.face), contact.barycentric) -
+    const Vector3d way = point_at(motion.shape_after->triangle(contact.face), contact.barycentric) -
                          point_at(motion.shape_before->triangle(contact.face), contact.barycentric);
     velocity += now.T_organ_proxy.linear().transpose() * way / motion.shape_sec;
   }
@@ -104,7 +104,8 @@ Rejection no_organ() {
 }
 
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
-                       const std::string& frame, const AgeLimits& limits, ros::Time now) {
+                       const std::string& frame, const AgeLimits& limits, ros::Time now,
+                       const ShapeOf& shape_of) {
   if (organs.organs().empty()) throw no_organ();
   const FrameLimit limit = frame_limit(limits);
   ProxyScene scene{frame, {}, {}};
@@ -124,10 +125,10 @@ ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& trans
           now);
     }
     scene.stamps.push_back(T_organ_proxy.found->stamp);
+    auto [shape, motion] = shape_of(organ);
     scene.organs.push_back(
-        {name, organ.latest().mesh, organ.latest().topology(), T_organ_proxy.found->value});
+        {name, std::move(shape), organ.latest().topology(), T_organ_proxy.found->value});
     scene.sources.push_back(&organ);
-    TissueMotion motion = shape_motion(organ, now);
     if (T_organ_proxy.found->stamp.toSec() > kFrameInterval) {
       const ros::Time before = T_organ_proxy.found->stamp - ros::Duration(kFrameInterval);
       const auto T_before = look_up(transforms, organ.frame(), frame, before);

@@ -2,9 +2,11 @@
 
 #include <ros/time.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "organ_collision/query/haptic_proxy.hpp"
@@ -34,8 +36,9 @@ class ProxyFrame {
 
 /// How an organ moves, from its last two shapes and from TF.
 struct TissueMotion {
-  std::shared_ptr<const TriangleMesh> shape_before = nullptr;  ///< null: the shape rests
-  double shape_sec = 0.0;                          ///< [s] between the shapes before and now
+  /// Two shapes, the later one last. Null: the shape rests.
+  std::shared_ptr<const TriangleMesh> shape_before = nullptr, shape_after = nullptr;
+  double shape_sec = 0.0;                          ///< [s] between both shapes
   std::optional<Eigen::Isometry3d> T_before = {};  ///< T_organ_proxy some time ago; empty: it rests
   double frame_sec = 0.0;                          ///< [s] since then
 };
@@ -64,11 +67,20 @@ struct AgeLimits {
 /// The reason that is given if there is no organ.
 Rejection no_organ();
 
-/// The organs with their latest shapes, at their latest poses in `frame`. They are valid as long as
-/// the registry does not change. Throws Rejection if there is no organ, if an organ has no
-/// transform to the frame, or if its shape or a transform is older than allowed.
+/// The shape of an organ in a tick, and how it moves.
+using ShapeOf = std::function<std::pair<std::shared_ptr<const TriangleMesh>, TissueMotion>(
+    const DeformableOrgan&)>;
+
+/// The latest shape of an organ, and the motion from the shape before.
+std::pair<std::shared_ptr<const TriangleMesh>, TissueMotion> latest_shape(
+    const DeformableOrgan& organ, ros::Time now);
+
+/// The organs with the shapes that `shape_of` tells, at their latest poses in `frame`. They are
+/// valid as long as the registry does not change. Throws Rejection if there is no organ, if an
+/// organ has no transform to the frame, or if its shape or a transform is older than allowed.
 ProxyScene proxy_scene(const OrganRegistry& organs, const TransformBuffer& transforms,
-                       const std::string& frame, const AgeLimits& limits, ros::Time now);
+                       const std::string& frame, const AgeLimits& limits, ros::Time now,
+                       const ShapeOf& shape_of);
 
 /// Throws Rejection if TF moves the proxy's frame relative to the tool with a transform that is
 /// older than allowed. `tool_frames`: the frames that determine the tool's pose. `stamp`: the stamp

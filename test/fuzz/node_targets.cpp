@@ -263,7 +263,10 @@ class ProxyNode {
     try {
       const auto pose = poses_.pose(hand_.tool, frame_.name(), ros::Time(0));
       if (!pose.found) throw Rejection(ContactArray::NO_TRANSFORM, "no pose", pose.why_not);
-      const ProxyScene scene = proxy_scene(organs_, transforms_, frame_.name(), {}, ros::Time(50));
+      const ros::Time now(50);
+      const ProxyScene scene =
+          proxy_scene(organs_, transforms_, frame_.name(), {}, now,
+                      [&](const DeformableOrgan& organ) { return latest_shape(organ, now); });
       ProxyReport report = hand_.proxy.follow(*pose.found, scene, hand_.now);
       report.scene = nullptr;  // It ends here.
       return report;

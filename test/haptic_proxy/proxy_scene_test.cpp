@@ -1,5 +1,6 @@
 #include "haptic_proxy/proxy_scene.hpp"
 
+#include "haptic_proxy/organ_interpolation.hpp"
 #include "test/ros/motion/tool_poses_fixture.hpp"
 #include "test/ros/organs/organ_fixture.hpp"
 
@@ -10,7 +11,11 @@ namespace {
 class ProxySceneTest : public OrganRegistryTest {
  protected:
   ProxyScene scene(const std::string& frame, const AgeLimits& limits = {}) {
-    return proxy_scene(store_, transforms_, frame, limits, ros::Time(8));
+    return proxy_scene(store_, transforms_, frame, limits, ros::Time(8), of_latest(8.0));
+  }
+
+  static ShapeOf of_latest(double now) {
+    return [now](const DeformableOrgan& organ) { return latest_shape(organ, ros::Time(now)); };
   }
 
   static OrganMesh new_mesh() {
@@ -171,9 +176,48 @@ TEST_F(ProxySceneTest, TissueMovesWithItsShapeAndWithItsFrame) {
   contact.barycentric = {0.2, 0.3, 0.5};
   contact.point = {0.4, 0.5, 0.6};
   const auto velocity = [&](const std::string& frame, double now) {
-    return tissue_velocity(proxy_scene(store_, transforms_, frame, {}, ros::Time(now)), 0, contact);
+    return tissue_velocity(
+        proxy_scene(store_, transforms_, frame, {}, ros::Time(now), of_latest(now)), 0, contact);
   };
   EXPECT_LT((velocity("liver_frame", 7.93) - Eigen::Vector3d(0.0, 0.0, 0.5)).norm(), 1e-4);
   EXPECT_LT((velocity("world", 7.93) - Eigen::Vector3d(1.0, 0.0, 0.5)).norm(), 1e-4);
   EXPECT_EQ(velocity("liver_frame", 8.0), Eigen::Vector3d(0.0, 0.0, 0.0)) << "no shape came since";
+}
+
+/// Heights of the first vertex [m], in milliseconds after each shape.
+TEST_F(ProxySceneTest, AnInterpolatedOrganGoesFromShapeToShapeOnePeriodLate) {
+  using std::chrono::milliseconds;
+  OrganInterpolation shapes;
+  const OrganInterpolation::Time start{std::chrono::hours(1)};
+  OrganMesh message = mesh("liver");
+  const float bottom = message.vertices[2];
+  const auto send = [&](float height, int at) {
+    message.vertices[2] = bottom + height;
+    message.header.stamp = ros::Time(7.0 + 1e-3 * at);
+    apply(message, ros::Time(7.0 + 1e-3 * at));
+    shapes.update(store_, start + milliseconds(at));
+  };
+  const auto height = [&](int at) {
+    return shapes.shape(store_.at("liver"), start + milliseconds(at))->vertices()[2] - bottom;
+  };
+  send(0.0F, 0);
+  EXPECT_EQ(height(5), 0.0F);
+  EXPECT_FALSE(shapes.is_moving(start + milliseconds(5)));
+  send(0.02F, 20);
+  EXPECT_NEAR(height(20), 0.0, 1e-7);
+  EXPECT_NEAR(height(25), 0.005, 1e-7);
+  EXPECT_TRUE(shapes.is_moving(start + milliseconds(25)));
+  const TissueMotion motion = shapes.motion(store_.at("liver"), start + milliseconds(25));
+  EXPECT_NEAR(motion.shape_sec, 0.02, 1e-9);
+  EXPECT_NEAR(motion.shape_after->vertices()[2] - motion.shape_before->vertices()[2], 0.02, 1e-7);
+  send(0.0F, 30);  // It turns back on its way: 10 mm high, it goes down within 10 ms.
+  EXPECT_NEAR(height(30), 0.01, 1e-7);
+  EXPECT_NEAR(height(35), 0.005, 1e-7);
+  EXPECT_EQ(height(50), 0.0F);
+  EXPECT_FALSE(shapes.is_moving(start + milliseconds(50)));
+  send(0.04F, 5030);  // After a pause, within 100 ms.
+  EXPECT_NEAR(height(5080), 0.02, 1e-7);
+  message.topology = 9;  // New triangles are there at once.
+  send(0.0F, 5090);
+  EXPECT_EQ(height(5090), 0.0F);
 }

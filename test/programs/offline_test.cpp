@@ -153,11 +153,13 @@ TEST(Motions, refuse_lines_naming_the_value_and_what_is_legal) {
   const Refusals refusals = {
       {"", ":1" + none},
       {kHeader + "\n", ":2" + none},
-      {"query,mode\n",
-       ":1: header is \"query,mode\"; must be " + kHeader.substr(0, kHeader.size() - 1) +
-           ", and perhaps previous_trocar_x,previous_trocar_y,previous_trocar_z"},
-      {good + "1,swept" + kPoints + "\n", ":4: 11 columns; must be 12, or 15 with the previous trocar"},
-      {good + "1,swept" + kPoints + ",1,\n", ":4: 13 columns; must be 12, or 15 with the previous trocar"},
+      {"query,mode\n", ":1: header is \"query,mode\"; must be " +
+                           kHeader.substr(0, kHeader.size() - 1) +
+                           ", and perhaps previous_trocar_x,previous_trocar_y,previous_trocar_z"},
+      {good + "1,swept" + kPoints + "\n",
+       ":4: 11 columns; must be 12, or 15 with the previous trocar"},
+      {good + "1,swept" + kPoints + ",1,\n",
+       ":4: 13 columns; must be 12, or 15 with the previous trocar"},
       {good + ",swept" + kPoints + ",1\n", ":4: query is empty; must be a number or a name"},
       {good + "2,sweep" + kPoints + ",1\n",
        ":4: mode is \"sweep\"; legal are static, swept, paper_static, paper_swept and paper_naive"},
@@ -208,7 +210,8 @@ TEST(Motions, are_refused_as_a_whole) {
       {file_of({"3", "4", "3"}), ":3: query \"3\" is already on line 1; each motion needs its own"},
       {file_of({"3", "03"}), ":2: query \"03\" is already on line 1; each motion needs its own"},
       {file_of({"a", "b", "b"}), ":3: query \"b\" is already on line 2; each motion needs its own"},
-      {file_of({"1", "2"}) + "3,swept\n", ":3: 2 columns; must be 12, or 15 with the previous trocar"}};
+      {file_of({"1", "2"}) + "3,swept\n",
+       ":3: 2 columns; must be 12, or 15 with the previous trocar"}};
   for (const Order order : {Order::kByQuery, Order::kAsInFile}) {
     for (const auto& [content, why] : refusals) {
       EXPECT_EQ(refusal_of(content, [&](const std::string& file) { Motions(file, order); }), why);

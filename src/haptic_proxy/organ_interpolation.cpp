@@ -1,0 +1,68 @@
+#include "organ_interpolation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace organ_collision {
+
+/// The share of the way at `now`, in [0, 1].
+double OrganInterpolation::Way::share(Time now) const {
+  const std::chrono::duration<double> passed = now - start;
+  return seconds > 0.0 ? std::clamp(passed.count() / seconds, 0.0, 1.0) : 1.0;
+}
+
+void OrganInterpolation::update(const OrganRegistry& organs, Time now) {
+  std::map<std::string, Way> ways;
+  for (const auto& [name, organ] : organs.organs()) {
+    Way& way = ways[name];
+    if (const auto known = ways_.find(name); known != ways_.end()) way = std::move(known->second);
+    const std::shared_ptr<const TriangleMesh>& latest = organ.latest().mesh;
+    if (way.to == latest) continue;
+    const bool is_comparable = way.to && way.to->topology() == latest->topology() &&
+                               way.to->same_faces(*latest) && latest->vertex_count() <= kLargest;
+    const std::chrono::duration<double> since = std::min<Time::duration>(now - way.start, kLongest);
+    way.from = is_comparable ? shape_on(way, now) : latest;
+    way.seconds = is_comparable ? since.count() : 0.0;
+    if (!is_comparable) way.shapes.clear();
+    way.to = latest;
+    way.start = now;
+  }
+  ways_ = std::move(ways);
+}
+
+std::shared_ptr<const TriangleMesh> OrganInterpolation::shape(const DeformableOrgan& organ,
+                                                              Time now) {
+  const auto way = ways_.find(organ.name());
+  return way == ways_.end() ? organ.latest().mesh : shape_on(way->second, now);
+}
+
+TissueMotion OrganInterpolation::motion(const DeformableOrgan& organ, Time now) const {
+  const auto way = ways_.find(organ.name());
+  if (way == ways_.end() || way->second.share(now) == 1.0) return {};
+  // The whole way, as if the shape were at its end: only the difference of both shapes counts.
+  return {way->second.from, way->second.to, way->second.seconds};
+}
+
+bool OrganInterpolation::is_moving(Time now) const {
+  return std::any_of(ways_.begin(), ways_.end(),
+                     [&](const auto& way) { return way.second.share(now) < 1.0; });
+}
+
+std::shared_ptr<const TriangleMesh> OrganInterpolation::shape_on(Way& way, Time now) {
+  const double share = way.share(now);
+  if (share == 1.0) return way.to;
+  std::vector<float> vertices(way.to->vertices().size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const double from = way.from->vertices()[i], to = way.to->vertices()[i];
+    vertices[i] = static_cast<float>(from + share * (to - from));
+  }
+  auto free = std::find_if(way.shapes.begin(), way.shapes.end(),
+                           [](const auto& shape) { return shape.use_count() == 1; });
+  if (free == way.shapes.end()) {
+    free = way.shapes.insert(way.shapes.end(), std::make_shared<TriangleMesh>(*way.to));
+  }
+  (*free)->move_vertices(std::move(vertices));
+  return *free;
+}
+
+}  // namespace organ_collision
