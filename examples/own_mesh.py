@@ -6,7 +6,7 @@ import math
 import sys
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
-from organ_collision import contact_table, Organ, read_mesh
+from organ_collision import contact_table, MeshFileError, Organ, read_mesh
 from organ_collision.msg import ContactArray
 import rospy
 from std_msgs.msg import Header
@@ -32,20 +32,24 @@ def show(answer):
               % (answer.tool, len(contacts), deepest.face, 1e3 * deepest.depth), flush=True)
 
 
-rospy.init_node('own_mesh')
-contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
-frames = tf2_ros.TransformBroadcaster()
-rate = rospy.Rate(20)
+def main():
+    rospy.init_node('own_mesh')
+    rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
+    frames = tf2_ros.TransformBroadcaster()
+    rate = rospy.Rate(20)
+
+    vertices, faces = read_mesh(options.file, options.scale)
+    organ = Organ('organ', vertices, faces)
+    top = vertices[vertices[:, 2].argmax()]
+    while not rospy.is_shutdown():
+        now = rospy.Time.now()
+        tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
+        frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
+        organ.move(vertices, now)
+        rate.sleep()
+
 
 try:
-    vertices, faces = read_mesh(options.file, options.scale)
-except ValueError as error:
+    main()
+except MeshFileError as error:
     sys.exit('own_mesh.py: %s' % error)
-organ = Organ('organ', vertices, faces)
-top = vertices[vertices[:, 2].argmax()]
-while not rospy.is_shutdown():
-    now = rospy.Time.now()
-    tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
-    frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
-    organ.move(vertices, now)
-    rate.sleep()

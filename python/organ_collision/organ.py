@@ -1,14 +1,17 @@
 """An organ that a Python program sends to the collision node."""
 
 import threading
+import time
 
 import numpy as np
 import rospy
 
 from organ_collision.messages import organ_mesh, organ_vertices
 from organ_collision.msg import OrganMesh, OrganVertices
+from organ_collision.srv import ListOrgans
 
 _QUEUE = 100  # [messages] A program may move several organs at once.
+_PATIENCE = 2.0  # [s]
 
 
 class Organ(rospy.SubscribeListener):
@@ -29,18 +32,25 @@ class Organ(rospy.SubscribeListener):
     _lock = threading.Lock()
 
     def __init__(self, name, vertices, faces, frame=None, node='/organ_collision', stamp=None):
-        self._mesh = organ_mesh(name, vertices, faces, frame, stamp=stamp)
+        self._mesh, self._taken = organ_mesh(name, vertices, faces, frame, stamp=stamp), None
+        self._organs = rospy.ServiceProxy(node + '/list_organs', ListOrgans)
         self._shapes = rospy.Publisher(node + '/organ_vertices', OrganVertices, queue_size=_QUEUE)
         self._meshes = rospy.Publisher(node + '/organ_mesh', OrganMesh, self, queue_size=_QUEUE)
         self._send_mesh(self._mesh)
 
     def move(self, vertices, stamp=None):
-        """Sends a new shape: n x 3 positions of the same vertices, in the same order."""
+        """Sends a new shape: n x 3 positions of the same vertices, in the same order.
+
+        The first one waits until the node has taken the mesh, for at most 2 s: the node refuses vertices that come before
+        their mesh, and messages of two topics overtake each other.
+        """
         mesh = self._mesh
         shape = organ_vertices(mesh.organ, vertices, mesh.header.frame_id, mesh.topology, stamp)
         if len(shape.vertices) != len(mesh.vertices):
             raise ValueError('%d vertices; %s has %d. For another mesh, call replace()'
                              % (len(vertices), mesh.organ, len(mesh.vertices) // 3))
+        if self._taken is not mesh:
+            self._wait_until_taken(mesh)
         with self._lock:
             mesh.vertices, mesh.header.stamp = shape.vertices, shape.header.stamp
             self._shapes.publish(shape)
@@ -54,6 +64,18 @@ class Organ(rospy.SubscribeListener):
         """Removes the organ from the node."""
         self.replace(np.empty((0, 3)), np.empty((0, 3)))
 
+    def _wait_until_taken(self, mesh):
+        end = time.monotonic() + _PATIENCE
+        known = (mesh.organ, mesh.topology, len(mesh.vertices) // 3)
+        while self._shapes.get_num_connections() > 0 and time.monotonic() < end and not rospy.is_shutdown():
+            try:
+                if known in [(organ.name, organ.topology, organ.vertices) for organ in self._organs().organs]:
+                    self._taken = mesh
+                    return
+            except rospy.ServiceException:  # The node has gone, or does not serve yet.
+                pass
+            rospy.rostime.wallsleep(0.01)
+
     def _send_mesh(self, mesh):
         with self._lock:
             self._mesh = mesh
@@ -62,4 +84,5 @@ class Organ(rospy.SubscribeListener):
     def peer_subscribe(self, topic_name, topic_publish, peer_publish):
         """rospy calls this for each new subscriber."""
         with self._lock:
+            self._taken = None
             peer_publish(self._mesh)

@@ -33,6 +33,8 @@ static_assert(ProxyState::NO_ANSWER == static_cast<int>(ProxyStatus::kNoAnswer) 
 constexpr std::uint32_t kQueue = 20;
 /// The most places of a state.
 constexpr std::size_t kMostPlaces = 32;
+/// [m] Faces around a corner whose nearest points are nearer to each other than this are one place.
+constexpr double kSamePlace = 1e-6;
 
 std_msgs::Header header_of(const ProxyReport& report) {
   std_msgs::Header header;
@@ -135,8 +137,20 @@ std::vector<ProxyContact> places_of(const ProxyReport& report) {
   }
   std::stable_sort(places.begin(), places.end(),
                    [](const auto& a, const auto& b) { return a.distance < b.distance; });
-  if (places.size() > kMostPlaces) places.resize(kMostPlaces);
-  return places;
+  std::vector<ProxyContact> different;
+  for (const ProxyContact& place : places) {
+    const auto same = std::find_if(different.begin(), different.end(), [&](const auto& other) {
+      return other.organ == place.organ && other.link == place.link &&
+             (to_eigen(other.point) - to_eigen(place.point)).norm() < kSamePlace;
+    });
+    if (same == different.end()) {
+      different.push_back(place);
+    } else {
+      same->force = to_vector(to_eigen(same->force) + to_eigen(place.force));
+    }
+  }
+  if (different.size() > kMostPlaces) different.resize(kMostPlaces);
+  return different;
 }
 
 ProxyPublisher::ProxyPublisher(const ros::NodeHandle& private_node, FailureLog& failed,

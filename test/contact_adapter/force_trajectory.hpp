@@ -9,6 +9,7 @@
 #include <functional>
 #include <vector>
 
+#include "contact_adapter/contact_answer.hpp"
 #include "organ_collision/query/collision_query.hpp"
 #include "ros/messages/conversions.hpp"
 #include "ros/steps/contact_array.hpp"

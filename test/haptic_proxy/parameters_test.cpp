@@ -81,9 +81,9 @@ TEST(HapticParameters, IllegalOnesAreNamedWithTheirValueAndWhatIsLegal) {
   EXPECT_EQ(refusal_of<HapticProxyParameters>("frame", "/"),
             "~frame is '/'; must be the name of a TF frame");
   EXPECT_EQ(refusal_of<HapticProxyParameters>("clearance", -1.5),
-            "~clearance is '-1.5'; must be a number, more than 0");
+            "~clearance is '-1.5'; must be a number, more than 0, at most 0.1");
   EXPECT_EQ(refusal_of<ContactAdapterParameters>("max_force", 0),
-            "~max_force is '0'; must be a number, more than 0, or .inf");
+            "~max_force is '0'; must be a number, more than 0, at most 10000, or .inf");
   XmlRpcValue tools;
   tools[0] = tools[1] = legal_parameters<HapticProxyParameters>()["tools"][0];
   tools[1]["name"] = "left_hook";  // Its topics would have the same names.

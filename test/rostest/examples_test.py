@@ -23,7 +23,7 @@ from support.node_client import LIMIT, ContactLog, Log, NodeClient, pose_stamped
 from support.processes import NodeStarter, program
 
 LONG = 90.0  # [s]
-TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue'}
+TESTED = {'start', 'mesh_adapter', 'two_hosts', 'haptics', 'dvrk', 'fem_tissue', 'numpy'}
 ELSEWHERE = {'forces', 'grasper', 'plan'}  # contact_adapter.test and robots.test
 FEM_STEP = 0.004  # [s] of fem_tissue
 
@@ -80,6 +80,15 @@ class ExamplesTest(LaunchCase, NodeStarter):
                 log = ContactLog(node + '/contacts')
                 wait_until(lambda: any(answer.contacts for answer in log.of(organ, tool, status=0)),
                            'contacts of ' + organ)
+
+    def test_numpy(self):
+        """Contacts and a force come back, and no shape is refused."""
+        with self.launched('examples/numpy.launch') as launched:
+            log, states = ContactLog('/organ_collision/contacts'), Log('/haptic_proxy/probe/state', ProxyState)
+            wait_until(lambda: any(answer.contacts for answer in log.of('tissue', 'probe', status=0)), 'contacts')
+            wait_until(lambda: states.last(lambda state: state.state == ProxyState.TOUCHING
+                                           and state.wrench.force.z > 0.2), lambda: 'a force: %s' % states.last())
+        self.assertNotIn('refused', launched.printed)
 
     def test_haptics(self):
         """The tissue holds the stylus back, and the driver passes the force on. When haptic_proxy ends, the driver
