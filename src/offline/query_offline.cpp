@@ -29,7 +29,8 @@ Options: [--jobs NUMBER] [--picker NAME] [--gl NAME] [--margin METRES] [--cleara
 
 Prints the faces that a tool touches, or touched while it moved, as CSV. Needs no ROS master.
 
-  --mesh FILE         the organ, an OBJ file in metres; vertices are rounded to 32-bit floats
+  --mesh FILE         the organ, an OBJ, STL or PLY file in metres; vertices are rounded to 32-bit
+                      floats
   --motions FILE      CSV file, or - for standard input; one motion in each line:
                       query,mode,trocar_x,trocar_y,trocar_z,previous_x,previous_y,previous_z,
                       tip_x,tip_y,tip_z,radius
@@ -61,7 +62,7 @@ Prints the faces that a tool touches, or touched while it moved, as CSV. Needs n
 Output: query,face,fraction,depth,point_x,point_y,point_z,normal_x,normal_y,normal_z
 sorted by query (integers by value, names as text), then face; with --motions - and with --shapes, in
 the order of the motions, then face. A face's number is its place among
-the mesh's f lines, from 0; a polygon is cut into a fan and counts as so many faces. Without the
+the faces of the mesh file, from 0; a polygon is cut into a fan and counts as so many faces. Without the
 options below, a motion without contact has no line. In the paper's modes the columns after face
 are empty.
 

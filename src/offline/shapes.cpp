@@ -1,8 +1,14 @@
 #include "shapes.hpp"
 
+#include <assimp/scene.h>
+
 #include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <cctype>
 #include <cstring>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "geometry/concatenate.hpp"
@@ -18,7 +24,7 @@ class ObjReader {
  public:
   explicit ObjReader(const std::string& file) : text_(file) { obj_.file = file; }
 
-  ObjFile read() {
+  MeshFile read() {
     std::vector<std::string_view> words;
     while (text_.next()) {
       const std::string_view line = text_.line();
@@ -98,10 +104,70 @@ class ObjReader {
   }
 
   TextReader text_;
-  ObjFile obj_;
+  MeshFile obj_;
 };
 
-TriangleMesh read_mesh(const std::string& file) { return mesh_of(read_obj(file)); }
+/// Collects the faces of an assimp scene, which is read without post-processing: they are polygons.
+class SurfaceCollector {
+ public:
+  SurfaceCollector(const std::string& file, bool joins_corners) : joins_corners_(joins_corners) {
+    mesh_.file = file;
+  }
+
+  void add(const aiMesh& part) {
+    std::vector<std::uint32_t> numbers;
+    for (unsigned i = 0; i < part.mNumVertices; ++i) numbers.push_back(vertex(part.mVertices[i]));
+    for (unsigned i = 0; i < part.mNumFaces; ++i) {
+      const aiFace& face = part.mFaces[i];
+      for (unsigned k = 2; k < face.mNumIndices; ++k) {
+        for (const unsigned corner : {0U, k - 1, k}) {
+          mesh_.triangles.push_back(numbers.at(face.mIndices[corner]));
+        }
+      }
+    }
+  }
+  MeshFile take() && { return std::move(mesh_); }
+
+ private:
+  std::uint32_t vertex(const aiVector3D& place) {
+    const std::array<float, 3> point{place.x, place.y, place.z};
+    const auto number = static_cast<std::uint32_t>(mesh_.vertices.size() / 3);
+    if (joins_corners_) {
+      const auto [known, is_new] = known_.insert({point, number});
+      if (!is_new) return known->second;
+    }
+    for (const float coordinate : point) {
+      if (!is_in_range(coordinate)) {
+        throw InputError(concatenate(mesh_.file, ": a coordinate is ", coordinate,
+                                     "; must be finite and within 1e6 m"));
+      }
+    }
+    mesh_.vertices.insert(mesh_.vertices.end(), point.begin(), point.end());
+    return number;
+  }
+
+  bool joins_corners_;
+  MeshFile mesh_;
+  std::map<std::array<float, 3>, std::uint32_t> known_;
+};
+
+/// Reads an STL or PLY file.
+MeshFile read_surface(const std::string& file, bool is_stl) {
+  Assimp::Importer importer;
+  const aiScene* const scene = importer.ReadFile(file, 0);
+  if (!scene) throw InputError(file + ": cannot be read: " + importer.GetErrorString());
+  SurfaceCollector surface(file, is_stl);
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) surface.add(*scene->mMeshes[i]);
+  MeshFile mesh = std::move(surface).take();
+  if (mesh.triangles.empty()) throw InputError(file + ": has no faces; must have at least one");
+  return mesh;
+}
+
+/// An error at a face of a file.
+InputError error_at(const MeshFile& mesh, std::size_t line, const std::string& message) {
+  return mesh.face_lines.empty() ? InputError(mesh.file + ": " + message)
+                                 : InputError(mesh.file, line, message);
+}
 
 bool is_shape(const fs::path& file) {
   const fs::path extension = file.extension();
@@ -129,9 +195,16 @@ std::vector<fs::path> shapes_in(const std::string& folder) {
 
 }  // namespace
 
-ObjFile read_obj(const std::string& file) { return ObjReader(file).read(); }
+MeshFile read_obj(const std::string& file) { return ObjReader(file).read(); }
 
-TriangleMesh mesh_of(const ObjFile& obj) {
+MeshFile read_mesh(const std::string& file) {
+  std::string extension = fs::path(file).extension();
+  for (char& letter : extension) letter = static_cast<char>(std::tolower(letter));
+  if (extension != ".stl" && extension != ".ply") return read_obj(file);
+  return read_surface(file, extension == ".stl");
+}
+
+TriangleMesh mesh_of(const MeshFile& obj) {
   try {
     return {obj.vertices, obj.triangles};
   } catch (const MeshError& error) {
@@ -139,16 +212,16 @@ TriangleMesh mesh_of(const ObjFile& obj) {
   }
 }
 
-void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh,
+void check_same_faces(const MeshFile& shape, const TriangleMesh& mesh,
                       const std::string& mesh_file) {
   const auto counts = [](std::size_t vertices, std::size_t faces) {
     return concatenate(vertices, " vertices and ", faces, " faces");
   };
-  const std::string found = counts(shape.vertices.size() / 3, shape.face_lines.size());
+  const std::string found = counts(shape.vertices.size() / 3, shape.triangles.size() / 3);
   const std::string right = counts(mesh.vertex_count(), mesh.face_count());
   if (found != right) {
-    throw InputError(shape.file, shape.line_count,
-                     "the file ends with " + found + "; " + mesh_file + " has " + right);
+    throw error_at(shape, shape.line_count,
+                   "the file ends with " + found + "; " + mesh_file + " has " + right);
   }
   // Vertices are counted from 1, as in the file.
   const auto text = [](const FaceIndices& face) {
@@ -158,23 +231,23 @@ void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh,
     const std::uint32_t* const corners = &shape.triangles[3 * face];
     const FaceIndices indices{corners[0], corners[1], corners[2]};
     if (indices == mesh.faces()[face]) continue;
-    throw InputError(shape.file, shape.face_lines[face],
-                     concatenate("face ", face, " has the vertices ", text(indices), "; in ",
-                                 mesh_file, " they are ", text(mesh.faces()[face])));
+    throw error_at(shape, shape.face_lines.empty() ? 0 : shape.face_lines[face],
+                   concatenate("face ", face, " has the vertices ", text(indices), "; in ",
+                               mesh_file, " they are ", text(mesh.faces()[face])));
   }
 }
 
 ShapeSource::ShapeSource(const std::string& mesh, const std::string& mesh_before)
-    : first_(read_mesh(mesh)) {
+    : first_(mesh_of(read_mesh(mesh))) {
   if (mesh_before.empty()) return;
-  ObjFile before = read_obj(mesh_before);
+  MeshFile before = read_mesh(mesh_before);
   check_same_faces(before, first_, mesh);
   before_ = first_;
   before_->move_vertices(std::move(before.vertices));
 }
 
 ShapeSource::ShapeSource(const std::string& folder)
-    : files_(shapes_in(folder)), first_(read_mesh(files_.front())), shapes_{first_} {}
+    : files_(shapes_in(folder)), first_(mesh_of(read_obj(files_.front()))), shapes_{first_} {}
 
 void ShapeSource::get(std::size_t count, QueryWorkers& threads) {
   if (!files_.empty()) {
@@ -200,7 +273,7 @@ void ShapeSource::set_shapes(std::size_t motion, CollisionRequest& request) cons
 /// or has other faces than the first file.
 void ShapeSource::read(std::size_t file, TriangleMesh& shape) const {
   if (file == 0) return;  // The first file is first_, of which all shapes are copies.
-  ObjFile obj = read_obj(files_[file]);
+  MeshFile obj = read_obj(files_[file]);
   check_same_faces(obj, first_, files_[0]);
   shape.move_vertices(std::move(obj.vertices));
 }

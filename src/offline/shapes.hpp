@@ -13,12 +13,12 @@
 
 namespace organ_collision {
 
-/// What an OBJ file says about a mesh, and in which lines.
-struct ObjFile {
+/// What a file says about a mesh and, of an OBJ file, in which lines.
+struct MeshFile {
   std::string file;
-  std::vector<float> vertices;           ///< x y z x y z ... [m]; finite, within 1e6 m
-  std::vector<std::uint32_t> triangles;  ///< three vertex indices for each face, all legal
-  std::vector<std::size_t> face_lines;   ///< the line of each face, from 1
+  std::vector<float> vertices;               ///< x y z x y z ... [m]; finite, within 1e6 m
+  std::vector<std::uint32_t> triangles;      ///< three vertex indices for each face, all legal
+  std::vector<std::size_t> face_lines = {};  ///< the line of each face, from 1; empty: not known
   std::size_t line_count = 0;
 };
 
@@ -29,15 +29,21 @@ struct ObjFile {
 /// indices, which are ignored. Throws InputError if the file is missing, is not legal or has no
 /// face. (Assimp would leave out vertices without a face, round some numbers in another way, and
 /// not tell the line of an error.)
-ObjFile read_obj(const std::string& file);
+MeshFile read_obj(const std::string& file);
 
-/// The mesh of an OBJ file. Throws InputError if it is too large.
-TriangleMesh mesh_of(const ObjFile& obj);
+/// Reads the surface in an STL or PLY file, or in an OBJ file by read_obj(), which the ending of
+/// the name tells. Vertices and faces keep the order of the file. STL has no vertices: there,
+/// corners at the same place become one. Throws InputError as read_obj() does.
+MeshFile read_mesh(const std::string& file);
+
+/// The mesh of a file. Throws InputError if it is too large.
+TriangleMesh mesh_of(const MeshFile& obj);
 
 /// Throws InputError, naming the first difference, if `shape` does not have the same faces and the
 /// same number of vertices as `mesh`, which was read from `mesh_file`. It then cannot be another
 /// shape of this mesh.
-void check_same_faces(const ObjFile& shape, const TriangleMesh& mesh, const std::string& mesh_file);
+void check_same_faces(const MeshFile& shape, const TriangleMesh& mesh,
+                      const std::string& mesh_file);
 
 /// The threads that answer motions, and that read shapes for them.
 using QueryWorkers = QueryThreads<CollisionQuery>;
@@ -48,9 +54,9 @@ using QueryWorkers = QueryThreads<CollisionQuery>;
 class ShapeSource {
  public:
   /// Each motion meets the organ in the same shape, or while it moves from one shape to another.
-  /// `mesh`: the OBJ file of the shape at the end of each motion. `mesh_before`: that of the shape
-  /// at the start; empty: the organ rests. Throws InputError if a file is missing or is not legal,
-  /// or if the files differ in their faces.
+  /// `mesh`: the file (OBJ, STL or PLY) of the shape at the end of each motion. `mesh_before`: that
+  /// of the shape at the start; empty: the organ rests. Throws InputError if a file is missing or
+  /// is not legal, or if the files differ in their faces.
   ShapeSource(const std::string& mesh, const std::string& mesh_before);
   /// A recorded simulation: an OBJ file for each step, with the same faces. During the motion of a
   /// step, the organ moves from the shape of the step before to that of the step. In the first step

@@ -88,7 +88,7 @@ const FuzzTarget obj_file_target("obj_file", [](const std::uint8_t* data, std::s
   static const TriangleMesh other({0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 1, 2});
   const std::string path = memory_file(FuzzInput(data, size).rest());
   try {
-    const ObjFile obj = read_obj(path);
+    const MeshFile obj = read_obj(path);
     demand(obj.face_lines.size() * 3 == obj.triangles.size(), "each face has its line");
     const TriangleMesh mesh = mesh_of(obj);
     check_same_faces(obj, mesh, "itself");

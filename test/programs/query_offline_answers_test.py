@@ -50,6 +50,26 @@ class AnswersTest(ProgramCase):
             self.assertLessEqual(length(sub(vectors[:3], right.point)), TOLERANCE, what)
             self.assertLessEqual(length(sub(vectors[3:], right.normal)), 100 * TOLERANCE, what)
 
+    def test_stl_and_ply_files_give_the_answers_of_an_obj_file(self):
+        mesh = scenes.sheet(0.1, 6)
+        self.write_scene(mesh, ['%d,swept,0,0,0.1,%r,0.01,0.03,%r,0.02,-0.01,0.005' % (i, 0.01 * i, -0.01 * i)
+                                for i in range(8)])
+        vertices, faces = mesh.flat_vertices(), mesh.flat_faces()
+        points = [vertices[i:i + 3] for i in range(0, len(vertices), 3)]
+        corners = [faces[i:i + 3] for i in range(0, len(faces), 3)]
+        ply = ['ply', 'format ascii 1.0', 'element vertex %d' % len(points), 'property float x', 'property float y',
+               'property float z', 'element face %d' % len(corners), 'property list uchar int vertex_indices', 'end_header',
+               *('%r %r %r' % tuple(point) for point in points), *('3 %d %d %d' % tuple(face) for face in corners)]
+        stl = ['solid sheet', *(line for face in corners for line in (
+            'facet normal 0 0 1', 'outer loop', *('vertex %r %r %r' % tuple(points[corner]) for corner in face), 'endloop',
+            'endfacet')), 'endsolid sheet']
+        self.write('organ.PLY', '\n'.join(ply) + '\n')
+        self.write('organ.stl', '\n'.join(stl) + '\n')
+        expected = self.printed()
+        self.assertGreater(len(expected.splitlines()), 8)
+        for name in ('organ.PLY', 'organ.stl'):
+            self.assertEqual(self.printed(files=('--mesh', name, '--motions', 'motions.csv')), expected)
+
     def test_one_face_by_hand(self):
         """A tip of 5 mm radius, 4 mm above a plate, is 1 mm deep. If it falls from 10 mm to 4 mm,
         it first touches after 5/6 of the step."""

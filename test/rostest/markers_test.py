@@ -101,7 +101,8 @@ class MarkersTest(NodeStarter):
         meshes = rospy.Publisher('/hands/organ_mesh', OrganMesh, queue_size=1, latch=True)
         transforms = TfSender()
         transforms.send_resting((frame, 'hand_trocar', (0, 0, 0.3)))
-        process = self.start('/hands', {'tools': [tool], 'stiffness': 200.0, 'pose_timeout_sec': 0.3}, 'haptic_proxy')
+        process = self.start('/hands', {'tools': [tool], 'stiffness': 200.0, 'pose_timeout_sec': 0.3,
+                                        'max_force': math.inf}, 'haptic_proxy')
         viewer = Viewer('/hands/markers')
         meshes.publish(mesh_message('sheet', SHEET, frame=frame))
 
