@@ -253,9 +253,14 @@ void check_types(rosbag::Bag& bag, const std::string& file, const Replay& replay
     if (topic == replay.topics().end()) continue;
     const auto& [type, md5sum, handlers] = topic->second;
     if (connection->datatype == type && connection->md5sum == md5sum) continue;
+    const std::string hint =
+        connection->datatype == type
+            ? "; it was recorded with another version of this type, see Bags of other versions in "
+              "doc/bags.md"
+            : "";
     throw InputError(file + ": topic " + connection->topic + " has messages of type " +
                      connection->datatype + " (" + connection->md5sum + "); must be " + type +
-                     " (" + md5sum + ")");
+                     " (" + md5sum + ")" + hint);
   }
 }
 

@@ -2,6 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
 #include "force_trajectory.hpp"
 #include "ros/messages/failure_log.hpp"
 
@@ -18,6 +24,16 @@ Contact at_height(double height) {
   flat.behind = height < 0.0;
   flat.shaft = 1.0;
   return flat;
+}
+
+/// A contact at the origin with a face of its own.
+Contact on_face(std::uint32_t face, const std::array<std::uint32_t, 3>& vertices,
+                const Vector3d& normal, double depth) {
+  Contact on = contact(Vector3d::Zero(), normal, depth);
+  on.face = face;
+  std::copy(vertices.begin(), vertices.end(), on.vertices.begin());
+  on.shaft = 0.5;
+  return on;
 }
 
 Push follow(PushTracker& tracker, const Contact& contact, const ShaftRadius& radius = kRadius) {
@@ -63,6 +79,26 @@ TEST(KeptSides, FacesAndLinksAreKeptApart) {
   expect_push(pushes.at(0), -1.0, 0.004);
   expect_push(pushes.at(1), 1.0, 0.004);
   expect_push(pushes.at(2), 1.0, 0.003);
+}
+
+TEST(KeptSides, PastOneSideOfACreaseTheOtherKeepsPushing) {
+  const double half = std::sqrt(0.5);
+  const Vector3d left(-half, 0.0, -half), right(half, 0.0, -half);
+  PushTracker tracker;
+  tracker.follow(touched({on_face(0, {0, 1, 2}, left, 0.004), on_face(1, {1, 2, 3}, right, 0.001)}),
+                 kRadius);
+  // The axis passed the left side. The right one's point is on the edge of the crease, where the
+  // left one extends nearer to the axis.
+  Contact passed = on_face(0, {0, 1, 2}, -left, 0.004),
+          beside = on_face(1, {1, 2, 3}, right, 0.002);
+  passed.behind = true;
+  passed.point = tf2::toMsg(Vector3d(-0.001 * right));
+  beside.barycentric = {0.5, 0.5, 0.0};
+  const std::vector<Push> pushes = tracker.follow(touched({passed, beside}), kRadius);
+  EXPECT_TRUE(pushes.at(0).counts);
+  expect_push(pushes.at(0), left, 0.006);
+  EXPECT_TRUE(pushes.at(1).counts);
+  expect_push(pushes.at(1), right, 0.002);
 }
 
 TEST(KeptSides, OnlyWhatTheTipPiercedIsDeeperThanTheRadius) {
@@ -148,7 +184,9 @@ TEST(WayOut, AFaceThatIsTouchedFromInsideKeepsPushingOut) {
 
 TEST(WayOut, OfALinkTheDepthGoesOnFromItsLastContact) {
   PushTracker tracker;
-  tracker.follow(link_of(inside_at(-0.0, {contact(kPlace, -kWay, 0.017)})), {});
+  Contact shallow = contact(kPlace, -kWay, 0.003);
+  shallow.face = 1;
+  tracker.follow(link_of(inside_at(-0.0, {contact(kPlace, -kWay, 0.017), shallow})), {});
   expect_push_out(tracker.follow(link_of(inside_at(0.0)), {}), 0.017);
   expect_push_out(tracker.follow(link_of(inside_at(0.004)), {}), 0.021);
   // Outside, it is forgotten.

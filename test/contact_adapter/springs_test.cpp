@@ -189,9 +189,10 @@ TEST(Basins, AContactThatNothingIsKnownOfIsItsOwn) {
 
 TEST(Basins, OtherLinksDoNotCount) {
   Contact far = contact({0.001, 0.0, 0.0}, {0.5, 0.0, -1.0}, 0.001), near = far;
+  // The greatest vertex of one face is the least of the other: they are neighbours in sorted lists.
   far.vertices = {1, 2, 3};
-  far.barycentric = {1.0, 0.0, 0.0};
-  near.vertices = {1, 4, 5};
+  far.barycentric = {0.0, 0.0, 1.0};
+  near.vertices = {3, 4, 5};
   near.point.x = 0.0;
   near.barycentric = {0.2, 0.4, 0.4};
   EXPECT_EQ(basins_of({far, near}), (std::vector<std::size_t>{1, 1}));

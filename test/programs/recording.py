@@ -42,6 +42,11 @@ class Recording:
     def write(self, topic, message, at):
         self.bag.write(topic, message, stamp(at))
 
+    def of_version(self, topic, kind, md5sum, at):
+        """An empty message of another version of a type."""
+        other = type(kind.__name__, (kind,), {'_md5sum': md5sum})
+        self.bag.write(topic, (kind._type, b'', md5sum, None, other), stamp(at), raw=True)
+
     def mesh(self, time, mesh, at=None, organ='liver', topology=1, publisher=None):
         message = OrganMesh(organ=organ, topology=topology, vertices=mesh.flat_vertices(), triangles=mesh.flat_faces())
         message.header.frame_id, message.header.stamp = 'liver_frame', stamp(time)

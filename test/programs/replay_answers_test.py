@@ -94,35 +94,32 @@ class ReplayAnswersTest(ReplayCase):
         self.assertEqual(answers[1].mode, STATIC)
         self.assert_contacts(answers[1], oracle.static_contacts(other, at_height(-0.01), RADIUS))
 
-    def test_each_pose_is_a_step(self):
-        heights = [0.05, 0.02, -0.03]
+    def assert_poses_are_steps(self, tools, pose_of):
+        """A tip goes down through the sheet in three poses. pose_of(i, tip): that of pose i, with its turn."""
         with self.record() as bag:
             bag.resting(1.0)
             for time, at in ((1.0, 1.0), (2.5, 1.9)):
                 bag.frame(time, 'hook_trocar', at_height(0.0)[0], at=at)
             bag.mesh(2.0, SHEET)
-            for i, height in enumerate(heights):
-                bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, at_height(height)[1])
-        answers = [answer for _, answer in self.answers_of(POSES)]
+            for i, height in enumerate((0.05, 0.02, -0.03)):
+                place, turn = pose_of(i, at_height(height)[1])
+                bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, place, turn=turn)
+        answers = [answer for _, answer in self.answers_of(tools)]
         self.assertEqual([a.mode for a in answers], [STATIC, SWEPT, SWEPT])
         self.assert_contacts(answers[2], oracle.swept_contacts(SHEET, at_height(0.02), at_height(-0.03), RADIUS), 1e-6)
 
+    def test_each_pose_is_a_step(self):
+        self.assert_poses_are_steps(POSES, lambda _, tip: (tip, (0.0, 0.0, 0.0, 1.0)))
+
     def test_the_poses_of_a_marker_give_the_contacts_of_the_tip(self):
         """The marker turns from pose to pose. With small turns, the tip's way between two poses is straight."""
-        tool = POSES.replace('radius', 'tip_offset: [0.02, -0.0132, 0.1746], radius')
-        heights = [0.05, 0.02, -0.03]
-        with self.record() as bag:
-            bag.resting(1.0)
-            for time, at in ((1.0, 1.0), (2.5, 1.9)):
-                bag.frame(time, 'hook_trocar', at_height(0.0)[0], at=at)
-            bag.mesh(2.0, SHEET)
-            for i, height in enumerate(heights):
-                turn = Pose((0.1, 0.2, 0.3, 0.9 + 1e-6 * i), (0.0, 0.0, 0.0))
-                marker = [a - b for a, b in zip(at_height(height)[1], turn.apply((0.02, -0.0132, 0.1746)))]
-                bag.pose('/arm/measured_cp', 2.0 + 0.001 * i, marker, turn=turn.rotation)
-        answers = [answer for _, answer in self.answers_of(tool)]
-        self.assertEqual([a.mode for a in answers], [STATIC, SWEPT, SWEPT])
-        self.assert_contacts(answers[2], oracle.swept_contacts(SHEET, at_height(0.02), at_height(-0.03), RADIUS), 1e-6)
+        offset = (0.02, -0.0132, 0.1746)
+
+        def marker(i, tip):
+            turn = Pose((0.1, 0.2, 0.3, 0.9 + 1e-6 * i), (0.0, 0.0, 0.0))
+            return [a - b for a, b in zip(tip, turn.apply(offset))], turn.rotation
+
+        self.assert_poses_are_steps(POSES.replace('radius', 'tip_offset: %s, radius' % list(offset)), marker)
 
     def test_ticks_count_in_the_time_of_the_bag(self):
         with self.record() as bag:

@@ -7,10 +7,12 @@ import signal
 import subprocess
 import unittest
 
+from organ_collision.msg import ContactArray, OrganVertices
+import rosbag
 from std_msgs.msg import String
 from support.tool_over_sheet import SHEET, at_height
 
-from recording import ReplayCase, TOOLS, serialized
+from recording import CONTACTS, ReplayCase, TOOLS, serialized
 
 GRIPPER = os.path.join(os.environ['TEST_DATA'], 'tools', 'gripper.urdf')
 LINKS = 'tools:\n  - {name: grip, links: [wrist, jaw]%s}\n'
@@ -70,6 +72,26 @@ class ReplayInputTest(ReplayCase):
             bag.mesh(2.0, SHEET)
             bag.write('/tf', String('no transform'), 2.0)
         self.refuse('/tf', 'std_msgs/String', 'tf2_msgs/TFMessage')
+
+    def test_a_topic_of_another_version_of_its_type(self):
+        self.record_scene()
+        with self.record() as bag:
+            bag.mesh(2.0, SHEET)
+            bag.of_version('/organ_collision/organ_vertices', OrganVertices, md5sum=32 * 'a', at=2.0)
+        self.refuse('/organ_collision/organ_vertices', 32 * 'a', 'another version', 'doc/bags.md')
+
+    def test_answers_of_version_0_2_are_replaced(self):
+        self.record_scene()
+        with self.record() as bag:
+            bag.resting(1.0)
+            bag.tool(2.0, at_height(0.01))
+            bag.mesh(2.0, SHEET)
+            bag.of_version(CONTACTS, ContactArray, md5sum='a0344eaa8592eec475e29de09ebda86a', at=2.0)
+        self.replay(options=['--with-input'])
+        with rosbag.Bag(self.answers) as answers:
+            ((_, answer, _),) = answers.read_messages(CONTACTS)
+        self.assert_ok(answer)
+        self.assertEqual(answer._md5sum, ContactArray._md5sum)
 
     def test_bad_parameters(self):
         self.record_scene()

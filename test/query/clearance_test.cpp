@@ -176,11 +176,16 @@ std::size_t expect_near(const CollisionResult& result, const CollisionRequest& r
   return result.near.size();
 }
 
+bool is_least_on_its_only_leg(const CollisionResult& result, const CollisionRequest& request) {
+  return request.mode == QueryMode::kSwept && request.path.size() <= 2 && result.contacts.empty() &&
+         result.clearance.state == ClearanceState::kKnown;
+}
+
 TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
   Random random(1);
   CollisionQuery query;
   CollisionResult result;
-  std::size_t apart = 0, beyond = 0, touched = 0, near = 0;
+  std::size_t apart = 0, beyond = 0, touched = 0, near = 0, at_fraction = 0;
   for (int i = 0; i < 400 && !testing::Test::HasFailure(); ++i) {
     ClearanceScene scene(random);
     CollisionRequest& request = scene.request;
@@ -195,6 +200,13 @@ TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
     query.evaluate(request, result);
     const std::vector<double> measured = distances_by_brute_force(request);
     expect_clearance(result, request, at_end, least_of(measured));
+    if (is_least_on_its_only_leg(result, request)) {
+      TriangleMesh organ = scene.organ;
+      const double ahead = 1.0 - result.clearance.least_fraction;
+      const CollisionRequest then = shortly_before_end(request, ahead, organ);
+      EXPECT_NEAR(least_of(distances_at_end(then)), result.clearance.least, kMoving);
+      ++at_fraction;
+    }
     near += expect_near(result, request, measured);
     apart += result.contacts.empty();
     touched += !result.contacts.empty();
@@ -204,6 +216,7 @@ TEST(Clearance, AndNearFacesAreThoseOfBruteForceUpToTheMargin) {
   EXPECT_GT(beyond, 15U);
   EXPECT_GT(touched, 50U);
   EXPECT_GT(near, 2000U);
+  EXPECT_GT(at_fraction, 20U);
 }
 
 /// A budget of which only this many steps are left.

@@ -97,7 +97,7 @@ class ContactAdapterTest(ToolCase, NodeStarter):
     def test_nothing_comes_while_a_transform_is_missing(self):
         """Outputs before and after the gap are waited for, so that nothing can arrive later."""
         outputs, diagnostics = self.connect(), Diagnostics('contact_adapter')
-        states = Log('/contact_adapter/%s/probe/state' % self.organ, ForceState)
+        states = Log('/contact_adapter/%s/probe/state' % self.organ, ForceState).wait_for_publisher()
         self.move(SHEET, PRESSED)
         outputs.wait_for(self.stamp)
         wait_until(lambda: outputs.faces.messages[-1].data, 'the faces before the gap')

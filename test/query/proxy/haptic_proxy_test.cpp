@@ -157,6 +157,18 @@ TEST_F(ProxyTissue, FarAwayLeavesTheGuaranteeForOtherOrgans) {
   EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kStop, 1e-6);
 }
 
+// The floor's frame jumps past a ball, so that the ball touches it neither before nor afterwards.
+TEST(ProxyFrames, JumpingPastAToolTakeItAlong) {
+  HapticProxy proxy(ball_tool(), {});
+  ProxyOrgan floor = organ_of(flat_sheet(7), "floor");
+  proxy.follow(ball_hand({0.0, 0.0, 0.01}), {floor});
+  floor.T_organ_proxy.translation().z() = -0.03;
+  const ProxyAnswer& lifted = proxy.follow(ball_hand({0.0, 0.0, 0.01}), {floor});
+  EXPECT_FALSE(lifted.is_placed_anew);
+  EXPECT_EQ(lifted.state, ProxyStatus::kTouching);
+  EXPECT_NEAR(lifted.proxy.axis.tip.z(), 0.03 + kStop, 1e-6);
+}
+
 TEST_F(ProxyTissue, ThatComesOrGoesMovesTheProxyOnlyWhereItIs) {
   const ProxyOrgan floor = organ_of(flat_sheet(7, -0.1), "floor");
   const ProxyOrgan table = organ_of(flat_sheet(7, -0.002), "table");

@@ -97,6 +97,8 @@ TEST_F(NeedleTest, IsHeldWhereItEntered) {
     // The lever about the trocar is in balance.
     const Vector3d arm = held.point - trocar_, hand_arm = moved.proxy.axis.tip - trocar_;
     EXPECT_LT((arm.cross(held.load) + hand_arm.cross(moved.pull)).norm(), 1e-9);
+    EXPECT_NEAR(along.dot(held.load), -along.dot(moved.pull), 1e-9);
+    EXPECT_GT(std::abs(along.dot(moved.pull)), 1e-4);
   }
 }
 
