@@ -27,6 +27,7 @@ class Hand:
         self.timeout = positive('~timeout', 0.1)  # [s] without a wrench, after which the force is zero
         self.frame = rospy.get_param('~frame', 'ECM')  # The axes of the camera are those of the surgeon's display.
         self.last_wrench = None
+        self.last_force = Vector()
         self.transforms = tf2_ros.Buffer()
         self.listener = tf2_ros.TransformListener(self.transforms)
         self.force = rospy.Publisher('servo_cf', WrenchStamped, queue_size=1)
@@ -49,6 +50,7 @@ class Hand:
         if size > self.max_force:
             force *= self.max_force / size
         self.last_wrench = time.monotonic()
+        self.last_force = force
         self.send(force)
 
     def watch(self):
@@ -58,7 +60,11 @@ class Hand:
             self.release()
 
     def release(self):
-        self.send(Vector())
+        """The force becomes zero within 10 ms."""
+        for share in (0.8, 0.6, 0.4, 0.2, 0.0):
+            self.send(share * self.last_force)
+            time.sleep(0.002)
+        self.last_force = Vector()
 
     def send(self, force):
         self.force.publish(WrenchStamped(Header(0, rospy.Time.now(), self.frame), Wrench(Vector3(*force), Vector3())))

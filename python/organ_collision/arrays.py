@@ -81,7 +81,7 @@ def _quaternions(rotations):
 
 
 def _numbers(values, name, legal):
-    if np.ma.is_masked(values):
+    if _has_masked(values):
         raise ValueError('%s has masked values; fill them, or leave their rows out' % name)
     try:
         array = np.asarray(values)
@@ -90,6 +90,10 @@ def _numbers(values, name, legal):
     if array.dtype.kind not in 'iuf':
         raise ValueError('%s is no array of numbers with rows of equal length; it must be %s' % (name, legal))
     return array
+
+
+def _has_masked(values):
+    return np.ma.is_masked(values) or isinstance(values, (list, tuple)) and any(map(_has_masked, values))
 
 
 def _number_array(values, name, legal):

@@ -31,6 +31,8 @@ def read_mesh(path, scale=1.0):
     with open(path, 'rb') as content:
         if content.read(len(_LFS_POINTER)) == _LFS_POINTER:
             raise MeshFileError("%s: is only a pointer of Git LFS; fetch the file itself by 'git lfs pull'" % path)
+    if path.lower().endswith('.ply') and not _has_whole_header(path):
+        raise MeshFileError('%s: its header has no line end_header; the file may be cut off' % path)
     read = read_obj if path.lower().endswith('.obj') else _read_with_meshio
     vertices, faces = read(path)
     if not len(faces):
@@ -38,12 +40,18 @@ def read_mesh(path, scale=1.0):
     return scale * vertices, faces
 
 
+def _has_whole_header(path):
+    """Whether the header of a PLY file ends: meshio would never stop to read another one."""
+    with open(path, 'rb') as content:
+        return b'end_header' in [line.strip() for line in content.read(1 << 20).splitlines()]
+
+
 def _read_with_meshio(path):
     import meshio  # It takes a third of a second to load, and OBJ files need none of it.
 
     said = io.StringIO()
     try:
-        with contextlib.redirect_stdout(said):
+        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
             mesh = meshio.read(path)
     except (Exception, SystemExit) as error:  # meshio raises anything at broken files, and may even exit.
         reason = said.getvalue().strip() or str(error) or type(error).__name__

@@ -37,8 +37,7 @@ ProgramHelp contact_adapter_help() {
   const std::string pair = "~ORGAN/TOOL";
   ProgramHelp help{kProgram,
                    "Turns the contacts of the collision node into a wrench, forces on vertices and "
-                   "a list of faces for each organ and tool. The force has no upper limit unless "
-                   "max_force is set."};
+                   "a list of faces for each organ and tool. max_force limits the force."};
   help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
                       message_type<ContactArray>(),
                       "remap it if the collision node has another name"}};

@@ -115,9 +115,24 @@ std_msgs::UInt32MultiArray face_list(const ContactArray& contacts) {
 }
 
 std::string doubt_about_side(const ContactArray& contacts) {
-  if (!contacts.contacts.empty() || contacts.placement.tip != ToolPlacement::UNKNOWN) return {};
-  return "nothing is touched, and it is not known whether the tool is inside (placement.tip is "
-         "UNKNOWN): a tool inside would be pushed out";
+  const ToolPlacement& placement = contacts.placement;
+  const bool is_outside = placement.tip == ToolPlacement::OUTSIDE ||
+                          placement.trocar == ToolPlacement::OUTSIDE ||
+                          !placement.crossings.empty();
+  if (!contacts.contacts.empty() || is_outside) return {};
+  const bool has_shaft = contacts.links.empty();
+  const char* unknown = nullptr;
+  if (placement.tip == ToolPlacement::UNKNOWN) {
+    unknown = "placement.tip is UNKNOWN";
+  } else if (has_shaft && placement.trocar == ToolPlacement::UNKNOWN) {
+    unknown = "placement.trocar is UNKNOWN";
+  } else if (contacts.clearance.state == Clearance::NOT_ASKED) {
+    return "nothing is touched, the tool is inside, and its way out is not known, because the tool "
+           "has no margin";
+  }
+  if (!unknown) return {};
+  return concatenate("nothing is touched, and it is not known whether the tool is inside (",
+                     unknown, "): a tool inside would be pushed out");
 }
 
 ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {

@@ -30,7 +30,7 @@ inline constexpr char kMaxForce[] = "max_force";
 namespace organ_collision {
 
 /// The legal values of parameters that several nodes have. Far larger ones are mistakes.
-inline constexpr NumberRange kStiffnesses{0.0, 1e5, false};   // [N/m]
+inline constexpr NumberRange kStiffnesses{1e-3, 1e5};         // [N/m]
 inline constexpr NumberRange kForces{0.0, 1e4, false, true};  // [N]
 
 /// A force of the tissue on the tool, at a point of a face. In the organ's frame unless noted.

@@ -38,9 +38,9 @@ std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3
                      box.sizes().maxCoeff(), kSmallestOrgan, kLargestOrgan);
 }
 
-std::string doubt_about_radius(const std::string& tool, double radius) {
-  return doubt_about(concatenate("tool '", tool, "' has a radius of ", radius, " m"), radius,
-                     kSmallestRadius, kLargestRadius);
+std::string doubt_about_radius(const std::string& whose, double radius) {
+  return doubt_about(concatenate(whose, " has a radius of ", radius, " m"), radius, kSmallestRadius,
+                     kLargestRadius);
 }
 
 std::string doubt_about_link(const std::string& tool, const std::string& link, double size) {

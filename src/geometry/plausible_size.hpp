@@ -15,7 +15,7 @@ std::string sides_of(const Eigen::AlignedBox3d& box);
 /// `box`: the box around the organ [m].
 std::string doubt_about_organ(const std::string& organ, const Eigen::AlignedBox3d& box);
 /// `radius`: the radius of the tool's shaft [m].
-std::string doubt_about_radius(const std::string& tool, double radius);
+std::string doubt_about_radius(const std::string& whose, double radius);
 /// `size`: the longest side of a box around the link [m].
 std::string doubt_about_link(const std::string& tool, const std::string& link, double size);
 

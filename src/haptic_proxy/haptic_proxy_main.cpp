@@ -42,8 +42,8 @@ ProgramHelp haptic_proxy_help() {
   for (const LiveParameter& p : live_parameters(HapticProxyParameters())) live.push_back(p.name);
   ProgramHelp help{names::kHapticProxy,
                    "Gives each tool a proxy that follows the hand but stops at tissue, and the "
-                   "force of a spring between both. The force and the torque have no upper limit "
-                   "unless max_force and max_torque are set. The names below are private to the "
+                   "force of a spring between both, within max_force and max_torque. The names "
+                   "below are private to the "
                    "node (~), whose default name is /" +
                        std::string(names::kHapticProxy) + "."};
   help.subscribed = {

@@ -92,7 +92,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
        "[N m] larger torques on a free tool, about its centre, are clipped to it, and the force "
        "shrinks by the same factor; .inf: no limit")
       .live();
-  t.number("max_force_rate", p.max_force_rate, {0.0, 1e6},
+  t.number("max_force_rate", p.max_force_rate, {0.0, 1e6, true, false, 10.0},
            "[N/s] the force changes by no more than this; 0: from 0 to max_force in 10 ms, and 300 "
            "N/s if max_force is .inf")
       .live();

@@ -198,6 +198,7 @@ class Evaluation {
       while (motions_.size() < most && (motions_.empty() || source_.is_ready())) {
         std::optional<Motion> motion = source_.next();
         if (!motion) break;
+        warn_of(*motion);
         motions_.push_back(std::move(*motion));
       }
     } catch (const InputError&) {
@@ -214,6 +215,15 @@ class Evaluation {
     }
     motions_.resize(shapes_.count());
     return !motions_.empty();
+  }
+
+  /// Warns once, of the first shaft of implausible radius.
+  void warn_of(const Motion& motion) {
+    if (has_warned_) return;
+    const std::string doubt = doubt_about_radius(
+        concatenate(source_.text().name(), ":", motion.line, ": the shaft"), motion.radius);
+    has_warned_ = !doubt.empty();
+    if (has_warned_) std::cerr << "query_offline: warning: " << doubt << std::endl;
   }
 
   void answer_round() {
@@ -256,6 +266,7 @@ class Evaluation {
   std::exception_ptr error_;                 ///< why no round follows, if that is an error
   QueryWorkers threads_;
   Progress progress_;
+  bool has_warned_ = false;
   std::size_t done_ = 0;  ///< how many motions are answered
 };
 

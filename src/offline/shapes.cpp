@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cctype>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <utility>
@@ -119,9 +121,14 @@ class SurfaceCollector {
     for (unsigned i = 0; i < part.mNumVertices; ++i) numbers.push_back(vertex(part.mVertices[i]));
     for (unsigned i = 0; i < part.mNumFaces; ++i) {
       const aiFace& face = part.mFaces[i];
+      for (unsigned k = 0; k < face.mNumIndices; ++k) {
+        if (face.mIndices[k] < numbers.size()) continue;
+        throw InputError(concatenate(mesh_.file, ": face ", i, " names vertex ", face.mIndices[k],
+                                     "; the file has ", numbers.size(), ", counted from 0"));
+      }
       for (unsigned k = 2; k < face.mNumIndices; ++k) {
         for (const unsigned corner : {0U, k - 1, k}) {
-          mesh_.triangles.push_back(numbers.at(face.mIndices[corner]));
+          mesh_.triangles.push_back(numbers[face.mIndices[corner]]);
         }
       }
     }
@@ -131,16 +138,16 @@ class SurfaceCollector {
  private:
   std::uint32_t vertex(const aiVector3D& place) {
     const std::array<float, 3> point{place.x, place.y, place.z};
-    const auto number = static_cast<std::uint32_t>(mesh_.vertices.size() / 3);
-    if (joins_corners_) {
-      const auto [known, is_new] = known_.insert({point, number});
-      if (!is_new) return known->second;
-    }
     for (const float coordinate : point) {
       if (!is_in_range(coordinate)) {
         throw InputError(concatenate(mesh_.file, ": a coordinate is ", coordinate,
                                      "; must be finite and within 1e6 m"));
       }
+    }
+    const auto number = static_cast<std::uint32_t>(mesh_.vertices.size() / 3);
+    if (joins_corners_) {
+      const auto [known, is_new] = known_.insert({point, number});
+      if (!is_new) return known->second;
     }
     mesh_.vertices.insert(mesh_.vertices.end(), point.begin(), point.end());
     return number;
@@ -151,8 +158,34 @@ class SurfaceCollector {
   std::map<std::array<float, 3>, std::uint32_t> known_;
 };
 
+/// The first bytes of a file, at most `most`.
+std::string beginning(const std::string& file, std::size_t most) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(most, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(most));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+/// Refuses what is only a pointer of Git LFS, and a PLY file whose header does not end within its
+/// first mebibyte: assimp would never stop reading it.
+void check_beginning(const std::string& file, bool is_ply) {
+  if (!fs::is_regular_file(file)) return;
+  if (boost::starts_with(beginning(file, 64), "version https://git-lfs.github.com/spec/")) {
+    throw InputError(file +
+                     ": is only a pointer of Git LFS; fetch the file itself by 'git lfs pull'");
+  }
+  if (!is_ply) return;
+  const std::string header = beginning(file, 1U << 20U);
+  for (const char* const end : {"\nend_header\n", "\nend_header\r", "\rend_header\r"}) {
+    if (header.find(end) != std::string::npos) return;
+  }
+  throw InputError(file + ": its header has no line end_header; the file may be cut off");
+}
+
 /// Reads an STL or PLY file.
 MeshFile read_surface(const std::string& file, bool is_stl) {
+  if (!fs::is_regular_file(file)) throw InputError(file + ": is no file that can be read");
   Assimp::Importer importer;
   const aiScene* const scene = importer.ReadFile(file, 0);
   if (!scene) throw InputError(file + ": cannot be read: " + importer.GetErrorString());
@@ -200,6 +233,7 @@ MeshFile read_obj(const std::string& file) { return ObjReader(file).read(); }
 MeshFile read_mesh(const std::string& file) {
   std::string extension = fs::path(file).extension();
   for (char& letter : extension) letter = static_cast<char>(std::tolower(letter));
+  check_beginning(file, extension == ".ply");
   if (extension != ".stl" && extension != ".ply") return read_obj(file);
   return read_surface(file, extension == ".stl");
 }
@@ -247,7 +281,7 @@ ShapeSource::ShapeSource(const std::string& mesh, const std::string& mesh_before
 }
 
 ShapeSource::ShapeSource(const std::string& folder)
-    : files_(shapes_in(folder)), first_(mesh_of(read_obj(files_.front()))), shapes_{first_} {}
+    : files_(shapes_in(folder)), first_(mesh_of(read_mesh(files_.front()))), shapes_{first_} {}
 
 void ShapeSource::get(std::size_t count, QueryWorkers& threads) {
   if (!files_.empty()) {
@@ -273,7 +307,7 @@ void ShapeSource::set_shapes(std::size_t motion, CollisionRequest& request) cons
 /// or has other faces than the first file.
 void ShapeSource::read(std::size_t file, TriangleMesh& shape) const {
   if (file == 0) return;  // The first file is first_, of which all shapes are copies.
-  MeshFile obj = read_obj(files_[file]);
+  MeshFile obj = read_mesh(files_[file]);
   check_same_faces(obj, first_, files_[0]);
   shape.move_vertices(std::move(obj.vertices));
 }

@@ -140,7 +140,9 @@ struct ToolPart {
     return shape ? shape->ball_radius() : step.radius();
   }
   /// The number of convex parts: a surface has one for each of its triangles.
-  std::size_t convex_count() const { return is_surface() ? shape->surface->faces().size() : 1; }
+  std::size_t convex_count() const {
+    return shape && shape->surface ? shape->surface->faces().size() : 1;
+  }
 };
 
 /// Calls use(part_leg), where part_leg is the part as it moves along the chord of a span. part_leg

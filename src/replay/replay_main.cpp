@@ -17,6 +17,7 @@
 #include <tuple>
 #include <vector>
 
+#include "geometry/concatenate.hpp"
 #include "offline/user_input.hpp"
 #include "organ_collision/ros/names.hpp"
 #include "replay.hpp"
@@ -253,15 +254,24 @@ void check_types(rosbag::Bag& bag, const std::string& file, const Replay& replay
     if (topic == replay.topics().end()) continue;
     const auto& [type, md5sum, handlers] = topic->second;
     if (connection->datatype == type && connection->md5sum == md5sum) continue;
-    const std::string hint =
+    const char* const hint =
         connection->datatype == type
             ? "; it was recorded with another version of this type, see Bags of other versions in "
               "doc/bags.md"
             : "";
-    throw InputError(file + ": topic " + connection->topic + " has messages of type " +
-                     connection->datatype + " (" + connection->md5sum + "); must be " + type +
-                     " (" + md5sum + ")" + hint);
+    throw InputError(concatenate(file, ": topic ", connection->topic, " has messages of type ",
+                                 connection->datatype, " (", connection->md5sum, "); must be ",
+                                 type, " (", md5sum, ")", hint));
   }
+}
+
+/// Whether a topic has answers of another version of this package.
+bool has_other_answers(const rosbag::Bag& bag, const std::string& topic) {
+  rosbag::View answers(bag, rosbag::TopicQuery(topic));
+  const auto connections = answers.getConnections();
+  return std::any_of(connections.begin(), connections.end(), [](const auto* connection) {
+    return connection->md5sum != ros::message_traits::md5sum<ContactArray>();
+  });
 }
 
 bool has_topic(const rosbag::Bag& bag, const std::string& topic) {
@@ -291,8 +301,8 @@ void check_frames(const std::vector<Tool>& tools, const std::string& file, const
     if (tool.parameters.has_tip_of_links()) frames.push_back(tool.parameters.tip_frame);
     for (const std::string& frame : frames) {
       if (replay.knows_frame(frame)) continue;
-      throw InputError(file + ": frame '" + frame + "' of tool '" + tool.parameters.name +
-                       "' occurs neither on TF nor on a topic of poses");
+      throw InputError(concatenate(file, ": frame '", frame, "' of tool '", tool.parameters.name,
+                                   "' occurs neither on TF nor on a topic of poses"));
     }
   }
 }
@@ -316,6 +326,11 @@ void replay(const ReplayOptions& options) {
                 [&](const ContactArray& answer, ros::Time time) { answers.add(answer, time); });
   check_organs(bag, options);
   check_types(bag, options.in, replay);
+
+  if (has_other_answers(bag, contacts)) {
+    std::cerr << "replay: " << options.in << ": its answers on " << contacts
+              << " are of another version; they are made anew, in today's type" << std::endl;
+  }
 
   RecordedMessages messages(bag, [&](const rosbag::ConnectionInfo& connection) {
     const bool is_copied = options.with_input && connection.topic != contacts;

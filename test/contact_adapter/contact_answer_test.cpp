@@ -75,6 +75,16 @@ TEST(ContactCheck, EachFaultIsNamed) {
 TEST(SideDoubt, IsToldOnlyIfNothingIsTouched) {
   ContactArray answer = touched({});
   expect_words(doubt_about_side(answer), {"not known whether the tool is inside", "UNKNOWN"});
+  answer.placement.tip = ToolPlacement::INSIDE;
+  expect_words(doubt_about_side(answer), {"not known whether the tool is inside", "trocar"});
+  answer.placement.trocar = ToolPlacement::INSIDE;
+  answer.clearance.state = Clearance::NOT_ASKED;
+  expect_words(doubt_about_side(answer), {"way out is not known", "margin"});
+  answer.clearance.state = Clearance::KNOWN;
+  EXPECT_EQ(doubt_about_side(answer), "");
+  answer.clearance.state = Clearance::NOT_ASKED;
+  answer.placement.trocar = ToolPlacement::OUTSIDE;
+  EXPECT_EQ(doubt_about_side(answer), "");
   answer.placement.tip = ToolPlacement::OUTSIDE;
   EXPECT_EQ(doubt_about_side(answer), "");
   EXPECT_EQ(doubt_about_side(good()), "");

@@ -70,6 +70,31 @@ class AnswersTest(ProgramCase):
         for name in ('organ.PLY', 'organ.stl'):
             self.assertEqual(self.printed(files=('--mesh', name, '--motions', 'motions.csv')), expected)
 
+    def test_broken_mesh_files_are_refused(self):
+        self.write('motions.csv', '')
+        ply = 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n' \
+              'element face 1\nproperty list uchar int vertex_indices\n'
+        pointer = 'version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 1\n'
+        for name, text, word in [
+                ('cut.ply', ply, 'no line end_header'),
+                ('index.ply', ply + 'end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 99\n', 'face 0 names vertex 99'),
+                ('nan.stl', 'solid a\nfacet normal 0 0 1\nouter loop\nvertex nan 0 0\nvertex 1 0 0\nvertex 0 1 0\n'
+                            'endloop\nendfacet\nendsolid a\n', 'must be finite'),
+                *(('pointer' + ending, pointer, 'pointer of Git LFS') for ending in ('.obj', '.stl', '.ply')),
+                ('empty.stl', '', 'cannot be read')]:
+            with self.subTest(name=name):
+                self.write(name, text)
+                done = self.run_program('--mesh', name, '--motions', 'motions.csv')
+                self.assertEqual((done.returncode, done.stdout), (2, ''))
+                self.assertRegex(done.stderr, r'\A%s: .*%s.*\n\Z' % (name, word))
+
+    def test_a_radius_in_millimetres_is_warned_of_once(self):
+        self.write_scene(scenes.sheet(0.1, 6), ['%d,swept,0,0,0.1,0,0,0.05,0,0,0.04,5' % i for i in range(3)])
+        done = self.run_program(*FILES)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr.count('has a radius of 5 m; plausible are'), 1)
+        self.assertIn('motions.csv:2: the shaft', done.stderr)
+
     def test_one_face_by_hand(self):
         """A tip of 5 mm radius, 4 mm above a plate, is 1 mm deep. If it falls from 10 mm to 4 mm,
         it first touches after 5/6 of the step."""

@@ -99,6 +99,8 @@ class ArraysTest(unittest.TestCase):
                 ('topology is -1; must be a whole number from 0', organ_mesh, 'liver', POINTS, FACES, None, -1),
                 ('topology is 1.0; must be a whole number', organ_vertices, 'liver', POINTS, None, 1.0),
                 ('stamp is 1.5; must be a rospy.Time', organ_mesh, 'liver', POINTS, FACES, None, 0, 1.5),
+                ('vertices has masked values', vertex_array,
+                 list(np.ma.masked_greater(np.array(POINTS, float), 0.5))),
                 ('vertices has masked values', vertex_array, np.ma.masked_greater(np.array(POINTS, float), 0.5))]:
             with self.subTest(reason=reason):
                 with self.assertRaisesRegex(ValueError, reason):

@@ -98,7 +98,8 @@ class MeshFilesTest(unittest.TestCase):
         with open(self.written('whole.stl', binary=True), 'rb') as file:
             cut = file.read()[:-60]
         for name, content in (('empty.stl', b''), ('cut.stl', cut),
-                              ('broken.ply', b'ply\nformat what\n'), ('broken.vtk', b'\xff\x00'), ('empty.obj', b''),
+                              ('broken.ply', b'ply\nformat what\n'),
+                              ('cut.ply', b'ply\nformat ascii 1.0\nelement vertex 3\n'), ('broken.vtk', b'\xff\x00'), ('empty.obj', b''),
                               ('unknown.liver', b'v 0 0 0'), ('no_ending', b'v 0 0 0')):
             with self.subTest(name):
                 with self.assertRaisesRegex(MeshFileError, name.replace('.', r'\.')):

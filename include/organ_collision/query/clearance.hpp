@@ -28,10 +28,10 @@ struct ToolClearance {
   /// What is known. If it is not kKnown, `is_resolved` is the only field below `unlimited` that is
   /// set. If `is_resolved` is then false, a face may be within the margin all the same.
   ClearanceState state = ClearanceState::kNotAsked;
-  /// The margin that was asked for; 0 if `unlimited`.
-  double margin = 0.0;
   /// Whether the nearest face of the whole organ was looked for.
   bool unlimited = false;
+  /// The margin that was asked for; 0 if `unlimited`.
+  double margin = 0.0;
   /// The distance at the end of the step.
   double distance = 0.0;
   /// The smallest distance at any time of the step. In a static query it equals `distance`. If
@@ -44,10 +44,10 @@ struct ToolClearance {
   std::uint32_t face = 0;
   /// The indices of the face's corners among the organ's vertices, in the order of `barycentric`.
   std::array<std::uint32_t, 3> vertices = {};
-  /// The barycentric coordinates of `on_organ` in `face`.
-  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   /// The number of the nearest link, from 0, or kShaft.
   std::int32_t link = 0;
+  /// The barycentric coordinates of `on_organ` in `face`.
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
   /// The nearest point of the organ.
   Eigen::Vector3d on_organ = Eigen::Vector3d::Zero();
   /// The nearest point of the core plus the radius times `normal`, so that

@@ -69,7 +69,7 @@ std::string listed(const std::vector<std::string>& texts) {
 }
 
 std::string quoted(std::vector<std::string> texts) {
-  for (std::string& text : texts) text = "'" + text + "'";
+  for (std::string& text : texts) text.insert(0, "'").append("'");
   return listed(texts);
 }
 

@@ -226,7 +226,7 @@ ParameterTable table_of(NodeParameters& p) {
   t.number("tf_timeout_sec", p.tf_timeout_sec, {0.0, 60.0},
            "[s] how long a new shape waits for its transforms")
       .live();
-  t.number("mesh_timeout_sec", p.mesh_timeout_sec, kNotNegative,
+  t.number("mesh_timeout_sec", p.mesh_timeout_sec, {0.0, 1e6},
            "[s] an older mesh is answered with STALE_MESH; 0: never")
       .live();
   add_limits(t, p);
@@ -240,7 +240,7 @@ ParameterTable table_of(NodeParameters& p) {
          "true: each answer tells on which side of the organ's surface the tool is")
       .live();
   add_marker_rates(t, p.markers);
-  t.number("markers_depth", p.markers.markers_depth, kPositive,
+  t.number("markers_depth", p.markers.markers_depth, {0.0, 10.0, false},
            "[m] contacts of this depth or more have the last colour of the map")
       .live();
   t.number("threads", p.threads, {0, 1024},

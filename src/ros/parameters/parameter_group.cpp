@@ -1,6 +1,7 @@
 #include "parameter_group.hpp"
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
@@ -42,7 +43,7 @@ std::string written(const XmlRpcValue& value) {
 
 /// A value of an unexpected type, with its type.
 std::string with_type(const XmlRpcValue& value) {
-  const std::string text = "'" + written(value) + "'";
+  std::string text = "'" + written(value) + "'";
   switch (value.getType()) {
     case XmlRpcValue::TypeString:
       return "the text " + text;
@@ -64,6 +65,7 @@ std::string with_type(const XmlRpcValue& value) {
 /// text is no number.
 std::string yaml_number(const std::string& text) {
   char* end = nullptr;
+  if (boost::iequals(text, "inf") || boost::iequals(text, ".inf")) return ".inf";
   if (text.empty() || !std::isfinite(std::strtod(text.c_str(), &end)) || *end != '\0') return {};
   const std::size_t exponent = text.find_first_of("eE");
   std::string mantissa = text.substr(0, exponent);
@@ -71,6 +73,17 @@ std::string yaml_number(const std::string& text) {
   if (mantissa.find('.') == std::string::npos) mantissa += ".0";
   const std::string power = text.substr(exponent + 1);
   return mantissa + "e" + (power.find_first_of("+-") == 0 ? "" : "+") + power;
+}
+
+/// What to write instead of a value that is no whole number for YAML, such as 2.0, 1e1 or '7'.
+std::string whole_remedy(const XmlRpcValue& value) {
+  double number = 0.5;
+  if (value.getType() == XmlRpcValue::TypeDouble) number = static_cast<const double&>(value);
+  if (value.getType() == XmlRpcValue::TypeString && !yaml_number(text_in(value)).empty()) {
+    number = std::strtod(text_in(value).c_str(), nullptr);
+  }
+  if (number != std::floor(number) || std::abs(number) > 1e9) return {};
+  return ": write " + written(number);
 }
 
 /// What to write instead of a value whose type is not `expected`. Empty if that is not plain.
@@ -84,10 +97,15 @@ std::string remedy(const XmlRpcValue& value, XmlRpcValue::Type expected) {
   }
   if (expected == XmlRpcValue::TypeBoolean) {
     const std::string text = type == XmlRpcValue::TypeString ? text_in(value) : written(value);
-    if (text == "true" || text == "false") return ": write " + text + " without quotes";
-    return text == "1" || text == "0" ? ": write " + std::string(text == "1" ? "true" : "false")
-                                      : "";
+    for (const char* const yes : {"true", "on", "yes", "1"}) {
+      if (boost::iequals(text, yes)) return ": write true without quotes";
+    }
+    for (const char* const no : {"false", "off", "no", "0"}) {
+      if (boost::iequals(text, no)) return ": write false without quotes";
+    }
+    return {};
   }
+  if (expected == XmlRpcValue::TypeInt) return whole_remedy(value);
   if (type != XmlRpcValue::TypeString) return {};
   const std::string number = yaml_number(text_in(value));
   return number.empty() ? "" : ": write " + number + " without quotes";
@@ -118,7 +136,11 @@ std::string ParameterGroup::choice(const std::string& name, const std::string& f
                                    const std::vector<std::string>& legal_values) const {
   if (!has(name)) return fallback;
   const std::string legal = "must be one of " + listed(legal_values);
-  const std::string& text = text_in(require(name, XmlRpcValue::TypeString, legal));
+  // Words in quotes would be refused in turn, unless they are legal.
+  if (value_[name].getType() != XmlRpcValue::TypeString) {
+    throw ParameterError(path_of(name) + " is " + with_type(value_[name]) + "; " + legal);
+  }
+  const std::string& text = text_in(value_[name]);
   const auto found = std::find(legal_values.begin(), legal_values.end(), text);
   if (found == legal_values.end()) refuse(name, legal);
   return text;
@@ -170,7 +192,9 @@ Eigen::Vector3d ParameterGroup::point(const std::string& name) const {
   Eigen::Vector3d point;
   for (int i = 0; i < 3; ++i) {
     const bool is_whole = value[i].getType() == XmlRpcValue::TypeInt;
-    if (!is_whole && value[i].getType() != XmlRpcValue::TypeDouble) refuse(name, legal);
+    if (!is_whole && value[i].getType() != XmlRpcValue::TypeDouble) {
+      refuse_entry(name, value[i], XmlRpcValue::TypeDouble, legal);
+    }
     point[i] = is_whole ? static_cast<const int&>(value[i]) : static_cast<const double&>(value[i]);
     if (!(std::abs(point[i]) <= kFarthest)) refuse(name, legal);
   }
@@ -182,7 +206,9 @@ std::vector<std::string> ParameterGroup::texts(const std::string& name) const {
   const XmlRpcValue& value = require(name, XmlRpcValue::TypeArray, legal);
   std::vector<std::string> texts;
   for (int i = 0; i < value.size(); ++i) {
-    if (value[i].getType() != XmlRpcValue::TypeString) refuse(name, legal);
+    if (value[i].getType() != XmlRpcValue::TypeString) {
+      refuse_entry(name, value[i], XmlRpcValue::TypeString, legal);
+    }
     const std::string& text = text_in(value[i]);
     const bool is_known = std::find(texts.begin(), texts.end(), text) != texts.end();
     if (text.empty() || is_known) refuse(name, legal);
@@ -209,6 +235,12 @@ void ParameterGroup::check_name(const std::string& name, const std::string& text
 
 void ParameterGroup::refuse(const std::string& name, const std::string& legal) const {
   throw ParameterError(path_of(name) + " is '" + written(value_[name]) + "'; " + legal);
+}
+
+void ParameterGroup::refuse_entry(const std::string& name, const XmlRpcValue& entry, Type type,
+                                  const std::string& legal) const {
+  throw ParameterError(path_of(name) + " is '" + written(value_[name]) + "', with " +
+                       with_type(entry) + "; " + legal + remedy(entry, type));
 }
 
 void ParameterGroup::refuse_missing(const std::string& name, const std::string& legal) const {

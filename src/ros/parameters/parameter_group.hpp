@@ -82,6 +82,9 @@ class ParameterGroup {
 
  private:
   using Type = XmlRpc::XmlRpcValue::Type;
+  /// Throws ParameterError: an entry of a list is not of the type `type`.
+  [[noreturn]] void refuse_entry(const std::string& name, const XmlRpc::XmlRpcValue& entry,
+                                 Type type, const std::string& legal) const;
   const XmlRpc::XmlRpcValue& require(const std::string& name, Type type,
                                      const std::string& legal) const;
 

@@ -35,13 +35,12 @@ bool began_after(const Contact& a, const Contact& b) {
 }  // namespace
 
 void TouchTracker::follow(const ContactArray& answer) {
-  Pair& pair = pairs_[{answer.organ, answer.tool}];
+  const OrganAndTool key{answer.organ, answer.tool};
   if (answer.status != ContactArray::OK) {
-    if (pair.failing.isZero()) pair.failing = answer.header.stamp;
-    const double failed_sec = answer.header.stamp.toSec() - pair.failing.toSec();
-    if (pair.is_touched && failed_sec > kLongestFailure) end(pair, pair.last, "no answer");
+    if (const auto known = pairs_.find(key); known != pairs_.end()) fail(answer, known->second);
     return;
   }
+  Pair& pair = pairs_[key];
   pair.failing = {};
   pair.last = answer.header.stamp;
   const std::vector<Contact>& contacts = answer.contacts;
@@ -63,11 +62,19 @@ void TouchTracker::follow(const ContactArray& answer) {
   if (std::none_of(contacts.begin(), contacts.end(), is_touching)) end(pair, pair.last, {});
 }
 
+void TouchTracker::fail(const ContactArray& answer, Pair& pair) {
+  if (pair.failing.isZero()) pair.failing = answer.header.stamp;
+  const double failed_sec = answer.header.stamp.toSec() - pair.failing.toSec();
+  if (pair.is_touched && failed_sec > kLongestFailure) end(pair, pair.last, "no answer");
+}
+
+/// A contact that goes on although its touch has ended began before the step. The new touch begins
+/// with the step.
 void TouchTracker::begin(const ContactArray& answer, Pair& pair) {
   const Contact& first =
       *std::min_element(answer.contacts.begin(), answer.contacts.end(), began_before);
   pair.is_touched = true;
-  pair.began = first.since;
+  pair.began = std::max(first.since, answer.step_start);
   pair.deepest = 0.0;
   pair.topology = answer.topology;
   pair.faces.clear();
@@ -75,7 +82,7 @@ void TouchTracker::begin(const ContactArray& answer, Pair& pair) {
   TouchEvent event = event_at(answer, first);
   event.event = TouchEvent::BEGIN;
   event.touch = ++pair.count;
-  event.header.stamp = first.since;
+  event.header.stamp = pair.began;
   publish_(event);
 }
 
@@ -84,7 +91,7 @@ void TouchTracker::end(Pair& pair, ros::Time stamp, const std::string& reason) {
   event.event = TouchEvent::END;
   event.touch = pair.count;
   event.header.stamp = stamp;
-  event.duration_sec = stamp.toSec() - pair.began.toSec();
+  event.duration_sec = std::max(0.0, (stamp - pair.began).toSec());
   event.deepest = pair.deepest;
   event.faces = static_cast<std::uint32_t>(pair.earlier_faces + pair.faces.size());
   event.reason = reason;

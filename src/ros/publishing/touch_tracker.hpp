@@ -47,6 +47,7 @@ class TouchTracker {
     std::size_t earlier_faces = 0;            ///< number of touched faces of earlier triangles
   };
 
+  void fail(const ContactArray& answer, Pair& pair);
   void begin(const ContactArray& answer, Pair& pair);
   void end(Pair& pair, ros::Time stamp, const std::string& reason);
 

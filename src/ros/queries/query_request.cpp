@@ -197,6 +197,8 @@ void read_tool_motion(const NodeState& node, const QueryCollision::Request& requ
   snapshot.path = std::move(sampled.path);
   snapshot.unknown = std::move(sampled.unknown);
   answer.step_start = last->stamp;
+  const bool rests = !has_same_faces(*last, *organ.latest().mesh);
+  snapshot.shape_before = rests ? nullptr : last->mesh;
 }
 
 }  // namespace
@@ -271,13 +273,15 @@ QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request
   set_organ(answer, organ, organ.latest());
   check_age(node, organ);
   QuerySnapshot snapshot;
+  snapshot.latest = organ.latest();
+  snapshot.shape_before = organ.previous().mesh;
   if (tool && in_tf) {
     read_tool_motion(node, request, organ, *tool, snapshot, answer);
   } else {
     read_motion_frame(node, request, organ, snapshot, answer);
   }
-  snapshot.latest = organ.latest();
-  snapshot.previous = organ.previous();
+  const bool rests = !node.parameters.organ_motion || snapshot.shape_before == snapshot.latest.mesh;
+  if (rests) snapshot.shape_before = nullptr;
   if (tool) snapshot.tool = *tool;
   return snapshot;
 }
@@ -285,7 +289,7 @@ QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request
 void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionRequest& collision) {
   collision.organ = snapshot.latest.mesh.get();
   const bool moves = !organ_rests && collision.mode == QueryMode::kSwept;
-  if (moves) collision.organ_before = snapshot.previous.mesh.get();
+  if (moves) collision.organ_before = snapshot.shape_before.get();
   if (collision.placement) {
     snapshot.latest.surface->wait_until_found(kLongestInspection);
     collision.surface_topology = snapshot.latest.topology();

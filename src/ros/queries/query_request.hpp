@@ -37,7 +37,9 @@ struct NodeState {
 /// any thread may evaluate the query while the node goes on.
 struct QuerySnapshot {
   OrganShape latest;
-  OrganShape previous;       ///< without a mesh if there is no previous shape
+  /// Where the organ moves from: its shape in the tool's last step if the tool moves as in TF,
+  /// otherwise its previous shape. Null if it rests.
+  std::shared_ptr<const TriangleMesh> shape_before;
   std::optional<Tool> tool;  ///< the tool that is asked about; empty: the request describes a shaft
   ToolPath path;             ///< the tool's path in TF; empty if the request gives the motion
   std::string unknown = {};  ///< what is not known of `path`; empty: all is known

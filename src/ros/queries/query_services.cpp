@@ -161,7 +161,9 @@ void QueryServices::answer_batch(const Batch& batch, QueryCollisionBatch::Respon
   in_node_thread_([&] {
     for (const std::string& organ : asked_organs(node_, batch.organ)) {
       request.organ = organ;
-      BatchOrgan& asked = organs.emplace_back(BatchOrgan{unanswered(request), {}, collision});
+      BatchOrgan& asked = organs.emplace_back();
+      asked.unanswered = unanswered(request);
+      asked.collision = collision;
       asked.snapshot = take_snapshot(node_, request, false, asked.unanswered);
     }
   });

@@ -60,6 +60,11 @@ struct LastStep {
   ContactArrayConstPtr answer = nullptr;
 };
 
+/// Whether the organ still has the triangles of the last step.
+inline bool has_same_faces(const LastStep& last, const TriangleMesh& now) {
+  return last.mesh->topology() == now.topology() && last.mesh->same_faces(now);
+}
+
 /// A shape of an organ against which one tool is still to be evaluated.
 struct WaitingShape {
   OrganShape shape;

@@ -27,11 +27,6 @@ QueryMode mode_of(const OrganToolPair& pair) {
   return pair.last ? QueryMode::kSwept : QueryMode::kStatic;
 }
 
-/// Whether the organ still has the triangles of the last step.
-bool has_same_faces(const LastStep& last, const TriangleMesh& now) {
-  return last.mesh->topology() == now.topology() && last.mesh->same_faces(now);
-}
-
 }  // namespace
 
 StepWorkers::StepWorkers(const NodeParameters& parameters)

@@ -157,7 +157,8 @@ std::vector<std::string> doubts(const Tool& tool) {
   const auto add = [&found](const std::string& doubt) {
     if (!doubt.empty()) found.push_back(doubt);
   };
-  if (parameters.has_shaft()) add(doubt_about_radius(parameters.name, parameters.radius));
+  if (parameters.has_shaft())
+    add(doubt_about_radius("tool '" + parameters.name + "'", parameters.radius));
   for (const Link& link : tool.links) {
     double size = 0.0;
     for (const LinkPart& part : link.parts) {

@@ -65,9 +65,11 @@ TEST(PlausibleSize, OrgansByTheirLongestSideAndShaftsByTheirRadius) {
         std::pair(box(0, 0, 0), "organ 'liver' is 0 x 0 x 0 m large" + of_organs + small)}) {
     EXPECT_EQ(doubt_about_organ("liver", sides), doubt);
   }
-  for (const double radius : {1e-4, 0.005, 0.05}) EXPECT_EQ(doubt_about_radius("hook", radius), "");
-  EXPECT_EQ(doubt_about_radius("hook", 5.0), "tool 'hook' has a radius of 5 m" + of_radii + large);
-  EXPECT_EQ(doubt_about_radius("hook", 5e-6),
+  for (const double radius : {1e-4, 0.005, 0.05})
+    EXPECT_EQ(doubt_about_radius("tool 'hook'", radius), "");
+  EXPECT_EQ(doubt_about_radius("tool 'hook'", 5.0),
+            "tool 'hook' has a radius of 5 m" + of_radii + large);
+  EXPECT_EQ(doubt_about_radius("tool 'hook'", 5e-6),
             "tool 'hook' has a radius of 5e-06 m" + of_radii + small);
   EXPECT_EQ(doubt_about_link("hook", "jaw", 0.02), "");
   EXPECT_EQ(doubt_about_link("hook", "jaw", 20.0),

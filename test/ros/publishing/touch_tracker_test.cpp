@@ -115,6 +115,11 @@ TEST_F(TouchTrackerTest, OnlyAnswersThatFailForLongEndATouch) {
   touches_.follow(failure(15.0));
   touches_.follow(answer(15.5));
   EXPECT_EQ(told(), Texts());
+  // The contact went on meanwhile. The new touch does not.
+  ContactArray again = answer(16.0, {contact(1, 1.0, 0.001)});
+  again.step_start = ros::Time(15.5);
+  touches_.follow(again);
+  EXPECT_EQ(told(), Texts{"BEGIN 2 15.5 of 1"});
 }
 
 TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {

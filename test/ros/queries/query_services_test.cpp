@@ -278,6 +278,24 @@ TEST_F(QueryServicesTest, AStampThatWasAheadDoesNotHoldTheTool) {
   EXPECT_EQ(answer.contacts.size(), 1u);
 }
 
+TEST_F(QueryServicesTest, AToolOfTFMeetsTheOrganWhereItsLastStepLeftIt) {
+  request.tool = "hook";
+  request.motion = {};
+  const auto shape_before = [&] {
+    ContactArray answer;
+    return take_snapshot({parameters, tools, pipeline}, request, true, answer).shape_before;
+  };
+  send_tip(1.0, kAbove);
+  evaluate();
+  EXPECT_EQ(shape_before(), nullptr) << "the step ended with the latest shape";
+  send_vertices(1.1, 0.5);
+  send_vertices(1.2, 0.75);
+  ASSERT_TRUE(shape_before());
+  EXPECT_EQ(shape_before()->vertices()[2], 0.0F) << "two shapes ago";
+  parameters.organ_motion = false;
+  EXPECT_EQ(shape_before(), nullptr);
+}
+
 TEST_F(QueryServicesTest, AWayThatIsNotWhollyKnownIsSaid) {
   request.tool = "hook";
   request.motion = {};
@@ -316,7 +334,7 @@ TEST_F(QueryServicesTest, ASnapshotStaysAsItIsWhileTheNodeGoesOn) {
   for (int i = 0; i < 5; ++i) send_vertices(2.0 + i, 9.0);
   tools.clear();
   EXPECT_EQ(snapshot.latest.mesh->vertices()[2], 0.5F);
-  EXPECT_EQ(snapshot.previous.mesh->vertices()[2], 0.0F);
+  EXPECT_EQ(snapshot.shape_before->vertices()[2], 0.0F);
   EXPECT_EQ(snapshot.tool->parameters.radius, 0.01);
 }
 
