@@ -93,7 +93,9 @@ def _numbers(values, name, legal):
 
 
 def _has_masked(values):
-    return np.ma.is_masked(values) or isinstance(values, (list, tuple)) and any(map(_has_masked, values))
+    """Of an array, or of the rows of a list."""
+    rows = values if isinstance(values, (list, tuple)) else [values]
+    return any(isinstance(row, np.ma.MaskedArray) and np.ma.is_masked(row) for row in rows)
 
 
 def _number_array(values, name, legal):

@@ -121,18 +121,14 @@ std::string doubt_about_side(const ContactArray& contacts) {
                           !placement.crossings.empty();
   if (!contacts.contacts.empty() || is_outside) return {};
   const bool has_shaft = contacts.links.empty();
-  const char* unknown = nullptr;
-  if (placement.tip == ToolPlacement::UNKNOWN) {
-    unknown = "placement.tip is UNKNOWN";
-  } else if (has_shaft && placement.trocar == ToolPlacement::UNKNOWN) {
-    unknown = "placement.trocar is UNKNOWN";
-  } else if (contacts.clearance.state == Clearance::NOT_ASKED) {
-    return "nothing is touched, the tool is inside, and its way out is not known, because the tool "
-           "has no margin";
+  if (placement.tip == ToolPlacement::UNKNOWN ||
+      (has_shaft && placement.trocar == ToolPlacement::UNKNOWN)) {
+    return "nothing is touched, and it is not known whether the tool is inside (placement.tip or "
+           "placement.trocar is UNKNOWN): a tool inside would be pushed out";
   }
-  if (!unknown) return {};
-  return concatenate("nothing is touched, and it is not known whether the tool is inside (",
-                     unknown, "): a tool inside would be pushed out");
+  if (contacts.clearance.state != Clearance::NOT_ASKED) return {};
+  return "nothing is touched, the tool is inside, and its way out is not known, because the tool "
+         "has no margin";
 }
 
 ShaftRadius shaft_radius(const XmlRpcValue& tools, const std::string& tool) {

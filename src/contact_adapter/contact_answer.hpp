@@ -20,9 +20,8 @@ bool has_geometry(const ContactArray& contacts);
 /// - unresolved contacts;
 /// - an unknown mode, an empty frame, or an illegal name;
 /// - a number of regions other than zero or the number of contacts;
-/// - contacts with geometry: a link that the tool does not have, a depth, `point` or `on_organ`
-/// that
-///   is not finite, or a normal whose length is not 1 (to 1e-6);
+/// - contacts with geometry: a link that the tool does not have, a value of `depth`, `point` or
+///   `on_organ` that is not finite, or a normal whose length is not 1 (to 1e-6);
 /// - a known clearance of such a link, whose distance or `on_organ` is not finite, or whose normal
 ///   is not unit.
 /// Of these, the collision node itself sends only unresolved contacts.
@@ -33,7 +32,8 @@ void check_contacts(const ContactArray& contacts);
 std_msgs::UInt32MultiArray face_list(const ContactArray& contacts);
 
 /// Why the force of an answer without contacts may be missing: it is not known whether the tool is
-/// inside the organ. Empty if it is known, or if something is touched.
+/// inside the organ, or where it would come out. Empty if both are known, or if something is
+/// touched.
 std::string doubt_about_side(const ContactArray& contacts);
 
 /// [m] The radius of a tool's shaft. Unset if it is not known, or if the tool has no shaft.

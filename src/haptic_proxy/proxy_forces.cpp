@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace organ_collision {
@@ -65,11 +64,27 @@ Vector3d torque_of(const std::vector<OrganForce>& forces) {
   return sum;
 }
 
+/// Adds the forces on faces to those of the same faces and links, each once, so that their number
+/// does not grow while forces are on their way. Those that are next to nothing are left out.
+void add_forces(const std::vector<FaceForce>& more, std::vector<FaceForce>& faces) {
+  constexpr double kNothing = 1e-12;  // [N]
+  for (const FaceForce& at : more) {
+    if (at.force.norm() <= kNothing) continue;
+    const auto known = std::find_if(faces.begin(), faces.end(), [&](const FaceForce& face) {
+      return face.face == at.face && face.link == at.link;
+    });
+    if (known == faces.end()) {
+      faces.push_back(at);
+    } else {
+      known->force += at.force;
+    }
+  }
+}
+
 /// The forces at a share of the way from `from` to `to`. Each has the faces of both, except for
-/// those that bear next to nothing, and those of triangles that are gone.
+/// those of triangles that are gone.
 std::vector<OrganForce> between(const std::vector<OrganForce>& from,
                                 const std::vector<OrganForce>& to, double share) {
-  constexpr double kNothing = 1e-12;  // [N]
   std::vector<OrganForce> forces = to;
   for (OrganForce& of_organ : forces) of_organ.scale(share);
   for (OrganForce before : from) {
@@ -84,8 +99,7 @@ std::vector<OrganForce> between(const std::vector<OrganForce>& from,
     now->force += before.force;
     now->torque += before.torque;
     if (now->topology != before.topology || now->frame != before.frame) continue;
-    std::copy_if(before.on_faces.begin(), before.on_faces.end(), std::back_inserter(now->on_faces),
-                 [](const FaceForce& at) { return at.force.norm() > kNothing; });
+    add_forces(before.on_faces, now->on_faces);
   }
   return forces;
 }

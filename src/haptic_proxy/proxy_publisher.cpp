@@ -143,13 +143,12 @@ std::vector<ProxyContact> places_of(const ProxyReport& report) {
       return other.organ == place.organ && other.link == place.link &&
              (to_eigen(other.point) - to_eigen(place.point)).norm() < kSamePlace;
     });
-    if (same == different.end()) {
-      different.push_back(place);
-    } else {
+    if (same != different.end()) {
       same->force = to_vector(to_eigen(same->force) + to_eigen(place.force));
+    } else if (different.size() < kMostPlaces) {
+      different.push_back(place);
     }
   }
-  if (different.size() > kMostPlaces) different.resize(kMostPlaces);
   return different;
 }
 

@@ -161,6 +161,10 @@ void ContactFinder::confirm_on_leg(const Step& step, std::size_t leg, const Tool
 
 /// Decides by exact distances which contacts still touch when the step ends.
 void ContactFinder::set_touching(const Step& step, std::vector<FaceContact>& contacts) {
+  if (step.is_at_rest()) {  // What it touches, it touches at the end, too.
+    for (FaceContact& contact : contacts) contact.touching = true;
+    return;
+  }
   const Step end = step.at_end();
   for_each_part(end, [&](const ToolPart& part, const LegSpan& span) {
     const auto is_open = [&](const FaceContact& contact) {

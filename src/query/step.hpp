@@ -62,6 +62,9 @@ class Step {
   Step at_end() const { return {organ_, *this, last()}; }
   Step at_start() const { return {organ_before_ ? *organ_before_ : organ_, *this, waypoints_[0]}; }
 
+  /// Whether neither the tool nor the organ moves.
+  bool is_at_rest() const { return waypoint_count_ == 1 && !organ_before_; }
+
   const TriangleMesh& organ() const { return organ_; }
   bool has_shaft() const { return radius_ > 0.0; }
   double radius() const { return radius_; }  ///< [m] radius of the shaft

@@ -132,3 +132,19 @@ TEST_F(ProxyForcesTest, ACrossingLoadsTheTissueWholeAndTheHandWithItsLever) {
   EXPECT_EQ(at.vertices[2], 2U);
   EXPECT_EQ(at.barycentric[1], 0.6);
 }
+
+TEST_F(ProxyForcesTest, OnTheirWayAddUpOnEachFaceAndDoNotGrowInNumber) {
+  ForceRateLimit limit;
+  const auto start = ForceRateLimit::Time();
+  for (int tick = 0; tick < 300; ++tick) {
+    answer_.contacts = {contact(0, 0.02, 1.0)};
+    answer_.pull = -0.02 * answer_.contacts[0].contact.normal;
+    const auto found = limit.follow(forces(ProxyFreedom::kFree), 10.0, Vector3d::Zero(), 0.0,
+                                    start + std::chrono::milliseconds(tick));
+    ASSERT_LE(found[0].on_faces.size(), 1U);
+    Vector3d on_faces = Vector3d::Zero();
+    for (const FaceForce& at : found[0].on_faces) on_faces += at.force;
+    EXPECT_LT((on_faces - found[0].force).norm(), 1e-9);
+  }
+  EXPECT_TRUE(limit.is_on_its_way());
+}

@@ -25,7 +25,7 @@ enum class ClearanceState : std::uint8_t {
 ///
 /// `distance` is exact to 1e-9 m. `least` is at most 1e-6 m above the smallest distance.
 struct ToolClearance {
-  /// What is known. If it is not kKnown, `is_resolved` is the only field below `unlimited` that is
+  /// What is known. If it is not kKnown, `is_resolved` is the only field below `margin` that is
   /// set. If `is_resolved` is then false, a face may be within the margin all the same.
   ClearanceState state = ClearanceState::kNotAsked;
   /// Whether the nearest face of the whole organ was looked for.

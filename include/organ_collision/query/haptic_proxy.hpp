@@ -127,7 +127,7 @@ struct ProxyAnswer {
   /// [m] The radius of gyration of a free tool. A rotation by an angle counts as a translation by
   /// that angle times the size.
   double size = 0.0;
-  /// Where tissue holds the proxy, sorted by organ, then face, then link.
+  /// The faces near the proxy, and their loads, sorted by organ, then face, then link.
   std::vector<ProxyFace> contacts;
   /// Where a needle goes through tissue, from entry to tip. Empty unless the needle has pierced.
   std::vector<ProxyCrossing> crossings;

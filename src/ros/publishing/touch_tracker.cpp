@@ -91,7 +91,8 @@ void TouchTracker::end(Pair& pair, ros::Time stamp, const std::string& reason) {
   event.event = TouchEvent::END;
   event.touch = pair.count;
   event.header.stamp = stamp;
-  event.duration_sec = std::max(0.0, (stamp - pair.began).toSec());
+  // The difference of extreme stamps does not fit ros::Duration.
+  event.duration_sec = std::max(0.0, stamp.toSec() - pair.began.toSec());
   event.deepest = pair.deepest;
   event.faces = static_cast<std::uint32_t>(pair.earlier_faces + pair.faces.size());
   event.reason = reason;

@@ -68,8 +68,8 @@ QuerySnapshot take_snapshot(const NodeState& node, const QueryCollision::Request
                             bool in_tf, ContactArray& answer);
 
 /// Sets the organ and the tool of `collision`, which then refers to the snapshot: the snapshot must
-/// outlive it. `organ_rests`: if false, the organ moves in the mode SWEPT from its previous shape
-/// to its latest one. If `collision` asks for the placement, waits for at most 0.2 s until a new
+/// outlive it. `organ_rests`: if false, the organ moves in the mode SWEPT from `shape_before`
+/// to its latest shape. If `collision` asks for the placement, waits for at most 0.2 s until a new
 /// surface is inspected.
 void set_subject(const QuerySnapshot& snapshot, bool organ_rests, CollisionRequest& collision);
 

@@ -122,6 +122,13 @@ TEST_F(TouchTrackerTest, OnlyAnswersThatFailForLongEndATouch) {
   EXPECT_EQ(told(), Texts{"BEGIN 2 15.5 of 1"});
 }
 
+TEST_F(TouchTrackerTest, MayTakeLongerThanADurationOfRosHolds) {
+  touches_.follow(answer(1.0, {contact(1, 1.0, 0.001)}));
+  touches_.follow(answer(4e9));
+  ASSERT_EQ(events_.size(), 2u);
+  EXPECT_NEAR(events_[1].duration_sec, 4e9 - 1.0, 1e-3);
+}
+
 TEST_F(TouchTrackerTest, EndsOfOtherReasonsHaveTheStampOfTheLastAnswer) {
   touches_.follow(answer(1.0, {contact(1, 1.0, 0.001)}));
   touches_.follow(answer(2.0, {contact(1, 1.0, 0.001)}));
