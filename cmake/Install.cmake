@@ -24,10 +24,10 @@ install(TARGETS organ_collision_ros
 install(DIRECTORY config launch urdf DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
   PATTERN "*.py" EXCLUDE)
 install(DIRECTORY examples DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION}
-  FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml")
+  FILES_MATCHING PATTERN "*.launch" PATTERN "*.yaml" PATTERN "*.obj")
 install(PROGRAMS examples/ask.py examples/ask_many.py examples/dvrk_hand.py examples/dvrk_organ.py
-  examples/dvrk_robot.py examples/grasper.py examples/lower_until_touch.py examples/own_mesh.py
-  examples/plan_grasper.py examples/repeat_pose.py examples/simulator.py
+  examples/dvrk_robot.py examples/grasper.py examples/lower_until_touch.py examples/numpy_simulator.py
+  examples/own_mesh.py examples/plan_grasper.py examples/repeat_pose.py examples/simulator.py
   scripts/view.py
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 # plan_grasper.py imports these from its own folder.

@@ -3,19 +3,22 @@
 
 import argparse
 import math
+import os
 import sys
 
 from geometry_msgs.msg import Quaternion, Transform, TransformStamped, Vector3
 from organ_collision import contact_table, MeshFileError, Organ, read_mesh
 from organ_collision.msg import ContactArray
+import rospkg
 import rospy
 from std_msgs.msg import Header
 import tf2_ros
 
 options = argparse.ArgumentParser(description=__doc__)
-options.add_argument('file', help='the mesh: OBJ, STL, PLY, OFF, VTK, ...')
+options.add_argument('file', nargs='?', help='the mesh: OBJ, STL, PLY, OFF, VTK, ...; without it, a kidney of 1280 faces')
 options.add_argument('--scale', type=float, default=1.0, help='metres for each unit of the file: 0.001 for millimetres')
 options = options.parse_args(rospy.myargv()[1:])
+KIDNEY = os.path.join(rospkg.RosPack().get_path('organ_collision'), 'examples', 'kidney.obj')
 
 
 def frame(name, stamp, point):
@@ -38,7 +41,7 @@ def main():
     frames = tf2_ros.TransformBroadcaster()
     rate = rospy.Rate(20)
 
-    vertices, faces = read_mesh(options.file, options.scale)
+    vertices, faces = read_mesh(options.file or KIDNEY, options.scale)
     organ = Organ('organ', vertices, faces)
     top = vertices[vertices[:, 2].argmax()]
     while not rospy.is_shutdown():

@@ -7,6 +7,7 @@ Usage: install_test.py BUILD_FOLDER DEVEL_SPACE INSTALL_PREFIX CXX_COMPILER
 
 import glob
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -18,9 +19,9 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 SOURCE = os.path.dirname(os.path.dirname(HERE))
 PYTHON_OF_ROS = glob.glob('/opt/ros/*/lib/python3*/*-packages')  # Debian has it in the system's folders.
 PLAIN_ENVIRONMENT = {'PATH': '/usr/bin:/bin', 'HOME': os.environ.get('HOME', '/')}
-SCRIPTS = {'ask.py', 'ask_many.py', 'dvrk_hand.py', 'dvrk_organ.py', 'dvrk_robot.py', 'grasper.py',
-           'lower_until_touch.py',
-           'own_mesh.py', 'plan_grasper.py', 'simulator.py', 'view.py'}
+# The programs in Python: the examples that can be executed, and what the launch files start.
+SCRIPTS = {name for name in os.listdir(os.path.join(SOURCE, 'examples'))
+           if name.endswith('.py') and os.access(os.path.join(SOURCE, 'examples', name), os.X_OK)} | {'view.py'}
 PROGRAMS = {'organ_collision_node', 'robot_reader', 'contact_adapter', 'organ_mesh_adapter', 'haptic_proxy',
             'query_offline',
             'replay', 'snapshot', 'liver_simulator', 'demo_report', 'stylus_driver', 'plan_grasper'}
@@ -75,7 +76,7 @@ class InstallTest(unittest.TestCase):
         headers = files(include, '**/*.hpp')
         self.assertEqual(headers, files(os.path.join(SOURCE, 'include', 'organ_collision'), '**/*.hpp'))
         self.assertLessEqual({'ContactArray.h', 'QueryCollision.h'}, set(os.listdir(include)))
-        examples = {'examples/' + name for pattern in ('*.launch', '*.yaml')
+        examples = {'examples/' + name for pattern in ('*.launch', '*.yaml', '*.obj')
                     for name in files(os.path.join(SOURCE, 'examples'), pattern)}
         share = files(os.path.join(self.prefix, 'share/organ_collision'), '**/*')
         more = {'package.xml', 'nodelet_plugins.xml', 'urdf/meshes/jaw.stl', 'cmake/organ_collisionConfig.cmake'}
@@ -84,6 +85,11 @@ class InstallTest(unittest.TestCase):
     def test_installed_programs_and_nodelet_find_their_libraries(self):
         programs = set(os.listdir(self.programs))
         self.assertLessEqual(PROGRAMS | SCRIPTS | {'rrt_connect.py', 'grasper_kinematics.py'}, programs)
+        for path in SHIPPED + glob.glob(os.path.join(SOURCE, 'examples', '*.launch')):
+            if path.endswith('.launch'):
+                with open(os.path.join(SOURCE, path), encoding='utf-8') as text:
+                    started = set(re.findall(r'pkg="organ_collision" type="([\w.]+)"', text.read()))
+                self.assertLessEqual(started, programs, path)
         paths = [os.path.join(self.programs, name) for name in programs if not name.endswith('.py')]
         for path in paths + [os.path.join(self.prefix, 'lib', 'liborgan_collision_nodelet.so')]:
             self.assertNotIn('not found', run('ldd', path), path)

@@ -101,17 +101,18 @@ class PythonModuleTest(unittest.TestCase):
         np.testing.assert_allclose(np.reshape(heard['second'].triangles, (-1, 3)), FACES[:3])
         self.assertEqual((heard['second'].topology, heard['second'].header.stamp), (1, rospy.Time(8)))
 
-    def test_the_example_prints_contacts_with_a_file(self):
+    def test_the_example_prints_contacts_with_a_file_and_with_the_kidney_that_ships(self):
         mesh = roslib.packages.get_pkg_dir('organ_collision') + '/urdf/meshes/jaw.stl'
-        process = subprocess.Popen([program('own_mesh.py'), mesh, '--scale', '5'], stdout=subprocess.PIPE, text=True)
-        watchdog = threading.Timer(LIMIT, process.kill)
-        watchdog.start()
-        self.addCleanup(watchdog.cancel)
-        printed = next((line for line in process.stdout if 'touches' in line), 'nothing')
-        self.assertRegex(printed, r'^probe touches \d+ faces, deepest in face \d+: [0-4]\.\d mm$')
-        process.send_signal(signal.SIGINT)
-        process.communicate()
-        self.assertEqual(process.returncode, 0)
+        for arguments in ([mesh, '--scale', '5'], []):
+            process = subprocess.Popen([program('own_mesh.py'), *arguments], stdout=subprocess.PIPE, text=True)
+            watchdog = threading.Timer(LIMIT, process.kill)
+            watchdog.start()
+            self.addCleanup(watchdog.cancel)
+            printed = next((line for line in process.stdout if 'touches' in line), 'nothing')
+            self.assertRegex(printed, r'^probe touches \d+ faces, deepest in face \d+: [0-4]\.\d mm$')
+            process.send_signal(signal.SIGINT)
+            process.communicate()
+            self.assertEqual(process.returncode, 0)
 
     def test_the_example_asks_about_many_places(self):
         self.organ('tissue')
