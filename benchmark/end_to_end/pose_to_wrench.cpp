@@ -187,7 +187,7 @@ int main(int argc, char** argv) {
     if (what == "nodelet") {
       loader = std::make_unique<nodelet::Loader>(false);
       const std::string name = ros::names::resolve("haptic_proxy");
-      if (!loader->load(name, "organ_collision/haptic_proxy", {}, {})) return 1;
+      if (!loader->load(name, "organ_collision/HapticProxyNodelet", {}, {})) return 1;
     }
     Hand hand(std::strtoul(argv[2], nullptr, 10));
     hand.start();

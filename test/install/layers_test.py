@@ -48,6 +48,19 @@ def matching(room, pattern, files='*'):
 
 class LayersTest(unittest.TestCase):
 
+    def test_each_nodelet_that_is_loaded_by_its_name_is_a_plugin(self):
+        with open(os.path.join(SOURCE, 'nodelet_plugins.xml')) as text:
+            plugins = set(re.findall(r'class name="([^"]+)"', text.read()))
+        load = re.compile(r'(?:load |load\(\w+, ")(organ_collision/\w+)')
+        loaded = set()
+        for path in (path for folder in ('benchmark', 'examples', 'launch', 'src', 'test')
+                     for path in glob.glob(os.path.join(SOURCE, folder, '**', '*.*'), recursive=True)):
+            if path.endswith(('.cpp', '.launch', '.test')):
+                with open(path) as text:
+                    loaded.update((os.path.relpath(path, SOURCE), name) for name in load.findall(text.read()))
+        self.assertGreater(len(loaded), 5)
+        self.assertEqual([found for found in sorted(loaded) if found[1] not in plugins], [])
+
     def test_a_layer_and_a_folder_include_only_themselves_and_those_before_them(self):
         for layer, rooms in ROOMS.items():
             folders = [name for name in os.listdir(os.path.join(SOURCE, 'src', layer))
