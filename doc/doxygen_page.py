@@ -60,6 +60,7 @@ def with_references(page, text):
         words = re.sub(r'\s+', ' ', found[1])
         return '[%s](%s)' % (plain(words) if target.startswith('@ref') else words, target)
     text = re.sub(r'<(https?://[^>\s]+)>', r'[\1](\1)', text)
+    text = re.sub(r'(!\[[^\]]*\]\()(?:\.\./|doc/)+', r'\1', text)  # Doxygen looks for figures in doc/.
     return re.sub(r'(?<!!)\[([^\]]*)\]\(([^)\s]+)\)', link, text)
 
 

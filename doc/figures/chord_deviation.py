@@ -19,7 +19,7 @@ def on_chord(s):
 
 
 def draw_arc(axes):
-    style.drawing(axes, 'A point turns by α about an axis')
+    style.drawing(axes, 'A point turns by α')
     s = np.linspace(0, 1, 100)
     axes.plot(*on_arc(s).T, color=style.TOOL, lw=2)
     axes.plot(*on_chord(s).T, '--', color=style.BOUND, lw=1.5)
@@ -42,15 +42,15 @@ def draw_deviation(axes):
     deviation = np.linalg.norm(on_arc(s) - on_chord(s), axis=1)
     axes.plot(s, deviation, color=style.FACE, label='deviation')
     axes.plot(s, 4 * s * (1 - s) * RADIUS * ANGLE**2 / 8, '--', color=style.BOUND,
-              label='bound 4 s (1 − s) ρ α² / 8')
+              label='bound:\n4 s (1 − s) ρ α² / 8')
     axes.set_xlabel('s, the share of the time')
     axes.set_ylabel('deviation / ρ')
     axes.set_title('Same place in time (α = 1.2)', color=style.TEXT)
-    axes.legend(frameon=False, fontsize=8, loc='lower center')
+    axes.legend(frameon=False, loc='lower center')
 
 
 def draw_rim(axes):
-    style.drawing(axes, 'Support value of a flat-ended cylinder')
+    style.drawing(axes, 'Support value of a cylinder')
     tilt, radius, half = np.radians(25), 0.45, 0.8
     along, across = np.array([np.cos(tilt), np.sin(tilt)]), np.array([-np.sin(tilt), np.cos(tilt)])
     corners = [half * along + radius * across, half * along - radius * across,
@@ -74,7 +74,7 @@ def draw_rim(axes):
 
 
 def draw():
-    figure, (arc, deviation, rim) = style.panels(3, 11, 3.5, [1, 1.1, 1.1])
+    figure, (arc, deviation, rim) = style.panels(3, 3.2, [1, 1.1, 1.1])
     draw_arc(arc)
     draw_deviation(deviation)
     draw_rim(rim)

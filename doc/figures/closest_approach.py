@@ -73,7 +73,7 @@ def draw_halving(axes):
 
 
 def draw():
-    figure, (boxes, halving) = style.panels(2, 10.5, 3.6)
+    figure, (boxes, halving) = style.panels(2, 3.0)
     draw_boxes(boxes)
     draw_halving(halving)
     return figure

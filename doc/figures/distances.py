@@ -95,11 +95,11 @@ def draw_slope(axes):
         place -= value / rise
     axes.set_xlabel('place on the edge')
     axes.set_title('Cylinder and edge: the slope only rises', color=style.TEXT)
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(frameon=False)
 
 
 def draw():
-    figure, (pairs, gjk, slope) = style.panels(3, 11.5, 3.9, [0.9, 1.2, 1.1])
+    figure, (pairs, gjk, slope) = style.two_and_one(6.0, (1.3, 1))
     draw_pairs(pairs)
     draw_gjk(gjk)
     draw_slope(slope)

@@ -14,7 +14,7 @@ import sys
 
 import style
 
-FIGURES = ['touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
+FIGURES = ['first_scene', 'touch', 'static_swept', 'fast_sweep', 'tool_frames', 'pose_times',
            'words', 'wedge', 'margins', 'outcodes', 'first_touch', 'closest_approach', 'chord_deviation',
            'swept_box', 'spans', 'distances', 'piercing', 'winding', 'sides', 'mobility', 'work', 'proxy',
            'stab_forces']

@@ -56,16 +56,17 @@ def draw_from_the_side(axes):
     style.arrow(axes, on_axis, on_axis + 32 * normal, style.BOUND, width=1.8)
     style.label(axes, on_axis + 34 * normal, 'normal, at first touch', style.BOUND, va='center')
     axes.plot(*point, 'o', color=style.TEXT, ms=4)
-    for tip, text in ((start, 'start'), (touch, f'first touch,\nfraction {fraction:.1f}'),
-                      (end, f'end: {depth:.0f} mm deep\nalong this normal')):
-        style.label(axes, tip + [0, -10], text, style.TOOL, ha='center', va='top')
+    for tip, shift, text, side in ((start, 5, 'start', 'right'),
+                                   (touch, 0, f'first touch,\nfraction {fraction:.1f}', 'center'),
+                                   (end, -14, f'end: {depth:.0f} mm deep\nalong this normal', 'left')):
+        style.label(axes, tip + [shift, -10], text, style.TOOL, ha=side, va='top')
     style.label(axes, TROCAR + [8, 0], 'trocar', style.TOOL, va='center')
     axes.set_xlim(-140, 62)
     axes.set_ylim(-92, 112)
 
 
 def draw():
-    figure, (pierced, side) = style.panels(2, 11, 5.6, [0.75, 1])
+    figure, (pierced, side) = style.panels(2, 4.6, [0.75, 1])
     draw_pierced(pierced)
     draw_from_the_side(side)
     return figure

@@ -74,10 +74,11 @@ def draw_shapes(axes, found):
         normals[1] = normals[0]
     axes.plot(*FACE.T, color=style.FACE, lw=3)
     style.label(axes, FACE[1] + [0.05, -0.05], 'face', style.FACE)
-    for time, text in ((begin, 'start'), (clear, 'first time that\nthe bound allows\na touch'),
-                       (end, 'end')):
+    for time, text, shift, side in ((begin, 'start', (-0.1, 0.0), 'right'),
+                                    (clear, 'first time that\nthe bound allows\na touch', (-0.25, 0.0), 'right'),
+                                    (end, 'end', (0.05, -0.2), 'left')):
         axes.plot(*np.stack([TROCAR, tip(time)]).T, color=style.TOOL, lw=1.8)
-        style.label(axes, tip(time) + [-0.1, 0.0], text, style.TOOL, ha='right', va='bottom')
+        style.label(axes, tip(time) + shift, text, style.TOOL, ha=side, va='bottom')
     for s, (time, line) in enumerate(((begin, '-'), (end, '--'))):
         normal, anchor = normals[s], closest(time)[2]
         along = np.array([-normal[1], normal[0]])
@@ -85,7 +86,7 @@ def draw_shapes(axes, found):
                   color=style.BOUND)
         foot = anchor + 0.45 * along
         style.arrow(axes, foot, foot + 0.25 * normal, style.BOUND)
-        style.label(axes, foot + 0.3 * normal, f'$n_{s}$', style.BOUND, ha='center', va='center')
+        style.label(axes, foot + 0.37 * normal, 'n' + '₀₁'[s], style.BOUND, ha='center', va='center')
     axes.set_ylim(-0.1, 2.35)
 
 
@@ -110,11 +111,11 @@ def draw_times(axes, found):
     axes.set_xlabel('time of the leg')
     axes.set_ylabel('distance [m]')
     axes.set_title('Each bound tells until when nothing touches', color=style.TEXT)
-    axes.legend(frameon=False, fontsize=8, loc='upper right')
+    axes.legend(frameon=False, loc='upper right')
 
 
 def draw():
-    figure, (shapes, times) = style.panels(2, 10.5, 4.4, [1, 1.2])
+    figure, (shapes, times) = style.panels(2, 3.8, [1, 1.2])
     found = advances()
     draw_shapes(shapes, found)
     draw_times(times, found)

@@ -18,7 +18,7 @@ def capsule(radius):
 
 
 def draw():
-    figure, (axes, boxes) = style.panels(2, 10, 4.0, [1.25, 1])
+    figure, (axes, boxes) = style.panels(2, 3.6, [1.25, 1])
     style.drawing(axes, 'Why half the motion suffices')
     half_way = 0.5 * (BEFORE + AFTER)
     move = 0.5 * np.linalg.norm(AFTER - BEFORE, axis=1).max()
@@ -33,7 +33,7 @@ def draw():
         style.arrow(axes, BEFORE[corner], AFTER[corner], style.GUIDE, width=0.8)
     style.label(axes, (-0.55, 0.04), 's', style.TOOL)
     text = 'grown by m, half of the\nlongest way of a corner'
-    style.label(axes, (-0.55, RADIUS + move + 0.05), text, style.BOUND)
+    style.label(axes, (-0.55, -RADIUS - move - 0.06), text, style.BOUND, va='top')
     axes.set_xlim(-0.65, 2.05)
 
     boxes.set_title('Growth for rounding', color=style.TEXT)
@@ -44,7 +44,10 @@ def draw():
     boxes.loglog(extent, 1e-6 * extent, color=style.BOUND, lw=2, label='every plane: 1e-6 X')
     boxes.axhline(5e-3, color=style.TOOL, lw=1)
     style.label(boxes, (0.11, 6e-3), 'radius of a shaft', style.TOOL)
-    boxes.set_xlabel('X, the largest coordinate relative to the origin [m]')
+    boxes.set_ylim(1e-11, 1)
+    for axis in (boxes.xaxis, boxes.yaxis):
+        axis.set_major_formatter(style.power_of_ten)
+    boxes.set_xlabel('X, the largest coordinate [m]')
     boxes.set_ylabel('growth [m]')
-    boxes.legend(frameon=False, fontsize=8, loc='lower right')
+    boxes.legend(frameon=False, loc='lower right')
     return figure

@@ -28,7 +28,7 @@ def draw_trocar(axes):
     style.label(axes, trocar + [0, 1.2], 'trocar', style.TEXT, ha='center')
     style.label(axes, tip + 0.5 * displacement + [0.9, -1], 'd', style.BOUND)
     style.label(axes, contact + [-1.0, -1.9], 's', style.TEXT)
-    style.label(axes, contact + 3.2 * normal + [0.5, -0.2], 'n', style.TEXT)
+    style.label(axes, contact + 4.2 * normal + [-1.3, 0], 'n', style.TEXT)
     axes.set_xlim(-17, 16)
     axes.set_ylim(-2, 13)
 
@@ -51,7 +51,7 @@ def draw_free(axes):
     style.arrow(axes, center, center + [1, 1], style.BOUND, '->', 1.6)
     style.arrow(axes, contact, moved, style.BOUND, '->', 1.6)
     axes.plot(*center, 'o', color=style.TEXT, ms=5)
-    style.label(axes, center + [-0.4, -2.6], 'centre', style.TEXT, ha='center')
+    style.label(axes, center + [-0.7, 0], 'centre', style.TEXT, ha='right', va='center')
     style.label(axes, center + [1.3, 1.4], 'v', style.BOUND)
     style.label(axes, 0.5 * (center + contact) + [1.5, -1.2], 'r', style.GUIDE)
     axes.set_xlim(-16, 14)
@@ -59,7 +59,7 @@ def draw_free(axes):
 
 
 def draw():
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.2, 3.2))
+    figure, (left, right) = style.panels(2, 2.9)
     draw_trocar(left)
     draw_free(right)
     return figure

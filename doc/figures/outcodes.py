@@ -87,7 +87,7 @@ def clip_errors(random):
 
 def draw():
     random = np.random.default_rng(1)
-    figure, (codes, clip) = style.panels(2, 10, 3.6, [1, 1.5])
+    figure, (codes, clip) = style.panels(2, 3.4, [1, 1.8])
     measured = [max(outcode_error(random, moving) for _ in range(TRIALS))
                 for moving in (False, True)]
     draw_bars(codes, ['at rest', 'moving'], [8, 16], [4, 11], measured)
@@ -103,7 +103,7 @@ def draw():
               [14.4, 14.4, 14.4, 0], list(worst.values()))
     clip.set_title("GL's vertex transform and plane tests", color=style.TEXT)
     clip.set_ylabel('2⁻²⁴ times reach')
-    clip.legend(frameon=False, fontsize=8, ncol=3, loc='upper right')
+    clip.legend(frameon=False, ncol=3, loc='upper right')
     clip.set_ylim(0, 21)
     return figure
 
@@ -114,6 +114,6 @@ def draw_bars(axes, names, allowed, derived, measured):
     axes.bar(place, derived, 0.25, color=style.GUIDE, label='derived')
     axes.bar(place + 0.27, measured, 0.25, color=style.FACE, label='measured')
     for x, value in zip(place + 0.27, measured):
-        axes.text(x, value + 0.2, f'{value:.1f}', ha='center', fontsize=8, color=style.FACE)
+        axes.text(x, value + 0.2, f'{value:.1f}', ha='center', color=style.FACE)
     axes.set_xticks(place)
     axes.set_xticklabels(names)

@@ -54,7 +54,7 @@ def draw_piercing(axes):
 
 
 def draw():
-    figure, (tie, piercing) = style.panels(2, 10, 3.6)
+    figure, (tie, piercing) = style.panels(2, 3.1)
     draw_tie(tie)
     draw_piercing(piercing)
     return figure

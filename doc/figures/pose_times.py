@@ -32,17 +32,18 @@ def draw_times(axes, title, poses):
     for shape, outcome, end in outcomes(poses):
         axes.plot([shape, end], [0, 0], color=COLORS[outcome], lw=1.4)
         axes.plot(shape, 0, 'o', color=COLORS[outcome], ms=6)
-        style.label(axes, (shape, -0.45), outcome, COLORS[outcome], ha='center', va='top', fontsize=7)
+        place = (shape - 1, -1.25 if outcome == 'replaced' else -0.45)
+        style.label(axes, place, outcome, COLORS[outcome], va='top')
     axes.set_yticks([1, 0])
     axes.set_yticklabels(['poses', 'shapes'])
-    axes.set_ylim(-1.3, 1.6)
+    axes.set_ylim(-2.1, 1.6)
     axes.set_xlim(-3, 119)
     axes.spines['left'].set_visible(False)
     axes.tick_params(axis='y', length=0)
 
 
 def draw():
-    figure, axes = style.plt.subplots(2, 1, figsize=(8.8, 3.8), sharex=True)
+    figure, axes = style.plt.subplots(2, 1, figsize=(style.WIDTH, 3.8), sharex=True)
     draw_times(axes[0], 'Poses only while the tool moves: it rests from 24 to 76 ms',
                [0, 8, 16, 24, 76, 84, 92, 100, 108, 116])
     draw_times(axes[1], 'The remedy: the same pose again, with a new stamp', list(range(0, 120, 8)))

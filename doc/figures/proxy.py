@@ -30,7 +30,7 @@ def draw_tissue(axes, corners, bottom):
 
 
 def draw_flat(axes):
-    style.drawing(axes, 'The proxy stops at the clearance;\nthe spring is the force')
+    style.drawing(axes, 'The proxy stops at the\nclearance; the spring\nis the force')
     hand, proxy = np.array([0.0, -6.5]), np.array([0.0, RADIUS + CLEARANCE])
     draw_tissue(axes, [[-12, 0], [14, 0]], -12)
     draw_ball(axes, hand, 'hand', False)
@@ -38,7 +38,7 @@ def draw_flat(axes):
     draw_spring(axes, hand, proxy)
     style.arrow(axes, [-6, 0], [-6, CLEARANCE], style.TEXT, '<->', 1.0)
     axes.plot([-7.5, 0], [CLEARANCE, CLEARANCE], ':', color=style.GUIDE, lw=1)
-    style.label(axes, [-6.5, 0.5 * CLEARANCE], 'clearance', style.TEXT, ha='right', va='center')
+    style.label(axes, [-6.8, CLEARANCE + 0.4], 'clearance', style.TEXT, ha='center')
     axes.set_xlim(-15, 14)
     axes.set_ylim(-12, 10)
 
@@ -58,7 +58,7 @@ def first_on_plane(start, end, plane):
 
 
 def draw_crease(axes):
-    style.drawing(axes, 'Each face that is met is a plane for the centre;\nthe proxy goes to the place nearest the hand')
+    style.drawing(axes, 'Met faces are planes for the\ncentre. The proxy goes to the\nplace nearest the hand')
     left, right = np.array([-14.0, 7.0]), np.array([14.0, 4.0])
     draw_tissue(axes, [left, [0, 0], right], -12)
     planes = []
@@ -85,7 +85,7 @@ def draw_crease(axes):
 
 
 def draw_thin(axes):
-    style.drawing(axes, 'The hand is through thin tissue.\nThe proxy is not, and pulls it back')
+    style.drawing(axes, 'The hand is through thin\ntissue. The proxy is not,\nand pulls it back')
     hand, proxy = np.array([1.0, -8.5]), np.array([1.0, RADIUS + CLEARANCE])
     draw_tissue(axes, [[-12, 0], [14, 0]], -2)
     axes.plot([-12, 14], [-2, -2], color=style.FACE, lw=2)
@@ -99,7 +99,7 @@ def draw_thin(axes):
 
 
 def draw():
-    figure, (flat, crease, thin) = style.panels(3, 11.5, 3.6)
+    figure, (flat, crease, thin) = style.panels(3, 3.0)
     draw_flat(flat)
     draw_crease(crease)
     draw_thin(thin)

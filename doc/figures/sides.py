@@ -53,20 +53,20 @@ def draw_displacement(axes):
     axes.fill_between(surface[:, 0], surface[:, 1], -1.1, color=style.FACE, alpha=0.08, lw=0)
     corner = surface[2]
     axes.plot([-1.7, 1.7], [corner[1]] * 2, '-', color=style.TOOL)
-    style.label(axes, (-1.7, corner[1] + 0.09), 'axis', style.TOOL)
-    for shift, text in ((0.22, 'moved up: crosses nothing'), (-0.22, 'moved down: +1, then −1')):
+    style.label(axes, (1.78, corner[1] - 0.04), 'axis', style.TOOL)
+    for shift, text in ((0.26, 'moved up: crosses nothing'), (-0.26, 'moved down: +1, then −1')):
         axes.plot([-1.7, 1.7], [corner[1] + shift] * 2, '--', color=style.GUIDE)
         style.label(axes, (1.78, corner[1] + shift - 0.04), text, style.GUIDE)
-    for x, text in crossings(surface[::-1], corner[1] - 0.22):
-        axes.plot(x, corner[1] - 0.22, 'o', color=style.BOUND, ms=5)
-        style.label(axes, (x - 0.1, corner[1] - 0.5), f'{text:+d}'.replace('-', '−'), style.BOUND)
+    for x, text in crossings(surface[::-1], corner[1] - 0.26):
+        axes.plot(x, corner[1] - 0.26, 'o', color=style.BOUND, ms=5)
+        style.label(axes, (x - 0.1, corner[1] - 0.56), f'{text:+d}'.replace('-', '−'), style.BOUND)
     style.label(axes, (0, -0.8), 'inner side', style.FACE, ha='center')
     axes.set_xlim(-1.8, 3.9)
     axes.set_ylim(-1.2, 1.0)
 
 
 def draw():
-    figure, (windings, displacement) = style.panels(2, 10.5, 3.4)
+    figure, (windings, displacement) = style.panels(2, 2.9)
     draw_windings(windings)
     draw_displacement(displacement)
     return figure

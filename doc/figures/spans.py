@@ -1,6 +1,5 @@
 """Legs of a trembling hand: one chord with a deviation serves several of them."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 
 import style
@@ -31,7 +30,7 @@ def longest_span(fraction, way, begin):
 
 
 def draw():
-    figure, (axes,) = style.panels(1, 10, 3.0)
+    figure, (axes,) = style.panels(1, 2.9)
     style.drawing(axes, 'Spans: one volume around each chord')
     fraction, way = waypoints()
     begin = 0

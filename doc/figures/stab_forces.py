@@ -34,13 +34,13 @@ def draw_stab(above, below, tissue):
 
 def draw():
     figure, ((depth, other_depth), (force, other_force)) = plt.subplots(
-        2, 2, figsize=(10, 5.4), sharex='col', sharey='row', gridspec_kw={'height_ratios': [1, 1.6]})
+        2, 2, figsize=(style.WIDTH, 4.8), sharex='col', sharey='row', gridspec_kw={'height_ratios': [1, 1.6]})
     draw_stab(depth, force, 'sheet')
     draw_stab(other_depth, other_force, 'lobe')
-    depth.set_ylabel('height of the hand [mm]')
+    depth.set_ylabel('height of the\nhand [mm]')
     force.set_ylabel('force out of the tissue [N]')
     style.label(force, (100, 10.6), 'proxy: 300 N/m × depth', style.BOUND, ha='center')
-    style.label(force, (100, 0.5), 'penalty force: the shaft\nis through, no force', style.FACE, ha='center')
+    style.label(force, (100, 0.5), 'penalty force:\nthe shaft is\nthrough, no force', style.FACE, ha='center')
     force.annotate('pushed out on\nthe wrong side', (158, -0.9), xytext=(120, -3.6), color=style.FACE,
                    ha='center', arrowprops={'arrowstyle': '-', 'color': style.FACE})
     force.set_ylim(-4.2, 19)

@@ -34,13 +34,13 @@ def draw_panel(axes, title, tips, swept):
         style.arrow(axes, START + [8, -2], END - [8, 2], style.GUIDE)
         for fraction in (0.25, 0.5, 0.75):
             style.label(axes, START + fraction * (END - START) + [0, -5.5], f'{fraction}', style.GUIDE,
-                        ha='center', fontsize=8)
+                        ha='center')
     axes.set_xlim(-52, 52)
     axes.set_ylim(-24, 78)
 
 
 def draw():
-    figure, (static, swept) = style.panels(2, 9.5, 4.8)
+    figure, (static, swept) = style.panels(2, 4.2)
     draw_panel(static, 'Static: where the tool is now', [END], False)
     draw_panel(swept, 'Swept: all that it passed, fraction 0 to 1',
                [START + t * (END - START) for t in np.linspace(0, 1, 501)], True)

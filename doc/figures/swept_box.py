@@ -36,7 +36,7 @@ def draw_box(axes):
     middle = START[0] + 0.5 * (END[0] - START[0])
     for i in range(2):
         style.arrow(axes, middle, middle + 0.55 * half_way[:, i], style.BOUND)
-    style.label(axes, middle + 0.62 * half_way[:, 0] - [0, 0.12], 'axes half way', style.BOUND)
+    style.label(axes, middle + 0.62 * half_way[:, 0] - [0.3, 0.42], 'axes half way', style.BOUND)
     style.label(axes, START[0] - [0.8, 0.07], 'start', style.TOOL)
     style.label(axes, END[0] + [-0.65, -0.45], 'end', style.TOOL)
     for face, line in ((FACE_START, '-'), (FACE_END, '--')):
@@ -66,11 +66,11 @@ def draw_gap(axes):
     axes.set_xlabel('time of the leg')
     axes.set_ylabel('gap along one axis [m]')
     axes.set_title('Why two values bound the gap', color=style.TEXT)
-    axes.legend(frameon=False, fontsize=8)
+    axes.legend(frameon=False)
 
 
 def draw():
-    figure, (box, gaps) = style.panels(2, 10, 4.2, [1.15, 1])
+    figure, (box, gaps) = style.panels(2, 3.7, [1.15, 1])
     draw_box(box)
     draw_gap(gaps)
     return figure

@@ -27,7 +27,7 @@ def bar(axes, start, end, width, color=style.TOOL):
 
 
 def draw_known(axes, place, text):
-    style.label(axes, place, text, ha='center', va='top', fontsize=8.5)
+    style.label(axes, place, text, ha='center', va='top')
 
 
 def draw_shaft_by_tf(axes):
@@ -36,8 +36,8 @@ def draw_shaft_by_tf(axes):
     bar(axes, trocar, tip, 0.3)
     draw_frame(axes, trocar, 20, 'trocar_frame', [-0.2, 0.2], ha='right')
     draw_frame(axes, tip, -35, 'tip_frame', [-0.2, -0.15], ha='right', va='top')
-    draw_known(axes, [0.6, -0.9], 'TF places both. Only their origins\ncount, not their axes')
-    axes.set_xlim(-2.0, 2.9)
+    draw_known(axes, [0.6, -0.9], 'TF places both. Only their\norigins count, not their axes')
+    axes.set_xlim(-2.6, 3.4)
     axes.set_ylim(-2.3, 5.2)
 
 
@@ -64,7 +64,7 @@ def draw_links(axes):
     bar(axes, first, wrist, 0.5)
     for jaw in jaws:
         bar(axes, wrist, jaw, 0.22)
-    draw_frame(axes, base, 10, 'frame of the poses', [-0.1, 0.75], ha='left')
+    draw_frame(axes, base, 10, 'frame of the poses', [0.75, 0.0], va='center')
     draw_frame(axes, first, -50, 'stylus_body = first of `links`\n= tip_frame, if you name no other',
                [0.45, 0.35], style.TOOL)
     draw_frame(axes, wrist, -35, 'left and right jaw:\nTF places them below\nthe first link',
@@ -72,15 +72,15 @@ def draw_links(axes):
     axes.annotate('', first + [-0.08, 0.08], base + [0.1, -0.05],
                   arrowprops={'arrowstyle': '-|>', 'color': style.TOOL, 'lw': 1.5,
                               'connectionstyle': 'arc3,rad=0.3'})
-    style.label(axes, [-2.6, 2.5], 'message on\ntip_pose_topic', style.TOOL)
+    style.label(axes, [-1.7, 2.35], 'message on\ntip_pose_topic', style.TOOL, ha='right')
     draw_known(axes, [0.6, -1.15], 'The message places one frame: the origin and\nthe axes of tip_frame. '
                'All other links hang on it')
-    axes.set_xlim(-2.9, 5.0)
-    axes.set_ylim(-2.3, 5.2)
+    axes.set_xlim(-4.4, 6.8)
+    axes.set_ylim(-2.1, 5.2)
 
 
 def draw():
-    figure, (by_tf, by_poses, links) = style.panels(3, 12, 4.3, [0.75, 0.95, 1.1])
+    figure, (by_tf, by_poses, links) = style.two_and_one(6.6, (1, 0.95))
     draw_shaft_by_tf(by_tf)
     draw_shaft_by_poses(by_poses)
     draw_links(links)

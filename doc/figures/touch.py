@@ -20,7 +20,7 @@ def draw_contact(axes):
     draw_shaft(axes, trocar, tip)
     draw_faces(axes, SHEET, touched_faces(trocar, tip))
     on_axis, point, normal, depth = contact(trocar, tip, SHEET[2:4])
-    style.label(axes, trocar + [4.5, 0], 'trocar', style.TOOL, va='center')
+    style.label(axes, trocar + [6.5, 0], 'trocar', style.TOOL, va='center')
     style.label(axes, tip + [6.0, 2.0], 'tip: the place on\nthe axis nearest the face', style.TOOL,
                 va='bottom')
     across = RADIUS * np.array([-39.0, -9.0]) / np.hypot(39, 9)
@@ -32,11 +32,11 @@ def draw_contact(axes):
     style.arrow(axes, point, point + 13 * normal, style.BOUND, width=1.6)
     style.label(axes, point + [1.5, -11], 'normal: from the axis to the point.\n'
                 'The tissue must go along it', style.BOUND)
-    style.label(axes, [-31, 2.0], 'the point: the place\non the face nearest\nthe axis', va='bottom')
-    style.arrow(axes, [-15, 5.5], point + [-0.6, 0.3], style.GUIDE, width=0.8)
+    style.label(axes, [-31, 4.5], 'the point: the place\non the face nearest\nthe axis', va='bottom')
+    style.arrow(axes, [-20, 4], point + [-0.9, 0.3], style.GUIDE, width=0.8)
     lowest = tip - [0, RADIUS]
     axes.plot([-13, 0], [lowest[1]] * 2, ':', color=style.GUIDE, lw=1)
-    measure(axes, [-11, 0], [-11, lowest[1]], f'depth\n{depth:.0f} mm', [-1, -3.2], ha='right')
+    measure(axes, [-11, 0], [-11, lowest[1]], f'depth\n{depth:.0f} mm', [-1, -5.6], ha='right')
     axes.set_xlim(-32, 32)
     axes.set_ylim(-16, 48)
 
@@ -79,12 +79,12 @@ def draw_behind(axes):
     style.label(axes, [24, -5], 'inside', style.FACE)
     style.label(axes, tip + [-6, -8], 'the nearest place on the axis\nis on the inner side', style.TOOL,
                 ha='center', va='top')
-    axes.set_xlim(-52, 44)
-    axes.set_ylim(-26, 44)
+    axes.set_xlim(-62, 54)
+    axes.set_ylim(-16, 24)
 
 
 def draw():
-    figure, (ordinary, pierced, behind) = style.panels(3, 14, 4.8, [1, 1, 1.2])
+    figure, (ordinary, pierced, behind) = style.two_and_one(6.4, (1, 0.62))
     draw_contact(ordinary)
     draw_pierced(pierced)
     draw_behind(behind)

@@ -52,17 +52,17 @@ def draw_top(axes):
     outward = unit(np.array([END[1], -END[0]]))
     style.arrow(axes, middle, middle + RADIUS * outward, style.BOUND)
     style.label(axes, middle + RADIUS * outward + [0.04, -0.05], 's', style.BOUND)
-    for place, text, shift in ((trocar, '$P_0$', (0.03, 0.06)), (START, 'P', (0.02, -0.13)),
+    for place, text, shift in ((trocar, 'P₀', (0.03, 0.06)), (START, 'P', (0.02, -0.13)),
                                (END, "P'", (-0.13, -0.13)), (eye, 'eye E', (0.05, -0.03))):
         axes.plot(*place, 'o', color=style.TEXT, ms=4)
         style.label(axes, place + np.array(shift), text)
-    style.label(axes, (-1.12, 0.1), 'dashed: the 1999 volume.\nIts sides are moved by\n'
+    style.label(axes, (-1.6, 0.1), 'dashed: the 1999 volume.\nIts sides are moved by\n'
                 "s along PP', and it ends\nflat at PP'.", style.FACE)
     style.label(axes, (0.55, 0.15), 'solid: the conservative\nwedge, moved by s\nat right angles',
                 style.BOUND)
     style.label(axes, (0.1, START[1] + RADIUS + 0.04), 'far', style.BOUND)
     style.label(axes, (eye[0] + right * near + 0.04, -RADIUS - 0.06), 'near', style.BOUND)
-    axes.set_xlim(-1.15, 1.5)
+    axes.set_xlim(-1.6, 1.5)
 
 
 def draw_side(axes):
@@ -79,13 +79,13 @@ def draw_side(axes):
     axes.plot([0, 0], [0, START[1]], color=style.TOOL, lw=1.6)
     axes.plot(0, eye[1], 'o', color=style.TEXT, ms=4)
     style.label(axes, (0.05, eye[1] - 0.05), 'E')
-    style.label(axes, (RADIUS + 0.05, 0.35), 'user planes\ny = ±s', style.BOUND)
-    style.label(axes, (0.45, 0.95), "the frustum's own\ntop and bottom", style.GUIDE)
+    style.label(axes, (RADIUS + 0.06, 0.72), 'user planes\ny = ±s', style.BOUND)
+    style.label(axes, (RADIUS + 0.06, 1.05), "the frustum's\nown top\nand bottom", style.GUIDE)
     axes.set_xlim(-0.75, 1.15)
 
 
 def draw():
-    figure, (top, side) = style.panels(2, 10, 5.2, [1.5, 1])
+    figure, (top, side) = style.panels(2, 4.4, [1.5, 1])
     draw_top(top)
     draw_side(side)
     return figure

@@ -42,7 +42,7 @@ def draw_behind(axes):
         normal = np.array([way[1], -way[0]]) / np.linalg.norm(way)
         style.arrow(axes, 0.5 * (a + b), 0.5 * (a + b) + 0.28 * normal, style.BOUND)
     style.label(axes, (0, 0.25), 'inner side of the organ', style.FACE, ha='center')
-    for place, text in (((-1.2, 1.75), 'behind = false'), ((0.35, 0.85), 'behind = true')):
+    for place, text in (((-1.2, 1.75), 'behind = false'), ((-0.6, 0.75), 'behind = true')):
         axes.plot(*place, 'o', color=style.TOOL, ms=6)
         style.label(axes, np.array(place) + [0.12, -0.05], text, style.TOOL)
     style.label(axes, (0, -0.35), 'dots: axis(shaft), the place on the tool nearest to the point',
@@ -51,7 +51,7 @@ def draw_behind(axes):
 
 
 def draw():
-    figure, (face, behind) = style.panels(2, 9.5, 3.2)
+    figure, (face, behind) = style.panels(2, 2.8)
     draw_face(face)
     draw_behind(behind)
     return figure

@@ -70,16 +70,16 @@ def draw_tool(axes):
     for i in range(4):
         style.label(axes, 0.5 * (way[i] + way[i + 1]) + [0, 0.13], f'leg {i + 1}', ha='center')
     style.arrow(axes, way[0] - [0, 0.75], [way[3][0], -0.75], style.BOUND, '|-|')
-    style.label(axes, (2.2, -1.1), 'span: legs 1 to 3 stay near one chord', style.BOUND,
+    style.label(axes, (2.2, -1.5), 'span: legs 1 to 3 stay near one chord', style.BOUND,
                 ha='center')
-    style.arrow(axes, way[0] - [0, 1.5], [way[-1][0], -1.5], style.TEXT, '|-|')
-    style.label(axes, (3.1, -1.9), 'step: fraction 0 to 1; dots are waypoints', ha='center')
+    style.arrow(axes, way[0] - [0, 2.1], [way[-1][0], -2.1], style.TEXT, '|-|')
+    style.label(axes, (3.1, -2.9), 'step: fraction 0 to 1; dots are waypoints', ha='center')
     axes.set_xlim(-0.8, 7.4)
-    axes.set_ylim(-2.2, 4.6)
+    axes.set_ylim(-3.0, 4.6)
 
 
 def draw():
-    figure, (organ, tool) = style.panels(2, 11, 4.4, [1.15, 1])
+    figure, (organ, tool) = style.panels(2, 3.7, [1.2, 1])
     draw_organ(organ)
     draw_tool(tool)
     return figure

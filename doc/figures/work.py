@@ -8,7 +8,7 @@ STEPS_FOR_EACH_PAIR, LEAST_PAIRS, MOST_PAIRS = 2, 1e5, 1e7
 
 
 def draw():
-    figure, (axes,) = style.panels(1, 7.5, 3.6)
+    figure, (axes,) = style.panels(1, 3.6)
     pairs = np.logspace(2, 9, 300)
     axes.loglog(pairs, STEPS_FOR_EACH_PAIR * np.clip(pairs, LEAST_PAIRS, MOST_PAIRS),
                 color=style.BOUND, lw=2)
@@ -24,6 +24,8 @@ def draw():
     seconds = axes.secondary_yaxis('right', functions=(lambda x: x * 1e-7, lambda x: x / 1e-7))
     seconds.set_ylabel('time at 0.1 µs for each step [s]')
     seconds.spines['right'].set_visible(True)
+    for axis in (axes.xaxis, axes.yaxis, seconds.yaxis):
+        axis.set_major_formatter(style.power_of_ten)
     axes.set_xlabel('pairs of a face and a convex part, summed over the legs')
     axes.set_ylabel('steps allowed')
     axes.set_ylim(5e4, 6e7)

@@ -2,7 +2,6 @@
 /// list of faces for each pair of organ and tool.
 
 #include <diagnostic_msgs/DiagnosticArray.h>
-#include <dynamic_reconfigure/Reconfigure.h>
 #include <geometry_msgs/WrenchStamped.h>
 #include <organ_collision/ContactArray.h>
 #include <organ_collision/ForceState.h>
@@ -32,29 +31,33 @@ constexpr char kFaces[] = "faces", kState[] = "state";
 // [messages] Late forces would be wrong, so only a few messages may wait, for all organs and tools.
 constexpr std::uint32_t kQueue = 20;
 
-/// What --help says. doc/forces.md explains the same names at length; a test compares both.
+/// scripts/make_reference makes doc/reference/nodes.md of it, and a test compares both.
 ProgramHelp contact_adapter_help() {
   const std::string pair = "~ORGAN/TOOL";
-  ProgramHelp help{kProgram,
-                   "Turns the contacts of the collision node into a wrench, forces on vertices and "
-                   "a list of faces for each organ and tool. max_force limits the force."};
+  ProgramHelp help{
+      kProgram,
+      "Turns the contacts of the collision node into a wrench, forces on vertices and a list of "
+      "faces for each organ and tool. max_force limits the force. The topics of an organ and a "
+      "tool appear with the first answer about them. " +
+          std::string(kPairNamesHelp)};
   help.subscribed = {{ros::names::append(names::kNode, names::kContacts),
                       message_type<ContactArray>(),
-                      "remap it if the collision node has another name"}};
+                      "the contacts. Remap it if the collision node has another name"}};
   help.published = {
       {ros::names::append(pair, names::kWrench), message_type<geometry_msgs::WrenchStamped>(),
-       "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m]"},
+       "force of the tissue on the tool [N], torque about the origin of the organ's frame [N m], "
+       "with the frame and stamp of the contacts. Zero if nothing is touched"},
       {ros::names::append(pair, names::kVertexForces), message_type<VertexForces>(),
        "forces of the tool on the tissue's vertices [N]; together, minus the wrench"},
       {ros::names::append(pair, kState), message_type<ForceState>(),
-       "whether there is a force, and why not"},
+       "for each answer of the collision node: whether there is a wrench, and why not, or what the "
+       "force may lack"},
       {ros::names::append(pair, kFaces), message_type<std_msgs::UInt32MultiArray>(),
-       "the numbers of the touched faces"},
+       "the numbers of the touched faces, ascending, each once"},
       {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
        "number of messages, of those without output by reason, of clipped forces"}};
-  help.services = {{"set_parameters", service_type<dynamic_reconfigure::Reconfigure>(),
-                    "changes stiffness and max_force while the node runs, as dynparam and "
-                    "rqt_reconfigure do"}};
+  help.services = {LiveParameters::help()};
+  help.services[0].name = "~" + help.services[0].name;
   help.parameters = parameter_help<ContactAdapterParameters>();
   help.further =
       "roslaunch organ_collision contact_adapter.launch starts it. doc/forces.md explains the law "

@@ -22,10 +22,12 @@ inline ParameterTable table_of(ContactAdapterParameters& p) {
   t.number(names::kStiffness, p.stiffness, kStiffnesses, "[N/m] force for each metre of depth")
       .live();
   t.number(names::kMaxForce, p.max_force, kForces,
-           "[N] larger forces are clipped to it; .inf: no limit")
+           "[N] larger forces are clipped to it, and their torques are scaled with them; "
+           "/diagnostics counts them. .inf: no limit")
       .live();
   t.flag("way_out", p.way_out,
-         "pushes a tool that is wholly inside along the nearest way out; needs the tool's margin");
+         "true: a tool that is wholly inside an organ is pushed along the nearest way out, which "
+         "needs the tool's margin. false: for hollow organs that tools work in");
   t.number("diagnostic_period_sec", p.diagnostic_period_sec, kTimerPeriod,
            "[s] between messages on /diagnostics");
   return t;

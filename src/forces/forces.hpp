@@ -71,6 +71,12 @@ VertexForces vertex_forces(const ContactArray& contacts, const std::vector<FaceF
 /// digits and `_`. A name that does not begin with a letter is prefixed with "tool_".
 std::string tool_graph_name(const std::string& tool);
 
+/// What --help says of these names.
+inline constexpr char kPairNamesHelp[] =
+    "TOOL and ORGAN are the names of a tool and an organ, in which _ replaces each character that "
+    "is no letter, digit or _. A name that does not begin with a letter gets the prefix tool_ or "
+    "organ_.";
+
 /// Gives each pair of organ and tool its name in the ROS graph.
 class PairNames {
  public:

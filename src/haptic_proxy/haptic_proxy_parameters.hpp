@@ -69,32 +69,36 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
                                "in letters or digits");
         }
       },
-      "list of tools, as organ_collision_node has it. Each may have freedom: trocar or free");
+      "list of tools, with the keys below");
   t.other(
       "frame", "the first organ's",
       [&p](const ParameterGroup& all) {
         if (all.has("frame")) p.frame = all.frame("frame");
       },
-      "TF frame in which proxies move and forces are given");
+      "TF frame in which proxies move and forces are given. If its organ is removed, that of "
+      "another one is chosen, and proxies are placed anew");
   t.number(names::kStiffness, p.stiffness, kStiffnesses,
            "[N/m] force for each metre between hand and proxy")
       .live();
-  t.number("damping", p.damping, {0.0, 1000.0},
-           "[N s/m] on the hand's velocity relative to the proxy, while the proxy is held back")
+  t.number(
+       "damping", p.damping, {0.0, 1000.0},
+       "[N s/m] on the hand's velocity relative to the proxy's, after a low-pass of 2 ms, while "
+       "the proxy is held back. The force is never larger than the spring's")
       .live();
   t.number(
        names::kMaxForce, p.max_force, kForces,
-       "[N] larger forces are clipped to it, and the torque shrinks by the same factor; .inf: no "
-       "limit")
+       "[N] larger forces are clipped to it. The torque and the forces on vertices shrink by the "
+       "same factor. .inf: no limit")
+      .live();
+  t.number(names::kMaxTorque, p.max_torque, {0.0, 1000.0, false, true},
+           "[N m] larger torques on a free tool, about its centre, are clipped to it. The force "
+           "and the forces on vertices shrink by the same factor. .inf: no limit")
       .live();
   t.number(
-       names::kMaxTorque, p.max_torque, {0.0, 1000.0, false, true},
-       "[N m] larger torques on a free tool, about its centre, are clipped to it, and the force "
-       "shrinks by the same factor; .inf: no limit")
-      .live();
-  t.number("max_force_rate", p.max_force_rate, {0.0, 1e6, true, false, 10.0},
-           "[N/s] the force changes by no more than this; 0: from 0 to max_force in 10 ms, and 300 "
-           "N/s if max_force is .inf")
+       "max_force_rate", p.max_force_rate, {0.0, 1e6, true, false, 10.0},
+       "[N/s] the force changes by no more than this, in every state and event; so does the "
+       "torque of a free tool, divided by the tool's size. 0: from 0 to max_force in 10 ms, and "
+       "300 N/s if max_force is .inf")
       .live();
   t.number("clearance", p.clearance, {0.0, 0.1, false}, "[m] the proxy stops this far from tissue")
       .live();
@@ -108,17 +112,20 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
            "[N] along the axis of a shaft that has pierced tissue")
       .live();
   t.number("pose_timeout_sec", p.pose_timeout_sec, kTimerPeriod,
-           "[s] of wall time after the last pose of the hand, the force fades");
+           "[s] of wall time after the last pose of the hand, the force fades. Raise it for poses "
+           "slower than 100 Hz");
   t.number(names::kMeshTimeoutSec, p.mesh_timeout_sec, kNotNegative,
-           "[s] with an older mesh, or an older frame of an organ, there is no answer; 0: never");
+           "[s] if the mesh of any organ is older than this, or its frame on TF, there is no "
+           "answer. 0: never");
   t.number(names::kFrameTimeoutSec, p.frame_timeout_sec, kNotNegative,
-           "[s] with an older frame of an organ on TF there is no answer; static frames have no "
-           "age; 0: never");
+           "[s] if TF has no newer transform than this between an organ's frame and that of the "
+           "proxies or the hand, there is no answer. Static transforms have no age. 0: never");
   add_picker(t, p.picker);
   add_limits(t, p);
   t.flag(
       "organ_interpolation", p.organ_interpolation,
-      "true: organs move from shape to shape, one period late; false: they jump to each new shape");
+      "true: an organ moves from shape to shape, one period late, at most 0.1 s. false: it jumps "
+      "to each new shape, as organs of more than 50000 vertices do");
   t.flag("publish_tf", p.publish_tf, "false: no frames TOOL_proxy on /tf");
   add_marker_rates(t, p.markers);
   add_realtime(t, p.realtime, "the thread of the ticks runs");

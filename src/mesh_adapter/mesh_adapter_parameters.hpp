@@ -82,13 +82,14 @@ inline ParameterTable table_of(MeshAdapterParameters& p) {
   ParameterTable t;
   t.other(
       "organs", "required", [&p](const ParameterGroup& all) { parse_organs(all, p); },
-      "list of organs. Each has name and topic and, if needed, frame and vertices_topic");
+      "list of organs. Each has name and topic and, if needed, vertices_topic, and frame, which "
+      "replaces the frame that the messages name");
   t.other(
       "collision_node", p.collision_node,
       [&p](const ParameterGroup& all) {
         if (all.has("collision_node")) p.collision_node = graph_name(all, "collision_node");
       },
-      "the collision node, which gets the organs");
+      "name of the collision node, which gets the organs; resolved in the adapter's namespace");
   t.number("diagnostic_period_sec", p.diagnostic_period_sec, kTimerPeriod,
            "[s] between messages on /diagnostics");
   return t;

@@ -28,27 +28,36 @@ constexpr std::uint32_t kSurfaceQueue = 10;
 /// [messages] Only the newest vertices count.
 constexpr std::uint32_t kVerticesQueue = 1;
 
-/// What --help says. doc/meshes.md explains the same names at length; a test compares both.
+/// scripts/make_reference makes doc/reference/nodes.md of it, and a test compares both.
 ProgramHelp mesh_adapter_help() {
-  ProgramHelp help{kProgram,
-                   "Turns meshes of other message types into organs of the collision node."};
+  ProgramHelp help{
+      kProgram,
+      "Turns meshes of other message types into organs of the collision node. A message that "
+      "cannot be read leaves the organ as it was. An empty mesh removes it."};
   help.subscribed = {
       {names::kTopic, message_type<shape_msgs::Mesh>(),
-       "of each organ; has no header: needs frame"},
-      {names::kTopic, message_type<pcl_msgs::PolygonMesh>(), "of each organ; polygons become fans"},
-      {names::kTopic, message_type<visualization_msgs::Marker>(), "of each organ; a TRIANGLE_LIST"},
+       "of each organ; has no header, so frame is needed"},
+      {names::kTopic, message_type<pcl_msgs::PolygonMesh>(),
+       "of each organ; a polygon of n corners becomes n - 2 faces, a fan around its first corner"},
+      {names::kTopic, message_type<visualization_msgs::Marker>(),
+       "of each organ; a TRIANGLE_LIST, placed by its scale and pose. The first marker is "
+       "the organ, until DELETE or DELETEALL; other types, namespaces and ids are refused"},
       {names::kVerticesTopic, message_type<sensor_msgs::PointCloud2>(),
-       "of each organ that names it: as many points as the mesh has vertices"}};
-  help.published = {{ros::names::append(names::kNode, names::kOrganMesh), message_type<OrganMesh>(),
-                     "surfaces with new triangles"},
-                    {ros::names::append(names::kNode, names::kOrganVertices),
-                     message_type<OrganVertices>(), "surfaces with known triangles"},
-                    {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
-                     "messages of each organ: received, converted, refused by reason, age"}};
+       "of each organ that names it; as many points as the mesh has vertices, in the same order; "
+       "x, y and z as float32 or float64"}};
+  help.published = {
+      {ros::names::append(names::kNode, names::kOrganMesh), message_type<OrganMesh>(),
+       "surfaces with new triangles. The parameter collision_node replaces organ_collision; the "
+       "topic can also be remapped"},
+      {ros::names::append(names::kNode, names::kOrganVertices), message_type<OrganVertices>(),
+       "surfaces with triangles that the collision node already has"},
+      {"/diagnostics", message_type<diagnostic_msgs::DiagnosticArray>(),
+       "messages of each organ: received, converted, refused by reason, and the time since the "
+       "last one was converted [s]"}};
   help.parameters = parameter_help<MeshAdapterParameters>();
   help.further =
       "roslaunch organ_collision organ_mesh_adapter.launch organs:=FILE.yaml starts it. "
-      "doc/meshes.md explains all of this.";
+      "doc/meshes.md shows an example.";
   return help;
 }
 

@@ -24,8 +24,9 @@ sys.path.append(os.path.join(SOURCE, 'test', 'rostest'))
 from support.processes import OwnMaster  # noqa: E402
 
 # Each page, and what the reader has already started.
-PAGES = {'README.md': [], 'doc/getting_started.md': [], 'doc/tools.md': [], 'doc/offline.md': [],
-         'doc/troubleshooting.md': ['roslaunch organ_collision start.launch']}
+START = ['roslaunch organ_collision start.launch']
+PAGES = {'README.md': [], 'doc/getting_started.md': [], 'doc/tools.md': [], 'doc/offline.md': [], 'doc/forces.md': [],
+         'doc/interface.md': START, 'doc/troubleshooting.md': START}
 LIMIT = 60.0  # [s]
 ORGAN = """v -0.05 -0.05 0
 v 0.05 -0.05 0
@@ -34,6 +35,7 @@ v -0.05 0.05 0
 f 1 2 3
 f 1 3 4
 """
+TOOLS = '{tools: [{name: hook, trocar_frame: hook_trocar, tip_frame: hook_tip, radius: 0.005}]}\n'
 MOTIONS = '1,swept,0,0,0.1,-0.02,0,0.03,0.02,0,0.003,0.005\n'
 
 
@@ -127,7 +129,7 @@ class CommandsTest(unittest.TestCase):
     def test_commands_of_the_pages(self):
         for page, started in PAGES.items():
             with self.subTest(page=page), tempfile.TemporaryDirectory(prefix='organ_collision_') as folder:
-                for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS)):
+                for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS), ('tools.yaml', TOOLS)):
                     with open(os.path.join(folder, name), 'w') as file:
                         file.write(content)
                 found = list(commands(page))

@@ -55,7 +55,7 @@ class HtmlTest(unittest.TestCase):
         self.assertIn(section, self.pages[os.path.join(HTML, 'index.html')].text)
 
     def test_each_page_and_public_class_is_there(self):
-        written = glob.glob(os.path.join(SOURCE, 'doc', '*.md'))
+        written = glob.glob(os.path.join(SOURCE, 'doc', '**', '*.md'), recursive=True)
         self.assertGreater(len(written), 5)
         for path in written:
             with open(path, encoding='utf-8') as page:

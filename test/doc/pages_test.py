@@ -18,8 +18,8 @@ FOLDERS = '(?:%s)/' % '|'.join(['benchmark', 'doc', 'examples', 'include', 'msg'
 SHOWN = {'cpp': '.cpp', 'python': '.py', 'xml': '.launch', 'yaml': '.yaml', 'cmake': '.txt'}
 SHOWN_FOLDERS = ('examples', 'config', 'launch', 'test/install/consumer')
 # The pages that explain the names of the interface.
-INTERFACE_PAGES = ('doc/interface.md', 'doc/tools.md', 'doc/meshes.md', 'doc/forces.md')
-FRONT_PAGE_LINES = 150
+INTERFACE_PAGES = ('doc/interface.md', 'doc/reference/nodes.md')
+INDEX, FRONT_PAGE_LINES = 'doc/README.md', 100
 SHORTEST_FRAGMENT = 10  # [characters] fixed text of a log line by which one can search the page
 LITERALS = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # adjacent string literals are one
 
@@ -33,8 +33,9 @@ def found(*pattern):
     return [os.path.relpath(path, SOURCE) for path in glob.glob(os.path.join(SOURCE, *pattern), recursive=True)]
 
 
-PAGES = {path: read(path) for path in sorted(found('*.md') + found('doc', '*.md'))}
-GEOMETRY, README, TROUBLESHOOTING = (PAGES[name] for name in ('doc/geometry.md', 'README.md', 'doc/troubleshooting.md'))
+PAGES = {path: read(path) for path in sorted(found('*.md') + found('doc', '**', '*.md'))}
+GEOMETRY, README, TROUBLESHOOTING = (PAGES[name] for name in ('doc/theory/geometry.md', 'README.md',
+                                                              'doc/troubleshooting.md'))
 
 
 def without_indent(text):
@@ -57,12 +58,12 @@ def spans(text):
 
 
 def references():
-    """All (file, text after "doc/geometry.md, ") in the code, with line breaks removed."""
+    """All (file, text after "doc/theory/geometry.md, ") in the code, with line breaks removed."""
     for folder in CODE:
         for path in found(folder, '**', '*.*'):
             if path.endswith(('.cpp', '.hpp', '.py', '.msg', '.srv')) and path != os.path.relpath(__file__, SOURCE):
                 text = re.sub(r'\s*\n\s*(?:///?<?|#|\*)?\s*', ' ', read(path))
-                for reference in re.finditer(r'doc/geometry\.md, (.{1,60})', text):
+                for reference in re.finditer(r'doc/theory/geometry\.md, (.{1,60})', text):
                     yield path, reference.group(1)
 
 
@@ -116,9 +117,11 @@ class PagesTest(unittest.TestCase):
                     if anchor:
                         self.assertIn(anchor, anchors(path), '%s leads to %s' % (page, target))
 
-    def test_readme_is_a_front_page_and_leads_to_each_other(self):
+    def test_readme_is_a_front_page_and_each_page_is_two_links_away(self):
         self.assertLessEqual(len(README.splitlines()), FRONT_PAGE_LINES)
-        self.assertEqual([page for page in PAGES if page.startswith('doc/') and '(%s)' % page not in README], [])
+        self.assertIn('(%s)' % INDEX, README)
+        self.assertEqual([page for page in PAGES if page not in (INDEX, 'README.md')
+                          and '(%s)' % os.path.relpath(page, os.path.dirname(INDEX)) not in PAGES[INDEX]], [])
 
     def test_each_figure_is_shown_and_drawn(self):
         drawn, shown = read('doc/figures/draw.py'), ''.join(PAGES.values())
@@ -133,7 +136,7 @@ class PagesTest(unittest.TestCase):
         parts = re.split(r'^## (.+)$', GEOMETRY, flags=re.M)[1:]
         self.assertGreater(len(parts), 20)
         for name, text in zip(parts[::2], parts[1::2]):
-            self.assertTrue('](figures/' in text or name == 'Sources', name)
+            self.assertTrue('](../figures/' in text or name == 'Sources', name)
         names = re.findall(r'^#{2,} (.+)$', GEOMETRY, re.M)
         self.assertEqual([(path, reference) for path, reference in references()
                           if not any(reference.startswith(name) for name in names)], [])

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs the Debian packages into this system and uses them as users would. It is run by hand, as root, in a bare
-# Debian 12 without other ROS programs; doc/platforms.md shows how. It changes the system.
+# Debian 12 or 13 without other ROS programs; doc/install.md shows how. It changes the system.
 set -euo pipefail
 
 if [ $# != 1 ] || [ ! -d "$1" ]; then

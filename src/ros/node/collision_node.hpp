@@ -14,8 +14,8 @@
 namespace organ_collision {
 
 /// The node. It connects the topics with the pipeline, and the pipeline with the publishers
-/// (doc/architecture.md). The thread that runs it owns all state (node_core.hpp). Work that no step
-/// may wait for has threads of its own (doc/architecture.md).
+/// (doc/theory/architecture.md). The thread that runs it owns all state (node_core.hpp). Work that
+/// no step may wait for has threads of its own (doc/theory/architecture.md).
 class CollisionNode {
  public:
   /// Throws ParameterError and GlError. The same thread must call run().

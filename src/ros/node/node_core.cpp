@@ -1,6 +1,12 @@
 #include "node_core.hpp"
 
+#include <geometry_msgs/PoseStamped.h>
+#include <organ_collision/ListOrgans.h>
+#include <organ_collision/OrganMesh.h>
+#include <organ_collision/OrganVertices.h>
+#include <organ_collision/RemoveOrgan.h>
 #include <ros/console.h>
+#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <chrono>
@@ -62,6 +68,37 @@ bool MessageLoop::call_one(ros::WallDuration wait) {
 void MessageLoop::end() {
   queue_.disable();
   queue_.clear();
+}
+
+ProgramHelp organ_node_help(const std::string& program, const std::string& purpose,
+                            const std::string& reset) {
+  ProgramHelp help{program, purpose};
+  help.subscribed = {
+      {names::kOrganMesh, message_type<OrganMesh>(),
+       "the surface of an organ: send it when the organ appears and whenever its triangles change, "
+       "latched if possible. A mesh without vertices and triangles removes the organ"},
+      {names::kOrganVertices, message_type<OrganVertices>(),
+       "the new shape of an organ. If several wait, only the newest one counts"},
+      {"/tf, /tf_static", message_type<tf2_msgs::TFMessage>(), "where the tools and organs are"},
+      {"as each tool names it", message_type<geometry_msgs::PoseStamped>(),
+       "where the tool's tip is (tip_pose_topic), or the frame of its poses (base_pose_topic)"}};
+  help.services = {
+      {names::kListOrgans, service_type<ListOrgans>(),
+       "all organs that have a mesh, sorted by name: frame, topology, numbers of faces and "
+       "vertices, closed or not, and box, volume and stamp of the latest shape. Waits until a new "
+       "mesh is inspected; steps do not wait for it"},
+      {names::kRemoveOrgan, service_type<RemoveOrgan>(),
+       "removes an organ, as a mesh without vertices and triangles does. If there is no such "
+       "organ, success is false, and message says why"},
+      {names::kListTools, service_type<ListTools>(),
+       "all tools as they were loaded: frames, links, radius, and why one cannot be used"},
+      {names::kReset, service_type<std_srvs::Empty>(), reset},
+      {names::kReloadTools, service_type<std_srvs::Trigger>(),
+       "reads the parameter tools again, and the robots' files. Unchanged tools go on as "
+       "before. If the list is illegal or a new tool cannot be loaded, nothing changes"},
+      LiveParameters::help()};
+  help.tool_keys = tool_keys();
+  return help;
 }
 
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt) {

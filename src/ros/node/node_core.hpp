@@ -63,6 +63,11 @@ class MessageLoop {
   SteadyTime heard_until_;
 };
 
+/// What --help says of a node with organs, without its own topics, services and parameters.
+/// `reset`: what its service `reset` does.
+ProgramHelp organ_node_help(const std::string& program, const std::string& purpose,
+                            const std::string& reset);
+
 /// Logs what is doubtful about the parameters of a node: unknown names, tools that do not work, and
 /// implausible sizes.
 void warn_of_settings(const std::vector<Tool>& tools, const std::vector<std::string>& misspelt);

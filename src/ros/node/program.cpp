@@ -54,13 +54,16 @@ constexpr char kNotListed[] =
     "the ROS master does not list this node any more, as after a restart of the master: new nodes "
     "cannot connect to it. Restart the node";
 
+constexpr char kParameters[] =
+    "Parameters, private (~), with default and legal values; live: can change while the node runs";
+constexpr char kToolKeys[] =
+    "Keys of an entry of ~tools, with the tools that have them, and their defaults";
+
 std::string help_text(const ProgramHelp& help) {
   return "Usage: rosrun organ_collision " + help.program + " [NAME:=VALUE ...]\n\n" +
          wrapped(help.purpose, "") + section("Subscribed topics", help.subscribed) +
          section("Published topics", help.published) + section("Services", help.services) +
-         section("Parameters, private (~), with their defaults", help.parameters) +
-         section("Keys of an entry of ~tools, with the tools that have them, and their defaults",
-                 help.tool_keys) +
+         section(kParameters, help.parameters) + section(kToolKeys, help.tool_keys) +
          (help.further.empty() ? "" : "\n" + wrapped(help.further, ""));
 }
 

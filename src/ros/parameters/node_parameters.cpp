@@ -211,41 +211,52 @@ std::vector<ToolParameters> parse_tools(const ParameterGroup& all,
 ParameterTable table_of(NodeParameters& p) {
   ParameterTable t;
   add_tools(t, p,
-            "list of tools. A shaft has name, trocar_frame, tip_frame or tip_pose_topic, and "
-            "radius [m]. A robot's tool has name and links. Each may have margin [m] and max_near");
+            "list of tools, with the keys below. []: the node publishes no contacts, and answers "
+            "queries that give a motion");
   add_picker(t, p.picker);
   t.number("rate", p.rate_hz, kRates,
-           "[Hz] the node also evaluates at this rate; 0: only at new shapes and pose messages")
+           "[Hz] the node also evaluates at this rate. 0: only at each new shape, and at each pose "
+           "that arrives as a message")
       .live();
   t.flag("organ_motion", p.organ_motion,
-         "true: during a step, organs move to their new shape; false: they rest in it");
+         "true: during a step, an organ moves from its previous shape to the new one. false: it "
+         "rests in the new shape");
   t.number("motion_sample_sec", p.motion_sample_sec, kPositive,
-           "[s] interval at which TF is sampled where its transforms are farther apart");
-  t.number("motion_samples_max", p.motion_samples_max, {1, 100'000},
-           "largest number of legs of a tool's path in a step");
+           "[s] the path of a tool goes through every pose in TF. Where these are farther apart "
+           "than this, TF's interpolation is sampled at this interval");
+  t.number(
+      "motion_samples_max", p.motion_samples_max, {1, 100'000},
+      "largest number of legs of a tool's path in a step; a leg goes from one pose to the next. "
+      "The poses that change the path least are dropped first, and /diagnostics counts them. At "
+      "most 1000 poses are read, or this number if it is larger; with more, the answer has "
+      "path_incomplete");
   t.number("tf_timeout_sec", p.tf_timeout_sec, {0.0, 60.0},
-           "[s] how long a new shape waits for its transforms")
+           "[s] how long a new shape waits for its transforms; simulated time if use_sim_time is "
+           "set")
       .live();
   t.number("mesh_timeout_sec", p.mesh_timeout_sec, {0.0, 1e6},
-           "[s] an older mesh is answered with STALE_MESH; 0: never")
+           "[s] if the mesh is older than this, the answer is STALE_MESH. 0: never")
       .live();
   add_limits(t, p);
-  t.number("max_batch", p.max_batch, {1, 1'000'000}, "motions in one call of query_batch");
+  t.number("max_batch", p.max_batch, {1, 1'000'000},
+           "largest number of motions in one query_batch; larger batches are refused");
   t.number("max_batch_bytes", p.max_batch_bytes, kMessageBytes,
-           "bytes of all results of one call of query_batch");
+           "largest size of the results of one query_batch, in bytes as ROS sends them; a batch "
+           "that grows larger is refused");
   t.flag("publish_regions", p.publish_regions,
          "true: each contact has the polygon in which its face meets the tool's viewing volume")
       .live();
   t.flag("publish_placement", p.publish_placement,
-         "true: each answer tells on which side of the organ's surface the tool is")
+         "true: each answer on contacts tells on which side of the organ's surface the tool is")
       .live();
   add_marker_rates(t, p.markers);
   t.number("markers_depth", p.markers.markers_depth, {0.0, 10.0, false},
            "[m] contacts of this depth or more have the last colour of the map")
       .live();
   t.number("threads", p.threads, {0, 1024},
-           "threads that evaluate steps, and as many that evaluate batches; 0: one for each "
-           "processor");
+           "largest number of threads that evaluate steps side by side, at most one for each pair "
+           "of organ and tool; as many others share the motions of a batch. 0: one for each "
+           "processor. The answers are the same with any number");
   add_realtime(t, p.realtime, "the threads of the steps run");
   return t;
 }
@@ -269,8 +280,10 @@ void add_picker(ParameterTable& t, PickerSettings& p) {
 }
 
 void add_limits(ParameterTable& t, OrganNodeParameters& p) {
-  t.number("max_ahead_sec", p.max_ahead_sec, kMaxAhead,
-           "[s] shapes, poses and transforms with stamps further ahead of the clock are refused");
+  t.number(
+      "max_ahead_sec", p.max_ahead_sec, kMaxAhead,
+      "[s] shapes, poses and transforms whose stamps are further ahead of the node's clock are "
+      "refused. Static transforms have no time");
   t.number("max_faces", p.max_faces, kMaxFaces, "larger organs are refused");
   t.number("diagnostic_period_sec", p.diagnostic_period_sec, {0.01, 3600.0},
            "[s] between messages on /diagnostics");
@@ -278,16 +291,19 @@ void add_limits(ParameterTable& t, OrganNodeParameters& p) {
 
 void add_marker_rates(ParameterTable& t, MarkerSettings& p) {
   t.number("markers_rate", p.markers_rate_hz, kFrameRates,
-           "[Hz] how often markers are published; 0: never")
+           "[Hz] how often markers are published while somebody subscribes. 0: never")
       .live();
   t.number("surface_rate", p.surface_rate_hz, kFrameRates,
-           "[Hz] how often the surface of a moving organ is published, at most; 0: never")
+           "[Hz] how often the surface of an organ that moves is published as a marker at most, "
+           "large surfaces less often. 0: never")
       .live();
 }
 
 void add_realtime(ParameterTable& t, RealtimeParameters& p, const std::string& threads) {
-  t.number("realtime_priority", p.priority, {0, 99},
-           "1 to 99: " + threads + " under SCHED_FIFO with this priority; 0: ordinary scheduling");
+  t.number(
+      "realtime_priority", p.priority, {0, 99},
+      "1 to 99: " + threads +
+          " under SCHED_FIFO with this priority, before ordinary programs. 0: ordinary scheduling");
   t.flag("lock_memory", p.lock_memory, "true: all memory of the process stays in RAM");
   t.flag("awake_cores", p.awake_cores, "true: no core of the machine sleeps while the node runs");
 }

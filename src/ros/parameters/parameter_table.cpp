@@ -64,6 +64,20 @@ dynamic_reconfigure::ConfigDescription description(const std::vector<LiveParamet
   return message;
 }
 
+/// The legal values of a number, in few words: "0, or 0.001 to 10000".
+std::string in_words(const NumberRange& range) {
+  std::ostringstream words;
+  words.precision(12);
+  const bool is_bounded = !std::isinf(range.highest);
+  if (range.least_above_zero > 0.0) words << "0, or ";
+  if (!range.lowest_is_legal) words << "above ";
+  if (range.lowest_is_legal && !is_bounded) words << "at least ";
+  words << std::max(range.lowest, range.least_above_zero);
+  if (is_bounded) words << (range.lowest_is_legal ? " to " : ", up to ") << range.highest;
+  if (range.infinity_is_legal) words << ", or .inf";
+  return words.str();
+}
+
 /// The values in a request, by name.
 XmlRpcValue requested(const Config& request) {
   XmlRpcValue changes;
@@ -76,6 +90,11 @@ XmlRpcValue requested(const Config& request) {
 }
 
 }  // namespace
+
+HelpEntry Row::help() const {
+  const bool is_number = type == XmlRpcValue::TypeInt || type == XmlRpcValue::TypeDouble;
+  return {name, kind + (is_number ? "; " + in_words(range) : "") + (is_live ? "; live" : ""), text};
+}
 
 template <typename Value>
 Row& ParameterTable::number(const std::string& name, Value& value, const NumberRange& range,
@@ -142,6 +161,12 @@ std::vector<Row> ParameterTable::live_rows() const {
   return live;
 }
 
+HelpEntry LiveParameters::help() {
+  return {"set_parameters", ros::service_traits::datatype<Service>(),
+          "changes the live parameters while the node runs, as dynparam and rqt_reconfigure do. "
+          "If a value is illegal, nothing changes, and the log says what is legal"};
+}
+
 void LiveParameters::advertise() {
   descriptions_ = private_node_.advertise<dynamic_reconfigure::ConfigDescription>(
       "parameter_descriptions", 1, true);
@@ -149,7 +174,7 @@ void LiveParameters::advertise() {
   descriptions_.publish(description(parameters_));
   updates_.publish(present(parameters_));
   server_ = advertise_checked<Service>(
-      private_node_, "set_parameters",
+      private_node_, help().name,
       [this](auto& request, auto& response) { return on_set(request, response); });
 }
 

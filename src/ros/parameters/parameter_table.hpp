@@ -12,7 +12,9 @@ namespace organ_collision {
 /// A topic, service or parameter, as --help shows it.
 struct HelpEntry {
   std::string name;
-  std::string kind;  ///< of a topic or service: its type; of a parameter: its default or "required"
+  /// Of a topic or service: its type. Of a parameter: its default or "required", the legal values
+  /// of a number, and "live" if it can be changed while the node runs.
+  std::string kind;
   std::string text;
 };
 
@@ -34,6 +36,7 @@ class ParameterTable {
     bool is_live = false;    ///< it can be changed while the node runs
 
     void live() { is_live = true; }
+    HelpEntry help() const;
   };
 
   /// Each of these adds a row. `text`: what the parameter means, after its unit: "[s] ...".
@@ -103,7 +106,9 @@ template <typename Parameters>
 std::vector<HelpEntry> parameter_help() {
   Parameters defaults;
   const ParameterTable table = table_of(defaults);
-  return {table.rows().begin(), table.rows().end()};
+  std::vector<HelpEntry> entries;
+  for (const ParameterTable::Row& row : table.rows()) entries.push_back(row.help());
+  return entries;
 }
 
 /// A parameter that can be changed while the node runs, with its present value.
@@ -140,6 +145,8 @@ class LiveParameters {
 
   /// Publishes the parameters, and serves changes. From now on, `apply` may be called at any time.
   void advertise();
+  /// What --help says of the service.
+  static HelpEntry help();
 
  private:
   using Service = dynamic_reconfigure::Reconfigure;

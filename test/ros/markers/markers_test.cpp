@@ -384,13 +384,18 @@ TEST_F(Viewer, SeesTheNameOfEachTouchingLinkAtItsDeepestContact) {
       {contact_at(0, 0.1, 0.1, 0.0), contact_at(1, 0.3, 0.2, 0.0), contact_at(1, 0.2, 0.3, 0.0)});
   answer->contacts[2].link = 1;
   answer->links = {"wrist", "jaw"};
-  const Markers names = drawn(scene_with(answer), "names");
-  ASSERT_EQ(names.size(), 2u);
+  Markers names = drawn(scene_with(answer), "names");
+  ASSERT_EQ(names.size(), 1u);
   EXPECT_EQ(names[0].type, Marker::TEXT_VIEW_FACING);
-  EXPECT_EQ(names[0].text, "hook");  // The shaft has no name of its own.
+  EXPECT_EQ(names[0].text, "hook\njaw");  // The shaft has no name of its own.
   EXPECT_DOUBLE_EQ(names[0].pose.position.x, 0.2);
   EXPECT_GT(names[0].pose.position.z, 0.0);
+  answer->contacts[2].on_organ.x = 0.9;
+  names = drawn(scene_with(answer), "names");
+  ASSERT_EQ(names.size(), 2u) << "names that are far from each other have their own texts";
+  EXPECT_EQ(names[0].text, "hook");
   EXPECT_EQ(names[1].text, "jaw");
+  EXPECT_DOUBLE_EQ(names[1].pose.position.x, 0.9);
 }
 
 TEST_F(Viewer, SeesALineFromToolToOrganAndItsLength) {
@@ -484,6 +489,22 @@ TEST_F(Viewer, ReadsWhatTheAnswerTells) {
   EXPECT_EQ(drawn(scene, "status").at(0).text, "liver: 2 faces\nhook: no answer yet");
   EXPECT_EQ(shown("status").at(1).text, "kidney: 2 faces");
   EXPECT_EQ(shown("status").at(1).header.frame_id, "kidney_frame");
+}
+
+TEST_F(Viewer, ReadsOnlyOfNearToolsIfThereAreSeveralOrgans) {
+  const auto answer = answer_with({});
+  answer->clearance.state = Clearance::BEYOND_MARGIN;
+  Scene scene = scene_with(answer);
+  scene.organs.push_back(square("kidney"));
+  EXPECT_EQ(drawn(scene, "status").at(0).text, "liver: 2 faces");
+  answer->placement.tip = ToolPlacement::INSIDE;
+  EXPECT_NE(drawn(scene, "status").at(0).text.find("hook: touches nothing"), std::string::npos);
+  answer->placement.tip = ToolPlacement::OUTSIDE;
+  answer->contacts = {contact_at(0, 0.001, 0.25, 0.5)};
+  EXPECT_NE(drawn(scene, "status").at(0).text.find("hook: 1 contact"), std::string::npos);
+  answer->contacts.clear();
+  answer->status = ContactArray::NO_TRANSFORM;
+  EXPECT_NE(drawn(scene, "status").at(0).text.find("hook: no transform"), std::string::npos);
 }
 
 namespace {

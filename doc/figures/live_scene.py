@@ -1,0 +1,224 @@
+"""What the scripts share that take pictures of the running node: a ROS master, the demo's liver at rest, one tool
+that moves in steps, and the program `snapshot`."""
+
+import contextlib
+import os
+import signal
+import socket
+import subprocess
+import tempfile
+import threading
+import time
+
+from geometry_msgs.msg import TransformStamped
+import numpy as np
+from organ_collision.msg import ContactArray, OrganMesh
+import rosgraph
+import rospy
+from std_srvs.srv import Empty
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+import yaml
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+NODE = '/organ_collision'
+LIMIT = 60.0  # [s] longest wait for anything
+PERIOD = 0.2  # [s] from one step to its repetition, so that its traces do not fade
+
+
+@contextlib.contextmanager
+def started(*command, **environment):
+    """Runs a command until the end of a `with` block."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, env={**os.environ, **environment})
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.wait()
+
+
+def wait_until(condition, what):
+    end = time.monotonic() + LIMIT
+    while not condition():
+        if time.monotonic() > end:
+            raise SystemExit('waited %g s for %s' % (LIMIT, what))
+        time.sleep(0.01)
+
+
+def free_port():
+    with socket.socket() as free:
+        free.bind(('', 0))
+        return free.getsockname()[1]
+
+
+@contextlib.contextmanager
+def ros_master(name):
+    """A ROS master of its own, and this script as the node `name`, until the end of a `with` block."""
+    port = free_port()
+    os.environ['ROS_MASTER_URI'] = 'http://localhost:%d' % port
+    os.environ['ROS_HOSTNAME'] = 'localhost'
+    with started('roscore', '-p', str(port)):
+        wait_until(rosgraph.is_master_online, 'the ROS master')
+        rospy.init_node(name, disable_signals=True)
+        yield
+
+
+def liver():
+    """The demo's liver at rest: the first mesh of the demo's simulator."""
+    with open(os.path.join(HERE, '..', '..', 'config', 'demo_tools.yaml')) as tools:
+        rospy.set_param('/demo', yaml.safe_load(tools))
+    with started('rosrun', 'organ_collision', 'organ_collision_node', '__name:=demo'):
+        with started('rosrun', 'organ_collision', 'liver_simulator', '_collision_node:=/demo'):
+            return rospy.wait_for_message('/demo/organ_mesh', OrganMesh, LIMIT)
+
+
+@contextlib.contextmanager
+def collision_node(*tools, **parameters):
+    """The collision node with these tools, until the end of a `with` block."""
+    rospy.set_param(NODE, {'tools': list(tools), 'tf_timeout_sec': LIMIT, **parameters})
+    with started('rosrun', 'organ_collision', 'organ_collision_node', '__name:=' + NODE[1:]):
+        yield
+
+
+class Camera:
+    """Where the viewer is: azimuth and elevation [degrees], what is in the middle of the picture, how far away it is
+    [m]; the picture's size [pixels]."""
+
+    FIELD_OF_VIEW = 0.785  # [rad] vertical, of RViz and snapshot
+
+    def __init__(self, view, target, distance, size):
+        self.view, self.target, self.distance, self.size = view, np.array(target), distance, size
+
+    def options(self):
+        """Of the program snapshot."""
+        return ['--view', '%g,%g' % self.view, '--target', '%g,%g,%g' % tuple(self.target),
+                '--distance', '%g' % self.distance, '--size', '%dx%d' % self.size]
+
+    def pixel(self, place):
+        """Where the picture shows a place of its frame: from the left and from the top."""
+        azimuth, elevation = np.radians(self.view)
+        right = np.array([-np.sin(azimuth), np.cos(azimuth), 0.0])
+        back = np.array([np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+        way = np.array(place) - self.target
+        scale = 0.5 * self.size[1] / np.tan(0.5 * self.FIELD_OF_VIEW) / (self.distance - way @ back)
+        return (0.5 * self.size[0] + scale * (way @ right), 0.5 * self.size[1] - scale * (way @ np.cross(back, right)))
+
+
+def snapshot(output, *options):
+    subprocess.run(['rosrun', 'organ_collision', 'snapshot', '--timeout', str(LIMIT), *options, '--output', output],
+                   check=True)
+
+
+def rviz_picture(output, camera, topic, seconds=12.0):
+    """A picture of RViz, which shows the markers of this topic, after so many seconds. Needs rviz, xvfb and
+    imagemagick."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, 'view.rviz')
+        subprocess.run(['rosrun', 'organ_collision', 'view.py', topic, '--save', path], check=True)
+        with open(path) as text:
+            configuration = yaml.safe_load(text)
+        manager = configuration['Visualization Manager']
+        view = manager['Views']['Current']
+        view['Yaw'], view['Pitch'] = map(float, np.radians(camera.view))
+        view['Distance'], view['Focal Point'] = camera.distance, dict(zip('XYZ', map(float, camera.target)))
+        view['Field of View'] = camera.FIELD_OF_VIEW
+        configuration['Window Geometry'].update(zip(('Width', 'Height'), camera.size))
+        with open(path, 'w') as text:
+            yaml.safe_dump(configuration, text)
+        display = ':%d' % (100 + os.getpid() % 900)
+        screen = {'DISPLAY': display, 'LIBGL_ALWAYS_SOFTWARE': '1', 'QT_X11_NO_MITSHM': '1'}
+        with started('Xvfb', display, '-screen', '0', '%dx%dx24' % camera.size, '+extension', 'GLX'):
+            with started('rosrun', 'rviz', 'rviz', '--fullscreen', '-d', path, **screen):
+                time.sleep(seconds)
+                subprocess.run(['import', '-window', 'root', output], check=True, env={**os.environ, **screen})
+
+
+class StillMarkers:
+    """Keeps the markers of topics as RViz does. still() publishes all that are there at that time on the topic
+    `still`, for a picture of one moment."""
+
+    def __init__(self, *topics):
+        self.markers = {}
+        self.publisher = rospy.Publisher('still', MarkerArray, latch=True, queue_size=1)
+        self.subscribers = [rospy.Subscriber(topic, MarkerArray, self.note, topic, queue_size=4000) for topic in topics]
+
+    def note(self, array, topic):
+        for marker in array.markers:
+            key = topic, marker.ns, marker.id
+            if marker.action == Marker.DELETEALL:
+                self.markers = {known: kept for known, kept in self.markers.items() if known[0] != topic}
+            elif marker.action == Marker.DELETE:
+                self.markers.pop(key, None)
+            else:
+                self.markers[key] = marker
+
+    def still(self):
+        markers = list(self.markers.values())
+        for number, marker in enumerate(markers):
+            marker.id, marker.lifetime = number, rospy.Duration()
+        self.publisher.publish(markers)
+
+
+class Scene:
+    """The resting liver, and a tool that moves in steps. `trocar`: its place in the liver's frame [m]. The tool's
+    frames are `trocar` and `tip`."""
+
+    def __init__(self, mesh, tool, trocar):
+        rospy.wait_for_service(NODE + '/reset', LIMIT)
+        self.reset = rospy.ServiceProxy(NODE + '/reset', Empty)
+        self.answers = {}  # by tool
+        self.mesh, self.tool, self.trocar = mesh, tool, trocar
+        self.tf = rospy.Publisher('/tf', TFMessage, queue_size=10)
+        self.meshes = rospy.Publisher(NODE + '/organ_mesh', OrganMesh, queue_size=10)
+        self.contacts = rospy.Subscriber(NODE + '/contacts', ContactArray, self.note)
+        wait_until(
+            lambda: self.tf.get_num_connections() > 0
+            and self.meshes.get_num_connections() > 0
+            and self.contacts.get_num_connections() > 0,
+            'connections to ' + NODE,
+        )
+
+    def note(self, answer):
+        if answer.status == ContactArray.OK:
+            self.answers[answer.tool] = answer
+
+    def transform(self, child, place, stamp):
+        transform = TransformStamped(child_frame_id=child)
+        transform.header.frame_id, transform.header.stamp = self.mesh.header.frame_id, stamp
+        translation = transform.transform.translation
+        translation.x, translation.y, translation.z = place
+        transform.transform.rotation.w = 1.0
+        return transform
+
+    def move_tool(self, tip):
+        """Moves the tip there, and waits for the node's answer."""
+        stamp = rospy.Time.now()
+        self.tf.publish([self.transform('trocar', self.trocar, stamp), self.transform('tip', tip, stamp)])
+        self.mesh.header.stamp = stamp
+        self.meshes.publish(self.mesh)
+        wait_until(lambda: self.tool in self.answers and self.answers[self.tool].mesh_stamp == stamp, 'contacts')
+        return self.answers[self.tool]
+
+    def play(self, tips):
+        """Moves the tool through these tips. The reset makes the first one a static position. Returns the last
+        answer."""
+        self.reset()
+        return [self.move_tool(tip) for tip in tips][-1]
+
+    def repeat(self, tips, end):
+        """Plays the same steps again and again until the event `end`."""
+        while not end.wait(PERIOD):
+            self.play(tips)
+
+    @contextlib.contextmanager
+    def playing(self, tips):
+        """Plays the tool's steps through `tips` during a `with` block. Gives the answer to the last one."""
+        answer = self.play(tips)
+        end = threading.Event()
+        motion = threading.Thread(target=self.repeat, args=(tips, end))
+        motion.start()
+        try:
+            yield answer
+        finally:
+            end.set()
+            motion.join()
