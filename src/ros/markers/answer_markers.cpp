@@ -76,22 +76,34 @@ void add_normals(const SceneOrgan& organ, const ContactArray& answer, double sha
   }
 }
 
-/// Adds the name of each link that touches, at its deepest contact. A shaft has the name of its
-/// tool.
+/// Adds the name of each link that touches, at its deepest contact. Names near each other share a
+/// text, a line each, so that none hides another. A shaft has the name of its tool.
 void add_names(const SceneOrgan& organ, const ContactArray& answer, double share,
                MarkerArray& picture) {
   constexpr double kDistance = 0.15;  // The distance of a name from its contact.
+  constexpr double kShared = 0.15;    // Names that are nearer to each other share a text.
   std::map<std::int32_t, const Contact*> by_link;
   for (const Contact& contact : answer.contacts) {
     const Contact*& known = by_link[contact.link];
     if (!known || is_deeper(contact, *known)) known = &contact;
   }
-  const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
+  std::vector<std::pair<Vector3d, std::string>> texts;
   for (const auto& [link, contact] : by_link) {
-    add_text(style, before(*contact, kDistance * organ.size()), organ.size(),
-             link == kShaft ? answer.tool : answer.links.at(static_cast<std::size_t>(link)),
-             picture);
+    const Vector3d place = before(*contact, kDistance * organ.size());
+    const auto is_near = [&](const auto& text) {
+      return (text.first - place).norm() < kShared * organ.size();
+    };
+    const std::string& name =
+        link == kShaft ? answer.tool : answer.links.at(static_cast<std::size_t>(link));
+    const auto text = std::find_if(texts.begin(), texts.end(), is_near);
+    if (text == texts.end()) {
+      texts.emplace_back(place, name);
+    } else {
+      text->second += "\n" + name;
+    }
   }
+  const MarkerStyle style{"names", organ.frame, colours::faded(colours::kText, share)};
+  for (const auto& [place, text] : texts) add_text(style, place, organ.size(), text, picture);
 }
 
 /// Adds the near faces, at their present place: the nearer, the more opaque.
@@ -181,6 +193,13 @@ std::string status_line(const std::string& tool, const ContactArrayConstPtr& ans
   return line;
 }
 
+/// Whether the tool touches nothing of the organ, and is outside of it and beyond the margin.
+bool is_far(const ScenePair& pair) {
+  return pair.answer && pair.answer->status == ContactArray::OK && pair.answer->contacts.empty() &&
+         pair.answer->clearance.state == Clearance::BEYOND_MARGIN &&
+         pair.answer->placement.tip != ToolPlacement::INSIDE;
+}
+
 }  // namespace
 
 void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double radius,
@@ -206,6 +225,8 @@ void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
   std::string text = organ.name + ": " + counted(organ.mesh->face_count(), "face");
   bool failed = false;
   for (const ScenePair& pair : organ.pairs) {
+    // With many organs and tools, lines about far pairs would hide those about near ones.
+    if (scene.organs.size() > 1 && is_far(pair)) continue;
     text += "\n" + status_line((*scene.tools)[pair.tool].parameters.name, pair.answer);
     failed = failed || (pair.answer && pair.answer->status != ContactArray::OK);
   }

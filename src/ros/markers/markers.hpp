@@ -161,7 +161,7 @@ void add_surroundings(const SceneOrgan& organ, const ScenePair& pair, double rad
 void add_contacts(const SceneOrgan& organ, const ContactArray& answer, double share,
                   visualization_msgs::MarkerArray& picture);
 /// Adds a text above the organ: its name, a line for each tool, and the query time [s] if it is
-/// above 0.
+/// above 0. If there are several organs, tools beyond their margin have no line.
 void add_status(const Scene& scene, const SceneOrgan& organ, double query_sec,
                 visualization_msgs::MarkerArray& picture);
 

@@ -132,8 +132,8 @@ const std_msgs::ColorRGBA kLoad = colours::rgba(1.00F, 0.80F, 0.15F);
 /// A link's mesh with more faces than this is drawn as its bounding box, because the tools are sent
 /// with each picture.
 constexpr std::size_t kMostFacesOfTool = 5000;
-/// The surface that a tool swept is drawn for at most this many legs (doc/geometry.md, Words). The
-/// oldest legs are left out.
+/// The surface that a tool swept is drawn for at most this many legs (doc/theory/geometry.md,
+/// Words). The oldest legs are left out.
 constexpr std::size_t kMostLegs = 2000;
 
 Marker shape(const MarkerStyle& style, int type, const Isometry3d& pose, const Vector3d& scale) {
