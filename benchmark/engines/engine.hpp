@@ -34,7 +34,7 @@ std::unique_ptr<Engine> make_ours_egl();
 std::unique_ptr<Engine> make_cpu();
 /// GL_FEEDBACK without clusters: outcodes of all vertices choose the faces that are drawn.
 std::unique_ptr<Engine> make_ours_no_clusters();
-/// The package's `select` picker, as in the paper: GL_SELECT, one name and one glBegin for each
+/// The package's `select` picker, as in the paper: GL_SELECT, one name and one draw call for each
 /// face.
 std::unique_ptr<Engine> make_select_paper();
 /// FCL's AABB tree, refitted; the volume is a Convex.

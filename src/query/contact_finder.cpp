@@ -44,8 +44,9 @@ void keep_first_touches(std::vector<FaceContact>& contacts) {
 void ContactFinder::find_part_contacts(const Step& step, const LegSpan& span, const ToolPart& part,
                                        std::vector<FaceContact>& contacts) {
   // Section 4 of the paper, figures 7 and 8: the space that the part sweeps. The picker builds a
-  // viewing volume around it, as large as the drawn faces require (doc/geometry.md, Conservative
-  // wedge). The paper's volume misses parts of the space; the picker's volume contains all of it.
+  // viewing volume around it, as large as the drawn faces require (doc/theory/geometry.md,
+  // Conservative wedge). The paper's volume misses parts of the space; the picker's volume contains
+  // all of it.
   const PartSweep swept = sweep_of(step, span, part);
 
   // Section 2 of the paper: OpenGL draws the organ in a picking mode. The candidates are the faces
@@ -108,7 +109,7 @@ void ContactFinder::confirm(const Step& step, const LegSpan& span, const ToolPar
 
 /// Drops the pending faces that stay too far from the span's chord to be touched on any leg of the
 /// span. For each of the other faces, finds the first leg on which it may be touched. See
-/// doc/geometry.md, Spans of legs.
+/// doc/theory/geometry.md, Spans of legs.
 void ContactFinder::keep_faces_near_chord(const Step& step, const LegSpan& span,
                                           const ToolPart& part) {
   const OrganMotion organ = step.organ_motion(span);

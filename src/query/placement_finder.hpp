@@ -14,7 +14,7 @@ namespace organ_collision {
 
 /// Finds on which side of an organ's surface a tool is, and where its axis crosses the surface. GL
 /// picks the faces near the axis, and exact predicates decide which of them the axis crosses. Keeps
-/// its memory between queries. See doc/geometry.md, Sides and crossings.
+/// its memory between queries. See doc/theory/geometry.md, Sides and crossings.
 class PlacementFinder {
  public:
   /// `picker` must outlive this object.

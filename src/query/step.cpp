@@ -41,8 +41,8 @@ ToolWaypoint interpolated(const ToolWaypoint& from, const ToolWaypoint& to, doub
 constexpr double kAllowedShare = 0.25;
 
 /// [1] The poses of a request are rotations only to kRotationTolerance, but legs are evaluated with
-/// the nearest rotation. At a distance of 1, both may differ by this much. See doc/geometry.md,
-/// Spans of legs.
+/// the nearest rotation. At a distance of 1, both may differ by this much. See
+/// doc/theory/geometry.md, Spans of legs.
 constexpr double kOffRotation = 2.5 * kRotationTolerance;
 
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
@@ -91,8 +91,8 @@ double shaft_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::si
 
 /// [m] An upper bound of the deviation of a link from the chord between two waypoints; kTooFar if
 /// it exceeds `allowed`. At each waypoint, it is the deviation of the ball. Between waypoints, the
-/// leg and the chord each leave a straight line by at most arm * angle^2 / 8. See doc/geometry.md,
-/// Rims and chord deviation.
+/// leg and the chord each leave a straight line by at most arm * angle^2 / 8. See
+/// doc/theory/geometry.md, Rims and chord deviation.
 double link_deviation(const ToolWaypoint* waypoints, std::size_t begin, std::size_t end,
                       std::size_t link, const LinkBall& ball, double allowed) {
   const Isometry3d& first = waypoints[begin].links[link];

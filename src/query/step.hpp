@@ -23,7 +23,7 @@ const ToolPath& with_subdivided_rotations(const ToolPath& path, ToolPath& finer)
 
 /// Consecutive legs of a step, [begin, end), on which a part of the tool stays near the chord: the
 /// direct motion from the first waypoint of the span to the last one. One viewing volume around the
-/// chord serves all legs of the span. See doc/geometry.md, Spans of legs.
+/// chord serves all legs of the span. See doc/theory/geometry.md, Spans of legs.
 struct LegSpan {
   std::size_t begin, end;
   double deviation;  ///< [m] how far any point of the part may be from its place on the chord

@@ -117,6 +117,11 @@ class PagesTest(unittest.TestCase):
                     if anchor:
                         self.assertIn(anchor, anchors(path), '%s leads to %s' % (page, target))
 
+    def test_each_table_has_a_head(self):
+        for page, text in PAGES.items():
+            for table in re.findall(r'(?:^\|.*\n)+', without_code_blocks(text), re.M):
+                self.assertRegex(table, r'\A\|.*\n\|[ :|-]+\|\n\|', page)
+
     def test_readme_is_a_front_page_and_each_page_is_two_links_away(self):
         self.assertLessEqual(len(README.splitlines()), FRONT_PAGE_LINES)
         self.assertIn('(%s)' % INDEX, README)

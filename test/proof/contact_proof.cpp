@@ -112,7 +112,7 @@ class Comparison {
 
   /// Compares the whole query with a search, while the face and the trocar move, too.
   Tally moving(const Trial& trial, Random& random) {
-    constexpr double kSlack = 1e-6;  // [m]
+    constexpr double kSlack = 1e-9;  // [m]
     ShaftMotion motion = trial.motion;
     motion.start.trocar += random.scale(1e-4, 0.05) * random.direction();
     FaceMotion face{trial.face, trial.face};

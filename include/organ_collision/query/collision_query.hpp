@@ -107,8 +107,8 @@ struct CollisionResult {
 
 /// Finds the faces of an organ that a tool touches. OpenGL picking finds the candidate faces. Exact
 /// distances then decide which of them the tool touches. No face that the tool touches is missed
-/// (see doc/exactness.md). The modes of the 1999 paper are the exception: they return the faces in
-/// the paper's volumes, and these volumes miss some faces.
+/// (see doc/theory/exactness.md). The modes of the 1999 paper are the exception: they return the
+/// faces in the paper's volumes, and these volumes miss some faces.
 ///
 /// This example prints the faces that a swept shaft touches (complete: test/install/consumer):
 /// \code

@@ -40,9 +40,9 @@ struct AxisCrossing {
 ///
 /// Where the axis meets an edge or a corner, or lies in a face, the faces that it crosses are those
 /// that it would cross if it were moved by an infinitesimal vector (simulation of simplicity; see
-/// doc/geometry.md, Sides and crossings). So an axis that grazes the surface crosses it twice or
-/// not at all, and the answer does not depend on the order of the faces. The winding number at the
-/// tip minus the winding number at the trocar is always the sum of the directions.
+/// doc/theory/geometry.md, Sides and crossings). So an axis that grazes the surface crosses it
+/// twice or not at all, and the answer does not depend on the order of the faces. The winding
+/// number at the tip minus the winding number at the trocar is always the sum of the directions.
 struct AxisPlacement {
   /// The side of the tip.
   Side tip = Side::kUnknown;

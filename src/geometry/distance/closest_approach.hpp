@@ -25,7 +25,8 @@ struct ClosestApproach {
 /// and the result is an upper bound, or nothing.
 ///
 /// Method: the leg is halved until a turning plane, or the speed of the motion, shows for each
-/// interval that the distance cannot be smaller in it. See doc/geometry.md, Closest approach.
+/// interval that the distance cannot be smaller in it. See doc/theory/geometry.md, Closest
+/// approach.
 std::optional<ClosestApproach> closest_approach(const CoreMotion& core, const FaceMotion& face,
                                                 double distance_bound, WorkBudget& budget);
 

@@ -35,13 +35,13 @@ ClosestPoints closest_points(const ConvexCore& core, const Triangle& face,
 /// The nearest points of an axis (possibly a single point) and a face (possibly degenerate to a
 /// segment or a point), in closed form. If several pairs are tied within tolerance::kTie, the pair
 /// nearest to the tip is returned. The distance is always the least distance of all pairs. See
-/// doc/geometry.md, Ties and piercing.
+/// doc/theory/geometry.md, Ties and piercing.
 ClosestPoints axis_closest_points(const ShaftAxis& axis, const Triangle& face);
 
 /// The nearest points of a flat-ended cylinder and a face (possibly degenerate). The face's nearest
 /// point is the projection of the cylinder's support point, or it lies on an edge. Along an edge
-/// the distance is a convex function, and Newton's method finds its minimum. See doc/geometry.md,
-/// Distance algorithms.
+/// the distance is a convex function, and Newton's method finds its minimum. See
+/// doc/theory/geometry.md, Distance algorithms.
 ClosestPoints cylinder_closest_points(const ConvexCore& cylinder, const Triangle& face);
 
 /// The nearest points of a hull of three or more points and a face (possibly degenerate), by the
@@ -50,8 +50,8 @@ ClosestPoints cylinder_closest_points(const ConvexCore& cylinder, const Triangle
 ///
 /// The iteration ends when no pair can be nearer by more than 1e-12 m (or 1e-12 of the distance),
 /// or when rounding prevents progress. Rounding makes the distance up to 1e-7 m too large for boxes
-/// as thin as 1e-6 m. The distance is never too small, except for rounding. See doc/geometry.md,
-/// Distance algorithms.
+/// as thin as 1e-6 m. The distance is never too small, except for rounding. See
+/// doc/theory/geometry.md, Distance algorithms.
 ClosestPoints gjk_closest_points(const ConvexCore& hull, const Triangle& face,
                                  double distance_bound);
 

@@ -15,7 +15,7 @@ namespace organ_collision {
 /// Visits the faces of an organ that may be near a box. It skips whole groups of faces, then
 /// clusters (see FaceClusters), then single faces that are too far away. The nearest groups and
 /// clusters come first, so a search for the nearest face soon has a small bound. See
-/// doc/geometry.md, Closest approach.
+/// doc/theory/geometry.md, Closest approach.
 ///
 /// It computes in 32 bits and allows for the rounding: no face within the bound is skipped. Keeps
 /// its memory between searches.

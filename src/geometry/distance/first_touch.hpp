@@ -15,7 +15,7 @@ namespace organ_collision {
 ///
 /// Method: each triangle cuts the other one's plane in a segment of the line in which the two
 /// planes meet. If the segments overlap, the triangles cross. Source: Möller, "A fast
-/// triangle-triangle intersection test", 1997. See doc/geometry.md, Distance algorithms.
+/// triangle-triangle intersection test", 1997. See doc/theory/geometry.md, Distance algorithms.
 std::optional<ClosestPoints> triangle_crossing(const Triangle& core, const Triangle& face);
 
 /// When a part's core first comes within the radius of a face, and where.
@@ -35,7 +35,7 @@ struct FirstTouch {
 /// If the budget runs out before the search has decided, the result is a touch with `is_resolved`
 /// false. So no face that touches is missed.
 ///
-/// Method: conservative advancement with a turning plane. See doc/geometry.md, First touch.
+/// Method: conservative advancement with a turning plane. See doc/theory/geometry.md, First touch.
 std::optional<FirstTouch> first_touch(const CoreMotion& core, const FaceMotion& face, double radius,
                                       WorkBudget& budget, double until = 1.0);
 

@@ -101,7 +101,7 @@ struct Instant {
 ///
 /// The normal of the plane turns linearly from `from.normal` to `to.normal`. The distance along
 /// this normal from a point of the core to a corner of the face is a quadratic function of time.
-/// See doc/geometry.md, First touch, and Rims and chord deviation.
+/// See doc/theory/geometry.md, First touch, and Rims and chord deviation.
 double clear_share(const Instant& from, const Instant& to, const CoreMotion& core, double radius);
 
 }  // namespace organ_collision

@@ -9,7 +9,7 @@
 namespace organ_collision {
 
 /// The space that a box of a link, grown by a radius, covers during one leg, in the organ's frame
-/// [m]. See doc/geometry.md, Swept boxes.
+/// [m]. See doc/theory/geometry.md, Swept boxes.
 class SweptBox {
  public:
   /// `box` is in the link's frame; `radius` in metres.

@@ -58,7 +58,7 @@ struct ExactVector {
 
 /// The sign (-1, 0 or 1) of u · (v × w), exactly. Double precision usually suffices. If its
 /// rounding errors could change the sign, the sign is computed with integers instead. See
-/// doc/geometry.md, Sides and crossings.
+/// doc/theory/geometry.md, Sides and crossings.
 int triple_product_sign(const ExactVector& u, const ExactVector& v, const ExactVector& w);
 
 /// The sign of the first component of u × v that is not zero, exactly. 0 if u and v are parallel.

@@ -62,7 +62,7 @@ class CoreMotion {
   double farthest_move() const;
   /// [m] An upper bound of how far any point of the core deviates, along `normal` (unit), from
   /// linear motion between its places at the start and at the end of an interval. `duration`, in
-  /// [0, 1] of the leg, is the length of the interval. See doc/geometry.md, Rims and chord
+  /// [0, 1] of the leg, is the length of the interval. See doc/theory/geometry.md, Rims and chord
   /// deviation.
   double chord_deviation(double duration, const Eigen::Vector3d& normal) const;
   /// [m] An upper bound of this deviation in any direction.

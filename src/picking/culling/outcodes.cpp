@@ -94,7 +94,7 @@ constexpr std::size_t kGroup = FaceClusters::kGroup;
 // [1] Bounds of the rounding error of a dot product of a point and a unit normal in 32 bits, as
 // shares of the sum of the magnitudes of the point's coordinates. The error is at most four
 // roundings, and seven more for an interpolated point. The rest is a safety margin. See
-// doc/geometry.md, Outcodes and 32-bit clipping.
+// doc/theory/geometry.md, Outcodes and 32-bit clipping.
 constexpr float kSlack = 8.0F / (1 << 24);
 constexpr float kSlackBetween = 16.0F / (1 << 24);
 

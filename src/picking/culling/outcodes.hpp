@@ -18,8 +18,9 @@ namespace organ_collision {
 /// its group has a bit, if its corners have a bit in common, or if the blocks of its corners do.
 ///
 /// Outcodes are found from coarse to fine. The members of a group are looked at only if the group's
-/// box has no bit, and vertices only if their blocks do not reject the faces. See doc/geometry.md,
-/// Words and Outcodes and 32-bit clipping. Keeps its memory between queries.
+/// box has no bit, and vertices only if their blocks do not reject the faces. See
+/// doc/theory/geometry.md, Words and Outcodes and 32-bit clipping. Keeps its memory between
+/// queries.
 class Outcodes {
  public:
   /// Starts with a new volume and organ, and finds the outcodes of the top level's groups. Computes

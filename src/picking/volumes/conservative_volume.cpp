@@ -52,7 +52,7 @@ ConvexHull convex_hull(std::array<Vector2d, 4> points) {
 }
 
 /// [1] How far 32-bit clipping may displace the planes of a volume, as shares of the largest
-/// coordinate. See doc/geometry.md, Outcodes and 32-bit clipping.
+/// coordinate. See doc/theory/geometry.md, Outcodes and 32-bit clipping.
 struct Rounding {
   double plane;     ///< for any plane; in a wedge, times 1 plus its steeper slope
   double division;  ///< for the far plane of a wedge in addition, times far / near

@@ -22,7 +22,7 @@ struct VolumeMargin {
 /// of the leg. This holds for every motion: with a resting or moving trocar, with the tip at the
 /// trocar, along the axis, and without motion (the static query). The volume is grown so that
 /// 32-bit clipping loses no face whose vertices are within `margin.extent` of the trocar. See
-/// doc/geometry.md, Conservative wedge and Margins.
+/// doc/theory/geometry.md, Conservative wedge and Margins.
 ViewingVolume conservative_volume(const ShaftMotion& motion, double radius,
                                   const VolumeMargin& margin);
 

@@ -78,7 +78,7 @@ Eigen::Matrix3d camera_axes(const Eigen::Vector3d& view, const Eigen::Vector3d& 
 /// A face across the middle of the frustum, in the volume's shifted coordinates [m]. It meets the
 /// volume, because no user plane of a tool's volume cuts off that middle. Exceptions are the
 /// paper's naive volume, and slivers that are so thin for their length that 32-bit clipping loses
-/// the face. See doc/geometry.md, GL's clipping.
+/// the face. See doc/theory/geometry.md, GL's clipping.
 Triangle middle_face(const ViewingVolume& volume);
 
 /// The corners of a convex polygon, in their order along its border. One corner is a point, two are

@@ -21,9 +21,9 @@ struct Wall {
 /// (1983), which begins at the goal and adds the walls that are violated one by one.
 ///
 /// If no motion stays in all half-spaces, the solution violates the worst one as little as
-/// possible. For this, all walls share a slack, which is a seventh coordinate (doc/geometry.md,
-/// Haptic proxy). The slack costs so much that it is only a millionth of the sum of the loads if
-/// some motion stays in all half-spaces.
+/// possible. For this, all walls share a slack, which is a seventh coordinate
+/// (doc/theory/geometry.md, Haptic proxy). The slack costs so much that it is only a millionth of
+/// the sum of the loads if some motion stays in all half-spaces.
 class LeastConstraint {
  public:
   /// Makes at most kMostChanges rounds of O(walls) time. Each round adds a violated wall to the

@@ -11,7 +11,8 @@
 namespace organ_collision {
 
 /// In which ways a proxy can move. The hand prescribes the joints of the tool and its trocar. The
-/// rest of a pose is free: three or six coordinates in metres (doc/geometry.md, Haptic proxy).
+/// rest of a pose is free: three or six coordinates in metres (doc/theory/geometry.md, Haptic
+/// proxy).
 class Mobility {
  public:
   virtual ~Mobility() = default;

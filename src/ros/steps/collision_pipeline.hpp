@@ -45,9 +45,10 @@ class Inbox {
   ClockWatch clock_;
 };
 
-/// Turns messages about organs and motion into steps with their answers (doc/architecture.md). The
-/// node feeds it from topics, and the program replay from a bag. All functions must be called in
-/// one thread. The workers evaluate steps side by side while the scheduler waits for them.
+/// Turns messages about organs and motion into steps with their answers
+/// (doc/theory/architecture.md). The node feeds it from topics, and the program replay from a bag.
+/// All functions must be called in one thread. The workers evaluate steps side by side while the
+/// scheduler waits for them.
 class CollisionPipeline {
  public:
   struct Callbacks {

@@ -11,8 +11,8 @@ namespace organ_collision {
 using FaceIndices = std::array<std::uint32_t, 3>;
 
 /// Sorts an organ's vertices and faces so that neighbours in space are together. Made anew when the
-/// triangles change. For each new shape, only boxes are fitted (BlockBoxes). See doc/geometry.md,
-/// Words.
+/// triangles change. For each new shape, only boxes are fitted (BlockBoxes). See
+/// doc/theory/geometry.md, Words.
 ///
 /// - A block is kBlock vertices that lie near each other. If vertices that follow each other in the
 ///   sender's order are also neighbours in space, a block is consecutive vertices of that order.
@@ -25,7 +25,6 @@ using FaceIndices = std::array<std::uint32_t, 3>;
 class FaceClusters {
  public:
   /// The number of vertices in a block. With 16, there would be fewer boxes, which are less tight.
-  /// The times are in doc/benchmarks.md, The order of blocks.
   static constexpr std::uint32_t kBlock = 8;
   /// The number of blocks in a section, and of members in each larger group.
   static constexpr std::size_t kGroup = 16;
