@@ -19,7 +19,7 @@ SHOWN = {'cpp': '.cpp', 'python': '.py', 'xml': '.launch', 'yaml': '.yaml', 'cma
 SHOWN_FOLDERS = ('examples', 'config', 'launch', 'test/install/consumer')
 # The pages that explain the names of the interface.
 INTERFACE_PAGES = ('doc/interface.md', 'doc/reference/nodes.md')
-INDEX, FRONT_PAGE_LINES = 'doc/README.md', 100
+INDEX, FRONT_PAGE_LINES = 'doc/pages.md', 100
 SHORTEST_FRAGMENT = 10  # [characters] fixed text of a log line by which one can search the page
 LITERALS = r'((?:"(?:[^"\\]|\\.)*"\s*)+)'  # adjacent string literals are one
 
