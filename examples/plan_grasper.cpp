@@ -143,9 +143,9 @@ int main(int argc, char** argv) {
         plan(tissue, start, Eigen::Vector3d(target.at(0), target.at(1), target.at(2)), random);
     ROS_INFO("%zu legs, at least %.1f mm from the liver", path.size() - 1,
              1e3 * checked_distance(tissue, path));
-    markers.publish(line_of(path));
     robot.follow(straight(path, kSpeed / kRate));
-    ros::waitForShutdown();
+    // Again and again: for each new viewer, the collision node deletes all markers.
+    for (; ros::ok(); ros::WallDuration(2.0).sleep()) markers.publish(line_of(path));
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
     return 1;

@@ -150,9 +150,10 @@ def main():
     if distance is None:
         raise RuntimeError('finer motions touch the tissue')
     rospy.loginfo('%d legs, at least %.1f mm from the liver', len(path) - 1, 1000.0 * distance)
-    show(markers, path)
     robot.way = [place for a, b in zip(path, path[1:]) for place in straight(a, b, SPEED / RATE)]
-    rospy.spin()
+    while not rospy.is_shutdown():
+        show(markers, path)  # Again and again: for each new viewer, the collision node deletes all markers.
+        rospy.sleep(2.0)
 
 
 if __name__ == '__main__':
