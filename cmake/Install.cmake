@@ -11,7 +11,7 @@ install(TARGETS ${core} EXPORT organ_collision_core
 install(EXPORT organ_collision_core NAMESPACE organ_collision::
   FILE organ_collision_coreTargets.cmake DESTINATION ${CORE_CMAKE_DESTINATION})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/organ_collision_coreConfigVersion.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES cmake/organ_collision_coreConfig.cmake
   ${PROJECT_BINARY_DIR}/organ_collision_coreConfigVersion.cmake
   DESTINATION ${CORE_CMAKE_DESTINATION})

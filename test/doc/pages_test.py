@@ -163,6 +163,7 @@ class PagesTest(unittest.TestCase):
         version = re.search('<version>(.*)</version>', read('package.xml')).group(1)
         newest = re.search(r'^(.*)\n-+$', read('CHANGELOG.rst'), re.M).group(1)
         self.assertRegex(newest, r'^(Forthcoming|%s \(\d{4}-\d\d-\d\d\))$' % re.escape(version))
+        self.assertIn('\nversion: %s\n' % version, read('CITATION.cff'))
 
     def test_each_name_of_the_interface_is_explained(self):
         names = re.findall(r'inline constexpr char k\w+\[\] = "(\w+)"', read('include/organ_collision/ros/names.hpp'))
