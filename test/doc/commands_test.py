@@ -5,6 +5,8 @@ The commands of a page are typed from top to bottom, unless the paragraph before
 A command that runs until Ctrl-C must start a node. At the end of the page, it still runs or has ended without error.
 Every other command ends without error. Of the scripts at the top of the repository, only the options are checked.
 
+The first python3 in PATH is one that has no modules of ROS, as on machines with pyenv or conda.
+
 Usage: commands_test.py SOURCE_FOLDER DEVEL_FOLDER
 """
 
@@ -36,6 +38,7 @@ f 1 2 3
 f 1 3 4
 """
 TOOLS = '{tools: [{name: hook, trocar_frame: hook_trocar, tip_frame: hook_tip, radius: 0.005}]}\n'
+OTHER_PYTHON = '#!/bin/sh\nexec /usr/bin/python3 -S "$@"\n'
 MOTIONS = '1,swept,0,0,0.1,-0.02,0,0.03,0.02,0,0.003,0.005\n'
 
 
@@ -58,7 +61,8 @@ class Terminals:
 
     def __init__(self, folder):
         self.folder, self.master, self.running = folder, OwnMaster(), []
-        self.environment = dict(self.master.environment, ROS_HOME=folder)
+        self.environment = dict(self.master.environment, ROS_HOME=folder,
+                                PATH=os.path.join(folder, 'bin') + ':' + os.environ['PATH'])
         self.output = open(os.path.join(folder, 'output'), 'w+')
 
     def start(self, command):
@@ -129,9 +133,12 @@ class CommandsTest(unittest.TestCase):
     def test_commands_of_the_pages(self):
         for page, started in PAGES.items():
             with self.subTest(page=page), tempfile.TemporaryDirectory(prefix='organ_collision_') as folder:
-                for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS), ('tools.yaml', TOOLS)):
+                os.mkdir(os.path.join(folder, 'bin'))
+                for name, content in (('organ.obj', ORGAN), ('motions.csv', MOTIONS), ('tools.yaml', TOOLS),
+                                      ('bin/python3', OTHER_PYTHON)):
                     with open(os.path.join(folder, name), 'w') as file:
                         file.write(content)
+                os.chmod(os.path.join(folder, 'bin', 'python3'), 0o755)
                 found = list(commands(page))
                 self.assertTrue(found, page)
                 terminals = Terminals(folder)
