@@ -271,12 +271,11 @@ void add_picker(ParameterTable& t, PickerSettings& p) {
   t.choice(
       "picker", {"feedback", "select", "cpu"},
       [&p](const std::string& name) { p.kind = picker_kind(name); },
-      "feedback (GL_FEEDBACK), select (GL_SELECT, as in the 1999 paper; slow) or cpu (without "
-      "OpenGL)");
+      "how faces are picked: by GL_FEEDBACK, by GL_SELECT (as in the 1999 paper; slow), or without "
+      "OpenGL");
   t.choice(
       "gl", {"auto", "osmesa", "egl"}, [&p](const std::string& name) { p.gl = gl_platform(name); },
-      "where the OpenGL for picking comes from: osmesa, egl, or auto (OSMesa where there is one, "
-      "else EGL)");
+      "where the OpenGL for picking comes from. auto: OSMesa where there is one, else EGL");
 }
 
 void add_limits(ParameterTable& t, OrganNodeParameters& p) {

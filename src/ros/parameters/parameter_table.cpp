@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "ros/messages/checked_messages.hpp"
+#include "ros/messages/text.hpp"
 
 namespace organ_collision {
 namespace {
@@ -124,7 +125,7 @@ void ParameterTable::choice(const std::string& name, const std::vector<std::stri
                             const std::function<void(const std::string&)>& set,
                             const std::string& text) {
   const auto read = [=](const ParameterGroup& all) { set(all.choice(name, legal[0], legal)); };
-  other(name, legal[0], read, text);
+  other(name, legal[0] + "; " + listed(legal), read, text);
 }
 
 Row& ParameterTable::other(const std::string& name, const std::string& fallback,

@@ -13,7 +13,7 @@ namespace organ_collision {
 struct HelpEntry {
   std::string name;
   /// Of a topic or service: its type. Of a parameter: its default or "required", the legal values
-  /// of a number, and "live" if it can be changed while the node runs.
+  /// of a number or choice, and "live" if it can be changed while the node runs.
   std::string kind;
   std::string text;
 };
