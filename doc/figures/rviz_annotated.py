@@ -44,8 +44,8 @@ def call_outs(mesh, probe, hook):
         ('normals of the contacts', place(deepest.on_organ) - 0.008 * place(deepest.normal), (230, 905)),
         ('touched: coloured by depth', np.mean(corners, axis=0), (600, 905)),
         ('crossings: the axis enters', crossing + 0.012 * outwards, (570, 430)),
-        ('clearance: nearest points\nand their distance', 0.5 * (place(hook.clearance.on_tool)
-                                                              + place(hook.clearance.on_organ)), (1060, 880)),
+        ('clearance: the nearest points',
+         0.5 * (place(hook.clearance.on_tool) + place(hook.clearance.on_organ)), (1060, 880)),
         ('near: faces within\nthe margin', (0.074, 0.001, 0.019), (1300, 720)))
     found = [(name, CAMERA.pixel(anchor), label) for name, anchor, label in in_liver]
     return found + [('status of each tool', (520, 118), (740, 70))]

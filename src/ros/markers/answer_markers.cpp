@@ -119,24 +119,12 @@ void add_near_faces(const SceneOrgan& organ, const ContactArray& answer, MarkerA
   add_marker(std::move(faces), picture);
 }
 
-/// Adds a line between the nearest points of tool and organ, and their distance as a text. The text
-/// is beside the line and away from the organ, so that neither tool nor organ hides it.
+/// Adds a line between the nearest points of tool and organ. The status has its length.
 void add_clearance(const SceneOrgan& organ, const Clearance& clearance, MarkerArray& picture) {
   constexpr double kLineWidth = 4e-3;
-  constexpr double kTextDistance = 0.10;  // The distance of the text from the line.
-  constexpr double kTextLift = 0.06;      // The shift of the text away from the organ.
   if (clearance.state != Clearance::KNOWN) return;
-  const Vector3d on_tool = to_eigen(clearance.on_tool), on_organ = to_eigen(clearance.on_organ);
-  const MarkerStyle style{"clearance", organ.frame, kClearance};
-  add_line(style, on_tool, on_organ, kLineWidth * organ.size(), picture);
-  // The text is in the direction at right angles to the normal that points up most.
-  const Vector3d normal = to_eigen(clearance.normal);
-  const Vector3d up = Vector3d::UnitZ() - normal.z() * normal;
-  const Vector3d aside = up.norm() > 0.1 ? Vector3d(up.normalized()) : normal.unitOrthogonal();
-  const Vector3d shift = organ.size() * (kTextDistance * aside - kTextLift * normal);
-  add_text(style, 0.5 * (on_tool + on_organ) + shift, organ.size(),
-           (clearance.unresolved ? "at most " : "") + rounded("%.1f mm", 1e3 * clearance.distance),
-           picture);
+  add_line({"clearance", organ.frame, kClearance}, to_eigen(clearance.on_tool),
+           to_eigen(clearance.on_organ), kLineWidth * organ.size(), picture);
 }
 
 /// Adds a cone around the shaft for each place where its axis pierces the organ. The cones point
@@ -179,7 +167,8 @@ std::string status_line(const std::string& tool, const ContactArrayConstPtr& ans
   } else {
     line += "touches nothing";
     if (clearance.state == Clearance::KNOWN) {
-      line += rounded(", %.1f mm away", 1e3 * clearance.distance);
+      line += clearance.unresolved ? ", at most" : ",";
+      line += rounded(" %.1f mm away", 1e3 * clearance.distance);
     } else if (clearance.state == Clearance::BEYOND_MARGIN) {
       line += rounded(", more than %.1f mm away", 1e3 * clearance.margin);
     }

@@ -398,26 +398,13 @@ TEST_F(Viewer, SeesTheNameOfEachTouchingLinkAtItsDeepestContact) {
   EXPECT_DOUBLE_EQ(names[1].pose.position.x, 0.9);
 }
 
-TEST_F(Viewer, SeesALineFromToolToOrganAndItsLength) {
+TEST_F(Viewer, SeesALineFromToolToOrgan) {
   const auto answer = answer_near();
-  const Vector3d on_tool = to_eigen(answer->clearance.on_tool);
-  const Vector3d on_organ = to_eigen(answer->clearance.on_organ);
   const Markers found = drawn(scene_with(answer), "clearance");
-  ASSERT_EQ(found.size(), 2u);
+  ASSERT_EQ(found.size(), 1u);  // No text: it would hide the status, which has the length.
   EXPECT_EQ(found[0].type, Marker::LINE_LIST);
-  EXPECT_EQ(point(found[0], 0), on_tool);
-  EXPECT_EQ(point(found[0], 1), on_organ);
-  EXPECT_EQ(found[1].text, "32.0 mm");
-  answer->clearance.unresolved = true;
-  for (const Vector3d& normal : {Vector3d(0.0, 0.0, 1.0), Vector3d(0.0, 0.0, -1.0),
-                                 Vector3d(1.0, 0.0, 0.0), Vector3d(0.6, 0.0, -0.8)}) {
-    answer->clearance.normal = to_vector(normal);
-    const Marker text = drawn(scene_with(answer), "clearance").at(1);
-    EXPECT_EQ(text.text, "at most 32.0 mm");
-    const Vector3d shift = to_eigen(text.pose.position) - 0.5 * (on_tool + on_organ);
-    EXPECT_NEAR(shift.dot(normal), -0.06 * kSize, 1e-6);  // On the tool's side.
-    EXPECT_NEAR(shift.cross(normal).norm(), 0.10 * kSize, 1e-6);
-  }
+  EXPECT_EQ(point(found[0], 0), to_eigen(answer->clearance.on_tool));
+  EXPECT_EQ(point(found[0], 1), to_eigen(answer->clearance.on_organ));
   for (const std::uint8_t state : {Clearance::NOT_ASKED, Clearance::BEYOND_MARGIN}) {
     answer->clearance.state = state;
     EXPECT_TRUE(drawn(scene_with(answer), "clearance").empty());
@@ -462,6 +449,11 @@ TEST_F(Viewer, ReadsWhatTheAnswerTells) {
       {[](auto& a) { a.placement.length_inside = 0.0321; },
        "touches nothing, 32.1 mm of its axis inside"},
       {[](auto& a) { a.clearance = answer_near()->clearance; }, "touches nothing, 32.0 mm away"},
+      {[](auto& a) {
+         a.clearance = answer_near()->clearance;
+         a.clearance.unresolved = true;
+       },
+       "touches nothing, at most 32.0 mm away"},
       {[](auto& a) { a.clearance.state = Clearance::BEYOND_MARGIN; },
        "touches nothing, more than 0.0 mm away"},
       {[](auto& a) {
