@@ -31,13 +31,17 @@ def ellipsoid(radii, rings=40, segments=80):
 
 if __name__ == '__main__':
     argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
-    rospy.init_node('dvrk_organ')
+    # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
+    rospy.init_node('dvrk_organ', disable_signals=True)
     place = tf2_ros.StaticTransformBroadcaster()
     place.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'ECM'), 'liver', PLACE))
     vertices, faces = ellipsoid(RADII)
     liver = Organ('liver', vertices, faces)
     rate = rospy.Rate(30)
-    while not rospy.is_shutdown():
-        now = rospy.Time.now()
-        liver.move(vertices * (1 + BREATH * math.sin(2 * math.pi * now.to_sec() / PERIOD)), now)
-        rate.sleep()
+    try:
+        while not rospy.is_shutdown():
+            now = rospy.Time.now()
+            liver.move(vertices * (1 + BREATH * math.sin(2 * math.pi * now.to_sec() / PERIOD)), now)
+            rate.sleep()
+    except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
+        pass

@@ -36,7 +36,8 @@ def show(answer):
 
 
 def main():
-    rospy.init_node('own_mesh')
+    # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
+    rospy.init_node('own_mesh', disable_signals=True)
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
     rate = rospy.Rate(20)
@@ -44,12 +45,15 @@ def main():
     vertices, faces = read_mesh(options.file or KIDNEY, options.scale)
     organ = Organ('organ', vertices, faces)
     top = vertices[vertices[:, 2].argmax()]
-    while not rospy.is_shutdown():
-        now = rospy.Time.now()
-        tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
-        frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
-        organ.move(vertices, now)
-        rate.sleep()
+    try:
+        while not rospy.is_shutdown():
+            now = rospy.Time.now()
+            tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
+            frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
+            organ.move(vertices, now)
+            rate.sleep()
+    except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
+        pass
 
 
 try:

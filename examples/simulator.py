@@ -44,16 +44,20 @@ def react(touched):
 
 
 argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
-rospy.init_node('simulator')
+# If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
+rospy.init_node('simulator', disable_signals=True)
 rate = rospy.Rate(100)
-frames = tf2_ros.TransformBroadcaster()
-mesh = rospy.Publisher('/organ_collision/organ_mesh', OrganMesh, latch=True, queue_size=1)
-vertices = rospy.Publisher('/organ_collision/organ_vertices', OrganVertices, queue_size=1)
-contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, react)
-mesh.publish(OrganMesh(header(rospy.Time.now()), 'tissue', 0, shape(rospy.Time()), TRIANGLES))
-while not rospy.is_shutdown():
-    now = rospy.Time.now()
-    x, z = 0.02 * math.sin(now.to_sec()), 0.008 + 0.005 * math.cos(now.to_sec())
-    frames.sendTransform([frame('probe_trocar', now, 0, 0.1), frame('probe_tip', now, x, z)])
-    vertices.publish(OrganVertices(header(now), 'tissue', 0, shape(now)))
-    rate.sleep()
+try:
+    frames = tf2_ros.TransformBroadcaster()
+    mesh = rospy.Publisher('/organ_collision/organ_mesh', OrganMesh, latch=True, queue_size=1)
+    vertices = rospy.Publisher('/organ_collision/organ_vertices', OrganVertices, queue_size=1)
+    contacts = rospy.Subscriber('/organ_collision/contacts', ContactArray, react)
+    mesh.publish(OrganMesh(header(rospy.Time.now()), 'tissue', 0, shape(rospy.Time()), TRIANGLES))
+    while not rospy.is_shutdown():
+        now = rospy.Time.now()
+        x, z = 0.02 * math.sin(now.to_sec()), 0.008 + 0.005 * math.cos(now.to_sec())
+        frames.sendTransform([frame('probe_trocar', now, 0, 0.1), frame('probe_tip', now, x, z)])
+        vertices.publish(OrganVertices(header(now), 'tissue', 0, shape(now)))
+        rate.sleep()
+except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
+    pass

@@ -36,6 +36,32 @@ def force_of(message):
     return vector(message.wrench.force)
 
 
+# Runs a program. Ends it while it sends vertices.
+ENDS_WHILE_IT_SENDS = """
+import os, runpy, signal, sys, threading, time
+import rospy.core, rospy.topics
+
+def interrupt(buffer):
+    os.kill(os.getpid(), signal.SIGINT)
+
+def close_topics(buffer):
+    # As if another node took the name. What rospy does after closing its topics has to wait.
+    rospy.core.add_preshutdown_hook(lambda reason: time.sleep(0.5))
+    threading.Thread(target=rospy.signal_shutdown, args=('taken',)).start()
+    while not buffer.closed:
+        time.sleep(0.001)
+
+def serialize(buffer, number, message, whole=rospy.topics.serialize_message):
+    if message._type == 'organ_collision/OrganVertices':
+        %s(buffer)
+    whole(buffer, number, message)
+
+rospy.topics.serialize_message = serialize
+sys.argv = sys.argv[1:]
+runpy.run_path(sys.argv[0], run_name='__main__')
+"""
+
+
 def depths(said):
     """The depths [mm] in what a program prints."""
     return [float(depth) for depth in re.findall(r'(-?[\d.]+) mm', said)]
@@ -67,6 +93,16 @@ class ExamplesTest(LaunchCase, NodeStarter):
                 finally:
                     simulation.send_signal(signal.SIGINT)
                     self.assertEqual(simulation.wait(LIMIT), 0)
+
+    def test_simulators_end_while_they_send(self):
+        """Without a traceback, by Ctrl-C and if another node takes their name. Both come while rospy writes a message."""
+        with self.launched('examples/start.launch'):
+            for simulator in ('simulator.py', 'own_mesh.py', 'dvrk_organ.py'):
+                for end in ('interrupt', 'close_topics'):
+                    with self.subTest(simulator=simulator, end=end):
+                        ended = subprocess.run([sys.executable, '-c', ENDS_WHILE_IT_SENDS % end, program(simulator)],
+                                               stderr=subprocess.PIPE, text=True, timeout=LIMIT)
+                        self.assertEqual((ended.returncode, 'Traceback' in ended.stderr), (0, False), ended.stderr)
 
     def test_mesh_adapter(self):
         with self.launched('examples/mesh_adapter.launch'):
