@@ -5,6 +5,7 @@
 #include <queue>
 #include <utility>
 
+#include "geometry/concatenate.hpp"
 #include "geometry/tool/leg_motion.hpp"
 
 namespace organ_collision {
@@ -133,6 +134,12 @@ SampledPath PathBuilder::take(std::size_t legs_max) {
   }
   std::sort(kept.begin(), kept.end());
   SampledPath built{{}, path_.size() - kept.size(), legs.top().deviation};
+  if (built.deviation_cut > kStraightLink) {
+    built.unknown = concatenate(built.samples_cut,
+                                " of the tool's poses in this step were left out "
+                                "(motion_samples_max), the farthest is ",
+                                1e3 * built.deviation_cut, " mm from the tested path");
+  }
   for (const std::size_t waypoint : kept) built.path.push_back(std::move(path_[waypoint]));
   return built;
 }

@@ -15,7 +15,8 @@ struct SampledPath {
   std::size_t samples_cut = 0;
   /// [m] The largest distance of a dropped pose from the path; infinite if a pose was not read.
   double deviation_cut = 0.0;
-  std::string unknown = {};  ///< which part of the motion is not known; empty: all is known
+  /// Which part of the motion is not known or was left out; empty: none, except for 1e-6 m.
+  std::string unknown = {};
 };
 
 /// Builds a path from samples of a tool's motion. Each leg, from one waypoint to the next, costs
@@ -34,7 +35,8 @@ class PathBuilder {
   /// The path through all samples. Its first and last waypoints are as given, except that a trocar
   /// that moved by at most 1e-9 m is at rest. If there are more than `legs_max` legs (at least 1),
   /// the waypoints that deviate least are dropped, with the algorithm of Douglas and Peucker
-  /// (1973). Here, the deviation of a waypoint is its distance from the path at the same time.
+  /// (1973). Here, the deviation of a waypoint is its distance from the path at the same time. If
+  /// it is above 1e-6 m, `unknown` tells it.
   SampledPath take(std::size_t legs_max);
 
  private:

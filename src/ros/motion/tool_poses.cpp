@@ -202,6 +202,7 @@ SampledPath ToolPoses::path(const Tool& tool, const std::string& organ_frame,
   sampled.path = std::move(built.path);
   sampled.samples_cut += built.samples_cut;
   sampled.deviation_cut = std::max(sampled.deviation_cut, built.deviation_cut);
+  if (sampled.unknown.empty()) sampled.unknown = std::move(built.unknown);
   return sampled;
 }
 

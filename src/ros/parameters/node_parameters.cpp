@@ -227,9 +227,9 @@ ParameterTable table_of(NodeParameters& p) {
   t.number(
       "motion_samples_max", p.motion_samples_max, {1, 100'000},
       "largest number of legs of a tool's path in a step; a leg goes from one pose to the next. "
-      "The poses that change the path least are dropped first, and /diagnostics counts them. At "
-      "most 1000 poses are read, or this number if it is larger; with more, the answer has "
-      "path_incomplete");
+      "The poses that change the path least are dropped first; if one is more than 1e-6 m from the "
+      "path, the answer has path_incomplete. At most 1000 poses are read, or this number if it is "
+      "larger; with more, it has path_incomplete, too");
   t.number("tf_timeout_sec", p.tf_timeout_sec, {0.0, 60.0},
            "[s] how long a new shape waits for its transforms; simulated time if use_sim_time is "
            "set")

@@ -211,6 +211,11 @@ TEST_F(ToolPosesTest, OfTooManyPosesThoseThatMatterMostStay) {
   EXPECT_EQ(sampled.samples_cut, 96u);
   EXPECT_GE(sampled.deviation_cut, 0.5e-6);
   EXPECT_LE(sampled.deviation_cut, 1e-6 + 1e-12);
+  const SampledPath straight =
+      ToolPoses(buffer_, {1.0, 1}).path(hook_, "liver", known(1.0), known(1.1));
+  EXPECT_EQ(straight.unknown,
+            "99 of the tool's poses in this step were left out (motion_samples_max), the farthest "
+            "is 300 mm from the tested path");
 }
 
 TEST_F(ToolPosesTest, OfVeryManyPosesThoseReadAreSpreadEvenly) {
