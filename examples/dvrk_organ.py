@@ -35,10 +35,10 @@ if __name__ == '__main__':
     rospy.init_node('dvrk_organ', disable_signals=True)
     place = tf2_ros.StaticTransformBroadcaster()
     place.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'ECM'), 'liver', PLACE))
-    vertices, faces = ellipsoid(RADII)
-    liver = Organ('liver', vertices, faces)
-    rate = rospy.Rate(30)
     try:
+        vertices, faces = ellipsoid(RADII)
+        liver = Organ('liver', vertices, faces)
+        rate = rospy.Rate(30)
         while not rospy.is_shutdown():
             now = rospy.Time.now()
             liver.move(vertices * (1 + BREATH * math.sin(2 * math.pi * now.to_sec() / PERIOD)), now)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Sends a mesh file as an organ, dips the probe of start.launch into its highest place, and prints what is touched."""
+"""Sends a mesh file as an organ, dips the probe of start.launch into its highest place, and prints what is touched.
+With --rest, it only sends the organ and prints, and another program moves the tool."""
 
 import argparse
 import math
@@ -17,22 +18,31 @@ import tf2_ros
 options = argparse.ArgumentParser(description=__doc__)
 options.add_argument('file', nargs='?', help='the mesh: OBJ, STL, PLY, OFF, VTK, ...; without it, a kidney of 1280 faces')
 options.add_argument('--scale', type=float, default=1.0, help='metres for each unit of the file: 0.001 for millimetres')
+options.add_argument('--rest', action='store_true', help='sends only the organ, which rests, and no frames of the probe')
+options.add_argument('--frame', default='organ', help='the TF frame of the mesh; default: organ')
 options = options.parse_args(rospy.myargv()[1:])
 KIDNEY = os.path.join(rospkg.RosPack().get_path('organ_collision'), 'examples', 'kidney.obj')
 
 
 def frame(name, stamp, point):
-    return TransformStamped(Header(0, stamp, 'organ'), name, Transform(Vector3(*point), Quaternion(0, 0, 0, 1)))
+    return TransformStamped(Header(0, stamp, options.frame), name, Transform(Vector3(*point), Quaternion(0, 0, 0, 1)))
+
+
+last_line = None
 
 
 def show(answer):
+    global last_line
     if answer.status != ContactArray.OK:
         rospy.logwarn_throttle(1, answer.message)
     elif answer.contacts:
         contacts = contact_table(answer)
         deepest = contacts[contacts.depth.argmax()]
-        print('%s touches %d faces, deepest in face %d: %.1f mm'
-              % (answer.tool, len(contacts), deepest.face, 1e3 * deepest.depth), flush=True)
+        line = '%s touches %d faces, deepest in face %d: %.1f mm' % (
+            answer.tool, len(contacts), deepest.face, 1e3 * deepest.depth)
+        if line != last_line:
+            print(line, flush=True)
+        last_line = line
 
 
 def main():
@@ -43,9 +53,11 @@ def main():
     rate = rospy.Rate(20)
 
     vertices, faces = read_mesh(options.file or KIDNEY, options.scale)
-    organ = Organ('organ', vertices, faces)
+    organ = Organ('organ', vertices, faces, options.frame)
     top = vertices[vertices[:, 2].argmax()]
     try:
+        if options.rest:
+            rospy.spin()
         while not rospy.is_shutdown():
             now = rospy.Time.now()
             tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.

@@ -36,7 +36,7 @@ def frame(name, stamp, x, z):
 
 def react(touched):
     if touched.status != ContactArray.OK:
-        rospy.logwarn('%s', touched.message)
+        rospy.logwarn_throttle(1, touched.message)
     elif touched.contacts:
         deepest = max(touched.contacts, key=lambda contact: contact.depth)
         rospy.loginfo_throttle(0.5, '%s: %.1f mm deep in face %d; faces touched: %d' % (

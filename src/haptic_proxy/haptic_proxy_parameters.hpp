@@ -128,7 +128,7 @@ inline ParameterTable table_of(HapticProxyParameters& p) {
       "to each new shape, as organs of more than 50000 vertices do");
   t.flag("publish_tf", p.publish_tf, "false: no frames TOOL_proxy on /tf");
   add_marker_rates(t, p.markers);
-  add_realtime(t, p.realtime, "the thread of the ticks runs");
+  add_realtime(t, p.realtime, "the thread of its steps runs");
   return t;
 }
 

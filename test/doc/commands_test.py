@@ -91,7 +91,11 @@ class Terminals:
         return {(node, self.master.ask('lookupNode', node)) for _, _, node in self.master.record()}
 
     def start_node(self, command):
-        """Whether the command starts a node."""
+        """Whether the command starts a node. Ctrl-C ends the same program first, if it runs with other arguments."""
+        for other, process in self.running:
+            if other.split()[:3] == command.split()[:3] and process.poll() is None:
+                os.killpg(process.pid, signal.SIGINT)
+                process.wait(LIMIT)
         before = self.nodes()
         process = self.start(command)
         deadline = time.monotonic() + LIMIT

@@ -114,6 +114,14 @@ class PythonModuleTest(unittest.TestCase):
             process.communicate()
             self.assertEqual(process.returncode, 0)
 
+    def test_the_example_sends_an_organ_that_rests(self):
+        process = subprocess.Popen([program('own_mesh.py'), '--rest', '--frame', 'table'])
+        try:
+            self.queries.wait_for('organ', LIMIT, 'table')
+        finally:
+            process.send_signal(signal.SIGINT)
+            self.assertEqual(process.wait(LIMIT), 0)
+
     def test_the_example_asks_about_many_places(self):
         self.organ('tissue')
         printed = subprocess.check_output([program('ask_many.py')], timeout=LIMIT, text=True)

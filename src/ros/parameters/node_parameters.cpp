@@ -244,7 +244,7 @@ ParameterTable table_of(NodeParameters& p) {
            "largest size of the results of one query_batch, in bytes as ROS sends them; a batch "
            "that grows larger is refused");
   t.flag("publish_regions", p.publish_regions,
-         "true: each contact has the polygon in which its face meets the tool's viewing volume")
+         "true: each contact has the polygon that its face has in the space that is picked")
       .live();
   t.flag("publish_placement", p.publish_placement,
          "true: each answer on contacts tells on which side of the organ's surface the tool is")
@@ -255,7 +255,7 @@ ParameterTable table_of(NodeParameters& p) {
       .live();
   t.number("threads", p.threads, {0, 1024},
            "largest number of threads that evaluate steps side by side, at most one for each pair "
-           "of organ and tool; as many others share the motions of a batch. 0: one for each "
+           "of organ and tool; as many again share the motions of a batch. 0: one for each "
            "processor. The answers are the same with any number");
   add_realtime(t, p.realtime, "the threads of the steps run");
   return t;
