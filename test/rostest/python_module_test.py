@@ -10,6 +10,7 @@ import unittest
 import numpy as np
 from organ_collision import CollisionError, clearance_record, crossing_table, near_table, Organ, Queries
 from organ_collision.msg import ContactArray, OrganMesh
+from organ_collision.srv import ListOrgans
 import roslib.packages
 import rospy
 import rostest
@@ -115,9 +116,10 @@ class PythonModuleTest(unittest.TestCase):
             self.assertEqual(process.returncode, 0)
 
     def test_the_example_sends_an_organ_that_rests(self):
+        organs = rospy.ServiceProxy('/organ_collision/list_organs', ListOrgans)
         process = subprocess.Popen([program('own_mesh.py'), '--rest', '--frame', 'table'])
         try:
-            self.queries.wait_for('organ', LIMIT, 'table')
+            wait_until(lambda: ('organ', 'table') in [(organ.name, organ.frame) for organ in organs().organs], 'organ')
         finally:
             process.send_signal(signal.SIGINT)
             self.assertEqual(process.wait(LIMIT), 0)
