@@ -31,8 +31,7 @@ def ellipsoid(radii, rings=40, segments=80):
 
 if __name__ == '__main__':
     argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
-    # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
-    rospy.init_node('dvrk_organ', disable_signals=True)
+    rospy.init_node('dvrk_organ')
     place = tf2_ros.StaticTransformBroadcaster()
     place.sendTransform(TransformStamped(Header(0, rospy.Time.now(), 'ECM'), 'liver', PLACE))
     try:
@@ -43,5 +42,5 @@ if __name__ == '__main__':
             now = rospy.Time.now()
             liver.move(vertices * (1 + BREATH * math.sin(2 * math.pi * now.to_sec() / PERIOD)), now)
             rate.sleep()
-    except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
+    except rospy.ROSException:  # Another node took the name of this one, which was publishing.
         pass

@@ -40,5 +40,5 @@ try:
                      for centre, amplitude, period in MOTION.values()]
         joints.publish(JointState(header=Header(stamp=now), name=list(MOTION), position=positions))
         rate.sleep()
-except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
-    pass
+except (KeyboardInterrupt, rospy.ROSException):  # The second one comes if another node took the name.
+    rospy.signal_shutdown('interrupted')

@@ -46,8 +46,7 @@ def show(answer):
 
 
 def main():
-    # If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
-    rospy.init_node('own_mesh', disable_signals=True)
+    rospy.init_node('own_mesh')
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
     rate = rospy.Rate(20)
@@ -64,7 +63,7 @@ def main():
             frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
             organ.move(vertices, now)
             rate.sleep()
-    except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
+    except rospy.ROSException:  # Another node took the name of this one, which was publishing.
         pass
 
 

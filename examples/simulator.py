@@ -44,8 +44,7 @@ def react(touched):
 
 
 argparse.ArgumentParser(description=__doc__).parse_args(rospy.myargv()[1:])  # --help
-# If Ctrl-C arrives during a publish, rospy's own signal handler can deadlock. An exception cannot.
-rospy.init_node('simulator', disable_signals=True)
+rospy.init_node('simulator')
 rate = rospy.Rate(100)
 try:
     frames = tf2_ros.TransformBroadcaster()
@@ -59,5 +58,5 @@ try:
         frames.sendTransform([frame('probe_trocar', now, 0, 0.1), frame('probe_tip', now, x, z)])
         vertices.publish(OrganVertices(header(now), 'tissue', 0, shape(now)))
         rate.sleep()
-except (KeyboardInterrupt, rospy.ROSException):  # rospy raises the second one if another node took the name.
+except rospy.ROSException:  # Another node took the name of this one, which was publishing.
     pass
