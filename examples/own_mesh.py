@@ -49,23 +49,23 @@ def main():
     rospy.init_node('own_mesh')
     rospy.Subscriber('/organ_collision/contacts', ContactArray, show)
     frames = tf2_ros.TransformBroadcaster()
-    rate = rospy.Rate(20)
-
     vertices, faces = read_mesh(options.file or KIDNEY, options.scale)
     organ = Organ('organ', vertices, faces, options.frame)
     top = vertices[vertices[:, 2].argmax()]
-    try:
-        if options.rest:
-            rospy.spin()
-        while not rospy.is_shutdown():
-            now = rospy.Time.now()
-            tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
+
+    def dip(_):
+        now = rospy.Time.now()
+        tip = top + [0, 0, 0.005 + 0.004 * math.cos(now.to_sec())]  # The probe has a radius of 0.005 m.
+        try:
             frames.sendTransform([frame('probe_trocar', now, top + [0, 0, 0.1]), frame('probe_tip', now, tip)])
             organ.move(vertices, now)
-            rate.sleep()
-    except rospy.ROSException:  # Another node took the name of this one, which was publishing.
-        pass
+        except rospy.ROSException:  # The node ends, and rospy has closed a topic during a publish.
+            pass
 
+    # In a thread of its own: rospy deadlocks if Ctrl-C finds the main thread in a publish.
+    if not options.rest:
+        rospy.Timer(rospy.Duration(0.05), dip)
+    rospy.spin()
 
 try:
     main()
