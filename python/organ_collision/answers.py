@@ -13,7 +13,8 @@ _PLACE = [('face', np.uint32), ('vertices', np.uint32, 3), ('barycentric', float
 _CONTACT = np.dtype([
     ('face', np.uint32), ('vertices', np.uint32, 3), ('link', np.int32), ('touching', bool), ('since', float),
     ('fraction', float), ('point', float, 3), ('normal', float, 3), ('barycentric', float, 3), ('shaft', float),
-    ('depth', float), ('behind', bool), ('on_organ', float, 3), ('on_tool', float, 3)])
+    ('depth', float), ('behind', bool), ('on_organ', float, 3), ('velocity', float, 3),
+    ('on_tool', float, 3)])
 _CROSSING = np.dtype(_PLACE + [('shaft', float), ('point', float, 3), ('direction', np.int8)])
 _CLEARANCE = np.dtype(
     [('state', np.uint8), ('margin', float), ('unlimited', bool), ('distance', float), ('least', float),
@@ -56,8 +57,8 @@ def near_table(answer):
     """The faces within the margin that are not touched, nearest first, as a table like that of contact_table().
 
     -near.depth is the distance of each face at its closest approach. The table is empty unless the query or the tool
-    has `max_near`. answer.near_left_out counts the faces that it leaves out. Raises CollisionError if the status is
-    not OK.
+    has `max_near`. answer.near_more tells whether it leaves further faces out. Raises CollisionError if the status
+    is not OK.
     """
     return _table(answer, answer.near, _CONTACT, _contact_row)
 
@@ -88,7 +89,7 @@ def _table(answer, messages, columns, row):
 
 def _contact_row(c):
     return (c.face, c.vertices, c.link, c.touching, c.since.to_sec(), c.fraction, _xyz(c.point), _xyz(c.normal),
-            c.barycentric, c.shaft, c.depth, c.behind, _xyz(c.on_organ), _xyz(c.on_tool))
+            c.barycentric, c.shaft, c.depth, c.behind, _xyz(c.on_organ), _xyz(c.velocity), _xyz(c.on_tool))
 
 
 def _crossing_row(c):

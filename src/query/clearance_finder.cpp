@@ -109,7 +109,7 @@ void ClearanceFinder::find_near(const Step& step, const CollisionRequest& reques
     result.near.push_back(contact_of(step, *near));
     result.near.back().depth = -near->distance;
   }
-  result.near_left_out = found_.size() - count;
+  result.near_more = found_.size() > count;
   result.near_unresolved =
       static_cast<std::size_t>(std::count(places_.begin(), places_.end(), kUnresolved));
 }

@@ -19,7 +19,7 @@ void clear(CollisionResult& result) {
   result.view_ranges.clear();
   result.unresolved = 0;
   result.near.clear();
-  result.near_left_out = 0;
+  result.near_more = false;
   result.near_unresolved = 0;
   result.clearance = {};
   result.placement.crossings.clear();  // The cleared list keeps its memory.

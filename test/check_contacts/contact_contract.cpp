@@ -84,9 +84,8 @@ class AnswerCheck {
     check_text("organ", answer_.organ, kLongestName);
     check_text("tool", answer_.tool, kLongestName);
     require(answer_.contacts.empty() && answer_.regions.empty() && answer_.near.empty() &&
-                answer_.unresolved == 0 && answer_.near_left_out == 0 &&
-                answer_.near_unresolved == 0 && answer_.released.empty() &&
-                answer_.clearance.state == Clearance::NOT_ASKED &&
+                answer_.unresolved == 0 && !answer_.near_more && answer_.near_unresolved == 0 &&
+                answer_.released.empty() && answer_.clearance.state == Clearance::NOT_ASKED &&
                 answer_.placement == ToolPlacement(),
             "failures", "status is ", int{answer_.status},
             ", but there are contacts, near faces, a clearance or a placement");
@@ -219,7 +218,7 @@ class AnswerCheck {
       require(!(depth > kTouching) && !(margin > 0.0 && -depth > margin + kTouching), "near faces",
               place, " is at ", -depth, " m; the margin is ", margin, " m");
     }
-    const bool are_told = !near.empty() || answer_.near_left_out > 0 || answer_.near_unresolved > 0;
+    const bool are_told = !near.empty() || answer_.near_more || answer_.near_unresolved > 0;
     require(!are_told || answer_.clearance.state != Clearance::NOT_ASKED, "near faces",
             "there are near faces, but nobody asked for the clearance");
   }

@@ -216,7 +216,7 @@ TEST(AnswerRulesTest, EachFlawBreaksItsRuleAndNoOther) {
       {"near faces", [](auto& a) { set_depth(a.near[0], 0.001); }},
       {"near faces", [](auto& a) { set_depth(a.near[1], -0.06); }},
       {"near faces", [](auto& a) { a.clearance = {}; }},
-      {"near faces", [](auto& a) { a.near.clear(), a.clearance = {}, a.near_left_out = 1; }},
+      {"near faces", [](auto& a) { a.near.clear(), a.clearance = {}, a.near_more = true; }},
       {"clearance", [](auto& a) { a.clearance.margin = 0.001, a.near.clear(); }},
       {"clearance", [](auto& a) { a.clearance.unlimited = true; }},
       {"clearance", [](auto& a) { a.clearance.state = 3; }},

@@ -160,10 +160,11 @@ std::size_t expect_near(const CollisionResult& result, const CollisionRequest& r
     return static_cast<std::size_t>(std::upper_bound(expected.begin(), expected.end(), margin) -
                                     expected.begin());
   };
-  const std::size_t count = result.near.size() + result.near_left_out;
-  EXPECT_GE(count, within(request.margin - slack));
-  EXPECT_LE(count, within(request.margin + slack));
-  EXPECT_EQ(result.near.size(), std::min(request.max_near, count));
+  const std::size_t count = result.near.size();
+  EXPECT_GE(count, std::min(request.max_near, within(request.margin - slack)));
+  EXPECT_LE(count, std::min(request.max_near, within(request.margin + slack)));
+  if (within(request.margin - slack) > count) EXPECT_TRUE(result.near_more);
+  if (within(request.margin + slack) <= count) EXPECT_FALSE(result.near_more);
   for (std::size_t k = 0; k < result.near.size(); ++k) {
     const FaceContact& near = result.near[k];
     EXPECT_FALSE(is_told[near.face]);

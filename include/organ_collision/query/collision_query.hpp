@@ -94,10 +94,10 @@ struct CollisionResult {
   /// link that comes nearest to it. The fields are those of a contact, at the time of the closest
   /// approach instead of the first touch. `depth` is minus the distance at that time.
   std::vector<FaceContact> near;
-  /// The number of faces that are left out of `near`, because max_near faces are nearer.
-  std::size_t near_left_out = 0;
+  /// Whether further faces are left out of `near`, because max_near faces are nearer.
+  bool near_more = false;
   /// The number of faces that may be within the margin but were not measured to the end, because
-  /// the query reached its work limit. Neither `near` nor `near_left_out` contains them.
+  /// the query reached its work limit. `near` does not contain them.
   std::size_t near_unresolved = 0;
   /// If asked for: how far the tool is from the organ.
   ToolClearance clearance;

@@ -81,7 +81,8 @@ void set_failure(ContactArray& answer, std::uint8_t status, const std::string& m
   answer.regions.clear();
   answer.unresolved = 0;
   answer.near.clear();
-  answer.near_left_out = answer.near_unresolved = 0;
+  answer.near_more = false;
+  answer.near_unresolved = 0;
   answer.clearance = {};
   answer.placement = {};
   answer.view_min.clear();
@@ -247,7 +248,7 @@ double ContactQuery::evaluate(const CollisionRequest& request, ContactArray& ans
     answer.view_min.push_back(range.min);
     answer.view_max.push_back(range.max);
   }
-  answer.near_left_out = static_cast<std::uint32_t>(result_.near_left_out);
+  answer.near_more = result_.near_more;
   answer.near_unresolved = static_cast<std::uint32_t>(result_.near_unresolved);
   answer.clearance = to_message(result_.clearance, duration(answer));
   answer.placement = to_message(result_.placement);

@@ -50,7 +50,8 @@ TEST(Answers, AFailureIsEmpty) {
   answer.view_min = answer.view_max = {0.5};
   answer.regions.resize(3);
   answer.near.resize(2);
-  answer.unresolved = answer.near_left_out = answer.near_unresolved = 5;
+  answer.unresolved = answer.near_unresolved = 5;
+  answer.near_more = true;
   answer.clearance.state = Clearance::KNOWN;
   answer.placement.tip = ToolPlacement::INSIDE;
   answer.placement.crossings.resize(1);
