@@ -163,8 +163,8 @@ std::size_t expect_near(const CollisionResult& result, const CollisionRequest& r
   const std::size_t count = result.near.size();
   EXPECT_GE(count, std::min(request.max_near, within(request.margin - slack)));
   EXPECT_LE(count, std::min(request.max_near, within(request.margin + slack)));
-  if (within(request.margin - slack) > count) EXPECT_TRUE(result.near_more);
-  if (within(request.margin + slack) <= count) EXPECT_FALSE(result.near_more);
+  EXPECT_LE(within(request.margin - slack) > count, result.near_more);
+  EXPECT_GE(within(request.margin + slack) > count, result.near_more);
   for (std::size_t k = 0; k < result.near.size(); ++k) {
     const FaceContact& near = result.near[k];
     EXPECT_FALSE(is_told[near.face]);
