@@ -101,15 +101,14 @@ void run_mesh_adapter(const std::uint8_t* data, std::size_t size) {
     demand(std::all_of(vertices.begin(), vertices.end(), [](float x) { return std::isfinite(x); }),
            "coordinates are finite");
   };
-  const OrganSource::Callbacks callbacks{
-      [&](const OrganMeshPtr& mesh) {
-        demand(mesh->organ == "liver", "a mesh names its organ");
-        demand_finite(mesh->vertices);
-      },
-      [&](const OrganVerticesPtr& mesh) {
-        demand(!mesh->vertices.empty(), "there are vertices");
-        demand_finite(mesh->vertices);
-      }};
+  const OrganSource::Callbacks callbacks{[&](const OrganMeshPtr& mesh) {
+                                           demand(mesh->organ == "liver", "a mesh names its organ");
+                                           demand_finite(mesh->vertices);
+                                         },
+                                         [&](const OrganVerticesPtr& mesh) {
+                                           demand(!mesh->vertices.empty(), "there are vertices");
+                                           demand_finite(mesh->vertices);
+                                         }};
   OrganSource source({"liver", "mesh", input.byte() % 2 == 0 ? "" : "liver_frame", "cloud"}, 7,
                      callbacks);
   while (!input.empty()) {
